@@ -1,0 +1,101 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "mcplan/robot/robot.hpp"
+#include "mcplan/scene/scene.hpp"
+
+namespace mcplan {
+
+/// What one end-effector does during one phase. The contact force follows the multi-contact pendulum
+/// (Tazaki, sec. II, eq. 5, with mu = lambda^2):
+///
+///     f_l(t) = m mu_l (p(t) - s_l)
+///
+/// so the CoM p obeys a linear equation and has a closed form.
+struct Contact {
+  int surface = -1;                                     ///< index into scene.surfaces, -1: free
+  double stiffness = 0.0;                               ///< mu_l [1/s^2], 0 when free
+  Eigen::Vector3d anchor_W = Eigen::Vector3d::Zero();   ///< s_l [m], through which the line of force passes
+  Eigen::Vector3d moment_W = Eigen::Vector3d::Zero();   ///< contact moment [N m], constant over the phase
+};
+
+/// A stretch of time with constant contacts.
+struct Phase {
+  double duration = 0.0;          ///< [s]
+  std::vector<Contact> contacts;  ///< one per end-effector
+};
+
+/// State at the instant between two phases.
+struct Knot {
+  Eigen::Vector3d com_W = Eigen::Vector3d::Zero();            ///< [m]
+  Eigen::Vector3d com_velocity_W = Eigen::Vector3d::Zero();   ///< [m/s]
+  Eigen::Vector3d base_rpy = Eigen::Vector3d::Zero();         ///< roll, pitch, yaw of the base [rad]
+  Eigen::Vector3d base_rpy_rate = Eigen::Vector3d::Zero();    ///< [rad/s]
+  std::vector<Eigen::Vector3d> end_effectors_W;               ///< [m]
+  std::vector<Eigen::Vector3d> end_effector_velocities_W;     ///< [m/s], zero at contacts
+};
+
+/// A stretch of phases in which an end-effector is free. Its path is the C2 quintic spline through the knots (zero
+/// acceleration there) plus  16 s^2 (1-s)^2 height n(s),  s = 0..1 over the swing: it leaves and arrives along the
+/// normals of the surfaces. Where that would leave the reach box, it is held at the box.
+struct Swing {
+  int end_effector = 0;
+  int first_phase = 0, end_phase = 0;  ///< phases first_phase .. end_phase - 1
+  double height = 0.0;                 ///< [m]
+  Eigen::Vector3d lift_normal_W = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d land_normal_W = Eigen::Vector3d::UnitZ();
+};
+
+/// An end-effector at an instant.
+struct EndEffectorState {
+  int surface = -1;                  ///< index into scene.surfaces, -1: free
+  Eigen::Vector3d position_W;        ///< [m]
+  Eigen::Vector3d velocity_W;        ///< [m/s]
+  Eigen::Vector3d force_W;           ///< contact force on the robot [N], zero when free
+  Eigen::Vector3d moment_W;          ///< contact moment on the robot [N m], zero when free
+};
+
+/// The robot at an instant.
+struct PlanState {
+  double time = 0.0;  ///< [s]
+  int phase = 0;
+  Eigen::Vector3d com_W, com_velocity_W, com_acceleration_W;     ///< [m], [m/s], [m/s^2]
+  Eigen::Vector3d base_rpy, base_rpy_rate;                       ///< [rad], [rad/s]
+  Eigen::Vector4d base_quat_wxyz;                                ///< R_WB
+  Eigen::Vector3d angular_momentum_W;                            ///< about the CoM [kg m^2/s]
+  std::vector<EndEffectorState> end_effectors;
+};
+
+/// A motion: phases with constant contacts between knots. Plain data; carries the scene and the robot it was made for.
+class Plan {
+ public:
+  Scene scene;
+  Robot robot;
+  std::string planner;                ///< e.g. "ddp"
+  std::vector<Knot> knots;            ///< phases + 1
+  std::vector<Phase> phases;
+  std::vector<int> final_contacts;    ///< surface index per end-effector after the last phase
+  std::vector<Swing> swings;
+
+  double duration() const;            ///< [s]
+  std::vector<double> knot_times() const;  ///< [s], phases + 1 entries, from 0
+  int end_effector_count() const { return static_cast<int>(robot.end_effectors.size()); }
+
+  /// Surface index per phase and end-effector, -1: free.
+  std::vector<std::vector<int>> contact_sequence() const;
+
+  /// State at time t [s] in [0, duration], in closed form. At a knot the phase that begins there is meant (the last
+  /// one at the end). Throws InvalidInput outside.
+  PlanState at(double t) const;
+
+  /// State at `since_start` [s] after the start of phase k: like at(), but says which side of a knot is meant.
+  PlanState at_phase(int k, double since_start) const;
+
+  /// Throws InvalidPlan when sizes or indices do not fit together or a number is not finite.
+  void validate() const;
+};
+
+}  // namespace mcplan

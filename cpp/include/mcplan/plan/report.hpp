@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mcplan/base/status.hpp"
+#include "mcplan/plan/plan.hpp"
+
+namespace mcplan {
+
+/// A constraint and the place where a plan breaks it most (or comes closest to breaking it).
+struct Violation {
+  std::string name;          ///< e.g. "friction"; the list stands in checker.hpp
+  int phase = -1;            ///< -1: not tied to a phase
+  std::string end_effector;  ///< empty: not tied to one
+  double time_s = 0.0;
+  double value = 0.0;        ///< amount beyond the limit, in `unit`; negative: margin left
+  double tolerance = 0.0;    ///< largest value that is still accepted
+  std::string unit;
+
+  /// "friction at left_foot in phase 7 (t = 2.61 s): 0.08 over the limit (tolerance 0.001)"
+  std::string to_string() const;
+};
+
+/// One row of the iteration table.
+struct Iteration {
+  int index = 0;
+  double cost = 0.0;              ///< total, at the weight of this iteration
+  double merit = 0.0;             ///< cost + rho |defect|_1, what the line search lowers
+  double defect = 0.0;            ///< largest dynamics defect (non-dimensional)
+  double contact_weight = 0.0;    ///< w_compl
+  double proximal_weight = 0.0;
+  double step = 0.0;              ///< accepted step length
+  int switches = 0;               ///< contact switches accepted in this iteration
+  int neighbours = 0;             ///< candidates priced
+  std::vector<std::vector<int>> sequence;  ///< after this iteration (steps x end-effectors), if history is recorded
+};
+
+/// How a solve went.
+struct Report {
+  Status status = Status::numerical_failure;
+  std::string message;
+  int iterations = 0;
+  int switches = 0;
+  double time_s = 0.0;                        ///< wall clock of the whole solve
+  std::map<std::string, double> timing_s;     ///< wall clock by part
+  double cost = 0.0;
+  std::map<std::string, double> cost_terms;
+  Violation worst_violation;                  ///< largest value / tolerance over all constraints
+  std::uint64_t seed = 0;
+  int threads = 1;
+  std::string version;
+  std::vector<Iteration> history;             ///< one row an iteration
+};
+
+struct PlanResult {
+  Plan plan;
+  Report report;
+};
+
+}  // namespace mcplan

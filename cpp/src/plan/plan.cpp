@@ -1,0 +1,230 @@
+#include "mcplan/plan/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mcplan/base/entire_functions.hpp"
+#include "mcplan/base/error.hpp"
+#include "mcplan/base/rotation.hpp"
+
+namespace mcplan {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Quintic Hermite segment with zero acceleration at both ends; s = t / h in [0, 1].
+struct Hermite {
+  Vector3d position, velocity;
+
+  Hermite(const Vector3d& p0, const Vector3d& v0, const Vector3d& p1, const Vector3d& v1, double h, double s) {
+    const double s2 = s * s, s3 = s2 * s, s4 = s3 * s, s5 = s4 * s;
+    const double blend = 10.0 * s3 - 15.0 * s4 + 6.0 * s5;
+    const double blend_rate = 30.0 * s2 - 60.0 * s3 + 30.0 * s4;
+    const double in0 = s - 6.0 * s3 + 8.0 * s4 - 3.0 * s5, in0_rate = 1.0 - 18.0 * s2 + 32.0 * s3 - 15.0 * s4;
+    const double in1 = -4.0 * s3 + 7.0 * s4 - 3.0 * s5, in1_rate = -12.0 * s2 + 28.0 * s3 - 15.0 * s4;
+    position = p0 + blend * (p1 - p0) + h * (in0 * v0 + in1 * v1);
+    velocity = blend_rate / h * (p1 - p0) + in0_rate * v0 + in1_rate * v1;
+  }
+};
+
+double swing_duration(const Plan& plan, const Swing& swing, double* until_phase, int phase) {
+  double total = 0.0;
+  for (int k = swing.first_phase; k < swing.end_phase; ++k) {
+    if (k == phase) *until_phase = total;
+    total += plan.phases[k].duration;
+  }
+  return total;
+}
+
+void add_clearance(const Plan& plan, const Swing& swing, int phase, double since_start, EndEffectorState& end) {
+  double before = 0.0;
+  const double total = swing_duration(plan, swing, &before, phase);
+  const double s = std::clamp((before + since_start) / total, 0.0, 1.0);
+  const double bump = 16.0 * s * s * (1.0 - s) * (1.0 - s);
+  const double bump_rate = 32.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / total;
+  const Vector3d turn = swing.land_normal_W - swing.lift_normal_W;
+  const Vector3d along = swing.lift_normal_W + s * turn;
+  // Opposite normals (a hand going from one wall to the facing one) make the sum vanish half way: no bump there.
+  const double length = along.norm();
+  if (length < 1e-6) return;
+  const Vector3d n = along / length;
+  const Vector3d n_rate = (turn - n * n.dot(turn)) / (length * total);
+  end.position_W += swing.height * bump * n;
+  end.velocity_W += swing.height * (bump_rate * n + bump * n_rate);
+}
+
+/// Angular velocity in the world of roll-pitch-yaw rates.
+Vector3d angular_velocity(const Vector3d& rpy, const Vector3d& rate) {
+  const Eigen::Matrix3d r = rotation_from_rpy(rpy);
+  Eigen::Matrix3d spin = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i) spin += rate[i] * rotation_derivative(rpy, i) * r.transpose();
+  return {spin(2, 1), spin(0, 2), spin(1, 0)};
+}
+
+void hold_in_reach(const Plan& plan, const Swing& swing, const PlanState& state, EndEffectorState& end) {
+  const EndEffector& limits = plan.robot.end_effectors[swing.end_effector];
+  Vector3d low = limits.reach_min_B, high = limits.reach_max_B;
+  // The knots themselves may lie outside by the planner's tolerance; widening by them keeps the path continuous.
+  for (int k : {swing.first_phase, swing.end_phase}) {
+    const Knot& knot = plan.knots[k];
+    const Vector3d relative =
+        rotation_from_rpy(knot.base_rpy).transpose() * (knot.end_effectors_W[swing.end_effector] - knot.com_W);
+    low = low.cwiseMin(relative);
+    high = high.cwiseMax(relative);
+  }
+  const Eigen::Matrix3d r_WB = rotation_from_rpy(state.base_rpy);
+  const Vector3d spin = angular_velocity(state.base_rpy, state.base_rpy_rate);
+  const Vector3d offset = end.position_W - state.com_W;
+  Vector3d relative = r_WB.transpose() * offset;
+  Vector3d rate = r_WB.transpose() * (end.velocity_W - state.com_velocity_W - spin.cross(offset));
+  bool held = false;
+  for (int i = 0; i < 3; ++i) {
+    if (relative[i] >= low[i] && relative[i] <= high[i]) continue;
+    relative[i] = std::clamp(relative[i], low[i], high[i]);
+    rate[i] = 0.0;
+    held = true;
+  }
+  if (!held) return;
+  end.position_W = state.com_W + r_WB * relative;
+  end.velocity_W = state.com_velocity_W + spin.cross(r_WB * relative) + r_WB * rate;
+}
+
+}  // namespace
+
+double Plan::duration() const {
+  double total = 0.0;
+  for (const Phase& phase : phases) total += phase.duration;
+  return total;
+}
+
+std::vector<double> Plan::knot_times() const {
+  std::vector<double> times{0.0};
+  for (const Phase& phase : phases) times.push_back(times.back() + phase.duration);
+  return times;
+}
+
+std::vector<std::vector<int>> Plan::contact_sequence() const {
+  std::vector<std::vector<int>> sequence;
+  for (const Phase& phase : phases) {
+    sequence.emplace_back();
+    for (const Contact& contact : phase.contacts) sequence.back().push_back(contact.surface);
+  }
+  return sequence;
+}
+
+PlanState Plan::at(double t) const {
+  const double end = duration();
+  constexpr double kRounding = 1e-9;
+  if (!(t >= -kRounding && t <= end + kRounding))
+    throw InvalidInput("t", "must lie in [0, " + text(end) + "] s", text(t));
+  double start = 0.0;
+  int k = 0;
+  while (k + 1 < static_cast<int>(phases.size()) && t >= start + phases[k].duration) start += phases[k++].duration;
+  PlanState state = at_phase(k, std::clamp(t - start, 0.0, phases[k].duration));
+  state.time = t;
+  return state;
+}
+
+PlanState Plan::at_phase(int k, double since_start) const {
+  if (k < 0 || k >= static_cast<int>(phases.size()))
+    throw InvalidInput("phase", "must lie in [0, " + text(static_cast<int>(phases.size()) - 1) + "]", text(k));
+  const Phase& phase = phases[k];
+  const Knot &from = knots[k], &to = knots[k + 1];
+  const double tau = since_start;
+
+  PlanState state;
+  state.phase = k;
+  for (int i = 0; i < k; ++i) state.time += phases[i].duration;
+  state.time += tau;
+
+  // p'' = Lambda p - sum mu_l s_l - g, solved by the entire functions (docs/theory/ddp.md, "Closed form").
+  double stiffness = 0.0;
+  Vector3d pull(0.0, 0.0, scene.gravity), moment = Vector3d::Zero();
+  for (const Contact& contact : phase.contacts) {
+    stiffness += contact.stiffness;
+    pull += contact.stiffness * contact.anchor_W;
+    moment += contact.moment_W;
+  }
+  const EntireFunctions f(stiffness * tau * tau);
+  const Vector3d acceleration = stiffness * from.com_W - pull;
+  state.com_W = from.com_W + tau * f(1) * from.com_velocity_W + tau * tau * f(2) * acceleration;
+  state.com_velocity_W = f(0) * from.com_velocity_W + tau * f(1) * acceleration;
+  state.com_acceleration_W = stiffness * state.com_W - pull;
+
+  // Small-angle rotation of the paper, eqs. (10)-(11): theta'' = I^-1 sum tau_l.
+  const Vector3d spin_up = moment.cwiseQuotient(robot.inertia);
+  state.base_rpy = from.base_rpy + tau * from.base_rpy_rate + 0.5 * tau * tau * spin_up;
+  state.base_rpy_rate = from.base_rpy_rate + tau * spin_up;
+  state.base_quat_wxyz = quat_wxyz_from_rpy(state.base_rpy);
+  state.angular_momentum_W = robot.inertia.cwiseProduct(state.base_rpy_rate);
+
+  state.end_effectors.resize(phase.contacts.size());
+  for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
+    const Contact& contact = phase.contacts[l];
+    EndEffectorState& end = state.end_effectors[l];
+    end.surface = contact.surface;
+    end.force_W = robot.mass * contact.stiffness * (state.com_W - contact.anchor_W);
+    end.moment_W = contact.moment_W;
+    const Hermite path(from.end_effectors_W[l], from.end_effector_velocities_W[l], to.end_effectors_W[l],
+                       to.end_effector_velocities_W[l], phase.duration, tau / phase.duration);
+    end.position_W = path.position;
+    end.velocity_W = path.velocity;
+  }
+  for (const Swing& swing : swings) {
+    if (k < swing.first_phase || k >= swing.end_phase) continue;
+    EndEffectorState& end = state.end_effectors[swing.end_effector];
+    add_clearance(*this, swing, k, tau, end);
+    hold_in_reach(*this, swing, state, end);
+  }
+  return state;
+}
+
+void Plan::validate() const {
+  const int n = static_cast<int>(phases.size());
+  const int ends = end_effector_count();
+  const int surfaces = static_cast<int>(scene.surfaces.size());
+  if (n == 0) throw InvalidPlan("phases", "needs at least one phase", "none");
+  if (static_cast<int>(knots.size()) != n + 1)
+    throw InvalidPlan("knots", "must be one more than the phases (" + text(n + 1) + ")", text(static_cast<int>(knots.size())));
+  for (int k = 0; k <= n; ++k) {
+    const std::string field = "knots[" + std::to_string(k) + "]";
+    const Knot& knot = knots[k];
+    if (static_cast<int>(knot.end_effectors_W.size()) != ends ||
+        static_cast<int>(knot.end_effector_velocities_W.size()) != ends)
+      throw InvalidPlan(field + ".end_effectors", "must be one per end-effector (" + text(ends) + ")",
+                        text(static_cast<int>(knot.end_effectors_W.size())));
+    bool finite = knot.com_W.allFinite() && knot.com_velocity_W.allFinite() && knot.base_rpy.allFinite() &&
+                  knot.base_rpy_rate.allFinite();
+    for (int l = 0; l < ends; ++l)
+      finite = finite && knot.end_effectors_W[l].allFinite() && knot.end_effector_velocities_W[l].allFinite();
+    if (!finite) throw InvalidPlan(field, "must be finite numbers", "nan or inf");
+  }
+  for (int k = 0; k < n; ++k) {
+    const std::string field = "phases[" + std::to_string(k) + "]";
+    if (!(phases[k].duration > 0.0 && std::isfinite(phases[k].duration)))
+      throw InvalidPlan(field + ".duration", "must be a positive number", text(phases[k].duration));
+    if (static_cast<int>(phases[k].contacts.size()) != ends)
+      throw InvalidPlan(field + ".contacts", "must be one per end-effector (" + text(ends) + ")",
+                        text(static_cast<int>(phases[k].contacts.size())));
+    for (int l = 0; l < ends; ++l) {
+      const Contact& contact = phases[k].contacts[l];
+      if (contact.surface < -1 || contact.surface >= surfaces)
+        throw InvalidPlan(field + ".contacts[" + std::to_string(l) + "].surface",
+                          "must be -1 or the index of a surface (below " + text(surfaces) + ")", text(contact.surface));
+      if (!(std::isfinite(contact.stiffness) && contact.anchor_W.allFinite() && contact.moment_W.allFinite()))
+        throw InvalidPlan(field + ".contacts[" + std::to_string(l) + "]", "must be finite numbers", "nan or inf");
+    }
+  }
+  if (static_cast<int>(final_contacts.size()) != ends)
+    throw InvalidPlan("final_contacts", "must be one per end-effector (" + text(ends) + ")",
+                      text(static_cast<int>(final_contacts.size())));
+  for (int surface : final_contacts)
+    if (surface < -1 || surface >= surfaces)
+      throw InvalidPlan("final_contacts", "must be -1 or the index of a surface (below " + text(surfaces) + ")", text(surface));
+  for (const Swing& swing : swings)
+    if (swing.end_effector < 0 || swing.end_effector >= ends || swing.first_phase < 0 ||
+        swing.end_phase <= swing.first_phase || swing.end_phase > n)
+      throw InvalidPlan("swings", "must name an end-effector and a range of phases", text(swing.end_effector));
+}
+
+}  // namespace mcplan

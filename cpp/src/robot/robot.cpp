@@ -1,0 +1,114 @@
+#include "mcplan/robot/robot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "mcplan/base/error.hpp"
+#include "mcplan/base/rotation.hpp"
+#include "mcplan/scene/polygon.hpp"
+
+namespace mcplan {
+namespace {
+
+using Eigen::Vector3d;
+
+void require_positive(const std::string& field, double value) {
+  if (!(std::isfinite(value) && value > 0.0)) throw InvalidRobot(field, "must be a positive number", text(value));
+}
+
+void require_finite(const std::string& field, const Vector3d& value) {
+  if (!value.allFinite()) throw InvalidRobot(field, "must be finite numbers", text(value));
+}
+
+void validate_end_effector(const EndEffector& e, const std::string& field) {
+  if (e.name.empty()) throw InvalidRobot(field + ".name", "must not be empty", "''");
+  if (e.kind.empty()) throw InvalidRobot(field + ".kind", "must not be empty", "''");
+  if (!(e.half_size.allFinite() && e.half_size.minCoeff() >= 0.0))
+    throw InvalidRobot(field + ".half_size", "must be two numbers >= 0", text(e.half_size));
+  require_finite(field + ".nominal", e.nominal_B);
+  require_finite(field + ".reach_min", e.reach_min_B);
+  require_finite(field + ".reach_max", e.reach_max_B);
+  const char axes[] = "xyz";
+  for (int i = 0; i < 3; ++i) {
+    if (!(e.reach_min_B[i] < e.reach_max_B[i]))
+      throw InvalidRobot(field + ".reach_max", std::string("must exceed reach_min in ") + axes[i],
+                         text(e.reach_min_B[i]) + " to " + text(e.reach_max_B[i]));
+    if (e.nominal_B[i] < e.reach_min_B[i] || e.nominal_B[i] > e.reach_max_B[i])
+      throw InvalidRobot(field + ".nominal", std::string("must lie in the reach box in ") + axes[i],
+                         text(e.nominal_B[i]) + " outside [" + text(e.reach_min_B[i]) + ", " + text(e.reach_max_B[i]) + "]");
+  }
+  if (!(e.max_force > 0.0)) throw InvalidRobot(field + ".max_force", "must be a positive number", text(e.max_force));
+  if (!(e.max_moment.minCoeff() >= 0.0))
+    throw InvalidRobot(field + ".max_moment", "must be three numbers >= 0", text(e.max_moment));
+}
+
+}  // namespace
+
+int Robot::end_effector_index(const std::string& end_effector_name) const {
+  for (std::size_t l = 0; l < end_effectors.size(); ++l)
+    if (end_effectors[l].name == end_effector_name) return static_cast<int>(l);
+  return -1;
+}
+
+void Robot::validate() const {
+  require_positive("mass", mass);
+  for (int i = 0; i < 3; ++i) require_positive("inertia[" + std::to_string(i) + "]", inertia[i]);
+  require_positive("com_height", com_height);
+  require_positive("swing_height", swing_height);
+  if (end_effectors.empty()) throw InvalidRobot("end_effectors", "needs at least one end-effector", "none");
+  if (end_effectors.size() > 8)
+    throw InvalidRobot("end_effectors", "may be 8 at most", text(static_cast<int>(end_effectors.size())));
+  std::set<std::string> names;
+  for (std::size_t l = 0; l < end_effectors.size(); ++l) {
+    const std::string field = "end_effectors[" + std::to_string(l) + "]";
+    validate_end_effector(end_effectors[l], field);
+    if (!names.insert(end_effectors[l].name).second)
+      throw InvalidRobot(field + ".name", "must be unique", text(end_effectors[l].name));
+  }
+}
+
+bool addresses(const std::string& who, const EndEffector& end_effector) {
+  return who == end_effector.name || who == end_effector.kind;
+}
+
+bool may_touch(const Surface& surface, const EndEffector& end_effector) {
+  return surface.end_effectors.empty() ||
+         std::any_of(surface.end_effectors.begin(), surface.end_effectors.end(),
+                     [&](const std::string& who) { return addresses(who, end_effector); });
+}
+
+ResolvedStance resolve_stance(const Scene& scene, const Robot& robot, const Stance& stance, const std::string& field) {
+  const auto& ends = robot.end_effectors;
+  for (const auto& [who, surface] : stance.contacts)
+    if (std::none_of(ends.begin(), ends.end(), [&w = who](const EndEffector& e) { return addresses(w, e); })) {
+      std::string names;
+      for (const auto& e : ends) names += (names.empty() ? "" : ", ") + e.name;
+      throw InvalidScene(field + ".contacts", "must name end-effectors of " + robot.name + " (" + names + ") or their kind",
+                         text(who));
+    }
+
+  ResolvedStance out;
+  out.com_W = stance.position_W + robot.com_height * Vector3d::UnitZ();
+  out.yaw = stance.yaw;
+  const Eigen::Matrix3d r_WB = rotation_from_rpy({0.0, 0.0, stance.yaw});
+  for (const EndEffector& e : ends) {
+    auto contact = stance.contacts.find(e.name);
+    if (contact == stance.contacts.end()) contact = stance.contacts.find(e.kind);
+    Vector3d position = out.com_W + r_WB * e.nominal_B;
+    int surface = -1;
+    if (contact != stance.contacts.end()) {
+      surface = scene.surface_index(contact->second);
+      if (surface < 0) throw InvalidScene(field + ".contacts." + e.name, "must name a surface", text(contact->second));
+      if (!may_touch(scene.surfaces[surface], e))
+        throw InvalidScene(field + ".contacts." + e.name, "must be allowed on its surface (surfaces[" +
+                           std::to_string(surface) + "].end_effectors)", text(contact->second));
+      position = Polygon(scene.surfaces[surface].vertices_W).nearest(position);
+    }
+    out.contacts.push_back(surface);
+    out.end_effectors_W.push_back(position);
+  }
+  return out;
+}
+
+}  // namespace mcplan

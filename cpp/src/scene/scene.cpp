@@ -1,0 +1,104 @@
+#include "mcplan/scene/scene.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <set>
+
+#include "mcplan/base/error.hpp"
+
+namespace mcplan {
+namespace {
+
+using Eigen::Vector3d;
+
+std::string item(const std::string& list, std::size_t i) { return list + "[" + std::to_string(i) + "]"; }
+
+void require_finite(const std::string& field, const Vector3d& value) {
+  if (!value.allFinite()) throw InvalidScene(field, "must be finite numbers", text(value));
+}
+
+void require_positive(const std::string& field, double value) {
+  if (!(std::isfinite(value) && value > 0.0)) throw InvalidScene(field, "must be a positive number", text(value));
+}
+
+void validate_polygon(const std::string& field, const std::vector<Vector3d>& vertices) {
+  const std::size_t n = vertices.size();
+  if (n < 3) throw InvalidScene(field, "needs at least 3 points", text(static_cast<int>(n)));
+  for (std::size_t i = 0; i < n; ++i) require_finite(item(field, i), vertices[i]);
+  for (std::size_t i = 0; i < n; ++i)
+    if (vertices[i].cwiseAbs().maxCoeff() > 1e4)
+      throw InvalidScene(item(field, i), "must lie within 10 km of the origin", text(vertices[i]));
+  for (std::size_t i = 0; i < n; ++i)
+    if ((vertices[(i + 1) % n] - vertices[i]).norm() < 1e-4)
+      throw InvalidScene(item(field, (i + 1) % n), "must be at least 0.1 mm from the point before it",
+                         text(vertices[(i + 1) % n]));
+
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 0; i < n; ++i) sum += (vertices[i] - vertices[0]).cross(vertices[(i + 1) % n] - vertices[0]);
+  const double area = 0.5 * sum.norm();
+  if (area < 1e-6) throw InvalidScene(field, "must span an area of at least 1e-6 m^2", text(area) + " m^2");
+  const Vector3d normal = sum.normalized();
+  double turned = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double height = normal.dot(vertices[i] - vertices[0]);
+    if (std::abs(height) > 1e-3)
+      throw InvalidScene(item(field, i), "must lie in the plane of the others within 1 mm",
+                         text(std::abs(height)) + " m off");
+    const Vector3d before = (vertices[i] - vertices[(i + n - 1) % n]).normalized();
+    const Vector3d after = (vertices[(i + 1) % n] - vertices[i]).normalized();
+    const double turn = std::atan2(normal.dot(before.cross(after)), before.dot(after));
+    if (turn < 1e-6) throw InvalidScene(item(field, i), "must be a corner of a strictly convex polygon", text(vertices[i]));
+    turned += turn;
+  }
+  if (std::abs(turned - 2.0 * M_PI) > 1e-6)
+    throw InvalidScene(field, "must run once around a convex polygon", text(turned / (2.0 * M_PI)) + " turns");
+}
+
+void validate_stance(const Scene& scene, const std::string& field, const Stance& stance) {
+  require_finite(field + ".position", stance.position_W);
+  if (!std::isfinite(stance.yaw)) throw InvalidScene(field + ".yaw", "must be a finite number", text(stance.yaw));
+  if (std::abs(stance.yaw) > 2.0 * M_PI)
+    throw InvalidScene(field + ".yaw", "must lie in [-2 pi, 2 pi] rad", text(stance.yaw));
+  if (stance.contacts.empty())
+    throw InvalidScene(field + ".contacts", "must put at least one end-effector on a surface", "{}");
+  for (const auto& [who, surface] : stance.contacts)
+    if (scene.surface_index(surface) < 0) {
+      std::string names;
+      for (const auto& s : scene.surfaces) names += (names.empty() ? "" : ", ") + s.name;
+      throw InvalidScene(field + ".contacts." + who, "must name a surface (" + names + ")", text(surface));
+    }
+}
+
+}  // namespace
+
+int Scene::surface_index(const std::string& surface_name) const {
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    if (surfaces[i].name == surface_name) return static_cast<int>(i);
+  return -1;
+}
+
+void Scene::validate() const {
+  require_positive("gravity", gravity);
+  if (surfaces.empty()) throw InvalidScene("surfaces", "needs at least one surface", "none");
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const Surface& surface = surfaces[i];
+    const std::string field = item("surfaces", i);
+    if (surface.name.empty()) throw InvalidScene(field + ".name", "must not be empty", "''");
+    if (!names.insert(surface.name).second)
+      throw InvalidScene(field + ".name", "must be unique", text(surface.name));
+    require_positive(field + ".friction", surface.friction);
+    require_positive(field + ".thickness", surface.thickness);
+    validate_polygon(field + ".vertices", surface.vertices_W);
+  }
+  validate_stance(*this, "start", start);
+  validate_stance(*this, "goal", goal);
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    if (rules[i].when_free.empty())
+      throw InvalidScene(item("rules", i) + ".when_free", "must name at least one end-effector or kind", "[]");
+    if (rules[i].require.empty())
+      throw InvalidScene(item("rules", i) + ".require", "must name at least one end-effector or kind", "[]");
+  }
+}
+
+}  // namespace mcplan
