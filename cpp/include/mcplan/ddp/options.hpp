@@ -34,6 +34,7 @@ struct Weights {
   double duration = 0.1;                                ///< towards the middle of the duration box
   double contact_min = 0.01, contact_max = 100.0;       ///< w_compl
   double contact_growth = 2.0;                          ///< gamma
+  double flight = 1.0;                                  ///< on every phase without any contact
   double overshoot_factor = 2.0;                        ///< on leaving a finite polygon sideways, times w_compl
 };
 
@@ -44,7 +45,7 @@ struct Options {
   StiffnessInput stiffness_input = StiffnessInput::mu;
   Weights weights;
 
-  double duration_min_s = 0.40, duration_max_s = 0.50;  ///< soft box of the phase durations
+  double duration_min_s = 0.15, duration_max_s = 0.50;  ///< soft box of the phase durations
   double duration_initial_s = 0.45;
   double proximal_weight = 30.0;      ///< first weight on the change of the inputs; adapts
   int interior_points = 2;            ///< instants inside each phase at which reach, force and friction are held

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+namespace mcplan::ddp {
+
+/// Contact state of one step (the paper's sigma_k): surface index per end-effector, kFree when it touches nothing.
+using ContactState = std::vector<int>;
+constexpr int kFree = -1;
+
+/// Contact state of every step k = 0..N (the paper's sigma).
+using ContactSequence = std::vector<ContactState>;
+
+/// "If none of `when_free` is in contact, all of `require` must be", by end-effector index.
+struct StateRule {
+  std::vector<int> when_free, require;
+};
+
+/// Which contact states exist and which may follow each other.
+class ContactRules {
+ public:
+  ContactRules() = default;
+
+  /// surfaces[l]: the surfaces that end-effector l may touch.
+  ContactRules(std::vector<std::vector<int>> surfaces, std::vector<StateRule> rules, bool one_switch_per_step = true);
+
+  int ends() const { return static_cast<int>(surfaces_.size()); }
+  const std::vector<int>& surfaces(int l) const { return surfaces_[l]; }
+
+  /// Permissions and scene rules.
+  bool allowed(const ContactState& state) const;
+
+  /// Tazaki, eq. (32): at most one end-effector makes or breaks a contact, and none goes from surface to surface.
+  /// Without one_switch_per_step only the latter holds.
+  bool may_follow(const ContactState& from, const ContactState& to) const;
+
+  /// Allowed states that may follow `state`, itself included, in a fixed order.
+  std::vector<ContactState> successors(const ContactState& state) const;
+
+  /// All allowed states, or an empty list when there would be more than `limit`.
+  std::vector<ContactState> all_states(std::size_t limit) const;
+
+  bool valid(const ContactSequence& sequence) const;
+
+  /// The states that step k may take with all the others held (Tazaki, eq. 33), without its present one.
+  std::vector<ContactState> neighbours(const ContactSequence& sequence, int k) const;
+
+ private:
+  std::vector<std::vector<int>> surfaces_;
+  std::vector<StateRule> rules_;
+  bool one_switch_ = true;
+};
+
+/// Steps at which an end-effector's contact differs from the step before, summed over the end-effectors.
+int switch_count(const ContactSequence& sequence);
+
+}  // namespace mcplan::ddp

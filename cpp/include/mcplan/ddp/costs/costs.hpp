@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mcplan/ddp/pendulum.hpp"
+#include "mcplan/ddp/problem.hpp"
+#include "mcplan/ddp/rows.hpp"
+
+/// The cost terms of the search, one function a term, one source file a function. Each writes its rows for one step.
+namespace mcplan::ddp {
+
+/// An instant inside a phase: where the CoM and the base are, and how that depends on z = [x, u].
+struct Instant {
+  double fraction = 0.0;  ///< of the phase
+  Eigen::Vector3d com, rpy;
+  Eigen::MatrixXd com_jacobian;    ///< 3 x nz, only with gradients
+  Eigen::MatrixXd angle_jacobian;  ///< active axes x nz, likewise
+};
+
+/// Fill `out` with 0, 1/(n+1), ..., 1 of the phase (n interior points). `step` is scratch.
+void make_instants(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x, const Eigen::VectorXd& u,
+                   bool with_gradient, PendulumStep& step, std::vector<Instant>& out);
+
+// Independent of the contact state. `u` is null at the last knot.
+
+/// Distance to the reference and size of the inputs (Tazaki, sec. III-A, the equation of L_task), as
+/// 1/2 w^2 e^2 where the paper writes w^2 e^2: a common factor.
+void task_cost(const Problem& problem, int k, const Eigen::VectorXd& x, const Eigen::VectorXd* u, Rows& rows);
+
+/// Durations: towards the middle of their box, and inside it (not in the paper, which leaves h unbounded; its author's
+/// program has the box).
+void duration_cost(const Problem& problem, const Eigen::VectorXd& u, Rows& rows);
+
+/// 0 <= mu_l <= mu_max and |tau_l| <= tau_max (Tazaki, eqs. 17-18).
+void bounds_cost(const Problem& problem, const Eigen::VectorXd& u, Rows& rows);
+
+/// p_min <= R(theta)' (p_l - p) <= p_max at the knot, for every end-effector (Tazaki, eqs. 16, 18).
+void reach_cost(const Problem& problem, const Eigen::VectorXd& x, Rows& rows);
+
+// Dependent on the contact state of one end-effector: the features that neighbours are priced by. `weight` is w_compl.
+
+/// Contact with a surface (Tazaki, eq. 19, first and second term): on its plane, inside its polygon, not moving.
+/// Deviation: eq. (19) uses the infinite plane; a finite polygon adds a row per edge that is overstepped.
+void contact_cost(const Problem& problem, const Eigen::VectorXd& x, const Eigen::VectorXd* u, int l, int surface,
+                  double weight, Rows& rows);
+
+/// No contact (Tazaki, eq. 19, third term): no stiffness, no moment.
+void free_cost(const Problem& problem, const Eigen::VectorXd& u, int l, double weight, Rows& rows);
+
+/// Cost of a phase without any contact, so that the robot jumps where it must and not because it may (not in the paper,
+/// where walking with flight phases is a common local optimum). A constant of the contact state.
+double flight_cost(const Problem& problem, const ContactState& state);
+
+/// Reach between the knots, for an end-effector in contact (not in the paper, which looks at the knots alone).
+void interior_reach_cost(const Problem& problem, const Eigen::VectorXd& x, const std::vector<Instant>& instants, int l,
+                         double weight, Rows& rows);
+
+/// Friction cone: the force points along d = p - p_l, so |d_t| <= mu_friction n.d at every instant. Stiffness drops out.
+/// Not in the paper.
+void friction_cost(const Problem& problem, const Eigen::VectorXd& x, const std::vector<Instant>& instants, int l,
+                   int surface, double weight, Rows& rows);
+
+/// mu_l |p - p_l| <= f_max at every instant. The paper bounds the stiffness instead.
+void force_cap_cost(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x, const Eigen::VectorXd& u,
+                    const std::vector<Instant>& instants, int l, double weight, Rows& rows);
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "mcplan/ddp/contact_sequence.hpp"
+#include "mcplan/ddp/local_model.hpp"
+
+namespace mcplan::ddp {
+
+/// Valid sequence from start to goal contacts that costs least with the trajectory held fixed: dynamic programming over
+/// (step, contact state) (Tazaki, sec. IV-D, INIT). Empty when none joins the two in N steps. More than `beam` states a
+/// step are cut to the cheapest.
+ContactSequence initial_sequence(LocalModel& model, std::size_t beam = 4000);
+
+}  // namespace mcplan::ddp

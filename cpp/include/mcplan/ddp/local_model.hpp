@@ -1,0 +1,110 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mcplan/ddp/contact_sequence.hpp"
+#include "mcplan/ddp/costs/costs.hpp"
+#include "mcplan/ddp/pendulum.hpp"
+#include "mcplan/ddp/problem.hpp"
+#include "mcplan/ddp/rows.hpp"
+
+namespace mcplan::ddp {
+
+/// c + g'd + 1/2 d'Hd in a deviation d.
+struct Quadratic {
+  double c = 0.0;
+  Eigen::VectorXd g;
+  Eigen::MatrixXd h;
+};
+
+/// Weights that change from iteration to iteration.
+struct Schedule {
+  double contact_weight = 0.01;    ///< w_compl
+  double interior_weight = 0.0;    ///< on reach, friction and force inside the phases
+  double proximal_weight = 30.0;   ///< on the change of the input: 1/2 r |du|^2, a part of the model's cost
+
+  /// Not null: only the least change that closes the dynamics defects is sought, whatever it costs. Held (by a
+  /// weight so large that their change is rounding) are the base and the end-effectors at the start and, at every step, the
+  /// inputs that are marked here.
+  const std::vector<std::vector<char>>* held_inputs = nullptr;
+};
+
+/// The problem about a trajectory: dynamics to first order, costs to second order (Gauss-Newton), one stage a step. What
+/// depends on the contact state is kept apart, as blocks of rows per end-effector and contact, so that any contact
+/// sequence can be assembled from it.
+class LocalModel {
+ public:
+  explicit LocalModel(const Problem& problem);
+
+  const Problem& problem() const { return *problem_; }
+  const Pendulum& pendulum() const { return pendulum_; }
+  int steps() const { return problem_->steps; }
+
+  /// Expand about a trajectory. Invalidates all blocks.
+  void expand(const Trajectory& trajectory, const Schedule& schedule);
+
+  /// x_{k+1} = f(x_k, u_k): Jacobian and defect f(x_k, u_k) - x_{k+1}.
+  const PendulumStep& dynamics(int k) const { return stages_[k].dynamics; }
+  const Eigen::VectorXd& defect(int k) const { return stages_[k].defect; }
+
+  /// Cost of step k that does not depend on the contact state, with the proximal term; over z, at k = N over x.
+  const Quadratic& base(int k) const { return stages_[k].base; }
+
+  /// Rows of end-effector l of step k with this contact (a surface or kFree). Computed at the first call: make those that
+  /// are needed before reading from several threads.
+  const Rows& block(int k, int l, int contact);
+
+  /// Add the rows of a contact state to a quadratic over z (over x at k = N).
+  void add_contacts(int k, const ContactState& state, Quadratic& q);
+
+ private:
+  struct Stage {
+    PendulumStep dynamics;
+    Eigen::VectorXd defect;
+    Quadratic base;
+    std::vector<Instant> instants;
+    std::vector<std::vector<Rows>> blocks;   ///< [l][choice], choice 0: free, i + 1: surfaces(l)[i]
+    std::vector<std::vector<char>> made;
+  };
+
+  const Problem* problem_;
+  Pendulum pendulum_;
+  const Trajectory* trajectory_ = nullptr;
+  Schedule schedule_;
+  std::vector<Stage> stages_;
+  PendulumStep scratch_step_;
+  Eigen::MatrixXd scratch_;
+  Rows base_rows_;
+};
+
+/// True (not modelled) cost and defects of a trajectory with a contact sequence.
+struct Evaluation {
+  double cost = 0.0;
+  double defect_l1 = 0.0, defect_max = 0.0;
+  CostTerms terms{};
+
+  /// Exact penalty: cost + rho |defect|_1.
+  double merit() const { return cost + 30.0 * defect_l1; }
+};
+
+class Evaluator {
+ public:
+  explicit Evaluator(const Problem& problem);
+  Evaluation operator()(const Trajectory& trajectory, const ContactSequence& sequence, const Schedule& schedule);
+
+ private:
+  const Problem* problem_;
+  Pendulum pendulum_;
+  Rows rows_;
+  std::vector<Instant> instants_;
+  PendulumStep step_;
+  Eigen::VectorXd next_;
+};
+
+/// All rows of one step and contact state into `rows` (shared by model and evaluation). `u` null at k = N.
+void add_base_rows(const Problem& problem, int k, const Eigen::VectorXd& x, const Eigen::VectorXd* u, Rows& rows);
+void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x, const Eigen::VectorXd* u,
+                      const std::vector<Instant>& instants, int l, int contact, const Schedule& schedule, Rows& rows);
+
+}  // namespace mcplan::ddp

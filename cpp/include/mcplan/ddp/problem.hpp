@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mcplan/ddp/contact_sequence.hpp"
+#include "mcplan/ddp/layout.hpp"
+#include "mcplan/ddp/options.hpp"
+#include "mcplan/plan/plan.hpp"
+#include "mcplan/robot/robot.hpp"
+#include "mcplan/scene/polygon.hpp"
+#include "mcplan/scene/scene.hpp"
+
+namespace mcplan::ddp {
+
+/// Units in which the planner computes: length = CoM height, time = sqrt(height / gravity), mass = the robot's. Gravity
+/// is then 1, and so is the total stiffness of standing. The weights of Table I apply to these numbers.
+struct Units {
+  double length = 1.0;  ///< [m]
+  double time = 1.0;    ///< [s]
+  double mass = 1.0;    ///< [kg]
+
+  double velocity() const { return length / time; }
+  double stiffness() const { return 1.0 / (time * time); }        ///< of mu = lambda^2
+  double force() const { return mass * length / (time * time); }
+  double moment() const { return force() * length; }
+};
+
+/// A motion at the knots: x_0..x_N and u_0..u_{N-1}, non-dimensional.
+struct Trajectory {
+  std::vector<Eigen::VectorXd> x, u;
+};
+
+/// Limits and nominal position of an end-effector, non-dimensional.
+struct EndLimits {
+  Eigen::Vector3d nominal, reach_min, reach_max;
+  double force_max = 0.0;
+  Eigen::Vector3d moment_max;
+};
+
+/// Scene, robot and options worked out for the planner: non-dimensional, by index. The end-effectors here are the
+/// `active` ones; those that may touch nothing are carried along at their nominal place and cost no variables
+/// (Method::paper keeps them all).
+class Problem {
+ public:
+  Problem(const Scene& scene, const Robot& robot, const Options& options);
+
+  Scene scene;
+  Robot robot;
+  Options options;
+  Units units;
+  Layout layout;
+  int steps = 0;                            ///< N
+  std::vector<int> active;                  ///< end-effector of the robot behind each of the problem's
+  std::vector<Polygon> polygons;            ///< by scene surface
+  std::vector<double> friction;             ///< by scene surface; infinite where it may be held (grasp)
+  std::vector<EndLimits> limits;            ///< by active end-effector
+  Eigen::Vector3d inertia;                  ///< in units of mass length^2
+  double duration_min = 0.0, duration_max = 0.0, duration_initial = 0.0;
+  Eigen::Vector3d base_rpy;                 ///< angles of the axes that are not in the layout
+  ContactRules rules;
+  ContactState start_contacts, goal_contacts;
+  Trajectory reference;                     ///< x_ref by knot (u empty)
+  Eigen::VectorXd start;                    ///< x_0 as demanded
+
+  /// Roll, pitch, yaw of a state.
+  Eigen::Vector3d rpy(const Eigen::VectorXd& x) const;
+
+  /// First guess: the reference with weight on the contacts of the start, constant stiffness and duration.
+  Trajectory initial_guess() const;
+
+  /// Start from a measured state instead of the scene's; `contacts` by active end-effector.
+  void set_start(const Knot& measured, const ContactState& contacts);
+
+ private:
+  void make_reference(const Eigen::VectorXd& goal);
+};
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+namespace mcplan::ddp {
+
+/// What a row belongs to, for the report's cost by term.
+enum class Term { task, duration, reach, bounds, contact, free, friction, force_cap, flight };
+constexpr int kTermCount = 9;
+const char* to_string(Term term);
+using CostTerms = std::array<double, kTermCount>;
+
+/// A sum of squares 1/2 sum_r w_r^2 e_r(z)^2, row by row: value e_r and gradient de_r/dz (z = [x, u]). Every cost and
+/// constraint of the planner writes itself into one of these; satisfied inequalities write nothing (active set).
+/// Without gradients only the cost is summed up, which is what a line search needs.
+class Rows {
+ public:
+  Rows() = default;
+  Rows(int nz, bool with_gradient) : nz_(nz), with_gradient_(with_gradient), gradient_(nz, with_gradient ? 16 : 0) {}
+
+  bool with_gradient() const { return with_gradient_; }
+  void clear();
+  void begin(Term term) { term_ = term; }
+
+  /// A row that depends on one variable: e = value, de/dz_index = 1.
+  void add_single(double weight, double value, int index);
+
+  /// A row with a dense gradient, returned as zeros to be filled in (valid until the next add). Only with gradients.
+  Eigen::Ref<Eigen::VectorXd> add_dense(double weight, double value);
+
+  /// The same without a gradient.
+  void add_value(double weight, double value);
+
+  /// A constant, without a row.
+  void add_constant(double cost) {
+    cost_ += cost;
+    terms_[static_cast<int>(term_)] += cost;
+  }
+
+  int count() const { return static_cast<int>(value_.size()); }
+  double cost() const { return cost_; }
+  const CostTerms& terms() const { return terms_; }
+  double precision(int r) const { return precision_[r]; }    ///< w_r^2
+  double value(int r) const { return value_[r]; }
+  int single(int r) const { return single_[r]; }             ///< its one variable, or -1
+  auto gradient(int r) const { return gradient_.col(r); }    ///< zeros but for the one variable of a single row
+
+  /// Add the Gauss-Newton quadratic  c + g'z + 1/2 z'Hz  of these rows (H: both triangles). `scratch` keeps its memory.
+  void accumulate(double& c, Eigen::VectorXd& g, Eigen::MatrixXd& h, Eigen::MatrixXd& scratch) const;
+
+ private:
+  void push(double weight, double value, int single);
+
+  int nz_ = 0;
+  bool with_gradient_ = true;
+  Term term_ = Term::task;
+  double cost_ = 0.0;
+  CostTerms terms_{};
+  std::vector<double> precision_, value_;
+  std::vector<int> single_;
+  Eigen::MatrixXd gradient_;  ///< nz x capacity, a column a row
+};
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <vector>
+
+#include "mcplan/ddp/local_model.hpp"
+
+namespace mcplan::ddp {
+
+/// Backward value functions V_k (cost-to-go, Tazaki eq. 27) and forward ones U_k (cost-so-far, eq. 30) of a local model
+/// with a contact sequence. The proximal term is part of the stage cost in both, so min U_k + V_k is the same number for
+/// every k (eq. 31).
+class ValueFunctions {
+ public:
+  explicit ValueFunctions(LocalModel& model);
+
+  /// V_k for k = last..0 (last = N: all). V_j for j > last must be up to date. False when a Hessian is not positive
+  /// definite.
+  bool backward(const ContactSequence& sequence, int last);
+
+  /// U_k for k = first+1..N; U_first must be up to date (U_0 = 0).
+  bool forward(const ContactSequence& sequence, int first);
+
+  /// One step of the backward recursion for any contact state: V_k from V_{k+1}. `gain`/`offset` may be null.
+  bool backward_step(int k, const ContactState& state, const Quadratic& next, Quadratic& value, Eigen::MatrixXd* gain,
+                     Eigen::VectorXd* offset, Quadratic* without_contacts);
+
+  const Quadratic& V(int k) const { return V_[k]; }
+  const Quadratic& U(int k) const { return U_[k]; }
+
+  /// Stage cost of k plus V_{k+1} over z, without the rows of the contact state at k.
+  const Quadratic& without_contacts(int k) const { return without_contacts_[k]; }
+
+  /// min over x of U_k + V_k (eq. 31).
+  double minimum(int k) const;
+
+  /// Newton step of the whole trajectory (eqs. 28-29).
+  void state_forward(std::vector<Eigen::VectorXd>& dx, std::vector<Eigen::VectorXd>& du);
+
+ private:
+  bool solve(Quadratic& z, Quadratic& value, Eigen::MatrixXd* gain, Eigen::VectorXd* offset);
+
+  LocalModel* model_;
+  std::vector<Quadratic> V_, U_, without_contacts_;
+  std::vector<Eigen::MatrixXd> gain_;      ///< K: du = offset - K dx
+  std::vector<Eigen::VectorXd> offset_;
+  // Scratch.
+  Quadratic q_;
+  Eigen::MatrixXd m_, mt_, pushed_, k_;
+  Eigen::VectorXd w_, o_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+};
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,167 @@
+#include "mcplan/ddp/local_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mcplan::ddp {
+
+using Eigen::VectorXd;
+
+void add_base_rows(const Problem& problem, int k, const VectorXd& x, const VectorXd* u, Rows& rows) {
+  task_cost(problem, k, x, u, rows);
+  reach_cost(problem, x, rows);
+  if (!u) return;
+  duration_cost(problem, *u, rows);
+  bounds_cost(problem, *u, rows);
+}
+
+void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const VectorXd& x, const VectorXd* u,
+                      const std::vector<Instant>& instants, int l, int contact, const Schedule& schedule, Rows& rows) {
+  if (contact == kFree) {
+    if (u) free_cost(problem, *u, l, schedule.contact_weight, rows);
+    return;
+  }
+  contact_cost(problem, x, u, l, contact, schedule.contact_weight, rows);
+  if (!u || schedule.interior_weight == 0.0) return;
+  interior_reach_cost(problem, x, instants, l, schedule.interior_weight, rows);
+  if (problem.options.friction) friction_cost(problem, x, instants, l, contact, schedule.interior_weight, rows);
+  force_cap_cost(problem, pendulum, x, *u, instants, l, schedule.interior_weight, rows);
+}
+
+namespace {
+
+/// Weight on what is held: far above all others (1e6 at most), low enough to leave the factorisation its digits.
+constexpr double kHeld = 1e10;
+
+/// Turn the quadratic of step k into the metric of the least change.
+void hold_inputs(const Problem& problem, int k, const std::vector<char>* held, Quadratic& q) {
+  const int nx = problem.layout.nx(), held_states = nx - Layout::angle();
+  q.g.setZero();
+  q.h.diagonal().array() += 1.0;
+  if (k == 0) q.h.diagonal().segment(Layout::angle(), held_states).array() += kHeld;
+  if (!held) return;
+  for (std::size_t i = 0; i < held->size(); ++i)
+    if ((*held)[i]) q.h(nx + static_cast<int>(i), nx + static_cast<int>(i)) += kHeld;
+}
+
+}  // namespace
+
+LocalModel::LocalModel(const Problem& problem)
+    : problem_(&problem),
+      pendulum_(problem.layout, problem.inertia, problem.options.stiffness_input),
+      stages_(problem.steps + 1),
+      base_rows_(problem.layout.nz(), true) {
+  for (Stage& stage : stages_) {
+    for (int l = 0; l < problem.layout.ends(); ++l) {
+      const std::size_t choices = problem.rules.surfaces(l).size() + 1;
+      stage.blocks.emplace_back(choices, Rows(problem.layout.nz(), true));
+      stage.made.emplace_back(choices, 0);
+    }
+  }
+}
+
+void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) {
+  const Layout& at = problem_->layout;
+  trajectory_ = &trajectory;
+  schedule_ = schedule;
+  for (int k = 0; k <= steps(); ++k) {
+    Stage& stage = stages_[k];
+    const bool last = k == steps();
+    const VectorXd& x = trajectory.x[k];
+    const VectorXd* u = last ? nullptr : &trajectory.u[k];
+    base_rows_.clear();
+    add_base_rows(*problem_, k, x, u, base_rows_);
+    stage.base.c = 0.0;
+    stage.base.g.setZero(at.nz());
+    stage.base.h.setZero(at.nz(), at.nz());
+    base_rows_.accumulate(stage.base.c, stage.base.g, stage.base.h, scratch_);
+    if (schedule.held_inputs) hold_inputs(*problem_, k, last ? nullptr : &(*schedule.held_inputs)[k], stage.base);
+    for (auto& made : stage.made) std::fill(made.begin(), made.end(), 0);
+    if (last) {
+      stage.base.g.conservativeResize(at.nx());
+      stage.base.h.conservativeResize(at.nx(), at.nx());
+      continue;
+    }
+    stage.base.h.diagonal().tail(at.nu()).array() += schedule.proximal_weight;
+    pendulum_.step(x, *u, 1.0, stage.dynamics);
+    stage.defect.resize(at.nx());
+    stage.defect.segment<3>(at.com()) = stage.dynamics.com;
+    stage.defect.segment<3>(at.velocity()) = stage.dynamics.velocity;
+    stage.defect.segment(at.angle(), at.axis_count()) = stage.dynamics.angle;
+    stage.defect.segment(at.rate(), at.axis_count()) = stage.dynamics.rate;
+    for (int l = 0; l < at.ends(); ++l)
+      stage.defect.segment<3>(at.end(l)) = x.segment<3>(at.end(l)) + u->segment<3>(at.stride(l));
+    stage.defect -= trajectory.x[k + 1];
+    if (schedule.interior_weight > 0.0)
+      make_instants(*problem_, pendulum_, x, *u, true, scratch_step_, stage.instants);
+  }
+}
+
+const Rows& LocalModel::block(int k, int l, int contact) {
+  Stage& stage = stages_[k];
+  std::size_t choice = 0;
+  if (contact != kFree) {
+    const auto& list = problem_->rules.surfaces(l);
+    choice = 1 + (std::find(list.begin(), list.end(), contact) - list.begin());
+  }
+  Rows& rows = stage.blocks[l][choice];
+  if (!stage.made[l][choice]) {
+    rows.clear();
+    add_contact_rows(*problem_, pendulum_, trajectory_->x[k], k < steps() ? &trajectory_->u[k] : nullptr, stage.instants,
+                     l, contact, schedule_, rows);
+    stage.made[l][choice] = 1;
+  }
+  return rows;
+}
+
+void LocalModel::add_contacts(int k, const ContactState& state, Quadratic& q) {
+  if (schedule_.held_inputs) return;
+  if (k == steps()) {
+    // Rows at the last knot touch x alone but are stored over z.
+    const int nx = problem_->layout.nx();
+    for (int l = 0; l < problem_->layout.ends(); ++l) {
+      const Rows& rows = block(k, l, state[l]);
+      q.c += rows.cost();
+      for (int r = 0; r < rows.count(); ++r) {
+        const auto g = rows.gradient(r).head(nx);
+        q.g += rows.precision(r) * rows.value(r) * g;
+        q.h += rows.precision(r) * g * g.transpose();
+      }
+    }
+    return;
+  }
+  q.c += flight_cost(*problem_, state);
+  for (int l = 0; l < problem_->layout.ends(); ++l) block(k, l, state[l]).accumulate(q.c, q.g, q.h, scratch_);
+}
+
+Evaluator::Evaluator(const Problem& problem)
+    : problem_(&problem),
+      pendulum_(problem.layout, problem.inertia, problem.options.stiffness_input),
+      rows_(problem.layout.nz(), false) {}
+
+Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequence& sequence, const Schedule& schedule) {
+  Evaluation out;
+  rows_.clear();
+  for (int k = 0; k <= problem_->steps; ++k) {
+    const bool last = k == problem_->steps;
+    const VectorXd& x = trajectory.x[k];
+    const VectorXd* u = last ? nullptr : &trajectory.u[k];
+    add_base_rows(*problem_, k, x, u, rows_);
+    if (u && schedule.interior_weight > 0.0)
+      make_instants(*problem_, pendulum_, x, *u, false, step_, instants_);
+    for (int l = 0; l < problem_->layout.ends(); ++l)
+      add_contact_rows(*problem_, pendulum_, x, u, instants_, l, sequence[k][l], schedule, rows_);
+    if (last) break;
+    rows_.begin(Term::flight);
+    rows_.add_constant(flight_cost(*problem_, sequence[k]));
+    pendulum_.next(x, *u, next_);
+    next_ -= trajectory.x[k + 1];
+    out.defect_l1 += next_.lpNorm<1>();
+    out.defect_max = std::max(out.defect_max, next_.lpNorm<Eigen::Infinity>());
+  }
+  out.cost = rows_.cost();
+  out.terms = rows_.terms();
+  return out;
+}
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,62 @@
+#include "mcplan/ddp/options.hpp"
+
+#include <cmath>
+
+#include "mcplan/base/error.hpp"
+
+namespace mcplan::ddp {
+namespace {
+
+void require_at_least(const char* field, int value, int least) {
+  if (value < least) throw InvalidOptions(field, "must be at least " + text(least), text(value));
+}
+
+void require_positive(const char* field, double value) {
+  if (!(std::isfinite(value) && value > 0.0)) throw InvalidOptions(field, "must be a positive number", text(value));
+}
+
+void require_weight(const char* field, double value) {
+  if (!(std::isfinite(value) && value >= 0.0)) throw InvalidOptions(field, "must be a number >= 0", text(value));
+}
+
+}  // namespace
+
+void Options::validate() const {
+  require_at_least("phases", phases, 2);
+  if (phases > 2000) throw InvalidOptions("phases", "must be 2000 at most", text(phases));
+  require_positive("duration_min_s", duration_min_s);
+  require_positive("duration_initial_s", duration_initial_s);
+  if (!(std::isfinite(duration_max_s) && duration_max_s >= duration_min_s))
+    throw InvalidOptions("duration_max_s", "must be at least duration_min_s (" + text(duration_min_s) + ")",
+                         text(duration_max_s));
+  require_positive("proximal_weight", proximal_weight);
+  require_at_least("interior_points", interior_points, 0);
+  if (interior_points > 20) throw InvalidOptions("interior_points", "must be 20 at most", text(interior_points));
+  require_weight("reach_margin_m", reach_margin_m);
+  require_at_least("restarts", restarts, 0);
+  require_at_least("max_iterations", max_iterations, 1);
+  if (!(time_limit_s > 0.0)) throw InvalidOptions("time_limit_s", "must be a positive number", text(time_limit_s));
+  require_at_least("threads", threads, 1);
+  if (threads > 256) throw InvalidOptions("threads", "must be 256 at most", text(threads));
+  require_weight("weights.com", weights.com);
+  require_weight("weights.com_end", weights.com_end);
+  require_weight("weights.velocity", weights.velocity);
+  require_weight("weights.velocity_end", weights.velocity_end);
+  require_weight("weights.rotation", weights.rotation);
+  require_weight("weights.rotation_end", weights.rotation_end);
+  require_weight("weights.end_effector", weights.end_effector);
+  require_weight("weights.end_effector_end", weights.end_effector_end);
+  require_weight("weights.stride", weights.stride);
+  require_weight("weights.stiffness", weights.stiffness);
+  require_weight("weights.moment", weights.moment);
+  require_weight("weights.limit", weights.limit);
+  require_weight("weights.duration", weights.duration);
+  require_positive("weights.contact_min", weights.contact_min);
+  require_positive("weights.contact_max", weights.contact_max);
+  if (!(weights.contact_growth > 1.0 && std::isfinite(weights.contact_growth)))
+    throw InvalidOptions("weights.contact_growth", "must be above 1", text(weights.contact_growth));
+  if (!(weights.overshoot_factor >= 1.0 && std::isfinite(weights.overshoot_factor)))
+    throw InvalidOptions("weights.overshoot_factor", "must be at least 1", text(weights.overshoot_factor));
+}
+
+}  // namespace mcplan::ddp

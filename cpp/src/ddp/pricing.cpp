@@ -1,0 +1,132 @@
+#include "mcplan/ddp/pricing.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace mcplan::ddp {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+bool StepPricing::prepare(LocalModel& model, const ValueFunctions& values, int k,
+                          const std::vector<ContactState>& candidates) {
+  const Layout& at = model.problem().layout;
+  problem_ = &model.problem();
+  const int nx = at.nx(), nz = at.nz();
+  spans_.clear();
+  int total = 0;
+  for (const ContactState& state : candidates)
+    for (int l = 0; l < at.ends(); ++l) {
+      const bool known = std::any_of(spans_.begin(), spans_.end(),
+                                     [&](const Span& s) { return s.end == l && s.contact == state[l]; });
+      if (known) continue;
+      const int count = model.block(k, l, state[l]).count();
+      spans_.push_back({l, state[l], total, count});
+      total += count;
+    }
+
+  const Quadratic& q = values.without_contacts(k);
+  w_ = q.h;
+  w_.topLeftCorner(nx, nx) += values.U(k).h;
+  factor_.compute(w_);
+  if (factor_.info() != Eigen::Success) return false;
+  mean_ = q.g;
+  mean_.head(nx) += values.U(k).g;
+  factor_.matrixL().solveInPlace(mean_);
+  base_cost_ = q.c + values.U(k).c - 0.5 * mean_.squaredNorm();
+
+  rows_.resize(nz, total);
+  value_.resize(total);
+  inverse_precision_.resize(total);
+  for (const Span& span : spans_) {
+    const Rows& block = model.block(k, span.end, span.contact);
+    for (int r = 0; r < span.count; ++r) {
+      rows_.col(span.first + r) = block.gradient(r);
+      value_[span.first + r] = block.value(r);
+      inverse_precision_[span.first + r] = 1.0 / block.precision(r);
+    }
+  }
+  factor_.matrixL().solveInPlace(rows_);
+  value_.noalias() -= rows_.transpose() * mean_;
+  gram_.resize(total, total);
+  gram_.noalias() = rows_.transpose() * rows_;
+  return true;
+}
+
+double StepPricing::price(const ContactState& state) {
+  picked_.clear();
+  for (const Span& span : spans_)
+    if (state[span.end] == span.contact)
+      for (int r = 0; r < span.count; ++r) picked_.push_back(span.first + r);
+  const int n = static_cast<int>(picked_.size());
+  small_.resize(n, n);
+  y_.resize(n);
+  for (int j = 0; j < n; ++j) {
+    y_[j] = value_[picked_[j]];
+    for (int i = j; i < n; ++i) small_(i, j) = gram_(picked_[i], picked_[j]);
+    small_(j, j) += inverse_precision_[picked_[j]];
+  }
+  small_factor_.compute(small_);
+  small_factor_.matrixL().solveInPlace(y_);
+  return base_cost_ + flight_cost(*problem_, state) + 0.5 * y_.squaredNorm();
+}
+
+const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctions& values, const ContactSequence& sequence) {
+  neighbours_.clear();
+  const int n = model.steps();
+  std::vector<std::pair<std::size_t, std::size_t>> range(n);
+  std::vector<std::vector<ContactState>> candidates(n);
+  for (int k = 1; k < n; ++k) {
+    candidates[k] = model.problem().rules.neighbours(sequence, k);
+    range[k] = {neighbours_.size(), neighbours_.size() + candidates[k].size()};
+    for (const ContactState& state : candidates[k]) {
+      neighbours_.push_back({k, state, std::numeric_limits<double>::infinity()});
+      // Blocks are made on demand; make them all before threads read them.
+      for (int l = 0; l < model.problem().layout.ends(); ++l) model.block(k, l, state[l]);
+    }
+  }
+  double prepare_s = 0.0, price_s = 0.0;
+  const auto one_step = [&](int k, StepPricing& pricing) {
+    if (candidates[k].empty()) return;
+    const auto start = std::chrono::steady_clock::now();
+    const bool ok = pricing.prepare(model, values, k, candidates[k]);
+    const double prepared = seconds_since(start);
+    if (ok)
+      for (std::size_t i = range[k].first; i < range[k].second; ++i)
+        neighbours_[i].cost = pricing.price(neighbours_[i].state);
+    prepare_s += prepared;
+    price_s += seconds_since(start) - prepared;
+  };
+#ifdef _OPENMP
+  if (steps_.size() > 1) {
+    // Steps are independent and each writes its own prices: the same numbers for any number of threads.
+#pragma omp parallel for num_threads(static_cast<int>(steps_.size())) schedule(static) reduction(+ : prepare_s, price_s)
+    for (int k = 1; k < n; ++k) one_step(k, steps_[omp_get_thread_num()]);
+    time_prepare_s += prepare_s;
+    time_price_s += price_s;
+    return neighbours_;
+  }
+#endif
+  for (int k = 1; k < n; ++k) one_step(k, steps_[0]);
+  time_prepare_s += prepare_s;
+  time_price_s += price_s;
+  return neighbours_;
+}
+
+const Neighbour* cheapest(const std::vector<Neighbour>& neighbours) {
+  const Neighbour* best = nullptr;
+  for (const Neighbour& n : neighbours)
+    if (!best || n.cost < best->cost) best = &n;
+  return best;
+}
+
+}  // namespace mcplan::ddp

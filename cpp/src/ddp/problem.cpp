@@ -1,0 +1,188 @@
+#include "mcplan/ddp/problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "mcplan/base/error.hpp"
+#include "mcplan/base/rotation.hpp"
+
+namespace mcplan::ddp {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// Soft constraints settle slightly beyond their bound, so friction is planned a little tighter than the surface's.
+constexpr double kFrictionMargin = 0.02;
+
+std::vector<int> addressed(const std::vector<std::string>& who, const Robot& robot, const std::vector<int>& active) {
+  std::vector<int> out;
+  for (std::size_t l = 0; l < active.size(); ++l)
+    for (const std::string& w : who)
+      if (addresses(w, robot.end_effectors[active[l]])) {
+        out.push_back(static_cast<int>(l));
+        break;
+      }
+  return out;
+}
+
+Layout make_layout(const Robot& robot, const std::vector<int>& active, bool all_axes) {
+  std::vector<int> axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool driven = std::any_of(active.begin(), active.end(), [&](int e) {
+      return robot.end_effectors[e].max_moment[axis] > 0.0;
+    });
+    if (driven || all_axes) axes.push_back(axis);
+  }
+  std::vector<Layout::Moment> moments;
+  for (std::size_t l = 0; l < active.size(); ++l)
+    for (std::size_t a = 0; a < axes.size(); ++a)
+      if (all_axes || robot.end_effectors[active[l]].max_moment[axes[a]] > 0.0)
+        moments.push_back({static_cast<int>(l), static_cast<int>(a)});
+  return Layout(static_cast<int>(active.size()), axes, moments);
+}
+
+}  // namespace
+
+Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& options_in)
+    : scene(scene_in), robot(robot_in), options(options_in) {
+  scene.validate();
+  robot.validate();
+  options.validate();
+  steps = options.phases;
+  units.length = robot.com_height;
+  units.time = std::sqrt(robot.com_height / scene.gravity);
+  units.mass = robot.mass;
+  inertia = robot.inertia / (units.mass * units.length * units.length);
+  duration_min = options.duration_min_s / units.time;
+  duration_max = options.duration_max_s / units.time;
+  duration_initial = options.duration_initial_s / units.time;
+
+  const int robot_ends = static_cast<int>(robot.end_effectors.size());
+  std::vector<std::vector<int>> surfaces;
+  for (int e = 0; e < robot_ends; ++e) {
+    std::vector<int> list;
+    for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
+      if (may_touch(scene.surfaces[i], robot.end_effectors[e])) list.push_back(static_cast<int>(i));
+    if (list.empty() && options.method != Method::paper) continue;
+    active.push_back(e);
+    surfaces.push_back(list);
+  }
+  layout = make_layout(robot, active, options.method == Method::paper);
+  for (const Surface& surface : scene.surfaces) {
+    std::vector<Vector3d> scaled;
+    for (const Vector3d& v : surface.vertices_W) scaled.push_back(v / units.length);
+    polygons.emplace_back(scaled);
+    friction.push_back(surface.grasp ? std::numeric_limits<double>::infinity()
+                                     : std::max(surface.friction - kFrictionMargin, 0.5 * surface.friction));
+  }
+  for (int e : active) {
+    const EndEffector& end = robot.end_effectors[e];
+    const Vector3d margin = Vector3d::Constant(options.method == Method::paper ? 0.0 : options.reach_margin_m);
+    EndLimits l;
+    l.nominal = end.nominal_B / units.length;
+    // A box thinner than the margins keeps its middle.
+    const Vector3d middle = 0.5 * (end.reach_min_B + end.reach_max_B);
+    l.reach_min = (end.reach_min_B + margin).cwiseMin(middle) / units.length;
+    l.reach_max = (end.reach_max_B - margin).cwiseMax(middle) / units.length;
+    // A cap above ten times the weight would not bind; it also stands for "no cap".
+    l.force_max = std::min(end.max_force / units.force(), 10.0);
+    l.moment_max = end.max_moment / units.moment();
+    limits.push_back(l);
+  }
+  std::vector<StateRule> state_rules;
+  for (const ContactRule& rule : scene.rules) {
+    const std::vector<int> require = addressed(rule.require, robot, active);
+    // Counted on the robot, not on the active ones: a required hand that may touch nothing can never be in contact.
+    int required = 0;
+    for (const EndEffector& e : robot.end_effectors)
+      required += std::any_of(rule.require.begin(), rule.require.end(), [&](const auto& w) { return addresses(w, e); });
+    StateRule state_rule{addressed(rule.when_free, robot, active), require};
+    if (required == 0 || required != static_cast<int>(require.size())) state_rule.require = state_rule.when_free;
+    state_rules.push_back(state_rule);
+  }
+  rules = ContactRules(surfaces, state_rules, options.one_switch_per_step);
+
+  const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
+  const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
+  base_rpy = Vector3d(0.0, 0.0, from.yaw);
+  const auto state_of = [&](const ResolvedStance& stance) {
+    VectorXd x = VectorXd::Zero(layout.nx());
+    x.segment<3>(layout.com()) = stance.com_W / units.length;
+    for (int a = 0; a < layout.axis_count(); ++a)
+      if (layout.axes()[a] == 2) x[layout.angle(a)] = stance.yaw;
+    for (int l = 0; l < layout.ends(); ++l)
+      x.segment<3>(layout.end(l)) = stance.end_effectors_W[active[l]] / units.length;
+    return x;
+  };
+  start = state_of(from);
+  for (int e : active) {
+    start_contacts.push_back(from.contacts[e]);
+    goal_contacts.push_back(to.contacts[e]);
+  }
+  make_reference(state_of(to));
+}
+
+/// Cubic from start to goal, at rest at both ends (Tazaki, sec. III-A), tied to the step index.
+void Problem::make_reference(const VectorXd& goal) {
+  const double total = steps * duration_initial;
+  reference.x.clear();
+  for (int k = 0; k <= steps; ++k) {
+    const double s = static_cast<double>(k) / steps;
+    VectorXd x = start + s * s * (3.0 - 2.0 * s) * (goal - start);
+    const double rate = 6.0 * s * (1.0 - s) / total;
+    x.segment<3>(layout.velocity()) = rate * (goal - start).segment<3>(layout.com());
+    for (int a = 0; a < layout.axis_count(); ++a)
+      x[layout.rate(a)] = rate * (goal - start)[layout.angle(a)];
+    reference.x.push_back(x);
+  }
+}
+
+Vector3d Problem::rpy(const VectorXd& x) const {
+  Vector3d out = base_rpy;
+  for (int a = 0; a < layout.axis_count(); ++a) out[layout.axes()[a]] = x[layout.angle(a)];
+  return out;
+}
+
+Trajectory Problem::initial_guess() const {
+  Trajectory guess = reference;
+  int standing = 0;
+  for (int contact : start_contacts) standing += contact != kFree;
+  // The paper's program starts with the weight spread over all end-effectors, hands included.
+  const bool spread = options.method == Method::paper || standing == 0 || getenv("SPREAD");
+  for (int k = 0; k < steps; ++k) {
+    VectorXd u = VectorXd::Zero(layout.nu());
+    for (int l = 0; l < layout.ends(); ++l) {
+      u.segment<3>(layout.stride(l)) = guess.x[k + 1].segment<3>(layout.end(l)) - guess.x[k].segment<3>(layout.end(l));
+      const double mu = spread ? 1.0 / layout.ends() : (start_contacts[l] != kFree ? 1.0 / standing : 0.0);
+      u[layout.stiffness(l)] = options.stiffness_input == StiffnessInput::lambda ? std::sqrt(mu) : mu;
+    }
+    u[layout.duration()] = duration_initial;
+    guess.u.push_back(u);
+  }
+  return guess;
+}
+
+void Problem::set_start(const Knot& measured, const ContactState& contacts) {
+  const VectorXd goal = reference.x.back();
+  start.setZero();
+  start.segment<3>(layout.com()) = measured.com_W / units.length;
+  start.segment<3>(layout.velocity()) = measured.com_velocity_W / units.velocity();
+  base_rpy = measured.base_rpy;
+  for (int a = 0; a < layout.axis_count(); ++a) {
+    start[layout.angle(a)] = measured.base_rpy[layout.axes()[a]];
+    start[layout.rate(a)] = measured.base_rpy_rate[layout.axes()[a]] * units.time;
+  }
+  for (int l = 0; l < layout.ends(); ++l)
+    start.segment<3>(layout.end(l)) = measured.end_effectors_W[active[l]] / units.length;
+  start_contacts = contacts;
+  const VectorXd measured_start = start;
+  start.segment<3>(layout.velocity()).setZero();
+  make_reference(goal);
+  start = measured_start;
+  reference.x.front() = start;
+}
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,129 @@
+#include "mcplan/ddp/value_functions.hpp"
+
+#include <cmath>
+
+namespace mcplan::ddp {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+ValueFunctions::ValueFunctions(LocalModel& model)
+    : model_(&model),
+      V_(model.steps() + 1),
+      U_(model.steps() + 1),
+      without_contacts_(model.steps()),
+      gain_(model.steps()),
+      offset_(model.steps()) {
+  const int nx = model.problem().layout.nx();
+  U_[0] = {0.0, VectorXd::Zero(nx), MatrixXd::Zero(nx, nx)};
+}
+
+/// Minimise a quadratic over z = [x, u] in u: u = offset - gain x, value over x.
+bool ValueFunctions::solve(Quadratic& z, Quadratic& value, MatrixXd* gain, VectorXd* offset) {
+  const Layout& at = model_->problem().layout;
+  const int nx = at.nx(), nu = at.nu();
+  factor_.compute(z.h.bottomRightCorner(nu, nu));
+  if (factor_.info() != Eigen::Success) return false;
+  // With Quu = L L', V = Qxx - Y'Y for Y = L^-1 Qux.
+  k_ = z.h.bottomLeftCorner(nu, nx);
+  factor_.matrixL().solveInPlace(k_);
+  o_ = z.g.tail(nu);
+  factor_.matrixL().solveInPlace(o_);
+  value.c = z.c - 0.5 * o_.squaredNorm();
+  value.g = z.g.head(nx);
+  value.g.noalias() -= k_.transpose() * o_;
+  value.h = z.h.topLeftCorner(nx, nx);
+  value.h.noalias() -= k_.transpose() * k_;
+  // The unstable pendulum amplifies an asymmetry of rounding size from step to step: mirror one half.
+  value.h.triangularView<Eigen::StrictlyUpper>() = value.h.transpose();
+  if (gain) {
+    *gain = k_;
+    factor_.matrixU().solveInPlace(*gain);
+  }
+  if (offset) {
+    *offset = -o_;
+    factor_.matrixU().solveInPlace(*offset);
+  }
+  return std::isfinite(value.c) && value.g.allFinite();
+}
+
+bool ValueFunctions::backward_step(int k, const ContactState& state, const Quadratic& next, Quadratic& value,
+                                   MatrixXd* gain, VectorXd* offset, Quadratic* without_contacts) {
+  const Pendulum& pendulum = model_->pendulum();
+  const PendulumStep& dynamics = model_->dynamics(k);
+  const VectorXd& defect = model_->defect(k);
+  // V'(A dx + B du + defect), with J = [A B]: H = J'V'J by two one-sided products.
+  q_ = model_->base(k);
+  pendulum.times_jacobian(dynamics, next.h, m_);
+  mt_ = m_.transpose();
+  pendulum.times_jacobian(dynamics, mt_, pushed_);
+  q_.h += pushed_;
+  w_ = next.g;
+  w_.noalias() += next.h * defect;
+  q_.c += next.c + 0.5 * defect.dot(next.g + w_);
+  pendulum.add_transposed(dynamics, w_, q_.g);
+  if (without_contacts) *without_contacts = q_;
+  model_->add_contacts(k, state, q_);
+  return solve(q_, value, gain, offset);
+}
+
+bool ValueFunctions::backward(const ContactSequence& sequence, int last) {
+  const int n = model_->steps();
+  if (last == n) {
+    V_[n] = model_->base(n);
+    model_->add_contacts(n, sequence[n], V_[n]);
+    --last;
+  }
+  for (int k = last; k >= 0; --k)
+    if (!backward_step(k, sequence[k], V_[k + 1], V_[k], &gain_[k], &offset_[k], &without_contacts_[k])) return false;
+  return true;
+}
+
+bool ValueFunctions::forward(const ContactSequence& sequence, int first) {
+  const Layout& at = model_->problem().layout;
+  const int nx = at.nx();
+  const Pendulum& pendulum = model_->pendulum();
+  for (int k = first; k < model_->steps(); ++k) {
+    const PendulumStep& dynamics = model_->dynamics(k);
+    q_ = model_->base(k);
+    model_->add_contacts(k, sequence[k], q_);
+    q_.c += U_[k].c;
+    q_.g.head(nx) += U_[k].g;
+    q_.h.topLeftCorner(nx, nx) += U_[k].h;
+    // x = A^-1 (x' - B u - defect): shift by -A^-1 defect, then substitute on both sides.
+    pendulum.apply_inverse(dynamics, model_->defect(k), w_);
+    q_.c += -q_.g.head(nx).dot(w_) + 0.5 * w_.dot(q_.h.topLeftCorner(nx, nx) * w_);
+    q_.g.noalias() -= q_.h.leftCols(nx) * w_;
+    pendulum.substitute_inverse(dynamics, q_.h);
+    mt_ = q_.h.transpose();
+    pendulum.substitute_inverse(dynamics, mt_);
+    q_.h = mt_;
+    m_ = q_.g.transpose();
+    pendulum.substitute_inverse(dynamics, m_);
+    q_.g = m_.row(0).transpose();
+    if (!solve(q_, U_[k + 1], nullptr, nullptr)) return false;
+  }
+  return true;
+}
+
+double ValueFunctions::minimum(int k) const {
+  const MatrixXd h = U_[k].h + V_[k].h;
+  const VectorXd g = U_[k].g + V_[k].g;
+  return U_[k].c + V_[k].c - 0.5 * g.dot(h.llt().solve(g));
+}
+
+void ValueFunctions::state_forward(std::vector<VectorXd>& dx, std::vector<VectorXd>& du) {
+  const int n = model_->steps();
+  dx.resize(n + 1);
+  du.resize(n);
+  factor_.compute(V_[0].h);
+  dx[0] = -factor_.solve(V_[0].g);
+  for (int k = 0; k < n; ++k) {
+    du[k] = offset_[k];
+    du[k].noalias() -= gain_[k] * dx[k];
+    model_->pendulum().apply(model_->dynamics(k), dx[k], du[k], dx[k + 1]);
+    dx[k + 1] += model_->defect(k);
+  }
+}
+
+}  // namespace mcplan::ddp
