@@ -18,7 +18,7 @@ void check_stance(const Problem& problem, Constraint constraint, const ResolvedS
   turn.z() = std::remainder(turn.z() - stance.yaw, 2.0 * M_PI);
   findings.offer(constraint, (knot.com_W - stance.com_W).norm(), place);
   findings.offer(constraint, knot.com_velocity_W.norm(), place, tolerance, "m/s");
-  findings.offer(constraint, turn.cwiseAbs().maxCoeff(), place, tolerance, "rad");
+  findings.offer(constraint, largest(turn.cwiseAbs()), place, tolerance, "rad");
   findings.offer(constraint, knot.base_rpy_rate.norm(), place, tolerance, "rad/s");
   for (int l = 0; l < problem.end_effector_count(); ++l)
     findings.offer(constraint, problem.surface(k, l) == stance.contacts[l] ? 0.0 : 1.0, problem.at_knot(k, l), 0.0,

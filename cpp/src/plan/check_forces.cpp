@@ -73,7 +73,7 @@ void check_moment_cap(const Problem& problem, Findings& findings) {
       const Contact& contact = problem.plan.phases[k].contacts[l];
       if (contact.surface < 0) continue;
       const Vector3d excess = contact.moment_W.cwiseAbs() - problem.robot.end_effectors[l].max_moment;
-      findings.offer(Constraint::moment, excess.maxCoeff(), problem.at_knot(k, l));
+      findings.offer(Constraint::moment, largest(excess), problem.at_knot(k, l));
     }
 }
 

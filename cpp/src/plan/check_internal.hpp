@@ -47,6 +47,9 @@ struct Place {
 /// value / tolerance, the measure by which two findings compare; a tolerance of 0 makes any excess infinite.
 double severity(double value, double tolerance);
 
+/// Largest entry, not a number if any is (Eigen's maxCoeff() may pass over a NaN).
+inline double largest(const Eigen::Vector3d& v) { return v.maxCoeff<Eigen::PropagateNaN>(); }
+
 class Findings {
  public:
   explicit Findings(const Tolerances& tolerances);

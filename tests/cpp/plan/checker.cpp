@@ -342,8 +342,10 @@ TEST_CASE("checker takes a heading modulo a full turn") {
   CHECK(turned.check().ok());
 }
 
-TEST_CASE("checker survives a stiffness that overflows") {
+TEST_CASE("checker survives numbers that overflow") {
   CHECK(broken([](Case& c) { c.plan.phases[2].contacts[left_foot].stiffness = 1e300; }).count("dynamics") == 1);
+  CHECK(broken([](Case& c) { c.plan.knots[2].com_W.z() = 1e308; }).count("dynamics") == 1);
+  CHECK(broken([](Case& c) { c.plan.knots[4].end_effectors_W[left_hand].y() = -1e308; }).count("reach") == 1);
 }
 
 TEST_CASE("checker throws on arrays that do not fit together") {
