@@ -85,7 +85,7 @@ void bind_robot(py::module_& m) {
   def_value(
       c, "Robot",
       {"name", "description", "mass", "inertia", "com_height", "swing_height", "end_effectors", "urdf", "posture"});
-  def_pickle(c, "mcplan.files.robots", "robot_to_dict", "robot_from_dict");
+  def_pickle(c, "mcplan.files.robots", "robot_to_dict", "rebuild_robot");
 
   m.def("addresses", &addresses, py::arg("who"), py::arg("end_effector"),
         "Whether a name or kind addresses this end-effector.");

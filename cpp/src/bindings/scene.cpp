@@ -113,7 +113,7 @@ void bind_scene(py::module_& m) {
   c.def("surface_index", &Scene::surface_index, py::arg("surface_name"), "Index into surfaces, or -1.");
   c.def("validate", &Scene::validate, "Raise InvalidScene naming the first field out of its range.");
   def_value(c, "Scene", {"name", "description", "gravity", "surfaces", "start", "goal", "rules"});
-  def_pickle(c, "mcplan.files.scenes", "scene_to_dict", "scene_from_dict");
+  def_pickle(c, "mcplan.files.scenes", "scene_to_dict", "rebuild_scene");
 }
 
 }  // namespace mcplan::bindings
