@@ -6,6 +6,7 @@
 #include "mcplan/base/rotation.hpp"
 #include "mcplan/base/status.hpp"
 #include "mcplan/plan/checker.hpp"
+#include "mcplan/plan/clearance.hpp"
 #include "mcplan/plan/plan.hpp"
 #include "mcplan/plan/report.hpp"
 #include "mcplan/robot/robot.hpp"

@@ -19,11 +19,38 @@ struct Tolerances {
   double moment = 1e-6;            ///< [N m] excess over max_moment or the torsion the contact can give
   double reach = 1e-3;             ///< [m] outside the reach box
   double clearance = 5e-3;         ///< [m] swinging end-effector inside a solid
-  double boundary = 1e-2;          ///< [m], [m/s], [rad] start and goal against the scene's
+  double boundary = 1e-2;          ///< [m], [m/s], [rad], [rad/s] start and goal against the scene's
+  double stance = 2e-2;            ///< [m] end-effectors in contact at the start off the nominal stance
+  int switches = 1;                ///< [-] contacts made or broken in one step; surface to surface counts two
   double sample_s = 1e-3;          ///< [s] sampling of the constraints in time
 };
 
-/// What the checker found: the worst place of every constraint, violated or not.
+/// What the checker found: the worst place of every constraint, violated or not. Names and meanings:
+///
+///     finite             every number of the plan is finite
+///     phase_duration     every phase lasts longer than a microsecond
+///     dynamics           f_l = m mu_l (p - s_l), gravity and contact moments, integrated by RK4 over a phase, end at the next knot
+///     at_consistency     Plan::at_phase agrees with that integration
+///     contact_distance   height of an end-effector in contact off its plane
+///     contact_polygon    its distance beyond the polygon's boundary
+///     contact_permission it may touch that surface
+///     slip               its distance from where it touched down
+///     anchor             distance of the force's anchor from the sole (from the point, without a sole)
+///     path_continuity    jump of an end-effector at a knot
+///     free_force         stiffness and moment of a free end-effector are exactly zero
+///     stiffness_sign     mu_l >= 0
+///     pull               a contact does not pull, n . f >= 0 (grasp surfaces excepted)
+///     friction           |tangential force| / (n . f) <= friction coefficient (grasp surfaces excepted)
+///     force_cap          |f_l| <= max_force
+///     moment             contact moment within max_moment and within what the sole can give
+///     reach              every end-effector, swinging or not, in its reach box about the CoM
+///     clearance          depth of a swinging end-effector in a solid
+///     sequence_switch    contacts made or broken in one step
+///     sequence_rule      the scene's contact rules, in every phase and at the end
+///     start, goal        CoM, heading and contacts of the scene's stances, at rest
+///
+/// A constraint that nothing in the plan touches stands there with value 0 and phase -1. When `finite` or
+/// `phase_duration` is violated nothing else can be evaluated, and the list ends there.
 struct CheckResult {
   std::vector<Violation> constraints;
 
@@ -34,7 +61,8 @@ struct CheckResult {
 };
 
 /// Check a plan against a scene and a robot, from its positions, forces and polygons alone.
-/// Throws InvalidPlan when the plan's arrays do not fit together.
+/// Throws InvalidPlan when the plan's arrays do not fit together or do not fit the scene and the robot, InvalidScene
+/// and InvalidRobot when these are malformed, InvalidOptions when sample_s is not positive or the plan too long for it.
 CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, const Tolerances& tolerances = {});
 
 }  // namespace mcplan

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mcplan/plan/plan.hpp"
+#include "mcplan/robot/robot.hpp"
+#include "mcplan/scene/polygon.hpp"
+#include "mcplan/scene/scene.hpp"
+
+namespace mcplan {
+
+/// The prism of `thickness` [m] below a surface: what a swinging end-effector must not enter.
+struct Solid {
+  Polygon polygon;
+  double thickness = 0.0;
+};
+
+/// One solid per surface, in the scene's order.
+std::vector<Solid> solids_of(const Scene& scene);
+
+/// Depth [m] of a point below the plane of the solid that holds it, the largest over all solids; 0 when in none.
+double clearance_depth(const std::vector<Solid>& solids, const Eigen::Vector3d& point_W);
+
+/// Frame of a sole that lies flat on a plane with this normal and heads where the base does: columns along half_size[0],
+/// along half_size[1], normal. A heading along the normal (a foot on a wall) leaves the sole's direction to the world's z.
+Eigen::Matrix3d sole_frame(const Eigen::Vector3d& normal_W, double yaw);
+
+/// The same depth for an end-effector at position_W: of the point and, with `whole_sole` and half_size above zero, of
+/// the sole's four corners.
+double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_effector,
+                       const Eigen::Vector3d& position_W, const Eigen::Matrix3d& sole_W, bool whole_sole);
+
+/// A stretch of phases in which an end-effector touches nothing, with the normals of what it leaves and reaches
+/// (the world's z where the plan starts or ends free).
+struct FreeStretch {
+  int first_phase = 0, end_phase = 0;  ///< phases first_phase .. end_phase - 1
+  double start_s = 0.0, duration_s = 0.0;
+  Eigen::Vector3d lift_normal_W = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d land_normal_W = Eigen::Vector3d::UnitZ();
+};
+
+/// The free stretches of one end-effector, read from the contact sequence.
+std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Solid>& solids, int end_effector);
+
+/// Depth [m] at s = 0..1 of a stretch. The sole turns from the one surface's normal to the other's; its corners count
+/// in the middle 80 % of the time only, since a sole may overhang an edge where it lifts off and touches down.
+double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_effector, const FreeStretch& stretch,
+                       double s, const Eigen::Vector3d& position_W, double base_yaw);
+
+/// Largest depth [m] over a stretch, sampled every `sample_s` [s]: 0 for a swing that clears the scene. Serves to choose
+/// Swing::height.
+double clearance_depth(const Plan& plan, const std::vector<Solid>& solids, int end_effector, const FreeStretch& stretch,
+                       double sample_s);
+
+}  // namespace mcplan

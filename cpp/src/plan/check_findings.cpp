@@ -1,0 +1,81 @@
+#include <cmath>
+#include <limits>
+
+#include "check_internal.hpp"
+
+namespace mcplan::checks {
+namespace {
+
+struct Row {
+  const char* name;
+  const char* unit;
+  double tolerance;
+};
+
+/// In the order of the enumeration.
+std::array<Row, kConstraints> rows(const Tolerances& t) {
+  return {{{"finite", "numbers", 0.0},
+           {"phase_duration", "s", 0.0},
+           {"dynamics", "m", t.dynamics},
+           {"at_consistency", "m", t.dynamics},
+           {"contact_distance", "m", t.contact_distance},
+           {"contact_polygon", "m", t.contact_distance},
+           {"contact_permission", "contacts", 0.0},
+           {"slip", "m", t.slip},
+           {"anchor", "m", t.contact_distance},
+           {"path_continuity", "m", t.slip},
+           {"free_force", "N", 0.0},
+           {"stiffness_sign", "1/s^2", 0.0},
+           {"pull", "N", t.force},
+           {"friction", "", t.friction},
+           {"force_cap", "", t.force_cap},
+           {"moment", "N m", t.moment},
+           {"reach", "m", t.reach},
+           {"clearance", "m", t.clearance},
+           {"sequence_switch", "switches", static_cast<double>(t.switches)},
+           {"sequence_rule", "contacts", 0.0},
+           {"start", "m", t.boundary},
+           {"goal", "m", t.boundary}}};
+}
+
+}  // namespace
+
+double severity(double value, double tolerance) {
+  if (tolerance > 0.0) return value / tolerance;
+  return value > 0.0 ? std::numeric_limits<double>::infinity() : value;
+}
+
+Findings::Findings(const Tolerances& tolerances) {
+  const auto table = rows(tolerances);
+  for (int i = 0; i < kConstraints; ++i) {
+    worst_[i].unit = table[i].unit;
+    worst_[i].tolerance = table[i].tolerance;
+  }
+}
+
+void Findings::offer(Constraint constraint, double value, const Place& place) {
+  const Worst& own = worst_[static_cast<int>(constraint)];
+  offer(constraint, value, place, own.tolerance, own.unit);
+}
+
+void Findings::offer(Constraint constraint, double value, const Place& place, double tolerance, const char* unit) {
+  if (!std::isfinite(value)) value = std::numeric_limits<double>::max();
+  Worst& worst = worst_[static_cast<int>(constraint)];
+  const double measure = severity(value, tolerance);
+  // Two infinite severities (tolerance 0) compare by value.
+  if (worst.measured && (measure < worst.severity || (measure == worst.severity && value <= worst.value))) return;
+  worst = {value, tolerance, measure, unit, place, true};
+}
+
+std::vector<Violation> Findings::violations(int count, const Robot& robot) const {
+  const auto table = rows({});
+  std::vector<Violation> out;
+  for (int i = 0; i < count; ++i) {
+    const Worst& w = worst_[i];
+    out.push_back({table[i].name, w.place.phase, w.place.end_effector < 0 ? "" : robot.end_effectors[w.place.end_effector].name,
+                   w.place.time_s, w.value, w.tolerance, w.unit});
+  }
+  return out;
+}
+
+}  // namespace mcplan::checks

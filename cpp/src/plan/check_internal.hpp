@@ -1,0 +1,157 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "mcplan/plan/checker.hpp"
+#include "mcplan/plan/clearance.hpp"
+
+/// What the files check_*.cpp share. One constraint is one small function with its equation; it offers what it measures
+/// to Findings, which keep the worst of each.
+namespace mcplan::checks {
+
+enum class Constraint {
+  finite,
+  phase_duration,
+  dynamics,
+  at_consistency,
+  contact_distance,
+  contact_polygon,
+  contact_permission,
+  slip,
+  anchor,
+  path_continuity,
+  free_force,
+  stiffness_sign,
+  pull,
+  friction,
+  force_cap,
+  moment,
+  reach,
+  clearance,
+  sequence_switch,
+  sequence_rule,
+  start,
+  goal,
+};
+constexpr int kConstraints = static_cast<int>(Constraint::goal) + 1;
+
+/// Where and when something was measured; -1: not tied to a phase or to an end-effector.
+struct Place {
+  int phase = -1;
+  int end_effector = -1;
+  double time_s = 0.0;
+};
+
+/// value / tolerance, the measure by which two findings compare; a tolerance of 0 makes any excess infinite.
+double severity(double value, double tolerance);
+
+class Findings {
+ public:
+  explicit Findings(const Tolerances& tolerances);
+
+  /// Keep this measurement if it is the worst of its constraint. Not a number counts as the largest number.
+  void offer(Constraint constraint, double value, const Place& place);
+
+  /// The same with a unit and a tolerance other than the constraint's own.
+  void offer(Constraint constraint, double value, const Place& place, double tolerance, const char* unit);
+
+  /// The first `count` constraints, in the order of the enumeration.
+  std::vector<Violation> violations(int count, const Robot& robot) const;
+
+ private:
+  struct Worst {
+    double value = 0.0, tolerance = 0.0, severity = 0.0;
+    const char* unit = "";
+    Place place;
+    bool measured = false;
+  };
+  std::array<Worst, kConstraints> worst_;
+};
+
+struct Problem {
+  const Plan& plan;
+  const Scene& scene;
+  const Robot& robot;
+  const Tolerances& tolerances;
+  std::vector<Solid> solids;                         ///< one per surface
+  std::vector<std::vector<FreeStretch>> stretches;   ///< per end-effector
+  std::vector<double> knot_times;
+
+  int phase_count() const { return static_cast<int>(plan.phases.size()); }
+  int end_effector_count() const { return static_cast<int>(robot.end_effectors.size()); }
+
+  /// Surface of an end-effector in phase k, after the last phase for k = phases.
+  int surface(int k, int l) const {
+    return k < phase_count() ? plan.phases[k].contacts[l].surface : plan.final_contacts[l];
+  }
+
+  /// The start of phase k; the end of the last phase for k = phases.
+  Place at_knot(int k, int l) const { return {k < phase_count() ? k : k - 1, l, knot_times[k]}; }
+};
+
+/// CoM and base, integrated by the checker itself.
+struct Replay {
+  Eigen::Vector3d com_W, com_velocity_W, rpy, rpy_rate;
+};
+
+/// An instant of a phase.
+struct Sample {
+  int phase = 0;
+  double since_start_s = 0.0, time_s = 0.0;
+  Replay replay;                        ///< what the checker integrated
+  Eigen::Matrix3d r_WB;                 ///< of replay.rpy
+  PlanState at;                         ///< what the plan says
+  std::vector<Eigen::Vector3d> forces_W;  ///< per end-effector, from replay.com_W [N]
+};
+
+/// check_replay.cpp: advance by h [s] with RK4 (error far below 1e-9), and the force of each contact there.
+Replay advance(const Problem& problem, int phase, const Replay& from, double h);
+void contact_forces(const Problem& problem, Sample& sample);
+void check_dynamics(const Problem& problem, const Sample& phase_end, Findings& findings);
+void check_at_consistency(const Problem& problem, const Sample& sample, Findings& findings);
+
+/// check_numbers.cpp: both return whether the rest can be evaluated.
+bool check_finite(const Problem& problem, Findings& findings);
+bool check_phase_duration(const Problem& problem, Findings& findings);
+
+/// check_contacts.cpp
+void check_contact_place(const Problem& problem, const Sample& sample, Findings& findings);
+void check_final_contact_place(const Problem& problem, const Sample& last, Findings& findings);
+void check_contact_permission(const Problem& problem, Findings& findings);
+void check_anchor(const Problem& problem, const Sample& sample, Findings& findings);
+
+/// Remembers where each end-effector touched down and was last seen.
+class Travel {
+ public:
+  void check(const Problem& problem, const Sample& sample, Findings& findings);
+
+ private:
+  std::vector<int> surface_;
+  std::vector<Eigen::Vector3d> touched_W_, last_W_;
+  int phase_ = -1;
+};
+
+/// check_forces.cpp
+void check_free_force(const Problem& problem, Findings& findings);
+void check_stiffness_sign(const Problem& problem, Findings& findings);
+void check_pull(const Problem& problem, const Sample& sample, Findings& findings);
+void check_friction(const Problem& problem, const Sample& sample, Findings& findings);
+void check_force_cap(const Problem& problem, const Sample& sample, Findings& findings);
+void check_moment_cap(const Problem& problem, Findings& findings);
+void check_sole_moment(const Problem& problem, const Sample& sample, Findings& findings);
+
+/// check_space.cpp
+void check_reach(const Problem& problem, const Sample& sample, Findings& findings);
+void check_clearance(const Problem& problem, const Sample& sample, Findings& findings);
+
+/// check_sequence.cpp
+void check_sequence_switch(const Problem& problem, Findings& findings);
+void check_sequence_rule(const Problem& problem, Findings& findings);
+
+/// check_ends.cpp
+void check_start(const Problem& problem, Findings& findings);
+void check_goal(const Problem& problem, Findings& findings);
+
+}  // namespace mcplan::checks

@@ -1,0 +1,156 @@
+#include "mcplan/plan/checker.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "check_internal.hpp"
+#include "mcplan/base/error.hpp"
+#include "mcplan/base/rotation.hpp"
+
+namespace mcplan {
+namespace {
+
+using namespace checks;
+
+void require_size(const std::string& field, std::size_t size, std::size_t wanted) {
+  if (size != wanted)
+    throw InvalidPlan(field, "must have " + std::to_string(wanted) + " entries", std::to_string(size));
+}
+
+void require_surface(const std::string& field, int surface, const Scene& scene) {
+  const int count = static_cast<int>(scene.surfaces.size());
+  if (surface < -1 || surface >= count)
+    throw InvalidPlan(field, "must be -1 or the index of a surface (below " + text(count) + ")", text(surface));
+}
+
+/// Sizes and indices alone: numbers that make no sense are violations with a name, not exceptions.
+void require_shape(const Plan& plan, const Scene& scene, const Robot& robot) {
+  const std::size_t n = plan.phases.size(), ends = robot.end_effectors.size();
+  if (n == 0) throw InvalidPlan("phases", "needs at least one phase", "none");
+  require_size("knots", plan.knots.size(), n + 1);
+  require_size("robot.end_effectors", plan.robot.end_effectors.size(), ends);
+  require_size("final_contacts", plan.final_contacts.size(), ends);
+  for (std::size_t k = 0; k <= n; ++k) {
+    const std::string field = "knots[" + std::to_string(k) + "]";
+    require_size(field + ".end_effectors", plan.knots[k].end_effectors_W.size(), ends);
+    require_size(field + ".end_effector_velocities", plan.knots[k].end_effector_velocities_W.size(), ends);
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::string field = "phases[" + std::to_string(k) + "].contacts";
+    require_size(field, plan.phases[k].contacts.size(), ends);
+    for (const Contact& contact : plan.phases[k].contacts) require_surface(field, contact.surface, scene);
+  }
+  for (int surface : plan.final_contacts) require_surface("final_contacts", surface, scene);
+  for (const Swing& swing : plan.swings)
+    if (swing.end_effector < 0 || swing.end_effector >= static_cast<int>(ends) || swing.first_phase < 0 ||
+        swing.end_phase <= swing.first_phase || swing.end_phase > static_cast<int>(n))
+      throw InvalidPlan("swings", "must name an end-effector and a range of phases", text(swing.end_effector));
+}
+
+void require_samples(const Plan& plan, const Tolerances& tolerances) {
+  if (!(std::isfinite(tolerances.sample_s) && tolerances.sample_s > 0.0))
+    throw InvalidOptions("tolerances.sample_s", "must be a positive number", text(tolerances.sample_s));
+  constexpr double kMost = 2e6;
+  const double samples = plan.duration() / tolerances.sample_s;
+  if (samples > kMost)
+    throw InvalidOptions("tolerances.sample_s", "must cut the plan into at most 2e6 samples", text(samples) + " samples");
+}
+
+void check_sample(const Problem& problem, const Sample& sample, Travel& travel, Findings& findings) {
+  check_at_consistency(problem, sample, findings);
+  check_contact_place(problem, sample, findings);
+  check_anchor(problem, sample, findings);
+  travel.check(problem, sample, findings);
+  check_pull(problem, sample, findings);
+  check_friction(problem, sample, findings);
+  check_force_cap(problem, sample, findings);
+  check_sole_moment(problem, sample, findings);
+  check_reach(problem, sample, findings);
+  check_clearance(problem, sample, findings);
+}
+
+/// Each phase is integrated from its own knot, in equal steps no longer than sample_s, and looked at after each.
+void check_motion(const Problem& problem, Findings& findings) {
+  Travel travel;
+  Sample sample;
+  for (int k = 0; k < problem.phase_count(); ++k) {
+    const Knot& knot = problem.plan.knots[k];
+    const double duration = problem.plan.phases[k].duration;
+    const int steps = std::max(1, static_cast<int>(std::ceil(duration / problem.tolerances.sample_s)));
+    sample.phase = k;
+    sample.replay = {knot.com_W, knot.com_velocity_W, knot.base_rpy, knot.base_rpy_rate};
+    for (int i = 0; i <= steps; ++i) {
+      if (i > 0) sample.replay = advance(problem, k, sample.replay, duration / steps);
+      sample.since_start_s = duration * i / steps;
+      sample.time_s = problem.knot_times[k] + sample.since_start_s;
+      sample.r_WB = rotation_from_rpy(sample.replay.rpy);
+      sample.at = problem.plan.at_phase(k, sample.since_start_s);
+      contact_forces(problem, sample);
+      check_sample(problem, sample, travel, findings);
+    }
+    check_dynamics(problem, sample, findings);
+  }
+  check_final_contact_place(problem, sample, findings);
+}
+
+}  // namespace
+
+CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, const Tolerances& tolerances) {
+  scene.validate();
+  robot.validate();
+  require_shape(plan, scene, robot);
+
+  Problem problem{plan, scene, robot, tolerances, {}, {}, {}};
+  Findings findings(tolerances);
+  if (!check_finite(problem, findings))
+    return {findings.violations(static_cast<int>(Constraint::finite) + 1, robot)};
+  if (!check_phase_duration(problem, findings))
+    return {findings.violations(static_cast<int>(Constraint::phase_duration) + 1, robot)};
+  require_samples(plan, tolerances);
+
+  problem.solids = solids_of(scene);
+  problem.knot_times = plan.knot_times();
+  for (int l = 0; l < problem.end_effector_count(); ++l)
+    problem.stretches.push_back(free_stretches(plan, problem.solids, l));
+
+  check_contact_permission(problem, findings);
+  check_free_force(problem, findings);
+  check_stiffness_sign(problem, findings);
+  check_moment_cap(problem, findings);
+  check_sequence_switch(problem, findings);
+  check_sequence_rule(problem, findings);
+  check_start(problem, findings);
+  check_goal(problem, findings);
+  check_motion(problem, findings);
+  return {findings.violations(kConstraints, robot)};
+}
+
+bool CheckResult::ok() const {
+  return std::all_of(constraints.begin(), constraints.end(), [](const Violation& v) { return v.value <= v.tolerance; });
+}
+
+std::vector<Violation> CheckResult::violations() const {
+  std::vector<Violation> out;
+  for (const Violation& v : constraints)
+    if (!(v.value <= v.tolerance)) out.push_back(v);
+  std::stable_sort(out.begin(), out.end(), [](const Violation& a, const Violation& b) {
+    return severity(a.value, a.tolerance) > severity(b.value, b.tolerance);
+  });
+  return out;
+}
+
+const Violation& CheckResult::worst() const {
+  static const Violation none;
+  if (constraints.empty()) return none;
+  return *std::max_element(constraints.begin(), constraints.end(), [](const Violation& a, const Violation& b) {
+    return severity(a.value, a.tolerance) < severity(b.value, b.tolerance);
+  });
+}
+
+std::string CheckResult::to_string() const {
+  std::string out;
+  for (const Violation& v : violations()) out += (out.empty() ? "" : "\n") + v.to_string();
+  return out.empty() ? "ok" : out;
+}
+
+}  // namespace mcplan

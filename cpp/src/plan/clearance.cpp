@@ -1,0 +1,103 @@
+#include "mcplan/plan/clearance.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace mcplan {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+std::vector<Solid> solids_of(const Scene& scene) {
+  std::vector<Solid> solids;
+  for (const Surface& surface : scene.surfaces) solids.push_back({Polygon(surface.vertices_W), surface.thickness});
+  return solids;
+}
+
+double clearance_depth(const std::vector<Solid>& solids, const Vector3d& point_W) {
+  double worst = 0.0;
+  for (const Solid& solid : solids) {
+    const double depth = -solid.polygon.height(point_W);
+    if (depth > worst && depth < solid.thickness && solid.polygon.outside(point_W) < 0.0) worst = depth;
+  }
+  return worst;
+}
+
+Matrix3d sole_frame(const Vector3d& normal_W, double yaw) {
+  const Vector3d heading(std::cos(yaw), std::sin(yaw), 0.0);
+  Vector3d along = heading - normal_W * normal_W.dot(heading);
+  if (along.norm() < 0.1) along = Vector3d::UnitZ() - normal_W * normal_W.z();
+  along.normalize();
+  Matrix3d frame;
+  frame << along, normal_W.cross(along), normal_W;
+  return frame;
+}
+
+double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_effector, const Vector3d& position_W,
+                       const Matrix3d& sole_W, bool whole_sole) {
+  double worst = clearance_depth(solids, position_W);
+  const Eigen::Vector2d& half = end_effector.half_size;
+  if (!whole_sole || half.maxCoeff() <= 0.0) return worst;
+  for (double x : {-half.x(), half.x()})
+    for (double y : {-half.y(), half.y()})
+      worst = std::max(worst, clearance_depth(solids, position_W + x * sole_W.col(0) + y * sole_W.col(1)));
+  return worst;
+}
+
+std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Solid>& solids, int end_effector) {
+  std::vector<FreeStretch> stretches;
+  const int n = static_cast<int>(plan.phases.size());
+  int before = -1;
+  double time = 0.0;
+  bool open = false;
+  for (int k = 0; k <= n; ++k) {
+    const int surface = k < n ? plan.phases[k].contacts[end_effector].surface : plan.final_contacts[end_effector];
+    if (surface < 0 && !open && k < n) {
+      stretches.emplace_back();
+      stretches.back().first_phase = k;
+      stretches.back().start_s = time;
+      if (before >= 0) stretches.back().lift_normal_W = solids[before].polygon.normal_W();
+      open = true;
+    }
+    if (open && (surface >= 0 || k == n)) {
+      stretches.back().end_phase = k;
+      stretches.back().duration_s = time - stretches.back().start_s;
+      if (surface >= 0) stretches.back().land_normal_W = solids[surface].polygon.normal_W();
+      open = false;
+    }
+    before = surface;
+    if (k < n) time += plan.phases[k].duration;
+  }
+  return stretches;
+}
+
+double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_effector, const FreeStretch& stretch,
+                       double s, const Vector3d& position_W, double base_yaw) {
+  const bool middle = s > 0.1 && s < 0.9;
+  const Vector3d normal = (1.0 - s) * stretch.lift_normal_W + s * stretch.land_normal_W;
+  // Half way between opposite walls there is no normal to turn to; the point alone counts there.
+  const double length = normal.norm();
+  if (!middle || length < 1e-6) return clearance_depth(solids, position_W);
+  return clearance_depth(solids, end_effector, position_W, sole_frame(normal / length, base_yaw), true);
+}
+
+double clearance_depth(const Plan& plan, const std::vector<Solid>& solids, int end_effector, const FreeStretch& stretch,
+                       double sample_s) {
+  double worst = 0.0, before = 0.0;
+  for (int k = stretch.first_phase; k < stretch.end_phase; ++k) {
+    const double duration = plan.phases[k].duration;
+    const int samples = std::max(1, static_cast<int>(std::ceil(duration / sample_s)));
+    for (int i = 0; i <= samples; ++i) {
+      const double tau = duration * i / samples;
+      const PlanState state = plan.at_phase(k, tau);
+      worst = std::max(worst, clearance_depth(solids, plan.robot.end_effectors[end_effector], stretch,
+                                              (before + tau) / stretch.duration_s,
+                                              state.end_effectors[end_effector].position_W, state.base_rpy.z()));
+    }
+    before += duration;
+  }
+  return worst;
+}
+
+}  // namespace mcplan
