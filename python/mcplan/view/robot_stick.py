@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .colours import BODY, HEAD, LIMB, mix
+from .colours import BODY, HEAD, LIMB, VISOR, mix
 from .figure import Figure, Part
 from .rotations import pose
 from .samples import Samples
@@ -88,7 +88,7 @@ def limbs_of(robot: Robot) -> list[Limb]:
         elif humanoid:
             root = np.array([0.0, side * 0.165 * scale, 0.37 * scale])
             bend = np.array([-1.0, 0.55 * side, -0.15])
-            limbs.append(Limb(root, bend, _scaled(scale, 0.038, 0.030, 0.024), 0.030 * scale, True))
+            limbs.append(Limb(root, bend, _scaled(scale, 0.038, 0.030, 0.024), 0.036 * scale, True))
         else:
             root = np.array([0.85 * nominal[0], 0.7 * nominal[1], 0.0])
             forward = 1.0 if nominal[0] <= 0.0 else -1.0
@@ -132,10 +132,12 @@ def _humanoid_body(scale: float, base: Array) -> list[Part]:
         (0.300, 0.088, 0.145, 0.006), (0.370, 0.074, 0.150, 0.000), (0.410, 0.052, 0.110, 0.000),
         (0.430, 0.030, 0.050, 0.000),
     ]  # fmt: skip
-    mesh = rounded_stack([(z * scale, x * scale, y * scale, shift * scale) for z, x, y, shift in torso])
+    mesh = rounded_stack([(z * scale, x * scale, y * scale, shift * scale) for z, x, y, shift in torso], refine=4)
     neck = capsule(0.07 * scale, 0.035 * scale, 0.032 * scale).moved(_shift(0.0, 0.0, 0.42 * scale))
     head = ellipsoid((0.078 * scale, 0.066 * scale, 0.096 * scale)).moved(_shift(0.012 * scale, 0.0, 0.575 * scale))
-    return [Part("torso", mesh, BODY, base), Part("neck", neck, LIMB, base), Part("head", head, HEAD, base)]
+    visor = ellipsoid((0.040 * scale, 0.054 * scale, 0.024 * scale)).moved(_shift(0.058 * scale, 0.0, 0.592 * scale))
+    meshes = {"torso": (mesh, BODY), "neck": (neck, LIMB), "head": (head, HEAD), "visor": (visor, VISOR)}
+    return [Part(f"base/{name}", shape, colour, base) for name, (shape, colour) in meshes.items()]
 
 
 def _trunk(robot: Robot, scale: float, base: Array) -> list[Part]:
@@ -147,8 +149,8 @@ def _trunk(robot: Robot, scale: float, base: Array) -> list[Part]:
     ]
     lying = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # the stack's z becomes the body's x
     trunk = rounded_stack(levels).moved(pose(lying, np.array([0.0, 0.0, 0.02 * scale])))
-    head = ellipsoid((0.06 * scale, 0.05 * scale, 0.04 * scale)).moved(_shift(1.3 * half[0], 0.0, 0.05 * scale))
-    return [Part("torso", trunk, BODY, base), Part("head", head, HEAD, base)]
+    head = ellipsoid((0.05 * scale, 0.05 * scale, 0.03 * scale)).moved(_shift(1.22 * half[0], 0.0, 0.03 * scale))
+    return [Part("base/torso", trunk, BODY, base), Part("base/head", head, VISOR, base)]
 
 
 def _foot(half_size: Array, limb: Limb, scale: float, humanoid: bool) -> Mesh:
@@ -164,7 +166,7 @@ def _foot(half_size: Array, limb: Limb, scale: float, humanoid: bool) -> Mesh:
 
 
 def _hand(limb: Limb, scale: float) -> Mesh:
-    return ellipsoid((0.042 * scale, 0.034 * scale, limb.end_offset)).moved(_shift(0.0, 0.0, limb.end_offset))
+    return ellipsoid((0.042 * scale, 0.034 * scale, 0.042 * scale)).moved(_shift(0.0, 0.0, limb.end_offset))
 
 
 def _shift(x: float, y: float, z: float) -> Array:

@@ -43,15 +43,18 @@ def prism(outline: Array, depth: float) -> Mesh:
 def loft(rings: Array, smooth: bool = True) -> Mesh:
     """Closed skin over rings (n, k, 3), each counter-clockwise seen from the last ring's side."""
     n, k, _ = rings.shape
-    vertices = np.vstack([rings.reshape(-1, 3), rings[0].mean(axis=0), rings[-1].mean(axis=0)])
+    # The caps have rims of their own: shading does not run across sharp edges.
+    centres = [rings[0].mean(axis=0), rings[-1].mean(axis=0)]
+    vertices = np.vstack([rings.reshape(-1, 3), rings[0], rings[-1], *[c[None] for c in centres]])
     faces = []
     for i in range(n - 1):
         for j in range(k):
             a, b = i * k + j, i * k + (j + 1) % k
             faces += [(a, b, b + k), (a, b + k, a + k)]
+    first, last, centre = n * k, (n + 1) * k, (n + 2) * k
     for j in range(k):
-        faces.append((n * k, (j + 1) % k, j))
-        faces.append((n * k + 1, (n - 1) * k + j, (n - 1) * k + (j + 1) % k))
+        faces.append((centre, first + (j + 1) % k, first + j))
+        faces.append((centre + 1, last + j, last + (j + 1) % k))
     return Mesh(vertices, np.array(faces), smooth)
 
 
@@ -61,7 +64,7 @@ def circle(sides: int) -> Array:
     return np.column_stack([np.cos(angle), np.sin(angle)])
 
 
-def capsule(length: float, radius_start: float, radius_end: float, sides: int = 14) -> Mesh:
+def capsule(length: float, radius_start: float, radius_end: float, sides: int = 20) -> Mesh:
     """Tapered capsule along +z, its round ends centred at z = 0 and z = length."""
     bend = np.linspace(-np.pi / 2.0, 0.0, 5)
     levels = [(radius_start * np.cos(a), radius_start * np.sin(a)) for a in bend]
@@ -71,7 +74,7 @@ def capsule(length: float, radius_start: float, radius_end: float, sides: int = 
     return loft(rings)
 
 
-def ellipsoid(radii: tuple[float, float, float], sides: int = 16) -> Mesh:
+def ellipsoid(radii: tuple[float, float, float], sides: int = 28) -> Mesh:
     """Ellipsoid about the origin, half axes [m]."""
     angles = np.linspace(-np.pi / 2.0, np.pi / 2.0, sides // 2 + 1)
     ring = circle(sides)
@@ -79,8 +82,19 @@ def ellipsoid(radii: tuple[float, float, float], sides: int = 16) -> Mesh:
     return loft(rings * np.asarray(radii))
 
 
-def rounded_stack(levels: list[tuple[float, float, float, float]], sides: int = 24) -> Mesh:
-    """Body of rounded-rectangle sections: (z, half depth along x, half width along y, shift along x) [m], bottom up."""
+def rounded_stack(levels: list[tuple[float, float, float, float]], sides: int = 28, refine: int = 1) -> Mesh:
+    """Body of rounded-rectangle sections: (z, half depth along x, half width along y, shift along x) [m], bottom up.
+
+    With `refine` > 1 as many sections follow from one level to the next, along Catmull-Rom curves.
+    """
+    if refine > 1:
+        p = np.array([levels[0], *levels, levels[-1]])
+        s = np.linspace(0.0, 1.0, refine, endpoint=False)[:, None]
+        curves = [
+            0.5 * (2 * b + (c - a) * s + (2 * a - 5 * b + 4 * c - d) * s**2 + (3 * b - a - 3 * c + d) * s**3)
+            for a, b, c, d in zip(p[:-3], p[1:-2], p[2:-1], p[3:], strict=True)
+        ]
+        levels = [tuple(row) for row in np.vstack([*curves, p[-1:]])]
     ring = circle(sides)
     square = np.sign(ring) * np.abs(ring) ** 0.6  # superellipse of exponent 10/3
     rings = [np.column_stack([x * square[:, 0] + shift, y * square[:, 1], np.full(sides, z)]) for z, x, y, shift in levels]

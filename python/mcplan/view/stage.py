@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.extras import require
+
 from .colours import rgb
-from .needs import need
 from .rotations import quat_xyzw
 from .shapes import Mesh
 
@@ -24,7 +25,10 @@ class Stage:
     """Collects what a page shows. Nodes are named by paths such as "plan/forces/left_foot"."""
 
     def __init__(self) -> None:
-        self._umsgpack = need("umsgpack", "the page", "meshcat")
+        require("mcplan.show", "view", "meshcat")
+        import umsgpack  # comes with meshcat
+
+        self._umsgpack = umsgpack
         self._commands: list[dict[str, Any]] = []
         self._clips: dict[str, list[dict[str, Any]]] = {}
         self._ids = 0
