@@ -41,7 +41,8 @@ void retire(py::handle owner, Value& member) {
 
 /// Member that holds N points: reads as a writable N x 3 view.
 template <class T, class... Extra>
-void def_points(py::class_<T, Extra...>& c, const char* name, std::vector<Eigen::Vector3d> T::*member, const char* doc) {
+void def_points(py::class_<T, Extra...>& c, const char* name, std::vector<Eigen::Vector3d> T::*member,
+                const char* doc) {
   c.def_property(
       name, [member](py::object self) { return points_view(self.cast<T&>().*member, self); },
       [member, name](py::object self, const py::object& value) {
@@ -106,7 +107,8 @@ template <class T, class... Extra>
 void def_value(py::class_<T, Extra...>& c, const std::string& name, const std::vector<std::string>& attributes) {
   c.def("__repr__", [name, attributes](py::handle self) { return paste(self, name, attributes); });
   c.def("__copy__", [](const T& self) { return T(self); });
-  c.def("__deepcopy__", [](const T& self, const py::dict&) { return T(self); }, py::arg("memo"));
+  c.def(
+      "__deepcopy__", [](const T& self, const py::dict&) { return T(self); }, py::arg("memo"));
 }
 
 /// pickle through a pair of Python functions that turn the object into plain data and back.

@@ -62,11 +62,13 @@ std::vector<Eigen::Vector3d> points_from(py::handle value, const std::string& fi
   const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
   if (!array) {
     PyErr_Clear();
-    throw InvalidInput(field, "must be an N x 3 array of numbers", py::str(py::type::handle_of(value).attr("__name__")));
+    throw InvalidInput(field, "must be an N x 3 array of numbers",
+                       py::str(py::type::handle_of(value).attr("__name__")));
   }
   if (array.size() == 0) return {};
   if (array.ndim() != 2 || array.shape(1) != 3)
-    throw InvalidInput(field, "must be an N x 3 array of numbers", "shape " + std::string(py::str(py::tuple(array.attr("shape")))));
+    throw InvalidInput(field, "must be an N x 3 array of numbers",
+                       "shape " + std::string(py::str(py::tuple(array.attr("shape")))));
   std::vector<Eigen::Vector3d> points(array.shape(0));
   for (py::ssize_t i = 0; i < array.shape(0); ++i) points[i] = {array.at(i, 0), array.at(i, 1), array.at(i, 2)};
   return points;
@@ -76,7 +78,8 @@ py::array points_view(std::vector<Eigen::Vector3d>& points, py::handle owner) {
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "rows must be contiguous");
   const py::ssize_t rows = static_cast<py::ssize_t>(points.size());
   if (rows == 0) return py::array_t<double>(std::vector<py::ssize_t>{0, 3});
-  return py::array_t<double>({rows, py::ssize_t{3}}, {3 * sizeof(double), sizeof(double)}, points.front().data(), owner);
+  return py::array_t<double>({rows, py::ssize_t{3}}, {3 * sizeof(double), sizeof(double)}, points.front().data(),
+                             owner);
 }
 
 }  // namespace mcplan::bindings

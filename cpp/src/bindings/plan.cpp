@@ -10,7 +10,8 @@ namespace {
 using Eigen::Vector3d;
 
 void bind_phases(py::module_& m) {
-  py::class_<Contact> contact(m, "Contact", "What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor).");
+  py::class_<Contact> contact(m, "Contact",
+                              "What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor).");
   contact.def(py::init([](int surface, double stiffness, const Vector3d& anchor_W, const Vector3d& moment_W) {
                 return Contact{surface, stiffness, anchor_W, moment_W};
               }),
@@ -23,7 +24,9 @@ void bind_phases(py::module_& m) {
   def_value(contact, "Contact", {"surface", "stiffness", "anchor_W", "moment_W"});
 
   py::class_<Phase> phase(m, "Phase", "A stretch of time with constant contacts.");
-  phase.def(py::init([](double duration, std::vector<Contact> contacts) { return Phase{duration, std::move(contacts)}; }),
+  phase.def(py::init([](double duration, std::vector<Contact> contacts) {
+              return Phase{duration, std::move(contacts)};
+            }),
             py::kw_only(), py::arg("duration") = 0.0, py::arg("contacts") = std::vector<Contact>());
   phase.def_readwrite("duration", &Phase::duration, "[s]");
   def_items(phase, "contacts", &Phase::contacts, "One Contact per end-effector.");
@@ -33,30 +36,32 @@ void bind_phases(py::module_& m) {
 void bind_knot(py::module_& m) {
   py::class_<Knot> knot(m, "Knot", "State at the instant between two phases.");
   const Vector3d zero = Vector3d::Zero();
-  knot.def(py::init([](const Vector3d& com_W, const Vector3d& com_velocity_W, const Vector3d& base_rpy,
-                       const Vector3d& base_rpy_rate, const py::object& end_effectors_W, const py::object& velocities_W) {
-             return Knot{com_W,
-                         com_velocity_W,
-                         base_rpy,
-                         base_rpy_rate,
-                         points_from(end_effectors_W, "end_effectors_W"),
-                         points_from(velocities_W, "end_effector_velocities_W")};
-           }),
-           py::kw_only(), py::arg("com_W") = zero, py::arg("com_velocity_W") = zero, py::arg("base_rpy") = zero,
-           py::arg("base_rpy_rate") = zero, py::arg("end_effectors_W") = py::tuple(),
-           py::arg("end_effector_velocities_W") = py::tuple());
+  knot.def(
+      py::init([](const Vector3d& com_W, const Vector3d& com_velocity_W, const Vector3d& base_rpy,
+                  const Vector3d& base_rpy_rate, const py::object& end_effectors_W, const py::object& velocities_W) {
+        return Knot{com_W,
+                    com_velocity_W,
+                    base_rpy,
+                    base_rpy_rate,
+                    points_from(end_effectors_W, "end_effectors_W"),
+                    points_from(velocities_W, "end_effector_velocities_W")};
+      }),
+      py::kw_only(), py::arg("com_W") = zero, py::arg("com_velocity_W") = zero, py::arg("base_rpy") = zero,
+      py::arg("base_rpy_rate") = zero, py::arg("end_effectors_W") = py::tuple(),
+      py::arg("end_effector_velocities_W") = py::tuple());
   knot.def_readwrite("com_W", &Knot::com_W, "[m]");
   knot.def_readwrite("com_velocity_W", &Knot::com_velocity_W, "[m/s]");
   knot.def_readwrite("base_rpy", &Knot::base_rpy, "Roll, pitch, yaw of the base [rad].");
   knot.def_readwrite("base_rpy_rate", &Knot::base_rpy_rate, "[rad/s]");
   def_points(knot, "end_effectors_W", &Knot::end_effectors_W, "One row per end-effector [m].");
   def_points(knot, "end_effector_velocities_W", &Knot::end_effector_velocities_W, "[m/s], zero at contacts.");
-  def_value(knot, "Knot", {"com_W", "com_velocity_W", "base_rpy", "base_rpy_rate", "end_effectors_W",
-                           "end_effector_velocities_W"});
+  def_value(knot, "Knot",
+            {"com_W", "com_velocity_W", "base_rpy", "base_rpy_rate", "end_effectors_W", "end_effector_velocities_W"});
 }
 
 void bind_swing(py::module_& m) {
-  py::class_<Swing> swing(m, "Swing", "A stretch of phases, first_phase to end_phase - 1, in which an end-effector is free.");
+  py::class_<Swing> swing(m, "Swing",
+                          "A stretch of phases, first_phase to end_phase - 1, in which an end-effector is free.");
   const Vector3d up = Vector3d::UnitZ();
   swing.def(py::init([](int end_effector, int first_phase, int end_phase, double height, const Vector3d& lift_normal_W,
                         const Vector3d& land_normal_W) {
@@ -93,8 +98,9 @@ void bind_state(py::module_& m) {
   state.def_readonly("base_quat_wxyz", &PlanState::base_quat_wxyz, "R_WB");
   state.def_readonly("angular_momentum_W", &PlanState::angular_momentum_W, "About the CoM [kg m^2/s].");
   def_items(state, "end_effectors", &PlanState::end_effectors, "One EndEffectorState per end-effector of the robot.");
-  def_value(state, "PlanState", {"time", "phase", "com_W", "com_velocity_W", "com_acceleration_W", "base_rpy",
-                                 "base_rpy_rate", "base_quat_wxyz", "angular_momentum_W", "end_effectors"});
+  def_value(state, "PlanState",
+            {"time", "phase", "com_W", "com_velocity_W", "com_acceleration_W", "base_rpy", "base_rpy_rate",
+             "base_quat_wxyz", "angular_momentum_W", "end_effectors"});
 }
 
 std::string describe(const Plan& plan) {
@@ -104,13 +110,14 @@ std::string describe(const Plan& plan) {
     for (int surface : row) any = any || surface >= 0;
     flights += !any;
   }
-  return "<Plan of " + plan.robot.name + " on " + plan.scene.name + ": " + std::to_string(plan.phases.size()) + " phases, " +
-         text(plan.duration()) + " s, " + std::to_string(flights) + " in flight>";
+  return "<Plan of " + plan.robot.name + " on " + plan.scene.name + ": " + std::to_string(plan.phases.size()) +
+         " phases, " + text(plan.duration()) + " s, " + std::to_string(flights) + " in flight>";
 }
 
 void bind_plan_class(py::module_& m) {
   using Ints = std::vector<int>;
-  py::class_<Plan> plan(m, "Plan", "A motion: phases with constant contacts between knots. Carries its scene and robot.");
+  py::class_<Plan> plan(m, "Plan",
+                        "A motion: phases with constant contacts between knots. Carries its scene and robot.");
   plan.def(py::init([](const Scene& scene, const Robot& robot, std::string planner, std::vector<Knot> knots,
                        std::vector<Phase> phases, Ints final_contacts, std::vector<Swing> swings) {
              Plan out;
@@ -137,16 +144,24 @@ void bind_plan_class(py::module_& m) {
   plan.def("knot_times", &Plan::knot_times, "[s], phases + 1 entries, from 0.");
   plan.def("end_effector_count", &Plan::end_effector_count);
   plan.def("contact_sequence", &Plan::contact_sequence, "Surface index per phase and end-effector, -1: free.");
-  plan.def("at", &Plan::at, py::arg("t"),
-           "PlanState at time t [s] in [0, duration], in closed form. At a knot the phase that begins there is meant (the "
-           "last one at the end). Raises InvalidInput outside.");
+  plan.def(
+      "at", &Plan::at, py::arg("t"),
+      "PlanState at time t [s] in [0, duration], in closed form. At a knot the phase that begins there is meant (the "
+      "last one at the end). Raises InvalidInput outside.");
   plan.def("at_phase", &Plan::at_phase, py::arg("k"), py::arg("since_start"),
            "PlanState `since_start` [s] after the start of phase k: says which side of a knot is meant.");
-  plan.def("validate", &Plan::validate, "Raise InvalidPlan when sizes or indices do not fit together or a number is not finite.");
-  plan.def("save", [](py::object self, py::object path) { py::module_::import("mcplan.files.plans").attr("save_plan")(self, path); },
-           py::arg("path"), "Write the plan to an .npz file.");
-  plan.def_static("load", [](py::object path) -> Plan { return py::module_::import("mcplan.files.plans").attr("load_plan")(path).cast<Plan>(); },
-                  py::arg("path"), "Read a plan written by save(). Raises InvalidPlan.");
+  plan.def("validate", &Plan::validate,
+           "Raise InvalidPlan when sizes or indices do not fit together or a number is not finite.");
+  plan.def(
+      "save",
+      [](py::object self, py::object path) { py::module_::import("mcplan.files.plans").attr("save_plan")(self, path); },
+      py::arg("path"), "Write the plan to an .npz file.");
+  plan.def_static(
+      "load",
+      [](py::object path) -> Plan {
+        return py::module_::import("mcplan.files.plans").attr("load_plan")(path).cast<Plan>();
+      },
+      py::arg("path"), "Read a plan written by save(). Raises InvalidPlan.");
   def_value(plan, "Plan", {});  // for copies; a repr that can be pasted back would be pages long
   plan.def("__repr__", &describe, py::prepend());
   def_pickle(plan, "mcplan.files.plans", "plan_to_bytes", "plan_from_bytes");
@@ -154,12 +169,13 @@ void bind_plan_class(py::module_& m) {
 
 void bind_report(py::module_& m) {
   py::class_<Violation> violation(m, "Violation", "A constraint and the place where a plan breaks it most.");
-  violation.def(py::init([](std::string name, int phase, std::string end_effector, double time_s, double value,
-                            double tolerance, std::string unit) {
-                  return Violation{std::move(name), phase, std::move(end_effector), time_s, value, tolerance, std::move(unit)};
-                }),
-                py::kw_only(), py::arg("name") = "", py::arg("phase") = -1, py::arg("end_effector") = "",
-                py::arg("time_s") = 0.0, py::arg("value") = 0.0, py::arg("tolerance") = 0.0, py::arg("unit") = "");
+  violation.def(
+      py::init([](std::string name, int phase, std::string end_effector, double time_s, double value, double tolerance,
+                  std::string unit) {
+        return Violation{std::move(name), phase, std::move(end_effector), time_s, value, tolerance, std::move(unit)};
+      }),
+      py::kw_only(), py::arg("name") = "", py::arg("phase") = -1, py::arg("end_effector") = "", py::arg("time_s") = 0.0,
+      py::arg("value") = 0.0, py::arg("tolerance") = 0.0, py::arg("unit") = "");
   violation.def_readwrite("name", &Violation::name, "E.g. 'friction'.");
   violation.def_readwrite("phase", &Violation::phase, "-1: not tied to a phase.");
   violation.def_readwrite("end_effector", &Violation::end_effector, "Empty: not tied to one.");
@@ -180,9 +196,11 @@ void bind_report(py::module_& m) {
   row.def_readonly("step", &Iteration::step, "Accepted step length.");
   row.def_readonly("switches", &Iteration::switches, "Contact switches accepted in this iteration.");
   row.def_readonly("neighbours", &Iteration::neighbours, "Candidates priced.");
-  row.def_readonly("sequence", &Iteration::sequence, "Steps x end-effectors after this iteration, if history is recorded.");
-  def_value(row, "Iteration", {"index", "cost", "merit", "defect", "contact_weight", "proximal_weight", "step", "switches",
-                               "neighbours"});
+  row.def_readonly("sequence", &Iteration::sequence,
+                   "Steps x end-effectors after this iteration, if history is recorded.");
+  def_value(
+      row, "Iteration",
+      {"index", "cost", "merit", "defect", "contact_weight", "proximal_weight", "step", "switches", "neighbours"});
 
   py::class_<Report> report(m, "Report", "How a solve went.");
   report.def_readonly("status", &Report::status);
@@ -198,8 +216,9 @@ void bind_report(py::module_& m) {
   report.def_readonly("threads", &Report::threads);
   report.def_readonly("version", &Report::version);
   def_items(report, "history", &Report::history, "One Iteration a row.");
-  def_value(report, "Report", {"status", "message", "iterations", "switches", "time_s", "cost", "cost_terms",
-                               "worst_violation", "seed", "threads", "version"});
+  def_value(report, "Report",
+            {"status", "message", "iterations", "switches", "time_s", "cost", "cost_terms", "worst_violation", "seed",
+             "threads", "version"});
 
   py::class_<PlanResult> result(m, "PlanResult", "A plan and how it was found.");
   result.def_property_readonly("plan", [](PlanResult& self) -> Plan& { return self.plan; });
@@ -210,17 +229,21 @@ void bind_report(py::module_& m) {
 void bind_checker(py::module_& m) {
   py::class_<Tolerances> c(m, "Tolerances", "Published tolerances of the checker.");
   const Tolerances d;
-  c.def(py::init([](double dynamics, double contact_distance, double slip, double friction, double force, double force_cap,
-                    double moment, double reach, double clearance, double boundary, double sample_s) {
-          return Tolerances{dynamics, contact_distance, slip, friction, force, force_cap,
-                            moment,   reach,            clearance, boundary, sample_s};
+  c.def(py::init([](double dynamics, double contact_distance, double slip, double friction, double force,
+                    double force_cap, double moment, double reach, double clearance, double boundary, double stance,
+                    int switches, double sample_s) {
+          return Tolerances{dynamics, contact_distance, slip,     friction, force,    force_cap, moment,
+                            reach,    clearance,        boundary, stance,   switches, sample_s};
         }),
         py::kw_only(), py::arg("dynamics") = d.dynamics, py::arg("contact_distance") = d.contact_distance,
         py::arg("slip") = d.slip, py::arg("friction") = d.friction, py::arg("force") = d.force,
         py::arg("force_cap") = d.force_cap, py::arg("moment") = d.moment, py::arg("reach") = d.reach,
-        py::arg("clearance") = d.clearance, py::arg("boundary") = d.boundary, py::arg("sample_s") = d.sample_s);
-  c.def_readwrite("dynamics", &Tolerances::dynamics, "[m], [m/s], [rad], [rad/s] replayed state against the next knot.");
-  c.def_readwrite("contact_distance", &Tolerances::contact_distance, "[m] end-effector in contact off its plane or polygon.");
+        py::arg("clearance") = d.clearance, py::arg("boundary") = d.boundary, py::arg("stance") = d.stance,
+        py::arg("switches") = d.switches, py::arg("sample_s") = d.sample_s);
+  c.def_readwrite("dynamics", &Tolerances::dynamics,
+                  "[m], [m/s], [rad], [rad/s] replayed state against the next knot.");
+  c.def_readwrite("contact_distance", &Tolerances::contact_distance,
+                  "[m] end-effector in contact off its plane or polygon.");
   c.def_readwrite("slip", &Tolerances::slip, "[m] travel of an end-effector while in contact.");
   c.def_readwrite("friction", &Tolerances::friction, "[-] tangential over normal force, beyond the coefficient.");
   c.def_readwrite("force", &Tolerances::force, "[N] pull of a contact, or force of a free end-effector.");
@@ -229,21 +252,29 @@ void bind_checker(py::module_& m) {
   c.def_readwrite("reach", &Tolerances::reach, "[m] outside the reach box.");
   c.def_readwrite("clearance", &Tolerances::clearance, "[m] swinging end-effector inside a solid.");
   c.def_readwrite("boundary", &Tolerances::boundary, "[m], [m/s], [rad] start and goal against the scene's.");
+  c.def_readwrite("stance", &Tolerances::stance, "[m] end-effectors in contact at the start off the nominal stance.");
+  c.def_readwrite("switches", &Tolerances::switches,
+                  "[-] contacts made or broken in one step; surface to surface counts two.");
   c.def_readwrite("sample_s", &Tolerances::sample_s, "[s] sampling of the constraints in time.");
-  def_value(c, "Tolerances", {"dynamics", "contact_distance", "slip", "friction", "force", "force_cap", "moment", "reach",
-                              "clearance", "boundary", "sample_s"});
+  def_value(c, "Tolerances",
+            {"dynamics", "contact_distance", "slip", "friction", "force", "force_cap", "moment", "reach", "clearance",
+             "boundary", "stance", "switches", "sample_s"});
 
   py::class_<CheckResult> result(m, "CheckResult", "The worst place of every constraint, violated or not.");
   def_items(result, "constraints", &CheckResult::constraints, "Tuple of Violation, violated or not.");
   result.def("ok", &CheckResult::ok);
   result.def("violations", &CheckResult::violations, "Those beyond their tolerance, worst first.");
-  result.def("worst", [](const CheckResult& self) { return self.worst(); }, "Largest value / tolerance, violated or not.");
-  result.def("raise_if_violated", [](const CheckResult& self) {
+  result.def(
+      "worst", [](const CheckResult& self) { return self.worst(); }, "Largest value / tolerance, violated or not.");
+  result.def(
+      "raise_if_violated",
+      [](const CheckResult& self) {
         if (self.ok()) return;
         const py::object type = py::module_::import("mcplan.errors").attr("PlanViolated");
         PyErr_SetObject(type.ptr(), type(self.violations()).ptr());
         throw py::error_already_set();
-      }, "Raise PlanViolated naming the worst violation, if there is one.");
+      },
+      "Raise PlanViolated naming the worst violation, if there is one.");
   result.def("__str__", &CheckResult::to_string);
   result.def("__repr__", [](const CheckResult& self) { return "<CheckResult: " + self.to_string() + ">"; });
 
@@ -254,7 +285,8 @@ void bind_checker(py::module_& m) {
         return check(plan, scene ? *scene : plan.scene, robot ? *robot : plan.robot, tolerances);
       },
       py::arg("plan"), py::arg("scene") = py::none(), py::arg("robot") = py::none(), py::arg("tolerances") = d,
-      "Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons alone. "
+      "Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons "
+      "alone. "
       "Raises InvalidPlan when its arrays do not fit together.");
 }
 
