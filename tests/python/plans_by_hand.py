@@ -171,7 +171,7 @@ def _assemble(scene, robot, steps, standing, durations, mu, cop, p, v, yaw) -> m
             lifting = not standing[i, foot] and k < n and (k == 0 or standing[k - 1, foot])
             feet.append(np.array(steps[i][1][foot] if standing[i, foot] or lifting else steps[min(k + 1, n - 1)][1][foot]))
         swing = 0.10 * np.sin(2.0 * np.pi * k / max(n, 1))
-        arms = [p[k] + [side * swing, 0.225 * side, 0.0] for side in (-1.0, 1.0)[:hands]]
+        arms = [p[k] + robot.end_effectors[2 + i].nominal_B + [swing * (2 * i - 1), 0.0, 0.0] for i in range(hands)]
         arm_velocity = [v[k]] * hands
         knots.append(
             mp.Knot(
@@ -192,3 +192,33 @@ def _assemble(scene, robot, steps, standing, durations, mu, cop, p, v, yaw) -> m
     )  # fmt: skip
     plan.validate()
     return plan
+
+
+def talos() -> mp.Robot:
+    """Talos from example-robot-data, with numbers read off its model in the half-sitting posture."""
+    import example_robot_data
+    import pinocchio as pin
+
+    wrapper = example_robot_data.load("talos")
+    model, data = wrapper.model, wrapper.data
+    pin.framesForwardKinematics(model, data, wrapper.q0)
+    com = pin.centerOfMass(model, data, wrapper.q0)
+    ends = []
+    for kind, frame, half, low, high in (
+        ("foot", "{}_sole_link", [0.10, 0.06], [-0.4, -0.12, -0.06], [0.4, 0.12, 0.3]),
+        ("hand", "gripper_{}_fingertip_1_link", [0.0, 0.0], [-0.3] * 3, [0.3] * 3),
+    ):
+        for side in ("right", "left"):
+            name = frame.format(side)
+            nominal = data.oMf[model.getFrameId(name)].translation - com
+            ends.append(
+                mp.EndEffector(
+                    name=f"{side}_{kind}", kind=kind, frame=name, half_size=half, nominal_B=nominal,
+                    reach_min_B=nominal + low, reach_max_B=nominal + high, max_force=3000.0,
+                )
+            )  # fmt: skip
+    mass = float(sum(inertia.mass for inertia in model.inertias))
+    return mp.Robot(
+        name="talos", mass=mass, inertia=[10.0, 10.0, 5.0], com_height=-float(ends[0].nominal_B[2]), swing_height=0.08,
+        end_effectors=ends, urdf="example-robot-data:talos",
+    )  # fmt: skip

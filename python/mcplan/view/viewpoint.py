@@ -32,7 +32,7 @@ def view_points(drawings: list[SurfaceDrawing], samples: Samples, robot: Robot) 
 
 def camera_direction(extent: Extent) -> Array:
     """From the right of the path and a little ahead: it runs from left to right, and faces are seen."""
-    return np.append(-1.0 * extent.left + 0.30 * extent.forward, 0.34)
+    return np.append(-1.0 * extent.left + 0.16 * extent.forward, 0.34)
 
 
 def sun_direction(extent: Extent) -> Array:
