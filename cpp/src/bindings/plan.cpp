@@ -163,8 +163,17 @@ void bind_plan_class(py::module_& m) {
       },
       py::arg("path"), "Read a plan written by save(). Raises InvalidPlan.");
   def_value(plan, "Plan", {});  // for copies; a repr that can be pasted back would be pages long
-  plan.def("__repr__", &describe, py::prepend());
+  plan.def("__repr__", py::overload_cast<const Plan&>(&describe), py::prepend());
   def_pickle(plan, "mcplan.files.plans", "plan_to_bytes", "plan_from_bytes");
+}
+
+std::string describe(const Report& report) {
+  std::string out = std::string(to_string(report.status)) + " after " + text(report.time_s) + " s (" +
+                    text(report.iterations) + " iterations, " + text(report.switches) + " switches), cost " +
+                    text(report.cost);
+  if (!report.message.empty()) out += "\n" + report.message;
+  if (!report.worst_violation.name.empty()) out += "\nclosest to its limit: " + report.worst_violation.to_string();
+  return out;
 }
 
 void bind_report(py::module_& m) {
@@ -202,7 +211,8 @@ void bind_report(py::module_& m) {
       row, "Iteration",
       {"index", "cost", "merit", "defect", "contact_weight", "proximal_weight", "step", "switches", "neighbours"});
 
-  py::class_<Report> report(m, "Report", "How a solve went.");
+  py::class_<Report> report(m, "Report", "How a solve went; str() tells it in a few lines.");
+  report.def("__str__", py::overload_cast<const Report&>(&describe));
   report.def_readonly("status", &Report::status);
   report.def_readonly("message", &Report::message);
   report.def_readonly("iterations", &Report::iterations);

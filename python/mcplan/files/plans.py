@@ -146,13 +146,11 @@ def plan_from_bytes(data: bytes) -> Plan:
 
 
 def _read_arrays(data: bytes) -> dict[str, np.ndarray]:
+    if not zipfile.is_zipfile(io.BytesIO(data)):
+        raise InvalidPlan("", "must be an .npz file written by mcplan", "no zip archive, or an incomplete one")
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as archive:
-            if not isinstance(archive, np.lib.npyio.NpzFile):
-                raise InvalidPlan("", "must be an .npz file written by mcplan", "a single array")
             return {name: archive[name] for name in archive.files}
-    except InvalidPlan:
-        raise
     except (ValueError, KeyError, EOFError, OSError, MemoryError, NotImplementedError, RuntimeError, SyntaxError,
             zipfile.BadZipFile, zlib.error) as found:  # what NumPy and zipfile raise for damaged files
         raise InvalidPlan("", "must be an .npz file written by mcplan", _first_line(found)) from None
