@@ -11,7 +11,7 @@ from .colours import COM, FORCE
 from .figure import Figure
 from .rotations import pose, with_axis_z
 from .samples import Interval, Samples
-from .shapes import Mesh, capsule, circle, cone, disc, ellipsoid, loft, plate, tube
+from .shapes import Mesh, circle, cone, disc, ellipsoid, loft, plate, tube
 
 if TYPE_CHECKING:
     from mcplan import Robot, Scene
@@ -118,17 +118,9 @@ def _draw_force(stage: Stage, end: int, samples: Samples, robot: Robot, weight: 
     stage.move(f"forces/{name}/head", samples.times_s, pose(rotation, tip), (shrink * ones)[:, None].repeat(3, axis=1), seen)
 
 
-def stance_markers(stage: Stage, scene: Scene, robot: Robot, stances: dict[str, tuple[Array, list[Array]]], colours: list[str]) -> None:
-    """Mark start and goal of a scene: a post up to the CoM and the end-effectors' places.
-
-    Args:
-        stances: By name ("start", "goal"): CoM (3,) and end-effector positions [m].
-    """
-    scale = float(robot.com_height) / 0.7
-    for name, (com, ends) in stances.items():
-        foot = com - [0.0, 0.0, float(robot.com_height)]
-        stage.mesh(f"stances/{name}/post", tube(np.array([foot, com]), 0.006 * scale), COM, 0.6)
-        stage.mesh(f"stances/{name}/com", ellipsoid((0.04 * scale,) * 3).moved(pose(np.eye(3), com)), COM)
-        for end, (position, colour) in enumerate(zip(ends, colours, strict=True)):
-            dot = capsule(1e-3, 0.03 * scale, 0.03 * scale).moved(pose(np.eye(3), position))
-            stage.mesh(f"stances/{name}/{robot.end_effectors[end].name}", dot, colour)
+def draw_standing(stage: Stage, name: str, samples: Samples, figure: Figure, opacity: float) -> None:
+    """Put a robot that does not move onto a page, under "stances"."""
+    for part in figure.parts:
+        path = f"stances/{name}/{part.name}"
+        stage.mesh(path, part.mesh, part.colour, opacity)
+        stage.place(path, part.poses[0])

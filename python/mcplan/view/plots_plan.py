@@ -58,7 +58,7 @@ def plot_gait(plan: Plan) -> Figure:
         chart.axvline(t, color="#D5DADF", linewidth=0.6, zorder=0)
     chart.grid(False)
     chart.set_yticks(range(len(names)), names, fontsize=10)
-    chart.invert_yaxis()
+    chart.set_ylim(len(names) - 0.45, -0.55)
     chart.set_xlim(0.0, plan.duration())
     label(chart, x="time [s]")
     used = sorted({interval.surface for interval in intervals})

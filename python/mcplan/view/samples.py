@@ -13,6 +13,7 @@ from .shapes import polygon_normal
 
 if TYPE_CHECKING:
     from mcplan import Plan, Robot, Scene
+    from mcplan._core import ResolvedStance
 
 Array = NDArray[np.float64]
 
@@ -74,6 +75,27 @@ def sample(plan: Plan, scene: Scene, robot: Robot, rate_hz: float = 30.0) -> Sam
         forces_W=np.array([[e.force_W for e in row] for row in ends], float),
         surfaces=np.array([[e.surface for e in row] for row in ends], int),
         intervals=intervals,
+    )
+
+
+def stance_samples(scene: Scene, robot: Robot, stance: ResolvedStance) -> Samples:
+    """A robot that stands, as a single sample."""
+    rotation = from_rpy(np.array([0.0, 0.0, float(stance.yaw)]))
+    rotations = []
+    for surface in stance.contacts:
+        touched = scene.surfaces[surface] if surface >= 0 else None
+        rotations.append(with_axis_z(polygon_normal(np.array(touched.vertices_W)), rotation[:, 0]) if touched else rotation)
+    ends = len(robot.end_effectors)
+    return Samples(
+        times_s=np.zeros(1),
+        com_W=np.array([stance.com_W], float),
+        com_velocity_W=np.zeros((1, 3)),
+        rotation_WB=rotation[None],
+        positions_W=np.array([stance.end_effectors_W], float),
+        rotations_W=np.array([rotations]),
+        forces_W=np.zeros((1, ends, 3)),
+        surfaces=np.array([stance.contacts], int),
+        intervals=[],
     )
 
 

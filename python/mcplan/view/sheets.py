@@ -52,7 +52,7 @@ def label(axes: Any, x: str = "", y: str = "", title: str = "") -> None:
     if y:
         axes.set_ylabel(y, fontsize=10, color=TEXT)
     if title:
-        axes.set_title(title, fontsize=11, color=TEXT, loc="left", fontweight="semibold")
+        axes.set_title(title, fontsize=11, color=TEXT, loc="left", fontweight="bold")
 
 
 def legend(axes: Any, **options: Any) -> None:

@@ -12,9 +12,9 @@ from .extent import extent_of
 from .figure import Figure
 from .overlay import caption, plan_legend, scene_legend, timeline
 from .page import Page
-from .plan_drawing import WEIGHT_ARROW, draw_plan, stance_markers
+from .plan_drawing import WEIGHT_ARROW, draw_plan, draw_standing
 from .robot_stick import stick_robot
-from .samples import Samples, sample
+from .samples import Samples, sample, stance_samples
 from .scene_drawing import draw_surfaces, surface_drawings
 from .stage import Stage
 from .viewpoint import camera_direction, sun_direction, view_points
@@ -69,29 +69,25 @@ def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, rep
 
 
 def show_scene(scene: Scene, robot: Robot | None = None) -> Page:
-    """Draw a scene for the browser, with start and goal marked for a robot if one is given.
+    """Draw a scene for the browser; a robot, if given, stands at the start, and pale at the goal.
 
     Raises:
+        InvalidScene: The robot cannot take the scene's start or goal.
         MissingExtra: meshcat is not installed.
     """
     extent = extent_of(scene, robot, None, length=0.9, width=0.9)
+    from mcplan._core import resolve_stance
+
     drawings = surface_drawings(scene, extent)
     stage = Stage()
     draw_surfaces(stage, drawings)
     points = [d.mesh.vertices for d in drawings]
     if robot is not None:
-        stances = {}
-        for name, stance in (("start", scene.start), ("goal", scene.goal)):
-            com = np.asarray(stance.position_W, float) + [0.0, 0.0, float(robot.com_height)]
-            turn = np.array([[np.cos(stance.yaw), -np.sin(stance.yaw)], [np.sin(stance.yaw), np.cos(stance.yaw)]])
-            ends = []
-            for end in robot.end_effectors:
-                offset = np.asarray(end.nominal_B, float).copy()
-                offset[:2] = turn @ offset[:2]
-                ends.append(com + offset)
-            stances[name] = (com, ends)
-            points += [np.array([com, *ends])]
-        stance_markers(stage, scene, robot, stances, end_effector_colours(robot))
+        colours = end_effector_colours(robot)
+        for name, stance, opacity in (("start", scene.start, 1.0), ("goal", scene.goal, 0.35)):
+            standing = stance_samples(scene, robot, resolve_stance(scene, robot, stance, name))
+            draw_standing(stage, name, standing, stick_robot(standing, robot, colours), opacity)
+            points += [standing.com_W + [0.0, 0.0, 0.95 * float(robot.com_height)], standing.positions_W[0]]
     lines = [scene.description] if scene.description else []
     lines.append(f"{len(scene.surfaces)} surfaces")
     return Page(
