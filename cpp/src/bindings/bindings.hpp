@@ -75,6 +75,14 @@ void def_items(py::class_<T, Extra...>& c, const char* name, std::vector<Element
       doc);
 }
 
+/// Member vector of fixed size: reads as a writable view.
+template <class T, class Vector, class... Extra>
+void def_vector(py::class_<T, Extra...>& c, const char* name, Vector T::*member, const char* doc) {
+  c.def_property(
+      name, [member](T& self) -> Vector& { return self.*member; },
+      [member](T& self, const Vector& value) { self.*member = value; }, doc);
+}
+
 /// Member struct: reads as a reference.
 template <class T, class Member, class... Extra>
 void def_member(py::class_<T, Extra...>& c, const char* name, Member T::*member, const char* doc) {
