@@ -5,6 +5,8 @@
 #include "mcplan/base/logging.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "mcplan/base/status.hpp"
+#include "mcplan/ddp/options.hpp"
+#include "mcplan/ddp/switched_ddp.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "mcplan/plan/clearance.hpp"
 #include "mcplan/plan/plan.hpp"

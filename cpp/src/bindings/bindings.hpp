@@ -75,6 +75,14 @@ void def_items(py::class_<T, Extra...>& c, const char* name, std::vector<Element
       doc);
 }
 
+/// Member vector of fixed size: reads as a writable view.
+template <class T, class Vector, class... Extra>
+void def_vector(py::class_<T, Extra...>& c, const char* name, Vector T::*member, const char* doc) {
+  c.def_property(
+      name, [member](T& self) -> Vector& { return self.*member; },
+      [member](T& self, const Vector& value) { self.*member = value; }, doc);
+}
+
 /// Member struct: reads as a reference.
 template <class T, class Member, class... Extra>
 void def_member(py::class_<T, Extra...>& c, const char* name, Member T::*member, const char* doc) {
@@ -114,7 +122,7 @@ void def_value(py::class_<T, Extra...>& c, const std::string& name, const std::v
 /// pickle through a pair of Python functions that turn the object into plain data and back.
 template <class T, class... Extra>
 void def_pickle(py::class_<T, Extra...>& c, const char* module, const char* to_plain, const char* from_plain) {
-  c.def("__reduce__", [module, to_plain, from_plain](py::object self) {
+  c.def("__reduce__", [module, to_plain, from_plain](py::object self) -> py::tuple {
     const py::module_ files = py::module_::import(module);
     return py::make_tuple(files.attr(from_plain), py::make_tuple(files.attr(to_plain)(self)));
   });

@@ -19,8 +19,8 @@ void bind_phases(py::module_& m) {
               py::arg("anchor_W") = Vector3d(Vector3d::Zero()), py::arg("moment_W") = Vector3d(Vector3d::Zero()));
   contact.def_readwrite("surface", &Contact::surface, "Index into scene.surfaces, -1: free.");
   contact.def_readwrite("stiffness", &Contact::stiffness, "mu [1/s^2], 0 when free.");
-  contact.def_readwrite("anchor_W", &Contact::anchor_W, "Point through which the line of force passes [m].");
-  contact.def_readwrite("moment_W", &Contact::moment_W, "Contact moment, constant over the phase [N m].");
+  def_vector(contact, "anchor_W", &Contact::anchor_W, "Point through which the line of force passes [m].");
+  def_vector(contact, "moment_W", &Contact::moment_W, "Contact moment, constant over the phase [N m].");
   def_value(contact, "Contact", {"surface", "stiffness", "anchor_W", "moment_W"});
 
   py::class_<Phase> phase(m, "Phase", "A stretch of time with constant contacts.");
@@ -49,10 +49,10 @@ void bind_knot(py::module_& m) {
       py::kw_only(), py::arg("com_W") = zero, py::arg("com_velocity_W") = zero, py::arg("base_rpy") = zero,
       py::arg("base_rpy_rate") = zero, py::arg("end_effectors_W") = py::tuple(),
       py::arg("end_effector_velocities_W") = py::tuple());
-  knot.def_readwrite("com_W", &Knot::com_W, "[m]");
-  knot.def_readwrite("com_velocity_W", &Knot::com_velocity_W, "[m/s]");
-  knot.def_readwrite("base_rpy", &Knot::base_rpy, "Roll, pitch, yaw of the base [rad].");
-  knot.def_readwrite("base_rpy_rate", &Knot::base_rpy_rate, "[rad/s]");
+  def_vector(knot, "com_W", &Knot::com_W, "[m]");
+  def_vector(knot, "com_velocity_W", &Knot::com_velocity_W, "[m/s]");
+  def_vector(knot, "base_rpy", &Knot::base_rpy, "Roll, pitch, yaw of the base [rad].");
+  def_vector(knot, "base_rpy_rate", &Knot::base_rpy_rate, "[rad/s]");
   def_points(knot, "end_effectors_W", &Knot::end_effectors_W, "One row per end-effector [m].");
   def_points(knot, "end_effector_velocities_W", &Knot::end_effector_velocities_W, "[m/s], zero at contacts.");
   def_value(knot, "Knot",
@@ -73,8 +73,8 @@ void bind_swing(py::module_& m) {
   swing.def_readwrite("first_phase", &Swing::first_phase);
   swing.def_readwrite("end_phase", &Swing::end_phase);
   swing.def_readwrite("height", &Swing::height, "[m]");
-  swing.def_readwrite("lift_normal_W", &Swing::lift_normal_W);
-  swing.def_readwrite("land_normal_W", &Swing::land_normal_W);
+  def_vector(swing, "lift_normal_W", &Swing::lift_normal_W, "Unit normal of the surface it leaves.");
+  def_vector(swing, "land_normal_W", &Swing::land_normal_W, "Unit normal of the surface it reaches.");
   def_value(swing, "Swing", {"end_effector", "first_phase", "end_phase", "height", "lift_normal_W", "land_normal_W"});
 }
 

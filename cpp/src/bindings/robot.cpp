@@ -25,13 +25,12 @@ void bind_end_effector(py::module_& m) {
   c.def_readwrite("name", &EndEffector::name);
   c.def_readwrite("kind", &EndEffector::kind, "Group that scenes may address as a whole, e.g. 'foot', 'hand'.");
   c.def_readwrite("frame", &EndEffector::frame, "URDF frame, empty for robots without a URDF.");
-  c.def_readwrite("half_size", &EndEffector::half_size,
-                  "Half length and half width of the sole [m]; 0: point contact.");
-  c.def_readwrite("nominal_B", &EndEffector::nominal_B, "Nominal position relative to the CoM [m].");
-  c.def_readwrite("reach_min_B", &EndEffector::reach_min_B, "Box of reachable positions relative to the CoM [m].");
-  c.def_readwrite("reach_max_B", &EndEffector::reach_max_B, "Box of reachable positions relative to the CoM [m].");
+  def_vector(c, "half_size", &EndEffector::half_size, "Half length and half width of the sole [m]; 0: point contact.");
+  def_vector(c, "nominal_B", &EndEffector::nominal_B, "Nominal position relative to the CoM [m].");
+  def_vector(c, "reach_min_B", &EndEffector::reach_min_B, "Box of reachable positions relative to the CoM [m].");
+  def_vector(c, "reach_max_B", &EndEffector::reach_max_B, "Box of reachable positions relative to the CoM [m].");
   c.def_readwrite("max_force", &EndEffector::max_force, "Largest norm of the contact force [N].");
-  c.def_readwrite("max_moment", &EndEffector::max_moment, "Largest contact moment about each world axis [N m].");
+  def_vector(c, "max_moment", &EndEffector::max_moment, "Largest contact moment about each world axis [N m].");
   def_value(
       c, "EndEffector",
       {"name", "kind", "frame", "half_size", "nominal_B", "reach_min_B", "reach_max_B", "max_force", "max_moment"});
@@ -73,7 +72,7 @@ void bind_robot(py::module_& m) {
   c.def_readwrite("name", &Robot::name);
   c.def_readwrite("description", &Robot::description);
   c.def_readwrite("mass", &Robot::mass, "[kg]");
-  c.def_readwrite("inertia", &Robot::inertia, "Diagonal, about the CoM, nominal posture [kg m^2].");
+  def_vector(c, "inertia", &Robot::inertia, "Diagonal, about the CoM, nominal posture [kg m^2].");
   c.def_readwrite("com_height", &Robot::com_height, "Of the CoM above the ground in the nominal stance [m].");
   c.def_readwrite("swing_height", &Robot::swing_height, "Clearance of a swinging end-effector [m].");
   def_items(c, "end_effectors", &Robot::end_effectors, "Tuple of EndEffector; assign a list to add or remove.");

@@ -67,7 +67,7 @@ void bind_stance(py::module_& m) {
         }),
         py::kw_only(), py::arg("position_W") = Eigen::Vector3d(Eigen::Vector3d::Zero()), py::arg("yaw") = 0.0,
         py::arg("contacts") = std::map<std::string, std::string>());
-  c.def_readwrite("position_W", &Stance::position_W, "Point of the ground below the CoM [m].");
+  def_vector(c, "position_W", &Stance::position_W, "Point of the ground below the CoM [m].");
   c.def_readwrite("yaw", &Stance::yaw, "Heading [rad].");
   def_names(c, "contacts", &Stance::contacts,
             "End-effector or kind -> surface; a name beats its kind. Assign a dict to change it.");

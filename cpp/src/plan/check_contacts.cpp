@@ -35,7 +35,8 @@ void check_final_contact_place(const Problem& problem, const Sample& last, Findi
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const int surface = problem.plan.final_contacts[l];
     if (surface < 0) continue;
-    offer_place(problem.solids[surface].polygon, last.at.end_effectors[l].position_W, {last.phase, l, last.time_s}, findings);
+    offer_place(problem.solids[surface].polygon, last.at.end_effectors[l].position_W, {last.phase, l, last.time_s},
+                findings);
   }
 }
 

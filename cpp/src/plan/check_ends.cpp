@@ -9,7 +9,8 @@ using Eigen::Vector3d;
 
 /// p, v, heading and contacts of a knot against a stance at rest: CoM at the stance's, v = 0, roll = pitch = 0, yaw the
 /// stance's (modulo a turn), rates 0, every end-effector on the surface that the stance names or free like it.
-void check_stance(const Problem& problem, Constraint constraint, const ResolvedStance& stance, int k, Findings& findings) {
+void check_stance(const Problem& problem, Constraint constraint, const ResolvedStance& stance, int k,
+                  Findings& findings) {
   const Knot& knot = problem.plan.knots[k];
   const double tolerance = problem.tolerances.boundary;
   const Place place = problem.at_knot(k, -1);
@@ -17,11 +18,11 @@ void check_stance(const Problem& problem, Constraint constraint, const ResolvedS
   turn.z() = std::remainder(turn.z() - stance.yaw, 2.0 * M_PI);
   findings.offer(constraint, (knot.com_W - stance.com_W).norm(), place);
   findings.offer(constraint, knot.com_velocity_W.norm(), place, tolerance, "m/s");
-  findings.offer(constraint, turn.cwiseAbs().maxCoeff(), place, tolerance, "rad");
+  findings.offer(constraint, largest(turn.cwiseAbs()), place, tolerance, "rad");
   findings.offer(constraint, knot.base_rpy_rate.norm(), place, tolerance, "rad/s");
   for (int l = 0; l < problem.end_effector_count(); ++l)
-    findings.offer(constraint, problem.surface(k, l) == stance.contacts[l] ? 0.0 : 1.0,
-                   problem.at_knot(k, l), 0.0, "contacts");
+    findings.offer(constraint, problem.surface(k, l) == stance.contacts[l] ? 0.0 : 1.0, problem.at_knot(k, l), 0.0,
+                   "contacts");
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ std::array<Row, kConstraints> rows(const Tolerances& t) {
            {"moment", "N m", t.moment},
            {"reach", "m", t.reach},
            {"clearance", "m", t.clearance},
-           {"sequence_switch", "switches", static_cast<double>(t.switches)},
+           {"sequence_switch", "switches", 0.0},
            {"sequence_rule", "contacts", 0.0},
            {"start", "m", t.boundary},
            {"goal", "m", t.boundary}}};
@@ -72,8 +72,9 @@ std::vector<Violation> Findings::violations(int count, const Robot& robot) const
   std::vector<Violation> out;
   for (int i = 0; i < count; ++i) {
     const Worst& w = worst_[i];
-    out.push_back({table[i].name, w.place.phase, w.place.end_effector < 0 ? "" : robot.end_effectors[w.place.end_effector].name,
-                   w.place.time_s, w.value, w.tolerance, w.unit});
+    out.push_back({table[i].name, w.place.phase,
+                   w.place.end_effector < 0 ? "" : robot.end_effectors[w.place.end_effector].name, w.place.time_s,
+                   w.value, w.tolerance, w.unit});
   }
   return out;
 }

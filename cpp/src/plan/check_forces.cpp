@@ -73,7 +73,7 @@ void check_moment_cap(const Problem& problem, Findings& findings) {
       const Contact& contact = problem.plan.phases[k].contacts[l];
       if (contact.surface < 0) continue;
       const Vector3d excess = contact.moment_W.cwiseAbs() - problem.robot.end_effectors[l].max_moment;
-      findings.offer(Constraint::moment, excess.maxCoeff(), problem.at_knot(k, l));
+      findings.offer(Constraint::moment, largest(excess), problem.at_knot(k, l));
     }
 }
 
@@ -92,12 +92,12 @@ void check_sole_moment(const Problem& problem, const Sample& sample, Findings& f
     const Contact& contact = problem.plan.phases[sample.phase].contacts[l];
     const Vector3d& n = problem.solids[index].polygon.normal_W();
     const Vector3d& force = sample.forces_W[l];
-    const Vector3d moment =
-        contact.moment_W + (contact.anchor_W - sample.at.end_effectors[l].position_W).cross(force);
+    const Vector3d moment = contact.moment_W + (contact.anchor_W - sample.at.end_effectors[l].position_W).cross(force);
     const double normal = std::max(n.dot(force), 0.0), torsion = n.dot(moment);
     const Place place{sample.phase, l, sample.time_s};
     findings.offer(Constraint::moment, (moment - torsion * n).norm() - half * normal, place);
-    findings.offer(Constraint::moment, std::abs(torsion) - problem.scene.surfaces[index].friction * half * normal, place);
+    findings.offer(Constraint::moment, std::abs(torsion) - problem.scene.surfaces[index].friction * half * normal,
+                   place);
   }
 }
 

@@ -47,6 +47,9 @@ struct Place {
 /// value / tolerance, the measure by which two findings compare; a tolerance of 0 makes any excess infinite.
 double severity(double value, double tolerance);
 
+/// Largest entry, not a number if any is (Eigen's maxCoeff() may pass over a NaN).
+inline double largest(const Eigen::Vector3d& v) { return v.maxCoeff<Eigen::PropagateNaN>(); }
+
 class Findings {
  public:
   explicit Findings(const Tolerances& tolerances);
@@ -75,8 +78,8 @@ struct Problem {
   const Scene& scene;
   const Robot& robot;
   const Tolerances& tolerances;
-  std::vector<Solid> solids;                         ///< one per surface
-  std::vector<std::vector<FreeStretch>> stretches;   ///< per end-effector
+  std::vector<Solid> solids;                        ///< one per surface
+  std::vector<std::vector<FreeStretch>> stretches;  ///< per end-effector
   std::vector<double> knot_times;
 
   int phase_count() const { return static_cast<int>(plan.phases.size()); }
@@ -100,9 +103,9 @@ struct Replay {
 struct Sample {
   int phase = 0;
   double since_start_s = 0.0, time_s = 0.0;
-  Replay replay;                        ///< what the checker integrated
-  Eigen::Matrix3d r_WB;                 ///< of replay.rpy
-  PlanState at;                         ///< what the plan says
+  Replay replay;                          ///< what the checker integrated
+  Eigen::Matrix3d r_WB;                   ///< of replay.rpy
+  PlanState at;                           ///< what the plan says
   std::vector<Eigen::Vector3d> forces_W;  ///< per end-effector, from replay.com_W [N]
 };
 

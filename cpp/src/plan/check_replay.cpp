@@ -35,7 +35,7 @@ Replay rk4(const Problem& problem, int phase, const Replay& from, double h) {
 void offer_difference(Constraint constraint, const Replay& a, const Replay& b, const Place& place, double tolerance,
                       Findings& findings) {
   const auto offer = [&](const Vector3d& x, const Vector3d& y, const char* unit) {
-    findings.offer(constraint, (x - y).cwiseAbs().maxCoeff(), place, tolerance, unit);
+    findings.offer(constraint, largest((x - y).cwiseAbs()), place, tolerance, unit);
   };
   offer(a.com_W, b.com_W, "m");
   offer(a.com_velocity_W, b.com_velocity_W, "m/s");
@@ -81,7 +81,7 @@ void check_at_consistency(const Problem& problem, const Sample& sample, Findings
   const double weight = problem.robot.mass * problem.scene.gravity;
   for (int l = 0; l < problem.end_effector_count(); ++l)
     findings.offer(Constraint::at_consistency,
-                   (at.end_effectors[l].force_W - sample.forces_W[l]).cwiseAbs().maxCoeff() / weight,
+                   largest((at.end_effectors[l].force_W - sample.forces_W[l]).cwiseAbs()) / weight,
                    {sample.phase, l, sample.time_s}, problem.tolerances.dynamics, "of the weight");
 }
 

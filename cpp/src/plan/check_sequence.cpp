@@ -33,8 +33,8 @@ int missing(const Problem& problem, int k, const std::vector<std::string>& who) 
 
 }  // namespace
 
-/// sum_l |sigma_{k+1,l} - sigma_{k,l}| <= 1 (Tazaki, eq. 32): one end-effector makes or breaks contact in a step, the step
-/// to the final contacts included. From surface to surface is a break and a make.
+/// sum_l |sigma_{k+1,l} - sigma_{k,l}| <= 1 (Tazaki, eq. 32): one end-effector makes or breaks contact in a step, the
+/// step to the final contacts included. From surface to surface is a break and a make.
 void check_sequence_switch(const Problem& problem, Findings& findings) {
   for (int k = 1; k <= problem.phase_count(); ++k) {
     int switches = 0, last = -1;
@@ -44,12 +44,12 @@ void check_sequence_switch(const Problem& problem, Findings& findings) {
       switches += before >= 0 && after >= 0 ? 2 : 1;
       last = l;
     }
-    findings.offer(Constraint::sequence_switch, switches, problem.at_knot(k, last));
+    findings.offer(Constraint::sequence_switch, switches - problem.tolerances.switches, problem.at_knot(k, last));
   }
 }
 
-/// If none of `when_free` touches anything, all of `require` do. A rule about end-effectors that the robot does not have
-/// asks for nothing.
+/// If none of `when_free` touches anything, all of `require` do. A rule about end-effectors that the robot does not
+/// have asks for nothing.
 void check_sequence_rule(const Problem& problem, Findings& findings) {
   for (const ContactRule& rule : problem.scene.rules)
     for (int k = 0; k <= problem.phase_count(); ++k) {

@@ -10,10 +10,8 @@ using Eigen::Vector3d;
 void check_reach(const Problem& problem, const Sample& sample, Findings& findings) {
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const EndEffector& limits = problem.robot.end_effectors[l];
-    const Vector3d relative =
-        sample.r_WB.transpose() * (sample.at.end_effectors[l].position_W - sample.replay.com_W);
-    const double beyond =
-        std::max((limits.reach_min_B - relative).maxCoeff(), (relative - limits.reach_max_B).maxCoeff());
+    const Vector3d relative = sample.r_WB.transpose() * (sample.at.end_effectors[l].position_W - sample.replay.com_W);
+    const double beyond = largest((limits.reach_min_B - relative).cwiseMax(relative - limits.reach_max_B));
     findings.offer(Constraint::reach, beyond, {sample.phase, l, sample.time_s});
   }
 }

@@ -53,7 +53,8 @@ void require_samples(const Plan& plan, const Tolerances& tolerances) {
   constexpr double kMost = 2e6;
   const double samples = plan.duration() / tolerances.sample_s;
   if (samples > kMost)
-    throw InvalidOptions("tolerances.sample_s", "must cut the plan into at most 2e6 samples", text(samples) + " samples");
+    throw InvalidOptions("tolerances.sample_s", "must cut the plan into at most 2e6 samples",
+                         text(samples) + " samples");
 }
 
 void check_sample(const Problem& problem, const Sample& sample, Travel& travel, Findings& findings) {
@@ -102,8 +103,7 @@ CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, cons
 
   Problem problem{plan, scene, robot, tolerances, {}, {}, {}};
   Findings findings(tolerances);
-  if (!check_finite(problem, findings))
-    return {findings.violations(static_cast<int>(Constraint::finite) + 1, robot)};
+  if (!check_finite(problem, findings)) return {findings.violations(static_cast<int>(Constraint::finite) + 1, robot)};
   if (!check_phase_duration(problem, findings))
     return {findings.violations(static_cast<int>(Constraint::phase_duration) + 1, robot)};
   require_samples(plan, tolerances);

@@ -113,6 +113,7 @@ std::vector<std::vector<int>> Plan::contact_sequence() const {
 }
 
 PlanState Plan::at(double t) const {
+  if (phases.empty()) throw InvalidPlan("phases", "needs at least one phase", "none");
   const double end = duration();
   constexpr double kRounding = 1e-9;
   if (!(t >= -kRounding && t <= end + kRounding))
@@ -221,10 +222,17 @@ void Plan::validate() const {
   for (int surface : final_contacts)
     if (surface < -1 || surface >= surfaces)
       throw InvalidPlan("final_contacts", "must be -1 or the index of a surface (below " + text(surfaces) + ")", text(surface));
-  for (const Swing& swing : swings)
+  for (std::size_t i = 0; i < swings.size(); ++i) {
+    const Swing& swing = swings[i];
+    const std::string field = "swings[" + std::to_string(i) + "]";
     if (swing.end_effector < 0 || swing.end_effector >= ends || swing.first_phase < 0 ||
         swing.end_phase <= swing.first_phase || swing.end_phase > n)
-      throw InvalidPlan("swings", "must name an end-effector and a range of phases", text(swing.end_effector));
+      throw InvalidPlan(field, "must name an end-effector and a range of phases",
+                        "end-effector " + text(swing.end_effector) + ", phases " + text(swing.first_phase) + " to " +
+                            text(swing.end_phase));
+    if (!(std::isfinite(swing.height) && swing.lift_normal_W.allFinite() && swing.land_normal_W.allFinite()))
+      throw InvalidPlan(field, "must be finite numbers", "nan or inf");
+  }
 }
 
 }  // namespace mcplan

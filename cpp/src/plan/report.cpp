@@ -16,7 +16,7 @@ std::string Violation::to_string() const {
   }
   out.precision(3);
   out << ": " << std::abs(value) << (unit.empty() ? "" : " ") << unit;
-  if (value > 0.0)
+  if (value >= 0.0)
     out << " over the limit (tolerance " << tolerance << ")";
   else
     out << " below the limit";

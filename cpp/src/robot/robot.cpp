@@ -39,7 +39,7 @@ void validate_end_effector(const EndEffector& e, const std::string& field) {
                          text(e.nominal_B[i]) + " outside [" + text(e.reach_min_B[i]) + ", " + text(e.reach_max_B[i]) + "]");
   }
   if (!(e.max_force > 0.0)) throw InvalidRobot(field + ".max_force", "must be a positive number", text(e.max_force));
-  if (!(e.max_moment.minCoeff() >= 0.0))
+  if (!(e.max_moment.array() >= 0.0).all())
     throw InvalidRobot(field + ".max_moment", "must be three numbers >= 0", text(e.max_moment));
 }
 

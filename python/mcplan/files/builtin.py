@@ -25,7 +25,7 @@ def find(source: str | Path, folder: str, unknown: type[UnknownName]) -> Path:
         return DATA / folder / f"{source}.toml"
     path = Path(source)
     try:
-        if path.exists():
+        if str(source) and path.exists():
             return path
     except (OSError, ValueError):  # a name too long, or with a null byte
         pass

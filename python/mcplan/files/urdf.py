@@ -8,6 +8,7 @@ How each number comes about is written in the file's header; see also ``mcplan.f
 
 from __future__ import annotations
 
+import textwrap
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -21,16 +22,19 @@ from mcplan.files.reach import Limb, explore, largest_box
 
 GRAVITY = 9.81
 FOOT_FORCE = 2.5  # of the robot's weight
+HAND_INSET_M = 0.03  # of a hand's nominal position in its box: an arm hanging down is at the edge of what it reaches
 SOLE_MOMENT = 0.0033  # of weight x CoM height: 1 N m on humanoid44
 _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
 
-HEADER = """Made by: {command}
-Mass, inertia (its diagonal, about the CoM) and com_height are those of the URDF in the SRDF's posture. Reach boxes: the
-largest box around the nominal position whose every grid point ({step} m apart for feet, twice that for hands) is reached by inverse kinematics within
-the joint limits, base upright, other limbs nominal, soles level, feet on their own side of the body; left and right
-are given the same box. max_force of feet: {foot} times the weight; of hands: the force towards the CoM that the arm's torque
-limits bear in the nominal posture (tau = J^T f plus gravity). max_moment of soles: {moment} weight x com_height, vertical."""
+HEADER = (
+    "Mass, inertia (its diagonal, about the CoM) and com_height are those of the URDF in the SRDF's posture. "
+    "Reach boxes: the largest box around the nominal position whose every grid point ({step} m apart) is reached by "
+    "inverse kinematics within the joint limits: base upright, other limbs nominal, soles level, feet on their own side "
+    "of the body. Left and right are given the same box. max_force of feet: {foot} times the weight; of hands: the "
+    "upward force that the arm's torque limits bear in the nominal posture (tau = J^T f plus gravity). A hand's nominal "
+    "position is moved {inset} m into its box. max_moment of soles: {moment} x weight x com_height, vertical."
+)
 
 
 @dataclass(frozen=True)
@@ -87,7 +91,7 @@ def robot_from_urdf(
     ends: tuple[End, ...] = (),
     srdf: str | None = None,
     swing_height: float = 0.10,
-    step: float = 0.025,
+    step: float = 0.02,
     seed: int = 0,
 ) -> Robot:
     """Work out a robot from its URDF.
@@ -97,7 +101,7 @@ def robot_from_urdf(
         ends: End-effectors; may be empty for the names in SETUPS.
         srdf: SRDF file with the nominal posture (its first one), for a URDF file; None: the neutral one.
         swing_height: For a URDF file [m].
-        step: Grid of the reach boxes of feet [m]; hands get twice that.
+        step: Grid of the reach boxes [m].
         seed: Of the random starts of inverse kinematics.
 
     Raises:
@@ -127,7 +131,7 @@ def robot_from_urdf(
     for end in ends:
         limb = limb_of(model, posture, end, ends)
         low, high = _search_box(limb.position(limb.nominal), end, com_height)
-        box = largest_box(explore(limb, low, high, step * (1 if end.kind == "foot" else 2), seed))
+        box = largest_box(explore(limb, low, high, step, seed))
         made[end.name] = (limb.position(limb.nominal), *box)
     weight = mass * GRAVITY
     return Robot(
@@ -147,9 +151,10 @@ def robot_from_urdf(
     )
 
 
-def header(command: str, step: float = 0.025) -> str:
+def header(command: str, step: float = 0.02) -> str:
     """Comment on top of a file made from a URDF: the command, and where each number comes from."""
-    return HEADER.format(command=command, step=step, foot=FOOT_FORCE, moment=SOLE_MOMENT)
+    text = HEADER.format(step=step, foot=FOOT_FORCE, inset=HAND_INSET_M, moment=SOLE_MOMENT)
+    return f"Made by: {command}\n{textwrap.fill(text, 116)}"
 
 
 def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...]) -> Limb:
@@ -213,27 +218,27 @@ def _both_sides(made: dict[str, Any], end: End, com_height: float) -> list[np.nd
         low, high = np.maximum(low, other_low), np.minimum(high, other_high)
     if end.kind == "foot":
         nominal[2] = -round(com_height, 3)  # all soles on the ground
-    low, high, nominal = low.round(3), high.round(3), nominal.round(3)
-    return [nominal, np.minimum(low, nominal), np.maximum(high, nominal)]
+    inset = 0.0 if end.kind == "foot" else HAND_INSET_M
+    low, high = low.round(3), high.round(3)
+    return [np.clip(nominal, low + inset, high - inset).round(3), low, high]
 
 
 def _end_effector(end: End, nominal: np.ndarray, low: np.ndarray, high: np.ndarray, weight: float, com_height: float,
                   model: Any, posture: np.ndarray) -> EndEffector:
-    force = FOOT_FORCE * weight if end.kind == "foot" else _arm_force(model, posture, end, nominal)
+    force = FOOT_FORCE * weight if end.kind == "foot" else _arm_force(model, posture, end)
     moment = SOLE_MOMENT * weight * com_height if any(end.half_size) else 0.0
     return EndEffector(name=end.name, kind=end.kind, frame=end.frame, half_size=end.half_size, nominal_B=nominal,
-                       reach_min_B=low, reach_max_B=high, max_force=round(force, 0), max_moment=[0, 0, round(moment, 2)])
+                       reach_min_B=low, reach_max_B=high, max_force=round(force, -1), max_moment=[0, 0, round(moment, 2)])
 
 
-def _arm_force(model: Any, posture: np.ndarray, end: End, nominal: np.ndarray) -> float:
-    """Largest contact force [N] along the line to the CoM that the limb's torque limits bear in the nominal posture."""
+def _arm_force(model: Any, posture: np.ndarray, end: End) -> float:
+    """Largest upward contact force [N] that the joints' torque limits bear in the nominal posture."""
     import pinocchio as pin
 
     data = model.createData()
     frame = model.getFrameId(end.frame)
-    jacobian = pin.computeFrameJacobian(model, data, posture, frame, pin.LOCAL_WORLD_ALIGNED)[:3, 6:]
+    per_newton = pin.computeFrameJacobian(model, data, posture, frame, pin.LOCAL_WORLD_ALIGNED)[2, 6:]
     gravity = pin.computeGeneralizedGravity(model, data, posture)[6:]
-    per_newton = jacobian.T @ (-nominal / np.linalg.norm(nominal))
     limits = model.effortLimit[6:]
     moved = np.abs(per_newton) > 1e-9
     # |gravity - force * per_newton| <= limit in every joint

@@ -22,8 +22,9 @@ std::vector<Solid> solids_of(const Scene& scene);
 /// Depth [m] of a point below the plane of the solid that holds it, the largest over all solids; 0 when in none.
 double clearance_depth(const std::vector<Solid>& solids, const Eigen::Vector3d& point_W);
 
-/// Frame of a sole that lies flat on a plane with this normal and heads where the base does: columns along half_size[0],
-/// along half_size[1], normal. A heading along the normal (a foot on a wall) leaves the sole's direction to the world's z.
+/// Frame of a sole that lies flat on a plane with this normal and heads where the base does: columns along
+/// half_size[0], along half_size[1], normal. A heading along the normal (a foot on a wall) leaves the sole's direction
+/// to the world's z.
 Eigen::Matrix3d sole_frame(const Eigen::Vector3d& normal_W, double yaw);
 
 /// The same depth for an end-effector at position_W: of the point and, with `whole_sole` and half_size above zero, of
@@ -48,8 +49,8 @@ std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Soli
 double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_effector, const FreeStretch& stretch,
                        double s, const Eigen::Vector3d& position_W, double base_yaw);
 
-/// Largest depth [m] over a stretch, sampled every `sample_s` [s]: 0 for a swing that clears the scene. Serves to choose
-/// Swing::height.
+/// Largest depth [m] over a stretch, sampled every `sample_s` [s]: 0 for a swing that clears the scene. Serves to
+/// choose Swing::height.
 double clearance_depth(const Plan& plan, const std::vector<Solid>& solids, int end_effector, const FreeStretch& stretch,
                        double sample_s);
 

@@ -1,0 +1,28 @@
+#include "mcplan/base/error.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace mcplan;
+
+TEST_CASE("an error names field, rule and value") {
+  const InvalidScene error("surfaces[3].vertices", "needs at least 3 points", text(2));
+  CHECK(std::string(error.what()) == "surfaces[3].vertices: needs at least 3 points, got 2");
+  CHECK(error.field() == "surfaces[3].vertices");
+  CHECK(error.rule() == "needs at least 3 points");
+  CHECK(error.value() == "2");
+}
+
+TEST_CASE("typed errors are caught as bad input") {
+  CHECK_THROWS_AS(throw InvalidScene("a", "b", "c"), InvalidInput);
+  CHECK_THROWS_AS(throw InvalidRobot("a", "b", "c"), InvalidInput);
+  CHECK_THROWS_AS(throw InvalidOptions("a", "b", "c"), InvalidInput);
+  CHECK_THROWS_AS(throw InvalidPlan("a", "b", "c"), std::invalid_argument);
+}
+
+TEST_CASE("values are written short") {
+  CHECK(text(0.25) == "0.25");
+  CHECK(text(-3) == "-3");
+  CHECK(text(std::string("stares")) == "'stares'");
+  CHECK(text(Eigen::Vector3d(1, 0.5, -2)) == "[1, 0.5, -2]");
+  CHECK(text(Eigen::VectorXd()) == "[]");
+}

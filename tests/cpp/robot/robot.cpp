@@ -1,0 +1,158 @@
+#include "mcplan/robot/robot.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "mcplan/base/error.hpp"
+
+namespace {
+
+using Eigen::Vector3d;
+using mcplan::Robot;
+using mcplan::Scene;
+using mcplan::Stance;
+
+Robot hopper() {
+  Robot robot;
+  robot.name = "hopper";
+  robot.mass = 10.0;
+  robot.com_height = 0.5;
+  mcplan::EndEffector foot;
+  foot.name = "left";
+  foot.nominal_B = {0.1, 0.2, -0.5};
+  foot.reach_min_B = {-0.3, -0.3, -0.7};
+  foot.reach_max_B = {0.3, 0.3, -0.3};
+  robot.end_effectors.push_back(foot);
+  foot.name = "right";
+  foot.nominal_B.y() = -0.2;
+  robot.end_effectors.push_back(foot);
+  return robot;
+}
+
+Scene floor_and_wall() {
+  Scene scene;
+  scene.surfaces.resize(2);
+  scene.surfaces[0].name = "floor";
+  scene.surfaces[0].vertices_W = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  scene.surfaces[1].name = "wall";
+  scene.surfaces[1].vertices_W = {{1, -1, 0}, {1, -1, 2}, {1, 1, 2}, {1, 1, 0}};
+  scene.surfaces[1].end_effectors = {"right"};
+  return scene;
+}
+
+std::string field(const std::function<void(Robot&)>& mutate) {
+  Robot robot = hopper();
+  mutate(robot);
+  try {
+    robot.validate();
+  } catch (const mcplan::InvalidRobot& error) {
+    return error.field();
+  }
+  return "accepted";
+}
+
+std::string stance_field(const Stance& stance) {
+  try {
+    mcplan::resolve_stance(floor_and_wall(), hopper(), stance, "goal");
+  } catch (const mcplan::InvalidScene& error) {
+    return error.field();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("a valid robot is accepted, without a force cap too") {
+  CHECK(field([](Robot&) {}) == "accepted");
+  CHECK(std::isinf(hopper().end_effectors[0].max_force));
+}
+
+TEST_CASE("numbers of robots out of range are named") {
+  const auto all_bad = [](const std::string& name, const std::function<void(Robot&, double)>& set) {
+    for (double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+      CAPTURE(bad);
+      CHECK(field([&](Robot& r) { set(r, bad); }) == name);
+    }
+  };
+  all_bad("mass", [](Robot& r, double bad) { r.mass = bad; });
+  all_bad("inertia[1]", [](Robot& r, double bad) { r.inertia.y() = bad; });
+  all_bad("com_height", [](Robot& r, double bad) { r.com_height = bad; });
+  all_bad("swing_height", [](Robot& r, double bad) { r.swing_height = bad; });
+}
+
+TEST_CASE("end-effectors out of range are named") {
+  const auto end = [](const std::function<void(mcplan::EndEffector&)>& mutate) {
+    return field([&](Robot& r) { mutate(r.end_effectors[1]); });
+  };
+  const double nan = std::nan("");
+  CHECK(end([](auto& e) { e.name = ""; }) == "end_effectors[1].name");
+  CHECK(end([](auto& e) { e.name = "left"; }) == "end_effectors[1].name");
+  CHECK(end([](auto& e) { e.kind = ""; }) == "end_effectors[1].kind");
+  CHECK(end([](auto& e) { e.half_size.x() = -0.1; }) == "end_effectors[1].half_size");
+  CHECK(end([&](auto& e) { e.half_size.y() = nan; }) == "end_effectors[1].half_size");
+  CHECK(end([&](auto& e) { e.nominal_B.x() = nan; }) == "end_effectors[1].nominal");
+  CHECK(end([](auto& e) { e.nominal_B.z() = 0.0; }) == "end_effectors[1].nominal");
+  CHECK(end([](auto& e) { e.reach_min_B.x() = -INFINITY; }) == "end_effectors[1].reach_min");
+  CHECK(end([](auto& e) { e.reach_max_B.z() = -0.7; }) == "end_effectors[1].reach_max");
+  for (double bad : {0.0, -5.0, nan}) CHECK(end([&](auto& e) { e.max_force = bad; }) == "end_effectors[1].max_force");
+  for (double bad : {-1.0, nan})
+    for (int axis : {0, 1, 2}) CHECK(end([&](auto& e) { e.max_moment[axis] = bad; }) == "end_effectors[1].max_moment");
+}
+
+TEST_CASE("a robot has one to eight end-effectors") {
+  CHECK(field([](Robot& r) { r.end_effectors.clear(); }) == "end_effectors");
+  CHECK(field([](Robot& r) { r.end_effectors.assign(9, r.end_effectors[0]); }) == "end_effectors");
+}
+
+TEST_CASE("end-effectors are addressed by name or kind") {
+  const Robot robot = hopper();
+  CHECK(robot.end_effector_index("right") == 1);
+  CHECK(robot.end_effector_index("foot") == -1);
+  CHECK(mcplan::addresses("foot", robot.end_effectors[0]));
+  CHECK(mcplan::addresses("left", robot.end_effectors[0]));
+  CHECK_FALSE(mcplan::addresses("right", robot.end_effectors[0]));
+  const Scene scene = floor_and_wall();
+  CHECK(mcplan::may_touch(scene.surfaces[0], robot.end_effectors[0]));
+  CHECK_FALSE(mcplan::may_touch(scene.surfaces[1], robot.end_effectors[0]));
+  CHECK(mcplan::may_touch(scene.surfaces[1], robot.end_effectors[1]));
+}
+
+TEST_CASE("a stance takes its heights from the robot and turns with the heading") {
+  Stance stance;
+  stance.position_W = {0.1, -0.2, 0.0};
+  stance.yaw = M_PI / 2;
+  stance.contacts = {{"foot", "floor"}};
+  const auto resolved = mcplan::resolve_stance(floor_and_wall(), hopper(), stance, "start");
+  CHECK(resolved.com_W.isApprox(Vector3d(0.1, -0.2, 0.5)));
+  CHECK(resolved.yaw == stance.yaw);
+  CHECK(resolved.contacts == std::vector<int>{0, 0});
+  // A quarter turn takes (0.1, 0.2) to (-0.2, 0.1).
+  CHECK(resolved.end_effectors_W[0].isApprox(Vector3d(-0.1, -0.1, 0.0), 1e-12));
+  CHECK(resolved.end_effectors_W[1].isApprox(Vector3d(0.3, -0.1, 0.0), 1e-12));
+}
+
+TEST_CASE("in a stance a name beats its kind, and who is not named is free at its nominal place") {
+  Stance stance;
+  stance.contacts = {{"foot", "floor"}, {"right", "wall"}};
+  const auto resolved = mcplan::resolve_stance(floor_and_wall(), hopper(), stance, "start");
+  CHECK(resolved.contacts == std::vector<int>{0, 1});
+  CHECK(resolved.end_effectors_W[1].x() == doctest::Approx(1.0));
+  stance.contacts = {{"left", "floor"}};
+  stance.position_W.z() = 0.3;
+  const auto one = mcplan::resolve_stance(floor_and_wall(), hopper(), stance, "start");
+  CHECK(one.contacts == std::vector<int>{0, -1});
+  CHECK(one.end_effectors_W[1].isApprox(Vector3d(0.1, -0.2, 0.3), 1e-12));
+  CHECK(one.end_effectors_W[0].z() == doctest::Approx(0.0));
+}
+
+TEST_CASE("stances that the robot cannot take are named") {
+  Stance stance;
+  stance.contacts = {{"tail", "floor"}};
+  CHECK(stance_field(stance) == "goal.contacts");
+  stance.contacts = {{"left", "ceiling"}};
+  CHECK(stance_field(stance) == "goal.contacts.left");
+  stance.contacts = {{"foot", "wall"}};
+  CHECK(stance_field(stance) == "goal.contacts.left");
+}

@@ -1,0 +1,182 @@
+"""Dependencies run one way (docs/architecture.md): C++ rooms by includes, Python rooms by imports."""
+
+from __future__ import annotations
+
+import ast
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+HEADERS, SOURCES, PACKAGE = ROOT / "cpp/include/mcplan", ROOT / "cpp/src", ROOT / "python/mcplan"
+
+# room -> the rooms that it may include, beside itself
+CPP_ROOMS = {
+    "base": set(),
+    "scene": {"base"},
+    "robot": {"base", "scene"},
+    "plan": {"base", "scene", "robot"},  # the checker with it: it sees no planner
+    "ddp": {"base", "scene", "robot", "plan"},
+    "nlp": {"base"},
+    "rhp": {"base", "scene", "robot", "plan", "nlp"},
+    "sip": {"base", "scene", "robot", "plan", "nlp"},
+}
+OPENMP_ROOMS = {"ddp", "rhp", "sip"}
+
+# room (a module or folder of the package) -> the rooms that it may import, beside itself; "" is the package's
+# front, which others import for annotations only
+_GROUND = {"_core", "errors", "extras"}
+PYTHON_ROOMS = {
+    "_core": set(),
+    "errors": set(),
+    "extras": {"errors"},
+    "files": _GROUND,
+    "solve": _GROUND | {"files"},
+    "view": _GROUND | {"files"},
+    "tracking": _GROUND | {"files"},
+    "reproduce": _GROUND | {"files", "solve", "view", "tracking", ""},
+    "cli": _GROUND | {"files", "solve", "view", "tracking", "reproduce", ""},
+    "": _GROUND | {"files", "solve", "view", "tracking"},
+}
+HEAVY = {"crocoddyl", "example_robot_data", "imageio", "matplotlib", "meshcat", "mink", "mujoco"}
+HEAVY |= {"PIL", "pink", "pinocchio", "proxsuite", "scipy"}
+
+
+def cpp_files() -> Iterator[tuple[str, Path]]:
+    """Room and path of every public header and every source of a room."""
+    for top in (HEADERS, SOURCES):
+        for path in sorted(top.glob("*/**/*.[ch]pp")):
+            room = path.relative_to(top).parts[0]
+            if room != "bindings":
+                yield room, path
+
+
+def quoted_includes(text: str) -> list[str]:
+    return re.findall(r'^\s*#\s*include\s+"([^"]+)"', text, flags=re.MULTILINE)
+
+
+def forbidden_includes(room: str, text: str) -> list[str]:
+    """Includes of `text` that a file of this room may not have: other rooms, paths that leave its folder."""
+    bad = []
+    for include in quoted_includes(text):
+        parts = include.split("/")
+        if parts[0] == "mcplan" and len(parts) > 2:
+            if parts[1] != room and parts[1] not in CPP_ROOMS[room]:
+                bad.append(include)
+        elif include != "mcplan/version.hpp" and len(parts) > 1:
+            bad.append(include)
+    return bad
+
+
+def test_cpp_rooms_include_only_what_they_may() -> None:
+    checked = 0
+    for room, path in cpp_files():
+        assert room in CPP_ROOMS, f"{path}: give the room its place in CPP_ROOMS and docs/architecture.md"
+        assert forbidden_includes(room, path.read_text()) == [], path
+        checked += 1
+    assert checked > 20
+
+
+def test_an_include_in_the_wrong_direction_is_seen() -> None:
+    assert forbidden_includes("plan", '#include "mcplan/ddp/options.hpp"\n') == ["mcplan/ddp/options.hpp"]
+    assert forbidden_includes("rhp", '  # include "mcplan/sip/spline.hpp"') == ["mcplan/sip/spline.hpp"]
+    assert forbidden_includes("scene", '#include "../robot/inner.hpp"') == ["../robot/inner.hpp"]
+    assert forbidden_includes("nlp", '#include "mcplan/ddp/costs/a.hpp"') == ["mcplan/ddp/costs/a.hpp"]
+    assert forbidden_includes("base", '#include "mcplan/mcplan.hpp"') == ["mcplan/mcplan.hpp"]
+    legal = '#include <vector>\n#include "mcplan/scene/scene.hpp"\n#include "beside.hpp"\n'
+    assert forbidden_includes("robot", legal) == []
+
+
+def test_the_rooms_have_no_cycle() -> None:
+    for rooms in (CPP_ROOMS, {room: to for room, to in PYTHON_ROOMS.items() if room}):
+        left = dict(rooms)
+        while left:
+            lowest = [room for room, to in left.items() if not (to - {""}) & left.keys()]
+            assert lowest, f"cycle among {sorted(left)}"
+            for room in lowest:
+                del left[room]
+
+
+def test_ipopt_is_included_in_one_source_of_nlp_at_most() -> None:
+    ipopt = re.compile(r"#\s*include\s*[<\"][^>\"]*Ip[A-Z]\w+\.hpp")
+    users = [path for _, path in cpp_files() if ipopt.search(path.read_text())]
+    assert len(users) <= 1
+    assert all(path.is_relative_to(SOURCES / "nlp") and path.suffix == ".cpp" for path in users)
+
+
+def test_openmp_stays_where_problems_are_evaluated() -> None:
+    for room, path in cpp_files():
+        if re.search(r"#\s*(pragma\s+omp|include\s*<omp\.h>)", path.read_text()):
+            assert room in OPENMP_ROOMS, path
+
+
+def test_mcplan_hpp_includes_every_public_header() -> None:
+    every = {str(path.relative_to(HEADERS.parent)) for path in HEADERS.rglob("*.hpp")}
+    assert set(quoted_includes((HEADERS / "mcplan.hpp").read_text())) == every - {"mcplan/mcplan.hpp"}
+
+
+def room_of(module: str) -> str:
+    """Room of a dotted name inside the package; "" for the front itself and for names that it exports."""
+    name = module.split(".")[1] if "." in module else ""
+    return name if name in PYTHON_ROOMS else ""
+
+
+def imported(tree: ast.AST, package: str) -> Iterator[str]:
+    """Dotted names that a module of `package` imports anywhere, except under `if TYPE_CHECKING:`."""
+    for node in ast.iter_child_nodes(tree):
+        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
+            continue
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = package.split(".")[: len(package.split(".")) - node.level + 1] if node.level else []
+            origin = ".".join(base + ([node.module] if node.module else []))
+            yield from (f"{origin}.{alias.name}" for alias in node.names)
+        else:
+            yield from imported(node, package)
+
+
+def forbidden_imports(room: str, text: str, package: str) -> list[str]:
+    """Names of the package that a module of this room may not import."""
+    return [
+        name
+        for name in imported(ast.parse(text), package)
+        if name.split(".")[0] == "mcplan" and room_of(name) not in PYTHON_ROOMS[room] | {room}
+    ]
+
+
+def test_python_rooms_import_only_what_they_may() -> None:
+    modules = sorted(PACKAGE.rglob("*.py"))
+    for path in modules:
+        inside = path.relative_to(PACKAGE)
+        room = "" if inside == Path("__init__.py") else inside.parts[0].removesuffix(".py")
+        assert room in PYTHON_ROOMS, f"{inside}: give it its place in PYTHON_ROOMS and docs/architecture.md"
+        package = ".".join(("mcplan", *inside.parts[:-1]))
+        assert forbidden_imports(room, path.read_text(), package) == [], inside
+    assert modules
+
+
+def test_an_import_in_the_wrong_direction_is_seen() -> None:
+    lazy = "def f():\n    from mcplan.cli import main"
+    assert forbidden_imports("files", lazy, "mcplan.files") == ["mcplan.cli.main"]
+    assert forbidden_imports("view", "from ..tracking import run", "mcplan.view") == ["mcplan.tracking.run"]
+    assert forbidden_imports("view", "from .. import tracking", "mcplan.view") == ["mcplan.tracking"]
+    assert forbidden_imports("files", "import mcplan", "mcplan.files") == ["mcplan"]
+    assert forbidden_imports("view", "from .page import Page\nimport numpy", "mcplan.view") == []
+    assert forbidden_imports("view", "if TYPE_CHECKING:\n    from mcplan import Plan", "mcplan.view") == []
+
+
+@pytest.mark.parametrize("module", ["mcplan", "mcplan.cli"])
+def test_importing_loads_nothing_heavy(module: str) -> None:
+    code = f"import sys, {module}; print(*{{name.split('.')[0] for name in sys.modules}})"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    assert run.returncode == 0, run.stderr
+    loaded = set(run.stdout.split())
+    assert "mcplan" in loaded
+    assert not loaded & HEAVY
+    if module == "mcplan":
+        assert not loaded & {"pydantic", "typer", "rich"}
