@@ -59,11 +59,11 @@ def plan(
     if output is not None:
         result.plan.save(output)
     if html is not None:
-        mcplan.show(result.plan).save_html(html)
+        mcplan.show(result.plan, report=result.report).save_html(html)
     if plots is not None:
         from mcplan.view.plots import save_plots
 
-        save_plots(result, plots)
+        save_plots(result.plan, result.report, plots)
     print(json_module.dumps(summary(result)) if json else report_text(result, [output, html, plots]))
     return 0 if str(result.report.status) == "solved" else 1
 
