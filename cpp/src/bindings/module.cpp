@@ -1,0 +1,99 @@
+#include "bindings.hpp"
+#include "mcplan/version.hpp"
+
+namespace mcplan::bindings {
+namespace {
+
+/// Raises the class of that name from mcplan.errors with the three parts of the C++ error.
+void raise(const char* name, const InvalidInput& error) {
+  const py::object type = py::module_::import("mcplan.errors").attr(name);
+  const py::object value = type(error.field(), error.rule(), error.value());
+  PyErr_SetObject(type.ptr(), value.ptr());
+}
+
+void translate(std::exception_ptr pointer) {
+  try {
+    if (pointer) std::rethrow_exception(pointer);
+  } catch (const InvalidScene& error) {
+    raise("InvalidScene", error);
+  } catch (const InvalidRobot& error) {
+    raise("InvalidRobot", error);
+  } catch (const InvalidOptions& error) {
+    raise("InvalidOptions", error);
+  } catch (const InvalidPlan& error) {
+    raise("InvalidPlan", error);
+  } catch (const InvalidInput& error) {
+    raise("InvalidInput", error);
+  }
+}
+
+}  // namespace
+
+std::string paste(py::handle value) {
+  if (py::isinstance<py::float_>(value)) {
+    const std::string text = py::repr(value);
+    return text.find_first_of("0123456789") == std::string::npos ? "float('" + text + "')" : text;
+  }
+  if (py::hasattr(value, "tolist")) return paste(value.attr("tolist")());
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+    std::string out;
+    for (py::handle item : value) out += (out.empty() ? "" : ", ") + paste(item);
+    return "[" + out + "]";
+  }
+  if (py::hasattr(value, "items")) {
+    std::string out;
+    for (py::handle item : value.attr("items")()) {
+      const auto [key, entry] = item.cast<std::pair<py::object, py::object>>();
+      out += (out.empty() ? "" : ", ") + paste(key) + ": " + paste(entry);
+    }
+    return "{" + out + "}";
+  }
+  return py::repr(value);
+}
+
+std::string paste(py::handle self, const std::string& name, const std::vector<std::string>& attributes) {
+  std::string out;
+  for (const std::string& attribute : attributes)
+    out += (out.empty() ? "" : ", ") + attribute + "=" + paste(self.attr(attribute.c_str()));
+  return name + "(" + out + ")";
+}
+
+std::vector<Eigen::Vector3d> points_from(py::handle value, const std::string& field) {
+  const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
+  if (!array) {
+    PyErr_Clear();
+    throw InvalidInput(field, "must be an N x 3 array of numbers",
+                       py::str(py::type::handle_of(value).attr("__name__")));
+  }
+  if (array.size() == 0) return {};
+  if (array.ndim() != 2 || array.shape(1) != 3)
+    throw InvalidInput(field, "must be an N x 3 array of numbers",
+                       "shape " + std::string(py::str(py::tuple(array.attr("shape")))));
+  std::vector<Eigen::Vector3d> points(array.shape(0));
+  for (py::ssize_t i = 0; i < array.shape(0); ++i) points[i] = {array.at(i, 0), array.at(i, 1), array.at(i, 2)};
+  return points;
+}
+
+py::array points_view(std::vector<Eigen::Vector3d>& points, py::handle owner) {
+  static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "rows must be contiguous");
+  const py::ssize_t rows = static_cast<py::ssize_t>(points.size());
+  if (rows == 0) return py::array_t<double>(std::vector<py::ssize_t>{0, 3});
+  return py::array_t<double>({rows, py::ssize_t{3}}, {3 * sizeof(double), sizeof(double)}, points.front().data(),
+                             owner);
+}
+
+}  // namespace mcplan::bindings
+
+PYBIND11_MODULE(_core, m) {
+  namespace py = pybind11;
+  using namespace mcplan::bindings;
+
+  m.doc() = "The compiled part of mcplan: the C++ classes under the same names. SI units, world frame W with z up.";
+  m.attr("__version__") = MCPLAN_VERSION;
+  py::register_exception_translator(translate);
+  bind_base(m);
+  bind_scene(m);
+  bind_robot(m);
+  bind_plan(m);
+  // The planners' rooms go here, one line each: they may use everything above.
+}

@@ -1,0 +1,315 @@
+#include "mcplan/plan/plan.hpp"
+
+#include "bindings.hpp"
+#include "mcplan/plan/checker.hpp"
+#include "mcplan/plan/report.hpp"
+
+namespace mcplan::bindings {
+namespace {
+
+using Eigen::Vector3d;
+
+void bind_phases(py::module_& m) {
+  py::class_<Contact> contact(m, "Contact",
+                              "What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor).");
+  contact.def(py::init([](int surface, double stiffness, const Vector3d& anchor_W, const Vector3d& moment_W) {
+                return Contact{surface, stiffness, anchor_W, moment_W};
+              }),
+              py::kw_only(), py::arg("surface") = -1, py::arg("stiffness") = 0.0,
+              py::arg("anchor_W") = Vector3d(Vector3d::Zero()), py::arg("moment_W") = Vector3d(Vector3d::Zero()));
+  contact.def_readwrite("surface", &Contact::surface, "Index into scene.surfaces, -1: free.");
+  contact.def_readwrite("stiffness", &Contact::stiffness, "mu [1/s^2], 0 when free.");
+  def_vector(contact, "anchor_W", &Contact::anchor_W, "Point through which the line of force passes [m].");
+  def_vector(contact, "moment_W", &Contact::moment_W, "Contact moment, constant over the phase [N m].");
+  def_value(contact, "Contact", {"surface", "stiffness", "anchor_W", "moment_W"});
+
+  py::class_<Phase> phase(m, "Phase", "A stretch of time with constant contacts.");
+  phase.def(py::init([](double duration, std::vector<Contact> contacts) {
+              return Phase{duration, std::move(contacts)};
+            }),
+            py::kw_only(), py::arg("duration") = 0.0, py::arg("contacts") = std::vector<Contact>());
+  phase.def_readwrite("duration", &Phase::duration, "[s]");
+  def_items(phase, "contacts", &Phase::contacts, "One Contact per end-effector.");
+  def_value(phase, "Phase", {"duration", "contacts"});
+}
+
+void bind_knot(py::module_& m) {
+  py::class_<Knot> knot(m, "Knot", "State at the instant between two phases.");
+  const Vector3d zero = Vector3d::Zero();
+  knot.def(
+      py::init([](const Vector3d& com_W, const Vector3d& com_velocity_W, const Vector3d& base_rpy,
+                  const Vector3d& base_rpy_rate, const py::object& end_effectors_W, const py::object& velocities_W) {
+        return Knot{com_W,
+                    com_velocity_W,
+                    base_rpy,
+                    base_rpy_rate,
+                    points_from(end_effectors_W, "end_effectors_W"),
+                    points_from(velocities_W, "end_effector_velocities_W")};
+      }),
+      py::kw_only(), py::arg("com_W") = zero, py::arg("com_velocity_W") = zero, py::arg("base_rpy") = zero,
+      py::arg("base_rpy_rate") = zero, py::arg("end_effectors_W") = py::tuple(),
+      py::arg("end_effector_velocities_W") = py::tuple());
+  def_vector(knot, "com_W", &Knot::com_W, "[m]");
+  def_vector(knot, "com_velocity_W", &Knot::com_velocity_W, "[m/s]");
+  def_vector(knot, "base_rpy", &Knot::base_rpy, "Roll, pitch, yaw of the base [rad].");
+  def_vector(knot, "base_rpy_rate", &Knot::base_rpy_rate, "[rad/s]");
+  def_points(knot, "end_effectors_W", &Knot::end_effectors_W, "One row per end-effector [m].");
+  def_points(knot, "end_effector_velocities_W", &Knot::end_effector_velocities_W, "[m/s], zero at contacts.");
+  def_value(knot, "Knot",
+            {"com_W", "com_velocity_W", "base_rpy", "base_rpy_rate", "end_effectors_W", "end_effector_velocities_W"});
+}
+
+void bind_swing(py::module_& m) {
+  py::class_<Swing> swing(m, "Swing",
+                          "A stretch of phases, first_phase to end_phase - 1, in which an end-effector is free.");
+  const Vector3d up = Vector3d::UnitZ();
+  swing.def(py::init([](int end_effector, int first_phase, int end_phase, double height, const Vector3d& lift_normal_W,
+                        const Vector3d& land_normal_W) {
+              return Swing{end_effector, first_phase, end_phase, height, lift_normal_W, land_normal_W};
+            }),
+            py::kw_only(), py::arg("end_effector") = 0, py::arg("first_phase") = 0, py::arg("end_phase") = 0,
+            py::arg("height") = 0.0, py::arg("lift_normal_W") = up, py::arg("land_normal_W") = up);
+  swing.def_readwrite("end_effector", &Swing::end_effector);
+  swing.def_readwrite("first_phase", &Swing::first_phase);
+  swing.def_readwrite("end_phase", &Swing::end_phase);
+  swing.def_readwrite("height", &Swing::height, "[m]");
+  def_vector(swing, "lift_normal_W", &Swing::lift_normal_W, "Unit normal of the surface it leaves.");
+  def_vector(swing, "land_normal_W", &Swing::land_normal_W, "Unit normal of the surface it reaches.");
+  def_value(swing, "Swing", {"end_effector", "first_phase", "end_phase", "height", "lift_normal_W", "land_normal_W"});
+}
+
+void bind_state(py::module_& m) {
+  py::class_<EndEffectorState> end(m, "EndEffectorState", "An end-effector at an instant.");
+  end.def_readonly("surface", &EndEffectorState::surface, "Index into scene.surfaces, -1: free.");
+  end.def_readonly("position_W", &EndEffectorState::position_W, "[m]");
+  end.def_readonly("velocity_W", &EndEffectorState::velocity_W, "[m/s]");
+  end.def_readonly("force_W", &EndEffectorState::force_W, "Contact force on the robot [N], zero when free.");
+  end.def_readonly("moment_W", &EndEffectorState::moment_W, "Contact moment on the robot [N m], zero when free.");
+  def_value(end, "EndEffectorState", {"surface", "position_W", "velocity_W", "force_W", "moment_W"});
+
+  py::class_<PlanState> state(m, "PlanState", "The robot at an instant.");
+  state.def_readonly("time", &PlanState::time, "[s]");
+  state.def_readonly("phase", &PlanState::phase);
+  state.def_readonly("com_W", &PlanState::com_W, "[m]");
+  state.def_readonly("com_velocity_W", &PlanState::com_velocity_W, "[m/s]");
+  state.def_readonly("com_acceleration_W", &PlanState::com_acceleration_W, "[m/s^2]");
+  state.def_readonly("base_rpy", &PlanState::base_rpy, "[rad]");
+  state.def_readonly("base_rpy_rate", &PlanState::base_rpy_rate, "[rad/s]");
+  state.def_readonly("base_quat_wxyz", &PlanState::base_quat_wxyz, "R_WB");
+  state.def_readonly("angular_momentum_W", &PlanState::angular_momentum_W, "About the CoM [kg m^2/s].");
+  def_items(state, "end_effectors", &PlanState::end_effectors, "One EndEffectorState per end-effector of the robot.");
+  def_value(state, "PlanState",
+            {"time", "phase", "com_W", "com_velocity_W", "com_acceleration_W", "base_rpy", "base_rpy_rate",
+             "base_quat_wxyz", "angular_momentum_W", "end_effectors"});
+}
+
+std::string describe(const Plan& plan) {
+  int flights = 0;
+  for (const auto& row : plan.contact_sequence()) {
+    bool any = false;
+    for (int surface : row) any = any || surface >= 0;
+    flights += !any;
+  }
+  return "<Plan of " + plan.robot.name + " on " + plan.scene.name + ": " + std::to_string(plan.phases.size()) +
+         " phases, " + text(plan.duration()) + " s, " + std::to_string(flights) + " in flight>";
+}
+
+void bind_plan_class(py::module_& m) {
+  using Ints = std::vector<int>;
+  py::class_<Plan> plan(m, "Plan",
+                        "A motion: phases with constant contacts between knots. Carries its scene and robot.");
+  plan.def(py::init([](const Scene& scene, const Robot& robot, std::string planner, std::vector<Knot> knots,
+                       std::vector<Phase> phases, Ints final_contacts, std::vector<Swing> swings) {
+             Plan out;
+             out.scene = scene;
+             out.robot = robot;
+             out.planner = std::move(planner);
+             out.knots = std::move(knots);
+             out.phases = std::move(phases);
+             out.final_contacts = std::move(final_contacts);
+             out.swings = std::move(swings);
+             return out;
+           }),
+           py::kw_only(), py::arg("scene") = Scene(), py::arg("robot") = Robot(), py::arg("planner") = "",
+           py::arg("knots") = std::vector<Knot>(), py::arg("phases") = std::vector<Phase>(),
+           py::arg("final_contacts") = Ints(), py::arg("swings") = std::vector<Swing>());
+  def_member(plan, "scene", &Plan::scene, "The scene it was made for.");
+  def_member(plan, "robot", &Plan::robot, "The robot it was made for.");
+  plan.def_readwrite("planner", &Plan::planner, "E.g. 'ddp'.");
+  def_items(plan, "knots", &Plan::knots, "Tuple of Knot, one more than phases.");
+  def_items(plan, "phases", &Plan::phases, "Tuple of Phase.");
+  def_names(plan, "final_contacts", &Plan::final_contacts, "Surface index per end-effector after the last phase.");
+  def_items(plan, "swings", &Plan::swings, "Tuple of Swing.");
+  plan.def("duration", &Plan::duration, "[s]");
+  plan.def("knot_times", &Plan::knot_times, "[s], phases + 1 entries, from 0.");
+  plan.def("end_effector_count", &Plan::end_effector_count);
+  plan.def("contact_sequence", &Plan::contact_sequence, "Surface index per phase and end-effector, -1: free.");
+  plan.def(
+      "at", &Plan::at, py::arg("t"),
+      "PlanState at time t [s] in [0, duration], in closed form. At a knot the phase that begins there is meant (the "
+      "last one at the end). Raises InvalidInput outside.");
+  plan.def("at_phase", &Plan::at_phase, py::arg("k"), py::arg("since_start"),
+           "PlanState `since_start` [s] after the start of phase k: says which side of a knot is meant.");
+  plan.def("validate", &Plan::validate,
+           "Raise InvalidPlan when sizes or indices do not fit together or a number is not finite.");
+  plan.def(
+      "save",
+      [](py::object self, py::object path) { py::module_::import("mcplan.files.plans").attr("save_plan")(self, path); },
+      py::arg("path"), "Write the plan to an .npz file.");
+  plan.def_static(
+      "load",
+      [](py::object path) -> Plan {
+        return py::module_::import("mcplan.files.plans").attr("load_plan")(path).cast<Plan>();
+      },
+      py::arg("path"), "Read a plan written by save(). Raises InvalidPlan.");
+  def_value(plan, "Plan", {});  // for copies; a repr that can be pasted back would be pages long
+  plan.def("__repr__", py::overload_cast<const Plan&>(&describe), py::prepend());
+  def_pickle(plan, "mcplan.files.plans", "plan_to_bytes", "plan_from_bytes");
+}
+
+std::string describe(const Report& report) {
+  std::string out = std::string(to_string(report.status)) + " after " + text(report.time_s) + " s (" +
+                    text(report.iterations) + " iterations, " + text(report.switches) + " switches), cost " +
+                    text(report.cost);
+  if (!report.message.empty()) out += "\n" + report.message;
+  if (!report.worst_violation.name.empty()) out += "\nclosest to its limit: " + report.worst_violation.to_string();
+  return out;
+}
+
+void bind_report(py::module_& m) {
+  py::class_<Violation> violation(m, "Violation", "A constraint and the place where a plan breaks it most.");
+  violation.def(
+      py::init([](std::string name, int phase, std::string end_effector, double time_s, double value, double tolerance,
+                  std::string unit) {
+        return Violation{std::move(name), phase, std::move(end_effector), time_s, value, tolerance, std::move(unit)};
+      }),
+      py::kw_only(), py::arg("name") = "", py::arg("phase") = -1, py::arg("end_effector") = "", py::arg("time_s") = 0.0,
+      py::arg("value") = 0.0, py::arg("tolerance") = 0.0, py::arg("unit") = "");
+  violation.def_readwrite("name", &Violation::name, "E.g. 'friction'.");
+  violation.def_readwrite("phase", &Violation::phase, "-1: not tied to a phase.");
+  violation.def_readwrite("end_effector", &Violation::end_effector, "Empty: not tied to one.");
+  violation.def_readwrite("time_s", &Violation::time_s);
+  violation.def_readwrite("value", &Violation::value, "Amount beyond the limit, in `unit`; negative: margin left.");
+  violation.def_readwrite("tolerance", &Violation::tolerance, "Largest value that is still accepted.");
+  violation.def_readwrite("unit", &Violation::unit);
+  violation.def("__str__", &Violation::to_string);
+  def_value(violation, "Violation", {"name", "phase", "end_effector", "time_s", "value", "tolerance", "unit"});
+
+  py::class_<Iteration> row(m, "Iteration", "One row of the iteration table.");
+  row.def_readonly("index", &Iteration::index);
+  row.def_readonly("cost", &Iteration::cost, "Total, at the weight of this iteration.");
+  row.def_readonly("merit", &Iteration::merit, "What the line search lowers.");
+  row.def_readonly("defect", &Iteration::defect, "Largest dynamics defect (non-dimensional).");
+  row.def_readonly("contact_weight", &Iteration::contact_weight);
+  row.def_readonly("proximal_weight", &Iteration::proximal_weight);
+  row.def_readonly("step", &Iteration::step, "Accepted step length.");
+  row.def_readonly("switches", &Iteration::switches, "Contact switches accepted in this iteration.");
+  row.def_readonly("neighbours", &Iteration::neighbours, "Candidates priced.");
+  row.def_readonly("sequence", &Iteration::sequence,
+                   "Steps x end-effectors after this iteration, if history is recorded.");
+  def_value(
+      row, "Iteration",
+      {"index", "cost", "merit", "defect", "contact_weight", "proximal_weight", "step", "switches", "neighbours"});
+
+  py::class_<Report> report(m, "Report", "How a solve went; str() tells it in a few lines.");
+  report.def("__str__", py::overload_cast<const Report&>(&describe));
+  report.def_readonly("status", &Report::status);
+  report.def_readonly("message", &Report::message);
+  report.def_readonly("iterations", &Report::iterations);
+  report.def_readonly("switches", &Report::switches);
+  report.def_readonly("time_s", &Report::time_s, "Wall clock of the whole solve.");
+  report.def_readonly("timing_s", &Report::timing_s, "Wall clock by part.");
+  report.def_readonly("cost", &Report::cost);
+  report.def_readonly("cost_terms", &Report::cost_terms);
+  report.def_readonly("worst_violation", &Report::worst_violation, "Largest value / tolerance over all constraints.");
+  report.def_readonly("seed", &Report::seed);
+  report.def_readonly("threads", &Report::threads);
+  report.def_readonly("version", &Report::version);
+  def_items(report, "history", &Report::history, "One Iteration a row.");
+  def_value(report, "Report",
+            {"status", "message", "iterations", "switches", "time_s", "cost", "cost_terms", "worst_violation", "seed",
+             "threads", "version"});
+
+  py::class_<PlanResult> result(m, "PlanResult", "A plan and how it was found.");
+  result.def_property_readonly("plan", [](PlanResult& self) -> Plan& { return self.plan; });
+  result.def_property_readonly("report", [](PlanResult& self) -> Report& { return self.report; });
+  def_value(result, "PlanResult", {"plan", "report"});
+}
+
+void bind_checker(py::module_& m) {
+  py::class_<Tolerances> c(m, "Tolerances", "Published tolerances of the checker.");
+  const Tolerances d;
+  c.def(py::init([](double dynamics, double contact_distance, double slip, double friction, double force,
+                    double force_cap, double moment, double reach, double clearance, double boundary, double stance,
+                    int switches, double sample_s) {
+          return Tolerances{dynamics, contact_distance, slip,     friction, force,    force_cap, moment,
+                            reach,    clearance,        boundary, stance,   switches, sample_s};
+        }),
+        py::kw_only(), py::arg("dynamics") = d.dynamics, py::arg("contact_distance") = d.contact_distance,
+        py::arg("slip") = d.slip, py::arg("friction") = d.friction, py::arg("force") = d.force,
+        py::arg("force_cap") = d.force_cap, py::arg("moment") = d.moment, py::arg("reach") = d.reach,
+        py::arg("clearance") = d.clearance, py::arg("boundary") = d.boundary, py::arg("stance") = d.stance,
+        py::arg("switches") = d.switches, py::arg("sample_s") = d.sample_s);
+  c.def_readwrite("dynamics", &Tolerances::dynamics,
+                  "[m], [m/s], [rad], [rad/s] replayed state against the next knot.");
+  c.def_readwrite("contact_distance", &Tolerances::contact_distance,
+                  "[m] end-effector in contact off its plane or polygon.");
+  c.def_readwrite("slip", &Tolerances::slip, "[m] travel of an end-effector while in contact.");
+  c.def_readwrite("friction", &Tolerances::friction, "[-] tangential over normal force, beyond the coefficient.");
+  c.def_readwrite("force", &Tolerances::force, "[N] pull of a contact, or force of a free end-effector.");
+  c.def_readwrite("force_cap", &Tolerances::force_cap, "[-] relative excess over max_force.");
+  c.def_readwrite("moment", &Tolerances::moment, "[N m] excess over max_moment or the torsion the contact can give.");
+  c.def_readwrite("reach", &Tolerances::reach, "[m] outside the reach box.");
+  c.def_readwrite("clearance", &Tolerances::clearance, "[m] swinging end-effector inside a solid.");
+  c.def_readwrite("boundary", &Tolerances::boundary, "[m], [m/s], [rad] start and goal against the scene's.");
+  c.def_readwrite("stance", &Tolerances::stance, "[m] end-effectors in contact at the start off the nominal stance.");
+  c.def_readwrite("switches", &Tolerances::switches,
+                  "[-] contacts made or broken in one step; surface to surface counts two.");
+  c.def_readwrite("sample_s", &Tolerances::sample_s, "[s] sampling of the constraints in time.");
+  def_value(c, "Tolerances",
+            {"dynamics", "contact_distance", "slip", "friction", "force", "force_cap", "moment", "reach", "clearance",
+             "boundary", "stance", "switches", "sample_s"});
+
+  py::class_<CheckResult> result(m, "CheckResult", "The worst place of every constraint, violated or not.");
+  def_items(result, "constraints", &CheckResult::constraints, "Tuple of Violation, violated or not.");
+  result.def("ok", &CheckResult::ok);
+  result.def("violations", &CheckResult::violations, "Those beyond their tolerance, worst first.");
+  result.def(
+      "worst", [](const CheckResult& self) { return self.worst(); }, "Largest value / tolerance, violated or not.");
+  result.def(
+      "raise_if_violated",
+      [](const CheckResult& self) {
+        if (self.ok()) return;
+        const py::object type = py::module_::import("mcplan.errors").attr("PlanViolated");
+        PyErr_SetObject(type.ptr(), type(self.violations()).ptr());
+        throw py::error_already_set();
+      },
+      "Raise PlanViolated naming the worst violation, if there is one.");
+  result.def("__str__", &CheckResult::to_string);
+  result.def("__repr__", [](const CheckResult& self) { return "<CheckResult: " + self.to_string() + ">"; });
+
+  m.def(
+      "check",
+      [](const Plan& plan, const Scene* scene, const Robot* robot, const Tolerances& tolerances) {
+        const py::gil_scoped_release release;
+        return check(plan, scene ? *scene : plan.scene, robot ? *robot : plan.robot, tolerances);
+      },
+      py::arg("plan"), py::arg("scene") = py::none(), py::arg("robot") = py::none(), py::arg("tolerances") = d,
+      "Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons "
+      "alone. "
+      "Raises InvalidPlan when its arrays do not fit together.");
+}
+
+}  // namespace
+
+void bind_plan(py::module_& m) {
+  bind_phases(m);
+  bind_knot(m);
+  bind_swing(m);
+  bind_state(m);
+  bind_plan_class(m);
+  bind_report(m);
+  bind_checker(m);
+}
+
+}  // namespace mcplan::bindings

@@ -1,0 +1,96 @@
+#include "mcplan/robot/robot.hpp"
+
+#include "bindings.hpp"
+
+namespace mcplan::bindings {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+void bind_end_effector(py::module_& m) {
+  py::class_<EndEffector> c(m, "EndEffector",
+                            "A contact link of the robot. Frame B sits at the CoM and turns with the base.");
+  const EndEffector d;
+  c.def(py::init([](std::string name, std::string kind, std::string frame, const Vector2d& half_size,
+                    const Vector3d& nominal_B, const Vector3d& reach_min_B, const Vector3d& reach_max_B,
+                    double max_force, const Vector3d& max_moment) {
+          return EndEffector{std::move(name), std::move(kind), std::move(frame), half_size, nominal_B,
+                             reach_min_B,     reach_max_B,     max_force,        max_moment};
+        }),
+        py::kw_only(), py::arg("name") = d.name, py::arg("kind") = d.kind, py::arg("frame") = d.frame,
+        py::arg("half_size") = d.half_size, py::arg("nominal_B") = d.nominal_B, py::arg("reach_min_B") = d.reach_min_B,
+        py::arg("reach_max_B") = d.reach_max_B, py::arg("max_force") = d.max_force,
+        py::arg("max_moment") = d.max_moment);
+  c.def_readwrite("name", &EndEffector::name);
+  c.def_readwrite("kind", &EndEffector::kind, "Group that scenes may address as a whole, e.g. 'foot', 'hand'.");
+  c.def_readwrite("frame", &EndEffector::frame, "URDF frame, empty for robots without a URDF.");
+  def_vector(c, "half_size", &EndEffector::half_size, "Half length and half width of the sole [m]; 0: point contact.");
+  def_vector(c, "nominal_B", &EndEffector::nominal_B, "Nominal position relative to the CoM [m].");
+  def_vector(c, "reach_min_B", &EndEffector::reach_min_B, "Box of reachable positions relative to the CoM [m].");
+  def_vector(c, "reach_max_B", &EndEffector::reach_max_B, "Box of reachable positions relative to the CoM [m].");
+  c.def_readwrite("max_force", &EndEffector::max_force, "Largest norm of the contact force [N].");
+  def_vector(c, "max_moment", &EndEffector::max_moment, "Largest contact moment about each world axis [N m].");
+  def_value(
+      c, "EndEffector",
+      {"name", "kind", "frame", "half_size", "nominal_B", "reach_min_B", "reach_max_B", "max_force", "max_moment"});
+}
+
+void bind_resolved_stance(py::module_& m) {
+  py::class_<ResolvedStance> c(m, "ResolvedStance", "A stance of a scene worked out for one robot.");
+  c.def_readonly("com_W", &ResolvedStance::com_W, "[m]");
+  c.def_readonly("yaw", &ResolvedStance::yaw, "[rad]");
+  c.def_readonly("contacts", &ResolvedStance::contacts, "Surface index per end-effector, -1: free.");
+  def_points(c, "end_effectors_W", &ResolvedStance::end_effectors_W,
+             "Nominal positions, those in contact on their surface [m].");
+  def_value(c, "ResolvedStance", {"com_W", "yaw", "contacts", "end_effectors_W"});
+  m.def("resolve_stance", &resolve_stance, py::arg("scene"), py::arg("robot"), py::arg("stance"),
+        py::arg("field") = "stance",
+        "Work out a stance for a robot. Raises InvalidScene when contacts name an end-effector that the robot does not "
+        "have, "
+        "or one that may not touch the surface.");
+}
+
+}  // namespace
+
+void bind_robot(py::module_& m) {
+  bind_end_effector(m);
+
+  using Posture = std::map<std::string, double>;
+  py::class_<Robot> c(m, "Robot", "What a planner needs to know of a robot: lumped inertia and where its limbs reach.");
+  const Robot d;
+  c.def(
+      py::init([](std::string name, std::string description, double mass, const Vector3d& inertia, double com_height,
+                  double swing_height, std::vector<EndEffector> end_effectors, std::string urdf, Posture posture) {
+        return Robot{
+            std::move(name), std::move(description), mass, inertia, com_height, swing_height, std::move(end_effectors),
+            std::move(urdf), std::move(posture)};
+      }),
+      py::kw_only(), py::arg("name") = "", py::arg("description") = "", py::arg("mass") = d.mass,
+      py::arg("inertia") = d.inertia, py::arg("com_height") = d.com_height, py::arg("swing_height") = d.swing_height,
+      py::arg("end_effectors") = std::vector<EndEffector>(), py::arg("urdf") = "", py::arg("posture") = Posture());
+  c.def_readwrite("name", &Robot::name);
+  c.def_readwrite("description", &Robot::description);
+  c.def_readwrite("mass", &Robot::mass, "[kg]");
+  def_vector(c, "inertia", &Robot::inertia, "Diagonal, about the CoM, nominal posture [kg m^2].");
+  c.def_readwrite("com_height", &Robot::com_height, "Of the CoM above the ground in the nominal stance [m].");
+  c.def_readwrite("swing_height", &Robot::swing_height, "Clearance of a swinging end-effector [m].");
+  def_items(c, "end_effectors", &Robot::end_effectors, "Tuple of EndEffector; assign a list to add or remove.");
+  c.def_readwrite("urdf", &Robot::urdf, "Path, or 'example-robot-data:NAME'; empty: none.");
+  def_names(c, "posture", &Robot::posture,
+            "Nominal joint positions [rad] by URDF joint name. Assign a dict to change it.");
+  c.def("end_effector_index", &Robot::end_effector_index, py::arg("end_effector_name"), "Index, or -1.");
+  c.def("validate", &Robot::validate, "Raise InvalidRobot naming the first field out of its range.");
+  def_value(
+      c, "Robot",
+      {"name", "description", "mass", "inertia", "com_height", "swing_height", "end_effectors", "urdf", "posture"});
+  def_pickle(c, "mcplan.files.robots", "robot_to_dict", "rebuild_robot");
+
+  m.def("addresses", &addresses, py::arg("who"), py::arg("end_effector"),
+        "Whether a name or kind addresses this end-effector.");
+  m.def("may_touch", &may_touch, py::arg("surface"), py::arg("end_effector"),
+        "Whether the surface lists the end-effector, by name or kind, or lists nobody.");
+  bind_resolved_stance(m);
+}
+
+}  // namespace mcplan::bindings

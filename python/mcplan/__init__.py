@@ -1,0 +1,165 @@
+"""Multi-contact motion planning for legged robots.
+
+    import mcplan as mp
+
+    scene = mp.load_scene("gap_with_rail")
+    robot = mp.load_robot("talos")
+    result = mp.plan(scene, robot, time_limit=1.0)
+    print(result.report)
+    mp.check(result.plan, scene, robot).raise_if_violated()
+    result.plan.save("plan.npz")
+    mp.show(result.plan, scene, robot).save_html("plan.html")
+
+Importing this loads NumPy and nothing heavier; the rest comes when first used.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mcplan._core import (
+    CheckResult,
+    Contact,
+    ContactRule,
+    EndEffector,
+    Knot,
+    Phase,
+    Plan,
+    PlanResult,
+    Report,
+    Robot,
+    Scene,
+    Stance,
+    Status,
+    Surface,
+    Swing,
+    Tolerances,
+    Violation,
+    __version__,
+    check,
+)
+from mcplan.errors import (
+    InvalidInput,
+    InvalidOptions,
+    InvalidPlan,
+    InvalidRobot,
+    InvalidScene,
+    PlanViolated,
+    UnknownRobot,
+    UnknownScene,
+)
+
+if TYPE_CHECKING:
+    from mcplan.view import Page
+
+__all__ = [
+    "CheckResult",
+    "Contact",
+    "ContactRule",
+    "EndEffector",
+    "InvalidInput",
+    "InvalidOptions",
+    "InvalidPlan",
+    "InvalidRobot",
+    "InvalidScene",
+    "Knot",
+    "Phase",
+    "Plan",
+    "PlanResult",
+    "PlanViolated",
+    "Report",
+    "Robot",
+    "Scene",
+    "Stance",
+    "Status",
+    "Surface",
+    "Swing",
+    "Tolerances",
+    "UnknownRobot",
+    "UnknownScene",
+    "Violation",
+    "__version__",
+    "check",
+    "load_robot",
+    "load_scene",
+    "plan",
+    "show",
+]
+
+
+def load_scene(source: str | Path) -> Scene:
+    """Load a scene by its built-in name or from a TOML file.
+
+    Args:
+        source: Name listed by ``mcplan scenes``, or path of a file.
+
+    Returns:
+        The scene: surfaces (vertices in [m], world frame W, z up), start and goal.
+
+    Raises:
+        InvalidScene: A field is missing or out of range; the message names file, field, value and rule.
+        UnknownScene: No such name and no such file; the message lists the names that exist.
+    """
+    from mcplan.files.scenes import load_scene as load
+
+    return load(source)
+
+
+def load_robot(source: str | Path) -> Robot:
+    """Load a robot by its built-in name or from a TOML file.
+
+    Args:
+        source: Name listed by ``mcplan robots``, or path of a file.
+
+    Returns:
+        The robot: mass [kg], inertia [kg m^2], end-effectors with reach boxes relative to the CoM [m].
+
+    Raises:
+        InvalidRobot: A field is missing or out of range; the message names file, field, value and rule.
+        UnknownRobot: No such name and no such file; the message lists the names that exist.
+    """
+    from mcplan.files.robots import load_robot as load
+
+    return load(source)
+
+
+def plan(scene: Scene | str | Path, robot: Robot | str | Path = "humanoid44", **options: Any) -> PlanResult:
+    """Find a contact sequence and a motion from the scene's start to its goal.
+
+    Args:
+        scene: A scene, or what load_scene takes.
+        robot: A robot, or what load_robot takes.
+        **options: Fields of ``mcplan.ddp.Options``; ``time_limit`` [s] is short for ``time_limit_s``.
+
+    Returns:
+        The plan, with a report whose status is ``solved`` only if the checker accepts the plan.
+
+    Raises:
+        InvalidOptions: No such option, or its value is out of range.
+        InvalidScene: The scene is malformed or does not fit the robot.
+        InvalidRobot: The robot is malformed.
+    """
+    from mcplan.solve import plan as solve
+
+    return solve(scene, robot, options)
+
+
+def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
+    """Draw a plan in the browser; the result has ``save_html(path)``.
+
+    Args:
+        plan: The plan.
+        scene: Drawn around it; None: the plan's own.
+        robot: Drawn along it; None: the plan's own. With a URDF its meshes are drawn, else a stick robot.
+        report: How the plan was found, for the caption.
+
+    Raises:
+        MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
+    """
+    from mcplan.extras import require
+
+    require("mcplan.show", "view", "meshcat")
+    from mcplan.view import show as draw
+
+    return draw(plan, scene, robot, report)

@@ -1,0 +1,43 @@
+"""The ``mcplan`` command. One file per verb; errors are one line on stderr and exit code 2."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from mcplan.errors import InvalidInput, MissingExtra, UnknownName
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line.
+
+    Args:
+        arguments: Words after ``mcplan``; None: those of the process.
+
+    Returns:
+        The exit code: 0 done, 1 done with a negative answer (not solved, plan violated), 2 bad input, 130 interrupted.
+    """
+    from mcplan.cli.app import app
+
+    words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
+    try:
+        code = app(args=words, prog_name="mcplan", standalone_mode=False)
+        return code if isinstance(code, int) else 0
+    except (InvalidInput, UnknownName, MissingExtra) as found:
+        return _fail(str(found))
+    except OSError as found:
+        return _fail(f"{found.filename}: {found.strerror}" if found.filename else str(found))
+    except KeyboardInterrupt:
+        return 130
+    except Exception as found:
+        # Usage errors: typer brings its own click or uses the installed one, so the class is known by what it does.
+        if hasattr(found, "format_message"):
+            return _fail(found.format_message())
+        if type(found).__name__ == "Abort":
+            return 130
+        raise
+
+
+def _fail(message: str) -> int:
+    print(f"error: {' '.join(message.split())}", file=sys.stderr)
+    return 2

@@ -1,0 +1,144 @@
+"""mcplan plan"""
+
+from __future__ import annotations
+
+import json as json_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from mcplan import PlanResult
+
+
+def plan(
+    scene: Annotated[str, typer.Argument(metavar="SCENE", help="Built-in name or TOML file.")],
+    robot: Annotated[
+        str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")
+    ] = "humanoid44",
+    phases: Annotated[int | None, typer.Option("--phases", metavar="N", help="Phases of the plan.")] = None,
+    method: Annotated[str | None, typer.Option("--method", metavar="M", help="standard or paper.")] = None,
+    time_limit: Annotated[
+        float | None,
+        typer.Option("--time-limit", metavar="S", help="Return the best plan after so many seconds."),
+    ] = None,
+    threads: Annotated[
+        int | None, typer.Option("--threads", metavar="N", help="The plan does not depend on it.")
+    ] = None,
+    seed: Annotated[int | None, typer.Option("--seed", metavar="K", help="Of the order of restarts.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")
+    ] = None,
+    html: Annotated[
+        Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")
+    ] = None,
+    plots: Annotated[
+        Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+) -> int:
+    """Find a contact sequence and a motion; exit code 0 only if the plan is solved, 1 otherwise.
+
+    Example: mcplan plan stairs --robot talos -o plan.npz --html plan.html
+    """
+    from mcplan.extras import require
+
+    if html is not None:
+        require("mcplan plan --html", "view", "meshcat")
+    if plots is not None:
+        require("mcplan plan --plots", "view", "matplotlib")
+    given = {"phases": phases, "method": method, "time_limit": time_limit, "threads": threads, "seed": seed}
+    options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    if plots is not None:
+        options["record_history"] = True
+
+    import mcplan
+
+    result = mcplan.plan(scene, robot, **options)
+    if output is not None:
+        result.plan.save(output)
+    if html is not None:
+        mcplan.show(result.plan, report=result.report).save_html(html)
+    if plots is not None:
+        from mcplan.view.plots import save_plots
+
+        save_plots(result.plan, result.report, plots)
+    print(json_module.dumps(summary(result)) if json else report_text(result, [output, html, plots]))
+    return 0 if str(result.report.status) == "solved" else 1
+
+
+def summary(result: PlanResult) -> dict[str, Any]:
+    """What ``--json`` prints."""
+    from mcplan.cli.check import finite, violation_dict
+
+    plan, report = result.plan, result.report
+    names = [surface.name for surface in plan.scene.surfaces]
+    sequence = plan.contact_sequence()
+    worst = violation_dict(report.worst_violation)
+    return {
+        "scene": plan.scene.name,
+        "robot": plan.robot.name,
+        "status": str(report.status),
+        "message": report.message,
+        "cost": finite(report.cost),
+        "cost_terms": {name: finite(value) for name, value in report.cost_terms.items()},
+        "iterations": report.iterations,
+        "time_s": report.time_s,
+        "iteration_ms": 1e3 * report.time_s / max(report.iterations, 1),
+        "switches": report.switches,
+        "phases": len(plan.phases),
+        "end_effectors": [end.name for end in plan.robot.end_effectors],
+        "contact_sequence": [[names[i] if i >= 0 else None for i in row] for row in sequence],
+        "durations_s": [phase.duration for phase in plan.phases],
+        "flight_phases": flight_phases(sequence),
+        "worst_violation": {
+            key: worst[key]
+            for key in ("name", "phase", "end_effector", "time_s", "value", "tolerance", "unit")
+        },
+        "seed": report.seed,
+        "threads": report.threads,
+        "version": report.version,
+    }
+
+
+def flight_phases(sequence: list[list[int]]) -> int:
+    """Phases in which nothing is in contact."""
+    return sum(all(surface < 0 for surface in row) for row in sequence)
+
+
+def report_text(result: PlanResult, written: list[Path | None]) -> str:
+    """What is printed without ``--json``: how it ended, the steps, what was saved."""
+    plan, report = result.plan, result.report
+    lead = f"{plan.scene.name}  {plan.robot.name}  "
+    took = f"{report.time_s:.3f} s ({report.iterations} iterations)"
+    solved = str(report.status) == "solved"
+    if solved:
+        flights = flight_phases(plan.contact_sequence())
+        flight = "no flight" if flights == 0 else f"{flights} flight phase{'s' if flights > 1 else ''}"
+        lines = [f"{lead}solved in {took}: {len(plan.phases)} phases, {plan.duration():.2f} s long, {flight}"]
+    else:
+        lines = [
+            f"{lead}{report.status} after {took}: {report.message or 'no plan that the checker accepts'}"
+        ]
+    if report.worst_violation.name:
+        label = "closest to its limit" if solved else "worst"
+        lines.append(f"{' ' * len(lead)}{label}: {report.worst_violation}")
+    lines += contact_rows(plan)
+    files = [str(path) for path in written if path is not None]
+    if files:
+        lines.append(f"Saved {', '.join(files)}" + ("" if solved else f", with status {report.status}"))
+    return "\n".join(lines)
+
+
+def contact_rows(plan: Any) -> list[str]:
+    """One line per end-effector: what it touches over the phases, by number of the surface, "-" when free."""
+    width = max([len(end.name) for end in plan.robot.end_effectors], default=0)
+    sequence = plan.contact_sequence()
+    digits = max(len(str(len(plan.scene.surfaces) - 1)), 1)
+    rows = []
+    for number, end in enumerate(plan.robot.end_effectors):
+        cells = [str(row[number]) if row[number] >= 0 else "-" for row in sequence]
+        rows.append(f"  {end.name:{width}}  " + " ".join(f"{cell:>{digits}}" for cell in cells))
+    legend = ", ".join(f"{i} {surface.name}" for i, surface in enumerate(plan.scene.surfaces))
+    return [*rows, f"  {'':{width}}  {legend}"]

@@ -1,0 +1,116 @@
+"""mcplan robots"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from mcplan import Robot
+    from mcplan.files.urdf import End
+
+
+def robots(
+    name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Built-in name or TOML file.")] = None,
+    from_urdf: Annotated[
+        str | None,
+        typer.Option(
+            "--from-urdf", metavar="URDF", help="Work out a robot: a URDF file, or talos or anymal."
+        ),
+    ] = None,
+    end: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--end",
+            metavar="NAME=FRAME[:KIND[:LxW]]",
+            help="End-effector, its URDF frame, kind and half size.",
+        ),
+    ] = None,
+    srdf: Annotated[
+        Path | None, typer.Option("--srdf", metavar="FILE", help="Nominal posture: its first one.")
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file to write.")
+    ] = None,
+) -> None:
+    """List the built-in robots, print one, or work one out from a URDF.
+
+    Example: mcplan robots --from-urdf my.urdf --end left_foot=l_sole:foot:0.10x0.05 --end right_foot=r_sole -o my.toml
+    """
+    from mcplan.cli.table import print_table
+    from mcplan.files.robots import list_robots, load_robot
+
+    if from_urdf is not None:
+        _from_urdf(from_urdf, end or [], srdf, output)
+    elif name is None:
+        print_table([entry, load_robot(entry).description] for entry in list_robots())
+    else:
+        _print_robot(load_robot(name))
+
+
+def _from_urdf(source: str, ends: list[str], srdf: Path | None, output: Path | None) -> None:
+    from mcplan.files.robots import robot_to_dict, save_robot
+    from mcplan.files.toml import toml_text
+    from mcplan.files.urdf import header, robot_from_urdf
+
+    robot = robot_from_urdf(
+        source, tuple(_parse_end(text) for text in ends), srdf=str(srdf) if srdf else None
+    )
+    words = ["mcplan robots --from-urdf", source, *(f"--end {text}" for text in ends)]
+    words += [f"--srdf {srdf}"] if srdf else []
+    words += [f"-o {output}"] if output else []
+    comment = header(" ".join(words))
+    if output is None:
+        robot.validate()
+        print(toml_text(robot_to_dict(robot), comment), end="")
+    else:
+        save_robot(robot, output, comment)
+        print(f"Wrote {output}")
+
+
+def _parse_end(text: str) -> End:
+    from mcplan.errors import InvalidInput
+    from mcplan.files.urdf import End
+
+    try:
+        name, rest = text.split("=", 1)
+        frame, kind, size = (
+            [*rest.split(":"), "foot", "0x0"][:3] if ":" not in rest else [*rest.split(":"), "0x0"][:3]
+        )
+        length, width = (float(part) for part in size.split("x"))
+    except ValueError:
+        raise InvalidInput("--end", "must read NAME=FRAME[:KIND[:LENGTHxWIDTH]]", repr(text)) from None
+    return End(name, frame, kind, (length, width))
+
+
+def _print_robot(robot: Robot) -> None:
+    from mcplan.cli.table import print_table
+
+    print(f"{robot.name}: {robot.description}" if robot.description else robot.name)
+    print(
+        f"mass {robot.mass:g} kg, inertia {_numbers(robot.inertia)} kg m^2, CoM height {robot.com_height:g} m, "
+        f"swing height {robot.swing_height:g} m"
+    )
+    if robot.urdf:
+        print(f"URDF {robot.urdf}")
+    print()
+    rows = [
+        [
+            e.name,
+            e.kind,
+            _numbers(e.nominal_B),
+            f"{_numbers(e.reach_min_B)} .. {_numbers(e.reach_max_B)}",
+            _numbers(e.half_size) if e.half_size.any() else "point",
+            f"{e.max_force:.0f}",
+            _numbers(e.max_moment),
+        ]
+        for e in robot.end_effectors
+    ]
+    head = ["end-effector", "kind", "nominal [m]", "reach [m]", "half size [m]", "force [N]", "moment [N m]"]
+    print_table(rows, head)
+
+
+def _numbers(values: object) -> str:
+    return " ".join(f"{value:.3f}" for value in values)  # type: ignore[attr-defined]

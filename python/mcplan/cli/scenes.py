@@ -1,0 +1,83 @@
+"""mcplan scenes"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from mcplan import Scene, Stance
+
+
+def scenes(
+    name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Built-in name or TOML file.")] = None,
+    html: Annotated[
+        Path | None, typer.Option("--html", metavar="FILE", help="Draw the scene on a page.")
+    ] = None,
+) -> None:
+    """List the built-in scenes, or print or draw one.
+
+    Example: mcplan scenes gap_with_rail --html rail.html
+    """
+    from mcplan.cli.table import print_table
+    from mcplan.errors import InvalidInput
+    from mcplan.files.scenes import list_scenes, load_scene
+
+    if name is None:
+        if html is not None:
+            raise InvalidInput("--html", "needs the NAME of a scene")
+        print_table([entry, load_scene(entry).description] for entry in list_scenes())
+        return
+    scene = load_scene(name)
+    if html is None:
+        _print_scene(scene)
+        return
+    from mcplan.extras import require
+
+    require("mcplan scenes --html", "view", "meshcat")
+    from mcplan.view import show_scene
+
+    show_scene(scene).save_html(html)
+    print(f"Wrote {html}")
+
+
+def _print_scene(scene: Scene) -> None:
+    from mcplan._core import Polygon
+    from mcplan.cli.table import print_table
+
+    print(f"{scene.name}: {scene.description}" if scene.description else scene.name)
+    print(f"gravity {scene.gravity:g} m/s^2")
+    for field, stance in (("start", scene.start), ("goal", scene.goal)):
+        print(_stance_line(field, stance))
+    for rule in scene.rules:
+        print(f"rule    when {_listed(rule.when_free)} is free, {_listed(rule.require)} must be in contact")
+    print()
+    rows = []
+    for surface in scene.surfaces:
+        polygon = Polygon(surface.vertices_W)
+        rows.append(
+            [
+                surface.name,
+                _numbers(polygon.centroid_W),
+                _numbers(polygon.normal_W),
+                str(len(surface.vertices_W)),
+                "grasp" if surface.grasp else f"{surface.friction:g}",
+                ", ".join(surface.end_effectors) or "all",
+            ]
+        )
+    print_table(rows, ["surface", "centre [m]", "normal", "corners", "friction", "may be touched by"])
+
+
+def _stance_line(field: str, stance: Stance) -> str:
+    contacts = ", ".join(f"{who} on {surface}" for who, surface in stance.contacts.items())
+    return f"{field:7} {_numbers(stance.position_W)} m, yaw {stance.yaw:g} rad: {contacts}"
+
+
+def _listed(names: tuple[str, ...]) -> str:
+    return " and ".join(names)
+
+
+def _numbers(values: object) -> str:
+    return " ".join(f"{value:.3f}" for value in values)  # type: ignore[attr-defined]

@@ -1,0 +1,1 @@
+"""Scenes, robots and plans on disk."""

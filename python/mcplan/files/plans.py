@@ -1,0 +1,269 @@
+"""Plans in .npz files: arrays and a JSON header, no pickles.
+
+The header (bytes of UTF-8 JSON) holds the format's version, the units, the version of mcplan, the planner, and the scene
+and the robot with the keys of their files. N phases, L end-effectors and S swings give these arrays:
+
+    durations (N)  surfaces (N, L)  stiffness (N, L)  anchors_W, moments_W (N, L, 3)  final_contacts (L)
+    com_W, com_velocity_W, base_rpy, base_rpy_rate (N+1, 3)  end_effectors_W, end_effector_velocities_W (N+1, L, 3)
+    swings (S, 3: end-effector, first phase, end phase)  swing_heights (S)  swing_normals_W (S, 2, 3)
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import tempfile
+import zipfile
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mcplan._core import Contact, Knot, Phase, Plan, Swing, __version__
+from mcplan.errors import InvalidInput, InvalidPlan
+from mcplan.files.robots import robot_from_dict, robot_to_dict
+from mcplan.files.scenes import scene_from_dict, scene_to_dict
+
+FORMAT = 1
+UNITS = "SI: m, kg, s, N, rad; stiffness in 1/s^2; _W: world frame, z up"
+_INTEGERS = {"surfaces", "final_contacts", "swings"}
+
+
+def save_plan(plan: Plan, path: str | Path) -> None:
+    """Write a plan to a file, which is complete or not there at all.
+
+    Args:
+        plan: The plan.
+        path: Where to; used as it stands, no ending is added.
+
+    Raises:
+        InvalidPlan: Its sizes do not fit together or a number is not finite.
+    """
+    data = plan_to_bytes(plan)
+    target = Path(path)
+    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+        umask = os.umask(0)
+        os.umask(umask)
+        os.chmod(temporary, 0o666 & ~umask)  # mkstemp makes files that only their owner can read
+        os.replace(temporary, target)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+
+
+def load_plan(path: str | Path) -> Plan:
+    """Read a plan written by save_plan.
+
+    Raises:
+        InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
+        FileNotFoundError: There is no such file.
+    """
+    try:
+        return plan_from_bytes(Path(path).read_bytes())
+    except InvalidInput as found:
+        raise InvalidPlan(found.field, found.rule, found.value, str(path)) from None
+
+
+def plan_to_bytes(plan: Plan) -> bytes:
+    """The content of a plan file."""
+    plan.validate()
+    count, ends = len(plan.phases), plan.end_effector_count()
+    contacts = [contact for phase in plan.phases for contact in phase.contacts]
+    header = {
+        "format": FORMAT,
+        "units": UNITS,
+        "mcplan": __version__,
+        "planner": plan.planner,
+        "scene": scene_to_dict(plan.scene),
+        "robot": robot_to_dict(plan.robot),
+    }
+    arrays = {
+        "header": np.frombuffer(json.dumps(header, allow_nan=False).encode(), dtype=np.uint8),
+        "durations": np.array([phase.duration for phase in plan.phases]),
+        "surfaces": np.array([c.surface for c in contacts], dtype=np.int32).reshape(count, ends),
+        "stiffness": np.array([c.stiffness for c in contacts]).reshape(count, ends),
+        "anchors_W": np.array([c.anchor_W for c in contacts]).reshape(count, ends, 3),
+        "moments_W": np.array([c.moment_W for c in contacts]).reshape(count, ends, 3),
+        "final_contacts": np.array(plan.final_contacts, dtype=np.int32),
+        "swings": np.array(
+            [[s.end_effector, s.first_phase, s.end_phase] for s in plan.swings], dtype=np.int32
+        ).reshape(-1, 3),
+        "swing_heights": np.array([s.height for s in plan.swings], dtype=float),
+        "swing_normals_W": np.array([[s.lift_normal_W, s.land_normal_W] for s in plan.swings]).reshape(
+            -1, 2, 3
+        ),
+    }
+    for name in (
+        "com_W",
+        "com_velocity_W",
+        "base_rpy",
+        "base_rpy_rate",
+        "end_effectors_W",
+        "end_effector_velocities_W",
+    ):
+        arrays[name] = np.array([getattr(knot, name) for knot in plan.knots])
+    buffer = io.BytesIO()
+    np.savez(buffer, **arrays)
+    return buffer.getvalue()
+
+
+def plan_from_bytes(data: bytes) -> Plan:
+    """The plan of the content of a plan file.
+
+    Raises:
+        InvalidPlan: Not such a file, or its content does not fit together.
+    """
+    arrays = _read_arrays(data)
+    header = _read_header(arrays)
+    scene = _part("header.scene", scene_from_dict, header["scene"])
+    robot = _part("header.robot", robot_from_dict, header["robot"])
+    _check_shapes(arrays, len(robot.end_effectors))
+    plan = Plan(
+        scene=scene,
+        robot=robot,
+        planner=header["planner"],
+        knots=[
+            Knot(
+                com_W=com,
+                com_velocity_W=velocity,
+                base_rpy=rpy,
+                base_rpy_rate=rate,
+                end_effectors_W=ends,
+                end_effector_velocities_W=end_velocities,
+            )
+            for com, velocity, rpy, rate, ends, end_velocities in zip(
+                arrays["com_W"],
+                arrays["com_velocity_W"],
+                arrays["base_rpy"],
+                arrays["base_rpy_rate"],
+                arrays["end_effectors_W"],
+                arrays["end_effector_velocities_W"],
+                strict=True,
+            )
+        ],
+        phases=[
+            Phase(
+                duration=duration,
+                contacts=[
+                    Contact(surface=int(surface), stiffness=stiffness, anchor_W=anchor, moment_W=moment)
+                    for surface, stiffness, anchor, moment in zip(*row, strict=True)
+                ],
+            )
+            for duration, *row in zip(
+                arrays["durations"],
+                arrays["surfaces"],
+                arrays["stiffness"],
+                arrays["anchors_W"],
+                arrays["moments_W"],
+                strict=True,
+            )
+        ],
+        final_contacts=[int(surface) for surface in arrays["final_contacts"]],
+        swings=[
+            Swing(
+                end_effector=int(end),
+                first_phase=int(first),
+                end_phase=int(last),
+                height=height,
+                lift_normal_W=normals[0],
+                land_normal_W=normals[1],
+            )
+            for (end, first, last), height, normals in zip(
+                arrays["swings"], arrays["swing_heights"], arrays["swing_normals_W"], strict=True
+            )
+        ],
+    )
+    plan.validate()
+    return plan
+
+
+def _read_arrays(data: bytes) -> dict[str, np.ndarray]:
+    if not zipfile.is_zipfile(io.BytesIO(data)):
+        raise InvalidPlan(
+            "", "must be an .npz file written by mcplan", "no zip archive, or an incomplete one"
+        )
+    try:
+        with np.load(io.BytesIO(data), allow_pickle=False) as archive:
+            return {name: archive[name] for name in archive.files}
+    except (
+        ValueError,
+        KeyError,
+        EOFError,
+        OSError,
+        MemoryError,
+        NotImplementedError,
+        RuntimeError,
+        SyntaxError,
+        zipfile.BadZipFile,
+        zlib.error,
+    ) as found:  # what NumPy and zipfile raise for damaged files
+        raise InvalidPlan("", "must be an .npz file written by mcplan", _first_line(found)) from None
+
+
+def _part(field: str, read: Callable[[Any], Any], data: Any) -> Any:
+    try:
+        return read(data)
+    except InvalidInput as found:
+        raise InvalidPlan(f"{field}.{found.field}", found.rule, found.value) from None
+
+
+def _first_line(error: BaseException) -> str:
+    return (str(error).splitlines() or [type(error).__name__])[0]
+
+
+def _read_header(arrays: dict[str, np.ndarray]) -> dict[str, Any]:
+    if "header" not in arrays:
+        raise InvalidPlan("header", "is required")
+    try:
+        header = json.loads(arrays["header"].tobytes())
+    except (ValueError, RecursionError) as found:
+        raise InvalidPlan("header", "must be JSON", _first_line(found)) from None
+    if not isinstance(header, dict):
+        raise InvalidPlan("header", "must be a JSON object", type(header).__name__)
+    if header.get("format") != FORMAT:
+        raise InvalidPlan(
+            "header.format", f"must be {FORMAT} for this version of mcplan", repr(header.get("format"))
+        )
+    for key, kind in (("planner", str), ("scene", dict), ("robot", dict)):
+        if not isinstance(header.get(key), kind):
+            raise InvalidPlan(f"header.{key}", f"must be a {kind.__name__}", type(header.get(key)).__name__)
+    return header
+
+
+def _check_shapes(arrays: dict[str, np.ndarray], ends: int) -> None:
+    count = arrays["durations"].size if "durations" in arrays else 0
+    swings = arrays["swing_heights"].size if "swing_heights" in arrays else 0
+    expected = {
+        "durations": (count,),
+        "surfaces": (count, ends),
+        "stiffness": (count, ends),
+        "anchors_W": (count, ends, 3),
+        "moments_W": (count, ends, 3),
+        "final_contacts": (ends,),
+        "com_W": (count + 1, 3),
+        "com_velocity_W": (count + 1, 3),
+        "base_rpy": (count + 1, 3),
+        "base_rpy_rate": (count + 1, 3),
+        "end_effectors_W": (count + 1, ends, 3),
+        "end_effector_velocities_W": (count + 1, ends, 3),
+        "swings": (swings, 3),
+        "swing_heights": (swings,),
+        "swing_normals_W": (swings, 2, 3),
+    }
+    for name, shape in expected.items():
+        if name not in arrays:
+            raise InvalidPlan(name, "is required")
+        kinds = "iu" if name in _INTEGERS else "f"
+        if arrays[name].dtype.kind not in kinds:
+            wanted = "integers" if name in _INTEGERS else "floating-point numbers"
+            raise InvalidPlan(name, f"must hold {wanted}", str(arrays[name].dtype))
+        if name in _INTEGERS and arrays[name].size and np.abs(arrays[name]).max() >= 2**31:
+            raise InvalidPlan(name, "must hold numbers of 32 bits", str(np.abs(arrays[name]).max()))
+        if arrays[name].shape != shape:
+            raise InvalidPlan(name, f"must have shape {shape}", str(arrays[name].shape))

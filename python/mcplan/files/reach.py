@@ -1,0 +1,189 @@
+"""Reach of a limb: which positions relative to the CoM it can take, and the largest box inside.
+
+The base stays upright and the other limbs stay in the nominal posture; the CoM moves with the limb, as it does on the robot.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+TOLERANCE_M = 1e-3
+_TOLERANCE_RAD = 5e-3
+_ITERATIONS = 40
+_STEP_RAD = 0.4
+_DAMPING = 1e-4
+
+
+@dataclass
+class Limb:
+    """A limb on a fixed base.
+
+    Attributes:
+        model: Pinocchio model of the free base and this limb, all other joints locked in the nominal posture.
+        base: Position and quaternion of the base, which is held there.
+        frame: Index of the contact frame in the model.
+        nominal: Joint positions in the nominal posture [rad].
+        lower: Joint limits [rad].
+        upper: Joint limits [rad].
+        flat: Keep the contact frame's orientation of the nominal posture, as a sole on level ground.
+    """
+
+    model: Any
+    base: np.ndarray
+    frame: int
+    nominal: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+    flat: bool
+
+    def __post_init__(self) -> None:
+        self._data = self.model.createData()
+        self.position(self.nominal)
+        self._orientation = self._data.oMf[self.frame].rotation.copy()
+
+    def position(self, joints: np.ndarray) -> np.ndarray:
+        """Position of the contact frame relative to the CoM [m], axes of the upright base."""
+        import pinocchio as pin
+
+        com = pin.centerOfMass(self.model, self._data, np.concatenate([self.base, joints]))
+        pin.updateFramePlacements(self.model, self._data)
+        return self._data.oMf[self.frame].translation - com
+
+    def jacobian(self, joints: np.ndarray) -> np.ndarray:
+        """Of the position relative to the CoM and of the frame's rotation, 6 x joints."""
+        import pinocchio as pin
+
+        whole = np.concatenate([self.base, joints])
+        com = pin.jacobianCenterOfMass(self.model, self._data, whole)[:, 6:]
+        out = pin.computeFrameJacobian(self.model, self._data, whole, self.frame, pin.LOCAL_WORLD_ALIGNED)[
+            :, 6:
+        ].copy()
+        out[:3] -= com
+        return out
+
+    def solve(self, target: np.ndarray, start: np.ndarray) -> np.ndarray | None:
+        """Joint positions [rad] within the limits that put the contact frame at `target` [m], or None."""
+        import pinocchio as pin
+
+        joints = start.copy()
+        rows = 6 if self.flat else 3
+        for _ in range(_ITERATIONS):
+            error = np.zeros(6)
+            error[:3] = target - self.position(joints)
+            if self.flat:
+                error[3:] = pin.log3(self._orientation @ self._data.oMf[self.frame].rotation.T)
+            if np.linalg.norm(error[:3]) < TOLERANCE_M and np.linalg.norm(error[3:]) < _TOLERANCE_RAD:
+                return joints
+            jacobian = self.jacobian(joints)[:rows]
+            # Joints at a limit that would have to go beyond it are left out, so that the others make up for them.
+            free = np.ones(joints.size, dtype=bool)
+            for _ in range(2):
+                active = jacobian * free
+                step = active.T @ np.linalg.solve(active @ active.T + _DAMPING * np.eye(rows), error[:rows])
+                beyond = ((joints >= self.upper) & (step > 0)) | ((joints <= self.lower) & (step < 0))
+                if not (beyond & free).any():
+                    break
+                free &= ~beyond
+            joints = np.clip(
+                joints + step * min(1.0, _STEP_RAD / (np.abs(step).max() + 1e-12)), self.lower, self.upper
+            )
+        return None
+
+
+@dataclass
+class Grid:
+    """Points around the nominal one: nominal + step * (index - origin).
+
+    Attributes:
+        nominal: [m]
+        step: [m]
+        origin: Index of the nominal point on each axis.
+        reached: Which points the limb reaches, 3-D.
+    """
+
+    nominal: np.ndarray
+    step: float
+    origin: np.ndarray
+    reached: np.ndarray
+
+    def point(self, index: Any) -> np.ndarray:
+        """Position of a grid point [m]."""
+        return self.nominal + self.step * (np.asarray(index) - self.origin)
+
+
+def explore(limb: Limb, low: np.ndarray, high: np.ndarray, step: float, seed: int = 0) -> Grid:
+    """Which points of a grid the limb reaches.
+
+    Goes outwards from the nominal position, starting each inverse kinematics from the solutions of neighbours further in
+    and from a random posture. Points without a reached neighbour further in are left out: no box of reached points around
+    the nominal one can hold them.
+
+    Args:
+        limb: The limb.
+        low, high: Box to look at, relative to the CoM [m]; must hold the nominal position.
+        step: Distance of the grid points [m].
+        seed: Of the random starts.
+    """
+    rng = np.random.default_rng(seed)
+    nominal = limb.position(limb.nominal)
+    below, above = ((nominal - low) / step).astype(int), ((high - nominal) / step).astype(int)
+    grid = Grid(nominal, step, below, np.zeros(below + above + 1, dtype=bool))
+    solutions: dict[tuple[int, ...], np.ndarray] = {}
+    order = sorted(np.ndindex(*grid.reached.shape), key=lambda i: (np.abs(np.array(i) - below).sum(), i))
+    for index in order:
+        near = [solutions[n] for n in _neighbours(index) if n in solutions]
+        if not near and index != tuple(below):
+            continue
+        for start in [*near[:2], rng.uniform(limb.lower, limb.upper)] if near else [limb.nominal]:
+            found = limb.solve(grid.point(index), start)
+            if found is not None:
+                solutions[index] = found
+                grid.reached[index] = True
+                break
+    return grid
+
+
+def _neighbours(index: tuple[int, ...]) -> list[tuple[int, ...]]:
+    return [tuple(i + d * (a == axis) for a, i in enumerate(index)) for axis in range(3) for d in (-1, 1)]
+
+
+def largest_box(grid: Grid) -> tuple[np.ndarray, np.ndarray]:
+    """Corners [m] of the axis-aligned box of largest volume that holds only points reached, the nominal one among them.
+
+    Boxes with the nominal point inside go before those with it on their surface.
+    """
+    counts = np.zeros(np.array(grid.reached.shape) + 1, dtype=int)
+    counts[1:, 1:, 1:] = grid.reached.cumsum(0).cumsum(1).cumsum(2)
+    (nx, ny, nz), (ox, oy, oz) = grid.reached.shape, grid.origin
+    best, corners = 0, (grid.origin, grid.origin)
+    # Rows: index of the lower z, columns: of the upper z.
+    depth = np.arange(oz, nz)[None, :] - np.arange(oz + 1)[:, None]
+    inside_z = (np.arange(oz + 1)[:, None] < oz) & (np.arange(oz, nz)[None, :] > oz)
+    for x0, x1, y0, y1 in itertools.product(range(ox + 1), range(ox, nx), range(oy + 1), range(oy, ny)):
+        area = (x1 - x0) * (y1 - y0)
+        line = counts[x1 + 1, y1 + 1] - counts[x0, y1 + 1] - counts[x1 + 1, y0] + counts[x0, y0]
+        full = line[oz + 1 :][None, :] - line[: oz + 1][:, None] == (depth + 1) * (x1 - x0 + 1) * (
+            y1 - y0 + 1
+        )
+        margin = 1 + 999 * (inside_z & (x0 < ox < x1) & (y0 < oy < y1))
+        worth = np.where(full, depth * area * margin, 0)
+        if worth.max() > best:
+            best = worth.max()
+            z0, z1 = np.unravel_index(worth.argmax(), worth.shape)
+            corners = (np.array([x0, y0, z0]), np.array([x1, y1, oz + z1]))
+    return grid.point(corners[0]), grid.point(corners[1])
+
+
+def share_reached(limb: Limb, low: np.ndarray, high: np.ndarray, count: int, seed: int) -> float:
+    """Share of `count` random points of a box [m] that the limb reaches from its nominal or a random posture."""
+    rng = np.random.default_rng(seed)
+    reached = 0
+    for _ in range(count):
+        target = rng.uniform(low, high)
+        starts = [limb.nominal, *(rng.uniform(limb.lower, limb.upper) for _ in range(4))]
+        reached += any(limb.solve(target, start) is not None for start in starts)
+    return reached / count

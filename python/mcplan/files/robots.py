@@ -1,0 +1,107 @@
+"""Robots from and to TOML files and plain dicts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from mcplan._core import EndEffector, Robot
+from mcplan.errors import InvalidRobot, UnknownRobot
+from mcplan.files import builtin
+from mcplan.files.toml import read_toml, toml_text
+
+_POSITIONS = {"nominal": "nominal_B", "reach_min": "reach_min_B", "reach_max": "reach_max_B"}
+
+
+def list_robots() -> list[str]:
+    """Names of the built-in robots."""
+    return builtin.names("robots")
+
+
+def load_robot(source: str | Path) -> Robot:
+    """Load a robot by its built-in name or from a TOML file; see mcplan.load_robot."""
+    path = builtin.find(source, "robots", UnknownRobot)
+    data = read_toml(path, InvalidRobot)
+    data.setdefault("name", path.stem)
+    return robot_from_dict(data, source=str(path))
+
+
+def save_robot(robot: Robot, path: str | Path, header: str = "") -> None:
+    """Write a robot to a TOML file.
+
+    Args:
+        robot: A valid robot.
+        path: Where to.
+        header: Comment to put on top.
+
+    Raises:
+        InvalidRobot: A field is out of range.
+    """
+    robot.validate()
+    Path(path).write_text(toml_text(robot_to_dict(robot), header), encoding="utf-8")
+
+
+def robot_to_dict(robot: Robot) -> dict[str, Any]:
+    """Plain data with the keys of a robot file; what is at its default is left out."""
+    data: dict[str, Any] = {"name": robot.name}
+    if robot.description:
+        data["description"] = robot.description
+    data["mass"] = robot.mass
+    data["inertia"] = robot.inertia.tolist()
+    data["com_height"] = robot.com_height
+    data["swing_height"] = robot.swing_height
+    if robot.urdf:
+        data["urdf"] = robot.urdf
+    data["end_effectors"] = [_end_effector_to_dict(end) for end in robot.end_effectors]
+    if robot.posture:
+        data["posture"] = dict(robot.posture)
+    return data
+
+
+def robot_from_dict(data: Mapping[str, Any], source: str = "") -> Robot:
+    """The robot of plain data with the keys of a robot file.
+
+    Args:
+        data: As from robot_to_dict, or read from a file.
+        source: Named in errors.
+
+    Raises:
+        InvalidRobot: A key is unknown or missing, or a value has the wrong type or is out of range.
+    """
+    from mcplan.files.fields import validated
+    from mcplan.files.models import RobotModel
+
+    model = validated(RobotModel, dict(data), InvalidRobot, source)
+    robot = rebuild_robot(model.model_dump())
+    try:
+        robot.validate()
+    except InvalidRobot as found:
+        raise InvalidRobot(found.field, found.rule, found.value, source) from None
+    return robot
+
+
+def rebuild_robot(data: Mapping[str, Any]) -> Robot:
+    """Inverse of robot_to_dict without checks, for pickles."""
+    rest = {key: value for key, value in data.items() if key not in ("name", "end_effectors")}
+    ends = [_end_effector_from_dict(end) for end in data["end_effectors"]]
+    return Robot(name=data.get("name") or "", end_effectors=ends, **rest)
+
+
+def _end_effector_to_dict(end: EndEffector) -> dict[str, Any]:
+    data: dict[str, Any] = {"name": end.name, "kind": end.kind}
+    if end.frame:
+        data["frame"] = end.frame
+    if end.half_size.any():
+        data["half_size"] = end.half_size.tolist()
+    data.update({key: getattr(end, attribute).tolist() for key, attribute in _POSITIONS.items()})
+    if math.isfinite(end.max_force):  # JSON knows no infinity; it is the default
+        data["max_force"] = end.max_force
+    if end.max_moment.any():
+        data["max_moment"] = end.max_moment.tolist()
+    return data
+
+
+def _end_effector_from_dict(data: Mapping[str, Any]) -> EndEffector:
+    return EndEffector(**{_POSITIONS.get(key, key): value for key, value in data.items()})

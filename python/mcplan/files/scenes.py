@@ -1,0 +1,117 @@
+"""Scenes from and to TOML files and plain dicts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from mcplan._core import ContactRule, Scene, Stance, Surface
+from mcplan.errors import InvalidScene, UnknownScene
+from mcplan.files import builtin
+from mcplan.files.toml import read_toml, toml_text
+
+
+def list_scenes() -> list[str]:
+    """Names of the built-in scenes."""
+    return builtin.names("scenes")
+
+
+def load_scene(source: str | Path) -> Scene:
+    """Load a scene by its built-in name or from a TOML file; see mcplan.load_scene."""
+    path = builtin.find(source, "scenes", UnknownScene)
+    data = read_toml(path, InvalidScene)
+    data.setdefault("name", path.stem)
+    return scene_from_dict(data, source=str(path))
+
+
+def save_scene(scene: Scene, path: str | Path, header: str = "") -> None:
+    """Write a scene to a TOML file.
+
+    Args:
+        scene: A valid scene.
+        path: Where to.
+        header: Comment to put on top.
+
+    Raises:
+        InvalidScene: A field is out of range.
+    """
+    scene.validate()
+    Path(path).write_text(toml_text(scene_to_dict(scene), header), encoding="utf-8")
+
+
+def scene_to_dict(scene: Scene) -> dict[str, Any]:
+    """Plain data with the keys of a scene file; what is at its default is left out."""
+    data: dict[str, Any] = {"name": scene.name}
+    if scene.description:
+        data["description"] = scene.description
+    data["gravity"] = scene.gravity
+    data["start"] = _stance_to_dict(scene.start)
+    data["goal"] = _stance_to_dict(scene.goal)
+    data["surfaces"] = [_surface_to_dict(surface) for surface in scene.surfaces]
+    if scene.rules:
+        data["rules"] = [{"when_free": list(r.when_free), "require": list(r.require)} for r in scene.rules]
+    return data
+
+
+def scene_from_dict(data: Mapping[str, Any], source: str = "") -> Scene:
+    """The scene of plain data with the keys of a scene file.
+
+    Args:
+        data: As from scene_to_dict, or read from a file.
+        source: Named in errors.
+
+    Raises:
+        InvalidScene: A key is unknown or missing, or a value has the wrong type or is out of range.
+    """
+    from mcplan.files.fields import validated
+    from mcplan.files.models import SceneModel
+
+    model = validated(SceneModel, dict(data), InvalidScene, source)
+    scene = rebuild_scene(model.model_dump())
+    try:
+        scene.validate()
+    except InvalidScene as found:
+        raise InvalidScene(found.field, found.rule, found.value, source) from None
+    return scene
+
+
+def rebuild_scene(data: Mapping[str, Any]) -> Scene:
+    """Inverse of scene_to_dict without checks, for pickles."""
+    return Scene(
+        name=data.get("name") or "",
+        description=data.get("description", ""),
+        gravity=data.get("gravity", Scene().gravity),
+        surfaces=[_surface_from_dict(surface) for surface in data["surfaces"]],
+        start=_stance_from_dict(data["start"]),
+        goal=_stance_from_dict(data["goal"]),
+        rules=[ContactRule(**rule) for rule in data.get("rules", [])],
+    )
+
+
+def _surface_to_dict(surface: Surface) -> dict[str, Any]:
+    default = Surface()
+    data: dict[str, Any] = {"name": surface.name, "vertices": surface.vertices_W.tolist()}
+    for key in ("friction", "grasp", "thickness"):
+        if getattr(surface, key) != getattr(default, key):
+            data[key] = getattr(surface, key)
+    if surface.end_effectors:
+        data["end_effectors"] = list(surface.end_effectors)
+    return data
+
+
+def _surface_from_dict(data: Mapping[str, Any]) -> Surface:
+    rest = {key: value for key, value in data.items() if key != "vertices"}
+    return Surface(vertices_W=data["vertices"], **rest)
+
+
+def _stance_to_dict(stance: Stance) -> dict[str, Any]:
+    data: dict[str, Any] = {"position": stance.position_W.tolist()}
+    if stance.yaw:
+        data["yaw"] = stance.yaw
+    data["contacts"] = dict(stance.contacts)
+    return data
+
+
+def _stance_from_dict(data: Mapping[str, Any]) -> Stance:
+    return Stance(position_W=data["position"], yaw=data.get("yaw", 0.0), contacts=data["contacts"])

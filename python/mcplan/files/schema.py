@@ -1,0 +1,31 @@
+"""JSON schemas of scene and robot files, for editors and other programs.
+
+python -m mcplan.files.schema        # writes mcplan/data/schema/*.json from the models
+"""
+
+from __future__ import annotations
+
+import json
+
+from mcplan.files.builtin import DATA
+from mcplan.files.models import RobotModel, SceneModel
+
+MODELS = {"scene": SceneModel, "robot": RobotModel}
+
+
+def schema_text(name: str) -> str:
+    """The JSON schema ("scene" or "robot") as it stands in ``mcplan/data/schema``."""
+    schema = {"$schema": "https://json-schema.org/draft/2020-12/schema", **MODELS[name].model_json_schema()}
+    return json.dumps(schema, indent=2) + "\n"
+
+
+def main() -> None:
+    for name in MODELS:
+        path = DATA / "schema" / f"{name}.json"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(schema_text(name), encoding="utf-8")
+        print(path)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,100 @@
+"""TOML in and out. Reading raises our errors; writing covers tables, lists of tables, lists and plain values."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from mcplan.errors import InvalidInput
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+_LINE_WIDTH = 110
+
+
+def read_toml(path: Path, error: type[InvalidInput]) -> dict[str, Any]:
+    """Parse a TOML file; `error` names the file when it cannot be read or is not TOML."""
+    source = str(path)
+    try:
+        text = path.read_bytes().decode("utf-8")
+    except UnicodeDecodeError as bad:
+        raise error(
+            "", "must be UTF-8 text", f"byte 0x{bad.object[bad.start]:02x} at offset {bad.start}", source
+        ) from None
+    except OSError as bad:
+        raise error("", f"cannot be read: {bad.strerror}", source=source) from None
+    if not text.strip():
+        raise error("", "is empty", source=source)
+    try:
+        return tomllib.loads(text.removeprefix("\ufeff"))
+    except tomllib.TOMLDecodeError as bad:
+        reason = str(bad)
+        raise error("", f"is not TOML: {reason[0].lower() + reason[1:]}", source=source) from None
+    except RecursionError:
+        raise error("", "is not TOML: nested too deep", source=source) from None
+
+
+def toml_text(data: Mapping[str, Any], header: str = "") -> str:
+    """A mapping as TOML: plain values first, then tables, then lists of tables.
+
+    Args:
+        data: Nested mappings, lists, strings, numbers and booleans.
+        header: Comment to put on top.
+    """
+    lines = [f"# {line}".rstrip() for line in header.splitlines()]
+    lines += [
+        _pair(key, value) for key, value in data.items() if not _is_table(value) and not _is_tables(value)
+    ]
+    for key, value in data.items():
+        for title, table in _sections(key, value):
+            lines += ["", title, *(_pair(inner, entry) for inner, entry in table.items())]
+    return "\n".join(lines) + "\n"
+
+
+def _sections(key: str, value: Any) -> list[tuple[str, Mapping[str, Any]]]:
+    if _is_table(value):
+        return [(f"[{_key(key)}]", value)]
+    return [(f"[[{_key(key)}]]", table) for table in value] if _is_tables(value) else []
+
+
+def _is_table(value: Any) -> bool:
+    return isinstance(value, Mapping)
+
+
+def _is_tables(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and all(isinstance(item, Mapping) for item in value)
+
+
+def _key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _value(key)
+
+
+def _pair(key: str, value: Any) -> str:
+    line = f"{_key(key)} = {_value(value)}"
+    if len(line) > _LINE_WIDTH and isinstance(value, list):
+        return f"{_key(key)} = [\n" + "".join(f"  {_value(item)},\n" for item in value) + "]"
+    return line
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, float):
+        return repr(value) if math.isfinite(value) else str(value)
+    if isinstance(value, Mapping):
+        return (
+            "{ " + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + " }" if value else "{}"
+        )
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_value(item) for item in value) + "]"
+    return str(value)

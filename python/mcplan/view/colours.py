@@ -1,0 +1,56 @@
+"""Colours of pages, pictures and plots, chosen to stay apart for colour-blind readers.
+
+End-effectors on the left are cool, those on the right warm; the first of a side is dark, the second light
+(Okabe and Ito's palette). Surfaces in plots take Tol's muted palette, which does not meet the former.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mcplan import Robot, Scene
+
+COOL = ("#0072B2", "#56B4E9", "#009E73", "#7FB7A3")
+WARM = ("#D55E00", "#E69F00", "#CC79A7", "#A8563A")
+SURFACES = ("#88A9C9", "#DDCC77", "#CC6677", "#117733", "#AA4499", "#44AA99", "#882255", "#6E6AB5", "#999933")
+
+COM = "#7A1F5C"
+GROUND = "#DADDE2"
+WALL = "#9DB4CC"
+GRASP = "#2AA889"
+OUTLINE = "#8A919C"
+BODY = "#A9B2BD"
+LIMB = "#98A2AE"
+HEAD = "#B9C1CA"
+VISOR = "#333A43"
+FORCE = "#2B2F36"
+TEXT = "#22262B"
+
+
+def end_effector_colours(robot: Robot) -> list[str]:
+    """One colour per end-effector of the robot, "#rrggbb"."""
+    counts = {True: 0, False: 0}
+    colours = []
+    for end in robot.end_effectors:
+        left = float(end.nominal_B[1]) > 0.0
+        palette = COOL if left else WARM
+        colours.append(palette[counts[left] % len(palette)])
+        counts[left] += 1
+    return colours
+
+
+def surface_colours(scene: Scene) -> list[str]:
+    """One colour per surface of the scene for plots, "#rrggbb"; grasps keep their accent."""
+    return [GRASP if s.grasp else SURFACES[i % len(SURFACES)] for i, s in enumerate(scene.surfaces)]
+
+
+def rgb(colour: str) -> tuple[float, float, float]:
+    """Red, green, blue in [0, 1] of "#rrggbb"."""
+    return tuple(int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5))  # type: ignore[return-value]
+
+
+def mix(colour: str, other: str, share: float) -> str:
+    """`colour` with the given share of `other`, "#rrggbb"."""
+    blend = [(1.0 - share) * a + share * b for a, b in zip(rgb(colour), rgb(other), strict=True)]
+    return "#" + "".join(f"{round(255 * c):02x}" for c in blend)

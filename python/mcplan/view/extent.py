@@ -1,0 +1,79 @@
+"""How much of a scene is drawn: surfaces may reach far beyond the motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from mcplan import Robot, Scene
+
+    from .samples import Samples
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Extent:
+    """A vertical box, turned to the direction of travel, outside of which surfaces are cut off."""
+
+    centre: Array  # (2,) [m] of the box, world x and y
+    forward: Array  # (2,) unit vector of travel
+    half_length: float  # [m]
+    half_width: float  # [m]
+
+    @property
+    def left(self) -> Array:
+        return np.array([-self.forward[1], self.forward[0]])
+
+    def clip(self, outline: Array) -> Array:
+        """The part of a convex polygon (n, 3) inside the box, (m, 3); m is 0 when nothing is."""
+        polygon = np.asarray(outline, float)
+        walls = ((self.forward, self.half_length), (self.left, self.half_width))
+        for axis, half in walls:
+            for sign in (1.0, -1.0):
+                polygon = _below(polygon, sign * (polygon[:, :2] - self.centre) @ axis - half)
+                if len(polygon) < 3:
+                    return np.zeros((0, 3))
+        return polygon
+
+
+def extent_of(
+    scene: Scene, robot: Robot | None, samples: Samples | None, length: float, width: float
+) -> Extent:
+    """The box around the motion (or around start and goal) with margins of `length` and `width` [m]."""
+    points = [np.asarray(s.position_W, float)[:2] for s in (scene.start, scene.goal)]
+    if samples is not None:
+        points += list(samples.com_W[:, :2]) + list(samples.positions_W[:, :, :2].reshape(-1, 2))
+        travel = samples.com_W[-1, :2] - samples.com_W[0, :2]
+    else:
+        travel = points[1] - points[0]
+    distance = float(np.linalg.norm(travel))
+    yaw = float(scene.start.yaw)
+    forward = travel / distance if distance > 0.1 else np.array([np.cos(yaw), np.sin(yaw)])
+    # Surfaces that are small belong to the picture as a whole: pads, stones, treads, walls.
+    for surface in scene.surfaces:
+        outline = np.asarray(surface.vertices_W, float)[:, :2]
+        if np.ptp(outline, axis=0).max() < 2.5:
+            points += list(outline)
+    spread = np.array(points)
+    along, across = spread @ forward, spread @ np.array([-forward[1], forward[0]])
+    middle = np.array([along.min() + along.max(), across.min() + across.max()]) / 2.0
+    centre = middle[0] * forward + middle[1] * np.array([-forward[1], forward[0]])
+    return Extent(centre, forward, 0.5 * float(np.ptp(along)) + length, 0.5 * float(np.ptp(across)) + width)
+
+
+def _below(polygon: Array, height: Array) -> Array:
+    """The part of a convex polygon with height <= 0 (Sutherland and Hodgman)."""
+    kept = []
+    for i in range(len(polygon)):
+        j = (i + 1) % len(polygon)
+        if height[i] <= 0.0:
+            kept.append(polygon[i])
+        if (height[i] < 0.0 < height[j]) or (height[j] < 0.0 < height[i]):
+            share = height[i] / (height[i] - height[j])
+            kept.append(polygon[i] + share * (polygon[j] - polygon[i]))
+    return np.array(kept).reshape(-1, 3)

@@ -1,0 +1,140 @@
+"""Postures of a URDF's model that follow a plan: damped least squares over CoM, base and end-effectors.
+
+Each sample starts from the posture of the one before, so that the motion stays on one branch.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .samples import Samples
+
+if TYPE_CHECKING:
+    from mcplan import Robot
+
+Array = NDArray[np.float64]
+
+# Weights: 1 m of position, 1 rad of turning.
+COM, BASE, CONTACT, SWING, HAND = 10.0, 2.0, 20.0, 10.0, 3.0
+SOLE = 3.0
+POSTURE = 0.05
+DAMPING = 1e-6
+#: Largest change of a joint in one iteration [rad].
+STEP = 0.4
+
+
+@dataclass(frozen=True)
+class Postures:
+    """Configurations that follow a plan.
+
+    Attributes:
+        configurations: (n, nq), Pinocchio's order, free-flyer first.
+        residual: Largest distance by which CoM or an end-effector in contact misses the plan [m].
+        where: Sample and name of that residual, for messages.
+    """
+
+    configurations: Array
+    residual: float
+    where: str
+
+
+def follow(model: Any, neutral: Array, samples: Samples, robot: Robot) -> Postures:
+    """Find a posture for every sample.
+
+    Args:
+        model: Pinocchio model with a free-flyer.
+        neutral: Configuration (nq,) to stay near: the nominal stance, feet flat, facing along x.
+        samples: The plan.
+        robot: End-effectors with frames of the model.
+    """
+    import pinocchio as pin  # type: ignore[import-untyped]
+
+    data = model.createData()
+    frames = [model.getFrameId(end.frame) for end in robot.end_effectors]
+    pin.framesForwardKinematics(model, data, neutral)
+    # How each frame is turned against its sole: in the nominal stance soles lie flat and point ahead.
+    local = [data.oMf[f].rotation.copy() for f in frames]
+    q = neutral.copy()
+    q[:3] += samples.com_W[0] - pin.centerOfMass(model, data, neutral)
+    solver = _Solver(pin, model, data, robot, frames, local, neutral)
+    configurations, worst, where = [], 0.0, ""
+    for n in range(samples.count):
+        q = solver.solve(q, samples, n, iterations=80 if n == 0 else 12)
+        configurations.append(q.copy())
+        for name, miss in solver.misses(q, samples, n):
+            if miss > worst:
+                worst, where = miss, f"{name} at {samples.times_s[n]:.2f} s"
+    return Postures(np.array(configurations), worst, where)
+
+
+class _Solver:
+    def __init__(
+        self,
+        pin: Any,
+        model: Any,
+        data: Any,
+        robot: Robot,
+        frames: list[int],
+        local: list[Array],
+        neutral: Array,
+    ) -> None:
+        self.pin, self.model, self.data, self.robot = pin, model, data, robot
+        self.frames, self.local, self.neutral = frames, local, neutral
+        self.posture = np.full(model.nv, POSTURE**2)
+        self.posture[:6] = 0.0
+        low, high = model.lowerPositionLimit.copy(), model.upperPositionLimit.copy()
+        low[:7], high[:7] = -np.inf, np.inf
+        self.low, self.high = low, high
+
+    def solve(self, q: Array, samples: Samples, n: int, iterations: int) -> Array:
+        pin, model = self.pin, self.model
+        for _ in range(iterations):
+            errors, jacobians = self._tasks(q, samples, n)
+            error, jacobian = np.concatenate(errors), np.vstack(jacobians)
+            hessian = jacobian.T @ jacobian + np.diag(self.posture + DAMPING)
+            home = pin.difference(model, q, self.neutral)
+            step = np.linalg.solve(hessian, jacobian.T @ error + self.posture * home)
+            step *= min(1.0, STEP / max(float(np.abs(step).max()), 1e-12))
+            q = pin.integrate(model, q, step)
+            q[7:] = np.clip(q[7:], self.low[7:], self.high[7:])
+            if np.abs(step).max() < 1e-5:
+                break
+        return np.asarray(q)
+
+    def misses(self, q: Array, samples: Samples, n: int) -> list[tuple[str, float]]:
+        self.pin.framesForwardKinematics(self.model, self.data, q)
+        found = [("the CoM", samples.com_W[n] - self.pin.centerOfMass(self.model, self.data, q))]
+        for end, frame in enumerate(self.frames):
+            if samples.surfaces[n, end] >= 0:
+                name = self.robot.end_effectors[end].name
+                found.append((name, samples.positions_W[n, end] - self.data.oMf[frame].translation))
+        return [(name, float(np.linalg.norm(miss))) for name, miss in found]
+
+    def _tasks(self, q: Array, samples: Samples, n: int) -> tuple[list[Array], list[Array]]:
+        """Weighted errors and Jacobians, in the world's axes."""
+        pin, model, data = self.pin, self.model, self.data
+        world = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+        pin.computeJointJacobians(model, data, q)
+        pin.updateFramePlacements(model, data)
+        com_jacobian = pin.jacobianCenterOfMass(model, data, q)
+        errors = [COM * (samples.com_W[n] - data.com[0])]
+        jacobians = [COM * com_jacobian]
+        turn = pin.log3(samples.rotation_WB[n] @ data.oMi[1].rotation.T)
+        errors.append(BASE * turn)
+        jacobians.append(BASE * pin.getJointJacobian(model, data, 1, world)[3:])
+        for end, frame in enumerate(self.frames):
+            placement = data.oMf[frame]
+            jacobian = pin.getFrameJacobian(model, data, frame, world)
+            foot = self.robot.end_effectors[end].kind == "foot"
+            weight = CONTACT if samples.surfaces[n, end] >= 0 else SWING if foot else HAND
+            errors.append(weight * (samples.positions_W[n, end] - placement.translation))
+            jacobians.append(weight * jacobian[:3])
+            if foot and np.asarray(self.robot.end_effectors[end].half_size).all():
+                wanted = samples.rotations_W[n, end] @ self.local[end]
+                errors.append(SOLE * pin.log3(wanted @ placement.rotation.T))
+                jacobians.append(SOLE * jacobian[3:])
+        return errors, jacobians

@@ -1,0 +1,146 @@
+"""A plan on a page: paths, footholds, contacts that light up, force arrows, robot."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .colours import COM, FORCE
+from .figure import Figure
+from .rotations import pose, with_axis_z
+from .samples import Interval, Samples
+from .shapes import Mesh, circle, cone, disc, ellipsoid, loft, plate, tube
+
+if TYPE_CHECKING:
+    from mcplan import Robot, Scene
+
+    from .stage import Stage
+
+Array = NDArray[np.float64]
+
+#: Length of a force arrow as large as the weight, as a share of the CoM height.
+WEIGHT_ARROW = 0.55
+#: [s] that a new contact takes to settle from its flash.
+FLASH = 0.25
+
+
+def draw_plan(
+    stage: Stage, samples: Samples, scene: Scene, robot: Robot, figure: Figure, colours: list[str]
+) -> None:
+    """Put a plan onto a page: nodes "robot", "com", "paths", "contacts" and "forces"."""
+    scale = float(robot.com_height) / 0.7
+    draw_figure(stage, samples, figure)
+    ball = ellipsoid((0.028 * scale,) * 3)
+    stage.mesh("com/ball", ball, COM, glow=0.3, on_top=True)
+    stage.move("com/ball", samples.times_s, pose(np.eye(3), samples.com_W))
+    stage.mesh("paths/com", tube(samples.com_W, 0.011 * scale), COM, glow=0.25)
+    for end, colour in enumerate(colours):
+        name = robot.end_effectors[end].name
+        stage.mesh(
+            f"paths/{name}", tube(samples.positions_W[:, end], 0.005 * scale, sides=6), colour, glow=0.25
+        )
+    for number, interval in enumerate(samples.intervals):
+        _draw_contact(stage, number, interval, samples, robot, colours[interval.end_effector])
+    weight = float(robot.mass) * float(scene.gravity)
+    for end in range(len(colours)):
+        _draw_force(stage, end, samples, robot, weight)
+
+
+def draw_figure(stage: Stage, samples: Samples, figure: Figure) -> None:
+    """Put a robot onto a page; parts that share a motion may share a node."""
+    nodes: dict[str, int] = {}
+    for number, part in enumerate(figure.parts):
+        node, _, rest = part.name.partition("/")
+        path = f"robot/{node}"
+        stage.mesh(f"{path}/{rest}" if rest else path, part.mesh, part.colour)
+        if node not in nodes:
+            nodes[node] = number
+            stage.move(path, samples.times_s, part.poses)
+
+
+def contact_plate(robot: Robot, end: int, margin: float = 0.0) -> Mesh:
+    """Patch [m] that stands for a contact: the sole's rectangle, or a disc for a point."""
+    half_size = np.asarray(robot.end_effectors[end].half_size, float)
+    scale = float(robot.com_height) / 0.7
+    thickness = 0.004
+    if half_size.all():
+        return plate((half_size[0] + margin, half_size[1] + margin), thickness)
+    return disc(0.035 * scale + margin, thickness)
+
+
+def _draw_contact(
+    stage: Stage, number: int, interval: Interval, samples: Samples, robot: Robot, colour: str
+) -> None:
+    end = interval.end_effector
+    at = pose(interval.rotation_W, interval.position_W)
+    path = f"contacts/{robot.end_effectors[end].name}/{number}"
+    stage.mesh(f"{path}/print", contact_plate(robot, end), colour, 0.45)
+    stage.place(f"{path}/print", at)
+    stage.mesh(f"{path}/active", contact_plate(robot, end, margin=0.02), colour, 0.85, glow=0.6)
+    stage.place(f"{path}/active", at)
+    # Flash from one and a half times its size; the first contacts of a plan are there from the start.
+    times = {0.0: 1.0, float(samples.times_s[-1]): 1.0}
+    if interval.start_s > 0.0:
+        for share in np.linspace(0.0, 1.0, 9):
+            times[min(interval.start_s + FLASH * share, float(samples.times_s[-1]))] = (
+                1.0 + 0.6 * (1.0 - share) ** 2
+            )
+    moments = np.array(sorted(times))
+    scales = np.array([[times[t], times[t], 1.0] for t in moments])
+    stage.move(f"{path}/active", moments, scales=scales)
+    last = float(samples.times_s[-1])
+    switches = np.unique([0.0, interval.start_s, min(interval.end_s, last), last])
+    on = (switches >= interval.start_s) & ((switches < interval.end_s) | (interval.end_s >= last - 1e-9))
+    stage.move(f"{path}/active", switches, visible=on)
+
+
+def _draw_force(stage: Stage, end: int, samples: Samples, robot: Robot, weight: float) -> None:
+    height = float(robot.com_height)
+    name = robot.end_effectors[end].name
+    force = samples.forces_W[:, end]
+    size = np.linalg.norm(force, axis=1)
+    if size.max() < 1e-3 * weight:
+        return
+    length = WEIGHT_ARROW * height * size / weight
+    head = 0.085 * height
+    frames = []
+    frame = np.eye(3)
+    for f, s in zip(force, size, strict=True):
+        if s > 1e-3 * weight:
+            frame = with_axis_z(f, frame[:, 0])
+        frames.append(frame)
+    rotation = np.array(frames)
+    shrink = np.clip(length / (2.0 * head), 1e-3, 1.0)
+    shaft = np.maximum(length - head * shrink, 1e-4)
+    start = samples.positions_W[:, end]
+    seen = length > 0.02 * height
+    ones = np.ones(samples.count)
+    ring = 0.011 * height * circle(10)
+    bar = loft(np.array([np.column_stack([ring, np.full(10, z)]) for z in (0.0, 1.0)]))
+    stage.mesh(f"forces/{name}/shaft", bar, FORCE, glow=0.15)
+    stage.move(
+        f"forces/{name}/shaft",
+        samples.times_s,
+        pose(rotation, start),
+        np.column_stack([shrink, shrink, shaft]),
+        seen,
+    )
+    stage.mesh(f"forces/{name}/head", cone(0.032 * height, head), FORCE, glow=0.15)
+    tip = start + rotation[:, :, 2] * shaft[:, None]
+    stage.move(
+        f"forces/{name}/head",
+        samples.times_s,
+        pose(rotation, tip),
+        (shrink * ones)[:, None].repeat(3, axis=1),
+        seen,
+    )
+
+
+def draw_standing(stage: Stage, name: str, samples: Samples, figure: Figure, opacity: float) -> None:
+    """Put a robot that does not move onto a page, under "stances"."""
+    for part in figure.parts:
+        path = f"stances/{name}/{part.name}"
+        stage.mesh(path, part.mesh, part.colour, opacity)
+        stage.place(path, part.poses[0])

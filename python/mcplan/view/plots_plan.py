@@ -1,0 +1,165 @@
+"""Plots of a plan over time: CoM, contacts, forces, friction."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .colours import COM, TEXT, end_effector_colours, surface_colours
+from .samples import Samples, contact_intervals, sample
+from .shapes import polygon_normal
+from .sheets import QUIET, label, legend, shade_support, sheet, support_patches
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from mcplan import Plan
+
+Array = NDArray[np.float64]
+
+#: [1/s] sampling of curves.
+RATE = 200.0
+
+
+def plot_com(plan: Plan) -> Figure:
+    """Position and velocity of the CoM; stretches in flight and on one contact are tinted."""
+    samples = sample(plan, plan.scene, plan.robot, RATE)
+    figure, axes = sheet(3, 2, size=(10.0, 6.0), sharex=True)
+    for i, name in enumerate("xyz"):
+        for column, (values, unit) in enumerate(((samples.com_W, "m"), (samples.com_velocity_W, "m/s"))):
+            shade_support(axes[i, column], samples)
+            axes[i, column].plot(samples.times_s, values[:, i], color=COM, linewidth=2.0)
+            label(axes[i, column], y=f"{name} [{unit}]")
+        axes[i, 0].plot(plan.knot_times(), [k.com_W[i] for k in plan.knots], "o", color=COM, markersize=3.5)
+    label(axes[0, 0], title="CoM position")
+    label(axes[0, 1], title="CoM velocity")
+    for each in axes[2]:
+        label(each, x="time [s]")
+        each.set_xlim(0.0, samples.times_s[-1])
+    figure.legend(
+        handles=support_patches(),
+        loc="outside lower center",
+        ncol=2,
+        frameon=False,
+        fontsize=9,
+        labelcolor=TEXT,
+    )
+    return figure
+
+
+def plot_gait(plan: Plan) -> Figure:
+    """Contacts of every end-effector over time, coloured by surface."""
+    from matplotlib.patches import Patch
+
+    names = [end.name.replace("_", " ") for end in plan.robot.end_effectors]
+    colours = surface_colours(plan.scene)
+    intervals = contact_intervals(plan, plan.scene, plan.robot)
+    figure, axes = sheet(1, 1, size=(10.0, 0.9 + 0.42 * len(names)))
+    chart = axes[0, 0]
+    for interval in intervals:
+        chart.barh(
+            interval.end_effector,
+            interval.end_s - interval.start_s,
+            left=interval.start_s,
+            height=0.72,
+            color=colours[interval.surface],
+            edgecolor="white",
+            linewidth=1.2,
+        )
+    for t in plan.knot_times():
+        chart.axvline(t, color="#D5DADF", linewidth=0.6, zorder=0)
+    chart.grid(False)
+    chart.set_yticks(range(len(names)), names, fontsize=10)
+    chart.set_ylim(len(names) - 0.45, -0.55)
+    chart.set_xlim(0.0, plan.duration())
+    label(chart, x="time [s]")
+    used = sorted({interval.surface for interval in intervals})
+    if len(used) > 1:
+        patches = [Patch(color=colours[s], label=plan.scene.surfaces[s].name) for s in used]
+        figure.legend(
+            handles=patches,
+            loc="outside upper center",
+            ncol=min(len(used), 7),
+            frameon=False,
+            fontsize=9,
+            labelcolor=TEXT,
+        )
+    return figure
+
+
+def plot_forces(plan: Plan) -> Figure:
+    """Normal and tangential force of every end-effector that touches something."""
+    samples = sample(plan, plan.scene, plan.robot, RATE)
+    normal, tangential = contact_forces(plan, samples)
+    used = [e for e in range(len(plan.robot.end_effectors)) if (samples.surfaces[:, e] >= 0).any()]
+    colours = end_effector_colours(plan.robot)
+    figure, axes = sheet(
+        max(len(used), 1), 1, size=(10.0, 1.0 + 1.55 * max(len(used), 1)), sharex=True, sharey=True
+    )
+    weight = float(plan.robot.mass) * float(plan.scene.gravity)
+    top = 1.08 * max(float(np.nanmax(normal, initial=0.0)), weight)
+    for row, end in enumerate(used):
+        chart = axes[row, 0]
+        chart.axhline(weight, color=QUIET, linewidth=0.9, linestyle=":", label="weight")
+        chart.fill_between(
+            samples.times_s, np.nan_to_num(normal[:, end]), color=colours[end], alpha=0.18, linewidth=0
+        )
+        chart.plot(samples.times_s, normal[:, end], color=colours[end], linewidth=2.0, label="normal")
+        chart.plot(
+            samples.times_s, tangential[:, end], color=TEXT, linewidth=1.2, linestyle="--", label="tangential"
+        )
+        cap = float(plan.robot.end_effectors[end].max_force)
+        if np.isfinite(cap) and cap < 1.5 * top:
+            chart.axhline(cap, color="#B00020", linewidth=0.9, label="cap of the force")
+            top = max(top, 1.06 * cap)
+        label(chart, y="force [N]", title=plan.robot.end_effectors[end].name.replace("_", " "))
+    axes[0, 0].set_ylim(0.0, top)
+    axes[0, 0].set_xlim(0.0, samples.times_s[-1])
+    label(axes[-1, 0], x="time [s]")
+    handles, names = axes[0, 0].get_legend_handles_labels()
+    legend(figure, handles=handles, labels=names, loc="outside lower center", ncol=len(names))
+    return figure
+
+
+def plot_friction(plan: Plan) -> Figure:
+    """Tangential over normal force of every end-effector against the friction coefficient of what it touches.
+
+    Surfaces that may be held have no cone and are drawn without a limit.
+    """
+    samples = sample(plan, plan.scene, plan.robot, RATE)
+    normal, tangential = contact_forces(plan, samples)
+    weight = float(plan.robot.mass) * float(plan.scene.gravity)
+    used = [e for e in range(len(plan.robot.end_effectors)) if (samples.surfaces[:, e] >= 0).any()]
+    colours = end_effector_colours(plan.robot)
+    figure, axes = sheet(max(len(used), 1), 1, size=(10.0, 1.0 + 1.45 * max(len(used), 1)), sharex=True)
+    for row, end in enumerate(used):
+        chart = axes[row, 0]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            ratio = np.where(normal[:, end] > 1e-3 * weight, tangential[:, end] / normal[:, end], np.nan)
+        limit = np.full(samples.count, np.nan)
+        for s, surface in enumerate(plan.scene.surfaces):
+            if not surface.grasp:
+                limit[samples.surfaces[:, end] == s] = float(surface.friction)
+        chart.plot(samples.times_s, limit, color="#B00020", linewidth=1.2, label="coefficient of friction")
+        chart.plot(samples.times_s, ratio, color=colours[end], linewidth=2.0, label="tangential / normal")
+        label(chart, y="ratio [-]", title=plan.robot.end_effectors[end].name.replace("_", " "))
+        chart.set_ylim(
+            0.0, 1.15 * float(np.nanmax(np.append(np.concatenate([limit, ratio]), 0.1), initial=0.1))
+        )
+    axes[0, 0].set_xlim(0.0, samples.times_s[-1])
+    label(axes[-1, 0], x="time [s]")
+    handles, names = axes[0, 0].get_legend_handles_labels()
+    legend(figure, handles=handles, labels=names, loc="outside lower center", ncol=len(names))
+    return figure
+
+
+def contact_forces(plan: Plan, samples: Samples) -> tuple[Array, Array]:
+    """Normal and tangential force (n, end-effectors) [N] in the surfaces' frames; NaN without contact."""
+    normals = np.array([polygon_normal(np.asarray(s.vertices_W)) for s in plan.scene.surfaces])
+    touching = samples.surfaces >= 0
+    along = normals[np.maximum(samples.surfaces, 0)]
+    normal = np.sum(along * samples.forces_W, axis=2)
+    tangential = np.linalg.norm(samples.forces_W - normal[..., None] * along, axis=2)
+    return np.where(touching, normal, np.nan), np.where(touching, tangential, np.nan)

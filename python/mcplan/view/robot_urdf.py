@@ -1,0 +1,133 @@
+"""A robot drawn with the visual meshes of its URDF, posed along a plan by inverse kinematics."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.errors import InvalidRobot
+from mcplan.extras import require
+
+from .figure import Figure, Part
+from .inverse_kinematics import follow
+from .samples import Samples
+from .shapes import Mesh, box, capsule, circle, ellipsoid, loft
+
+if TYPE_CHECKING:
+    from mcplan import Robot
+
+Array = NDArray[np.float64]
+
+#: [m] by which CoM and contacts may miss the plan; beyond, a picture of the posture would mislead.
+LARGEST_MISS = 0.03
+PACKAGE = "example-robot-data:"
+
+
+class CannotFollow(RuntimeError):
+    """No posture of the URDF follows the plan; the message says by how much it misses, where and when."""
+
+
+def urdf_robot(samples: Samples, robot: Robot) -> Figure:
+    """Pose a URDF's visual meshes along a plan.
+
+    Raises:
+        MissingExtra: Pinocchio (or example-robot-data) is not installed.
+        InvalidRobot: The URDF cannot be read, or lacks a frame or joint that the robot names.
+        CannotFollow: Some posture misses the plan by more than 3 cm.
+    """
+    require(f"drawing {robot.name} with its meshes", "view", "pinocchio")
+    import pinocchio as pin  # type: ignore[import-untyped]
+
+    model, visual, neutral = load_urdf(robot)
+    postures = follow(model, neutral, samples, robot)
+    if postures.residual > LARGEST_MISS:
+        raise CannotFollow(
+            f"inverse kinematics of {robot.name} misses {postures.where} "
+            f"by {100.0 * postures.residual:.1f} cm"
+        )
+    data = model.createData()
+    placements = []
+    for q in postures.configurations:
+        pin.forwardKinematics(model, data, q)
+        placements.append([joint.homogeneous for joint in data.oMi])
+    poses = np.array(placements)
+    parts = []
+    for item in visual.geometryObjects:
+        mesh = _mesh(item)
+        if mesh is not None:
+            moved = mesh.moved(item.placement.homogeneous)
+            name = f"{model.names[item.parentJoint]}/{item.name}"
+            parts.append(Part(name, moved, _colour(item.meshColor), poses[:, item.parentJoint]))
+    return Figure("urdf", parts)
+
+
+def load_urdf(robot: Robot) -> tuple[Any, Any, Array]:
+    """Model with a free-flyer, visual geometry, and the nominal configuration of a robot.
+
+    Raises:
+        MissingExtra: example-robot-data is not installed and the robot asks for it.
+        InvalidRobot: The URDF cannot be read, or lacks a frame or joint that the robot names.
+    """
+    import pinocchio as pin  # type: ignore[import-untyped]
+
+    source = robot.urdf
+    try:
+        if source.startswith(PACKAGE):
+            require(f"drawing {robot.name} with its meshes", "view", "example_robot_data")
+            import example_robot_data  # type: ignore[import-untyped]
+
+            wrapper = example_robot_data.load(source[len(PACKAGE) :])
+            model, visual, neutral = wrapper.model, wrapper.visual_model, wrapper.q0.copy()
+        else:
+            path = Path(source).resolve(strict=True)
+            folders = [str(folder) for folder in list(path.parents)[:5]]
+            model, _, visual = pin.buildModelsFromUrdf(str(path), folders, pin.JointModelFreeFlyer())
+            neutral = pin.neutral(model)
+    except (OSError, ValueError, RuntimeError) as error:
+        raise InvalidRobot("urdf", "must be a readable URDF", f"{source!r} ({error})") from error
+    if neutral.shape != (model.nq,) or not np.isfinite(neutral).all():
+        neutral = pin.neutral(model)
+    neutral[:7] = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+    for joint, angle in robot.posture.items():
+        if not model.existJointName(joint):
+            raise InvalidRobot("posture", "must name joints of the URDF", repr(joint))
+        neutral[model.joints[model.getJointId(joint)].idx_q] = angle
+    for number, end in enumerate(robot.end_effectors):
+        if not model.existFrame(end.frame):
+            raise InvalidRobot(
+                f"end_effectors[{number}].frame", "must name a frame of the URDF", repr(end.frame)
+            )
+    return model, visual, neutral
+
+
+def _mesh(item: Any) -> Mesh | None:
+    """The shape of a visual as triangles, in its own frame; None for shapes that are not drawn (planes)."""
+    shape = item.geometry
+    kind = type(shape).__name__
+    if kind.startswith("BVHModel"):
+        triangles = (shape.tri_indices(i) for i in range(shape.num_tris))
+        faces = np.array([(t[0], t[1], t[2]) for t in triangles], dtype=np.int64)
+        return Mesh(np.asarray(shape.vertices(), float), faces)
+    if kind == "Box":
+        x, y, z = 2.0 * np.asarray(shape.halfSide, float)
+        return box((x, y, z))
+    if kind == "Sphere":
+        return ellipsoid((float(shape.radius),) * 3)
+    if kind == "Cylinder":
+        ring = float(shape.radius) * circle(24)
+        half = float(shape.halfLength)
+        return loft(np.array([np.column_stack([ring, np.full(24, z)]) for z in (-half, half)]))
+    if kind == "Capsule":
+        half = float(shape.halfLength)
+        mesh = capsule(2.0 * half, float(shape.radius), float(shape.radius))
+        return Mesh(mesh.vertices - [0.0, 0.0, half], mesh.faces, mesh.smooth)
+    return None
+
+
+def _colour(rgba: Array) -> str:
+    # Very dark meshes lose their shape on white paper.
+    lifted = [0.12 + 0.88 * float(np.clip(c, 0.0, 1.0)) for c in rgba[:3]]
+    return "#" + "".join(f"{round(255 * c):02x}" for c in lifted)

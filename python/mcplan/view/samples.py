@@ -1,0 +1,153 @@
+"""A plan sampled for drawing: bodies at a frame rate, and the intervals in which contacts last."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .rotations import between, from_rpy, with_axis_z
+from .shapes import polygon_normal
+
+if TYPE_CHECKING:
+    from mcplan import Plan, Robot, Scene
+    from mcplan._core import ResolvedStance
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A stretch of time in which one end-effector keeps one contact."""
+
+    end_effector: int
+    surface: int
+    start_s: float
+    end_s: float
+    position_W: Array  # (3,) [m]
+    rotation_W: Array  # (3, 3) sole: z along the surface normal, x along the heading
+
+
+@dataclass(frozen=True)
+class Samples:
+    """States of a plan at equally spaced times.
+
+    n times, e end-effectors; lengths in [m], forces in [N], world frame W.
+    """
+
+    times_s: Array  # (n,)
+    com_W: Array  # (n, 3)
+    com_velocity_W: Array  # (n, 3)
+    rotation_WB: Array  # (n, 3, 3)
+    positions_W: Array  # (n, e, 3)
+    rotations_W: Array  # (n, e, 3, 3) soles and palms
+    forces_W: Array  # (n, e, 3)
+    surfaces: NDArray[np.int64]  # (n, e), -1: free
+    intervals: list[Interval]
+
+    @property
+    def count(self) -> int:
+        return len(self.times_s)
+
+    def nearest(self, time_s: float) -> int:
+        """Index of the sample nearest to a time."""
+        return int(np.argmin(np.abs(self.times_s - time_s)))
+
+
+def sample(plan: Plan, scene: Scene, robot: Robot, rate_hz: float = 30.0) -> Samples:
+    """Sample a plan at about `rate_hz`, both ends included."""
+    duration = float(plan.duration())
+    n = max(2, round(duration * rate_hz) + 1)
+    times = np.linspace(0.0, duration, n)
+    states = [plan.at(float(t)) for t in times]
+    rotation_WB = from_rpy(np.array([s.base_rpy for s in states]))
+    ends = [s.end_effectors for s in states]
+    intervals = contact_intervals(plan, scene, robot)
+    return Samples(
+        times_s=times,
+        com_W=np.array([s.com_W for s in states], float),
+        com_velocity_W=np.array([s.com_velocity_W for s in states], float),
+        rotation_WB=rotation_WB,
+        positions_W=np.array([[e.position_W for e in row] for row in ends], float),
+        rotations_W=_sole_rotations(times, rotation_WB, intervals, len(robot.end_effectors)),
+        forces_W=np.array([[e.force_W for e in row] for row in ends], float),
+        surfaces=np.array([[e.surface for e in row] for row in ends], int),
+        intervals=intervals,
+    )
+
+
+def stance_samples(scene: Scene, robot: Robot, stance: ResolvedStance) -> Samples:
+    """A robot that stands, as a single sample."""
+    rotation = from_rpy(np.array([0.0, 0.0, float(stance.yaw)]))
+    rotations = []
+    for surface in stance.contacts:
+        touched = scene.surfaces[surface] if surface >= 0 else None
+        rotations.append(
+            with_axis_z(polygon_normal(np.array(touched.vertices_W)), rotation[:, 0]) if touched else rotation
+        )
+    ends = len(robot.end_effectors)
+    return Samples(
+        times_s=np.zeros(1),
+        com_W=np.array([stance.com_W], float),
+        com_velocity_W=np.zeros((1, 3)),
+        rotation_WB=rotation[None],
+        positions_W=np.array([stance.end_effectors_W], float),
+        rotations_W=np.array([rotations]),
+        forces_W=np.zeros((1, ends, 3)),
+        surfaces=np.array([stance.contacts], int),
+        intervals=[],
+    )
+
+
+def contact_intervals(plan: Plan, scene: Scene, robot: Robot) -> list[Interval]:
+    """Contacts of a plan, phases with the same contact joined, by end-effector and time."""
+    sequence = plan.contact_sequence()
+    times = list(plan.knot_times())
+    normals = [polygon_normal(np.array(s.vertices_W)) for s in scene.surfaces]
+    intervals = []
+    for end in range(len(robot.end_effectors)):
+        k = 0
+        while k < len(sequence):
+            surface = sequence[k][end]
+            until = k
+            while until < len(sequence) and sequence[until][end] == surface:
+                until += 1
+            if surface >= 0:
+                middle = plan.at(0.5 * (times[k] + times[until]))
+                heading = from_rpy(np.asarray(middle.base_rpy))[:, 0]
+                heading[2] = 0.0
+                intervals.append(
+                    Interval(
+                        end_effector=end,
+                        surface=int(surface),
+                        start_s=float(times[k]),
+                        end_s=float(times[until]),
+                        position_W=np.array(plan.knots[k].end_effectors_W[end], float),
+                        rotation_W=with_axis_z(normals[surface], heading),
+                    )
+                )
+            k = until
+    return intervals
+
+
+def _sole_rotations(times: Array, rotation_WB: Array, intervals: list[Interval], ends: int) -> Array:
+    """Plans do not say how a free foot is turned: blend from the contact before to the one after."""
+    result = np.repeat(rotation_WB[:, None], ends, axis=1)
+    for end in range(ends):
+        own = [i for i in intervals if i.end_effector == end]
+        for n, t in enumerate(times):
+            inside = [i for i in own if i.start_s <= t <= i.end_s]
+            if inside:
+                result[n, end] = inside[0].rotation_W
+                continue
+            before = [i for i in own if i.end_s < t]
+            after = [i for i in own if i.start_s > t]
+            start = before[-1].rotation_W if before else rotation_WB[n]
+            goal = after[0].rotation_W if after else rotation_WB[n]
+            since = before[-1].end_s if before else times[0]
+            until = after[0].start_s if after else times[-1]
+            share = (t - since) / max(until - since, 1e-9)
+            result[n, end] = between(start, goal, share * share * (3.0 - 2.0 * share))
+    return result

@@ -1,0 +1,92 @@
+"""Surfaces of a scene as solids with colours, for pages and pictures alike."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .colours import GRASP, GROUND, OUTLINE, WALL, mix
+from .extent import Extent
+from .shapes import Mesh, polygon_normal, prism
+
+if TYPE_CHECKING:
+    from mcplan import Scene
+
+    from .stage import Stage
+
+Array = NDArray[np.float64]
+
+#: [m] between the lines drawn on surfaces to walk on.
+GRID = 0.5
+
+
+@dataclass(frozen=True)
+class SurfaceDrawing:
+    """A surface, cut to the extent that is drawn."""
+
+    name: str
+    outline: Array  # (n, 3) [m]
+    normal: Array  # (3,)
+    mesh: Mesh  # the solid below it
+    colour: str
+    opacity: float
+    grid: Array  # (m, 2, 3) [m] lines on the surface, every GRID
+
+
+def surface_drawings(scene: Scene, extent: Extent) -> list[SurfaceDrawing]:
+    """The surfaces that reach into the extent, in the scene's order."""
+    drawings = []
+    for surface in scene.surfaces:
+        outline = extent.clip(np.asarray(surface.vertices_W, float))
+        if len(outline) < 3:
+            continue
+        normal = polygon_normal(outline)
+        wall = abs(normal[2]) < 0.3
+        colour = GRASP if surface.grasp else WALL if wall else GROUND
+        grid = grid_lines(outline, GRID) if normal[2] > 0.3 and not surface.grasp else np.zeros((0, 2, 3))
+        mesh = prism(outline, float(surface.thickness))
+        drawings.append(
+            SurfaceDrawing(surface.name, outline, normal, mesh, colour, 0.35 if wall else 1.0, grid)
+        )
+    return drawings
+
+
+def grid_lines(outline: Array, spacing: float) -> Array:
+    """Where the planes x = i spacing and y = i spacing cut a convex polygon, (n, 2, 3) [m]."""
+    segments = []
+    for axis in (0, 1):
+        first = int(np.floor(outline[:, axis].min() / spacing)) + 1
+        last = int(np.ceil(outline[:, axis].max() / spacing)) - 1
+        for i in range(first, last + 1):
+            height = outline[:, axis] - i * spacing
+            crossings = []
+            for a in range(len(outline)):
+                b = (a + 1) % len(outline)
+                if (height[a] < 0.0) != (height[b] < 0.0):
+                    share = height[a] / (height[a] - height[b])
+                    crossings.append(outline[a] + share * (outline[b] - outline[a]))
+            if len(crossings) == 2:
+                segments.append(crossings)
+    return np.array(segments).reshape(-1, 2, 3)
+
+
+def edges(drawing: SurfaceDrawing) -> Array:
+    """Outline of the solid: rims above and below and the edges between, (m, 2, 3) [m]."""
+    n = len(drawing.outline)
+    top, below = drawing.mesh.vertices[:n], drawing.mesh.vertices[n:]
+    pairs = [(ring[i], ring[(i + 1) % n]) for ring in (top, below) for i in range(n)]
+    return np.array(pairs + [(top[i], below[i]) for i in range(n)])
+
+
+def draw_surfaces(stage: Stage, drawings: list[SurfaceDrawing]) -> None:
+    """Put surfaces onto a page, under "scene"."""
+    for drawing in drawings:
+        path = f"scene/{drawing.name}"
+        stage.mesh(f"{path}/solid", drawing.mesh, drawing.colour, drawing.opacity)
+        stage.lines(f"{path}/outline", edges(drawing), OUTLINE, 0.9)
+        if len(drawing.grid):
+            lifted = drawing.grid + 0.001 * drawing.normal
+            stage.lines(f"{path}/grid", lifted, mix(drawing.colour, "#ffffff", 0.55), 0.8)

@@ -1,0 +1,80 @@
+"""Style of the plots: one look for all figures, drawn without a display."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.extras import require
+
+from .colours import TEXT
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from .samples import Samples
+
+Array = NDArray[np.float64]
+
+QUIET = "#6B7480"
+
+
+def sheet(
+    rows: int, columns: int = 1, size: tuple[float, float] = (9.0, 4.0), **options: Any
+) -> tuple[Figure, Array]:
+    """A figure with rows x columns axes (an array of that shape); size in inches.
+
+    Raises:
+        MissingExtra: matplotlib is not installed.
+    """
+    require("mcplan.view.plots", "view", "matplotlib")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=size, dpi=140, facecolor="white", layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = np.asarray(figure.subplots(rows, columns, squeeze=False, **options))
+    for each in axes.flat:
+        for side in ("top", "right"):
+            each.spines[side].set_visible(False)
+        for side in ("left", "bottom"):
+            each.spines[side].set_color(QUIET)
+        each.tick_params(colors=QUIET, labelsize=9, labelcolor=TEXT)
+        each.grid(True, color="#E8EBEE", linewidth=0.7)
+        each.set_axisbelow(True)
+    return figure, axes
+
+
+def label(axes: Any, x: str = "", y: str = "", title: str = "") -> None:
+    """Labels of axes, in the sheet's type."""
+    if x:
+        axes.set_xlabel(x, fontsize=10, color=TEXT)
+    if y:
+        axes.set_ylabel(y, fontsize=10, color=TEXT)
+    if title:
+        axes.set_title(title, fontsize=11, color=TEXT, loc="left", fontweight="bold")
+
+
+def legend(axes: Any, **options: Any) -> None:
+    """A legend without a frame; below the figure when `axes` is a figure."""
+    axes.legend(frameon=False, fontsize=9, labelcolor=TEXT, **options)
+
+
+def shade_support(axes: Any, samples: Samples) -> None:
+    """Tint the stretches with no contact and those with one."""
+    count = np.sum(samples.surfaces >= 0, axis=1)
+    starts = np.flatnonzero(np.concatenate([[True], count[1:] != count[:-1]]))
+    ends = np.append(starts[1:], len(count) - 1)
+    for start, end in zip(starts, ends, strict=True):
+        tint = {0: "#F6D8CC", 1: "#EEF1F5"}.get(int(count[start]))
+        if tint:
+            axes.axvspan(samples.times_s[start], samples.times_s[end], color=tint, linewidth=0, zorder=0)
+
+
+def support_patches() -> list[Any]:
+    """Legend entries for shade_support."""
+    from matplotlib.patches import Patch
+
+    return [Patch(color="#F6D8CC", label="flight"), Patch(color="#EEF1F5", label="one contact")]

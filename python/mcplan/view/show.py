@@ -1,0 +1,120 @@
+"""Pages of plans and scenes."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .colours import end_effector_colours
+from .extent import extent_of
+from .figure import Figure
+from .overlay import caption, plan_legend, scene_legend, timeline
+from .page import Page
+from .plan_drawing import WEIGHT_ARROW, draw_plan, draw_standing
+from .robot_stick import stick_robot
+from .samples import Samples, sample, stance_samples
+from .scene_drawing import draw_surfaces, surface_drawings
+from .stage import Stage
+from .viewpoint import camera_direction, sun_direction, view_points
+
+if TYPE_CHECKING:
+    from mcplan import Plan, Report, Robot, Scene
+
+#: [1/s] frames of the animation; the browser blends between them.
+FRAME_RATE = 30.0
+
+
+def show(
+    plan: Plan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None
+) -> Page:
+    """Draw a plan for the browser.
+
+    Args:
+        plan: The plan.
+        scene: Drawn around it; None: the plan's own.
+        robot: Drawn along it; None: the plan's own. With a URDF its meshes follow the plan by inverse
+            kinematics; without, or when no posture follows it within 3 cm (a warning says so), it is a stick
+            robot.
+        report: Named in the caption.
+
+    Raises:
+        MissingExtra: meshcat (or Pinocchio, for a robot with a URDF) is not installed.
+        InvalidPlan: The plan's arrays do not fit together.
+    """
+    scene = scene if scene is not None else plan.scene
+    robot = robot if robot is not None else plan.robot
+    plan.validate()
+    colours = end_effector_colours(robot)
+    samples = sample(plan, scene, robot, FRAME_RATE)
+    extent = extent_of(scene, robot, samples, length=0.6, width=0.6)
+    drawings = surface_drawings(scene, extent)
+    stage = Stage()
+    draw_surfaces(stage, drawings)
+    draw_plan(stage, samples, scene, robot, figure_of(samples, robot, colours), colours)
+    phases = len(plan.phases)
+    lines = [f"{robot.name}: {phases} phases, {samples.times_s[-1]:.2f} s"]
+    if report is not None:
+        lines.append(f"{report.status}: {report.iterations} iterations, {report.time_s:.2f} s of planning")
+    newton_per_metre = float(robot.mass) * float(scene.gravity) / (WEIGHT_ARROW * float(robot.com_height))
+    legend = plan_legend(scene, robot, colours, newton_per_metre)
+    overlay = caption(scene.name, lines, legend) + timeline(
+        scene, robot, samples.intervals, colours, float(samples.times_s[-1])
+    )
+    return Page(
+        title=f"{scene.name}, {robot.name}",
+        payload=stage.payload(),
+        overlay=overlay,
+        points_W=view_points(drawings, samples, robot),
+        direction_W=camera_direction(extent),
+        sun_W=sun_direction(extent),
+        duration_s=float(samples.times_s[-1]),
+    )
+
+
+def show_scene(scene: Scene, robot: Robot | None = None) -> Page:
+    """Draw a scene for the browser; a robot, if given, stands at the start, and pale at the goal.
+
+    Raises:
+        InvalidScene: The robot cannot take the scene's start or goal.
+        MissingExtra: meshcat is not installed.
+    """
+    extent = extent_of(scene, robot, None, length=0.9, width=0.9)
+    from mcplan._core import resolve_stance
+
+    drawings = surface_drawings(scene, extent)
+    stage = Stage()
+    draw_surfaces(stage, drawings)
+    points = [d.mesh.vertices for d in drawings]
+    if robot is not None:
+        colours = end_effector_colours(robot)
+        for name, stance, opacity in (("start", scene.start, 1.0), ("goal", scene.goal, 0.35)):
+            standing = stance_samples(scene, robot, resolve_stance(scene, robot, stance, name))
+            draw_standing(stage, name, standing, stick_robot(standing, robot, colours), opacity)
+            head = np.array([0.0, 0.0, 0.95 * float(robot.com_height)])
+            points += [standing.com_W + head, standing.positions_W[0]]
+    lines = [scene.description] if scene.description else []
+    lines.append(f"{len(scene.surfaces)} surfaces")
+    return Page(
+        title=scene.name,
+        payload=stage.payload(),
+        overlay=caption(scene.name, lines, scene_legend(scene)),
+        points_W=np.vstack(points),
+        direction_W=camera_direction(extent),
+        sun_W=sun_direction(extent),
+        duration_s=0.0,
+    )
+
+
+def figure_of(samples: Samples, robot: Robot, colours: list[str]) -> Figure:
+    """The robot over the samples: its URDF's meshes if it has one and they can follow, else a stick robot."""
+    if not robot.urdf:
+        return stick_robot(samples, robot, colours)
+    from .robot_urdf import CannotFollow, urdf_robot
+
+    try:
+        return urdf_robot(samples, robot)
+    except CannotFollow as error:
+        warnings.warn(f"{error}; drawing a stick robot instead", stacklevel=3)
+        return stick_robot(samples, robot, colours)

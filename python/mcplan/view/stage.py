@@ -1,0 +1,204 @@
+"""Objects of a page as meshcat commands: three.js JSON with binary arrays, a clip per moving node."""
+
+from __future__ import annotations
+
+import gzip
+import struct
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.extras import require
+
+from .colours import rgb
+from .rotations import quat_xyzw
+from .shapes import Mesh
+
+Array = NDArray[np.float64]
+
+#: Codes under which meshcat's decoder turns msgpack extensions into typed arrays.
+UINT32, FLOAT32 = 0x16, 0x17
+
+
+class Stage:
+    """Collects what a page shows. Nodes are named by paths such as "plan/forces/left_foot"."""
+
+    def __init__(self) -> None:
+        require("mcplan.show", "view", "meshcat")
+        import umsgpack  # type: ignore[import-untyped]  # comes with meshcat
+
+        self._umsgpack = umsgpack
+        self._commands: list[dict[str, Any]] = []
+        self._clips: dict[str, list[dict[str, Any]]] = {}
+        self._ids = 0
+        self.duration_s = 0.0
+
+    def mesh(
+        self,
+        path: str,
+        mesh: Mesh,
+        colour: str,
+        opacity: float = 1.0,
+        *,
+        glow: float = 0.0,
+        on_top: bool = False,
+    ) -> None:
+        """Add a solid.
+
+        Args:
+            path: Node that carries it.
+            mesh: Its shape, in the frame of the node.
+            colour: "#rrggbb".
+            opacity: 1 is solid.
+            glow: Share of the colour that needs no light.
+            on_top: Seen through whatever lies in front.
+        """
+        material: dict[str, Any] = {
+            "type": "MeshPhongMaterial",
+            "color": _number(colour),
+            "emissive": _number(colour) if glow else 0,
+            "emissiveIntensity": glow,
+            "specular": 0x222222,
+            "shininess": 18,
+            "opacity": opacity,
+            "transparent": opacity < 1.0 or on_top,
+            "depthWrite": opacity == 1.0,
+            "depthTest": not on_top,
+            "flatShading": not mesh.smooth,
+            "side": 2 if opacity < 1.0 else 0,
+        }
+        self._object(path, "Mesh", mesh.vertices, mesh.faces, material, render_order=10 if on_top else 0)
+
+    def lines(self, path: str, segments: Array, colour: str, opacity: float = 1.0) -> None:
+        """Add hairlines between pairs of points, segments (n, 2, 3) [m]."""
+        material = {
+            "type": "LineBasicMaterial",
+            "color": _number(colour),
+            "opacity": opacity,
+            "transparent": opacity < 1.0,
+        }
+        self._object(path, "LineSegments", np.asarray(segments).reshape(-1, 3), None, material)
+
+    def place(self, path: str, pose: Array) -> None:
+        """Put a node at a pose (4, 4) in its parent's frame."""
+        matrix = [float(x) for x in np.asarray(pose).T.ravel()]
+        self._commands.append({"type": "set_transform", "path": _full(path), "matrix": matrix})
+
+    def move(
+        self,
+        path: str,
+        times_s: Array,
+        poses: Array | None = None,
+        scales: Array | None = None,
+        visible: NDArray[np.bool_] | None = None,
+    ) -> None:
+        """Animate a node.
+
+        Args:
+            path: Node.
+            times_s: Times [s], (n,), increasing, the same first and last for all nodes.
+            poses: Poses in the parent's frame, (n, 4, 4).
+            scales: Scales along the node's axes, (n, 3).
+            visible: Whether it is seen from each time on, (n,).
+        """
+        tracks = self._clips.setdefault(path, [])
+        if poses is not None:
+            tracks.append(self._track("position", "vector3", times_s, poses[:, :3, 3]))
+            tracks.append(self._track("quaternion", "quaternion", times_s, quat_xyzw(poses[:, :3, :3])))
+        if scales is not None:
+            tracks.append(self._track("scale", "vector3", times_s, scales))
+        if visible is not None:
+            change = np.concatenate([[True], visible[1:] != visible[:-1]])
+            values = [bool(v) for v in visible[change]]
+            times = [float(t) for t in times_s[change]]
+            tracks.append({"name": ".visible", "type": "bool", "times": times, "values": values})
+        self.duration_s = max(self.duration_s, float(times_s[-1]))
+
+    def payload(self) -> bytes:
+        """All commands, each behind its length (uint32, little endian), gzipped; always the same bytes."""
+        commands = list(self._commands)
+        if self._clips:
+            animations = [
+                {
+                    "path": _full(path),
+                    "clip": {"name": path, "fps": 1, "duration": self.duration_s, "tracks": tracks},
+                }
+                for path, tracks in self._clips.items()
+            ]
+            options = {"play": True, "repetitions": 1_000_000_000}
+            commands.append(
+                {"type": "set_animation", "path": "", "animations": animations, "options": options}
+            )
+        packed = [self._umsgpack.packb(command) for command in commands]
+        return gzip.compress(
+            b"".join(struct.pack("<I", len(p)) + p for p in packed), compresslevel=9, mtime=0
+        )
+
+    def _track(self, name: str, kind: str, times_s: Array, values: Array) -> dict[str, Any]:
+        if np.ptp(values, axis=0).max() < 1e-7:
+            times_s, values = times_s[[0, -1]], values[[0, -1]]
+        # Micrometres and a few microradians: below what is seen, and far better to compress.
+        values = np.round(values, 5) + 0.0
+        return {
+            "name": "." + name,
+            "type": kind,
+            "times": self._floats(times_s),
+            "values": self._floats(values),
+        }
+
+    def _object(
+        self,
+        path: str,
+        kind: str,
+        vertices: Array,
+        faces: Any,
+        material: dict[str, Any],
+        render_order: int = 0,
+    ) -> None:
+        attributes = {
+            "position": {
+                "itemSize": 3,
+                "type": "Float32Array",
+                "array": self._floats(np.round(vertices, 5) + 0.0),
+                "normalized": False,
+            }
+        }
+        data: dict[str, Any] = {"attributes": attributes}
+        if faces is not None:
+            index = self._umsgpack.Ext(UINT32, np.ascontiguousarray(faces, "<u4").tobytes())
+            data["index"] = {"itemSize": 3, "type": "Uint32Array", "array": index, "normalized": False}
+        geometry = {"uuid": self._id(), "type": "BufferGeometry", "data": data}
+        material = {"uuid": self._id(), **material}
+        instance = {
+            "uuid": self._id(),
+            "type": kind,
+            "geometry": geometry["uuid"],
+            "material": material["uuid"],
+            "matrix": [float(x) for x in np.eye(4).ravel()],
+            "renderOrder": render_order,
+        }
+        lowered = {
+            "metadata": {"version": 4.5, "type": "Object"},
+            "geometries": [geometry],
+            "materials": [material],
+            "object": instance,
+        }
+        self._commands.append({"type": "set_object", "path": _full(path), "object": lowered})
+
+    def _floats(self, values: Array) -> Any:
+        return self._umsgpack.Ext(FLOAT32, np.ascontiguousarray(values, "<f4").tobytes())
+
+    def _id(self) -> str:
+        # three.js wants distinct identifiers; counting keeps the page the same from run to run.
+        self._ids += 1
+        return f"mcplan-{self._ids}"
+
+
+def _full(path: str) -> str:
+    return "/meshcat/" + path
+
+
+def _number(colour: str) -> int:
+    red, green, blue = (round(255 * c) for c in rgb(colour))
+    return (red << 16) + (green << 8) + blue

@@ -1,0 +1,72 @@
+// Uses the installed library the way another project does: a scene and a robot in code, checked, and some mathematics.
+
+#include <cmath>
+#include <cstdio>
+#include <mcplan/mcplan.hpp>
+#include <string>
+
+namespace {
+
+mcplan::Scene one_floor() {
+  mcplan::Scene scene;
+  scene.name = "one_floor";
+  mcplan::Surface floor;
+  floor.name = "floor";
+  floor.vertices_W = {{-1, -1, 0}, {3, -1, 0}, {3, 1, 0}, {-1, 1, 0}};
+  scene.surfaces = {floor};
+  scene.start.contacts = {{"foot", "floor"}};
+  scene.goal = scene.start;
+  scene.goal.position_W.x() = 1.0;
+  return scene;
+}
+
+mcplan::Robot hopper() {
+  mcplan::EndEffector foot;
+  foot.name = "foot";
+  foot.nominal_B = {0, 0, -0.7};
+  foot.reach_min_B = {-0.3, -0.2, -0.8};
+  foot.reach_max_B = {0.3, 0.2, -0.5};
+  mcplan::Robot robot;
+  robot.name = "hopper";
+  robot.mass = 10.0;
+  robot.com_height = 0.7;
+  robot.end_effectors = {foot};
+  return robot;
+}
+
+int failures = 0;
+
+void expect(bool condition, const std::string& what) {
+  if (!condition) {
+    std::fprintf(stderr, "wrong: %s\n", what.c_str());
+    ++failures;
+  }
+}
+
+}  // namespace
+
+int main() {
+  expect(std::string(MCPLAN_VERSION) == EXPECTED_VERSION, "the header and the CMake package give different versions");
+
+  mcplan::Scene scene = one_floor();
+  const mcplan::Robot robot = hopper();
+  scene.validate();
+  robot.validate();
+  const mcplan::ResolvedStance start = mcplan::resolve_stance(scene, robot, scene.start, "start");
+  expect(start.contacts == std::vector<int>{0}, "the foot does not start on the floor");
+  expect(std::abs(start.com_W.z() - 0.7) < 1e-12, "the CoM does not start at its height");
+
+  const double z = 0.3;
+  expect(std::abs(mcplan::EntireFunctions(z)(0) - std::cosh(std::sqrt(z))) < 1e-14, "F_0 is not cosh(sqrt z)");
+
+  scene.surfaces[0].vertices_W.resize(2);
+  try {
+    scene.validate();
+    expect(false, "a surface of two points is accepted");
+  } catch (const mcplan::InvalidScene& error) {
+    expect(error.field() == "surfaces[0].vertices", "the error names the field " + error.field());
+  }
+
+  if (failures == 0) std::puts("the installed library works");
+  return failures;
+}

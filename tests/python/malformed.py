@@ -1,0 +1,278 @@
+"""Valid scene and robot data to break in one place, and the ways in which they are broken."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any
+
+NAN, INF = float("nan"), float("inf")
+SQUARE = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]
+DELETE = object()
+
+SCENE: dict[str, Any] = {
+    "name": "room",
+    "gravity": 9.8,
+    "surfaces": [
+        {"name": "floor", "vertices": SQUARE, "friction": 0.6, "end_effectors": ["foot"]},
+        {"name": "pad", "vertices": [[2.0, 0.0, 1.0], [3.0, 0.0, 1.0], [2.0, 1.0, 1.0]], "grasp": True},
+    ],
+    "start": {"position": [0.5, 0.5, 0.0], "contacts": {"foot": "floor"}},
+    "goal": {"position": [0.6, 0.5, 0.0], "yaw": 0.1, "contacts": {"foot": "floor"}},
+    "rules": [{"when_free": ["foot"], "require": ["hand"]}],
+}
+
+ROBOT: dict[str, Any] = {
+    "name": "hopper",
+    "mass": 10.0,
+    "inertia": [1.0, 1.0, 1.0],
+    "com_height": 0.5,
+    "swing_height": 0.1,
+    "posture": {"knee": 0.3},
+    "end_effectors": [
+        {
+            "name": "leg",
+            "kind": "foot",
+            "half_size": [0.1, 0.05],
+            "nominal": [0.0, 0.0, -0.5],
+            "reach_min": [-0.2, -0.2, -0.6],
+            "reach_max": [0.2, 0.2, -0.3],
+            "max_force": 400.0,
+            "max_moment": [0.0, 0.0, 1.0],
+        },
+        {
+            "name": "arm",
+            "kind": "hand",
+            "nominal": [0.2, 0, 0],
+            "reach_min": [0, -0.2, -0.2],
+            "reach_max": [0.4, 0.2, 0.2],
+        },
+    ],
+}
+
+# (path of the value, value put there, field named in the error, part of the rule)
+Break = tuple[tuple[Any, ...], Any, str, str]
+
+SCENE_BREAKS: list[Break] = [
+    (("gravity",), 0.0, "gravity", "must be a positive number"),
+    (("gravity",), -9.8, "gravity", "must be a positive number"),
+    (("gravity",), NAN, "gravity", "must be a finite number"),
+    (("gravity",), INF, "gravity", "must be a finite number"),
+    (("gravity",), "9.8", "gravity", "must be a number"),
+    (("gravity",), True, "gravity", "must be a number"),
+    (("gravitiy",), 9.8, "gravitiy", "no such key. Did you mean 'gravity'? Keys: name, description, gravity"),
+    (("name",), 7, "name", "must be a string"),
+    (("name",), "", "name", "must not be empty"),
+    (("description",), [], "description", "must be a string"),
+    (("surfaces",), DELETE, "surfaces", "is required"),
+    (("surfaces",), [], "surfaces", "needs at least 1 entry"),
+    (("surfaces",), {}, "surfaces", "must be a list"),
+    (("surfaces", 0), "floor", "surfaces[0]", "must be a table"),
+    (("surfaces", 0, "name"), DELETE, "surfaces[0].name", "is required"),
+    (("surfaces", 0, "name"), "", "surfaces[0].name", "must not be empty"),
+    (("surfaces", 1, "name"), "floor", "surfaces[1].name", "must be unique"),
+    (("surfaces", 0, "frction"), 0.5, "surfaces[0].frction", "Did you mean 'friction'?"),
+    (("surfaces", 0, "friction"), 0.0, "surfaces[0].friction", "must be a positive number"),
+    (("surfaces", 0, "friction"), -0.1, "surfaces[0].friction", "must be a positive number"),
+    (("surfaces", 0, "friction"), NAN, "surfaces[0].friction", "must be a finite number"),
+    (("surfaces", 0, "grasp"), 1, "surfaces[0].grasp", "must be true or false"),
+    (("surfaces", 0, "grasp"), "yes", "surfaces[0].grasp", "must be true or false"),
+    (("surfaces", 0, "thickness"), 0.0, "surfaces[0].thickness", "must be a positive number"),
+    (("surfaces", 0, "thickness"), INF, "surfaces[0].thickness", "must be a finite number"),
+    (("surfaces", 0, "end_effectors"), "foot", "surfaces[0].end_effectors", "must be a list"),
+    (("surfaces", 0, "end_effectors", 0), 3, "surfaces[0].end_effectors[0]", "must be a string"),
+    (("surfaces", 0, "end_effectors", 0), "", "surfaces[0].end_effectors[0]", "must not be empty"),
+    (("surfaces", 0, "vertices"), DELETE, "surfaces[0].vertices", "is required"),
+    (("surfaces", 0, "vertices"), 4.0, "surfaces[0].vertices", "must be a list"),
+    (("surfaces", 0, "vertices"), [], "surfaces[0].vertices", "needs at least 3 points, got 0"),
+    (("surfaces", 0, "vertices"), SQUARE[:2], "surfaces[0].vertices", "needs at least 3 points, got 2"),
+    (
+        ("surfaces", 0, "vertices", 2),
+        [1.0, 1.0],
+        "surfaces[0].vertices[2]",
+        "needs at least 3 entries, got 2",
+    ),
+    (
+        ("surfaces", 0, "vertices", 2),
+        [1.0] * 4,
+        "surfaces[0].vertices[2]",
+        "may have 3 entries at most, got 4",
+    ),
+    (("surfaces", 0, "vertices", 2), 1.0, "surfaces[0].vertices[2]", "must be a list"),
+    (("surfaces", 0, "vertices", 2, 1), NAN, "surfaces[0].vertices[2][1]", "must be a finite number"),
+    (("surfaces", 0, "vertices", 2, 1), INF, "surfaces[0].vertices[2][1]", "must be a finite number"),
+    (("surfaces", 0, "vertices", 2, 1), "1", "surfaces[0].vertices[2][1]", "must be a number"),
+    (("surfaces", 0, "vertices", 2, 0), 1e6, "surfaces[0].vertices[2]", "must lie within 10 km"),
+    # Degenerate polygons
+    (
+        ("surfaces", 0, "vertices", 2),
+        [1.0, 0.0, 0.0],
+        "surfaces[0].vertices[2]",
+        "at least 0.1 mm from the point before",
+    ),
+    (
+        ("surfaces", 0, "vertices"),
+        [*SQUARE, SQUARE[0]],
+        "surfaces[0].vertices[0]",
+        "at least 0.1 mm from the point before",
+    ),
+    (
+        ("surfaces", 0, "vertices"),
+        [[0, 0, 0], [1, 0, 0], [2, 0, 0]],
+        "surfaces[0].vertices",
+        "area of at least 1e-6 m^2",
+    ),
+    (
+        ("surfaces", 0, "vertices"),
+        [[0, 0, 0], [1e-3, 0, 0], [0, 1e-3, 0]],
+        "surfaces[0].vertices",
+        "area of at least",
+    ),
+    (("surfaces", 0, "vertices", 2, 2), 0.1, "surfaces[0].vertices", "must lie in the plane of the others"),
+    (
+        ("surfaces", 0, "vertices", 2),
+        [0.2, 0.2, 0.0],
+        "surfaces[0].vertices[2]",
+        "corner of a strictly convex polygon",
+    ),
+    (
+        ("surfaces", 0, "vertices", 2),
+        [0.5, 0.5, 0.0],
+        "surfaces[0].vertices[2]",
+        "corner of a strictly convex polygon",
+    ),
+    (
+        ("surfaces", 0, "vertices"),
+        [*SQUARE[:2], [1, 0.5, 0], *SQUARE[2:]],
+        "surfaces[0].vertices[2]",
+        "strictly convex",
+    ),
+    (
+        ("surfaces", 0, "vertices"),
+        [SQUARE[0], SQUARE[2], SQUARE[1], SQUARE[3]],
+        "surfaces[0].vertices",
+        "",
+    ),  # a bow tie
+    (
+        ("surfaces", 0, "vertices"),
+        [[1, 0, 0], [-0.809, 0.588, 0], [0.309, -0.951, 0], [0.309, 0.951, 0], [-0.809, -0.588, 0]],
+        "surfaces[0].vertices",
+        "must run once around a convex polygon, got 2 turns",
+    ),
+    # Stances and rules
+    (("start",), DELETE, "start", "is required"),
+    (("goal",), DELETE, "goal", "is required"),
+    (("start",), [0.0, 0.0, 0.0], "start", "must be a table"),
+    (("start", "position"), DELETE, "start.position", "is required"),
+    (("start", "position"), [0.0, 0.0], "start.position", "needs at least 3 entries, got 2"),
+    (("start", "position", 0), NAN, "start.position[0]", "must be a finite number"),
+    (("goal", "yaw"), INF, "goal.yaw", "must be a finite number"),
+    (("goal", "yaw"), 30.0, "goal.yaw", "must lie in [-2 pi, 2 pi] rad, got 30"),
+    (("goal", "yaw"), "north", "goal.yaw", "must be a number"),
+    (("start", "contacts"), DELETE, "start.contacts", "is required"),
+    (("start", "contacts"), {}, "start.contacts", "must put at least one end-effector on a surface"),
+    (("start", "contacts"), ["floor"], "start.contacts", "must be a table"),
+    (
+        ("start", "contacts"),
+        {"foot": "flor"},
+        "start.contacts.foot",
+        "must name a surface (floor, pad), got 'flor'",
+    ),
+    (("start", "contacts"), {"foot": 0}, "start.contacts.foot", "must be a string"),
+    (("start", "heading"), 0.0, "start.heading", "no such key. Keys: position, yaw, contacts"),
+    (("rules",), {}, "rules", "must be a list"),
+    (("rules", 0, "when_free"), [], "rules[0].when_free", "needs at least 1 entry"),
+    (("rules", 0, "require"), DELETE, "rules[0].require", "is required"),
+    (("rules", 0, "requires"), ["hand"], "rules[0].requires", "Did you mean 'require'?"),
+]
+
+ROBOT_BREAKS: list[Break] = [
+    (("mass",), DELETE, "mass", "is required"),
+    (("mass",), 0.0, "mass", "must be a positive number"),
+    (("mass",), -1.0, "mass", "must be a positive number"),
+    (("mass",), NAN, "mass", "must be a finite number"),
+    (("mass",), "heavy", "mass", "must be a number, got 'heavy'"),
+    (("inertia",), DELETE, "inertia", "is required"),
+    (("inertia",), 1.0, "inertia", "must be a list"),
+    (("inertia",), [1.0, 1.0], "inertia", "needs at least 3 entries, got 2"),
+    (("inertia", 1), 0.0, "inertia[1]", "must be a positive number"),
+    (("inertia", 2), INF, "inertia[2]", "must be a finite number"),
+    (("com_height",), 0.0, "com_height", "must be a positive number"),
+    (("com_hight",), 0.7, "com_hight", "Did you mean 'com_height'?"),
+    (("swing_height",), -0.1, "swing_height", "must be a positive number"),
+    (("urdf",), 1, "urdf", "must be a string"),
+    (("posture", "knee"), NAN, "posture.knee", "must be a finite number"),
+    (("posture", "knee"), "bent", "posture.knee", "must be a number"),
+    (("posture",), [0.3], "posture", "must be a table"),
+    (("end_effectors",), DELETE, "end_effectors", "is required"),
+    (("end_effectors",), [], "end_effectors", "needs at least 1 entry"),
+    (
+        ("end_effectors",),
+        [ROBOT["end_effectors"][0]] * 9,
+        "end_effectors",
+        "may have 8 entries at most, got 9",
+    ),
+    (("end_effectors", 0), 1, "end_effectors[0]", "must be a table"),
+    (("end_effectors", 0, "name"), "", "end_effectors[0].name", "must not be empty"),
+    (("end_effectors", 1, "name"), "leg", "end_effectors[1].name", "must be unique"),
+    (("end_effectors", 0, "kind"), "", "end_effectors[0].kind", "must not be empty"),
+    (("end_effectors", 0, "frame"), 1, "end_effectors[0].frame", "must be a string"),
+    (("end_effectors", 0, "half_size"), [0.1], "end_effectors[0].half_size", "needs at least 2 entries"),
+    (("end_effectors", 0, "half_size", 0), -0.1, "end_effectors[0].half_size[0]", "must be at least 0"),
+    (("end_effectors", 0, "nominal"), DELETE, "end_effectors[0].nominal", "is required"),
+    (
+        ("end_effectors", 0, "nominal"),
+        [0.0, 0.0, -0.9],
+        "end_effectors[0].nominal",
+        "must lie in the reach box in z",
+    ),
+    (("end_effectors", 0, "nominal", 2), NAN, "end_effectors[0].nominal[2]", "must be a finite number"),
+    (
+        ("end_effectors", 0, "reach_max"),
+        [0.2, -0.3, -0.3],
+        "end_effectors[0].reach_max",
+        "must exceed reach_min in y",
+    ),
+    (("end_effectors", 0, "reach_max", 0), -0.2, "end_effectors[0].reach_max", "must exceed reach_min in x"),
+    (("end_effectors", 0, "reach_min", 0), INF, "end_effectors[0].reach_min[0]", "must be a finite number"),
+    (("end_effectors", 0, "max_force"), 0.0, "end_effectors[0].max_force", "must be a positive number"),
+    (("end_effectors", 0, "max_force"), NAN, "end_effectors[0].max_force", "must be a positive number"),
+    (("end_effectors", 0, "max_moment", 2), -1.0, "end_effectors[0].max_moment[2]", "must be at least 0"),
+    (("end_effectors", 0, "maxforce"), 1.0, "end_effectors[0].maxforce", "Did you mean 'max_force'?"),
+]
+
+# (content, part of the message after the file's name)
+NOT_SCENE_FILES: list[tuple[bytes, str]] = [
+    (b"", "is empty"),
+    (b"  \n\t\n", "is empty"),
+    (b"# only a comment\n", "surfaces: is required"),
+    (b"gravity = 9.8\ngravity = 9.8\n", "is not TOML: "),
+    (b"gravity = \n", "is not TOML: invalid value (at line 1"),
+    (b'{"gravity": 9.8}', "is not TOML: "),
+    (b"[[surfaces]\n", "is not TOML: "),
+    (b'name = "\xff\xfe"\n', "must be UTF-8 text, got byte 0xff at offset 8"),
+    ("name = 'raum'\n".encode("utf-16"), "must be UTF-8 text"),
+    (b"\x00\x01\x02\x03", "is not TOML: "),
+    (b"PK\x03\x04\x14\x00\x00\x00\x08\x00\xb7\xac\xce", "must be UTF-8 text"),
+    (b"surfaces = " + b"[" * 5000 + b"]" * 5000, "is not TOML: nested too deep"),
+    (b"surfaces = 2026-01-01\n", "surfaces: must be a list, got datetime.date(2026, 1, 1)"),
+]
+
+
+def broken(data: dict[str, Any], path: tuple[Any, ...], value: Any) -> dict[str, Any]:
+    """A copy of `data` with one value changed or deleted."""
+    out = copy.deepcopy(data)
+    target: Any = out
+    for part in path[:-1]:
+        target = target[part]
+    if value is DELETE:
+        del target[path[-1]]
+    else:
+        target[path[-1]] = value
+    return out
+
+
+def label(case: Break) -> str:
+    """A readable id for pytest."""
+    path, value = case[0], case[1]
+    shown = "deleted" if value is DELETE else repr(value)
+    return f"{'.'.join(map(str, path))}={shown[:30]}"

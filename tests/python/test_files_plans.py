@@ -1,0 +1,189 @@
+"""mcplan.files.plans: a plan comes back as it was, and a damaged file is rejected with a name for the damage."""
+
+from __future__ import annotations
+
+import copy
+import io
+import json
+import os
+import pickle
+import stat
+
+import numpy as np
+import pytest
+
+import mcplan as mp
+from mcplan.files.plans import load_plan, plan_to_bytes
+from standing import standing_plan
+
+
+@pytest.fixture
+def plan() -> mp.Plan:
+    return standing_plan()
+
+
+def arrays_of(data: bytes) -> dict:
+    with np.load(io.BytesIO(data), allow_pickle=False) as archive:
+        return {name: archive[name] for name in archive.files}
+
+
+def bytes_of(arrays: dict) -> bytes:
+    buffer = io.BytesIO()
+    np.savez(buffer, **arrays)
+    return buffer.getvalue()
+
+
+def states(plan: mp.Plan) -> list:
+    return [repr(plan.at(t)) for t in np.linspace(0.0, plan.duration(), 7)]
+
+
+def test_a_plan_comes_back_exactly(plan, tmp_path):
+    plan.phases[1].duration = 1 / 3
+    plan.knots[2].com_velocity_W[1] = 1e-17
+    plan.save(tmp_path / "plan.npz")
+    for other in (mp.Plan.load(tmp_path / "plan.npz"), pickle.loads(pickle.dumps(plan)), copy.deepcopy(plan)):
+        assert states(other) == states(plan)
+        assert repr(other.scene) == repr(plan.scene) and repr(other.robot) == repr(plan.robot)
+        assert repr(other.swings) == repr(plan.swings) and other.final_contacts == plan.final_contacts
+        assert other.planner == "by hand"
+        assert plan_to_bytes(other) == plan_to_bytes(plan)
+
+
+def test_a_deep_copy_shares_nothing(plan):
+    other = copy.deepcopy(plan)
+    other.knots[0].com_W[0] = 5.0
+    other.scene.surfaces[0].vertices_W[0] = [9.0, 9.0, 9.0]
+    assert plan.knots[0].com_W[0] == 0.0
+    assert plan.scene.surfaces[0].vertices_W[0, 0] == -1.0
+
+
+def test_the_header_says_what_it_holds(plan):
+    header = json.loads(arrays_of(plan_to_bytes(plan))["header"].tobytes())
+    assert header["format"] == 1 and header["mcplan"] == mp.__version__
+    assert "m, kg, s" in header["units"]
+    assert header["scene"]["name"] == "flat" and header["robot"]["mass"] == 44.0
+
+
+def test_saving_replaces_the_file_at_once_and_leaves_nothing_else(plan, tmp_path):
+    target = tmp_path / "no_ending"
+    target.write_text("old")
+    plan.save(target)
+    assert [path.name for path in tmp_path.iterdir()] == ["no_ending"]
+    assert load_plan(target).duration() == plan.duration()
+    umask = os.umask(0)
+    os.umask(umask)
+    assert stat.S_IMODE(target.stat().st_mode) == 0o666 & ~umask
+
+
+def test_an_invalid_plan_is_not_saved(plan, tmp_path):
+    target = tmp_path / "plan.npz"
+    target.write_text("old")
+    plan.knots[1].com_W[0] = np.nan
+    with pytest.raises(mp.InvalidPlan, match=r"knots\[1\]"):
+        plan.save(target)
+    assert target.read_text() == "old"
+    assert [path.name for path in tmp_path.iterdir()] == ["plan.npz"]
+
+
+def test_every_truncation_is_rejected(plan, tmp_path):
+    data = plan_to_bytes(plan)
+    for length in [0, 1, 100, *range(0, len(data), len(data) // 40), len(data) - 1]:
+        (tmp_path / "cut.npz").write_bytes(data[:length])
+        with pytest.raises(mp.InvalidPlan, match=r"cut.npz: must be an .npz file written by mcplan"):
+            load_plan(tmp_path / "cut.npz")
+
+
+def test_flipped_bytes_never_crash(plan, tmp_path):
+    data = plan_to_bytes(plan)
+    rng = np.random.default_rng(0)
+    for _ in range(300):
+        damaged = bytearray(data)
+        for position in rng.integers(0, len(data), 3):
+            damaged[position] ^= int(rng.integers(1, 256))
+        (tmp_path / "bad.npz").write_bytes(damaged)
+        try:
+            load_plan(tmp_path / "bad.npz")  # a flip may hit bytes that nobody reads
+        except mp.InvalidPlan as found:
+            assert "bad.npz: " in str(found)
+
+
+def without(name):
+    return lambda arrays: arrays.pop(name)
+
+
+def put(name, value):
+    return lambda arrays: arrays.update({name: value(arrays[name])})
+
+
+def header(**changes):
+    def change(arrays):
+        data = {**json.loads(arrays["header"].tobytes()), **changes}
+        arrays["header"] = np.frombuffer(json.dumps(data).encode(), np.uint8)
+
+    return change
+
+
+DAMAGE = {
+    "no header": (without("header"), "header: is required"),
+    "header no JSON": (put("header", lambda a: a[:-1]), "header: must be JSON"),
+    "header a list": (
+        put("header", lambda a: np.frombuffer(b"[]", np.uint8)),
+        "header: must be a JSON object",
+    ),
+    "future format": (header(format=2), r"header.format: must be 1 for this version of mcplan, got 2"),
+    "no format": (header(format=None), "header.format: must be 1"),
+    "planner a number": (header(planner=1), "header.planner: must be a str, got int"),
+    "scene a list": (header(scene=[]), "header.scene: must be a dict"),
+    "scene broken": (header(scene={"name": "x"}), "header.scene.surfaces: is required"),
+    "robot broken": (header(robot={"mass": -1}), "header.robot.mass: must be a positive number"),
+    "no durations": (without("durations"), "durations: is required"),
+    "no swings": (without("swings"), "swings: is required"),
+    "too few knots": (put("com_W", lambda a: a[:-1]), r"com_W: must have shape \(4, 3\), got \(3, 3\)"),
+    "points of two": (put("anchors_W", lambda a: a[..., :2]), "anchors_W: must have shape"),
+    "too many ends": (put("surfaces", lambda a: np.hstack([a, a])), "surfaces: must have shape"),
+    "whole durations": (
+        put("durations", lambda a: a.astype(int)),
+        "durations: must hold floating-point numbers",
+    ),
+    "broken surfaces": (put("surfaces", lambda a: a + 0.5), "surfaces: must hold integers"),
+    "text": (put("com_W", lambda a: a.astype(str)), "com_W: must hold floating-point numbers"),
+    "a pickle": (put("com_W", lambda a: a.astype(object)), "must be an .npz file written by mcplan"),
+    "surface too large": (put("surfaces", lambda a: a + 99), r"surface"),
+    "64 bit surface": (
+        put("surfaces", lambda a: a.astype(np.int64) + 2**40),
+        "surfaces: must hold numbers of 32 bits",
+    ),
+    "final contact": (put("final_contacts", lambda a: a + 99), "final_contacts"),
+    "swing of nobody": (put("swings", lambda a: a + 99), "swings"),
+    "NaN": (put("stiffness", lambda a: a * np.nan), "must be finite numbers"),
+    "time runs back": (put("durations", lambda a: -a), "duration"),
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_damaged_content_is_named(damage, plan, tmp_path):
+    change, message = DAMAGE[damage]
+    arrays = arrays_of(plan_to_bytes(plan))
+    change(arrays)
+    (tmp_path / "bad.npz").write_bytes(bytes_of(arrays))
+    with pytest.raises(mp.InvalidPlan, match=message) as found:
+        load_plan(tmp_path / "bad.npz")
+    assert str(found.value).startswith(str(tmp_path / "bad.npz"))
+
+
+def test_pickles_in_a_plan_file_are_never_run(plan, tmp_path):
+    class Bomb:
+        def __reduce__(self):
+            return (open, (str(tmp_path / "run"), "w"))
+
+    arrays = arrays_of(plan_to_bytes(plan))
+    arrays["com_W"] = np.array([Bomb()], dtype=object)
+    (tmp_path / "bad.npz").write_bytes(bytes_of(arrays))
+    with pytest.raises(mp.InvalidPlan):
+        load_plan(tmp_path / "bad.npz")
+    assert not (tmp_path / "run").exists()
+
+
+def test_a_missing_file_is_no_invalid_plan(tmp_path):
+    with pytest.raises(FileNotFoundError):
+        load_plan(tmp_path / "none.npz")

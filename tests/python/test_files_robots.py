@@ -1,0 +1,98 @@
+"""mcplan.files.robots: round trips, and errors that name field and rule."""
+
+from __future__ import annotations
+
+import copy
+import json
+import pickle
+
+import jsonschema
+import numpy as np
+import pytest
+
+import malformed
+import mcplan as mp
+from mcplan.files.builtin import DATA
+from mcplan.files.robots import list_robots, load_robot, robot_from_dict, robot_to_dict, save_robot
+from mcplan.files.toml import toml_text, tomllib
+
+
+def test_the_data_that_are_broken_below_are_valid(tmp_path):
+    (tmp_path / "hopper.toml").write_text(toml_text(malformed.ROBOT))
+    robot = load_robot(tmp_path / "hopper.toml")
+    assert [end.kind for end in robot.end_effectors] == ["foot", "hand"]
+    assert robot.end_effectors[1].max_force == float("inf")
+    assert dict(robot.posture) == {"knee": 0.3}
+
+
+@pytest.mark.parametrize("case", malformed.ROBOT_BREAKS, ids=malformed.label)
+def test_a_broken_robot_file_is_named_with_field_and_rule(case, tmp_path):
+    path, value, field, rule = case
+    file = tmp_path / "bad.toml"
+    file.write_text(toml_text(malformed.broken(malformed.ROBOT, path, value)))
+    with pytest.raises(mp.InvalidRobot) as found:
+        load_robot(file)
+    message = str(found.value)
+    assert message.startswith(f"{file}: {field}"), message
+    assert rule in message
+    assert "\n" not in message
+
+
+def test_an_unknown_name_lists_the_names_that_exist():
+    with pytest.raises(
+        mp.UnknownRobot, match="no robot 'talus' and no file of that name. Did you mean 'talos'?"
+    ):
+        load_robot("talus")
+
+
+@pytest.mark.parametrize("name", list_robots())
+class TestBuiltIn:
+    def test_survives_file_dict_pickle_and_copy(self, name, tmp_path):
+        robot = load_robot(name)
+        data = robot_to_dict(robot)
+        save_robot(robot, tmp_path / "copy.toml", header="a comment")
+        for other in (
+            load_robot(tmp_path / "copy.toml"),
+            robot_from_dict(json.loads(json.dumps(data))),
+            pickle.loads(pickle.dumps(robot)),
+            copy.deepcopy(robot),
+            eval(repr(robot), vars(mp)),
+        ):
+            assert robot_to_dict(other) == data
+
+    def test_fits_its_json_schema(self, name):
+        schema = json.loads((DATA / "schema" / "robot.json").read_text())
+        jsonschema.Draft202012Validator.check_schema(schema)
+        jsonschema.validate(tomllib.loads((DATA / "robots" / f"{name}.toml").read_text()), schema)
+
+    def test_is_the_same_on_both_sides(self, name):
+        flip = np.array([1.0, -1.0, 1.0])
+        ends = {end.name: end for end in load_robot(name).end_effectors}
+        for end_name, end in ends.items():
+            twin = ends[
+                end_name.replace("right", "left")
+                if "right" in end_name
+                else end_name.replace("left", "right")
+                if "left" in end_name
+                else {"r": "l", "l": "r"}[end_name[0]] + end_name[1:]
+            ]
+            np.testing.assert_allclose(twin.nominal_B, end.nominal_B * flip)
+            np.testing.assert_allclose(twin.reach_min_B[[0, 2]], end.reach_min_B[[0, 2]])
+            np.testing.assert_allclose(twin.reach_min_B[1], -end.reach_max_B[1])
+
+    def test_stands_on_its_feet_and_can_bear_its_weight(self, name):
+        robot = load_robot(name)
+        feet = [end for end in robot.end_effectors if end.kind == "foot"]
+        for foot in feet:
+            assert foot.nominal_B[2] == pytest.approx(-robot.com_height)
+            assert foot.reach_min_B[2] < foot.nominal_B[2] < foot.reach_max_B[2]  # it can bend and stretch
+        assert sum(foot.max_force for foot in feet) > 2 * robot.mass * 9.81
+
+
+def test_humanoid44_has_the_published_numbers():
+    robot = load_robot("humanoid44")
+    assert (robot.mass, robot.com_height) == (44.0, 0.70)
+    assert [end.name for end in robot.end_effectors] == ["right_foot", "left_foot", "right_hand", "left_hand"]
+    np.testing.assert_allclose(robot.end_effectors[0].reach_min_B, [-0.2, -0.15, -0.75])
+    np.testing.assert_allclose(robot.end_effectors[0].reach_max_B, [0.2, -0.05, -0.55])
+    assert robot.end_effectors[2].max_force == pytest.approx(4.06 * 44.0 * 9.8, rel=1e-3)

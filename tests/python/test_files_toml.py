@@ -1,0 +1,23 @@
+"""mcplan.files.toml: what is written reads back as the same values."""
+
+from __future__ import annotations
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mcplan.files.toml import toml_text, tomllib
+
+text = st.text(st.characters(codec="utf-8"))
+plain = text | st.booleans() | st.integers(-(2**63), 2**63 - 1) | st.floats(allow_nan=False)
+table = st.dictionaries(text, plain | st.lists(plain) | st.dictionaries(text, plain, max_size=2))
+
+
+@given(st.dictionaries(text, plain | st.lists(plain) | table | st.lists(table, min_size=1)))
+def test_what_is_written_reads_back(data):
+    assert tomllib.loads(toml_text(data, header="comment\n\nmore")) == data
+
+
+def test_long_lists_take_a_line_an_entry():
+    written = toml_text({"vertices": [[float(i), 0.123456789, -0.123456789] for i in range(6)]})
+    assert written.count("\n") == 8
+    assert max(map(len, written.splitlines())) < 60
