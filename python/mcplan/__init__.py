@@ -16,7 +16,7 @@ Importing this loads NumPy and nothing heavier; the rest comes when first used.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mcplan._core import (
     CheckResult,
@@ -49,6 +49,9 @@ from mcplan.errors import (
     UnknownRobot,
     UnknownScene,
 )
+
+if TYPE_CHECKING:
+    from mcplan.view import Page
 
 __all__ = [
     "CheckResult",
@@ -142,13 +145,14 @@ def plan(scene: Scene | str | Path, robot: Robot | str | Path = "humanoid44", **
     return solve(scene, robot, options)
 
 
-def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None) -> Any:
+def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
     """Draw a plan in the browser; the result has ``save_html(path)``.
 
     Args:
         plan: The plan.
         scene: Drawn around it; None: the plan's own.
-        robot: Drawn along it; None: the plan's own.
+        robot: Drawn along it; None: the plan's own. With a URDF its meshes are drawn, else a stick robot.
+        report: How the plan was found, for the caption.
 
     Raises:
         MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
@@ -158,4 +162,4 @@ def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None) -> 
     require("mcplan.show", "view", "meshcat")
     from mcplan.view import show as draw
 
-    return draw(plan, scene if scene is not None else plan.scene, robot if robot is not None else plan.robot)
+    return draw(plan, scene, robot, report)

@@ -9,9 +9,10 @@ import os
 import pickle
 import stat
 
-import mcplan as mp
 import numpy as np
 import pytest
+
+import mcplan as mp
 from mcplan.files.plans import load_plan, plan_to_bytes
 from standing import standing_plan
 
@@ -125,7 +126,10 @@ def header(**changes):
 DAMAGE = {
     "no header": (without("header"), "header: is required"),
     "header no JSON": (put("header", lambda a: a[:-1]), "header: must be JSON"),
-    "header a list": (put("header", lambda a: np.frombuffer(b"[]", np.uint8)), "header: must be a JSON object"),
+    "header a list": (
+        put("header", lambda a: np.frombuffer(b"[]", np.uint8)),
+        "header: must be a JSON object",
+    ),
     "future format": (header(format=2), r"header.format: must be 1 for this version of mcplan, got 2"),
     "no format": (header(format=None), "header.format: must be 1"),
     "planner a number": (header(planner=1), "header.planner: must be a str, got int"),
@@ -137,12 +141,18 @@ DAMAGE = {
     "too few knots": (put("com_W", lambda a: a[:-1]), r"com_W: must have shape \(4, 3\), got \(3, 3\)"),
     "points of two": (put("anchors_W", lambda a: a[..., :2]), "anchors_W: must have shape"),
     "too many ends": (put("surfaces", lambda a: np.hstack([a, a])), "surfaces: must have shape"),
-    "whole durations": (put("durations", lambda a: a.astype(int)), "durations: must hold floating-point numbers"),
+    "whole durations": (
+        put("durations", lambda a: a.astype(int)),
+        "durations: must hold floating-point numbers",
+    ),
     "broken surfaces": (put("surfaces", lambda a: a + 0.5), "surfaces: must hold integers"),
     "text": (put("com_W", lambda a: a.astype(str)), "com_W: must hold floating-point numbers"),
     "a pickle": (put("com_W", lambda a: a.astype(object)), "must be an .npz file written by mcplan"),
     "surface too large": (put("surfaces", lambda a: a + 99), r"surface"),
-    "64 bit surface": (put("surfaces", lambda a: a.astype(np.int64) + 2**40), "surfaces: must hold numbers of 32 bits"),
+    "64 bit surface": (
+        put("surfaces", lambda a: a.astype(np.int64) + 2**40),
+        "surfaces: must hold numbers of 32 bits",
+    ),
     "final contact": (put("final_contacts", lambda a: a + 99), "final_contacts"),
     "swing of nobody": (put("swings", lambda a: a + 99), "swings"),
     "NaN": (put("stiffness", lambda a: a * np.nan), "must be finite numbers"),

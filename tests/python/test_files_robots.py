@@ -7,10 +7,11 @@ import json
 import pickle
 
 import jsonschema
-import malformed
-import mcplan as mp
 import numpy as np
 import pytest
+
+import malformed
+import mcplan as mp
 from mcplan.files.builtin import DATA
 from mcplan.files.robots import list_robots, load_robot, robot_from_dict, robot_to_dict, save_robot
 from mcplan.files.toml import toml_text, tomllib
@@ -38,7 +39,9 @@ def test_a_broken_robot_file_is_named_with_field_and_rule(case, tmp_path):
 
 
 def test_an_unknown_name_lists_the_names_that_exist():
-    with pytest.raises(mp.UnknownRobot, match="no robot 'talus' and no file of that name. Did you mean 'talos'?"):
+    with pytest.raises(
+        mp.UnknownRobot, match="no robot 'talus' and no file of that name. Did you mean 'talos'?"
+    ):
         load_robot("talus")
 
 
@@ -67,8 +70,10 @@ class TestBuiltIn:
         ends = {end.name: end for end in load_robot(name).end_effectors}
         for end_name, end in ends.items():
             twin = ends[
-                end_name.replace("right", "left") if "right" in end_name
-                else end_name.replace("left", "right") if "left" in end_name
+                end_name.replace("right", "left")
+                if "right" in end_name
+                else end_name.replace("left", "right")
+                if "left" in end_name
                 else {"r": "l", "l": "r"}[end_name[0]] + end_name[1:]
             ]
             np.testing.assert_allclose(twin.nominal_B, end.nominal_B * flip)

@@ -8,13 +8,14 @@ import pickle
 from pathlib import Path
 
 import jsonschema
-import malformed
-import mcplan as mp
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mcplan._core import Polygon, resolve_stance
+
+import malformed
+import mcplan as mp
 from mcplan.files.builtin import DATA
 from mcplan.files.scenes import list_scenes, load_scene, save_scene, scene_from_dict, scene_to_dict
 from mcplan.files.toml import toml_text, tomllib
@@ -121,13 +122,19 @@ class TestBuiltIn:
             stance = getattr(scene, field)
             resolved = resolve_stance(scene, robot, stance, field)
             turn = np.array(
-                [[np.cos(stance.yaw), -np.sin(stance.yaw), 0], [np.sin(stance.yaw), np.cos(stance.yaw), 0], [0, 0, 1]]
+                [
+                    [np.cos(stance.yaw), -np.sin(stance.yaw), 0],
+                    [np.sin(stance.yaw), np.cos(stance.yaw), 0],
+                    [0, 0, 1],
+                ]
             )
             for end, position_W, surface in zip(
                 robot.end_effectors, resolved.end_effectors_W, resolved.contacts, strict=True
             ):
                 relative = turn.T @ (position_W - resolved.com_W)
-                assert (relative >= end.reach_min_B - 1e-9).all() and (relative <= end.reach_max_B + 1e-9).all()
+                assert (relative >= end.reach_min_B - 1e-9).all() and (
+                    relative <= end.reach_max_B + 1e-9
+                ).all()
                 assert (surface >= 0) == (end.kind == "foot")
 
 
@@ -184,10 +191,17 @@ def scenes(draw):
         )
         for _ in range(2)
     ]
-    rules = draw(st.lists(st.builds(mp.ContactRule, when_free=st.just(["foot"]), require=st.lists(names, min_size=1))))
+    rules = draw(
+        st.lists(st.builds(mp.ContactRule, when_free=st.just(["foot"]), require=st.lists(names, min_size=1)))
+    )
     return mp.Scene(
-        name=draw(names), description=draw(st.text(st.characters(codec="utf-8"), max_size=20)),
-        gravity=draw(st.floats(0.1, 30)), surfaces=surfaces, start=stances[0], goal=stances[1], rules=rules,
+        name=draw(names),
+        description=draw(st.text(st.characters(codec="utf-8"), max_size=20)),
+        gravity=draw(st.floats(0.1, 30)),
+        surfaces=surfaces,
+        start=stances[0],
+        goal=stances[1],
+        rules=rules,
     )
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 
 import jsonschema
-import malformed
 import pytest
+
+import malformed
 from mcplan.files.builtin import DATA
 from mcplan.files.schema import MODELS, schema_text
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from hypothesis import given
 from hypothesis import strategies as st
+
 from mcplan.files.toml import toml_text, tomllib
 
 text = st.text(st.characters(codec="utf-8"))

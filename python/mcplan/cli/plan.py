@@ -14,17 +14,28 @@ if TYPE_CHECKING:
 
 def plan(
     scene: Annotated[str, typer.Argument(metavar="SCENE", help="Built-in name or TOML file.")],
-    robot: Annotated[str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")] = "humanoid44",
+    robot: Annotated[
+        str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")
+    ] = "humanoid44",
     phases: Annotated[int | None, typer.Option("--phases", metavar="N", help="Phases of the plan.")] = None,
     method: Annotated[str | None, typer.Option("--method", metavar="M", help="standard or paper.")] = None,
     time_limit: Annotated[
-        float | None, typer.Option("--time-limit", metavar="S", help="Return the best plan after so many seconds.")
+        float | None,
+        typer.Option("--time-limit", metavar="S", help="Return the best plan after so many seconds."),
     ] = None,
-    threads: Annotated[int | None, typer.Option("--threads", metavar="N", help="The plan does not depend on it.")] = None,
+    threads: Annotated[
+        int | None, typer.Option("--threads", metavar="N", help="The plan does not depend on it.")
+    ] = None,
     seed: Annotated[int | None, typer.Option("--seed", metavar="K", help="Of the order of restarts.")] = None,
-    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")] = None,
-    html: Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")] = None,
-    plots: Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")
+    ] = None,
+    html: Annotated[
+        Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")
+    ] = None,
+    plots: Annotated[
+        Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")
+    ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
 ) -> int:
     """Find a contact sequence and a motion; exit code 0 only if the plan is solved, 1 otherwise.
@@ -48,11 +59,11 @@ def plan(
     if output is not None:
         result.plan.save(output)
     if html is not None:
-        mcplan.show(result.plan).save_html(html)
+        mcplan.show(result.plan, report=result.report).save_html(html)
     if plots is not None:
         from mcplan.view.plots import save_plots
 
-        save_plots(result, plots)
+        save_plots(result.plan, result.report, plots)
     print(json_module.dumps(summary(result)) if json else report_text(result, [output, html, plots]))
     return 0 if str(result.report.status) == "solved" else 1
 
@@ -81,7 +92,10 @@ def summary(result: PlanResult) -> dict[str, Any]:
         "contact_sequence": [[names[i] if i >= 0 else None for i in row] for row in sequence],
         "durations_s": [phase.duration for phase in plan.phases],
         "flight_phases": flight_phases(sequence),
-        "worst_violation": {key: worst[key] for key in ("name", "phase", "end_effector", "time_s", "value", "tolerance", "unit")},
+        "worst_violation": {
+            key: worst[key]
+            for key in ("name", "phase", "end_effector", "time_s", "value", "tolerance", "unit")
+        },
         "seed": report.seed,
         "threads": report.threads,
         "version": report.version,
@@ -104,7 +118,9 @@ def report_text(result: PlanResult, written: list[Path | None]) -> str:
         flight = "no flight" if flights == 0 else f"{flights} flight phase{'s' if flights > 1 else ''}"
         lines = [f"{lead}solved in {took}: {len(plan.phases)} phases, {plan.duration():.2f} s long, {flight}"]
     else:
-        lines = [f"{lead}{report.status} after {took}: {report.message or 'no plan that the checker accepts'}"]
+        lines = [
+            f"{lead}{report.status} after {took}: {report.message or 'no plan that the checker accepts'}"
+        ]
     if report.worst_violation.name:
         label = "closest to its limit" if solved else "worst"
         lines.append(f"{' ' * len(lead)}{label}: {report.worst_violation}")

@@ -16,14 +16,24 @@ def robots(
     name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Built-in name or TOML file.")] = None,
     from_urdf: Annotated[
         str | None,
-        typer.Option("--from-urdf", metavar="URDF", help="Work out a robot: a URDF file, or talos or anymal."),
+        typer.Option(
+            "--from-urdf", metavar="URDF", help="Work out a robot: a URDF file, or talos or anymal."
+        ),
     ] = None,
     end: Annotated[
         list[str] | None,
-        typer.Option("--end", metavar="NAME=FRAME[:KIND[:LxW]]", help="End-effector, its URDF frame, kind and half size."),
+        typer.Option(
+            "--end",
+            metavar="NAME=FRAME[:KIND[:LxW]]",
+            help="End-effector, its URDF frame, kind and half size.",
+        ),
     ] = None,
-    srdf: Annotated[Path | None, typer.Option("--srdf", metavar="FILE", help="Nominal posture: its first one.")] = None,
-    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file to write.")] = None,
+    srdf: Annotated[
+        Path | None, typer.Option("--srdf", metavar="FILE", help="Nominal posture: its first one.")
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file to write.")
+    ] = None,
 ) -> None:
     """List the built-in robots, print one, or work one out from a URDF.
 
@@ -45,7 +55,9 @@ def _from_urdf(source: str, ends: list[str], srdf: Path | None, output: Path | N
     from mcplan.files.toml import toml_text
     from mcplan.files.urdf import header, robot_from_urdf
 
-    robot = robot_from_urdf(source, tuple(_parse_end(text) for text in ends), srdf=str(srdf) if srdf else None)
+    robot = robot_from_urdf(
+        source, tuple(_parse_end(text) for text in ends), srdf=str(srdf) if srdf else None
+    )
     words = ["mcplan robots --from-urdf", source, *(f"--end {text}" for text in ends)]
     words += [f"--srdf {srdf}"] if srdf else []
     words += [f"-o {output}"] if output else []
@@ -64,7 +76,9 @@ def _parse_end(text: str) -> End:
 
     try:
         name, rest = text.split("=", 1)
-        frame, kind, size = [*rest.split(":"), "foot", "0x0"][:3] if ":" not in rest else [*rest.split(":"), "0x0"][:3]
+        frame, kind, size = (
+            [*rest.split(":"), "foot", "0x0"][:3] if ":" not in rest else [*rest.split(":"), "0x0"][:3]
+        )
         length, width = (float(part) for part in size.split("x"))
     except ValueError:
         raise InvalidInput("--end", "must read NAME=FRAME[:KIND[:LENGTHxWIDTH]]", repr(text)) from None
@@ -83,8 +97,15 @@ def _print_robot(robot: Robot) -> None:
         print(f"URDF {robot.urdf}")
     print()
     rows = [
-        [e.name, e.kind, _numbers(e.nominal_B), f"{_numbers(e.reach_min_B)} .. {_numbers(e.reach_max_B)}",
-         _numbers(e.half_size) if e.half_size.any() else "point", f"{e.max_force:.0f}", _numbers(e.max_moment)]
+        [
+            e.name,
+            e.kind,
+            _numbers(e.nominal_B),
+            f"{_numbers(e.reach_min_B)} .. {_numbers(e.reach_max_B)}",
+            _numbers(e.half_size) if e.half_size.any() else "point",
+            f"{e.max_force:.0f}",
+            _numbers(e.max_moment),
+        ]
         for e in robot.end_effectors
     ]
     head = ["end-effector", "kind", "nominal [m]", "reach [m]", "half size [m]", "force [N]", "moment [N m]"]

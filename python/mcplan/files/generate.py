@@ -51,7 +51,9 @@ def stairs(rng: Random) -> Scene:
     surfaces = [_rectangle("ground", -1.0, first - pitch + depth, 0.0)]
     for i in range(count):
         begin = first + i * pitch
-        surfaces.append(_rectangle(f"tread_{i + 1}", begin, begin + (depth if i < count - 1 else 0.8), (i + 1) * rise))
+        surfaces.append(
+            _rectangle(f"tread_{i + 1}", begin, begin + (depth if i < count - 1 else 0.8), (i + 1) * rise)
+        )
     return _scene(surfaces, first + (count - 1) * pitch + 0.2, count * rise, "ground", f"tread_{count}")
 
 
@@ -70,7 +72,13 @@ def slope(rng: Random) -> Scene:
     end = goal + 0.8
     ramp = _rectangle("slope", begin, end, 0.0)
     ramp.vertices_W[:, 2] = (ramp.vertices_W[:, 0] - begin) * math.tan(angle)
-    return _scene([_rectangle("ground", -1.0, begin, 0.0), ramp], goal, (goal - begin) * math.tan(angle), "ground", "slope")
+    return _scene(
+        [_rectangle("ground", -1.0, begin, 0.0), ramp],
+        goal,
+        (goal - begin) * math.tan(angle),
+        "ground",
+        "slope",
+    )
 
 
 def stones(rng: Random, rows: int = 6, spacing: float = 0.22) -> Scene:
@@ -113,7 +121,9 @@ def mirrored(scene: Scene) -> Scene:
 
 def moved(scene: Scene, yaw: float, offset_W: np.ndarray) -> Scene:
     """The scene turned about the world's z axis by yaw [rad], then moved by offset_W [m]."""
-    turn = np.array([[math.cos(yaw), -math.sin(yaw), 0.0], [math.sin(yaw), math.cos(yaw), 0.0], [0.0, 0.0, 1.0]])
+    turn = np.array(
+        [[math.cos(yaw), -math.sin(yaw), 0.0], [math.sin(yaw), math.cos(yaw), 0.0], [0.0, 0.0, 1.0]]
+    )
     out = scene.__copy__()
     for surface in out.surfaces:
         surface.vertices_W = surface.vertices_W @ turn.T + offset_W
@@ -142,7 +152,11 @@ def _stone(rng: Random, name: str, centre: tuple[float, float], height: float) -
     half_length, half_width = rng.uniform(0.085, 0.095), rng.uniform(0.075, 0.085)
     angles = [math.radians(60 * i + rng.uniform(-12, 12)) for i in range(6)]
     corners = [(centre[0] + half_length * math.cos(a), centre[1] + half_width * math.sin(a)) for a in angles]
-    return Surface(name=name, vertices_W=[[round(x, 4), round(y, 4), round(height, 4)] for x, y in corners], end_effectors=_FEET)
+    return Surface(
+        name=name,
+        vertices_W=[[round(x, 4), round(y, 4), round(height, 4)] for x, y in corners],
+        end_effectors=_FEET,
+    )
 
 
 def stepping_stones() -> Scene:

@@ -31,7 +31,9 @@ class SurfaceModel(_Table):
         description="[m] Corners of a convex polygon, world frame, counter-clockwise about the outward normal.",
     )
     friction: Positive = Field(0.7, description="[-] Coulomb coefficient.")
-    grasp: bool = Field(False, description="May be held: no friction cone, only the end-effector's force cap.")
+    grasp: bool = Field(
+        False, description="May be held: no friction cone, only the end-effector's force cap."
+    )
     end_effectors: Names = Field([], description="Names or kinds of those that may touch it; empty: all.")
     thickness: Positive = Field(0.05, description="[m] Solid below the surface that swings must clear.")
 
@@ -76,7 +78,9 @@ class EndEffectorModel(_Table):
     reach_min: Point = Field(description="[m] Lower corner of the box of reachable positions.")
     reach_max: Point = Field(description="[m] Upper corner of the box of reachable positions.")
     max_force: Annotated[float, Field(gt=0)] = Field(
-        float("inf"), description="[N] Largest norm of the contact force.", json_schema_extra={"default": None}
+        float("inf"),
+        description="[N] Largest norm of the contact force.",
+        json_schema_extra={"default": None},
     )
     max_moment: Annotated[list[NotNegative], Field(min_length=3, max_length=3)] = Field(
         [0.0, 0.0, 0.0], description="[N m] Largest contact moment about each world axis."

@@ -95,9 +95,18 @@ def plan_to_bytes(plan: Plan) -> bytes:
             [[s.end_effector, s.first_phase, s.end_phase] for s in plan.swings], dtype=np.int32
         ).reshape(-1, 3),
         "swing_heights": np.array([s.height for s in plan.swings], dtype=float),
-        "swing_normals_W": np.array([[s.lift_normal_W, s.land_normal_W] for s in plan.swings]).reshape(-1, 2, 3),
+        "swing_normals_W": np.array([[s.lift_normal_W, s.land_normal_W] for s in plan.swings]).reshape(
+            -1, 2, 3
+        ),
     }
-    for name in ("com_W", "com_velocity_W", "base_rpy", "base_rpy_rate", "end_effectors_W", "end_effector_velocities_W"):
+    for name in (
+        "com_W",
+        "com_velocity_W",
+        "base_rpy",
+        "base_rpy_rate",
+        "end_effectors_W",
+        "end_effector_velocities_W",
+    ):
         arrays[name] = np.array([getattr(knot, name) for knot in plan.knots])
     buffer = io.BytesIO()
     np.savez(buffer, **arrays)
@@ -120,25 +129,54 @@ def plan_from_bytes(data: bytes) -> Plan:
         robot=robot,
         planner=header["planner"],
         knots=[
-            Knot(com_W=com, com_velocity_W=velocity, base_rpy=rpy, base_rpy_rate=rate, end_effectors_W=ends,
-                 end_effector_velocities_W=end_velocities)
+            Knot(
+                com_W=com,
+                com_velocity_W=velocity,
+                base_rpy=rpy,
+                base_rpy_rate=rate,
+                end_effectors_W=ends,
+                end_effector_velocities_W=end_velocities,
+            )
             for com, velocity, rpy, rate, ends, end_velocities in zip(
-                arrays["com_W"], arrays["com_velocity_W"], arrays["base_rpy"], arrays["base_rpy_rate"],
-                arrays["end_effectors_W"], arrays["end_effector_velocities_W"], strict=True)
+                arrays["com_W"],
+                arrays["com_velocity_W"],
+                arrays["base_rpy"],
+                arrays["base_rpy_rate"],
+                arrays["end_effectors_W"],
+                arrays["end_effector_velocities_W"],
+                strict=True,
+            )
         ],
         phases=[
-            Phase(duration=duration, contacts=[
-                Contact(surface=int(surface), stiffness=stiffness, anchor_W=anchor, moment_W=moment)
-                for surface, stiffness, anchor, moment in zip(*row, strict=True)])
-            for duration, *row in zip(arrays["durations"], arrays["surfaces"], arrays["stiffness"], arrays["anchors_W"],
-                                      arrays["moments_W"], strict=True)
+            Phase(
+                duration=duration,
+                contacts=[
+                    Contact(surface=int(surface), stiffness=stiffness, anchor_W=anchor, moment_W=moment)
+                    for surface, stiffness, anchor, moment in zip(*row, strict=True)
+                ],
+            )
+            for duration, *row in zip(
+                arrays["durations"],
+                arrays["surfaces"],
+                arrays["stiffness"],
+                arrays["anchors_W"],
+                arrays["moments_W"],
+                strict=True,
+            )
         ],
         final_contacts=[int(surface) for surface in arrays["final_contacts"]],
         swings=[
-            Swing(end_effector=int(end), first_phase=int(first), end_phase=int(last), height=height,
-                  lift_normal_W=normals[0], land_normal_W=normals[1])
+            Swing(
+                end_effector=int(end),
+                first_phase=int(first),
+                end_phase=int(last),
+                height=height,
+                lift_normal_W=normals[0],
+                land_normal_W=normals[1],
+            )
             for (end, first, last), height, normals in zip(
-                arrays["swings"], arrays["swing_heights"], arrays["swing_normals_W"], strict=True)
+                arrays["swings"], arrays["swing_heights"], arrays["swing_normals_W"], strict=True
+            )
         ],
     )
     plan.validate()
@@ -147,12 +185,24 @@ def plan_from_bytes(data: bytes) -> Plan:
 
 def _read_arrays(data: bytes) -> dict[str, np.ndarray]:
     if not zipfile.is_zipfile(io.BytesIO(data)):
-        raise InvalidPlan("", "must be an .npz file written by mcplan", "no zip archive, or an incomplete one")
+        raise InvalidPlan(
+            "", "must be an .npz file written by mcplan", "no zip archive, or an incomplete one"
+        )
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as archive:
             return {name: archive[name] for name in archive.files}
-    except (ValueError, KeyError, EOFError, OSError, MemoryError, NotImplementedError, RuntimeError, SyntaxError,
-            zipfile.BadZipFile, zlib.error) as found:  # what NumPy and zipfile raise for damaged files
+    except (
+        ValueError,
+        KeyError,
+        EOFError,
+        OSError,
+        MemoryError,
+        NotImplementedError,
+        RuntimeError,
+        SyntaxError,
+        zipfile.BadZipFile,
+        zlib.error,
+    ) as found:  # what NumPy and zipfile raise for damaged files
         raise InvalidPlan("", "must be an .npz file written by mcplan", _first_line(found)) from None
 
 
@@ -177,7 +227,9 @@ def _read_header(arrays: dict[str, np.ndarray]) -> dict[str, Any]:
     if not isinstance(header, dict):
         raise InvalidPlan("header", "must be a JSON object", type(header).__name__)
     if header.get("format") != FORMAT:
-        raise InvalidPlan("header.format", f"must be {FORMAT} for this version of mcplan", repr(header.get("format")))
+        raise InvalidPlan(
+            "header.format", f"must be {FORMAT} for this version of mcplan", repr(header.get("format"))
+        )
     for key, kind in (("planner", str), ("scene", dict), ("robot", dict)):
         if not isinstance(header.get(key), kind):
             raise InvalidPlan(f"header.{key}", f"must be a {kind.__name__}", type(header.get(key)).__name__)

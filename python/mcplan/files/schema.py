@@ -1,6 +1,6 @@
 """JSON schemas of scene and robot files, for editors and other programs.
 
-    python -m mcplan.files.schema        # writes mcplan/data/schema/*.json from the models
+python -m mcplan.files.schema        # writes mcplan/data/schema/*.json from the models
 """
 
 from __future__ import annotations

@@ -26,7 +26,9 @@ def read_toml(path: Path, error: type[InvalidInput]) -> dict[str, Any]:
     try:
         text = path.read_bytes().decode("utf-8")
     except UnicodeDecodeError as bad:
-        raise error("", "must be UTF-8 text", f"byte 0x{bad.object[bad.start]:02x} at offset {bad.start}", source) from None
+        raise error(
+            "", "must be UTF-8 text", f"byte 0x{bad.object[bad.start]:02x} at offset {bad.start}", source
+        ) from None
     except OSError as bad:
         raise error("", f"cannot be read: {bad.strerror}", source=source) from None
     if not text.strip():
@@ -48,7 +50,9 @@ def toml_text(data: Mapping[str, Any], header: str = "") -> str:
         header: Comment to put on top.
     """
     lines = [f"# {line}".rstrip() for line in header.splitlines()]
-    lines += [_pair(key, value) for key, value in data.items() if not _is_table(value) and not _is_tables(value)]
+    lines += [
+        _pair(key, value) for key, value in data.items() if not _is_table(value) and not _is_tables(value)
+    ]
     for key, value in data.items():
         for title, table in _sections(key, value):
             lines += ["", title, *(_pair(inner, entry) for inner, entry in table.items())]
@@ -88,7 +92,9 @@ def _value(value: Any) -> str:
     if isinstance(value, float):
         return repr(value) if math.isfinite(value) else str(value)
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + " }" if value else "{}"
+        return (
+            "{ " + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + " }" if value else "{}"
+        )
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(item) for item in value) + "]"
     return str(value)

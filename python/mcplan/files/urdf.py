@@ -22,7 +22,9 @@ from mcplan.files.reach import Limb, explore, largest_box
 
 GRAVITY = 9.81
 FOOT_FORCE = 2.5  # of the robot's weight
-HAND_INSET_M = 0.03  # of a hand's nominal position in its box: an arm hanging down is at the edge of what it reaches
+HAND_INSET_M = (
+    0.03  # of a hand's nominal position in its box: an arm hanging down is at the edge of what it reaches
+)
 SOLE_MOMENT = 0.0033  # of weight x CoM height: 1 N m on humanoid44
 _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
@@ -43,7 +45,7 @@ class End:
 
     Attributes:
         name: Of the end-effector.
-        frame: URDF frame.
+        frame: URDF link.
         kind: "foot" or "hand".
         half_size: Of the sole [m]; zeros: point contact.
         twin: Name of the end-effector on the other side.
@@ -67,7 +69,10 @@ class Setup:
 
 def _biped_ends() -> tuple[End, ...]:
     ends = []
-    for kind, frame, size in (("foot", "{}_sole_link", (0.10, 0.06)), ("hand", "gripper_{}_base_link", (0.0, 0.0))):
+    for kind, frame, size in (
+        ("foot", "{}_sole_link", (0.10, 0.06)),
+        ("hand", "gripper_{}_base_link", (0.0, 0.0)),
+    ):
         for side, other in (("right", "left"), ("left", "right")):
             ends.append(End(f"{side}_{kind}", frame.format(side), kind, size, f"{other}_{kind}"))
     return tuple(ends)
@@ -77,7 +82,11 @@ SETUPS = {
     "talos": Setup(_biped_ends(), 0.10, "PAL Robotics TALOS: two feet, two hands"),
     "anymal": Setup(
         tuple(
-            End(f"{leg.lower()}_foot", f"{leg}_FOOT", twin=f"{'r' if leg[0] == 'L' else 'l'}{leg[1].lower()}_foot")
+            End(
+                f"{leg.lower()}_foot",
+                f"{leg}_FOOT",
+                twin=f"{'r' if leg[0] == 'L' else 'l'}{leg[1].lower()}_foot",
+            )
             for leg in ("RF", "LF", "RH", "LH")
         ),
         0.07,
@@ -117,14 +126,16 @@ def robot_from_urdf(
     if not ends:
         raise InvalidInput("ends", f"must be given for a robot other than {', '.join(SETUPS)}", repr(source))
     for end in ends:
-        if not model.existFrame(end.frame):
-            raise InvalidInput(f"ends.{end.name}", "must name a frame of the URDF", repr(end.frame))
+        if not model.existBodyName(end.frame):
+            raise InvalidInput(f"ends.{end.name}", "must name a link of the URDF", repr(end.frame))
+    if not any(end.kind == "foot" for end in ends):
+        raise InvalidInput("ends", "needs one of kind foot at least, whose height is the ground's")
 
     data = model.createData()
     pin.ccrba(model, data, posture, np.zeros(model.nv))
     mass, com = float(pin.computeTotalMass(model)), data.com[0].copy()
     pin.framesForwardKinematics(model, data, posture)
-    soles = [data.oMf[model.getFrameId(end.frame)].translation[2] for end in ends if end.kind == "foot"]
+    soles = [data.oMf[frame_id(model, end.frame)].translation[2] for end in ends if end.kind == "foot"]
     com_height = float(com[2] - np.mean(soles))
 
     made = {}
@@ -142,11 +153,14 @@ def robot_from_urdf(
         com_height=round(com_height, 3),
         swing_height=setup.swing_height if setup else swing_height,
         end_effectors=[
-            _end_effector(end, *_both_sides(made, end, com_height), weight, com_height, model, posture) for end in ends
+            _end_effector(end, *_both_sides(made, end, com_height), weight, com_height, model, posture)
+            for end in ends
         ],
         urdf=urdf,
         posture={
-            model.names[j]: round(float(posture[model.idx_qs[j]]), 4) for j in range(2, model.njoints) if model.nqs[j] == 1
+            model.names[j]: round(float(posture[model.idx_qs[j]]), 4)
+            for j in range(2, model.njoints)
+            if model.nqs[j] == 1
         },
     )
 
@@ -157,12 +171,17 @@ def header(command: str, step: float = 0.02) -> str:
     return f"Made by: {command}\n{textwrap.fill(text, 116)}"
 
 
+def frame_id(model: Any, link: str) -> int:
+    """Index of a link's frame; joints, which have frames too, may bear the same name."""
+    return model.getBodyId(link)
+
+
 def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...]) -> Limb:
     """The limb that carries an end-effector: the joints on the way to it that carry no other one."""
     import pinocchio as pin
 
     def carriers(frame: str) -> list[int]:
-        return [j for j in model.supports[model.frames[model.getFrameId(frame)].parentJoint] if j > 1]
+        return [j for j in model.supports[model.frames[frame_id(model, frame)].parentJoint] if j > 1]
 
     shared = {j for other in ends if other.name != end.name for j in carriers(other.frame)}
     own = [j for j in carriers(end.frame) if j not in shared]
@@ -172,7 +191,15 @@ def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...]) ->
     lower, upper = reduced.lowerPositionLimit[7:].copy(), reduced.upperPositionLimit[7:].copy()
     free = upper - lower > _CONTINUOUS
     lower[free], upper[free] = (nominal - _FREE_RANGE)[free], (nominal + _FREE_RANGE)[free]
-    return Limb(reduced, posture[:7].copy(), reduced.getFrameId(end.frame), nominal, lower, upper, flat=any(end.half_size))
+    return Limb(
+        reduced,
+        posture[:7].copy(),
+        frame_id(reduced, end.frame),
+        nominal,
+        lower,
+        upper,
+        flat=any(end.half_size),
+    )
 
 
 def _load(source: str, srdf: str | None) -> tuple[Any, np.ndarray, str]:
@@ -189,7 +216,9 @@ def _load(source: str, srdf: str | None) -> tuple[Any, np.ndarray, str]:
     try:
         loaded = example_robot_data.load(source)
     except Exception as found:  # its loaders raise what the file system or the parser happen to raise
-        raise InvalidInput("--from-urdf", "must be a URDF file or a name of example-robot-data", repr(source)) from found
+        raise InvalidInput(
+            "--from-urdf", "must be a URDF file or a name of example-robot-data", repr(source)
+        ) from found
     return loaded.model, loaded.q0.copy(), f"example-robot-data:{source}"
 
 
@@ -223,12 +252,29 @@ def _both_sides(made: dict[str, Any], end: End, com_height: float) -> list[np.nd
     return [np.clip(nominal, low + inset, high - inset).round(3), low, high]
 
 
-def _end_effector(end: End, nominal: np.ndarray, low: np.ndarray, high: np.ndarray, weight: float, com_height: float,
-                  model: Any, posture: np.ndarray) -> EndEffector:
+def _end_effector(
+    end: End,
+    nominal: np.ndarray,
+    low: np.ndarray,
+    high: np.ndarray,
+    weight: float,
+    com_height: float,
+    model: Any,
+    posture: np.ndarray,
+) -> EndEffector:
     force = FOOT_FORCE * weight if end.kind == "foot" else _arm_force(model, posture, end)
     moment = SOLE_MOMENT * weight * com_height if any(end.half_size) else 0.0
-    return EndEffector(name=end.name, kind=end.kind, frame=end.frame, half_size=end.half_size, nominal_B=nominal,
-                       reach_min_B=low, reach_max_B=high, max_force=round(force, -1), max_moment=[0, 0, round(moment, 2)])
+    return EndEffector(
+        name=end.name,
+        kind=end.kind,
+        frame=end.frame,
+        half_size=end.half_size,
+        nominal_B=nominal,
+        reach_min_B=low,
+        reach_max_B=high,
+        max_force=round(force, -1),
+        max_moment=[0, 0, round(moment, 2)],
+    )
 
 
 def _arm_force(model: Any, posture: np.ndarray, end: End) -> float:
@@ -236,7 +282,7 @@ def _arm_force(model: Any, posture: np.ndarray, end: End) -> float:
     import pinocchio as pin
 
     data = model.createData()
-    frame = model.getFrameId(end.frame)
+    frame = frame_id(model, end.frame)
     per_newton = pin.computeFrameJacobian(model, data, posture, frame, pin.LOCAL_WORLD_ALIGNED)[2, 6:]
     gravity = pin.computeGeneralizedGravity(model, data, posture)[6:]
     limits = model.effortLimit[6:]

@@ -1,4 +1,4 @@
-"""A painter for still pictures: shaded polygons in perspective, far ones first, drawn by matplotlib without a browser."""
+"""A painter for still pictures: shaded polygons in perspective, far ones first, drawn by matplotlib."""
 
 from __future__ import annotations
 
@@ -35,12 +35,21 @@ class Canvas:
         self._layers: dict[int, list[tuple[Array, Array, Array]]] = {}
 
     def project(self, points_W: Array) -> tuple[Array, Array]:
-        """Picture coordinates (..., 2) [m at the centre's distance] and depths (...) [m] of points (..., 3)."""
+        """Picture coordinates (..., 2) [m, at the centre's distance] and depths (...) [m] of points."""
         seen = (points_W - self.centre) @ self.axes.T
         depth = self.distance - seen[..., 2]
         return seen[..., :2] * (self.distance / depth)[..., None], depth
 
-    def mesh(self, mesh: Mesh, colour: str, layer: int = 0, opacity: float = 1.0, fade: float = 0.0, lift: float = 0.0, whole: bool = False) -> None:
+    def mesh(
+        self,
+        mesh: Mesh,
+        colour: str,
+        layer: int = 0,
+        opacity: float = 1.0,
+        fade: float = 0.0,
+        lift: float = 0.0,
+        whole: bool = False,
+    ) -> None:
         """Add the triangles of a mesh that face the camera.
 
         Args:
@@ -68,7 +77,15 @@ class Canvas:
             middle = np.full(len(flat), float(one))
         self._add(layer, flat, middle - lift, shaded, opacity)
 
-    def line(self, path_W: Array, colour: str, width: float, layer: int = 0, opacity: float = 1.0, lift: float = 0.0) -> None:
+    def line(
+        self,
+        path_W: Array,
+        colour: str,
+        width: float,
+        layer: int = 0,
+        opacity: float = 1.0,
+        lift: float = 0.0,
+    ) -> None:
         """Add a polyline (n, 3) [m] with a width [m]; its pieces are covered by what is nearer."""
         flat, depth = self.project(np.asarray(path_W, float))
         step = np.diff(flat, axis=0)
@@ -84,7 +101,10 @@ class Canvas:
         joints = np.vstack([side[:1], side[1:] + side[:-1], side[-1:]])
         joints /= np.maximum(np.linalg.norm(joints, axis=1, keepdims=True), 0.3)
         reach = 0.5 * width * joints * (self.distance / depth)[:, None]
-        quads = np.stack([flat[:-1] + reach[:-1], flat[1:] + reach[1:], flat[1:] - reach[1:], flat[:-1] - reach[:-1]], axis=1)
+        quads = np.stack(
+            [flat[:-1] + reach[:-1], flat[1:] + reach[1:], flat[1:] - reach[1:], flat[:-1] - reach[:-1]],
+            axis=1,
+        )
         colours = np.tile(rgb(colour), (len(quads), 1))
         self._add(layer, quads, 0.5 * (depth[1:] + depth[:-1]) - lift, colours, opacity)
 
@@ -108,7 +128,13 @@ class Canvas:
             faces = np.vstack(colours)[order]
             # A hairline in the face's own colour closes the seams between neighbours.
             edges = np.where(faces[:, 3:] < 1.0, np.zeros(4), faces)
-            shown = PolyCollection([polygons[i] for i in order], facecolors=faces, edgecolors=edges, linewidths=0.35, zorder=layer)
+            shown = PolyCollection(
+                [polygons[i] for i in order],
+                facecolors=faces,
+                edgecolors=edges,
+                linewidths=0.35,
+                zorder=layer,
+            )
             axes.add_collection(shown)
         axes.set_aspect("equal")
         axes.set_axis_off()

@@ -41,7 +41,9 @@ class Extent:
         return polygon
 
 
-def extent_of(scene: Scene, robot: Robot | None, samples: Samples | None, length: float, width: float) -> Extent:
+def extent_of(
+    scene: Scene, robot: Robot | None, samples: Samples | None, length: float, width: float
+) -> Extent:
     """The box around the motion (or around start and goal) with margins of `length` and `width` [m]."""
     points = [np.asarray(s.position_W, float)[:2] for s in (scene.start, scene.goal)]
     if samples is not None:
@@ -65,7 +67,7 @@ def extent_of(scene: Scene, robot: Robot | None, samples: Samples | None, length
 
 
 def _below(polygon: Array, height: Array) -> Array:
-    """Vertices of a convex polygon with height <= 0, with those where an edge crosses 0 (Sutherland and Hodgman)."""
+    """The part of a convex polygon with height <= 0 (Sutherland and Hodgman)."""
     kept = []
     for i in range(len(polygon)):
         j = (i + 1) % len(polygon)

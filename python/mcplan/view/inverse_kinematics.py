@@ -51,7 +51,7 @@ def follow(model: Any, neutral: Array, samples: Samples, robot: Robot) -> Postur
         samples: The plan.
         robot: End-effectors with frames of the model.
     """
-    import pinocchio as pin
+    import pinocchio as pin  # type: ignore[import-untyped]
 
     data = model.createData()
     frames = [model.getFrameId(end.frame) for end in robot.end_effectors]
@@ -72,7 +72,16 @@ def follow(model: Any, neutral: Array, samples: Samples, robot: Robot) -> Postur
 
 
 class _Solver:
-    def __init__(self, pin: Any, model: Any, data: Any, robot: Robot, frames: list[int], local: list[Array], neutral: Array) -> None:
+    def __init__(
+        self,
+        pin: Any,
+        model: Any,
+        data: Any,
+        robot: Robot,
+        frames: list[int],
+        local: list[Array],
+        neutral: Array,
+    ) -> None:
         self.pin, self.model, self.data, self.robot = pin, model, data, robot
         self.frames, self.local, self.neutral = frames, local, neutral
         self.posture = np.full(model.nv, POSTURE**2)

@@ -64,7 +64,8 @@ class Page:
     def save_html(self, path: str | Path) -> Path:
         """Write the page to a file, UTF-8.
 
-        In a browser, "#t=1.5" behind its address opens it at 1.5 s, standing still; "#bare" hides meshcat's own menu.
+        In a browser, "#t=1.5" behind its address opens it at 1.5 s, standing still; "#bare" hides meshcat's
+        own menu.
 
         Raises:
             OSError: The file cannot be written.
@@ -73,7 +74,9 @@ class Page:
         path.write_text(self.html(), encoding="utf-8")
         return path
 
-    def save_png(self, path: str | Path, time_s: float | None = None, size: tuple[int, int] = (1280, 720)) -> Path:
+    def save_png(
+        self, path: str | Path, time_s: float | None = None, size: tuple[int, int] = (1280, 720)
+    ) -> Path:
         """Write a picture of the page, taken with Chromium without a window.
 
         Args:

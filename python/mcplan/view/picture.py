@@ -1,4 +1,4 @@
-"""One still picture of a plan: scene, paths, footholds and the robot at several instants. Needs no browser."""
+"""One still picture of a plan: scene, paths and the robot at several instants. Needs no browser."""
 
 from __future__ import annotations
 
@@ -31,7 +31,13 @@ Array = NDArray[np.float64]
 SOLIDS, LINES, MARKS, BODIES, COM_PATH = range(1, 6)
 
 
-def picture(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, path: str | Path = "plan.png", poses: int | None = None) -> Path:
+def picture(
+    plan: Plan,
+    scene: Scene | None = None,
+    robot: Robot | None = None,
+    path: str | Path = "plan.png",
+    poses: int | None = None,
+) -> Path:
     """Write a PNG of a plan.
 
     Args:
@@ -111,15 +117,24 @@ def _paint_surfaces(canvas: Canvas, drawings: list[SurfaceDrawing]) -> None:
 def _paint_plan(canvas: Canvas, samples: Samples, robot: Robot, colours: list[str]) -> None:
     scale = float(robot.com_height) / 0.7
     for interval in samples.intervals:
-        mark = contact_plate(robot, interval.end_effector).moved(pose(interval.rotation_W, interval.position_W))
+        mark = contact_plate(robot, interval.end_effector).moved(
+            pose(interval.rotation_W, interval.position_W)
+        )
         up = interval.rotation_W[2, 2] > 0.3
-        canvas.mesh(mark, mix(colours[interval.end_effector], "#ffffff", 0.25), MARKS if up else BODIES, lift=0.0 if up else 0.05)
+        canvas.mesh(
+            mark,
+            mix(colours[interval.end_effector], "#ffffff", 0.25),
+            MARKS if up else BODIES,
+            lift=0.0 if up else 0.05,
+        )
     for end, colour in enumerate(colours):
         canvas.line(samples.positions_W[:, end], colour, 0.011 * scale, BODIES)
     canvas.line(samples.com_W, COM, 0.024 * scale, COM_PATH)
 
 
-def _paint_robot(canvas: Canvas, figure: Figure, samples: Samples, robot: Robot, n: int, fade: float, weight: float) -> None:
+def _paint_robot(
+    canvas: Canvas, figure: Figure, samples: Samples, robot: Robot, n: int, fade: float, weight: float
+) -> None:
     scale = float(robot.com_height) / 0.7
     for part in figure.parts:
         canvas.mesh(part.mesh.moved(part.poses[n]), part.colour, BODIES, fade=fade, whole=True)
@@ -135,7 +150,13 @@ def _paint_robot(canvas: Canvas, figure: Figure, samples: Samples, robot: Robot,
         head = min(0.055 * scale, 0.5 * length)
         start = samples.positions_W[n, end]
         shade = mix(FORCE, "#ffffff", fade)
-        canvas.line(np.linspace(start, start + (length - head) * direction, 6), shade, 0.012 * scale, BODIES, lift=0.15)
+        canvas.line(
+            np.linspace(start, start + (length - head) * direction, 6),
+            shade,
+            0.012 * scale,
+            BODIES,
+            lift=0.15,
+        )
         tip = pose(with_axis_z(direction, np.array([1.0, 0.0, 0.0])), start + (length - head) * direction)
         canvas.mesh(cone(0.022 * scale, head).moved(tip), FORCE, BODIES, fade=fade, lift=0.15)
 
@@ -147,8 +168,19 @@ def _legend(sheet, scene: Scene, robot: Robot, colours: list[str]) -> None:  # t
     entries: list[Line2D | Patch] = [Line2D([], [], color=COM, linewidth=4, label="centre of mass")]
     for end, colour in zip(robot.end_effectors, colours, strict=True):
         entries.append(Line2D([], [], color=colour, linewidth=2.2, label=end.name.replace("_", " ")))
-    entries.append(Line2D([], [], color=FORCE, linewidth=1.6, marker=">", markevery=[1], label="contact force"))
+    entries.append(
+        Line2D([], [], color=FORCE, linewidth=1.6, marker=">", markevery=[1], label="contact force")
+    )
     if any(s.grasp for s in scene.surfaces):
         entries.append(Patch(color=GRASP, label="may be held"))
-    sheet.legend(handles=entries, loc="lower center", ncol=len(entries), frameon=False, fontsize=11, labelcolor=TEXT, handlelength=1.5,
-                 columnspacing=1.6, bbox_to_anchor=(0.5, 0.0))  # fmt: skip
+    sheet.legend(
+        handles=entries,
+        loc="lower center",
+        ncol=len(entries),
+        frameon=False,
+        fontsize=11,
+        labelcolor=TEXT,
+        handlelength=1.5,
+        columnspacing=1.6,
+        bbox_to_anchor=(0.5, 0.0),
+    )

@@ -26,7 +26,9 @@ WEIGHT_ARROW = 0.55
 FLASH = 0.25
 
 
-def draw_plan(stage: Stage, samples: Samples, scene: Scene, robot: Robot, figure: Figure, colours: list[str]) -> None:
+def draw_plan(
+    stage: Stage, samples: Samples, scene: Scene, robot: Robot, figure: Figure, colours: list[str]
+) -> None:
     """Put a plan onto a page: nodes "robot", "com", "paths", "contacts" and "forces"."""
     scale = float(robot.com_height) / 0.7
     draw_figure(stage, samples, figure)
@@ -36,7 +38,9 @@ def draw_plan(stage: Stage, samples: Samples, scene: Scene, robot: Robot, figure
     stage.mesh("paths/com", tube(samples.com_W, 0.011 * scale), COM, glow=0.25)
     for end, colour in enumerate(colours):
         name = robot.end_effectors[end].name
-        stage.mesh(f"paths/{name}", tube(samples.positions_W[:, end], 0.005 * scale, sides=6), colour, glow=0.25)
+        stage.mesh(
+            f"paths/{name}", tube(samples.positions_W[:, end], 0.005 * scale, sides=6), colour, glow=0.25
+        )
     for number, interval in enumerate(samples.intervals):
         _draw_contact(stage, number, interval, samples, robot, colours[interval.end_effector])
     weight = float(robot.mass) * float(scene.gravity)
@@ -66,7 +70,9 @@ def contact_plate(robot: Robot, end: int, margin: float = 0.0) -> Mesh:
     return disc(0.035 * scale + margin, thickness)
 
 
-def _draw_contact(stage: Stage, number: int, interval: Interval, samples: Samples, robot: Robot, colour: str) -> None:
+def _draw_contact(
+    stage: Stage, number: int, interval: Interval, samples: Samples, robot: Robot, colour: str
+) -> None:
     end = interval.end_effector
     at = pose(interval.rotation_W, interval.position_W)
     path = f"contacts/{robot.end_effectors[end].name}/{number}"
@@ -78,7 +84,9 @@ def _draw_contact(stage: Stage, number: int, interval: Interval, samples: Sample
     times = {0.0: 1.0, float(samples.times_s[-1]): 1.0}
     if interval.start_s > 0.0:
         for share in np.linspace(0.0, 1.0, 9):
-            times[min(interval.start_s + FLASH * share, float(samples.times_s[-1]))] = 1.0 + 0.6 * (1.0 - share) ** 2
+            times[min(interval.start_s + FLASH * share, float(samples.times_s[-1]))] = (
+                1.0 + 0.6 * (1.0 - share) ** 2
+            )
     moments = np.array(sorted(times))
     scales = np.array([[times[t], times[t], 1.0] for t in moments])
     stage.move(f"{path}/active", moments, scales=scales)
@@ -112,10 +120,22 @@ def _draw_force(stage: Stage, end: int, samples: Samples, robot: Robot, weight: 
     ring = 0.011 * height * circle(10)
     bar = loft(np.array([np.column_stack([ring, np.full(10, z)]) for z in (0.0, 1.0)]))
     stage.mesh(f"forces/{name}/shaft", bar, FORCE, glow=0.15)
-    stage.move(f"forces/{name}/shaft", samples.times_s, pose(rotation, start), np.column_stack([shrink, shrink, shaft]), seen)
+    stage.move(
+        f"forces/{name}/shaft",
+        samples.times_s,
+        pose(rotation, start),
+        np.column_stack([shrink, shrink, shaft]),
+        seen,
+    )
     stage.mesh(f"forces/{name}/head", cone(0.032 * height, head), FORCE, glow=0.15)
     tip = start + rotation[:, :, 2] * shaft[:, None]
-    stage.move(f"forces/{name}/head", samples.times_s, pose(rotation, tip), (shrink * ones)[:, None].repeat(3, axis=1), seen)
+    stage.move(
+        f"forces/{name}/head",
+        samples.times_s,
+        pose(rotation, tip),
+        (shrink * ones)[:, None].repeat(3, axis=1),
+        seen,
+    )
 
 
 def draw_standing(stage: Stage, name: str, samples: Samples, figure: Figure, opacity: float) -> None:

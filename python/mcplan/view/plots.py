@@ -12,7 +12,16 @@ from .plots_report import has_sequences, plot_contact_sequence, plot_cost
 if TYPE_CHECKING:
     from mcplan import Plan, Report
 
-__all__ = ["picture", "plot_com", "plot_contact_sequence", "plot_cost", "plot_forces", "plot_friction", "plot_gait", "save_plots"]
+__all__ = [
+    "picture",
+    "plot_com",
+    "plot_contact_sequence",
+    "plot_cost",
+    "plot_forces",
+    "plot_friction",
+    "plot_gait",
+    "save_plots",
+]
 
 
 def save_plots(plan: Plan, report: Report | None, directory: str | Path) -> list[Path]:
@@ -34,7 +43,12 @@ def save_plots(plan: Plan, report: Report | None, directory: str | Path) -> list
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
     written = [picture(plan, path=directory / "picture.png")]
-    figures = {"gait": plot_gait(plan), "com": plot_com(plan), "forces": plot_forces(plan), "friction": plot_friction(plan)}
+    figures = {
+        "gait": plot_gait(plan),
+        "com": plot_com(plan),
+        "forces": plot_forces(plan),
+        "friction": plot_friction(plan),
+    }
     if report is not None and report.history:
         figures["cost"] = plot_cost(report)
         if has_sequences(report):

@@ -38,7 +38,14 @@ def plot_com(plan: Plan) -> Figure:
     for each in axes[2]:
         label(each, x="time [s]")
         each.set_xlim(0.0, samples.times_s[-1])
-    figure.legend(handles=support_patches(), loc="outside lower center", ncol=2, frameon=False, fontsize=9, labelcolor=TEXT)
+    figure.legend(
+        handles=support_patches(),
+        loc="outside lower center",
+        ncol=2,
+        frameon=False,
+        fontsize=9,
+        labelcolor=TEXT,
+    )
     return figure
 
 
@@ -52,8 +59,15 @@ def plot_gait(plan: Plan) -> Figure:
     figure, axes = sheet(1, 1, size=(10.0, 0.9 + 0.42 * len(names)))
     chart = axes[0, 0]
     for interval in intervals:
-        chart.barh(interval.end_effector, interval.end_s - interval.start_s, left=interval.start_s, height=0.72,
-                   color=colours[interval.surface], edgecolor="white", linewidth=1.2)  # fmt: skip
+        chart.barh(
+            interval.end_effector,
+            interval.end_s - interval.start_s,
+            left=interval.start_s,
+            height=0.72,
+            color=colours[interval.surface],
+            edgecolor="white",
+            linewidth=1.2,
+        )
     for t in plan.knot_times():
         chart.axvline(t, color="#D5DADF", linewidth=0.6, zorder=0)
     chart.grid(False)
@@ -64,25 +78,38 @@ def plot_gait(plan: Plan) -> Figure:
     used = sorted({interval.surface for interval in intervals})
     if len(used) > 1:
         patches = [Patch(color=colours[s], label=plan.scene.surfaces[s].name) for s in used]
-        figure.legend(handles=patches, loc="outside upper center", ncol=min(len(used), 7), frameon=False, fontsize=9, labelcolor=TEXT)
+        figure.legend(
+            handles=patches,
+            loc="outside upper center",
+            ncol=min(len(used), 7),
+            frameon=False,
+            fontsize=9,
+            labelcolor=TEXT,
+        )
     return figure
 
 
 def plot_forces(plan: Plan) -> Figure:
-    """Normal and tangential force of every end-effector that touches something, with its cap where it is near."""
+    """Normal and tangential force of every end-effector that touches something."""
     samples = sample(plan, plan.scene, plan.robot, RATE)
     normal, tangential = contact_forces(plan, samples)
     used = [e for e in range(len(plan.robot.end_effectors)) if (samples.surfaces[:, e] >= 0).any()]
     colours = end_effector_colours(plan.robot)
-    figure, axes = sheet(max(len(used), 1), 1, size=(10.0, 1.0 + 1.55 * max(len(used), 1)), sharex=True, sharey=True)
+    figure, axes = sheet(
+        max(len(used), 1), 1, size=(10.0, 1.0 + 1.55 * max(len(used), 1)), sharex=True, sharey=True
+    )
     weight = float(plan.robot.mass) * float(plan.scene.gravity)
     top = 1.08 * max(float(np.nanmax(normal, initial=0.0)), weight)
     for row, end in enumerate(used):
         chart = axes[row, 0]
         chart.axhline(weight, color=QUIET, linewidth=0.9, linestyle=":", label="weight")
-        chart.fill_between(samples.times_s, np.nan_to_num(normal[:, end]), color=colours[end], alpha=0.18, linewidth=0)
+        chart.fill_between(
+            samples.times_s, np.nan_to_num(normal[:, end]), color=colours[end], alpha=0.18, linewidth=0
+        )
         chart.plot(samples.times_s, normal[:, end], color=colours[end], linewidth=2.0, label="normal")
-        chart.plot(samples.times_s, tangential[:, end], color=TEXT, linewidth=1.2, linestyle="--", label="tangential")
+        chart.plot(
+            samples.times_s, tangential[:, end], color=TEXT, linewidth=1.2, linestyle="--", label="tangential"
+        )
         cap = float(plan.robot.end_effectors[end].max_force)
         if np.isfinite(cap) and cap < 1.5 * top:
             chart.axhline(cap, color="#B00020", linewidth=0.9, label="cap of the force")
@@ -118,7 +145,9 @@ def plot_friction(plan: Plan) -> Figure:
         chart.plot(samples.times_s, limit, color="#B00020", linewidth=1.2, label="coefficient of friction")
         chart.plot(samples.times_s, ratio, color=colours[end], linewidth=2.0, label="tangential / normal")
         label(chart, y="ratio [-]", title=plan.robot.end_effectors[end].name.replace("_", " "))
-        chart.set_ylim(0.0, 1.15 * float(np.nanmax(np.append(np.concatenate([limit, ratio]), 0.1), initial=0.1)))
+        chart.set_ylim(
+            0.0, 1.15 * float(np.nanmax(np.append(np.concatenate([limit, ratio]), 0.1), initial=0.1))
+        )
     axes[0, 0].set_xlim(0.0, samples.times_s[-1])
     label(axes[-1, 0], x="time [s]")
     handles, names = axes[0, 0].get_legend_handles_labels()

@@ -35,7 +35,9 @@ def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
 
     rows = [row for row in report.history if len(row.sequence)]
     if not rows:
-        raise ValueError("report.history: must hold contact sequences, got none (record them in the planner's options)")
+        raise ValueError(
+            "report.history: must hold contact sequences, got none (record them in the planner's options)"
+        )
     counts = np.cumsum([row.switches for row in rows])
     # Iterations without a switch change nothing: the last one of each count stands for it.
     latest = {int(count): np.asarray(row.sequence) for count, row in zip(counts, rows, strict=True)}
@@ -43,7 +45,11 @@ def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
     edges = np.append(np.array(at) - 0.5, at[-1] + 0.5)
     grid = np.array([latest[count] for count in at])  # counts x steps x end-effectors
     surfaces = int(max(grid.max() + 1, len(plan.scene.surfaces) if plan is not None else 1))
-    palette = surface_colours(plan.scene) if plan is not None else [SURFACES[i % len(SURFACES)] for i in range(surfaces)]
+    palette = (
+        surface_colours(plan.scene)
+        if plan is not None
+        else [SURFACES[i % len(SURFACES)] for i in range(surfaces)]
+    )
     colours = ListedColormap(["#F3F5F7", *palette])
     norm = BoundaryNorm(np.arange(-1.5, surfaces + 0.5), colours.N)
     ends = grid.shape[2]
@@ -60,7 +66,14 @@ def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
     names = [plan.scene.surfaces[s].name if plan is not None else f"surface {s}" for s in used]
     patches = [Patch(color="#F3F5F7", label="free")]
     patches += [Patch(color=palette[s], label=name) for s, name in zip(used, names, strict=True)]
-    figure.legend(handles=patches, loc="outside lower center", ncol=min(len(patches), 7), frameon=False, fontsize=9, labelcolor=TEXT)
+    figure.legend(
+        handles=patches,
+        loc="outside lower center",
+        ncol=min(len(patches), 7),
+        frameon=False,
+        fontsize=9,
+        labelcolor=TEXT,
+    )
     return figure
 
 
@@ -75,11 +88,20 @@ def plot_cost(report: Report) -> Figure:
     index = [row.index for row in report.history]
     figure, axes = sheet(2, 1, size=(9.0, 4.6), sharex=True, height_ratios=(1, 2))
     weight, cost = axes[:, 0]
-    weight.step(index, [row.contact_weight for row in report.history], where="mid", color=WARM[0], linewidth=2.0)
+    weight.step(
+        index, [row.contact_weight for row in report.history], where="mid", color=WARM[0], linewidth=2.0
+    )
     label(weight, y="weight [-]", title="Weight of the complementarity terms")
     cost.plot(index, [row.cost for row in report.history], color=COM, linewidth=2.0)
     switched = [row for row in report.history if row.switches > 0]
-    cost.plot([row.index for row in switched], [row.cost for row in switched], "o", color=COM, markersize=4, label="contacts switched")
+    cost.plot(
+        [row.index for row in switched],
+        [row.cost for row in switched],
+        "o",
+        color=COM,
+        markersize=4,
+        label="contacts switched",
+    )
     label(cost, x="iteration", y="cost [-]", title="Cost at that weight")
     for chart in (weight, cost):
         chart.set_yscale("log")

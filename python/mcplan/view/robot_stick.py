@@ -1,7 +1,7 @@
 """A stick robot for robots without a URDF: torso, head, and limbs with one bending joint each.
 
-Two feet make a humanoid (further end-effectors become its arms), any other number a trunk with legs. Limb roots are
-guesses from the robot's nominal stance; links are as long as the plan asks for and keep their length.
+Two feet make a humanoid (further end-effectors become its arms), any other number a trunk with legs. Limb
+roots are guesses from the robot's nominal stance. Links are as long as the plan asks for, and rigid.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def stick_robot(samples: Samples, robot: Robot, colours: list[str]) -> Figure:
     limbs = limbs_of(robot)
     base = pose(samples.rotation_WB, samples.com_W)
     parts = _humanoid_body(scale, base) if humanoid else _trunk(robot, scale, base)
-    joints = []
+    joints: list[tuple[Array, ...]] = []
     for end, (limb, colour) in enumerate(zip(limbs, colours, strict=True)):
         name = robot.end_effectors[end].name
         points = limb_joints(samples, end, limb)
@@ -65,7 +65,9 @@ def stick_robot(samples: Samples, robot: Robot, colours: list[str]) -> Figure:
             parts.append(Part(f"{name}_{link}", capsule(length, radii[i], radii[i + 1]), shades[i], poses))
         half_size = np.asarray(robot.end_effectors[end].half_size, float)
         tip = _hand(limb, scale) if limb.is_arm else _foot(half_size, limb, scale, humanoid)
-        parts.append(Part(f"{name}_tip", tip, colour, pose(samples.rotations_W[:, end], samples.positions_W[:, end])))
+        parts.append(
+            Part(f"{name}_tip", tip, colour, pose(samples.rotations_W[:, end], samples.positions_W[:, end]))
+        )
     return Figure("stick", parts, joints)
 
 
@@ -84,7 +86,15 @@ def limbs_of(robot: Robot) -> list[Limb]:
         side = 1.0 if nominal[1] > 0.0 else -1.0
         if humanoid and end.kind == "foot":
             root = np.array([0.0, 0.85 * nominal[1], -0.07 * scale])
-            limbs.append(Limb(root, np.array([1.0, 0.06 * side, 0.0]), _scaled(scale, 0.055, 0.042, 0.032), 0.065 * scale, False))
+            limbs.append(
+                Limb(
+                    root,
+                    np.array([1.0, 0.06 * side, 0.0]),
+                    _scaled(scale, 0.055, 0.042, 0.032),
+                    0.065 * scale,
+                    False,
+                )
+            )
         elif humanoid:
             root = np.array([0.0, side * 0.165 * scale, 0.37 * scale])
             bend = np.array([-1.0, 0.55 * side, -0.15])
@@ -92,12 +102,20 @@ def limbs_of(robot: Robot) -> list[Limb]:
         else:
             root = np.array([0.85 * nominal[0], 0.7 * nominal[1], 0.0])
             forward = 1.0 if nominal[0] <= 0.0 else -1.0
-            limbs.append(Limb(root, np.array([forward, 0.0, 0.0]), _scaled(scale, 0.040, 0.030, 0.022), 0.022 * scale, False))
+            limbs.append(
+                Limb(
+                    root,
+                    np.array([forward, 0.0, 0.0]),
+                    _scaled(scale, 0.040, 0.030, 0.022),
+                    0.022 * scale,
+                    False,
+                )
+            )
     return limbs
 
 
 def limb_joints(samples: Samples, end: int, limb: Limb) -> tuple[Array, Array, Array]:
-    """Root, middle joint and end of a limb over the samples, each (n, 3) [m]; both links keep their length."""
+    """Root, middle joint and end of a limb over the samples, each (n, 3) [m]; both links are rigid."""
     root = samples.com_W + samples.rotation_WB @ limb.root_B
     last = samples.positions_W[:, end] + limb.end_offset * samples.rotations_W[:, end, :, 2]
     distance = np.linalg.norm(last - root, axis=1)
@@ -127,15 +145,27 @@ def _scaled(scale: float, *lengths: float) -> tuple[float, float, float]:
 def _humanoid_body(scale: float, base: Array) -> list[Part]:
     # (height, half depth, half width, shift forward) from the crotch to the neck, CoM at 0.
     torso = [
-        (-0.130, 0.030, 0.040, 0.000), (-0.115, 0.060, 0.095, 0.000), (-0.050, 0.075, 0.125, 0.000),
-        (0.020, 0.068, 0.105, 0.000), (0.100, 0.066, 0.100, 0.004), (0.200, 0.082, 0.125, 0.008),
-        (0.300, 0.088, 0.145, 0.006), (0.370, 0.074, 0.150, 0.000), (0.410, 0.052, 0.110, 0.000),
+        (-0.130, 0.030, 0.040, 0.000),
+        (-0.115, 0.060, 0.095, 0.000),
+        (-0.050, 0.075, 0.125, 0.000),
+        (0.020, 0.068, 0.105, 0.000),
+        (0.100, 0.066, 0.100, 0.004),
+        (0.200, 0.082, 0.125, 0.008),
+        (0.300, 0.088, 0.145, 0.006),
+        (0.370, 0.074, 0.150, 0.000),
+        (0.410, 0.052, 0.110, 0.000),
         (0.430, 0.030, 0.050, 0.000),
-    ]  # fmt: skip
-    mesh = rounded_stack([(z * scale, x * scale, y * scale, shift * scale) for z, x, y, shift in torso], refine=4)
+    ]
+    mesh = rounded_stack(
+        [(z * scale, x * scale, y * scale, shift * scale) for z, x, y, shift in torso], refine=4
+    )
     neck = capsule(0.07 * scale, 0.035 * scale, 0.032 * scale).moved(_shift(0.0, 0.0, 0.42 * scale))
-    head = ellipsoid((0.078 * scale, 0.066 * scale, 0.096 * scale)).moved(_shift(0.012 * scale, 0.0, 0.575 * scale))
-    visor = ellipsoid((0.040 * scale, 0.054 * scale, 0.024 * scale)).moved(_shift(0.058 * scale, 0.0, 0.592 * scale))
+    head = ellipsoid((0.078 * scale, 0.066 * scale, 0.096 * scale)).moved(
+        _shift(0.012 * scale, 0.0, 0.575 * scale)
+    )
+    visor = ellipsoid((0.040 * scale, 0.054 * scale, 0.024 * scale)).moved(
+        _shift(0.058 * scale, 0.0, 0.592 * scale)
+    )
     meshes = {"torso": (mesh, BODY), "neck": (neck, LIMB), "head": (head, HEAD), "visor": (visor, VISOR)}
     return [Part(f"base/{name}", shape, colour, base) for name, (shape, colour) in meshes.items()]
 
@@ -145,11 +175,22 @@ def _trunk(robot: Robot, scale: float, base: Array) -> list[Part]:
     half = np.maximum(np.abs(roots).max(axis=0), 0.06 * scale)
     levels = [
         (x * half[0], z * scale, y * half[1], 0.0)
-        for x, z, y in ((-1.22, 0.02, 0.4), (-1.18, 0.05, 0.75), (-0.9, 0.068, 0.85), (0.9, 0.068, 0.85), (1.16, 0.055, 0.7), (1.24, 0.02, 0.35))
+        for x, z, y in (
+            (-1.22, 0.02, 0.4),
+            (-1.18, 0.05, 0.75),
+            (-0.9, 0.068, 0.85),
+            (0.9, 0.068, 0.85),
+            (1.16, 0.055, 0.7),
+            (1.24, 0.02, 0.35),
+        )
     ]
-    lying = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # the stack's z becomes the body's x
+    lying = np.array(
+        [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]
+    )  # the stack's z becomes the body's x
     trunk = rounded_stack(levels).moved(pose(lying, np.array([0.0, 0.0, 0.02 * scale])))
-    head = ellipsoid((0.05 * scale, 0.05 * scale, 0.03 * scale)).moved(_shift(1.22 * half[0], 0.0, 0.03 * scale))
+    head = ellipsoid((0.05 * scale, 0.05 * scale, 0.03 * scale)).moved(
+        _shift(1.22 * half[0], 0.0, 0.03 * scale)
+    )
     return [Part("base/torso", trunk, BODY, base), Part("base/head", head, VISOR, base)]
 
 
@@ -161,7 +202,12 @@ def _foot(half_size: Array, limb: Limb, scale: float, humanoid: bool) -> Mesh:
     x, y = float(half_size[0]), float(half_size[1])
     ankle = limb.end_offset
     return rounded_stack(
-        [(0.0, x, y, 0.0), (0.25 * ankle, x, y, 0.0), (0.5 * ankle, 0.85 * x, 0.9 * y, -0.08 * x), (ankle, 0.42 * x, 0.62 * y, -0.1 * x)]
+        [
+            (0.0, x, y, 0.0),
+            (0.25 * ankle, x, y, 0.0),
+            (0.5 * ankle, 0.85 * x, 0.9 * y, -0.08 * x),
+            (ankle, 0.42 * x, 0.62 * y, -0.1 * x),
+        ]
     )
 
 

@@ -39,13 +39,14 @@ def urdf_robot(samples: Samples, robot: Robot) -> Figure:
         CannotFollow: Some posture misses the plan by more than 3 cm.
     """
     require(f"drawing {robot.name} with its meshes", "view", "pinocchio")
-    import pinocchio as pin
+    import pinocchio as pin  # type: ignore[import-untyped]
 
     model, visual, neutral = load_urdf(robot)
     postures = follow(model, neutral, samples, robot)
     if postures.residual > LARGEST_MISS:
         raise CannotFollow(
-            f"inverse kinematics of {robot.name} misses {postures.where} by {100.0 * postures.residual:.1f} cm"
+            f"inverse kinematics of {robot.name} misses {postures.where} "
+            f"by {100.0 * postures.residual:.1f} cm"
         )
     data = model.createData()
     placements = []
@@ -70,13 +71,13 @@ def load_urdf(robot: Robot) -> tuple[Any, Any, Array]:
         MissingExtra: example-robot-data is not installed and the robot asks for it.
         InvalidRobot: The URDF cannot be read, or lacks a frame or joint that the robot names.
     """
-    import pinocchio as pin
+    import pinocchio as pin  # type: ignore[import-untyped]
 
     source = robot.urdf
     try:
         if source.startswith(PACKAGE):
             require(f"drawing {robot.name} with its meshes", "view", "example_robot_data")
-            import example_robot_data
+            import example_robot_data  # type: ignore[import-untyped]
 
             wrapper = example_robot_data.load(source[len(PACKAGE) :])
             model, visual, neutral = wrapper.model, wrapper.visual_model, wrapper.q0.copy()
@@ -96,7 +97,9 @@ def load_urdf(robot: Robot) -> tuple[Any, Any, Array]:
         neutral[model.joints[model.getJointId(joint)].idx_q] = angle
     for number, end in enumerate(robot.end_effectors):
         if not model.existFrame(end.frame):
-            raise InvalidRobot(f"end_effectors[{number}].frame", "must name a frame of the URDF", repr(end.frame))
+            raise InvalidRobot(
+                f"end_effectors[{number}].frame", "must name a frame of the URDF", repr(end.frame)
+            )
     return model, visual, neutral
 
 

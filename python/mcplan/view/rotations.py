@@ -22,7 +22,7 @@ def from_rpy(rpy: Array) -> Array:
 
 
 def with_axis_z(z: Array, x_hint: Array) -> Array:
-    """Rotation whose third column is the unit vector along z and whose first is as close as it can be to x_hint."""
+    """Rotation whose third column points along z and whose first is as close as it can be to x_hint."""
     z = np.asarray(z, float) / np.linalg.norm(z)
     x = np.asarray(x_hint, float) - z * np.dot(z, x_hint)
     if np.linalg.norm(x) < 1e-3 * np.linalg.norm(x_hint):
@@ -38,7 +38,9 @@ def between(start: Array, end: Array, share: float) -> Array:
     angle = float(np.arccos(np.clip((np.trace(relative) - 1.0) / 2.0, -1.0, 1.0)))
     if angle < 1e-9:
         return end.copy()
-    skew = np.array([relative[2, 1] - relative[1, 2], relative[0, 2] - relative[2, 0], relative[1, 0] - relative[0, 1]])
+    skew = np.array(
+        [relative[2, 1] - relative[1, 2], relative[0, 2] - relative[2, 0], relative[1, 0] - relative[0, 1]]
+    )
     if np.linalg.norm(skew) < 1e-9:  # half a turn: the axis is the eigenvector of eigenvalue 1
         values, vectors = np.linalg.eigh(0.5 * (relative + relative.T))
         axis = vectors[:, np.argmax(values)]
@@ -54,7 +56,7 @@ def about(axis: Array, angle: float) -> Array:
 
 
 def quat_xyzw(rotations: Array) -> Array:
-    """Unit quaternions (x, y, z, w), shape (n, 4), of rotations (n, 3, 3); signs follow on from row to row."""
+    """Unit quaternions (x, y, z, w), shape (n, 4), of rotations (n, 3, 3), without jumps of sign."""
     r = np.asarray(rotations, float)
     # The largest of the four squared components is at least 1/4: dividing by it is safe.
     trace = np.trace(r, axis1=1, axis2=2)

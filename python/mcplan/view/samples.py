@@ -84,7 +84,9 @@ def stance_samples(scene: Scene, robot: Robot, stance: ResolvedStance) -> Sample
     rotations = []
     for surface in stance.contacts:
         touched = scene.surfaces[surface] if surface >= 0 else None
-        rotations.append(with_axis_z(polygon_normal(np.array(touched.vertices_W)), rotation[:, 0]) if touched else rotation)
+        rotations.append(
+            with_axis_z(polygon_normal(np.array(touched.vertices_W)), rotation[:, 0]) if touched else rotation
+        )
     ends = len(robot.end_effectors)
     return Samples(
         times_s=np.zeros(1),
@@ -131,7 +133,7 @@ def contact_intervals(plan: Plan, scene: Scene, robot: Robot) -> list[Interval]:
 
 
 def _sole_rotations(times: Array, rotation_WB: Array, intervals: list[Interval], ends: int) -> Array:
-    """Plans do not say how a free foot is turned: blend between the contacts before and after, or the base."""
+    """Plans do not say how a free foot is turned: blend from the contact before to the one after."""
     result = np.repeat(rotation_WB[:, None], ends, axis=1)
     for end in range(ends):
         own = [i for i in intervals if i.end_effector == end]

@@ -78,13 +78,16 @@ def ellipsoid(radii: tuple[float, float, float], sides: int = 28) -> Mesh:
     """Ellipsoid about the origin, half axes [m]."""
     angles = np.linspace(-np.pi / 2.0, np.pi / 2.0, sides // 2 + 1)
     ring = circle(sides)
-    rings = np.array([np.column_stack([max(np.cos(a), 1e-3) * ring, np.full(sides, np.sin(a))]) for a in angles])
+    rings = np.array(
+        [np.column_stack([max(np.cos(a), 1e-3) * ring, np.full(sides, np.sin(a))]) for a in angles]
+    )
     return loft(rings * np.asarray(radii))
 
 
 def rounded_stack(levels: list[tuple[float, float, float, float]], sides: int = 28, refine: int = 1) -> Mesh:
-    """Body of rounded-rectangle sections: (z, half depth along x, half width along y, shift along x) [m], bottom up.
+    """Body of rounded-rectangle sections, bottom up.
 
+    Each level is (z, half depth along x, half width along y, shift along x) [m].
     With `refine` > 1 as many sections follow from one level to the next, along Catmull-Rom curves.
     """
     if refine > 1:
@@ -97,7 +100,10 @@ def rounded_stack(levels: list[tuple[float, float, float, float]], sides: int = 
         levels = [tuple(row) for row in np.vstack([*curves, p[-1:]])]
     ring = circle(sides)
     square = np.sign(ring) * np.abs(ring) ** 0.6  # superellipse of exponent 10/3
-    rings = [np.column_stack([x * square[:, 0] + shift, y * square[:, 1], np.full(sides, z)]) for z, x, y, shift in levels]
+    rings = [
+        np.column_stack([x * square[:, 0] + shift, y * square[:, 1], np.full(sides, z)])
+        for z, x, y, shift in levels
+    ]
     return loft(np.array(rings))
 
 

@@ -26,14 +26,17 @@ if TYPE_CHECKING:
 FRAME_RATE = 30.0
 
 
-def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
+def show(
+    plan: Plan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None
+) -> Page:
     """Draw a plan for the browser.
 
     Args:
         plan: The plan.
         scene: Drawn around it; None: the plan's own.
-        robot: Drawn along it; None: the plan's own. With a URDF its meshes follow the plan by inverse kinematics;
-            without, or when no posture follows it within 3 cm (a warning says so), it is a stick robot.
+        robot: Drawn along it; None: the plan's own. With a URDF its meshes follow the plan by inverse
+            kinematics; without, or when no posture follows it within 3 cm (a warning says so), it is a stick
+            robot.
         report: Named in the caption.
 
     Raises:
@@ -56,7 +59,9 @@ def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, rep
         lines.append(f"{report.status}: {report.iterations} iterations, {report.time_s:.2f} s of planning")
     newton_per_metre = float(robot.mass) * float(scene.gravity) / (WEIGHT_ARROW * float(robot.com_height))
     legend = plan_legend(scene, robot, colours, newton_per_metre)
-    overlay = caption(scene.name, lines, legend) + timeline(scene, robot, samples.intervals, colours, float(samples.times_s[-1]))
+    overlay = caption(scene.name, lines, legend) + timeline(
+        scene, robot, samples.intervals, colours, float(samples.times_s[-1])
+    )
     return Page(
         title=f"{scene.name}, {robot.name}",
         payload=stage.payload(),
@@ -87,7 +92,8 @@ def show_scene(scene: Scene, robot: Robot | None = None) -> Page:
         for name, stance, opacity in (("start", scene.start, 1.0), ("goal", scene.goal, 0.35)):
             standing = stance_samples(scene, robot, resolve_stance(scene, robot, stance, name))
             draw_standing(stage, name, standing, stick_robot(standing, robot, colours), opacity)
-            points += [standing.com_W + [0.0, 0.0, 0.95 * float(robot.com_height)], standing.positions_W[0]]
+            head = np.array([0.0, 0.0, 0.95 * float(robot.com_height)])
+            points += [standing.com_W + head, standing.positions_W[0]]
     lines = [scene.description] if scene.description else []
     lines.append(f"{len(scene.surfaces)} surfaces")
     return Page(

@@ -17,7 +17,9 @@ def find_browser() -> str | None:
     return next((path for name in BROWSERS if (path := shutil.which(name))), None)
 
 
-def screenshot(html: str, target: Path, fragment: str, size: tuple[int, int], timeout_s: float = 120.0) -> Path:
+def screenshot(
+    html: str, target: Path, fragment: str, size: tuple[int, int], timeout_s: float = 120.0
+) -> Path:
     """Write a PNG of a page.
 
     Args:
@@ -33,18 +35,26 @@ def screenshot(html: str, target: Path, fragment: str, size: tuple[int, int], ti
     """
     browser = find_browser()
     if browser is None:
-        raise MissingExtra("Page.save_png needs Chromium or Chrome: apt-get install chromium (save_plots needs neither)")
+        raise MissingExtra(
+            "Page.save_png needs Chromium or Chrome: apt-get install chromium (save_plots needs neither)"
+        )
     target = target.resolve()
     with tempfile.TemporaryDirectory(prefix="mcplan-page-") as folder:
         page = Path(folder) / "page.html"
         page.write_text(html, encoding="utf-8")
         target.unlink(missing_ok=True)
         command = [
-            browser, "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
+            browser,
+            "--headless=new",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--hide-scrollbars",
             f"--window-size={size[0]},{size[1]}",
             "--virtual-time-budget=8000",  # WebGL draws late: without it the picture may be taken before
-            f"--user-data-dir={folder}/profile", f"--screenshot={target}", f"{page.as_uri()}#{fragment}",
-        ]  # fmt: skip
+            f"--user-data-dir={folder}/profile",
+            f"--screenshot={target}",
+            f"{page.as_uri()}#{fragment}",
+        ]
         try:
             result = subprocess.run(command, capture_output=True, text=True, timeout=timeout_s, check=False)
         except subprocess.TimeoutExpired as error:

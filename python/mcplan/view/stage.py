@@ -1,4 +1,4 @@
-"""Objects of a page as meshcat commands: three.js JSON with binary arrays, and one animation clip per moving node."""
+"""Objects of a page as meshcat commands: three.js JSON with binary arrays, a clip per moving node."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Stage:
 
     def __init__(self) -> None:
         require("mcplan.show", "view", "meshcat")
-        import umsgpack  # comes with meshcat
+        import umsgpack  # type: ignore[import-untyped]  # comes with meshcat
 
         self._umsgpack = umsgpack
         self._commands: list[dict[str, Any]] = []
@@ -34,7 +34,16 @@ class Stage:
         self._ids = 0
         self.duration_s = 0.0
 
-    def mesh(self, path: str, mesh: Mesh, colour: str, opacity: float = 1.0, *, glow: float = 0.0, on_top: bool = False) -> None:
+    def mesh(
+        self,
+        path: str,
+        mesh: Mesh,
+        colour: str,
+        opacity: float = 1.0,
+        *,
+        glow: float = 0.0,
+        on_top: bool = False,
+    ) -> None:
         """Add a solid.
 
         Args:
@@ -63,7 +72,12 @@ class Stage:
 
     def lines(self, path: str, segments: Array, colour: str, opacity: float = 1.0) -> None:
         """Add hairlines between pairs of points, segments (n, 2, 3) [m]."""
-        material = {"type": "LineBasicMaterial", "color": _number(colour), "opacity": opacity, "transparent": opacity < 1.0}
+        material = {
+            "type": "LineBasicMaterial",
+            "color": _number(colour),
+            "opacity": opacity,
+            "transparent": opacity < 1.0,
+        }
         self._object(path, "LineSegments", np.asarray(segments).reshape(-1, 3), None, material)
 
     def place(self, path: str, pose: Array) -> None:
@@ -102,29 +116,54 @@ class Stage:
         self.duration_s = max(self.duration_s, float(times_s[-1]))
 
     def payload(self) -> bytes:
-        """All commands, each behind its length (uint32, little endian), gzipped; the same stage gives the same bytes."""
+        """All commands, each behind its length (uint32, little endian), gzipped; always the same bytes."""
         commands = list(self._commands)
         if self._clips:
             animations = [
-                {"path": _full(path), "clip": {"name": path, "fps": 1, "duration": self.duration_s, "tracks": tracks}}
+                {
+                    "path": _full(path),
+                    "clip": {"name": path, "fps": 1, "duration": self.duration_s, "tracks": tracks},
+                }
                 for path, tracks in self._clips.items()
             ]
             options = {"play": True, "repetitions": 1_000_000_000}
-            commands.append({"type": "set_animation", "path": "", "animations": animations, "options": options})
+            commands.append(
+                {"type": "set_animation", "path": "", "animations": animations, "options": options}
+            )
         packed = [self._umsgpack.packb(command) for command in commands]
-        return gzip.compress(b"".join(struct.pack("<I", len(p)) + p for p in packed), compresslevel=9, mtime=0)
+        return gzip.compress(
+            b"".join(struct.pack("<I", len(p)) + p for p in packed), compresslevel=9, mtime=0
+        )
 
     def _track(self, name: str, kind: str, times_s: Array, values: Array) -> dict[str, Any]:
         if np.ptp(values, axis=0).max() < 1e-7:
             times_s, values = times_s[[0, -1]], values[[0, -1]]
         # Micrometres and a few microradians: below what is seen, and far better to compress.
         values = np.round(values, 5) + 0.0
-        return {"name": "." + name, "type": kind, "times": self._floats(times_s), "values": self._floats(values)}
+        return {
+            "name": "." + name,
+            "type": kind,
+            "times": self._floats(times_s),
+            "values": self._floats(values),
+        }
 
     def _object(
-        self, path: str, kind: str, vertices: Array, faces: Any, material: dict[str, Any], render_order: int = 0
+        self,
+        path: str,
+        kind: str,
+        vertices: Array,
+        faces: Any,
+        material: dict[str, Any],
+        render_order: int = 0,
     ) -> None:
-        attributes = {"position": {"itemSize": 3, "type": "Float32Array", "array": self._floats(np.round(vertices, 5) + 0.0), "normalized": False}}
+        attributes = {
+            "position": {
+                "itemSize": 3,
+                "type": "Float32Array",
+                "array": self._floats(np.round(vertices, 5) + 0.0),
+                "normalized": False,
+            }
+        }
         data: dict[str, Any] = {"attributes": attributes}
         if faces is not None:
             index = self._umsgpack.Ext(UINT32, np.ascontiguousarray(faces, "<u4").tobytes())

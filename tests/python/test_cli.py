@@ -1,0 +1,225 @@
+"""mcplan.cli: what is printed, where, and the exit codes."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import malformed
+import mcplan as mp
+from mcplan.cli import main
+from mcplan.files.robots import list_robots, load_robot
+from mcplan.files.scenes import list_scenes
+from mcplan.files.toml import toml_text
+from standing import standing_plan
+
+VERBS = ("plan", "check", "scenes", "robots", "version")
+
+
+def run(capsys, *words) -> tuple[int, str, str]:
+    code = main([str(word) for word in words])
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+def one_line_error(result: tuple[int, str, str]) -> str:
+    code, out, err = result
+    assert code == 2 and out == ""
+    assert err.startswith("error: ") and err.count("\n") == 1 and "Traceback" not in err
+    return err[len("error: ") : -1]
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_verb_has_help_with_an_example(verb, capsys):
+    code, out, err = run(capsys, verb, "--help")
+    assert code == 0 and err == ""
+    assert f"Example: mcplan {verb}" in out
+
+
+def test_no_words_print_the_verbs(capsys):
+    code, out, _ = run(capsys)
+    assert code == 0
+    assert all(f"  {verb} " in out for verb in VERBS)
+
+
+def test_version(capsys):
+    assert run(capsys, "version") == (0, f"{mp.__version__}\n", "")
+
+
+def test_the_command_runs_as_a_process():
+    done = subprocess.run([sys.executable, "-m", "mcplan", "plan", "stares"], capture_output=True, text=True)
+    assert done.returncode == 2 and done.stdout == ""
+    assert done.stderr.startswith(
+        "error: no scene 'stares' and no file of that name. Did you mean 'stairs'? Built-in: flat"
+    )
+
+
+@pytest.mark.parametrize(("verb", "names"), [("scenes", list_scenes()), ("robots", list_robots())])
+def test_lists_have_a_described_line_each(verb, names, capsys):
+    code, out, _ = run(capsys, verb)
+    lines = out.splitlines()
+    assert code == 0
+    assert [line.split()[0] for line in lines] == names
+    assert all(len(line.split()) > 3 for line in lines)
+
+
+def test_a_scene_is_printed_with_its_rule_and_surfaces(capsys):
+    code, out, _ = run(capsys, "scenes", "gap_with_rail")
+    assert code == 0
+    assert "when foot is free, right_hand and left_hand must be in contact" in out
+    assert "left_pad   0.900 0.375 0.500   0.000 0.000 1.000  4        grasp     left_hand" in out
+
+
+def test_a_scene_file_is_printed_like_a_built_in_one(capsys, tmp_path):
+    (tmp_path / "room.toml").write_text(toml_text(malformed.SCENE))
+    code, out, _ = run(capsys, "scenes", tmp_path / "room.toml")
+    assert code == 0 and out.startswith("room\n") and "floor" in out
+
+
+def test_a_scene_is_drawn_on_a_page(capsys, tmp_path):
+    pytest.importorskip("mcplan.view")
+    code, out, _ = run(capsys, "scenes", "stairs", "--html", tmp_path / "stairs.html")
+    assert code == 0 and "stairs.html" in out
+    assert "<html" in (tmp_path / "stairs.html").read_text().lower()
+
+
+@pytest.mark.parametrize("name", list_robots())
+def test_a_robot_is_printed_with_its_ends(name, capsys):
+    code, out, _ = run(capsys, "robots", name)
+    assert code == 0
+    assert all(end.name in out for end in load_robot(name).end_effectors)
+
+
+def test_a_plan_that_holds_is_ok(capsys, tmp_path):
+    standing_plan().save(tmp_path / "plan.npz")
+    code, out, _ = run(capsys, "check", tmp_path / "plan.npz")
+    assert code == 0
+    assert out.startswith(f"{tmp_path / 'plan.npz'}: ok. Closest to its limit: ")
+
+
+def test_a_plan_that_slips_is_named_and_gives_exit_code_1(capsys, tmp_path):
+    plan = standing_plan()
+    plan.knots[1].end_effectors_W[0, 0] += 0.01
+    plan.save(tmp_path / "plan.npz")
+    code, out, _ = run(capsys, "check", tmp_path / "plan.npz")
+    assert code == 1 and "slip at right_foot" in out
+    code, out, _ = run(capsys, "check", tmp_path / "plan.npz", "--json")
+    report = json.loads(out)
+    assert code == 1 and report["ok"] is False
+    worst = {violation["name"]: violation for violation in report["violations"]}["slip"]
+    assert worst["end_effector"] == "right_foot" and worst["value"] == pytest.approx(0.01, rel=0.05)
+    assert {"dynamics", "friction", "reach"} <= {constraint["name"] for constraint in report["constraints"]}
+
+
+def test_check_json_of_a_good_plan(capsys, tmp_path):
+    standing_plan().save(tmp_path / "plan.npz")
+    code, out, _ = run(capsys, "check", tmp_path / "plan.npz", "--json")
+    assert code == 0
+    assert json.loads(out)["ok"] is True and json.loads(out)["violations"] == []
+
+
+BAD_WORDS = [
+    (("plann",), "No such command 'plann'"),
+    (("scenes", "--htm"), "No such option"),
+    (
+        ("scenes", "stares"),
+        "no scene 'stares' and no file of that name. Did you mean 'stairs'? Built-in: flat, ",
+    ),
+    (("scenes", "--html", "x.html"), "--html: needs the NAME of a scene"),
+    (("robots", "humanoid4"), "no robot 'humanoid4' and no file of that name. Did you mean 'humanoid44'?"),
+    (("check",), "Missing argument 'PLAN'"),
+    (("check", "none.npz"), "none.npz: No such file or directory"),
+    (("plan",), "Missing argument 'SCENE'"),
+    (
+        ("plan", "flat", "--robot", "talus"),
+        "no robot 'talus' and no file of that name. Did you mean 'talos'?",
+    ),
+    (("plan", "flat", "--phases", "many"), "Invalid value for '--phases'"),
+    (("robots", "--from-urdf", "nobody"), "--from-urdf: must be a URDF file or a name of example-robot-data"),
+    (
+        ("robots", "--from-urdf", "talos", "--end", "foot"),
+        "--end: must read NAME=FRAME[:KIND[:LENGTHxWIDTH]]",
+    ),
+    (("robots", "--from-urdf", "talos", "--end", "foot=nowhere"), "ends.foot: must name a link of the URDF"),
+    (("robots", "--from-urdf", "solo12"), "ends: must be given for a robot other than talos, anymal"),
+]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"), BAD_WORDS, ids=lambda v: " ".join(v) if isinstance(v, tuple) else ""
+)
+def test_bad_words_give_one_line_and_exit_code_2(words, message, capsys):
+    assert one_line_error(run(capsys, *words)).startswith(message)
+
+
+@pytest.mark.parametrize("verb", ["scenes", "plan"])
+def test_a_broken_scene_file_is_named(verb, capsys, tmp_path):
+    file = tmp_path / "bad.toml"
+    file.write_text(
+        toml_text(malformed.broken(malformed.SCENE, ("surfaces", 1, "vertices"), malformed.SQUARE[:2]))
+    )
+    message = one_line_error(run(capsys, verb, file))
+    assert message == f"{file}: surfaces[1].vertices: needs at least 3 points, got 2"
+
+
+def test_a_broken_plan_file_is_named(capsys, tmp_path):
+    (tmp_path / "bad.npz").write_bytes(b"PK")
+    message = one_line_error(run(capsys, "check", tmp_path / "bad.npz"))
+    assert message.startswith(f"{tmp_path / 'bad.npz'}: must be an .npz file written by mcplan")
+
+
+def test_a_missing_extra_says_what_to_install(capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    message = one_line_error(run(capsys, "scenes", "flat", "--html", tmp_path / "x.html"))
+    assert message == "mcplan scenes --html needs meshcat: pip install 'mcplan[view]'"
+
+
+def test_a_robot_of_a_urdf_file_is_written(capsys, tmp_path):
+    pytest.importorskip("pinocchio")
+    (tmp_path / "leg.urdf").write_text(LEG)
+    code, _, err = run(
+        capsys,
+        "robots",
+        "--from-urdf",
+        tmp_path / "leg.urdf",
+        "--end",
+        "foot=tip:foot",
+        "-o",
+        tmp_path / "leg.toml",
+    )
+    assert (code, err) == (0, "")
+    robot = load_robot(tmp_path / "leg.toml")
+    assert robot.mass == pytest.approx(11.0) and robot.end_effectors[0].frame == "tip"
+    # The leg hangs 0.5 m below its hip; its slide makes it 0.2 m shorter or 0.1 m longer.
+    assert robot.com_height == pytest.approx(0.5 - (0.25 * 0.4 + 0.25 * 0.5) / 11, abs=1e-3)
+    assert robot.end_effectors[0].reach_max_B[2] - robot.end_effectors[0].reach_min_B[2] < 0.3
+    text = Path(tmp_path / "leg.toml").read_text()
+    assert text.startswith(
+        f"# Made by: mcplan robots --from-urdf {tmp_path / 'leg.urdf'} --end foot=tip:foot -o "
+    )
+
+
+JOINT = (
+    '<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/><origin xyz="{xyz}"/>'
+    '<axis xyz="{axis}"/><limit lower="-1" upper="1" effort="10" velocity="1"/></joint>'
+)
+LINK = (
+    '<link name="{name}"><inertial><mass value="{mass}"/>'
+    '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>'
+)
+LEG = (
+    '<robot name="leg">'
+    + LINK.format(name="base", mass=10)
+    + "".join(LINK.format(name=name, mass=0.25) for name in ("hip", "thigh", "shank", "tip"))
+    + JOINT.format(name="roll", kind="revolute", parent="base", child="hip", xyz="0 0.1 0", axis="1 0 0")
+    + JOINT.format(name="pitch", kind="revolute", parent="hip", child="thigh", xyz="0 0 0", axis="0 1 0")
+    + JOINT.format(
+        name="length", kind="prismatic", parent="thigh", child="shank", xyz="0 0 -0.4", axis="0 0 1"
+    ).replace('lower="-1" upper="1"', 'lower="-0.1" upper="0.2"')
+    + JOINT.format(name="tip", kind="fixed", parent="shank", child="tip", xyz="0 0 -0.1", axis="0 0 1")
+    + "</robot>"
+)

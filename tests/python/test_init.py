@@ -1,0 +1,186 @@
+"""mcplan itself: light to import, and its errors are the ones of the C++ library."""
+
+from __future__ import annotations
+
+import pickle
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import mcplan as mp
+from mcplan import _core, errors
+from standing import standing_plan, standing_scene
+
+HEAVY = ("pydantic", "typer", "rich", "matplotlib", "meshcat", "pinocchio", "mujoco", "scipy")
+
+
+def test_import_loads_numpy_alone():
+    script = f"import sys, mcplan; print([m for m in {HEAVY} if m in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_every_public_name_exists_and_is_documented():
+    for name in mp.__all__:
+        assert getattr(mp, name) is not None
+    for name in ("load_scene", "load_robot", "plan", "check", "show"):
+        assert len(getattr(mp, name).__doc__) > 100
+
+
+@pytest.mark.parametrize(
+    ("name", "base"),
+    [
+        ("InvalidScene", mp.InvalidInput),
+        ("InvalidRobot", mp.InvalidInput),
+        ("InvalidOptions", mp.InvalidInput),
+        ("InvalidPlan", mp.InvalidInput),
+        ("InvalidInput", ValueError),
+        ("PlanViolated", RuntimeError),
+        ("UnknownScene", ValueError),
+        ("UnknownRobot", ValueError),
+    ],
+)
+def test_errors_are_what_their_callers_expect(name, base):
+    assert issubclass(getattr(mp, name), base)
+
+
+def test_errors_of_the_library_carry_field_rule_and_value():
+    scene = standing_scene()
+    scene.surfaces[0].friction = -1.0
+    with pytest.raises(mp.InvalidScene) as found:
+        scene.validate()
+    error = found.value
+    assert (error.field, error.rule, error.value) == (
+        "surfaces[0].friction",
+        "must be a positive number",
+        "-1",
+    )
+    assert str(error) == "surfaces[0].friction: must be a positive number, got -1"
+    again = pickle.loads(pickle.dumps(error))
+    assert type(again) is mp.InvalidScene and str(again) == str(error)
+
+
+def test_each_kind_of_error_keeps_its_class_across_the_border():
+    with pytest.raises(mp.InvalidRobot, match="mass: must be a positive number"):
+        mp.Robot().validate()
+    with pytest.raises(mp.InvalidPlan, match="phases: needs at least one phase"):
+        mp.Plan().validate()
+    with pytest.raises(mp.InvalidInput, match="t: must lie in"):
+        standing_plan().at(99.0)
+
+
+def test_raise_if_violated_names_the_worst():
+    plan = standing_plan()
+    mp.check(plan).raise_if_violated()
+    plan.knots[1].com_W[0] += 0.5
+    with pytest.raises(mp.PlanViolated) as found:
+        mp.check(plan).raise_if_violated()
+    result = mp.check(plan)
+    assert str(found.value).startswith(str(result.violations()[0]))
+    assert [v.name for v in found.value.violations] == [v.name for v in result.violations()]
+
+
+def test_check_takes_another_scene_and_tolerances():
+    plan, other = standing_plan(), standing_scene()
+    other.surfaces[0].vertices_W[:, 2] -= 0.01
+    assert mp.check(plan, plan.scene, plan.robot).ok()
+    assert not mp.check(plan, other).ok()
+    loose = mp.Tolerances(contact_distance=0.02, boundary=0.02, stance=0.03)
+    assert not {"contact_distance"} & {v.name for v in mp.check(plan, other, tolerances=loose).violations()}
+
+
+def test_check_lets_other_threads_run():
+    """Releases the GIL: a thread counts on while a long check runs."""
+    import threading
+    import time
+
+    counted, stop = [0], threading.Event()
+
+    def count():
+        while not stop.is_set():
+            counted[0] += 1
+            time.sleep(1e-4)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    time.sleep(0.02)
+    before, start = counted[0], time.perf_counter()
+    mp.check(standing_plan(), tolerances=mp.Tolerances(sample_s=2e-6))
+    took, during = time.perf_counter() - start, counted[0] - before
+    stop.set()
+    thread.join()
+    assert took > 0.05, "too short to tell"
+    assert during > 10
+
+
+def test_elements_can_be_changed_in_place_and_outlive_their_list():
+    scene = standing_scene()
+    floor = scene.surfaces[0]
+    floor.friction = 0.25
+    vertices_W = floor.vertices_W
+    vertices_W[0, 0] = -3.0
+    assert scene.surfaces[0].friction == 0.25 and scene.surfaces[0].vertices_W[0, 0] == -3.0
+    scene.surfaces = [mp.Surface(name="other", vertices_W=np.eye(3))]
+    assert floor.name == "ground" and vertices_W[0, 0] == -3.0  # detached, but alive
+    assert [surface.name for surface in scene.surfaces] == ["other"]
+    with pytest.raises(AttributeError):
+        scene.surfaces.append(floor)
+    with pytest.raises(TypeError):
+        scene.start.contacts["foot"] = "other"
+
+
+def test_a_scene_may_be_assigned_to_itself():
+    plan = standing_plan()
+    plan.scene = plan.scene
+    assert plan.scene.surfaces[0].name == "ground"
+
+
+@pytest.mark.parametrize(
+    "value", [[[1.0, 2.0]], [1.0, 2.0, 3.0], "abc", [["a", "b", "c"]], None, np.zeros((2, 3, 1))]
+)
+def test_points_of_the_wrong_shape_are_rejected(value):
+    with pytest.raises(mp.InvalidInput, match="vertices_W: must be an N x 3 array of numbers"):
+        mp.Surface(name="s", vertices_W=value)
+
+
+def test_reprs_can_be_pasted_back():
+    names = {**vars(_core)}
+    for value in (
+        mp.Tolerances(slip=0.1),
+        mp.Stance(yaw=0.1, contacts={"a": "b"}),
+        mp.EndEffector(name="e"),
+        mp.Contact(surface=2, stiffness=1 / 3),
+        standing_plan().knots[0],
+        standing_plan().phases[0],
+        mp.Swing(height=0.1),
+        mp.Violation(name="x", value=float("nan")),
+    ):
+        assert repr(eval(repr(value), names)) == repr(value)
+
+
+def test_status_reads_as_its_name():
+    assert str(mp.Status.time_limit) == "time_limit"
+    assert mp.Status.solved != mp.Status.acceptable
+
+
+def test_rotation_helpers_agree_with_each_other():
+    rpy = np.array([0.3, -0.4, 1.2])
+    rotation = _core.rotation_from_rpy(rpy)
+    np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-15)
+    w, x, y, z = _core.quat_wxyz_from_rpy(rpy)
+    assert rotation[2, 1] - rotation[1, 2] == pytest.approx(4 * w * x)
+    assert np.trace(rotation) == pytest.approx(4 * w * w - 1)
+    for i in range(3):
+        unit = np.eye(3)[i] * 1e-6
+        slope = (_core.rotation_from_rpy(rpy + unit) - _core.rotation_from_rpy(rpy - unit)) / 2e-6
+        np.testing.assert_allclose(_core.rotation_derivative(rpy, i), slope, atol=1e-9)
+    with pytest.raises(mp.InvalidInput):
+        _core.rotation_derivative(rpy, 3)
+
+
+def test_a_missing_viewer_says_what_to_install(monkeypatch):
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    with pytest.raises(errors.MissingExtra, match=r"mcplan.show needs meshcat: pip install 'mcplan\[view\]'"):
+        mp.show(standing_plan())

@@ -1,0 +1,192 @@
+"""Pages stand alone, say what they show, and are the same from run to run."""
+
+import base64
+import gzip
+import hashlib
+import itertools
+import json
+import re
+import struct
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import mcplan as mp
+import plans_by_hand as by_hand
+from mcplan.view import show, show_scene
+from mcplan.view.snapshot import find_browser
+
+umsgpack = pytest.importorskip("umsgpack")
+pytest.importorskip("meshcat")
+Image = pytest.importorskip("PIL.Image")
+
+
+@pytest.fixture(scope="module")
+def plan():
+    return by_hand.walk(by_hand.stairs(), by_hand.humanoid())
+
+
+@pytest.fixture(scope="module")
+def html(plan):
+    return show(plan).html()
+
+
+def commands_of(html: str) -> list[dict]:
+    raw = gzip.decompress(base64.b64decode(re.search(r'id="commands">([^<]*)<', html)[1]))
+    commands, at = [], 0
+    while at < len(raw):
+        (size,) = struct.unpack_from("<I", raw, at)
+        commands.append(umsgpack.unpackb(raw[at + 4 : at + 4 + size]))
+        at += 4 + size
+    return commands
+
+
+def clips_of(html: str) -> dict[str, dict]:
+    (animation,) = [c for c in commands_of(html) if c["type"] == "set_animation"]
+    return {a["path"].removeprefix("/meshcat/"): a["clip"] for a in animation["animations"]}
+
+
+def floats(values) -> np.ndarray:
+    return np.frombuffer(values.data, "<f4").astype(float)
+
+
+def track(clip: dict, name: str) -> dict:
+    (found,) = [t for t in clip["tracks"] if t["name"] == "." + name]
+    return found
+
+
+def test_page_refers_to_nothing_outside(html):
+    # The one address is the name of a namespace inside the viewer, which browsers do not fetch.
+    assert set(re.findall(r"https?://[^\"'\s)\\]+", html)) <= {"http://www.w3.org/1999/xhtml"}
+    assert not re.search(
+        r"<script[^>]+src=|<link|@import|url\(\s*['\"]?(?!data:)[a-z]", html.replace("createObjectURL(", "")
+    )
+    assert "viewer.connect(" not in html
+
+
+def test_same_plan_gives_the_same_page(plan, html):
+    assert show(plan).html() == html
+
+
+def test_page_is_the_same_from_another_process(html):
+    script = (
+        "import hashlib, plans_by_hand as h, mcplan.view as v; "
+        "html = v.show(h.walk(h.stairs(), h.humanoid())).html(); "
+        "print(hashlib.sha256(html.encode()).hexdigest())"
+    )
+    found = subprocess.run(
+        [sys.executable, "-c", script],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={"PYTHONPATH": ":".join(sys.path), "PYTHONHASHSEED": "7"},
+    )
+    assert found.stdout.split()[-1] == hashlib.sha256(html.encode()).hexdigest()
+
+
+def test_animated_com_ball_follows_the_plan(plan, html):
+    ball = track(clips_of(html)["com/ball"], "position")
+    times, positions = floats(ball["times"]), floats(ball["values"]).reshape(-1, 3)
+    assert times[0] == 0.0
+    assert times[-1] == pytest.approx(plan.duration(), abs=1e-6)
+    assert len(times) >= 30 * plan.duration()
+    for t, position in zip(times, positions, strict=True):
+        assert position == pytest.approx(plan.at(min(float(t), plan.duration())).com_W, abs=2e-5)
+
+
+def test_contact_lights_up_exactly_while_it_is_made(plan, html):
+    clips = clips_of(html)
+    times = np.array(plan.knot_times())
+    lit = {
+        name: [c for path, c in clips.items() if re.fullmatch(rf"contacts/{name}/\d+/active", path)]
+        for name in ("right_foot", "left_foot", "right_hand")
+    }
+    assert lit["right_hand"] == []
+    for end, name in enumerate(("right_foot", "left_foot")):
+        for k, (start, stop) in enumerate(itertools.pairwise(times)):
+            for t in (start + 1e-3, 0.5 * (start + stop), stop - 1e-3):
+                shown = 0
+                for clip in lit[name]:
+                    visible = track(clip, "visible")
+                    shown += visible["values"][np.searchsorted(visible["times"], t, side="right") - 1]
+                assert shown == int(plan.contact_sequence()[k][end] >= 0), (name, t)
+
+
+def test_force_arrows_are_as_long_as_the_forces(plan, html):
+    clips = clips_of(html)
+    shaft = clips["forces/left_foot/shaft"]
+    times, base = (
+        floats(track(shaft, "position")["times"]),
+        floats(track(shaft, "position")["values"]).reshape(-1, 3),
+    )
+    tip = floats(track(clips["forces/left_foot/head"], "position")["values"]).reshape(-1, 3)
+    length_per_newton = 0.55 * 0.7 / (44.0 * plan.scene.gravity)
+    checked = 0
+    for t, start, end in zip(times, base, tip, strict=True):
+        force = plan.at(min(float(t), plan.duration())).end_effectors[1].force_W
+        length = np.linalg.norm(force) * length_per_newton
+        if length < 0.15 or np.abs(t - np.array(plan.knot_times())).min() < 1e-3:  # forces jump at knots
+            continue
+        assert end - start == pytest.approx((length - 0.085 * 0.7) * force / np.linalg.norm(force), abs=1e-3)
+        checked += 1
+    assert checked > 50
+
+
+def test_caption_and_timeline_name_what_is_shown(html):
+    for text in ("stairs", "humanoid44", "right foot", "left hand", "13 phases", "5.00 s", "tread_3"):
+        assert text in html
+    assert json.loads(re.search(r'id="settings">([^<]*)<', html)[1])["duration"] == pytest.approx(5.0)
+
+
+def test_names_cannot_break_out_of_the_page(plan):
+    scene = by_hand.stairs()
+    scene.name = "<script>alert(1)</script>"
+    assert "<script>alert" not in show(plan, scene).html()
+
+
+def test_scene_page_has_no_animation():
+    html = show_scene(mp.load_scene("gap_with_rail"), mp.load_robot("humanoid44")).html()
+    assert "may be held" in html
+    assert not [c for c in commands_of(html) if c["type"] == "set_animation"]
+
+
+browser = pytest.mark.skipif(find_browser() is None, reason="needs Chromium")
+
+
+def pixels(page, tmp_path, **options) -> np.ndarray:
+    return np.asarray(
+        Image.open(page.save_png(tmp_path / "page.png", size=(900, 600), **options)).convert("RGB")
+    ).astype(int)
+
+
+def near(picture: np.ndarray, colour: tuple[int, int, int], tolerance: int = 40) -> int:
+    return int((np.abs(picture - colour).max(axis=2) < tolerance).sum())
+
+
+@browser
+def test_browser_draws_the_plan(plan, tmp_path):
+    picture = pixels(show(plan), tmp_path, time_s=1.7)
+    drawn = picture[60:470, 290:]  # right of the caption, above the timeline
+    assert len(np.unique(drawn.reshape(-1, 3), axis=0)) > 500
+    assert 0.08 < np.mean(drawn.min(axis=2) < 245) < 0.8
+    assert (drawn[:40].min(axis=2) == 255).mean() > 0.9  # a white background
+    assert near(drawn, (213, 94, 0)) > 100  # right foot
+    assert near(drawn, (0, 114, 178)) > 100  # left foot
+    assert near(drawn, (122, 31, 92)) > 100  # CoM
+
+
+@browser
+def test_browser_shows_the_time_asked_for(plan, tmp_path):
+    early, late = (pixels(show(plan), tmp_path, time_s=t) for t in (0.3, 4.7))
+    # The head, at the top of the drawing, moves from left to right.
+    columns = [np.flatnonzero((p[20:200, 290:].min(axis=2) < 235).any(axis=0)).mean() for p in (early, late)]
+    assert columns[1] - columns[0] > 100
+
+
+def test_missing_browser_is_named(plan, tmp_path, monkeypatch):
+    monkeypatch.setattr("mcplan.view.snapshot.BROWSERS", ())
+    with pytest.raises(mp.errors.MissingExtra, match="apt-get install chromium") as error:
+        show(plan).save_png(tmp_path / "page.png")
+    assert "\n" not in str(error.value)

@@ -1,0 +1,155 @@
+"""Plots and pictures: written, not blank, true to the plan."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import plans_by_hand as by_hand
+from mcplan.view import (
+    picture,
+    plot_com,
+    plot_contact_sequence,
+    plot_cost,
+    plot_forces,
+    plot_friction,
+    plot_gait,
+    save_plots,
+)
+
+pytest.importorskip("matplotlib")
+Image = pytest.importorskip("PIL.Image")
+
+
+@pytest.fixture(scope="module")
+def plan():
+    return by_hand.walk(by_hand.stairs(), by_hand.humanoid())
+
+
+def history(plan) -> SimpleNamespace:
+    """Three iterations: standing on the first tread, then half, then all of the plan's sequence."""
+    final = np.array(plan.contact_sequence())
+    standing = np.tile([0, 0, -1, -1], (len(final), 1))
+    half = standing.copy()
+    half[len(final) // 2 :] = final[len(final) // 2 :]
+    rows = [(standing, 0, 0.01), (half, 3, 1.0), (half, 0, 10.0), (final, 2, 100.0)]
+    iterations = [
+        SimpleNamespace(
+            index=i, cost=10.0 / (i + 1), contact_weight=weight, switches=switches, sequence=sequence.tolist()
+        )
+        for i, (sequence, switches, weight) in enumerate(rows)
+    ]
+    return SimpleNamespace(history=iterations)
+
+
+def pixels(path) -> np.ndarray:
+    return np.asarray(Image.open(path).convert("RGB")).astype(int)
+
+
+def test_save_plots_writes_pictures_that_are_not_blank(plan, tmp_path):
+    written = save_plots(plan, history(plan), tmp_path / "plots")
+    assert {p.name for p in written} == {
+        "picture.png",
+        "gait.png",
+        "com.png",
+        "forces.png",
+        "friction.png",
+        "cost.png",
+        "contact_sequence.png",
+    }
+    for path in written:
+        image = pixels(path)
+        assert min(image.shape[:2]) > 200, path.name
+        assert len(np.unique(image.reshape(-1, 3), axis=0)) > 50, path.name
+        assert 0.01 < np.mean(image.min(axis=2) < 250) < 0.9, path.name
+
+
+def test_without_a_report_only_the_plan_is_plotted(plan, tmp_path):
+    assert {p.name for p in save_plots(plan, None, tmp_path)} == {
+        "picture.png",
+        "gait.png",
+        "com.png",
+        "forces.png",
+        "friction.png",
+    }
+
+
+def test_picture_is_the_same_twice(plan, tmp_path):
+    first, second = (picture(plan, path=tmp_path / name).read_bytes() for name in ("a.png", "b.png"))
+    assert first == second
+
+
+def test_picture_shows_feet_and_com_in_their_colours(plan, tmp_path):
+    image = pixels(picture(plan, path=tmp_path / "picture.png"))
+    for colour in ((213, 94, 0), (0, 114, 178), (122, 31, 92)):
+        assert (np.abs(image - colour).max(axis=2) < 25).sum() > 500, colour
+
+
+def test_com_curve_is_the_plans(plan):
+    position = plot_com(plan).axes[4].lines[0]  # z
+    for t, z in zip(*position.get_data(), strict=True):
+        assert z == pytest.approx(plan.at(min(t, plan.duration())).com_W[2], abs=1e-12)
+
+
+def test_gait_bars_are_the_contacts(plan):
+    bars = plot_gait(plan).axes[0].patches
+    times, sequence = plan.knot_times(), plan.contact_sequence()
+    for end in range(4):
+        own = sum(bar.get_width() for bar in bars if abs(bar.get_y() + 0.5 * bar.get_height() - end) < 1e-6)
+        contact = sum(times[k + 1] - times[k] for k in range(len(sequence)) if sequence[k][end] >= 0)
+        assert own == pytest.approx(contact, abs=1e-9)
+
+
+def test_normal_forces_carry_the_robot(plan):
+    # On level treads the normals are vertical: their sum is m (g + z'').
+    panels = plot_forces(plan).axes
+    right, left = (next(line for line in panel.lines if line.get_label() == "normal") for panel in panels)
+    times = right.get_xdata()
+    total = np.nan_to_num(right.get_ydata()) + np.nan_to_num(left.get_ydata())
+    for t, force in zip(times, total, strict=True):
+        state = plan.at(min(t, plan.duration()))
+        assert force == pytest.approx(44.0 * (plan.scene.gravity + state.com_acceleration_W[2]), rel=1e-9)
+
+
+def test_friction_of_a_slope_is_measured_in_its_own_frame():
+    scene, robot = by_hand.flat(), by_hand.humanoid()
+    plan = by_hand.walk(scene, robot)
+    level = next(
+        line for line in plot_friction(plan).axes[0].lines if "normal" in line.get_label()
+    ).get_ydata()
+    tilt = np.array([[np.cos(0.2), 0.0, np.sin(0.2)], [0.0, 1.0, 0.0], [-np.sin(0.2), 0.0, np.cos(0.2)]])
+    slope = by_hand.flat()
+    surface = slope.surfaces[0]
+    surface.vertices_W = np.asarray(surface.vertices_W) @ tilt.T
+    slope.surfaces = [surface]
+    plan.scene = slope
+    tilted = next(
+        line for line in plot_friction(plan).axes[0].lines if "normal" in line.get_label()
+    ).get_ydata()
+    state = plan.at(0.0).end_effectors[0]
+    normal = state.force_W @ tilt[:, 2]
+    assert tilted[0] == pytest.approx(np.linalg.norm(state.force_W - normal * tilt[:, 2]) / normal)
+    assert tilted[0] > level[0] + 0.05
+
+
+def test_contact_sequence_is_drawn_over_switches(plan):
+    report = history(plan)
+    figure = plot_contact_sequence(report, plan)
+    for end, axes in enumerate(figure.axes):
+        drawn = np.ma.filled(axes.collections[0].get_array(), -9).reshape(len(plan.phases), 3)
+        for column, row in zip(range(3), (0, 2, 3), strict=True):
+            assert (drawn[:, column] == np.array(report.history[row].sequence)[:, end]).all()
+        assert axes.get_xlim()[1] == pytest.approx(5.5)  # 0 + 3 + 2 switches
+
+
+def test_cost_is_drawn_on_logarithmic_axes(plan):
+    figure = plot_cost(history(plan))
+    assert [axes.get_yscale() for axes in figure.axes] == ["log", "log"]
+    assert figure.axes[1].lines[0].get_ydata() == pytest.approx([10.0, 5.0, 10.0 / 3.0, 2.5])
+
+
+def test_reports_without_data_are_refused_by_name():
+    empty = SimpleNamespace(history=[])
+    for plot in (plot_cost, plot_contact_sequence):
+        with pytest.raises(ValueError, match=r"report\.history"):
+            plot(empty)
