@@ -109,7 +109,7 @@ def plan_to_bytes(plan: Plan) -> bytes:
     ):
         arrays[name] = np.array([getattr(knot, name) for knot in plan.knots])
     buffer = io.BytesIO()
-    np.savez(buffer, **arrays)
+    np.savez(buffer, allow_pickle=False, **arrays)
     return buffer.getvalue()
 
 
