@@ -41,9 +41,7 @@ class Extent:
         return polygon
 
 
-def extent_of(
-    scene: Scene, robot: Robot | None, samples: Samples | None, length: float, width: float
-) -> Extent:
+def extent_of(scene: Scene, robot: Robot | None, samples: Samples | None, length: float, width: float) -> Extent:
     """The box around the motion (or around start and goal) with margins of `length` and `width` [m]."""
     points = [np.asarray(s.position_W, float)[:2] for s in (scene.start, scene.goal)]
     if samples is not None:

@@ -22,9 +22,7 @@ def plan_legend(scene: Scene, robot: Robot, colours: list[str], newton_per_metre
     """Legend entries for a plan; a click hides what they name."""
     entries = [_entry("com paths/com", "ball", COM, "centre of mass")]
     for end, colour in zip(robot.end_effectors, colours, strict=True):
-        entries.append(
-            _entry(f"paths/{end.name} contacts/{end.name}", "line", colour, end.name.replace("_", " "))
-        )
+        entries.append(_entry(f"paths/{end.name} contacts/{end.name}", "line", colour, end.name.replace("_", " ")))
     entries.append(_entry("forces", "arrow", "", f"contact force ({0.1 * newton_per_metre:.0f} N: 10 cm)"))
     entries.append(_entry("robot", "", "#98a2ae", "robot"))
     return entries + scene_legend(scene)
@@ -36,15 +34,11 @@ def scene_legend(scene: Scene) -> list[str]:
     return [_entry(" ".join(f"scene/{name}" for name in grasps), "", GRASP, "may be held")] if grasps else []
 
 
-def timeline(
-    scene: Scene, robot: Robot, intervals: list[Interval], colours: list[str], duration_s: float
-) -> str:
+def timeline(scene: Scene, robot: Robot, intervals: list[Interval], colours: list[str], duration_s: float) -> str:
     """Panel at the bottom: contacts of every end-effector over time, and a cursor."""
     names, tracks = [], []
     for end, colour in zip(range(len(colours)), colours, strict=True):
-        names.append(
-            f'<div style="color: {colour}">{escape(robot.end_effectors[end].name.replace("_", " "))}</div>'
-        )
+        names.append(f'<div style="color: {colour}">{escape(robot.end_effectors[end].name.replace("_", " "))}</div>')
         bars = []
         for interval in intervals:
             if interval.end_effector != end:
@@ -60,9 +54,7 @@ def timeline(
     step = next(s for s in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 1e9) if duration_s / s <= 12)
     ticks = [i * step for i in range(1, int(duration_s / step) + 1)]
     marks = "".join(
-        f'<span style="left: {100.0 * t / duration_s:.3f}%">{t:g} s</span>'
-        for t in ticks
-        if t < 0.99 * duration_s
+        f'<span style="left: {100.0 * t / duration_s:.3f}%">{t:g} s</span>' for t in ticks if t < 0.99 * duration_s
     )
     return (
         f'<div class="panel" id="timeline"><div id="names">{"".join(names)}<button id="play"></button></div>'

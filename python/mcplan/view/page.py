@@ -74,9 +74,7 @@ class Page:
         path.write_text(self.html(), encoding="utf-8")
         return path
 
-    def save_png(
-        self, path: str | Path, time_s: float | None = None, size: tuple[int, int] = (1280, 720)
-    ) -> Path:
+    def save_png(self, path: str | Path, time_s: float | None = None, size: tuple[int, int] = (1280, 720)) -> Path:
         """Write a picture of the page, taken with Chromium without a window.
 
         Args:

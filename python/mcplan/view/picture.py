@@ -117,9 +117,7 @@ def _paint_surfaces(canvas: Canvas, drawings: list[SurfaceDrawing]) -> None:
 def _paint_plan(canvas: Canvas, samples: Samples, robot: Robot, colours: list[str]) -> None:
     scale = float(robot.com_height) / 0.7
     for interval in samples.intervals:
-        mark = contact_plate(robot, interval.end_effector).moved(
-            pose(interval.rotation_W, interval.position_W)
-        )
+        mark = contact_plate(robot, interval.end_effector).moved(pose(interval.rotation_W, interval.position_W))
         up = interval.rotation_W[2, 2] > 0.3
         canvas.mesh(
             mark,
@@ -168,9 +166,7 @@ def _legend(sheet, scene: Scene, robot: Robot, colours: list[str]) -> None:  # t
     entries: list[Line2D | Patch] = [Line2D([], [], color=COM, linewidth=4, label="centre of mass")]
     for end, colour in zip(robot.end_effectors, colours, strict=True):
         entries.append(Line2D([], [], color=colour, linewidth=2.2, label=end.name.replace("_", " ")))
-    entries.append(
-        Line2D([], [], color=FORCE, linewidth=1.6, marker=">", markevery=[1], label="contact force")
-    )
+    entries.append(Line2D([], [], color=FORCE, linewidth=1.6, marker=">", markevery=[1], label="contact force"))
     if any(s.grasp for s in scene.surfaces):
         entries.append(Patch(color=GRASP, label="may be held"))
     sheet.legend(

@@ -26,9 +26,7 @@ WEIGHT_ARROW = 0.55
 FLASH = 0.25
 
 
-def draw_plan(
-    stage: Stage, samples: Samples, scene: Scene, robot: Robot, figure: Figure, colours: list[str]
-) -> None:
+def draw_plan(stage: Stage, samples: Samples, scene: Scene, robot: Robot, figure: Figure, colours: list[str]) -> None:
     """Put a plan onto a page: nodes "robot", "com", "paths", "contacts" and "forces"."""
     scale = float(robot.com_height) / 0.7
     draw_figure(stage, samples, figure)
@@ -38,9 +36,7 @@ def draw_plan(
     stage.mesh("paths/com", tube(samples.com_W, 0.011 * scale), COM, glow=0.25)
     for end, colour in enumerate(colours):
         name = robot.end_effectors[end].name
-        stage.mesh(
-            f"paths/{name}", tube(samples.positions_W[:, end], 0.005 * scale, sides=6), colour, glow=0.25
-        )
+        stage.mesh(f"paths/{name}", tube(samples.positions_W[:, end], 0.005 * scale, sides=6), colour, glow=0.25)
     for number, interval in enumerate(samples.intervals):
         _draw_contact(stage, number, interval, samples, robot, colours[interval.end_effector])
     weight = float(robot.mass) * float(scene.gravity)
@@ -70,9 +66,7 @@ def contact_plate(robot: Robot, end: int, margin: float = 0.0) -> Mesh:
     return disc(0.035 * scale + margin, thickness)
 
 
-def _draw_contact(
-    stage: Stage, number: int, interval: Interval, samples: Samples, robot: Robot, colour: str
-) -> None:
+def _draw_contact(stage: Stage, number: int, interval: Interval, samples: Samples, robot: Robot, colour: str) -> None:
     end = interval.end_effector
     at = pose(interval.rotation_W, interval.position_W)
     path = f"contacts/{robot.end_effectors[end].name}/{number}"
@@ -84,9 +78,7 @@ def _draw_contact(
     times = {0.0: 1.0, float(samples.times_s[-1]): 1.0}
     if interval.start_s > 0.0:
         for share in np.linspace(0.0, 1.0, 9):
-            times[min(interval.start_s + FLASH * share, float(samples.times_s[-1]))] = (
-                1.0 + 0.6 * (1.0 - share) ** 2
-            )
+            times[min(interval.start_s + FLASH * share, float(samples.times_s[-1]))] = 1.0 + 0.6 * (1.0 - share) ** 2
     moments = np.array(sorted(times))
     scales = np.array([[times[t], times[t], 1.0] for t in moments])
     stage.move(f"{path}/active", moments, scales=scales)

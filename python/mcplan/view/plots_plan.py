@@ -95,21 +95,15 @@ def plot_forces(plan: Plan) -> Figure:
     normal, tangential = contact_forces(plan, samples)
     used = [e for e in range(len(plan.robot.end_effectors)) if (samples.surfaces[:, e] >= 0).any()]
     colours = end_effector_colours(plan.robot)
-    figure, axes = sheet(
-        max(len(used), 1), 1, size=(10.0, 1.0 + 1.55 * max(len(used), 1)), sharex=True, sharey=True
-    )
+    figure, axes = sheet(max(len(used), 1), 1, size=(10.0, 1.0 + 1.55 * max(len(used), 1)), sharex=True, sharey=True)
     weight = float(plan.robot.mass) * float(plan.scene.gravity)
     top = 1.08 * max(float(np.nanmax(normal, initial=0.0)), weight)
     for row, end in enumerate(used):
         chart = axes[row, 0]
         chart.axhline(weight, color=QUIET, linewidth=0.9, linestyle=":", label="weight")
-        chart.fill_between(
-            samples.times_s, np.nan_to_num(normal[:, end]), color=colours[end], alpha=0.18, linewidth=0
-        )
+        chart.fill_between(samples.times_s, np.nan_to_num(normal[:, end]), color=colours[end], alpha=0.18, linewidth=0)
         chart.plot(samples.times_s, normal[:, end], color=colours[end], linewidth=2.0, label="normal")
-        chart.plot(
-            samples.times_s, tangential[:, end], color=TEXT, linewidth=1.2, linestyle="--", label="tangential"
-        )
+        chart.plot(samples.times_s, tangential[:, end], color=TEXT, linewidth=1.2, linestyle="--", label="tangential")
         cap = float(plan.robot.end_effectors[end].max_force)
         if np.isfinite(cap) and cap < 1.5 * top:
             chart.axhline(cap, color="#B00020", linewidth=0.9, label="cap of the force")
@@ -145,9 +139,7 @@ def plot_friction(plan: Plan) -> Figure:
         chart.plot(samples.times_s, limit, color="#B00020", linewidth=1.2, label="coefficient of friction")
         chart.plot(samples.times_s, ratio, color=colours[end], linewidth=2.0, label="tangential / normal")
         label(chart, y="ratio [-]", title=plan.robot.end_effectors[end].name.replace("_", " "))
-        chart.set_ylim(
-            0.0, 1.15 * float(np.nanmax(np.append(np.concatenate([limit, ratio]), 0.1), initial=0.1))
-        )
+        chart.set_ylim(0.0, 1.15 * float(np.nanmax(np.append(np.concatenate([limit, ratio]), 0.1), initial=0.1)))
     axes[0, 0].set_xlim(0.0, samples.times_s[-1])
     label(axes[-1, 0], x="time [s]")
     handles, names = axes[0, 0].get_legend_handles_labels()

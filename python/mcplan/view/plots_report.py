@@ -35,9 +35,7 @@ def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
 
     rows = [row for row in report.history if len(row.sequence)]
     if not rows:
-        raise ValueError(
-            "report.history: must hold contact sequences, got none (record them in the planner's options)"
-        )
+        raise ValueError("report.history: must hold contact sequences, got none (record them in the planner's options)")
     counts = np.cumsum([row.switches for row in rows])
     # Iterations without a switch change nothing: the last one of each count stands for it.
     latest = {int(count): np.asarray(row.sequence) for count, row in zip(counts, rows, strict=True)}
@@ -46,9 +44,7 @@ def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
     grid = np.array([latest[count] for count in at])  # counts x steps x end-effectors
     surfaces = int(max(grid.max() + 1, len(plan.scene.surfaces) if plan is not None else 1))
     palette = (
-        surface_colours(plan.scene)
-        if plan is not None
-        else [SURFACES[i % len(SURFACES)] for i in range(surfaces)]
+        surface_colours(plan.scene) if plan is not None else [SURFACES[i % len(SURFACES)] for i in range(surfaces)]
     )
     colours = ListedColormap(["#F3F5F7", *palette])
     norm = BoundaryNorm(np.arange(-1.5, surfaces + 0.5), colours.N)
@@ -88,9 +84,7 @@ def plot_cost(report: Report) -> Figure:
     index = [row.index for row in report.history]
     figure, axes = sheet(2, 1, size=(9.0, 4.6), sharex=True, height_ratios=(1, 2))
     weight, cost = axes[:, 0]
-    weight.step(
-        index, [row.contact_weight for row in report.history], where="mid", color=WARM[0], linewidth=2.0
-    )
+    weight.step(index, [row.contact_weight for row in report.history], where="mid", color=WARM[0], linewidth=2.0)
     label(weight, y="weight [-]", title="Weight of the complementarity terms")
     cost.plot(index, [row.cost for row in report.history], color=COM, linewidth=2.0)
     switched = [row for row in report.history if row.switches > 0]

@@ -65,9 +65,7 @@ def stick_robot(samples: Samples, robot: Robot, colours: list[str]) -> Figure:
             parts.append(Part(f"{name}_{link}", capsule(length, radii[i], radii[i + 1]), shades[i], poses))
         half_size = np.asarray(robot.end_effectors[end].half_size, float)
         tip = _hand(limb, scale) if limb.is_arm else _foot(half_size, limb, scale, humanoid)
-        parts.append(
-            Part(f"{name}_tip", tip, colour, pose(samples.rotations_W[:, end], samples.positions_W[:, end]))
-        )
+        parts.append(Part(f"{name}_tip", tip, colour, pose(samples.rotations_W[:, end], samples.positions_W[:, end])))
     return Figure("stick", parts, joints)
 
 
@@ -156,16 +154,10 @@ def _humanoid_body(scale: float, base: Array) -> list[Part]:
         (0.410, 0.052, 0.110, 0.000),
         (0.430, 0.030, 0.050, 0.000),
     ]
-    mesh = rounded_stack(
-        [(z * scale, x * scale, y * scale, shift * scale) for z, x, y, shift in torso], refine=4
-    )
+    mesh = rounded_stack([(z * scale, x * scale, y * scale, shift * scale) for z, x, y, shift in torso], refine=4)
     neck = capsule(0.07 * scale, 0.035 * scale, 0.032 * scale).moved(_shift(0.0, 0.0, 0.42 * scale))
-    head = ellipsoid((0.078 * scale, 0.066 * scale, 0.096 * scale)).moved(
-        _shift(0.012 * scale, 0.0, 0.575 * scale)
-    )
-    visor = ellipsoid((0.040 * scale, 0.054 * scale, 0.024 * scale)).moved(
-        _shift(0.058 * scale, 0.0, 0.592 * scale)
-    )
+    head = ellipsoid((0.078 * scale, 0.066 * scale, 0.096 * scale)).moved(_shift(0.012 * scale, 0.0, 0.575 * scale))
+    visor = ellipsoid((0.040 * scale, 0.054 * scale, 0.024 * scale)).moved(_shift(0.058 * scale, 0.0, 0.592 * scale))
     meshes = {"torso": (mesh, BODY), "neck": (neck, LIMB), "head": (head, HEAD), "visor": (visor, VISOR)}
     return [Part(f"base/{name}", shape, colour, base) for name, (shape, colour) in meshes.items()]
 
@@ -184,13 +176,9 @@ def _trunk(robot: Robot, scale: float, base: Array) -> list[Part]:
             (1.24, 0.02, 0.35),
         )
     ]
-    lying = np.array(
-        [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]
-    )  # the stack's z becomes the body's x
+    lying = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # the stack's z becomes the body's x
     trunk = rounded_stack(levels).moved(pose(lying, np.array([0.0, 0.0, 0.02 * scale])))
-    head = ellipsoid((0.05 * scale, 0.05 * scale, 0.03 * scale)).moved(
-        _shift(1.22 * half[0], 0.0, 0.03 * scale)
-    )
+    head = ellipsoid((0.05 * scale, 0.05 * scale, 0.03 * scale)).moved(_shift(1.22 * half[0], 0.0, 0.03 * scale))
     return [Part("base/torso", trunk, BODY, base), Part("base/head", head, VISOR, base)]
 
 

@@ -45,8 +45,7 @@ def urdf_robot(samples: Samples, robot: Robot) -> Figure:
     postures = follow(model, neutral, samples, robot)
     if postures.residual > LARGEST_MISS:
         raise CannotFollow(
-            f"inverse kinematics of {robot.name} misses {postures.where} "
-            f"by {100.0 * postures.residual:.1f} cm"
+            f"inverse kinematics of {robot.name} misses {postures.where} by {100.0 * postures.residual:.1f} cm"
         )
     data = model.createData()
     placements = []
@@ -97,9 +96,7 @@ def load_urdf(robot: Robot) -> tuple[Any, Any, Array]:
         neutral[model.joints[model.getJointId(joint)].idx_q] = angle
     for number, end in enumerate(robot.end_effectors):
         if not model.existFrame(end.frame):
-            raise InvalidRobot(
-                f"end_effectors[{number}].frame", "must name a frame of the URDF", repr(end.frame)
-            )
+            raise InvalidRobot(f"end_effectors[{number}].frame", "must name a frame of the URDF", repr(end.frame))
     return model, visual, neutral
 
 

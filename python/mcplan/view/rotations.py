@@ -38,9 +38,7 @@ def between(start: Array, end: Array, share: float) -> Array:
     angle = float(np.arccos(np.clip((np.trace(relative) - 1.0) / 2.0, -1.0, 1.0)))
     if angle < 1e-9:
         return end.copy()
-    skew = np.array(
-        [relative[2, 1] - relative[1, 2], relative[0, 2] - relative[2, 0], relative[1, 0] - relative[0, 1]]
-    )
+    skew = np.array([relative[2, 1] - relative[1, 2], relative[0, 2] - relative[2, 0], relative[1, 0] - relative[0, 1]])
     if np.linalg.norm(skew) < 1e-9:  # half a turn: the axis is the eigenvector of eigenvalue 1
         values, vectors = np.linalg.eigh(0.5 * (relative + relative.T))
         axis = vectors[:, np.argmax(values)]

@@ -48,9 +48,7 @@ def surface_drawings(scene: Scene, extent: Extent) -> list[SurfaceDrawing]:
         colour = GRASP if surface.grasp else WALL if wall else GROUND
         grid = grid_lines(outline, GRID) if normal[2] > 0.3 and not surface.grasp else np.zeros((0, 2, 3))
         mesh = prism(outline, float(surface.thickness))
-        drawings.append(
-            SurfaceDrawing(surface.name, outline, normal, mesh, colour, 0.35 if wall else 1.0, grid)
-        )
+        drawings.append(SurfaceDrawing(surface.name, outline, normal, mesh, colour, 0.35 if wall else 1.0, grid))
     return drawings
 
 

@@ -78,9 +78,7 @@ def ellipsoid(radii: tuple[float, float, float], sides: int = 28) -> Mesh:
     """Ellipsoid about the origin, half axes [m]."""
     angles = np.linspace(-np.pi / 2.0, np.pi / 2.0, sides // 2 + 1)
     ring = circle(sides)
-    rings = np.array(
-        [np.column_stack([max(np.cos(a), 1e-3) * ring, np.full(sides, np.sin(a))]) for a in angles]
-    )
+    rings = np.array([np.column_stack([max(np.cos(a), 1e-3) * ring, np.full(sides, np.sin(a))]) for a in angles])
     return loft(rings * np.asarray(radii))
 
 
@@ -101,8 +99,7 @@ def rounded_stack(levels: list[tuple[float, float, float, float]], sides: int = 
     ring = circle(sides)
     square = np.sign(ring) * np.abs(ring) ** 0.6  # superellipse of exponent 10/3
     rings = [
-        np.column_stack([x * square[:, 0] + shift, y * square[:, 1], np.full(sides, z)])
-        for z, x, y, shift in levels
+        np.column_stack([x * square[:, 0] + shift, y * square[:, 1], np.full(sides, z)]) for z, x, y, shift in levels
     ]
     return loft(np.array(rings))
 

@@ -21,9 +21,7 @@ Array = NDArray[np.float64]
 QUIET = "#6B7480"
 
 
-def sheet(
-    rows: int, columns: int = 1, size: tuple[float, float] = (9.0, 4.0), **options: Any
-) -> tuple[Figure, Array]:
+def sheet(rows: int, columns: int = 1, size: tuple[float, float] = (9.0, 4.0), **options: Any) -> tuple[Figure, Array]:
     """A figure with rows x columns axes (an array of that shape); size in inches.
 
     Raises:

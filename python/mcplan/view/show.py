@@ -26,9 +26,7 @@ if TYPE_CHECKING:
 FRAME_RATE = 30.0
 
 
-def show(
-    plan: Plan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None
-) -> Page:
+def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
     """Draw a plan for the browser.
 
     Args:
@@ -91,11 +89,12 @@ def show_scene(scene: Scene, robot: Robot | None = None) -> Page:
         colours = end_effector_colours(robot)
         for name, stance, opacity in (("start", scene.start, 1.0), ("goal", scene.goal, 0.35)):
             standing = stance_samples(scene, robot, resolve_stance(scene, robot, stance, name))
-            draw_standing(stage, name, standing, stick_robot(standing, robot, colours), opacity)
+            draw_standing(stage, name, standing, figure_of(standing, robot, colours), opacity)
             head = np.array([0.0, 0.0, 0.95 * float(robot.com_height)])
             points += [standing.com_W + head, standing.positions_W[0]]
     lines = [scene.description] if scene.description else []
-    lines.append(f"{len(scene.surfaces)} surfaces")
+    count = len(scene.surfaces)
+    lines.append(f"{count} surface{'' if count == 1 else 's'}")
     return Page(
         title=scene.name,
         payload=stage.payload(),

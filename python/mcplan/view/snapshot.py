@@ -17,9 +17,7 @@ def find_browser() -> str | None:
     return next((path for name in BROWSERS if (path := shutil.which(name))), None)
 
 
-def screenshot(
-    html: str, target: Path, fragment: str, size: tuple[int, int], timeout_s: float = 120.0
-) -> Path:
+def screenshot(html: str, target: Path, fragment: str, size: tuple[int, int], timeout_s: float = 120.0) -> Path:
     """Write a PNG of a page.
 
     Args:

@@ -127,13 +127,9 @@ class Stage:
                 for path, tracks in self._clips.items()
             ]
             options = {"play": True, "repetitions": 1_000_000_000}
-            commands.append(
-                {"type": "set_animation", "path": "", "animations": animations, "options": options}
-            )
+            commands.append({"type": "set_animation", "path": "", "animations": animations, "options": options})
         packed = [self._umsgpack.packb(command) for command in commands]
-        return gzip.compress(
-            b"".join(struct.pack("<I", len(p)) + p for p in packed), compresslevel=9, mtime=0
-        )
+        return gzip.compress(b"".join(struct.pack("<I", len(p)) + p for p in packed), compresslevel=9, mtime=0)
 
     def _track(self, name: str, kind: str, times_s: Array, values: Array) -> dict[str, Any]:
         if np.ptp(values, axis=0).max() < 1e-7:

@@ -25,9 +25,7 @@ def view_points(drawings: list[SurfaceDrawing], samples: Samples, robot: Robot) 
     # Large surfaces may run out of the picture; what the robot touches may not.
     small = [d.outline for d in drawings if np.ptp(d.outline, axis=0).max() < 2.5]
     near = [
-        p
-        for p in (np.vstack(small) if small else np.zeros((0, 3)))
-        if np.all(p > low - 1.0) and np.all(p < high + 1.0)
+        p for p in (np.vstack(small) if small else np.zeros((0, 3))) if np.all(p > low - 1.0) and np.all(p < high + 1.0)
     ]
     margin = np.array([[-0.35, 0.0, 0.0], [0.35, 0.0, 0.0], [0.0, -0.35, 0.0], [0.0, 0.35, 0.0]])
     floor = (samples.positions_W[[0, -1]].reshape(-1, 1, 3) + margin).reshape(-1, 3)
