@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mcplan._core import Polygon, resolve_stance
 
 import malformed
 import mcplan as mp
+from mcplan._core import Polygon, resolve_stance
 from mcplan.files.builtin import DATA
 from mcplan.files.scenes import list_scenes, load_scene, save_scene, scene_from_dict, scene_to_dict
 from mcplan.files.toml import toml_text, tomllib

@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import json
 
+from pydantic import BaseModel
+
 from mcplan.files.builtin import DATA
 from mcplan.files.models import RobotModel, SceneModel
 
-MODELS = {"scene": SceneModel, "robot": RobotModel}
+MODELS: dict[str, type[BaseModel]] = {"scene": SceneModel, "robot": RobotModel}
 
 
 def schema_text(name: str) -> str:

@@ -236,7 +236,9 @@ def _search_box(nominal: np.ndarray, end: End, com_height: float) -> tuple[np.nd
     return np.array([nominal[0] - ahead, y[0], low]), np.array([nominal[0] + ahead, y[1], high])
 
 
-def _both_sides(made: dict[str, Any], end: End, com_height: float) -> list[np.ndarray]:
+def _both_sides(
+    made: dict[str, Any], end: End, com_height: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Nominal position and box shared with the twin: the mean position, the intersection of the boxes."""
     nominal, low, high = (value.copy() for value in made[end.name])
     if end.twin in made:
@@ -249,7 +251,7 @@ def _both_sides(made: dict[str, Any], end: End, com_height: float) -> list[np.nd
         nominal[2] = -round(com_height, 3)  # all soles on the ground
     inset = 0.0 if end.kind == "foot" else HAND_INSET_M
     low, high = low.round(3), high.round(3)
-    return [np.clip(nominal, low + inset, high - inset).round(3), low, high]
+    return np.clip(nominal, low + inset, high - inset).round(3), low, high
 
 
 def _end_effector(
