@@ -15,7 +15,7 @@ from mcplan.files.builtin import DATA
 from mcplan.files.generate import KINDS, mirrored, moved, random_scene, stepping_stones_text
 from mcplan.files.scenes import scene_to_dict
 
-SEEDS = range(60)
+SEEDS = range(80)
 
 
 def test_stepping_stones_is_what_its_seed_gives():
