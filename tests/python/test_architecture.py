@@ -31,6 +31,7 @@ OPENMP_ROOMS = {"ddp", "rhp", "sip"}
 # front, which others import for annotations only
 _GROUND = {"_core", "errors", "extras"}
 PYTHON_ROOMS = {
+    "__main__": {"cli"},
     "_core": set(),
     "errors": set(),
     "extras": {"errors"},

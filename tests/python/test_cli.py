@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import types
 from pathlib import Path
 
 import pytest
@@ -170,6 +171,54 @@ def test_a_broken_plan_file_is_named(capsys, tmp_path):
     (tmp_path / "bad.npz").write_bytes(b"PK")
     message = one_line_error(run(capsys, "check", tmp_path / "bad.npz"))
     assert message.startswith(f"{tmp_path / 'bad.npz'}: must be an .npz file written by mcplan")
+
+
+def solve_result(status: str = "solved") -> types.SimpleNamespace:
+    """What mcplan.plan returns, with the report made up."""
+    report = types.SimpleNamespace(
+        status=status, message="", cost=1.5, cost_terms={"com": 1.0, "limit": float("nan")}, iterations=20, time_s=0.1,
+        switches=4, seed=7, threads=2, version="0.1.0",
+        worst_violation=mp.Violation(name="reach", phase=1, end_effector="left_foot", time_s=0.5, value=-0.01, unit="m"),
+    )  # fmt: skip
+    return types.SimpleNamespace(plan=standing_plan(), report=report)
+
+
+def test_plan_hands_its_options_on_and_prints_json(capsys, tmp_path, monkeypatch):
+    given = []
+    monkeypatch.setattr(mp, "plan", lambda *args, **options: given.append((args, options)) or solve_result())
+    words = ["plan", "flat", "--robot", "talos", "--phases", 20, "--method", "paper", "--time-limit", 1.5]
+    words += ["--threads", 2, "--seed", 7, "-o", tmp_path / "plan.npz", "--json"]
+    code, out, _ = run(capsys, *words)
+    assert code == 0
+    assert given == [
+        (("flat", "talos"), {"phases": 20, "method": "paper", "time_limit": 1.5, "threads": 2, "seed": 7})
+    ]
+    assert mp.check(mp.Plan.load(tmp_path / "plan.npz")).ok()
+    report = json.loads(out, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
+    assert report["contact_sequence"] == [["ground", "ground", None, None]] * 3
+    assert report["durations_s"] == [0.4] * 3 and report["phases"] == 3 and report["flight_phases"] == 0
+    assert report["iteration_ms"] == pytest.approx(5.0)
+    assert report["cost_terms"] == {"com": 1.0, "limit": None}
+    assert report["worst_violation"]["name"] == "reach" and report["worst_violation"]["value"] == -0.01
+    same = {"scene": "flat", "robot": "humanoid44", "status": "solved", "cost": 1.5, "iterations": 20, "time_s": 0.1}
+    same |= {"switches": 4, "seed": 7, "threads": 2, "version": "0.1.0"}
+    assert {key: report[key] for key in same} == same
+
+
+@pytest.mark.parametrize(("status", "expected"), [("solved", 0), ("acceptable", 1), ("time_limit", 1), ("infeasible", 1)])
+def test_only_a_solved_plan_gives_exit_code_0(status, expected, capsys, monkeypatch):
+    monkeypatch.setattr(mp, "plan", lambda *args, **options: solve_result(status))
+    code, out, _ = run(capsys, "plan", "flat")
+    assert code == expected
+    assert out.startswith(f"flat  humanoid44  {status} ")
+    assert "right_foot  0 0 0" in out and "right_hand  - - -" in out and "reach at left_foot" in out
+
+
+@pytest.mark.parametrize("option", ["-o", "--html"])
+def test_a_folder_that_does_not_exist_is_said_before_planning(option, capsys, monkeypatch):
+    monkeypatch.setattr(mp, "plan", lambda *args, **options: pytest.fail("planned"))
+    message = one_line_error(run(capsys, "plan", "flat", option, "/nowhere/at/all"))
+    assert "must lie in a folder that exists, got /nowhere/at/all" in message
 
 
 def test_a_missing_extra_says_what_to_install(capsys, tmp_path, monkeypatch):

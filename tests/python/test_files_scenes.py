@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mcplan._core import Polygon, resolve_stance
 
 import malformed
 import mcplan as mp
+from mcplan._core import Polygon, resolve_stance
 from mcplan.files.builtin import DATA
 from mcplan.files.scenes import list_scenes, load_scene, save_scene, scene_from_dict, scene_to_dict
 from mcplan.files.toml import toml_text, tomllib
@@ -209,3 +209,9 @@ def scenes(draw):
 def test_every_scene_survives_toml(scene):
     data = scene_to_dict(scene)
     assert scene_to_dict(scene_from_dict(tomllib.loads(toml_text(data)))) == data
+
+
+def test_the_scene_of_the_documentation_is_valid():
+    page = (DATA.parents[2] / "docs" / "scenes_and_robots.md").read_text()
+    scene = scene_from_dict(tomllib.loads(page.split("```toml\n")[1].split("```")[0]))
+    assert [surface.name for surface in scene.surfaces] == ["ground", "ledge"]

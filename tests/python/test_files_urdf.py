@@ -61,7 +61,7 @@ def test_points_a_leg_length_too_far_are_not_reached(loaded):
 
 
 def test_jacobian_of_a_limb_agrees_with_differences(loaded):
-    robot, setup, model, posture = loaded
+    _, setup, model, posture = loaded
     rng = np.random.default_rng(0)
     for end in setup.ends:
         limb = limb_of(model, posture, end, setup.ends)

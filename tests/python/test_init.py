@@ -169,7 +169,7 @@ def test_rotation_helpers_agree_with_each_other():
     rpy = np.array([0.3, -0.4, 1.2])
     rotation = _core.rotation_from_rpy(rpy)
     np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-15)
-    w, x, y, z = _core.quat_wxyz_from_rpy(rpy)
+    w, x, _, _ = _core.quat_wxyz_from_rpy(rpy)
     assert rotation[2, 1] - rotation[1, 2] == pytest.approx(4 * w * x)
     assert np.trace(rotation) == pytest.approx(4 * w * w - 1)
     for i in range(3):

@@ -7,13 +7,13 @@ namespace mcplan::ddp {
 namespace {
 
 /// Steps first..last in which an end-effector is free between contacts `before` and `after`.
-struct FreeStretch {
+struct SwingSpan {
   int end, first, last;
   int before, after;
 };
 
-std::vector<FreeStretch> free_stretches(const ContactSequence& sequence) {
-  std::vector<FreeStretch> out;
+std::vector<SwingSpan> swing_spans(const ContactSequence& sequence) {
+  std::vector<SwingSpan> out;
   const int n = static_cast<int>(sequence.size()) - 1;
   for (std::size_t l = 0; l < sequence[0].size(); ++l)
     for (int k = 1; k < n; ++k) {
@@ -39,7 +39,7 @@ class Editor {
   }
 
   /// The sequence with a swing moved to other steps; its contacts grow or shrink to meet it.
-  ContactSequence moved(const FreeStretch& s, int first, int last) const {
+  ContactSequence moved(const SwingSpan& s, int first, int last) const {
     ContactSequence out = sequence_;
     for (int k = std::min(first, s.first); k <= std::max(last, s.last); ++k)
       out[k][s.end] = k < first ? s.before : (k > last ? s.after : kFree);
@@ -59,9 +59,9 @@ class Editor {
 
 std::vector<ContactSequence> swing_edits(const ContactRules& rules, const ContactSequence& sequence) {
   const int n = static_cast<int>(sequence.size()) - 1;
-  const std::vector<FreeStretch> swings = free_stretches(sequence);
+  const std::vector<SwingSpan> swings = swing_spans(sequence);
   Editor editor(rules, sequence);
-  for (const FreeStretch& s : swings) {
+  for (const SwingSpan& s : swings) {
     for (int by : {-2, -1, 1, 2})
       if (s.first + by > 0 && s.last + by < n) editor.keep(editor.moved(s, s.first + by, s.last + by));
     if (s.before == s.after) {
@@ -80,7 +80,7 @@ std::vector<ContactSequence> swing_edits(const ContactRules& rules, const Contac
         editor.keep(handed);
       }
     }
-    for (const FreeStretch& t : swings) {
+    for (const SwingSpan& t : swings) {
       if (t.end <= s.end || s.before != s.after || t.before != t.after || s.before != t.before) continue;
       if (t.last < s.first - 6 || t.first > s.last + 6) continue;
       ContactSequence exchanged = sequence;

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstdio>
+#include <limits>
 
 #include "mcplan/ddp/search.hpp"
 
@@ -79,7 +78,6 @@ bool Search::make_exact(Incumbent& now) {
     model_.expand(trajectory, schedule);
     double defect = 0.0;
     for (int k = 0; k < problem_->steps; ++k) defect = std::max(defect, model_.defect(k).lpNorm<Eigen::Infinity>());
-      if(getenv("DBG"))printf("exact it %d defect %.2e\n",i,defect);
     if (!std::isfinite(defect)) return false;
     if (defect < kRounding) {
       now.trajectory = trajectory;
@@ -89,7 +87,6 @@ bool Search::make_exact(Incumbent& now) {
     }
     if (!values_.backward(now.sequence, problem_->steps)) return false;
     values_.state_forward(dx_, du_);
-    if(getenv("DBG")&&i<2){for(int k=0;k<=problem_->steps;k++){printf("k %d |d| %.1e dx p %.1e v %.1e th %.1e om %.1e pl %.1e",k,k<problem_->steps?model_.defect(k).norm():0,dx_[k].head(3).norm(),dx_[k].segment(3,3).norm(),dx_[k][6],dx_[k][7],dx_[k].tail(3*at.ends()).norm());if(k<problem_->steps)printf(" stride %.1e mu %.1e tau %.1e h %.1e",du_[k].head(3*at.ends()).norm(),du_[k].segment(at.stiffness(0),at.ends()).norm(),du_[k].segment(at.moment(0),at.moment_count()).norm(),du_[k][at.duration()]);puts("");}}
     for (int k = 0; k <= problem_->steps; ++k) trajectory.x[k] += dx_[k];
     for (int k = 0; k < problem_->steps; ++k) trajectory.u[k] += du_[k];
     snap_positions(*problem_, now.sequence, trajectory);

@@ -11,7 +11,7 @@ void add_base_rows(const Problem& problem, int k, const VectorXd& x, const Vecto
   task_cost(problem, k, x, u, rows);
   reach_cost(problem, x, rows);
   if (!u) return;
-  duration_cost(problem, *u, rows);
+  duration_cost(problem, k, *u, rows);
   bounds_cost(problem, *u, rows);
 }
 

@@ -22,7 +22,7 @@ void require_weight(const char* field, double value) {
 }  // namespace
 
 void Options::validate() const {
-  require_at_least("phases", phases, 2);
+  require_at_least("phases", phases, 1);
   if (phases > 2000) throw InvalidOptions("phases", "must be 2000 at most", text(phases));
   require_positive("duration_min_s", duration_min_s);
   require_positive("duration_initial_s", duration_initial_s);
@@ -50,6 +50,7 @@ void Options::validate() const {
   require_weight("weights.stiffness", weights.stiffness);
   require_weight("weights.moment", weights.moment);
   require_weight("weights.limit", weights.limit);
+  require_weight("weights.flight", weights.flight);
   require_weight("weights.duration", weights.duration);
   require_positive("weights.contact_min", weights.contact_min);
   require_positive("weights.contact_max", weights.contact_max);

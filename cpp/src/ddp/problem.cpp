@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "mcplan/base/error.hpp"
@@ -94,13 +93,21 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   }
   std::vector<StateRule> state_rules;
   for (const ContactRule& rule : scene.rules) {
-    const std::vector<int> require = addressed(rule.require, robot, active);
-    // Counted on the robot, not on the active ones: a required hand that may touch nothing can never be in contact.
-    int required = 0;
-    for (const EndEffector& e : robot.end_effectors)
-      required += std::any_of(rule.require.begin(), rule.require.end(), [&](const auto& w) { return addresses(w, e); });
-    StateRule state_rule{addressed(rule.when_free, robot, active), require};
-    if (required == 0 || required != static_cast<int>(require.size())) state_rule.require = state_rule.when_free;
+    // Judged on the whole robot: a rule about what it does not have is void, and what a required name does not find, or
+    // finds among those that may touch nothing, can never be in contact.
+    const auto known = [&](const std::string& who) {
+      return std::any_of(robot.end_effectors.begin(), robot.end_effectors.end(),
+                         [&](const EndEffector& e) { return addresses(who, e); });
+    };
+    if (std::none_of(rule.when_free.begin(), rule.when_free.end(), known)) continue;
+    bool possible = std::all_of(rule.require.begin(), rule.require.end(), known);
+    for (int e = 0; e < robot_ends; ++e)
+      for (const std::string& who : rule.require)
+        if (addresses(who, robot.end_effectors[e]) && std::find(active.begin(), active.end(), e) == active.end())
+          possible = false;
+    StateRule state_rule{addressed(rule.when_free, robot, active), addressed(rule.require, robot, active)};
+    // Unless one of `when_free` stands: the only way to keep a rule whose demand cannot be met.
+    if (!possible) state_rule.require = state_rule.when_free;
     state_rules.push_back(state_rule);
   }
   rules = ContactRules(surfaces, state_rules, options.one_switch_per_step);
@@ -146,23 +153,46 @@ Vector3d Problem::rpy(const VectorXd& x) const {
   return out;
 }
 
-Trajectory Problem::initial_guess() const {
+Trajectory Problem::initial_guess(const ContactSequence& sequence) const {
   Trajectory guess = reference;
-  int standing = 0;
-  for (int contact : start_contacts) standing += contact != kFree;
-  // The paper's program starts with the weight spread over all end-effectors, hands included.
-  const bool spread = options.method == Method::paper || standing == 0 || getenv("SPREAD");
   for (int k = 0; k < steps; ++k) {
     VectorXd u = VectorXd::Zero(layout.nu());
+    int standing = 0;
+    if (!sequence.empty())
+      for (int contact : sequence[k]) standing += contact != kFree;
     for (int l = 0; l < layout.ends(); ++l) {
       u.segment<3>(layout.stride(l)) = guess.x[k + 1].segment<3>(layout.end(l)) - guess.x[k].segment<3>(layout.end(l));
-      const double mu = spread ? 1.0 / layout.ends() : (start_contacts[l] != kFree ? 1.0 / standing : 0.0);
+      double mu = 1.0 / layout.ends();
+      if (!sequence.empty()) mu = sequence[k][l] == kFree ? 0.0 : 1.0 / standing;
       u[layout.stiffness(l)] = options.stiffness_input == StiffnessInput::lambda ? std::sqrt(mu) : mu;
     }
-    u[layout.duration()] = duration_initial;
+    u[layout.duration()] = k == 0 && first_duration > 0.0 ? first_duration : duration_initial;
     guess.u.push_back(u);
   }
   return guess;
+}
+
+ContactSequence Problem::to_active(const ContactSequence& sequence) const {
+  const std::string field = "initial_sequence";
+  if (static_cast<int>(sequence.size()) != steps + 1)
+    throw InvalidOptions(field, "must have phases + 1 rows (" + text(steps + 1) + ")", text(static_cast<int>(sequence.size())));
+  ContactSequence out;
+  for (std::size_t k = 0; k < sequence.size(); ++k) {
+    if (sequence[k].size() != robot.end_effectors.size())
+      throw InvalidOptions(field + "[" + std::to_string(k) + "]", "must be one surface per end-effector (" +
+                           text(static_cast<int>(robot.end_effectors.size())) + ")", text(static_cast<int>(sequence[k].size())));
+    out.emplace_back();
+    for (int e : active) out.back().push_back(sequence[k][e]);
+    for (std::size_t e = 0; e < sequence[k].size(); ++e)
+      if (sequence[k][e] != kFree && std::find(active.begin(), active.end(), static_cast<int>(e)) == active.end())
+        throw InvalidOptions(field + "[" + std::to_string(k) + "][" + std::to_string(e) + "]",
+                             "must be -1: " + robot.end_effectors[e].name + " may touch nothing here", text(sequence[k][e]));
+  }
+  if (out.front() != start_contacts || out.back() != goal_contacts)
+    throw InvalidOptions(field, "must go from the start's contacts to the goal's", "others");
+  if (!rules.valid(out))
+    throw InvalidOptions(field, "must keep permissions, rules and at most one switch a step", "a sequence that does not");
+  return out;
 }
 
 void Problem::set_start(const Knot& measured, const ContactState& contacts) {

@@ -29,6 +29,7 @@ void check_stance(const Problem& problem, Constraint constraint, const ResolvedS
 
 /// In addition, what is in contact at the start stands where the nominal stance puts it.
 void check_start(const Problem& problem, Findings& findings) {
+  if (problem.plan.measured_start) return;
   const ResolvedStance stance = resolve_stance(problem.scene, problem.robot, problem.scene.start, "start");
   check_stance(problem, Constraint::start, stance, 0, findings);
   for (int l = 0; l < problem.end_effector_count(); ++l) {

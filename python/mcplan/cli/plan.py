@@ -42,8 +42,12 @@ def plan(
 
     Example: mcplan plan stairs --robot talos -o plan.npz --html plan.html
     """
+    from mcplan.errors import InvalidInput
     from mcplan.extras import require
 
+    for option, path in (("--output", output), ("--html", html)):
+        if path is not None and not path.parent.is_dir():  # said now, not after the plan has been found
+            raise InvalidInput(option, "must lie in a folder that exists", str(path))
     if html is not None:
         require("mcplan plan --html", "view", "meshcat")
     if plots is not None:

@@ -68,9 +68,9 @@ def _rule(model: type[BaseModel], finding: Any) -> str:
         return f"may have {context['max_length']} entries at most"
     if kind == "too_short":
         least = context["min_length"]
-        return f"needs at least {least} {'point' if finding['loc'][-1] == 'vertices' else 'entr'}" + (
-            ("s" if finding["loc"][-1] == "vertices" else "ies") if least > 1 else "y"
-        )
+        if finding["loc"][-1] == "vertices":
+            return f"needs at least {least} points"
+        return f"needs at least {least} {'entry' if least == 1 else 'entries'}"
     return finding["msg"][0].lower() + finding["msg"][1:]
 
 

@@ -47,7 +47,7 @@ def stairs(rng: Random) -> Scene:
     """Two or three treads up: pitch 0.35 to 0.50 m, rise 0.05 to 0.12 m, treads at least 0.22 m deep."""
     pitch, rise, count = rng.uniform(0.35, 0.5), rng.uniform(0.05, 0.12), rng.randint(2, 3)
     depth = rng.uniform(0.22, min(pitch, 0.30))
-    first = rng.uniform(0.3, 0.4)
+    first = max(rng.uniform(0.3, 0.4), pitch - depth + 0.12)  # the ground ends 0.12 m ahead of the start or further
     surfaces = [_rectangle("ground", -1.0, first - pitch + depth, 0.0)]
     for i in range(count):
         begin = first + i * pitch

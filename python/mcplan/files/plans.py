@@ -18,7 +18,7 @@ import zipfile
 import zlib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -109,7 +109,11 @@ def plan_to_bytes(plan: Plan) -> bytes:
     ):
         arrays[name] = np.array([getattr(knot, name) for knot in plan.knots])
     buffer = io.BytesIO()
+<<<<<<< HEAD
     np.savez(buffer, allow_pickle=False, **arrays)
+=======
+    np.savez(buffer, **cast(Any, arrays))
+>>>>>>> files
     return buffer.getvalue()
 
 

@@ -236,7 +236,9 @@ def _search_box(nominal: np.ndarray, end: End, com_height: float) -> tuple[np.nd
     return np.array([nominal[0] - ahead, y[0], low]), np.array([nominal[0] + ahead, y[1], high])
 
 
-def _both_sides(made: dict[str, Any], end: End, com_height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _both_sides(
+    made: dict[str, Any], end: End, com_height: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Nominal position and box shared with the twin: the mean position, the intersection of the boxes."""
     nominal, low, high = (value.copy() for value in made[end.name])
     if end.twin in made:

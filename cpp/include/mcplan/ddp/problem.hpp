@@ -56,6 +56,7 @@ class Problem {
   std::vector<double> friction;             ///< by scene surface; infinite where it may be held (grasp)
   std::vector<EndLimits> limits;            ///< by active end-effector
   Eigen::Vector3d inertia;                  ///< in units of mass length^2
+  double first_duration = 0.0;              ///< what is left of the first phase when replanning, else 0
   double duration_min = 0.0, duration_max = 0.0, duration_initial = 0.0;
   Eigen::Vector3d base_rpy;                 ///< angles of the axes that are not in the layout
   ContactRules rules;
@@ -66,8 +67,14 @@ class Problem {
   /// Roll, pitch, yaw of a state.
   Eigen::Vector3d rpy(const Eigen::VectorXd& x) const;
 
-  /// First guess: the reference with weight on the contacts of the start, constant stiffness and duration.
-  Trajectory initial_guess() const;
+  /// First guess: the reference at constant duration. Without a sequence the weight is spread over all end-effectors,
+  /// which lets the search see what every one of them could do (measured: with the weight on the feet alone it never
+  /// finds the hands of gap_with_rail); with one it rests on those in contact.
+  Trajectory initial_guess(const ContactSequence& sequence) const;
+
+  /// A sequence given by all end-effectors of the robot, for the active ones. Throws InvalidOptions when it does not fit:
+  /// steps + 1 rows, valid, from the start's contacts to the goal's.
+  ContactSequence to_active(const ContactSequence& sequence) const;
 
   /// Start from a measured state instead of the scene's; `contacts` by active end-effector.
   void set_start(const Knot& measured, const ContactState& contacts);

@@ -51,29 +51,34 @@ struct Incumbent {
   Evaluation evaluation;
 };
 
-/// How one attempt varies from the options.
-struct Attempt {
-  double proximal_weight = 30.0;
-  double duration_initial_s = 0.45;
-  StiffnessInput input = StiffnessInput::mu;
-  int free_iterations = 40;     ///< with the sequence free
-  int polish_iterations = 100;  ///< with the sequence frozen, at most
-};
-
-/// One descent from a first guess: search with a growing contact weight, then polish with the sequence frozen.
+/// Descends from a first guess in three stages: discover() with a growing contact weight and the sequence free, polish()
+/// with the sequence frozen, refine() by trying changed sequences one by one on the true cost. Each returns
+/// Status::solved to go on, or why it stopped; `now` always holds the best iterate.
 class Search {
  public:
   Search(const Problem& problem, const Deadline& deadline, Report& report);
 
-  /// Runs to convergence or a limit. `now` is the first guess and holds the best iterate at the end. Returns solved when
-  /// it converged (the checker has not seen it yet).
-  Status run(Incumbent& now, const Attempt& attempt, bool keep_sequence);
+  /// Switched DDP with growing w_compl (Tazaki, Algorithm 1) and a proximal term.
+  Status discover(Incumbent& now, double proximal_weight);
 
-  /// Drive the dynamics defects to rounding with the contacts exact: end-effectors on their surfaces and at rest, no
-  /// force where there is no contact.
+  /// Gauss-Newton at the full weights until the merit is calm. Gives up once the merit, extrapolated, stays above
+  /// `give_up_above`.
+  Status polish(Incumbent& now, int iterations, double calm, double give_up_above);
+
+  /// Best-neighbour search on the true cost: neighbours and swing edits, cheapest by the local model first, each polished
+  /// for a few iterations and kept if the merit falls.
+  Status refine(Incumbent& now);
+
+  /// Tazaki's Algorithms 1 and 2 as published, for `iterations`: full defect steps of fixed length, switches accepted on
+  /// the quadratic model, J* from infinity, every neighbour priced by MINCOST.
+  Status run_paper(Incumbent& now, int iterations);
+
+  /// Close the dynamics defects to rounding with the contacts exact: end-effectors on their surfaces and at rest, no
+  /// force where there is no contact. False when that does not converge; `now` is then unchanged.
   bool make_exact(Incumbent& now);
 
   LocalModel& model() { return model_; }
+  Evaluation evaluate(const Incumbent& at);  ///< at the full weights
 
  private:
   struct Candidate {
@@ -82,14 +87,15 @@ class Search {
     double step = 0.0;
   };
 
-  Status polish(Incumbent& now, Schedule& schedule, int iterations, double give_up_above);
-  Status refine(Incumbent& now, Schedule& schedule);
+  Schedule full_schedule() const;
   Status iterate(Incumbent& now, Schedule& schedule, bool free_sequence);
   bool line_search(const Incumbent& now, const ContactSequence& sequence, const Schedule& schedule, double merit,
                    Candidate& best);
   int switch_contacts(ContactSequence& sequence, Iteration& row);
+  bool paper_switches(Incumbent& now, Iteration& row);
+  std::vector<ContactSequence> ranked_changes(const Incumbent& now);
   bool should_stop(Status& status) const;
-  void log(const Iteration& row) const;
+  void record(Iteration&& row, const Incumbent& now, const Schedule& schedule);
 
   const Problem* problem_;
   const Deadline* deadline_;
@@ -100,7 +106,7 @@ class Search {
   Evaluator evaluate_;
   std::vector<Eigen::VectorXd> dx_, du_;
   Candidate stay_, moved_;
-  int whole_moves_left_ = 0;
+  double polish_proximal_ = 10.0;
 };
 
 }  // namespace mcplan::ddp

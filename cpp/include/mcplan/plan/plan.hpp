@@ -79,6 +79,7 @@ class Plan {
   std::vector<Phase> phases;
   std::vector<int> final_contacts;    ///< surface index per end-effector after the last phase
   std::vector<Swing> swings;
+  bool measured_start = false;        ///< starts from a measured state, not from the scene's start
 
   double duration() const;            ///< [s]
   std::vector<double> knot_times() const;  ///< [s], phases + 1 entries, from 0

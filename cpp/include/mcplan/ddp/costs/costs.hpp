@@ -30,7 +30,7 @@ void task_cost(const Problem& problem, int k, const Eigen::VectorXd& x, const Ei
 
 /// Durations: towards the middle of their box, and inside it (not in the paper, which leaves h unbounded; its author's
 /// program has the box).
-void duration_cost(const Problem& problem, const Eigen::VectorXd& u, Rows& rows);
+void duration_cost(const Problem& problem, int k, const Eigen::VectorXd& u, Rows& rows);
 
 /// 0 <= mu_l <= mu_max and |tau_l| <= tau_max (Tazaki, eqs. 17-18).
 void bounds_cost(const Problem& problem, const Eigen::VectorXd& u, Rows& rows);

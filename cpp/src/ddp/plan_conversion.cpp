@@ -1,0 +1,172 @@
+#include "mcplan/ddp/plan_conversion.hpp"
+
+#include <cmath>
+
+#include "mcplan/base/rotation.hpp"
+#include "mcplan/plan/clearance.hpp"
+
+namespace mcplan::ddp {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+Knot make_knot(const Problem& problem, const VectorXd& x) {
+  const Layout& at = problem.layout;
+  const Units& units = problem.units;
+  Knot knot;
+  knot.com_W = x.segment<3>(at.com()) * units.length;
+  knot.com_velocity_W = x.segment<3>(at.velocity()) * units.velocity();
+  knot.base_rpy = problem.rpy(x);
+  for (int a = 0; a < at.axis_count(); ++a) knot.base_rpy_rate[at.axes()[a]] = x[at.rate(a)] / units.time;
+  // Idle end-effectors ride along at their nominal place.
+  const Eigen::Matrix3d r_WB = rotation_from_rpy(knot.base_rpy);
+  for (const EndEffector& end : problem.robot.end_effectors) {
+    knot.end_effectors_W.push_back(knot.com_W + r_WB * end.nominal_B);
+    knot.end_effector_velocities_W.push_back(knot.com_velocity_W);
+  }
+  for (int l = 0; l < at.ends(); ++l) knot.end_effectors_W[problem.active[l]] = x.segment<3>(at.end(l)) * units.length;
+  return knot;
+}
+
+bool touches(const Plan& plan, int k, int e) {
+  const int n = static_cast<int>(plan.phases.size());
+  if (k < 0 || k > n) return false;
+  return (k == n ? plan.final_contacts[e] : plan.phases[k].contacts[e].surface) != kFree;
+}
+
+/// Zero where a contact begins or ends, else the mean velocity between the neighbouring knots.
+void set_swing_velocities(const Problem& problem, Plan& plan) {
+  const int n = static_cast<int>(plan.phases.size());
+  for (int l = 0; l < problem.layout.ends(); ++l) {
+    const int e = problem.active[l];
+    for (int k = 0; k <= n; ++k) {
+      Vector3d& velocity = plan.knots[k].end_effector_velocities_W[e];
+      if (touches(plan, k - 1, e) || touches(plan, k, e)) {
+        velocity.setZero();
+        continue;
+      }
+      const int before = std::max(k - 1, 0), after = std::min(k + 1, n);
+      double span = 0.0;
+      for (int j = before; j < after; ++j) span += plan.phases[j].duration;
+      velocity = (plan.knots[after].end_effectors_W[e] - plan.knots[before].end_effectors_W[e]) / span;
+    }
+  }
+}
+
+void add_swings(const Problem& problem, Plan& plan) {
+  const std::vector<Solid> solids = solids_of(plan.scene);
+  for (int e = 0; e < plan.end_effector_count(); ++e)
+    for (const mcplan::FreeStretch& stretch : free_stretches(plan, solids, e)) {
+      Swing swing;
+      swing.end_effector = e;
+      swing.first_phase = stretch.first_phase;
+      swing.end_phase = stretch.end_phase;
+      swing.lift_normal_W = stretch.lift_normal_W;
+      swing.land_normal_W = stretch.land_normal_W;
+      const bool leaves = touches(plan, stretch.first_phase - 1, e), arrives = touches(plan, stretch.end_phase, e);
+      swing.height = leaves || arrives ? problem.robot.swing_height : 0.0;
+      plan.swings.push_back(swing);
+      if (swing.height == 0.0) continue;
+      // The least of a few heights that clears the scene.
+      constexpr double kSample = 0.01;
+      double best_depth = clearance_depth(plan, solids, e, stretch, kSample);
+      double best_height = swing.height;
+      for (double factor : {1.5, 2.0, 3.0, 0.5}) {
+        if (best_depth <= 0.0) break;
+        plan.swings.back().height = factor * swing.height;
+        const double depth = clearance_depth(plan, solids, e, stretch, kSample);
+        if (depth >= best_depth) continue;
+        best_depth = depth;
+        best_height = plan.swings.back().height;
+      }
+      plan.swings.back().height = best_height;
+    }
+}
+
+}  // namespace
+
+Plan to_plan(const Problem& problem, const Incumbent& incumbent) {
+  const Layout& at = problem.layout;
+  const Units& units = problem.units;
+  const Pendulum pendulum(at, problem.inertia, problem.options.stiffness_input);
+  Plan plan;
+  plan.scene = problem.scene;
+  plan.robot = problem.robot;
+  plan.planner = "ddp";
+  const int ends = static_cast<int>(problem.robot.end_effectors.size());
+  for (int k = 0; k <= problem.steps; ++k) plan.knots.push_back(make_knot(problem, incumbent.trajectory.x[k]));
+  for (int k = 0; k < problem.steps; ++k) {
+    const VectorXd& u = incumbent.trajectory.u[k];
+    Phase phase;
+    phase.duration = u[at.duration()] * units.time;
+    phase.contacts.resize(ends);
+    for (int l = 0; l < at.ends(); ++l) {
+      Contact& contact = phase.contacts[problem.active[l]];
+      contact.surface = incumbent.sequence[k][l];
+      contact.anchor_W = plan.knots[k].end_effectors_W[problem.active[l]];
+      contact.stiffness = pendulum.mu(u, l) * units.stiffness();
+    }
+    for (int i = 0; i < at.moment_count(); ++i) {
+      const Layout::Moment& m = at.moments()[i];
+      phase.contacts[problem.active[m.end_effector]].moment_W[at.axes()[m.axis]] = u[at.moment(i)] * units.moment();
+    }
+    plan.phases.push_back(phase);
+  }
+  plan.final_contacts.assign(ends, kFree);
+  for (int l = 0; l < at.ends(); ++l) plan.final_contacts[problem.active[l]] = incumbent.sequence[problem.steps][l];
+  set_swing_velocities(problem, plan);
+  add_swings(problem, plan);
+  return plan;
+}
+
+Incumbent from_plan(const Problem& problem, const Plan& plan, int first) {
+  const Layout& at = problem.layout;
+  const Units& units = problem.units;
+  Incumbent out;
+  if (plan.robot.end_effectors.size() != problem.robot.end_effectors.size()) return out;
+  const auto surface_here = [&](int surface) {
+    return surface == kFree ? kFree : problem.scene.surface_index(plan.scene.surfaces[surface].name);
+  };
+  for (int k = 0; k <= problem.steps; ++k) {
+    const Knot& knot = plan.knots[first + k];
+    VectorXd x = VectorXd::Zero(at.nx());
+    x.segment<3>(at.com()) = knot.com_W / units.length;
+    x.segment<3>(at.velocity()) = knot.com_velocity_W / units.velocity();
+    for (int a = 0; a < at.axis_count(); ++a) {
+      x[at.angle(a)] = knot.base_rpy[at.axes()[a]];
+      x[at.rate(a)] = knot.base_rpy_rate[at.axes()[a]] * units.time;
+    }
+    ContactState state;
+    for (int l = 0; l < at.ends(); ++l) {
+      const int e = problem.active[l];
+      x.segment<3>(at.end(l)) = knot.end_effectors_W[e] / units.length;
+      const bool last = k == problem.steps;
+      state.push_back(surface_here(last ? plan.final_contacts[e] : plan.phases[first + k].contacts[e].surface));
+    }
+    out.trajectory.x.push_back(x);
+    out.sequence.push_back(state);
+  }
+  for (int k = 0; k < problem.steps; ++k) {
+    const Phase& phase = plan.phases[first + k];
+    VectorXd u = VectorXd::Zero(at.nu());
+    for (int l = 0; l < at.ends(); ++l) {
+      u.segment<3>(at.stride(l)) =
+          out.trajectory.x[k + 1].segment<3>(at.end(l)) - out.trajectory.x[k].segment<3>(at.end(l));
+      const double mu = phase.contacts[problem.active[l]].stiffness / units.stiffness();
+      u[at.stiffness(l)] = problem.options.stiffness_input == StiffnessInput::lambda ? std::sqrt(std::max(mu, 0.0)) : mu;
+    }
+    for (int i = 0; i < at.moment_count(); ++i) {
+      const Layout::Moment& m = at.moments()[i];
+      u[at.moment(i)] =
+          phase.contacts[problem.active[m.end_effector]].moment_W[at.axes()[m.axis]] / units.moment();
+    }
+    u[at.duration()] = phase.duration / units.time;
+    out.trajectory.u.push_back(u);
+  }
+  out.sequence.front() = problem.start_contacts;
+  out.sequence.back() = problem.goal_contacts;
+  return out;
+}
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,48 @@
+#include "mcplan/ddp/stepping_sequence.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace mcplan::ddp {
+
+using Eigen::Vector3d;
+
+ContactSequence stepping_sequence(const Problem& problem, int first_mover) {
+  const int n = problem.steps;
+  std::vector<int> movers;
+  for (int l = 0; l < problem.layout.ends(); ++l)
+    if (problem.start_contacts[l] != kFree && problem.goal_contacts[l] != kFree) movers.push_back(l);
+  if (movers.empty()) return {};
+
+  // Swings at steps 1, 3, 5, ...; each mover's stance lasts until its next turn.
+  const int count = static_cast<int>(movers.size());
+  ContactSequence sequence(n + 1, problem.start_contacts);
+  ContactState now = problem.start_contacts;
+  int turn = first_mover;
+  for (int k = 1; k < n; k += 2, ++turn) {
+    const int l = movers[turn % count];
+    sequence[k] = now;
+    sequence[k][l] = kFree;
+    const int next_swing = k + 2 * count;
+    if (next_swing >= n) {
+      now[l] = problem.goal_contacts[l];
+    } else {
+      // In the middle of its stance the end-effector should be where the reference is.
+      const int middle = std::min((k + 1 + next_swing) / 2, n);
+      const Vector3d wanted = problem.reference.x[middle].segment<3>(problem.layout.end(l));
+      double nearest = std::numeric_limits<double>::infinity();
+      for (int surface : problem.rules.surfaces(l)) {
+        const double distance = (problem.polygons[surface].nearest(wanted) - wanted).norm();
+        if (distance >= nearest) continue;
+        nearest = distance;
+        now[l] = surface;
+      }
+    }
+    if (k + 1 <= n) sequence[k + 1] = now;
+  }
+  for (int k = 0; k <= n; ++k)
+    if (k == n) sequence[k] = problem.goal_contacts;
+  return problem.rules.valid(sequence) ? sequence : ContactSequence{};
+}
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,266 @@
+#include "mcplan/ddp/switched_ddp.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <random>
+#include <sstream>
+#include <utility>
+
+#include "mcplan/base/error.hpp"
+#include "mcplan/ddp/initial_sequence.hpp"
+#include "mcplan/ddp/plan_conversion.hpp"
+#include "mcplan/ddp/search.hpp"
+#include "mcplan/ddp/stepping_sequence.hpp"
+#include "mcplan/plan/checker.hpp"
+#include "mcplan/version.hpp"
+
+namespace mcplan::ddp {
+namespace {
+
+constexpr int kPolishIterations = 60, kFinalIterations = 120;
+constexpr double kRoughCalm = 1e-3, kFinalCalm = 1e-5;
+/// A violation within this factor of its tolerance is called acceptable, beyond it infeasible.
+constexpr double kAcceptable = 10.0;
+/// Iterations of Method::paper: the paper counts about 50 to convergence and reports averages over 100.
+constexpr int kPaperIterations = 60;
+
+double badness(const Violation& v) { return v.tolerance > 0.0 ? v.value / v.tolerance : v.value; }
+
+}  // namespace
+
+struct SwitchedDdp::Impl {
+  Scene scene;
+  Robot robot;
+  Options options;
+
+  /// One solve: the problem, its search and the best plan found so far.
+  struct Run {
+    Run(const Problem& problem_in, const Deadline& deadline_in) : problem(problem_in), deadline(deadline_in) {
+      search.emplace(problem, deadline, report);
+    }
+    Problem problem;
+    const Deadline& deadline;
+    Report report;
+    std::optional<Search> search;
+
+    struct Finished {
+      Plan plan;
+      Violation worst;
+      bool ok = false;
+      Evaluation evaluation;
+    };
+    std::optional<Finished> best;
+    bool measured_start = false;
+
+    bool finish(Incumbent now);
+    Status attempt(std::vector<Incumbent> guesses, bool discover_first, double proximal_weight);
+  };
+
+  PlanResult solve(Problem problem, const Incumbent* warm, bool measured_start);
+};
+
+/// Make exact, convert, check; keep the plan if it is the best so far. True when the checker passes.
+bool SwitchedDdp::Impl::Run::finish(Incumbent now) {
+  // If the contacts cannot be met exactly, the plan is kept as it is, and the checker says what is wrong with it.
+  search->make_exact(now);
+  const Stopwatch watch(report.timing_s, "check");
+  Finished finished;
+  finished.plan = to_plan(problem, now);
+  finished.plan.measured_start = measured_start;
+  finished.evaluation = search->evaluate(now);
+  Tolerances tolerances;
+  if (!problem.options.one_switch_per_step) tolerances.switches = std::numeric_limits<double>::infinity();
+  const CheckResult result = check(finished.plan, problem.scene, problem.robot, tolerances);
+  finished.ok = result.ok();
+  finished.worst = result.worst();
+  const bool better = !best || (finished.ok && !best->ok) ||
+                      (finished.ok == best->ok && (finished.ok ? finished.evaluation.merit() < best->evaluation.merit()
+                                                               : badness(finished.worst) < badness(best->worst)));
+  if (better) best = std::move(finished);
+  return best->ok;
+}
+
+/// Polish every guess (the first one after a discovery), refine the cheapest and finish it.
+Status SwitchedDdp::Impl::Run::attempt(std::vector<Incumbent> guesses, bool discover_first, double proximal_weight) {
+  Incumbent chosen;
+  double lowest = std::numeric_limits<double>::infinity();
+  Status status = Status::solved;
+  for (std::size_t i = 0; i < guesses.size() && status == Status::solved; ++i) {
+    if (i == 0 && discover_first) status = search->discover(guesses[i], proximal_weight);
+    if (status == Status::solved) status = search->polish(guesses[i], kPolishIterations, kRoughCalm, lowest);
+    // A guess that breaks down numerically is dropped, the others may still do.
+    if (status == Status::numerical_failure) {
+      status = Status::solved;
+      continue;
+    }
+    const double merit = search->evaluate(guesses[i]).merit();
+    if (!std::isfinite(merit) || merit >= lowest) continue;
+    lowest = merit;
+    chosen = std::move(guesses[i]);
+  }
+  if (chosen.sequence.empty()) return status == Status::solved ? Status::numerical_failure : status;
+  if (status == Status::solved) status = search->refine(chosen);
+  if (status == Status::solved)
+    status = search->polish(chosen, kFinalIterations, kFinalCalm, std::numeric_limits<double>::infinity());
+  finish(std::move(chosen));
+  return status;
+}
+
+PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool measured_start) {
+  const Deadline deadline(options.time_limit_s);
+  Run run(problem, deadline);
+  run.measured_start = measured_start;
+  const Problem& p = run.problem;
+  run.report.seed = options.seed;
+  run.report.threads = options.threads;
+  run.report.version = MCPLAN_VERSION;
+
+  const auto first_guess = [&](const ContactSequence& sequence) {
+    Incumbent guess;
+    guess.trajectory = p.initial_guess(sequence);
+    guess.sequence = sequence;
+    return guess;
+  };
+  ContactSequence initial = options.initial_sequence;
+  if (initial.empty()) {
+    const Trajectory guess = p.initial_guess({});
+    Schedule schedule;
+    schedule.contact_weight = options.weights.contact_min;
+    run.search->model().expand(guess, schedule);
+    initial = initial_sequence(run.search->model());
+  } else {
+    initial = p.to_active(initial);
+  }
+
+  Status status = Status::no_sequence;
+  if (!initial.empty()) {
+    Incumbent start = first_guess({});
+    start.sequence = initial;
+    if (options.method == Method::paper) {
+      status = run.search->run_paper(start, std::min(kPaperIterations, options.max_iterations));
+      if (status != Status::numerical_failure) run.finish(start);
+    } else {
+      std::vector<Incumbent> guesses;
+      bool discover = true;
+      if (warm) {
+        guesses.push_back(*warm);
+        discover = false;
+      } else if (!options.initial_sequence.empty()) {
+        guesses.push_back(first_guess(initial));
+        discover = false;
+      } else {
+        guesses.push_back(start);
+        for (int mover : {0, 1}) {
+          const ContactSequence stepping = stepping_sequence(p, mover);
+          if (!stepping.empty()) guesses.push_back(first_guess(stepping));
+        }
+      }
+      status = run.attempt(std::move(guesses), discover, options.proximal_weight);
+
+      // Other settings of what the outcome depends on most, in an order drawn from the seed.
+      std::vector<std::pair<double, double>> settings{{10.0, 0.30}, {100.0, 0.40}, {30.0, 0.35}, {10.0, 0.45},
+                                                      {100.0, 0.30}, {30.0, 0.50}};
+      std::mt19937_64 random(options.seed);
+      for (std::size_t i = settings.size(); i > 1; --i) std::swap(settings[i - 1], settings[random() % i]);
+      for (int i = 0; i < options.restarts && !(run.best && run.best->ok); ++i) {
+        if (status != Status::solved && status != Status::numerical_failure) break;
+        const auto [proximal, duration_s] = settings[static_cast<std::size_t>(i) % settings.size()];
+        run.problem.duration_initial = std::clamp(duration_s / p.units.time, p.duration_min, p.duration_max);
+        Incumbent again = first_guess({});
+        again.sequence = initial;
+        status = run.attempt({again}, true, proximal);
+      }
+    }
+  }
+
+  PlanResult out;
+  Report& report = run.report;
+  if (run.best) {
+    out.plan = std::move(run.best->plan);
+    report.worst_violation = run.best->worst;
+    report.cost = run.best->evaluation.cost;
+    for (int i = 0; i < kTermCount; ++i)
+      if (run.best->evaluation.terms[i] > 0.0)
+        report.cost_terms[to_string(static_cast<Term>(i))] = run.best->evaluation.terms[i];
+    if (run.best->ok) status = Status::solved;
+    else if (status == Status::solved)
+      status = badness(run.best->worst) <= kAcceptable ? Status::acceptable : Status::infeasible;
+  } else {
+    out.plan.scene = scene;
+    out.plan.robot = robot;
+    if (status == Status::solved) status = Status::numerical_failure;
+    report.worst_violation.name = status == Status::no_sequence ? "contact_sequence" : "finite";
+  }
+  report.status = status;
+  report.time_s = deadline.elapsed_s();
+  std::ostringstream message;
+  if (status == Status::solved) message << "solved";
+  else if (status == Status::no_sequence)
+    message << "no contact sequence joins start and goal in " << p.steps << " phases; raise `phases`, or look at the "
+            << "surfaces' end_effectors and the scene's rules";
+  else message << to_string(status) << ": the best plan violates " << report.worst_violation.to_string();
+  report.message = message.str();
+  out.report = std::move(report);
+  return out;
+}
+
+SwitchedDdp::SwitchedDdp(const Scene& scene, const Robot& robot, const Options& options)
+    : impl_(std::make_unique<Impl>(Impl{scene, robot, options})) {
+  // Working the problem out validates everything.
+  const Problem problem(scene, robot, options);
+  if (!options.initial_sequence.empty()) problem.to_active(options.initial_sequence);
+}
+SwitchedDdp::~SwitchedDdp() = default;
+SwitchedDdp::SwitchedDdp(SwitchedDdp&&) noexcept = default;
+SwitchedDdp& SwitchedDdp::operator=(SwitchedDdp&&) noexcept = default;
+
+PlanResult SwitchedDdp::solve() { return impl_->solve(Problem(impl_->scene, impl_->robot, impl_->options), nullptr, false); }
+
+PlanResult SwitchedDdp::solve(const Plan& warm_start) {
+  warm_start.validate();
+  Options options = impl_->options;
+  options.phases = static_cast<int>(warm_start.phases.size());
+  const Problem problem(impl_->scene, impl_->robot, options);
+  const Incumbent warm = from_plan(problem, warm_start, 0);
+  if (warm.sequence.empty() || !problem.rules.valid(warm.sequence)) return impl_->solve(problem, nullptr, false);
+  return impl_->solve(problem, &warm, false);
+}
+
+PlanResult SwitchedDdp::replan(const Plan& previous, double t, const Knot& measured) {
+  previous.validate();
+  const PlanState now = previous.at(t);
+  if (static_cast<int>(measured.end_effectors_W.size()) != previous.end_effector_count())
+    throw InvalidPlan("measured.end_effectors_W", "must be one per end-effector (" + text(previous.end_effector_count()) + ")",
+                      text(static_cast<int>(measured.end_effectors_W.size())));
+  const std::vector<double> times = previous.knot_times();
+  int first = now.phase;
+  double remaining = times[first + 1] - t;
+  // What is left of the phase is too short to be planned: the next one starts now.
+  constexpr double kShortest = 0.02;
+  const int phases = static_cast<int>(previous.phases.size());
+  if (remaining < kShortest && first + 1 < phases) {
+    ++first;
+    remaining = previous.phases[first].duration;
+  }
+  Options options = impl_->options;
+  options.phases = phases - first;
+  options.initial_sequence.clear();
+  Problem problem(impl_->scene, impl_->robot, options);
+  ContactState contacts;
+  for (int e : problem.active) {
+    const int surface = previous.phases[first].contacts[e].surface;
+    contacts.push_back(surface == kFree ? kFree : problem.scene.surface_index(previous.scene.surfaces[surface].name));
+  }
+  problem.set_start(measured, contacts);
+  problem.first_duration = remaining / problem.units.time;
+  Incumbent warm = from_plan(problem, previous, first);
+  if (warm.sequence.empty() || !problem.rules.valid(warm.sequence)) return impl_->solve(problem, nullptr, true);
+  warm.trajectory.x.front() = problem.start;
+  warm.trajectory.u.front()[problem.layout.duration()] = problem.first_duration;
+  return impl_->solve(problem, &warm, true);
+}
+
+}  // namespace mcplan::ddp
