@@ -95,5 +95,6 @@ PYBIND11_MODULE(_core, m) {
   bind_scene(m);
   bind_robot(m);
   bind_plan(m);
+  bind_ddp(m);
   // The planners' rooms go here, one line each: they may use everything above.
 }

@@ -119,7 +119,7 @@ void bind_plan_class(py::module_& m) {
   py::class_<Plan> plan(m, "Plan",
                         "A motion: phases with constant contacts between knots. Carries its scene and robot.");
   plan.def(py::init([](const Scene& scene, const Robot& robot, std::string planner, std::vector<Knot> knots,
-                       std::vector<Phase> phases, Ints final_contacts, std::vector<Swing> swings) {
+                       std::vector<Phase> phases, Ints final_contacts, std::vector<Swing> swings, bool measured_start) {
              Plan out;
              out.scene = scene;
              out.robot = robot;
@@ -128,11 +128,15 @@ void bind_plan_class(py::module_& m) {
              out.phases = std::move(phases);
              out.final_contacts = std::move(final_contacts);
              out.swings = std::move(swings);
+             out.measured_start = measured_start;
              return out;
            }),
            py::kw_only(), py::arg("scene") = Scene(), py::arg("robot") = Robot(), py::arg("planner") = "",
            py::arg("knots") = std::vector<Knot>(), py::arg("phases") = std::vector<Phase>(),
-           py::arg("final_contacts") = Ints(), py::arg("swings") = std::vector<Swing>());
+           py::arg("final_contacts") = Ints(), py::arg("swings") = std::vector<Swing>(),
+           py::arg("measured_start") = false);
+  plan.def_readwrite("measured_start", &Plan::measured_start,
+                     "Starts from a measured state, not from the scene's start.");
   def_member(plan, "scene", &Plan::scene, "The scene it was made for.");
   def_member(plan, "robot", &Plan::robot, "The robot it was made for.");
   plan.def_readwrite("planner", &Plan::planner, "E.g. 'ddp'.");

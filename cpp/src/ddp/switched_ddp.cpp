@@ -72,7 +72,7 @@ bool SwitchedDdp::Impl::Run::finish(Incumbent now) {
   finished.plan.measured_start = measured_start;
   finished.evaluation = search->evaluate(now);
   Tolerances tolerances;
-  if (!problem.options.one_switch_per_step) tolerances.switches = std::numeric_limits<double>::infinity();
+  if (!problem.options.one_switch_per_step) tolerances.switches = std::numeric_limits<int>::max();
   const CheckResult result = check(finished.plan, problem.scene, problem.robot, tolerances);
   finished.ok = result.ok();
   finished.worst = result.worst();

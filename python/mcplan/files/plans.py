@@ -80,6 +80,7 @@ def plan_to_bytes(plan: Plan) -> bytes:
         "units": UNITS,
         "mcplan": __version__,
         "planner": plan.planner,
+        "measured_start": plan.measured_start,
         "scene": scene_to_dict(plan.scene),
         "robot": robot_to_dict(plan.robot),
     }
@@ -109,11 +110,7 @@ def plan_to_bytes(plan: Plan) -> bytes:
     ):
         arrays[name] = np.array([getattr(knot, name) for knot in plan.knots])
     buffer = io.BytesIO()
-<<<<<<< HEAD
-    np.savez(buffer, allow_pickle=False, **arrays)
-=======
     np.savez(buffer, **cast(Any, arrays))
->>>>>>> files
     return buffer.getvalue()
 
 
@@ -129,6 +126,7 @@ def plan_from_bytes(data: bytes) -> Plan:
     robot = _part("header.robot", robot_from_dict, header["robot"])
     _check_shapes(arrays, len(robot.end_effectors))
     plan = Plan(
+        measured_start=header.get("measured_start", False) is True,
         scene=scene,
         robot=robot,
         planner=header["planner"],

@@ -1,0 +1,131 @@
+#include <pybind11/functional.h>
+
+#include "bindings.hpp"
+#include "mcplan/ddp/options.hpp"
+#include "mcplan/ddp/switched_ddp.hpp"
+
+namespace mcplan::bindings {
+namespace {
+
+using ddp::Method;
+using ddp::Options;
+using ddp::StiffnessInput;
+using ddp::SwitchedDdp;
+using ddp::Weights;
+
+void bind_weights(py::module_& m) {
+  py::class_<Weights> c(m, "Weights",
+                        "Weights w of the cost terms 1/2 w^2 e^2 (Tazaki, Table I), for non-dimensional quantities: "
+                        "length in CoM heights, time in sqrt(height / gravity), mass 1.");
+  c.def(py::init<>());
+  c.def_readwrite("com", &Weights::com);
+  c.def_readwrite("com_end", &Weights::com_end, "At the first and last knot.");
+  c.def_readwrite("velocity", &Weights::velocity);
+  c.def_readwrite("velocity_end", &Weights::velocity_end);
+  c.def_readwrite("rotation", &Weights::rotation);
+  c.def_readwrite("rotation_end", &Weights::rotation_end);
+  c.def_readwrite("end_effector", &Weights::end_effector);
+  c.def_readwrite("end_effector_end", &Weights::end_effector_end);
+  c.def_readwrite("stride", &Weights::stride, "On the travel of an end-effector within a phase.");
+  c.def_readwrite("stiffness", &Weights::stiffness);
+  c.def_readwrite("moment", &Weights::moment);
+  c.def_readwrite("limit", &Weights::limit, "Reach, stiffness, moment, force, friction, duration.");
+  c.def_readwrite("duration", &Weights::duration, "Towards the middle of the duration box.");
+  c.def_readwrite("contact_min", &Weights::contact_min, "First complementarity weight.");
+  c.def_readwrite("contact_max", &Weights::contact_max, "Last complementarity weight.");
+  c.def_readwrite("contact_growth", &Weights::contact_growth, "Factor between iterations, above 1.");
+  c.def_readwrite("flight", &Weights::flight, "On every phase without any contact.");
+  c.def_readwrite("overshoot_factor", &Weights::overshoot_factor, "On leaving a polygon sideways, at least 1.");
+}
+
+void bind_options(py::module_& m) {
+  py::enum_<Method>(m, "Method", "Which search runs.")
+      .value("standard", Method::standard)
+      .value("paper", Method::paper);
+  py::enum_<StiffnessInput>(m, "StiffnessInput", "How the contact stiffness enters: mu, or lambda with mu = lambda^2.")
+      .value("mu", StiffnessInput::mu)
+      .value("lambda_", StiffnessInput::lambda);
+  py::class_<Options> c(m, "Options", "Options of the contact-sequence search; the defaults serve all built-in scenes.");
+  c.def(py::init<>());
+  c.def_readwrite("phases", &Options::phases, "Number of phases N.");
+  c.def_readwrite("method", &Options::method);
+  c.def_readwrite("stiffness_input", &Options::stiffness_input);
+  c.def_readwrite("weights", &Options::weights);
+  c.def_readwrite("duration_min_s", &Options::duration_min_s, "Soft box of the phase durations [s].");
+  c.def_readwrite("duration_max_s", &Options::duration_max_s, "[s]");
+  c.def_readwrite("duration_initial_s", &Options::duration_initial_s, "[s]");
+  c.def_readwrite("proximal_weight", &Options::proximal_weight, "First weight on the change of the inputs.");
+  c.def_readwrite("interior_points", &Options::interior_points, "Instants inside a phase where limits are held.");
+  c.def_readwrite("reach_margin_m", &Options::reach_margin_m, "The reach box is planned smaller by this [m].");
+  c.def_readwrite("friction", &Options::friction, "Hold the friction cones.");
+  c.def_readwrite("whole_sequence_moves", &Options::whole_sequence_moves);
+  c.def_readwrite("one_switch_per_step", &Options::one_switch_per_step);
+  c.def_readwrite("restarts", &Options::restarts, "Further attempts while the checker rejects the plan.");
+  c.def_readwrite("max_iterations", &Options::max_iterations, "Over all attempts.");
+  c.def_readwrite("time_limit_s", &Options::time_limit_s, "Wall clock [s].");
+  c.def_readwrite("threads", &Options::threads, "For pricing; the result does not depend on it.");
+  c.def_readwrite("seed", &Options::seed);
+  c.def_readwrite("initial_sequence", &Options::initial_sequence,
+                  "phases + 1 rows: surface index per end-effector, -1 free. Empty: searched for.");
+  c.def_readwrite("record_history", &Options::record_history, "Keep the sequence of every iteration in the report.");
+  c.def_readwrite("logger", &Options::logger, "Called with (LogLevel, line); None: silent.");
+  c.def("validate", &Options::validate, "Raises InvalidOptions naming the first field out of its range.");
+}
+
+/// Runs a solve without the GIL. Ctrl-C ends it with Status.interrupted and the best plan so far; the KeyboardInterrupt
+/// itself is swallowed then, because the caller gets its result.
+template <class Solve>
+PlanResult without_gil(Solve&& solve) {
+  const py::gil_scoped_release release;
+  return solve();
+}
+
+/// The caller's options with everything that reaches into Python made safe to call without the GIL.
+Options guarded(Options options) {
+  if (options.logger) {
+    // std::function of a Python callable: pybind11 takes the GIL for each call.
+    const Logger logger = options.logger;
+    options.logger = [logger](LogLevel level, const std::string& line) { logger(level, line); };
+  }
+  options.stop = [] {
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() == 0) return false;
+    PyErr_Clear();
+    return true;
+  };
+  return options;
+}
+
+}  // namespace
+
+void bind_ddp(py::module_& parent) {
+  py::module_ m = parent.def_submodule("ddp", "Contact-sequence search by switched differential dynamic programming.");
+  py::enum_<LogLevel>(m, "LogLevel")
+      .value("debug", LogLevel::debug)
+      .value("info", LogLevel::info)
+      .value("warning", LogLevel::warning);
+  bind_weights(m);
+  bind_options(m);
+  py::class_<SwitchedDdp> c(m, "SwitchedDdp",
+                            "Contact-sequence search for one scene and robot. Solves release the GIL; Ctrl-C ends them "
+                            "with Status.interrupted and the best plan so far.");
+  c.def(py::init([](const Scene& scene, const Robot& robot, const Options& options) {
+          return SwitchedDdp(scene, robot, guarded(options));
+        }),
+        py::arg("scene"), py::arg("robot"), py::arg("options") = Options());
+  c.def(
+      "solve", [](SwitchedDdp& self) { return without_gil([&] { return self.solve(); }); },
+      "Plan from the scene's start to its goal.");
+  c.def(
+      "solve", [](SwitchedDdp& self, const Plan& plan) { return without_gil([&] { return self.solve(plan); }); },
+      py::arg("warm_start"), "The same, starting from an earlier plan's contact sequence, motion and timing.");
+  c.def(
+      "replan",
+      [](SwitchedDdp& self, const Plan& previous, double t, const Knot& measured) {
+        return without_gil([&] { return self.replan(previous, t, measured); });
+      },
+      py::arg("previous"), py::arg("t"), py::arg("measured"),
+      "Plan on from a measured state at time t [s] of an earlier plan.");
+}
+
+}  // namespace mcplan::bindings
