@@ -100,10 +100,6 @@ Options guarded(Options options) {
 
 void bind_ddp(py::module_& parent) {
   py::module_ m = parent.def_submodule("ddp", "Contact-sequence search by switched differential dynamic programming.");
-  py::enum_<LogLevel>(m, "LogLevel")
-      .value("debug", LogLevel::debug)
-      .value("info", LogLevel::info)
-      .value("warning", LogLevel::warning);
   bind_weights(m);
   bind_options(m);
   py::class_<SwitchedDdp> c(m, "SwitchedDdp",
