@@ -165,6 +165,10 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
     out.defect_l1 += next_.lpNorm<1>();
     out.defect_max = std::max(out.defect_max, next_.lpNorm<Eigen::Infinity>());
   }
+  if (schedule.interior_weight > 0.0) {
+    rows_.begin(Term::contact_change);
+    rows_.add_constant(contact_change_cost(*problem_, sequence));
+  }
   out.cost = rows_.cost();
   out.terms = rows_.terms();
   return out;

@@ -221,6 +221,7 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now) {
     for (const Neighbour& n : pricing_.all(model_, values_, now.sequence)) {
       changes.push_back({n.cost, now.sequence});
       changes.back().sequence[n.step] = n.state;
+      changes.back().cost += contact_change_cost(*problem_, changes.back().sequence);
     }
   }
   const Stopwatch watch(report_->timing_s, "whole_sequence");
@@ -231,7 +232,8 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now) {
   for (ContactSequence& edited : swing_edits(problem_->rules, now.sequence)) {
     if (!values_.backward(edited, problem_->steps)) continue;
     const Quadratic& v = values_.V(0);
-    changes.push_back({v.c - 0.5 * v.g.dot(v.h.llt().solve(v.g)), std::move(edited)});
+    const double changing = contact_change_cost(*problem_, edited);
+    changes.push_back({v.c - 0.5 * v.g.dot(v.h.llt().solve(v.g)) + changing, std::move(edited)});
   }
   std::stable_sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.cost < b.cost; });
   std::vector<ContactSequence> out;
