@@ -18,6 +18,50 @@ app = typer.Typer(
 _OUT = typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written.")
 
 
+@app.callback()
+def speed(
+    context: typer.Context,
+    repeats: Annotated[int, typer.Option("--repeats", metavar="N", min=1, help="Solves behind each median.")] = 7,
+    threads: Annotated[int, typer.Option("--threads", metavar="N", min=1, help="Of our search.")] = 1,
+    quick: Annotated[bool, typer.Option("--quick", help="Few sizes in the growth.")] = False,
+    out: Annotated[Path, _OUT] = Path("out/bench"),
+    json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+) -> int:
+    """Time ours against the paper's form on the four scenes, and how it grows with phases, end-effectors and surfaces.
+
+    Medians over repeats, in one run. An iteration is what both methods repeat: linearise, value functions, pricing,
+    line search; of ours those with the sequence free (`iteration`) and all with the later, frozen ones (`all`).
+
+    Example: mcplan bench --repeats 5
+    Example: mcplan bench robustness --scenes 40
+    """
+    if context.invoked_subcommand is not None:
+        return 0
+    from mcplan.bench import growth, records
+    from mcplan.bench import speed as bench
+
+    rows = bench.compare(repeats=repeats, threads=threads, progress=_say)
+    grown = growth.measure(quick, max(1, repeats - 2), threads, _say)
+    result = {
+        "machine": records.machine(),
+        "threads": threads,
+        "repeats": repeats,
+        "scenes": rows,
+        "growth": grown,
+        "exponents": growth.exponents(grown),
+    }
+    records.write_csv(out / "speed.csv", rows)
+    records.write_csv(out / "growth.csv", grown)
+    records.write_json(out / "bench.json", result)
+    if json:
+        print(json_module.dumps(records.plain(result)))
+        return 0
+    _print_speed(rows)
+    _print_growth(grown, result["exponents"])
+    print(f"Wrote {out}/bench.json, speed.csv, growth.csv")
+    return 0
+
+
 @app.command()
 def robustness(
     scenes: Annotated[int, typer.Option("--scenes", metavar="N", min=0, help="Random scenes.")] = 300,
@@ -73,6 +117,56 @@ def robustness(
 
 def _say(text: str) -> None:
     print(text, file=sys.stderr, flush=True)
+
+
+def _print_speed(rows: list[dict[str, Any]]) -> None:
+    from mcplan.cli.table import print_table
+
+    print("Time per iteration, and of a whole plan")
+    print_table(
+        [
+            [
+                row["scene"],
+                f"{row['iteration_ms']:.3f} ms",
+                f"{row['iteration_all_ms']:.3f} ms",
+                f"{row['paper_iteration_ms']:.3f} ms",
+                f"{row['ratio']:.1f}",
+                f"{100 * row['pricing_share']:.1f} %",
+                f"{row['pricing_us']:.2f} us",
+                f"{row['paper_pricing_us']:.2f} us",
+                f"{row['plan_ms']:.0f} ms",
+                f"{row['paper_plan_ms']:.0f} ms",
+                f"{row['status']} / {row['paper_status']}",
+            ]
+            for row in rows
+        ],
+        ["scene", "iteration", "all", "paper's", "ratio", "pricing", "a neighbour", "paper's", "plan", "paper's", "status"],
+    )
+    print()
+
+
+def _print_growth(rows: list[dict[str, Any]], exponents: dict[str, float]) -> None:
+    from mcplan.cli.table import print_table
+
+    print("Growth of an iteration")
+    print_table(
+        [
+            [
+                row["varied"],
+                str(row["amount"]),
+                f"{row['neighbours']:.0f}",
+                f"{row['iteration_ms']:.3f} ms",
+                f"{row['iteration_per_phase_us']:.1f} us",
+                f"{row['linearise_ms']:.3f} ms",
+                f"{row['value_functions_ms']:.3f} ms",
+                f"{row['pricing_ms']:.3f} ms",
+            ]
+            for row in rows
+        ],
+        ["varied", "amount", "neighbours", "iteration", "per phase", "linearise", "value functions", "pricing"],
+    )
+    print_table([[name.replace("_", " "), f"{value:.2f}"] for name, value in exponents.items()], ["exponent of", ""])
+    print()
 
 
 def _print_part(part: str, rows: list[dict[str, Any]], outcomes: list[Any]) -> None:
