@@ -19,6 +19,7 @@ void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const Ve
                       const std::vector<Instant>& instants, int l, int contact, const Schedule& schedule, Rows& rows) {
   if (contact == kFree) {
     if (u) free_cost(problem, *u, l, schedule.contact_weight, rows);
+    if (schedule.interior_weight > 0.0) keep_out_cost(problem, x, l, schedule.interior_weight, rows);
     return;
   }
   contact_cost(problem, x, u, l, contact, schedule.contact_weight, rows);
@@ -26,6 +27,7 @@ void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const Ve
   interior_reach_cost(problem, x, instants, l, schedule.interior_weight, rows);
   if (problem.options.friction) friction_cost(problem, x, instants, l, contact, schedule.interior_weight, rows);
   force_cap_cost(problem, pendulum, x, *u, instants, l, schedule.interior_weight, rows);
+  torsion_cost(problem, pendulum, *u, l, contact, schedule.interior_weight, rows);
 }
 
 namespace {

@@ -74,6 +74,8 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     std::vector<Vector3d> scaled;
     for (const Vector3d& v : surface.vertices_W) scaled.push_back(v / units.length);
     polygons.emplace_back(scaled);
+    // Twice the solid: an end-effector that crossed it between two knots is still noticed.
+    keep_out_depth.push_back(2.0 * surface.thickness / units.length);
     friction.push_back(surface.grasp ? std::numeric_limits<double>::infinity()
                                      : std::max(surface.friction - kFrictionMargin, 0.5 * surface.friction));
   }
@@ -88,6 +90,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     l.reach_max = (end.reach_max_B - margin).cwiseMax(middle) / units.length;
     // A cap above ten times the weight would not bind; it also stands for "no cap".
     l.force_max = std::min(end.max_force / units.force(), 10.0);
+    l.half_width = end.half_size.minCoeff() / units.length;
     l.moment_max = end.max_moment / units.moment();
     limits.push_back(l);
   }

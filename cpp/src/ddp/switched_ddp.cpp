@@ -22,6 +22,7 @@ namespace {
 
 constexpr int kPolishIterations = 60, kFinalIterations = 120;
 constexpr double kRoughCalm = 1e-3, kFinalCalm = 1e-5;
+constexpr double kHardening = 4.0;
 /// A violation within this factor of its tolerance is called acceptable, beyond it infeasible.
 constexpr double kAcceptable = 10.0;
 /// Iterations of Method::paper: the paper counts about 50 to convergence and reports averages over 100.
@@ -103,8 +104,13 @@ Status SwitchedDdp::Impl::Run::attempt(std::vector<Incumbent> guesses, bool disc
   }
   if (chosen.sequence.empty()) return status == Status::solved ? Status::numerical_failure : status;
   if (status == Status::solved) status = search->refine(chosen);
-  if (status == Status::solved)
+  if (status == Status::solved) {
+    // Limits are penalties: harder ones at the end bring what is left of a violation below the checker's tolerance.
+    const double limit = problem.options.weights.limit;
+    problem.options.weights.limit *= kHardening;
     status = search->polish(chosen, kFinalIterations, kFinalCalm, std::numeric_limits<double>::infinity());
+    problem.options.weights.limit = limit;
+  }
   finish(std::move(chosen));
   return status;
 }

@@ -42,6 +42,18 @@ void free_cost(const Problem& problem, const VectorXd& u, int l, double weight, 
     if (at.moments()[i].end_effector == l) rows.add_single(weight, u[at.moment(i)], at.nx() + at.moment(i));
 }
 
+void keep_out_cost(const Problem& problem, const VectorXd& x, int l, double weight, Rows& rows) {
+  const Vector3d p = x.segment<3>(problem.layout.end(l));
+  rows.begin(Term::free);
+  for (std::size_t i = 0; i < problem.polygons.size(); ++i) {
+    const Polygon& polygon = problem.polygons[i];
+    const double height = polygon.height(p);
+    if (height >= 0.0 || height < -problem.keep_out_depth[i] || polygon.outside(p) > 0.0) continue;
+    if (rows.with_gradient()) rows.add_dense(weight, height).segment<3>(problem.layout.end(l)) = polygon.normal_W();
+    else rows.add_value(weight, height);
+  }
+}
+
 double flight_cost(const Problem& problem, const ContactState& state) {
   for (int contact : state)
     if (contact != kFree) return 0.0;
