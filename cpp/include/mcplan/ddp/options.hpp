@@ -35,6 +35,7 @@ struct Weights {
   double contact_min = 0.01, contact_max = 100.0;       ///< w_compl
   double contact_growth = 2.0;                          ///< gamma
   double flight = 1.0;                                  ///< on every phase without any contact
+  double contact_change = 0.1;                          ///< on every contact made or broken
   double overshoot_factor = 2.0;                        ///< on leaving a finite polygon sideways, times w_compl
 };
 

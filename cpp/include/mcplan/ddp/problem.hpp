@@ -83,6 +83,7 @@ class Problem {
 
  private:
   void make_reference(const Eigen::VectorXd& goal);
+  void place_footholds(const ContactSequence& sequence, Trajectory& guess) const;
 };
 
 }  // namespace mcplan::ddp

@@ -61,4 +61,18 @@ double flight_cost(const Problem& problem, const ContactState& state) {
   return problem.options.method == Method::paper ? 0.0 : 0.5 * w * w;
 }
 
+double contact_change_cost(const Problem& problem, const ContactState& from, const ContactState& to) {
+  const double w = problem.options.method == Method::paper ? 0.0 : problem.options.weights.contact_change;
+  double cost = 0.0;
+  for (std::size_t l = 0; l < from.size(); ++l)
+    if (from[l] != to[l]) cost += 0.5 * w * w;
+  return cost;
+}
+
+double contact_change_cost(const Problem& problem, const ContactSequence& sequence) {
+  double cost = 0.0;
+  for (std::size_t k = 1; k < sequence.size(); ++k) cost += contact_change_cost(problem, sequence[k - 1], sequence[k]);
+  return cost;
+}
+
 }  // namespace mcplan::ddp

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mcplan/ddp/costs/costs.hpp"
 
@@ -56,7 +57,8 @@ void force_cap_cost(const Problem& problem, const Pendulum& pendulum, const Vect
 
 double moment_per_stiffness(const Problem& problem, int l, int surface) {
   const double friction = problem.friction[surface];
-  if (std::isinf(friction)) return friction;
+  // Point contacts have no sole to judge by; their max_moment alone counts.
+  if (std::isinf(friction) || problem.limits[l].half_width <= 0.0) return std::numeric_limits<double>::infinity();
   // The force's normal part is mu_l times the CoM's height above the plane, which may sink well below nominal.
   constexpr double kLowestHeight = 0.6;
   return kLowestHeight * std::min(friction, 1.0) * problem.limits[l].half_width;

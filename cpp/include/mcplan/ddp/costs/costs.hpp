@@ -56,6 +56,13 @@ void keep_out_cost(const Problem& problem, const Eigen::VectorXd& x, int l, doub
 /// where walking with flight phases is a common local optimum). A constant of the contact state.
 double flight_cost(const Problem& problem, const ContactState& state);
 
+/// Cost of the contacts made and broken between two steps, so that the robot takes no step that gains it next to nothing
+/// (not in the paper). A constant of the two states; it counts at the full weights only, not in discovery.
+double contact_change_cost(const Problem& problem, const ContactState& from, const ContactState& to);
+
+/// The same over a whole sequence.
+double contact_change_cost(const Problem& problem, const ContactSequence& sequence);
+
 /// Reach between the knots, for an end-effector in contact (not in the paper, which looks at the knots alone).
 void interior_reach_cost(const Problem& problem, const Eigen::VectorXd& x, const std::vector<Instant>& instants, int l,
                          double weight, Rows& rows);
