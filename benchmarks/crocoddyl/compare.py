@@ -61,7 +61,9 @@ def mcplan_ms(scene: str, repeats: int) -> dict[str, float]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--repeats", type=int, default=200, help="Iterations behind each median (default 200)")
-    parser.add_argument("--venv", type=Path, default=HERE.parents[1] / "build/crocoddyl", help="Crocoddyl's environment")
+    parser.add_argument(
+        "--venv", type=Path, default=HERE.parents[1] / "build/crocoddyl", help="Crocoddyl's environment"
+    )
     parser.add_argument("--json", action="store_true", help="Print one JSON object")
     words = parser.parse_args()
     if words.repeats < 1:
@@ -71,12 +73,16 @@ def main() -> None:
     for scene, (nx, nu) in SIZES.items():
         peer, ours = crocoddyl_ms(python, nx, nu, words.repeats), mcplan_ms(scene, words.repeats)
         ddp = ours["linearise"] + ours["value_backward"] + ours["line_search"]
-        rows.append({"scene": scene, "nx": nx, "nu": nu, "N": PHASES, "crocoddyl": peer, "mcplan": ours, "mcplan_ddp": ddp})
+        rows.append(
+            {"scene": scene, "nx": nx, "nu": nu, "N": PHASES, "crocoddyl": peer, "mcplan": ours, "mcplan_ddp": ddp}
+        )
     if words.json:
         print(json.dumps(rows))
         return
     print("Median time of an iteration [ms], one thread")
-    print(f"{'scene':14} {'nx':>3} {'nu':>3} {'N':>3}  {'Crocoddyl FDDP':>14} {'mcplan, DDP part':>17} {'mcplan, all':>12}")
+    print(
+        f"{'scene':14} {'nx':>3} {'nu':>3} {'N':>3}  {'Crocoddyl FDDP':>14} {'mcplan, DDP part':>17} {'mcplan, all':>12}"
+    )
     for row in rows:
         print(
             f"{row['scene']:14} {row['nx']:3} {row['nu']:3} {row['N']:3}  {row['crocoddyl']['iteration_ms']:14.3f} "

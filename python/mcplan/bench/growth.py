@@ -62,13 +62,13 @@ def cases(quick: bool = False) -> Iterator[tuple[str, int, Scene, Robot, int]]:
     """What is varied, its amount, scene, robot, phases."""
     import mcplan
 
-    few = slice(0, 2) if quick else slice(None)
+    count = 2 if quick else None
     robot = mcplan.load_robot("humanoid44")
-    for phases in PHASES[few]:
+    for phases in PHASES[:count]:
         yield "phases", phases, long_floor(phases), robot, phases
-    for feet in FEET[few]:
+    for feet in FEET[:count]:
         yield "end_effectors", feet, long_floor(18), with_feet(robot, feet), 18
-    for tiles in TILES[few]:
+    for tiles in TILES[:count]:
         yield "surfaces", tiles, tiled_floor(tiles), robot, 18
 
 

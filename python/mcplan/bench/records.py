@@ -45,7 +45,12 @@ def plain(value: Any) -> Any:
 
 def machine() -> Row:
     """What the numbers were measured on."""
-    return {"version": mcplan.__version__, "cpu": cpu_name(), "cores": os.cpu_count(), "python": platform.python_version()}
+    return {
+        "version": mcplan.__version__,
+        "cpu": cpu_name(),
+        "cores": os.cpu_count(),
+        "python": platform.python_version(),
+    }
 
 
 def cpu_name() -> str:

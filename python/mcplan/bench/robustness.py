@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from mcplan import PlanResult
 
 #: First weight on the change of the inputs x first guess of the phase durations [s].
-SETTINGS = tuple((proximal, duration) for proximal in (10.0, 30.0, 100.0) for duration in (0.30, 0.35, 0.40, 0.45, 0.50))
+SETTINGS = tuple(
+    (proximal, duration) for proximal in (10.0, 30.0, 100.0) for duration in (0.30, 0.35, 0.40, 0.45, 0.50)
+)
 
 
 @dataclass(frozen=True)
@@ -160,7 +162,9 @@ def line(outcome: Outcome) -> str:
         if task.scene
         else f"{outcome.scene} seed={task.seed}"
     )
-    head = f"{what}: {outcome.status} in {outcome.time_s:.2f} s, {outcome.iterations} iterations, cost {outcome.cost:.3g}"
+    head = (
+        f"{what}: {outcome.status} in {outcome.time_s:.2f} s, {outcome.iterations} iterations, cost {outcome.cost:.3g}"
+    )
     return head if outcome.good else f"{head}, NOT GOOD: {outcome.reason}"
 
 

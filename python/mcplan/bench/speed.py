@@ -40,7 +40,9 @@ class Iterations:
         return 1e3 * self.parts_ms["pricing"] / self.neighbours if self.neighbours else float("nan")
 
 
-def iterations(scene: Scene, robot: Robot, repeats: int, options: dict[str, Any]) -> tuple[Iterations, list[PlanResult]]:
+def iterations(
+    scene: Scene, robot: Robot, repeats: int, options: dict[str, Any]
+) -> tuple[Iterations, list[PlanResult]]:
     """Time the iterations of a solve, `repeats` times.
 
     Returns:

@@ -10,7 +10,6 @@ from typing import Annotated, Any
 import typer
 
 app = typer.Typer(
-    help="Measure the planner: speed (without a further word), or how often it succeeds (robustness).",
     invoke_without_command=True,
     rich_markup_mode=None,
 )
@@ -33,6 +32,7 @@ def speed(
     line search; of ours those with the sequence free (`iteration`) and all with the later, frozen ones (`all`).
 
     Example: mcplan bench --repeats 5
+
     Example: mcplan bench robustness --scenes 40
     """
     if context.invoked_subcommand is not None:
@@ -42,7 +42,7 @@ def speed(
 
     rows = bench.compare(repeats=repeats, threads=threads, progress=_say)
     grown = growth.measure(quick, max(1, repeats - 2), threads, _say)
-    result = {
+    result: dict[str, Any] = {
         "machine": records.machine(),
         "threads": threads,
         "repeats": repeats,
@@ -90,7 +90,7 @@ def robustness(
     from mcplan.bench import records
     from mcplan.bench import robustness as bench
 
-    options = {"robot": robot, "time_limit_s": time_limit}
+    options: dict[str, Any] = {"robot": robot, "time_limit_s": time_limit}
     result: dict[str, Any] = {"machine": records.machine(), "seed": seed}
     enough = True
     for part, tasks, share in (
@@ -131,7 +131,7 @@ def _print_speed(rows: list[dict[str, Any]]) -> None:
                 f"{row['iteration_all_ms']:.3f} ms",
                 f"{row['paper_iteration_ms']:.3f} ms",
                 f"{row['ratio']:.1f}",
-                f"{100 * row['pricing_share']:.1f} %",
+                f"{100 * row['pricing_share']:.0f} / {100 * row['pricing_share_all']:.0f} %",
                 f"{row['pricing_us']:.2f} us",
                 f"{row['paper_pricing_us']:.2f} us",
                 f"{row['plan_ms']:.0f} ms",
@@ -140,7 +140,19 @@ def _print_speed(rows: list[dict[str, Any]]) -> None:
             ]
             for row in rows
         ],
-        ["scene", "iteration", "all", "paper's", "ratio", "pricing", "a neighbour", "paper's", "plan", "paper's", "status"],
+        [
+            "scene",
+            "iteration",
+            "all",
+            "paper's",
+            "ratio",
+            "pricing",
+            "a neighbour",
+            "paper's",
+            "plan",
+            "paper's",
+            "ended",
+        ],
     )
     print()
 
@@ -174,7 +186,9 @@ def _print_part(part: str, rows: list[dict[str, Any]], outcomes: list[Any]) -> N
     from mcplan.cli.table import print_table
 
     good = sum(outcome.good for outcome in outcomes)
-    print({"settings": "15 settings on each scene", "random": f"{len(outcomes)} random scenes"}[part] + f": {good} good")
+    print(
+        {"settings": "15 settings on each scene", "random": f"{len(outcomes)} random scenes"}[part] + f": {good} good"
+    )
     head = ["scene" if part == "settings" else "kind", "good", "median cost", "median time", "longest", "statuses"]
     print_table(
         [
