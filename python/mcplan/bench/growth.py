@@ -137,6 +137,5 @@ def exponents(rows: Sequence[dict[str, Any]]) -> dict[str, float]:
         "value_functions_over_phases": exponent(rows, "phases", "value_functions_ms", "phases"),
         "pricing_over_neighbours_phases": exponent(rows, "phases", "pricing_ms", "neighbours"),
         "iteration_over_end_effectors": exponent(rows, "end_effectors", "iteration_ms", "end_effectors"),
-        "pricing_over_neighbours_surfaces": exponent(rows, "surfaces", "pricing_ms", "neighbours"),
         "iteration_over_surfaces": exponent(rows, "surfaces", "iteration_ms", "surfaces"),
     }

@@ -177,6 +177,7 @@ def _print_growth(rows: list[dict[str, Any]], exponents: dict[str, float]) -> No
         ],
         ["varied", "amount", "neighbours", "iteration", "per phase", "linearise", "value functions", "pricing"],
     )
+    print()
     print_table([[name.replace("_", " "), f"{value:.2f}"] for name, value in exponents.items()], ["exponent of", ""])
     print()
 
