@@ -39,8 +39,9 @@ PYTHON_ROOMS = {
     "solve": _GROUND | {"files"},
     "view": _GROUND | {"files"},
     "tracking": _GROUND | {"files"},
-    "reproduce": _GROUND | {"files", "solve", "view", "tracking", ""},
-    "cli": _GROUND | {"files", "solve", "view", "tracking", "reproduce", ""},
+    "bench": _GROUND | {"files", "solve", ""},
+    "reproduce": _GROUND | {"files", "solve", "view", "tracking", "bench", ""},
+    "cli": _GROUND | {"files", "solve", "view", "tracking", "bench", "reproduce", ""},
     "": _GROUND | {"files", "solve", "view", "tracking"},
 }
 HEAVY = {"crocoddyl", "example_robot_data", "imageio", "matplotlib", "meshcat", "mink", "mujoco"}

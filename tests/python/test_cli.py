@@ -18,7 +18,7 @@ from mcplan.files.scenes import list_scenes
 from mcplan.files.toml import toml_text
 from standing import standing_plan
 
-VERBS = ("plan", "check", "scenes", "robots", "version")
+VERBS = ("bench", "check", "demo", "plan", "reproduce", "robots", "scenes", "version")
 
 
 def run(capsys, *words) -> tuple[int, str, str]:

@@ -1,0 +1,92 @@
+"""mcplan demo"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from mcplan import PlanResult, Violation
+
+#: The paper's four scenes.
+SCENES = ("flat", "stairs", "gap", "gap_with_rail")
+
+
+def demo(
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Where plans, pages and pictures go.")] = Path(
+        "out"
+    ),
+    scene: Annotated[
+        list[str] | None,
+        typer.Option("--scene", metavar="NAME", help="Instead of the four scenes; may be given several times."),
+    ] = None,
+    robot: Annotated[str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")] = "humanoid44",
+) -> int:
+    """Plan flat, stairs, gap and gap_with_rail: a table, and per scene a plan, a page and a picture.
+
+    Exit code 0 only if all of them are solved.
+
+    Example: mcplan demo --out out
+    """
+    import mcplan
+    from mcplan.extras import require
+
+    require("mcplan demo", "view", "meshcat", "matplotlib")
+    from mcplan.view.picture import picture
+
+    scenes = [mcplan.load_scene(name) for name in scene or SCENES]
+    model = mcplan.load_robot(robot)
+    out.mkdir(parents=True, exist_ok=True)
+    results = []
+    for i, each in enumerate(scenes):
+        lead = f"[{i + 1}/{len(scenes)}] {each.name}:"
+        print(f"{lead} planning", flush=True)
+        result = mcplan.plan(each, model)
+        results.append(result)
+        print(f"{lead} {result.report.status} in {result.report.time_s:.2f} s, drawing", flush=True)
+        if not result.plan.phases:  # no contact sequence joins start and goal: nothing to draw
+            continue
+        result.plan.save(out / f"{each.name}.npz")
+        mcplan.show(result.plan, report=result.report).save_html(out / f"{each.name}.html")
+        picture(result.plan, path=out / f"{each.name}.png")
+    print()
+    print_results(results)
+    print(f"\nIn {out}/: NAME.npz (mcplan check {out}/{scenes[0].name}.npz), NAME.html (open in a browser), NAME.png")
+    return 0 if all(str(result.report.status) == "solved" for result in results) else 1
+
+
+def print_results(results: list[PlanResult]) -> None:
+    """A line per result."""
+    from mcplan.cli.plan import flight_phases
+    from mcplan.cli.table import print_table
+
+    rows = []
+    for result in results:
+        plan, report = result.plan, result.report
+        rows.append(
+            [
+                plan.scene.name,
+                str(report.status),
+                f"{report.cost:.3f}",
+                str(len(plan.phases)),
+                str(flight_phases(plan.contact_sequence())),
+                str(report.switches),
+                str(report.iterations),
+                f"{report.time_s:.2f} s",
+                f"{plan.duration():.2f} s" if plan.phases else "-",
+                margin(report.worst_violation),
+            ]
+        )
+    head = ["scene", "status", "cost", "phases", "in flight", "switches", "iterations", "time", "length"]
+    print_table(rows, [*head, "worst constraint"])
+
+
+def margin(violation: Violation) -> str:
+    """The worst constraint as a share of what the checker accepts: "reach at left_foot, phase 7: 0.0004 of 0.001 m"."""
+    if not violation.name:
+        return "-"
+    where = f" at {violation.end_effector}" if violation.end_effector else ""
+    when = f", phase {violation.phase}" if violation.phase >= 0 else ""
+    return f"{violation.name}{where}{when}: {violation.value:.2g} of {violation.tolerance:g} {violation.unit}".rstrip()
