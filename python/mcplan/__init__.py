@@ -3,7 +3,7 @@
     import mcplan as mp
 
     scene = mp.load_scene("gap_with_rail")
-    robot = mp.load_robot("talos")
+    robot = mp.load_robot("humanoid44")
     result = mp.plan(scene, robot, time_limit=1.0)
     print(result.report)
     mp.check(result.plan, scene, robot).raise_if_violated()

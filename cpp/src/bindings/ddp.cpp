@@ -35,6 +35,7 @@ void bind_weights(py::module_& m) {
   c.def_readwrite("contact_max", &Weights::contact_max, "Last complementarity weight.");
   c.def_readwrite("contact_growth", &Weights::contact_growth, "Factor between iterations, above 1.");
   c.def_readwrite("flight", &Weights::flight, "On every phase without any contact.");
+  c.def_readwrite("contact_change", &Weights::contact_change, "On every contact made or broken.");
   c.def_readwrite("overshoot_factor", &Weights::overshoot_factor, "On leaving a polygon sideways, at least 1.");
 }
 

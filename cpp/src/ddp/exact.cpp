@@ -38,8 +38,10 @@ void snap_positions(const Problem& problem, const ContactSequence& sequence, Tra
 }
 
 /// Bring forces and moments into their bounds and hold those that were outside; free end-effectors have none.
-void snap_forces(const Problem& problem, const ContactSequence& sequence, Trajectory& t, Held& held) {
+void snap_forces(const Problem& problem, const Pendulum& pendulum, const ContactSequence& sequence, Trajectory& t,
+                 Held& held) {
   const Layout& at = problem.layout;
+  const auto mu = [&](int k, int l) { return pendulum.mu(t.u[k], l); };
   const auto bound = [&](int k, int i, double low, double high) {
     double& value = t.u[k][i];
     if (value > low && value < high) return;
@@ -51,7 +53,10 @@ void snap_forces(const Problem& problem, const ContactSequence& sequence, Trajec
       bound(k, at.stiffness(l), 0.0, sequence[k][l] == kFree ? 0.0 : std::numeric_limits<double>::infinity());
     for (int i = 0; i < at.moment_count(); ++i) {
       const int l = at.moments()[i].end_effector;
-      const double most = sequence[k][l] == kFree ? 0.0 : problem.limits[l].moment_max[at.axes()[at.moments()[i].axis]];
+      double most = 0.0;
+      if (sequence[k][l] != kFree)
+        most = std::min(problem.limits[l].moment_max[at.axes()[at.moments()[i].axis]],
+                        moment_per_stiffness(problem, l, sequence[k][l]) * mu(k, l));
       bound(k, at.moment(i), -most, most);
     }
   }
@@ -74,7 +79,7 @@ bool Search::make_exact(Incumbent& now) {
   // Newton on the defects: quadratic from 1e-3 on, but every input that meets its bound costs a step.
   constexpr double kRounding = 1e-13;
   for (int i = 0; i < 30; ++i) {
-    snap_forces(*problem_, now.sequence, trajectory, held);
+    snap_forces(*problem_, model_.pendulum(), now.sequence, trajectory, held);
     model_.expand(trajectory, schedule);
     double defect = 0.0;
     for (int k = 0; k < problem_->steps; ++k) defect = std::max(defect, model_.defect(k).lpNorm<Eigen::Infinity>());

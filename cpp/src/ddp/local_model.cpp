@@ -19,6 +19,7 @@ void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const Ve
                       const std::vector<Instant>& instants, int l, int contact, const Schedule& schedule, Rows& rows) {
   if (contact == kFree) {
     if (u) free_cost(problem, *u, l, schedule.contact_weight, rows);
+    if (schedule.interior_weight > 0.0) keep_out_cost(problem, x, l, schedule.interior_weight, rows);
     return;
   }
   contact_cost(problem, x, u, l, contact, schedule.contact_weight, rows);
@@ -26,6 +27,7 @@ void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const Ve
   interior_reach_cost(problem, x, instants, l, schedule.interior_weight, rows);
   if (problem.options.friction) friction_cost(problem, x, instants, l, contact, schedule.interior_weight, rows);
   force_cap_cost(problem, pendulum, x, *u, instants, l, schedule.interior_weight, rows);
+  torsion_cost(problem, pendulum, *u, l, contact, schedule.interior_weight, rows);
 }
 
 namespace {
@@ -36,7 +38,11 @@ constexpr double kHeld = 1e10;
 /// Turn the quadratic of step k into the metric of the least change.
 void hold_inputs(const Problem& problem, int k, const std::vector<char>* held, Quadratic& q) {
   const int nx = problem.layout.nx(), held_states = nx - Layout::angle();
+  // The stiff costs count a little, so that the change avoids the limits, but not so much that it runs through the inputs
+  // that are soft (durations above all) beyond where the linear model holds.
+  constexpr double kCostShare = 1e-3;
   q.g.setZero();
+  q.h *= kCostShare;
   q.h.diagonal().array() += 1.0;
   if (k == 0) q.h.diagonal().segment(Layout::angle(), held_states).array() += kHeld;
   if (!held) return;
@@ -158,6 +164,10 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
     next_ -= trajectory.x[k + 1];
     out.defect_l1 += next_.lpNorm<1>();
     out.defect_max = std::max(out.defect_max, next_.lpNorm<Eigen::Infinity>());
+  }
+  if (schedule.interior_weight > 0.0) {
+    rows_.begin(Term::contact_change);
+    rows_.add_constant(contact_change_cost(*problem_, sequence));
   }
   out.cost = rows_.cost();
   out.terms = rows_.terms();

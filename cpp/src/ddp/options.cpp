@@ -51,6 +51,7 @@ void Options::validate() const {
   require_weight("weights.moment", weights.moment);
   require_weight("weights.limit", weights.limit);
   require_weight("weights.flight", weights.flight);
+  require_weight("weights.contact_change", weights.contact_change);
   require_weight("weights.duration", weights.duration);
   require_positive("weights.contact_min", weights.contact_min);
   require_positive("weights.contact_max", weights.contact_max);

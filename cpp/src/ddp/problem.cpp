@@ -74,6 +74,8 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     std::vector<Vector3d> scaled;
     for (const Vector3d& v : surface.vertices_W) scaled.push_back(v / units.length);
     polygons.emplace_back(scaled);
+    // Twice the solid: an end-effector that crossed it between two knots is still noticed.
+    keep_out_depth.push_back(2.0 * surface.thickness / units.length);
     friction.push_back(surface.grasp ? std::numeric_limits<double>::infinity()
                                      : std::max(surface.friction - kFrictionMargin, 0.5 * surface.friction));
   }
@@ -88,6 +90,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     l.reach_max = (end.reach_max_B - margin).cwiseMax(middle) / units.length;
     // A cap above ten times the weight would not bind; it also stands for "no cap".
     l.force_max = std::min(end.max_force / units.force(), 10.0);
+    l.half_width = end.half_size.minCoeff() / units.length;
     l.moment_max = end.max_moment / units.moment();
     limits.push_back(l);
   }
@@ -153,8 +156,30 @@ Vector3d Problem::rpy(const VectorXd& x) const {
   return out;
 }
 
+/// Footholds where the reference is in the middle of each contact, straight lines between them.
+void Problem::place_footholds(const ContactSequence& sequence, Trajectory& guess) const {
+  for (int l = 0; l < layout.ends(); ++l) {
+    int known = 0;  // the last knot whose position stands
+    for (int k = 0; k <= steps; ++k) {
+      if (sequence[k][l] == kFree) continue;
+      const int first = k;
+      while (k < steps && sequence[k + 1][l] == sequence[k][l]) ++k;
+      const int last = std::min(k + 1, steps);
+      const int middle = last == steps ? steps : (first + last) / 2;
+      Vector3d foothold = guess.x[first].segment<3>(layout.end(l));
+      if (first > 0) foothold = polygons[sequence[k][l]].nearest(reference.x[middle].segment<3>(layout.end(l)));
+      const Vector3d before = guess.x[known].segment<3>(layout.end(l));
+      for (int j = known + 1; j < first; ++j)
+        guess.x[j].segment<3>(layout.end(l)) = before + (foothold - before) * (j - known) / (first - known);
+      for (int j = first; j <= last; ++j) guess.x[j].segment<3>(layout.end(l)) = foothold;
+      known = last;
+    }
+  }
+}
+
 Trajectory Problem::initial_guess(const ContactSequence& sequence) const {
   Trajectory guess = reference;
+  if (!sequence.empty()) place_footholds(sequence, guess);
   for (int k = 0; k < steps; ++k) {
     VectorXd u = VectorXd::Zero(layout.nu());
     int standing = 0;

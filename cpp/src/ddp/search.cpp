@@ -184,6 +184,7 @@ Status Search::polish(Incumbent& now, int iterations, double calm, double give_u
   Schedule schedule = full_schedule();
   schedule.proximal_weight = polish_proximal_;
   double last = std::numeric_limits<double>::infinity();
+  double window_start = last;
   int calm_iterations = 0;
   Status status = Status::solved;
   for (int i = 0; i < iterations; ++i) {
@@ -193,8 +194,13 @@ Status Search::polish(Incumbent& now, int iterations, double calm, double give_u
     const double merit = now.evaluation.merit();
     calm_iterations = last - merit < calm * std::abs(merit) ? calm_iterations + 1 : 0;
     if (calm_iterations >= 3 && now.evaluation.defect_max < 1e-4) return Status::solved;
-    constexpr double kStepsAhead = 10.0;
-    if (i >= 4 && merit - kStepsAhead * (last - merit) > give_up_above) return Status::solved;
+    // Progress comes in bursts, so it is judged over several iterations.
+    constexpr int kWindow = 5;
+    constexpr double kWindowsAhead = 3.0;
+    if (i % kWindow == kWindow - 1) {
+      if (i > kWindow && merit - kWindowsAhead * (window_start - merit) > give_up_above) return Status::solved;
+      window_start = merit;
+    }
     last = merit;
   }
   return Status::solved;
@@ -215,6 +221,7 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now) {
     for (const Neighbour& n : pricing_.all(model_, values_, now.sequence)) {
       changes.push_back({n.cost, now.sequence});
       changes.back().sequence[n.step] = n.state;
+      changes.back().cost += contact_change_cost(*problem_, changes.back().sequence);
     }
   }
   const Stopwatch watch(report_->timing_s, "whole_sequence");
@@ -225,7 +232,8 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now) {
   for (ContactSequence& edited : swing_edits(problem_->rules, now.sequence)) {
     if (!values_.backward(edited, problem_->steps)) continue;
     const Quadratic& v = values_.V(0);
-    changes.push_back({v.c - 0.5 * v.g.dot(v.h.llt().solve(v.g)), std::move(edited)});
+    const double changing = contact_change_cost(*problem_, edited);
+    changes.push_back({v.c - 0.5 * v.g.dot(v.h.llt().solve(v.g)) + changing, std::move(edited)});
   }
   std::stable_sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.cost < b.cost; });
   std::vector<ContactSequence> out;

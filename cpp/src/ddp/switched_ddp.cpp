@@ -21,7 +21,8 @@ namespace mcplan::ddp {
 namespace {
 
 constexpr int kPolishIterations = 60, kFinalIterations = 120;
-constexpr double kRoughCalm = 1e-3, kFinalCalm = 1e-5;
+constexpr double kRoughCalm = 1e-3, kFinalCalm = 1e-4;
+constexpr double kHardening = 4.0;
 /// A violation within this factor of its tolerance is called acceptable, beyond it infeasible.
 constexpr double kAcceptable = 10.0;
 /// Iterations of Method::paper: the paper counts about 50 to convergence and reports averages over 100.
@@ -88,7 +89,10 @@ Status SwitchedDdp::Impl::Run::attempt(std::vector<Incumbent> guesses, bool disc
   Incumbent chosen;
   double lowest = std::numeric_limits<double>::infinity();
   Status status = Status::solved;
+  std::size_t best_guess = 0;
   for (std::size_t i = 0; i < guesses.size() && status == Status::solved; ++i) {
+    // The stepping sequences differ in who begins: when the first of them is ahead, the other is no better.
+    if (i >= 2 && best_guess + 1 == i) break;
     if (i == 0 && discover_first) status = search->discover(guesses[i], proximal_weight);
     if (status == Status::solved) status = search->polish(guesses[i], kPolishIterations, kRoughCalm, lowest);
     // A guess that breaks down numerically is dropped, the others may still do.
@@ -99,12 +103,18 @@ Status SwitchedDdp::Impl::Run::attempt(std::vector<Incumbent> guesses, bool disc
     const double merit = search->evaluate(guesses[i]).merit();
     if (!std::isfinite(merit) || merit >= lowest) continue;
     lowest = merit;
+    best_guess = i;
     chosen = std::move(guesses[i]);
   }
   if (chosen.sequence.empty()) return status == Status::solved ? Status::numerical_failure : status;
   if (status == Status::solved) status = search->refine(chosen);
-  if (status == Status::solved)
+  if (status == Status::solved) {
+    // Limits are penalties: harder ones at the end bring what is left of a violation below the checker's tolerance.
+    const double limit = problem.options.weights.limit;
+    problem.options.weights.limit *= kHardening;
     status = search->polish(chosen, kFinalIterations, kFinalCalm, std::numeric_limits<double>::infinity());
+    problem.options.weights.limit = limit;
+  }
   finish(std::move(chosen));
   return status;
 }

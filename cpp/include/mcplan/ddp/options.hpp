@@ -35,6 +35,7 @@ struct Weights {
   double contact_min = 0.01, contact_max = 100.0;       ///< w_compl
   double contact_growth = 2.0;                          ///< gamma
   double flight = 1.0;                                  ///< on every phase without any contact
+  double contact_change = 0.1;                          ///< on every contact made or broken
   double overshoot_factor = 2.0;                        ///< on leaving a finite polygon sideways, times w_compl
 };
 
@@ -55,7 +56,7 @@ struct Options {
   bool one_switch_per_step = true;    ///< Tazaki's eq. (32)
   int restarts = 3;                   ///< further attempts from other settings while the checker rejects the plan
 
-  int max_iterations = 400;           ///< over all attempts
+  int max_iterations = 5000;          ///< over all attempts
   double time_limit_s = std::numeric_limits<double>::infinity();  ///< wall clock
   int threads = 1;                    ///< for pricing; the result does not depend on it
   std::uint64_t seed = 0;             ///< of the order in which restarts vary the settings

@@ -35,6 +35,7 @@ struct Trajectory {
 struct EndLimits {
   Eigen::Vector3d nominal, reach_min, reach_max;
   double force_max = 0.0;
+  double half_width = 0.0;  ///< the sole's shorter half side
   Eigen::Vector3d moment_max;
 };
 
@@ -54,6 +55,7 @@ class Problem {
   std::vector<int> active;                  ///< end-effector of the robot behind each of the problem's
   std::vector<Polygon> polygons;            ///< by scene surface
   std::vector<double> friction;             ///< by scene surface; infinite where it may be held (grasp)
+  std::vector<double> keep_out_depth;       ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<EndLimits> limits;            ///< by active end-effector
   Eigen::Vector3d inertia;                  ///< in units of mass length^2
   double first_duration = 0.0;              ///< what is left of the first phase when replanning, else 0
@@ -81,6 +83,7 @@ class Problem {
 
  private:
   void make_reference(const Eigen::VectorXd& goal);
+  void place_footholds(const ContactSequence& sequence, Trajectory& guess) const;
 };
 
 }  // namespace mcplan::ddp

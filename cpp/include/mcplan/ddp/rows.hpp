@@ -7,8 +7,8 @@
 namespace mcplan::ddp {
 
 /// What a row belongs to, for the report's cost by term.
-enum class Term { task, duration, reach, bounds, contact, free, friction, force_cap, flight };
-constexpr int kTermCount = 9;
+enum class Term { task, duration, reach, bounds, contact, free, friction, force_cap, flight, contact_change };
+constexpr int kTermCount = 10;
 const char* to_string(Term term);
 using CostTerms = std::array<double, kTermCount>;
 

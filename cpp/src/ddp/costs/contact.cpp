@@ -42,11 +42,37 @@ void free_cost(const Problem& problem, const VectorXd& u, int l, double weight, 
     if (at.moments()[i].end_effector == l) rows.add_single(weight, u[at.moment(i)], at.nx() + at.moment(i));
 }
 
+void keep_out_cost(const Problem& problem, const VectorXd& x, int l, double weight, Rows& rows) {
+  const Vector3d p = x.segment<3>(problem.layout.end(l));
+  rows.begin(Term::free);
+  for (std::size_t i = 0; i < problem.polygons.size(); ++i) {
+    const Polygon& polygon = problem.polygons[i];
+    const double height = polygon.height(p);
+    if (height >= 0.0 || height < -problem.keep_out_depth[i] || polygon.outside(p) > 0.0) continue;
+    if (rows.with_gradient()) rows.add_dense(weight, height).segment<3>(problem.layout.end(l)) = polygon.normal_W();
+    else rows.add_value(weight, height);
+  }
+}
+
 double flight_cost(const Problem& problem, const ContactState& state) {
   for (int contact : state)
     if (contact != kFree) return 0.0;
   const double w = problem.options.weights.flight;
   return problem.options.method == Method::paper ? 0.0 : 0.5 * w * w;
+}
+
+double contact_change_cost(const Problem& problem, const ContactState& from, const ContactState& to) {
+  const double w = problem.options.method == Method::paper ? 0.0 : problem.options.weights.contact_change;
+  double cost = 0.0;
+  for (std::size_t l = 0; l < from.size(); ++l)
+    if (from[l] != to[l]) cost += 0.5 * w * w;
+  return cost;
+}
+
+double contact_change_cost(const Problem& problem, const ContactSequence& sequence) {
+  double cost = 0.0;
+  for (std::size_t k = 1; k < sequence.size(); ++k) cost += contact_change_cost(problem, sequence[k - 1], sequence[k]);
+  return cost;
 }
 
 }  // namespace mcplan::ddp

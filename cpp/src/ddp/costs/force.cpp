@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mcplan/ddp/costs/costs.hpp"
 
@@ -50,6 +52,36 @@ void force_cap_cost(const Problem& problem, const Pendulum& pendulum, const Vect
     g.segment<3>(at.end(l)) -= mu / distance * d;
     const bool lambda = problem.options.stiffness_input == StiffnessInput::lambda;
     g[at.nx() + at.stiffness(l)] += distance * (lambda ? 2.0 * u[at.stiffness(l)] : 1.0);
+  }
+}
+
+double moment_per_stiffness(const Problem& problem, int l, int surface) {
+  const double friction = problem.friction[surface];
+  // Point contacts have no sole to judge by; their max_moment alone counts.
+  if (std::isinf(friction) || problem.limits[l].half_width <= 0.0) return std::numeric_limits<double>::infinity();
+  // The force's normal part is mu_l times the CoM's height above the plane, which may sink well below nominal.
+  constexpr double kLowestHeight = 0.6;
+  return kLowestHeight * std::min(friction, 1.0) * problem.limits[l].half_width;
+}
+
+void torsion_cost(const Problem& problem, const Pendulum& pendulum, const VectorXd& u, int l, int surface, double weight,
+                  Rows& rows) {
+  const Layout& at = problem.layout;
+  const double ratio = moment_per_stiffness(problem, l, surface);
+  if (std::isinf(ratio)) return;
+  rows.begin(Term::bounds);
+  for (int i = 0; i < at.moment_count(); ++i) {
+    if (at.moments()[i].end_effector != l) continue;
+    const double moment = u[at.moment(i)], beyond = std::abs(moment) - ratio * pendulum.mu(u, l);
+    if (beyond <= 0.0) continue;
+    if (!rows.with_gradient()) {
+      rows.add_value(weight, beyond);
+      continue;
+    }
+    const bool lambda = problem.options.stiffness_input == StiffnessInput::lambda;
+    auto g = rows.add_dense(weight, beyond);
+    g[at.nx() + at.moment(i)] = moment > 0.0 ? 1.0 : -1.0;
+    g[at.nx() + at.stiffness(l)] = -ratio * (lambda ? 2.0 * u[at.stiffness(l)] : 1.0);
   }
 }
 

@@ -6,8 +6,8 @@ void task_cost(const Problem& problem, int k, const Eigen::VectorXd& x, const Ei
   const Layout& at = problem.layout;
   const Weights& w = problem.options.weights;
   const bool first = k == 0, last = k == problem.steps;
-  // The end-effectors and the base start where they are. The CoM is held only as in the paper: on point feet side by side
-  // nothing can move it forward, and a fraction of a millimetre off balance is how this model starts to walk.
+  // The robot starts as it is. Only the CoM's position is held no harder than in the paper: on point feet side by side
+  // nothing can move it forward, and a few millimetres off balance are how this model starts to walk.
   constexpr double kPinned = 1000.0;
   const bool pinned = first && problem.options.method != Method::paper;
   const auto weight = [&](double inside, double end) { return first || last ? end : inside; };
@@ -20,7 +20,7 @@ void task_cost(const Problem& problem, int k, const Eigen::VectorXd& x, const Ei
     else if (i < at.angle()) wi = weight(w.velocity, w.velocity_end);
     else if (i < at.end(0)) wi = weight(w.rotation, w.rotation_end);
     else wi = weight(w.end_effector, w.end_effector_end);
-    if (pinned && i >= at.angle()) wi = kPinned;
+    if (pinned && i >= at.velocity()) wi = kPinned;
     rows.add_single(wi, x[i] - reference[i], i);
   }
   if (!u) return;

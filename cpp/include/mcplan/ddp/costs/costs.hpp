@@ -48,9 +48,20 @@ void contact_cost(const Problem& problem, const Eigen::VectorXd& x, const Eigen:
 /// No contact (Tazaki, eq. 19, third term): no stiffness, no moment.
 void free_cost(const Problem& problem, const Eigen::VectorXd& u, int l, double weight, Rows& rows);
 
+/// A free end-effector stays out of the solids below the surfaces (at the knots; not in the paper): height above the plane
+/// at least 0 where it is inside a polygon's outline and not far below it.
+void keep_out_cost(const Problem& problem, const Eigen::VectorXd& x, int l, double weight, Rows& rows);
+
 /// Cost of a phase without any contact, so that the robot jumps where it must and not because it may (not in the paper,
 /// where walking with flight phases is a common local optimum). A constant of the contact state.
 double flight_cost(const Problem& problem, const ContactState& state);
+
+/// Cost of the contacts made and broken between two steps, so that the robot takes no step that gains it next to nothing
+/// (not in the paper). A constant of the two states; it counts at the full weights only, not in discovery.
+double contact_change_cost(const Problem& problem, const ContactState& from, const ContactState& to);
+
+/// The same over a whole sequence.
+double contact_change_cost(const Problem& problem, const ContactSequence& sequence);
 
 /// Reach between the knots, for an end-effector in contact (not in the paper, which looks at the knots alone).
 void interior_reach_cost(const Problem& problem, const Eigen::VectorXd& x, const std::vector<Instant>& instants, int l,
@@ -64,5 +75,13 @@ void friction_cost(const Problem& problem, const Eigen::VectorXd& x, const std::
 /// mu_l |p - p_l| <= f_max at every instant. The paper bounds the stiffness instead.
 void force_cap_cost(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x, const Eigen::VectorXd& u,
                     const std::vector<Instant>& instants, int l, double weight, Rows& rows);
+
+/// Largest contact moment per stiffness [length^2]: what friction under the sole and the sole's half width can bear of a
+/// force that carries the CoM at about its nominal height. Infinite for moments that nothing bears down on (grasp).
+double moment_per_stiffness(const Problem& problem, int l, int surface);
+
+/// |tau_l| <= moment_per_stiffness mu_l: a foot that hardly presses cannot twist. Not in the paper.
+void torsion_cost(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& u, int l, int surface,
+                  double weight, Rows& rows);
 
 }  // namespace mcplan::ddp
