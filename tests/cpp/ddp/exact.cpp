@@ -36,7 +36,10 @@ void check_exact(const Problem& problem, const Incumbent& now) {
     }
     for (int i = 0; i < at.moment_count(); ++i) {
       const int l = at.moments()[i].end_effector;
-      const double most = now.sequence[k][l] == kFree ? 0.0 : problem.limits[l].moment_max[at.axes()[at.moments()[i].axis]];
+      double most = 0.0;
+      if (now.sequence[k][l] != kFree)
+        most = std::min(problem.limits[l].moment_max[at.axes()[at.moments()[i].axis]],
+                        moment_per_stiffness(problem, l, now.sequence[k][l]) * pendulum.mu(u, l));
       CHECK(std::abs(u[at.moment(i)]) <= most);
     }
   }

@@ -70,7 +70,8 @@ TEST_CASE("every weight must be a number that is not negative") {
                             {&Weights::moment, "moment"},
                             {&Weights::limit, "limit"},
                             {&Weights::duration, "duration"},
-                            {&Weights::flight, "flight"}};
+                            {&Weights::flight, "flight"},
+                            {&Weights::contact_change, "contact_change"}};
   for (const Weight& w : weights) {
     for (double bad : {-1.0, kNan, kInf})
       CHECK(refused([&](Options& o) { o.weights.*w.member = bad; }) == std::string("weights.") + w.name);

@@ -12,10 +12,11 @@ namespace {
 using namespace support;
 using namespace mcplan::ddp;
 
+/// Minimum of the local model, with what the sequence's contact changes cost.
 double full_price(LocalModel& model, const ContactSequence& sequence) {
   ValueFunctions values(model);
   REQUIRE(values.backward(sequence, model.steps()));
-  return values.minimum(0);
+  return values.minimum(0) + contact_change_cost(model.problem(), sequence);
 }
 
 constexpr std::size_t kNoLimit = 1000000;
@@ -38,7 +39,7 @@ TEST_CASE("the price of a whole sequence is that of its own Riccati recursion, a
       ValueFunctions values(model);
       REQUIRE(values.backward(sequence, 12));
       REQUIRE(values.forward(sequence, 0));
-      const double present = values.minimum(0);
+      const double present = full_price(model, sequence);
       const PricedSequence found = best_whole_sequence(model, values, kNoLimit);
       REQUIRE(found.sequence.size() == 13);
       CHECK(problem.rules.valid(found.sequence));

@@ -63,6 +63,34 @@ TEST_CASE("free: no stiffness and no moment of this end-effector, whatever the o
   CHECK(rows.cost() == 0.0);
 }
 
+TEST_CASE("a free end-effector is kept out of the solids, at their outline and down to twice their thickness") {
+  const ddp::Problem problem = workshop();
+  const ddp::Layout& at = problem.layout;
+  const Writer keep_out = [&](const VectorXd& x, const VectorXd&, Rows& rows) { keep_out_cost(problem, x, 1, 3.0, rows); };
+  check_rows(problem, keep_out, 52, 0.3, 10);
+  const auto price = [&](const Vector3d& position_W) {
+    VectorXd x = VectorXd::Zero(at.nx());
+    x.segment<3>(at.end(1)) = position_W / 0.7;
+    return cost(problem, keep_out, x, VectorXd()) / (0.5 * 3.0 * 3.0);
+  };
+  CHECK(price({0.0, 0.0, 0.01}) == 0.0);
+  CHECK(price({0.0, 0.0, -0.07}) == doctest::Approx(0.01));
+  CHECK(price({0.0, 0.0, -0.11}) == 0.0);   // below the solid
+  CHECK(price({0.9, 0.0, -0.07}) == 0.0);   // in the gap
+  CHECK(price({0.9, -0.4, 0.43}) == doctest::Approx(0.01));  // a foot in a pad
+}
+
+TEST_CASE("a contact change costs a constant per end-effector, except in the paper's form") {
+  ddp::Options options = phases(6);
+  options.weights.contact_change = 3.0;
+  const ddp::Problem ours = workshop(options);
+  CHECK(contact_change_cost(ours, {0, 0, -1, -1}, {0, 0, -1, -1}) == 0.0);
+  CHECK(contact_change_cost(ours, {0, 0, -1, -1}, {0, -1, 2, -1}) == 9.0);
+  CHECK(contact_change_cost(ours, {{0, 0, -1, -1}, {0, -1, -1, -1}, {0, 1, -1, -1}}) == 9.0);
+  options.method = ddp::Method::paper;
+  CHECK(contact_change_cost(workshop(options), {0, 0, -1, -1}, {0, -1, 2, -1}) == 0.0);
+}
+
 TEST_CASE("flight costs a constant, except in the paper's form") {
   ddp::Options options = phases(6);
   options.weights.flight = 3.0;

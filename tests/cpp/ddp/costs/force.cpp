@@ -92,3 +92,30 @@ TEST_CASE("force cap: mu |p - p_l| against the end-effector's largest force, not
   CHECK(price(0.99 * cap) == 0.0);
   CHECK(price(cap + 0.5) == doctest::Approx(0.25));
 }
+
+TEST_CASE("torsion: a foot that hardly presses cannot twist; points and grips are not judged by a sole") {
+  ddp::Options options = phases(6);
+  for (auto input : {ddp::StiffnessInput::mu, ddp::StiffnessInput::lambda}) {
+    options.stiffness_input = input;
+    const Bench bench(options);
+    const ddp::Layout& at = bench.problem.layout;
+    const Writer torsion = [&](const VectorXd&, const VectorXd& u, Rows& rows) {
+      torsion_cost(bench.problem, bench.pendulum, u, 1, before, 3.0, rows);
+    };
+    check_rows(bench.problem, torsion, 53, 0.5, 30);
+    // Friction 0.68 under a sole 0.05 m to either side, the CoM at 0.6 of its height.
+    const double ratio = 0.6 * 0.68 * 0.05 / 0.7;
+    CHECK(moment_per_stiffness(bench.problem, 1, before) == doctest::Approx(ratio));
+    VectorXd u = VectorXd::Zero(at.nu());
+    u[at.stiffness(1)] = input == ddp::StiffnessInput::lambda ? std::sqrt(0.5) : 0.5;
+    const int yaw = at.moment(5);  // left foot about z
+    for (double sign : {1.0, -1.0}) {
+      u[yaw] = sign * 0.499 * ratio;
+      CHECK(cost(bench.problem, torsion, VectorXd(), u) == 0.0);
+      u[yaw] = sign * (0.5 * ratio + 0.1);
+      CHECK(cost(bench.problem, torsion, VectorXd(), u) == doctest::Approx(0.5 * 9.0 * 0.01));
+    }
+    CHECK(std::isinf(moment_per_stiffness(bench.problem, 2, right_pad)));
+    CHECK(std::isinf(moment_per_stiffness(bench.problem, 2, before)));  // a hand is a point
+  }
+}
