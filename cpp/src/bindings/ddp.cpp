@@ -48,7 +48,7 @@ void bind_options(py::module_& m) {
       .value("lambda_", StiffnessInput::lambda);
   py::class_<Options> c(m, "Options", "Options of the contact-sequence search; the defaults serve all built-in scenes.");
   c.def(py::init<>());
-  c.def_readwrite("phases", &Options::phases, "Number of phases N.");
+  c.def_readwrite("phases", &Options::phases, "Number of phases N; 0: 18, or more where the way asks for more steps.");
   c.def_readwrite("method", &Options::method);
   c.def_readwrite("stiffness_input", &Options::stiffness_input);
   c.def_readwrite("weights", &Options::weights);

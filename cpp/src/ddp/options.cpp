@@ -22,7 +22,7 @@ void require_weight(const char* field, double value) {
 }  // namespace
 
 void Options::validate() const {
-  require_at_least("phases", phases, 1);
+  require_at_least("phases", phases, 0);
   if (phases > 2000) throw InvalidOptions("phases", "must be 2000 at most", text(phases));
   require_positive("duration_min_s", duration_min_s);
   require_positive("duration_initial_s", duration_initial_s);

@@ -50,7 +50,6 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   scene.validate();
   robot.validate();
   options.validate();
-  steps = options.phases;
   units.length = robot.com_height;
   units.time = std::sqrt(robot.com_height / scene.gravity);
   units.mass = robot.mass;
@@ -127,12 +126,35 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
       x.segment<3>(layout.end(l)) = stance.end_effectors_W[active[l]] / units.length;
     return x;
   };
+  steps = options.phases > 0 ? options.phases : automatic_steps(from, to);
   start = state_of(from);
   for (int e : active) {
     start_contacts.push_back(from.contacts[e]);
     goal_contacts.push_back(to.contacts[e]);
   }
   make_reference(state_of(to));
+}
+
+/// As many steps as the end-effectors that stand need to cover the way one after the other, a swing and a phase of full
+/// support each; at least the paper's 18. The stride is what the reach box leaves inside the friction cone, since forces
+/// point at the CoM.
+int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const {
+  constexpr int kPaper = 18, kMost = 400;
+  int movers = 0, strides = 0;
+  for (std::size_t l = 0; l < active.size(); ++l) {
+    const int e = active[l];
+    if (from.contacts[e] == kFree || to.contacts[e] == kFree) continue;
+    ++movers;
+    double tangent = 0.0;
+    for (int surface : rules.surfaces(static_cast<int>(l))) tangent = std::max(tangent, friction[surface]);
+    const EndLimits& limit = limits[l];
+    const double spread = std::min(tangent, 10.0) * std::abs(limit.nominal.z());
+    const double ahead = std::sqrt(std::max(spread * spread - limit.nominal.y() * limit.nominal.y(), 0.0));
+    const double stride = std::min(limit.reach_max.x(), ahead) - std::max(limit.reach_min.x(), -ahead);
+    const double way = (to.end_effectors_W[e] - from.end_effectors_W[e]).head<2>().norm() / units.length;
+    if (stride > 0.0) strides = std::max(strides, static_cast<int>(std::ceil(std::min(way / stride - 1e-9, 1e3))));
+  }
+  return std::clamp(2 * movers * strides + 2, kPaper, kMost);
 }
 
 /// Cubic from start to goal, at rest at both ends (Tazaki, sec. III-A), tied to the step index.

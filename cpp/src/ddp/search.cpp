@@ -230,10 +230,10 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now) {
     if (!whole.sequence.empty() && whole.sequence != now.sequence) changes.push_back({whole.cost, whole.sequence});
   }
   for (ContactSequence& edited : swing_edits(problem_->rules, now.sequence)) {
-    if (!values_.backward(edited, problem_->steps)) continue;
-    const Quadratic& v = values_.V(0);
+    const double cost = values_.minimum_with(edited, now.sequence);
+    if (!std::isfinite(cost)) continue;
     const double changing = contact_change_cost(*problem_, edited);
-    changes.push_back({v.c - 0.5 * v.g.dot(v.h.llt().solve(v.g)) + changing, std::move(edited)});
+    changes.push_back({cost + changing, std::move(edited)});
   }
   std::stable_sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.cost < b.cost; });
   std::vector<ContactSequence> out;

@@ -1,6 +1,8 @@
 #include "mcplan/ddp/value_functions.hpp"
 
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace mcplan::ddp {
 
@@ -110,6 +112,24 @@ double ValueFunctions::minimum(int k) const {
   const MatrixXd h = U_[k].h + V_[k].h;
   const VectorXd g = U_[k].g + V_[k].g;
   return U_[k].c + V_[k].c - 0.5 * g.dot(h.llt().solve(g));
+}
+
+double ValueFunctions::minimum_with(const ContactSequence& changed, const ContactSequence& sequence) {
+  const int n = model_->steps();
+  int first = 0, last = n - 1;
+  while (first < last && changed[first] == sequence[first]) ++first;
+  while (last > first && changed[last] == sequence[last]) --last;
+  from_ = V_[last + 1];
+  for (int k = last; k >= first; --k) {
+    if (!backward_step(k, changed[k], from_, to_, nullptr, nullptr, nullptr)) return std::numeric_limits<double>::infinity();
+    std::swap(from_, to_);
+  }
+  from_.h += U_[first].h;
+  from_.g += U_[first].g;
+  factor_.compute(from_.h);
+  if (factor_.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+  factor_.matrixL().solveInPlace(from_.g);
+  return U_[first].c + from_.c - 0.5 * from_.g.squaredNorm();
 }
 
 void ValueFunctions::state_forward(std::vector<VectorXd>& dx, std::vector<VectorXd>& du) {

@@ -22,6 +22,7 @@ from mcplan.files.reach import Limb, explore, largest_box
 
 GRAVITY = 9.81
 FOOT_FORCE = 2.5  # of the robot's weight
+STANCE_TANGENT = 0.6  # largest horizontal over vertical distance of a foot to the CoM in the nominal stance
 HAND_INSET_M = (
     0.03  # of a hand's nominal position in its box: an arm hanging down is at the edge of what it reaches
 )
@@ -34,8 +35,8 @@ HEADER = (
     "Reach boxes: the largest box around the nominal position whose every grid point ({step} m apart) is reached by "
     "inverse kinematics within the joint limits: base upright, other limbs nominal, soles level, feet on their own side "
     "of the body. Left and right are given the same box. max_force of feet: {foot} times the weight; of hands: the "
-    "upward force that the arm's torque limits bear in the nominal posture (tau = J^T f plus gravity). A hand's nominal "
-    "position is moved {inset} m into its box. max_moment of soles: {moment} x weight x com_height, vertical."
+    "upward force that the arm's torque limits bear in the nominal posture (tau = J^T f plus gravity). Feet "
+    "stand at most {tangent} x com_height off the CoM, since forces point at it. A hand's nominal position is moved {inset} m into its box. max_moment of soles: {moment} x weight x com_height, vertical."
 )
 
 
@@ -141,9 +142,12 @@ def robot_from_urdf(
     made = {}
     for end in ends:
         limb = limb_of(model, posture, end, ends)
-        low, high = _search_box(limb.position(limb.nominal), end, com_height)
-        box = largest_box(explore(limb, low, high, step, seed))
-        made[end.name] = (limb.position(limb.nominal), *box)
+        nominal = limb.position(limb.nominal)
+        if end.kind == "foot":
+            # Forces point at the CoM: a stance wider than the friction cone cannot stand, so it is drawn in.
+            nominal[:2] *= min(1.0, STANCE_TANGENT * com_height / np.hypot(*nominal[:2]))
+        low, high = _search_box(nominal, end, com_height)
+        made[end.name] = (nominal, *largest_box(explore(limb, low, high, step, seed)))
     weight = mass * GRAVITY
     return Robot(
         name=Path(source).stem,
@@ -167,7 +171,7 @@ def robot_from_urdf(
 
 def header(command: str, step: float = 0.02) -> str:
     """Comment on top of a file made from a URDF: the command, and where each number comes from."""
-    text = HEADER.format(step=step, foot=FOOT_FORCE, inset=HAND_INSET_M, moment=SOLE_MOMENT)
+    text = HEADER.format(tangent=STANCE_TANGENT, step=step, foot=FOOT_FORCE, inset=HAND_INSET_M, moment=SOLE_MOMENT)
     return f"Made by: {command}\n{textwrap.fill(text, 116)}"
 
 

@@ -41,7 +41,7 @@ struct Weights {
 
 /// Options of the contact-sequence search. Defaults serve all built-in scenes.
 struct Options {
-  int phases = 18;                    ///< N
+  int phases = 0;                     ///< N; 0: 18 as in the paper, or more where the way asks for more steps
   Method method = Method::standard;
   StiffnessInput stiffness_input = StiffnessInput::mu;
   Weights weights;

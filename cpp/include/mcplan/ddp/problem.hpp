@@ -82,6 +82,7 @@ class Problem {
   void set_start(const Knot& measured, const ContactState& contacts);
 
  private:
+  int automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const;
   void make_reference(const Eigen::VectorXd& goal);
   void place_footholds(const ContactSequence& sequence, Trajectory& guess) const;
 };

@@ -35,6 +35,11 @@ class ValueFunctions {
   /// min over x of U_k + V_k (eq. 31).
   double minimum(int k) const;
 
+  /// Minimum of the model with `changed` instead of `sequence`, for which V and U stand: the backward recursion over the
+  /// steps between the first and the last difference, then eq. (31) there. Infinite when a Hessian is not positive
+  /// definite.
+  double minimum_with(const ContactSequence& changed, const ContactSequence& sequence);
+
   /// Newton step of the whole trajectory (eqs. 28-29).
   void state_forward(std::vector<Eigen::VectorXd>& dx, std::vector<Eigen::VectorXd>& du);
 
@@ -46,7 +51,7 @@ class ValueFunctions {
   std::vector<Eigen::MatrixXd> gain_;      ///< K: du = offset - K dx
   std::vector<Eigen::VectorXd> offset_;
   // Scratch.
-  Quadratic q_;
+  Quadratic q_, from_, to_;
   Eigen::MatrixXd m_, mt_, pushed_, k_;
   Eigen::VectorXd w_, o_;
   Eigen::LLT<Eigen::MatrixXd> factor_;

@@ -49,6 +49,7 @@ struct Report {
   double cost = 0.0;
   std::map<std::string, double> cost_terms;
   Violation worst_violation;                  ///< largest value / tolerance over all constraints
+  std::map<std::string, double> friction_use;  ///< largest tangential over normal force by end-effector, grasps included
   std::uint64_t seed = 0;
   int threads = 1;
   std::string version;
