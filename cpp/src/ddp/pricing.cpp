@@ -127,7 +127,7 @@ const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctio
 const Neighbour* cheapest(const std::vector<Neighbour>& neighbours) {
   const Neighbour* best = nullptr;
   for (const Neighbour& n : neighbours)
-    if (!best || n.cost < best->cost) best = &n;
+    if (!best || clearly_less(n.cost, best->cost)) best = &n;
   return best;
 }
 

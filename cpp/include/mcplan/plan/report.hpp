@@ -28,7 +28,7 @@ struct Violation {
 struct Iteration {
   int index = 0;
   double cost = 0.0;              ///< total, at the weight of this iteration
-  double merit = 0.0;             ///< cost + rho |defect|_1, what the line search lowers
+  double merit = 0.0;             ///< cost + rho |defect|, what the line search lowers
   double defect = 0.0;            ///< largest dynamics defect (non-dimensional)
   double contact_weight = 0.0;    ///< w_compl
   double proximal_weight = 0.0;
