@@ -58,6 +58,7 @@ LocalModel::LocalModel(const Problem& problem)
       stages_(problem.steps + 1),
       base_rows_(problem.layout.nz(), true) {
   for (Stage& stage : stages_) {
+    stage.flight = Rows(problem.layout.nz(), true);
     for (int l = 0; l < problem.layout.ends(); ++l) {
       const std::size_t choices = problem.rules.surfaces(l).size() + 1;
       stage.blocks.emplace_back(choices, Rows(problem.layout.nz(), true));
@@ -82,6 +83,7 @@ void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) 
     stage.base.h.setZero(at.nz(), at.nz());
     base_rows_.accumulate(stage.base.c, stage.base.g, stage.base.h, scratch_);
     if (schedule.held_inputs) hold_inputs(*problem_, k, last ? nullptr : &(*schedule.held_inputs)[k], stage.base);
+    stage.flight_made = false;
     for (auto& made : stage.made) std::fill(made.begin(), made.end(), 0);
     if (last) {
       stage.base.g.conservativeResize(at.nx());
@@ -120,6 +122,17 @@ const Rows& LocalModel::block(int k, int l, int contact) {
   return rows;
 }
 
+const Rows* LocalModel::state_block(int k, const ContactState& state) {
+  if (k == steps() || !in_flight(state)) return nullptr;
+  Stage& stage = stages_[k];
+  if (!stage.flight_made) {
+    stage.flight.clear();
+    flight_duration_cost(*problem_, trajectory_->u[k], stage.flight);
+    stage.flight_made = true;
+  }
+  return &stage.flight;
+}
+
 void LocalModel::add_contacts(int k, const ContactState& state, Quadratic& q) {
   if (schedule_.held_inputs) return;
   if (k == steps()) {
@@ -137,6 +150,7 @@ void LocalModel::add_contacts(int k, const ContactState& state, Quadratic& q) {
     return;
   }
   q.c += flight_cost(*problem_, state);
+  if (const Rows* rows = state_block(k, state)) rows->accumulate(q.c, q.g, q.h, scratch_);
   for (int l = 0; l < problem_->layout.ends(); ++l) block(k, l, state[l]).accumulate(q.c, q.g, q.h, scratch_);
 }
 
@@ -158,6 +172,7 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
     for (int l = 0; l < problem_->layout.ends(); ++l)
       add_contact_rows(*problem_, pendulum_, x, u, instants_, l, sequence[k][l], schedule, rows_);
     if (last) break;
+    if (in_flight(sequence[k])) flight_duration_cost(*problem_, *u, rows_);
     rows_.begin(Term::flight);
     rows_.add_constant(flight_cost(*problem_, sequence[k]));
     pendulum_.next(x, *u, next_);

@@ -25,6 +25,7 @@ void Options::validate() const {
   require_at_least("phases", phases, 0);
   if (phases > 2000) throw InvalidOptions("phases", "must be 2000 at most", text(phases));
   require_positive("duration_min_s", duration_min_s);
+  require_positive("flight_duration_min_s", flight_duration_min_s);
   require_positive("duration_initial_s", duration_initial_s);
   if (!(std::isfinite(duration_max_s) && duration_max_s >= duration_min_s))
     throw InvalidOptions("duration_max_s", "must be at least duration_min_s (" + text(duration_min_s) + ")",

@@ -11,6 +11,9 @@
 namespace mcplan::ddp {
 namespace {
 
+/// In place of an end-effector: the rows of the state as a whole.
+constexpr int kWholeState = -1;
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -24,7 +27,12 @@ bool StepPricing::prepare(LocalModel& model, const ValueFunctions& values, int k
   const int nx = at.nx(), nz = at.nz();
   spans_.clear();
   int total = 0;
-  for (const ContactState& state : candidates)
+  const Rows* whole = nullptr;
+  for (const ContactState& state : candidates) {
+    if (!whole && (whole = model.state_block(k, state))) {
+      spans_.push_back({kWholeState, kFree, total, whole->count()});
+      total += whole->count();
+    }
     for (int l = 0; l < at.ends(); ++l) {
       const bool known = std::any_of(spans_.begin(), spans_.end(),
                                      [&](const Span& s) { return s.end == l && s.contact == state[l]; });
@@ -33,6 +41,7 @@ bool StepPricing::prepare(LocalModel& model, const ValueFunctions& values, int k
       spans_.push_back({l, state[l], total, count});
       total += count;
     }
+  }
 
   const Quadratic& q = values.without_contacts(k);
   w_ = q.h;
@@ -48,7 +57,7 @@ bool StepPricing::prepare(LocalModel& model, const ValueFunctions& values, int k
   value_.resize(total);
   inverse_precision_.resize(total);
   for (const Span& span : spans_) {
-    const Rows& block = model.block(k, span.end, span.contact);
+    const Rows& block = span.end == kWholeState ? *whole : model.block(k, span.end, span.contact);
     for (int r = 0; r < span.count; ++r) {
       rows_.col(span.first + r) = block.gradient(r);
       value_[span.first + r] = block.value(r);
@@ -65,7 +74,7 @@ bool StepPricing::prepare(LocalModel& model, const ValueFunctions& values, int k
 double StepPricing::price(const ContactState& state) {
   picked_.clear();
   for (const Span& span : spans_)
-    if (state[span.end] == span.contact)
+    if (span.end == kWholeState ? in_flight(state) : state[span.end] == span.contact)
       for (int r = 0; r < span.count; ++r) picked_.push_back(span.first + r);
   const int n = static_cast<int>(picked_.size());
   small_.resize(n, n);
@@ -92,6 +101,7 @@ const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctio
       neighbours_.push_back({k, state, std::numeric_limits<double>::infinity()});
       // Blocks are made on demand; make them all before threads read them.
       for (int l = 0; l < model.problem().layout.ends(); ++l) model.block(k, l, state[l]);
+      model.state_block(k, state);
     }
   }
   double prepare_s = 0.0, price_s = 0.0;

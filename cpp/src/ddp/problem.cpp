@@ -56,6 +56,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   inertia = robot.inertia / (units.mass * units.length * units.length);
   duration_min = options.duration_min_s / units.time;
   duration_max = options.duration_max_s / units.time;
+  flight_duration_min = std::min(options.flight_duration_min_s, options.duration_max_s) / units.time;
   duration_initial = options.duration_initial_s / units.time;
 
   const int robot_ends = static_cast<int>(robot.end_effectors.size());

@@ -24,6 +24,7 @@ namespace {
 constexpr int kPolishIterations = 60, kFinalIterations = 120;
 constexpr double kRoughCalm = 1e-3, kFinalCalm = 1e-4;
 constexpr double kHardening = 4.0;
+constexpr double kSecondDiscovery = 4.0;
 /// A violation within this factor of its tolerance is called acceptable, beyond it infeasible.
 constexpr double kAcceptable = 10.0;
 /// Iterations of Method::paper: the paper counts about 50 to convergence and reports averages over 100.
@@ -62,7 +63,11 @@ struct SwitchedDdp::Impl {
     bool measured_start = false;
 
     bool finish(Incumbent now);
-    Status attempt(std::vector<Incumbent> guesses, bool discover_first, double proximal_weight);
+    struct Guess {
+      Incumbent start;
+      double discover_with = 0.0;  ///< proximal weight of a discovery before the polish; 0: the sequence is kept
+    };
+    Status attempt(std::vector<Guess> guesses);
   };
 
   PlanResult solve(Problem problem, const Incumbent* warm, bool measured_start);
@@ -89,27 +94,29 @@ bool SwitchedDdp::Impl::Run::finish(Incumbent now) {
   return best->ok;
 }
 
-/// Polish every guess (the first one after a discovery), refine the cheapest and finish it.
-Status SwitchedDdp::Impl::Run::attempt(std::vector<Incumbent> guesses, bool discover_first, double proximal_weight) {
+/// Polish every guess, those without a sequence of their own after a discovery; refine the cheapest and finish it.
+Status SwitchedDdp::Impl::Run::attempt(std::vector<Guess> guesses) {
   Incumbent chosen;
   double lowest = std::numeric_limits<double>::infinity();
   Status status = Status::solved;
-  std::size_t best_guess = 0;
+  bool stepping_ahead = false;
   for (std::size_t i = 0; i < guesses.size() && status == Status::solved; ++i) {
+    const bool discover = guesses[i].discover_with > 0.0;
     // The stepping sequences differ in who begins: when the first of them is ahead, the other is no better.
-    if (i >= 2 && best_guess + 1 == i) break;
-    if (i == 0 && discover_first) status = search->discover(guesses[i], proximal_weight);
-    if (status == Status::solved) status = search->polish(guesses[i], kPolishIterations, kRoughCalm, lowest);
+    if (!discover && stepping_ahead) break;
+    Incumbent& now = guesses[i].start;
+    if (discover) status = search->discover(now, guesses[i].discover_with);
+    if (status == Status::solved) status = search->polish(now, kPolishIterations, kRoughCalm, lowest);
     // A guess that breaks down numerically is dropped, the others may still do.
     if (status == Status::numerical_failure) {
       status = Status::solved;
       continue;
     }
-    const double merit = search->evaluate(guesses[i]).merit();
+    const double merit = search->evaluate(now).merit();
     if (!std::isfinite(merit) || merit >= lowest) continue;
     lowest = merit;
-    best_guess = i;
-    chosen = std::move(guesses[i]);
+    stepping_ahead = !discover;
+    chosen = std::move(now);
   }
   if (chosen.sequence.empty()) return status == Status::solved ? Status::numerical_failure : status;
   if (status == Status::solved) status = search->refine(chosen);
@@ -158,22 +165,22 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
       status = run.search->run_paper(start, std::min(kPaperIterations, options.max_iterations));
       if (status != Status::numerical_failure) run.finish(start);
     } else {
-      std::vector<Incumbent> guesses;
-      bool discover = true;
+      using Guess = Run::Guess;
+      std::vector<Guess> guesses;
       if (warm) {
-        guesses.push_back(*warm);
-        discover = false;
+        guesses.push_back({*warm});
       } else if (!options.initial_sequence.empty()) {
-        guesses.push_back(first_guess(initial));
-        discover = false;
+        guesses.push_back({first_guess(initial)});
       } else {
-        guesses.push_back(start);
+        // Shorter and longer steps lead to other sequences; the better one goes on.
+        guesses.push_back({start, options.proximal_weight});
+        guesses.push_back({start, kSecondDiscovery * options.proximal_weight});
         for (int mover : {0, 1}) {
           const ContactSequence stepping = stepping_sequence(p, mover);
-          if (!stepping.empty()) guesses.push_back(first_guess(stepping));
+          if (!stepping.empty()) guesses.push_back({first_guess(stepping)});
         }
       }
-      status = run.attempt(std::move(guesses), discover, options.proximal_weight);
+      status = run.attempt(std::move(guesses));
 
       // Other settings of what the outcome depends on most, in an order drawn from the seed.
       std::vector<std::pair<double, double>> settings{{10.0, 0.30}, {100.0, 0.40}, {30.0, 0.35}, {10.0, 0.45},
@@ -186,7 +193,7 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
         run.problem.duration_initial = std::clamp(duration_s / p.units.time, p.duration_min, p.duration_max);
         Incumbent again = first_guess({});
         again.sequence = initial;
-        status = run.attempt({again}, true, proximal);
+        status = run.attempt({{again, proximal}});
       }
     }
   }

@@ -55,6 +55,9 @@ class LocalModel {
   /// are needed before reading from several threads.
   const Rows& block(int k, int l, int contact);
 
+  /// Rows that stand for the state as a whole: those of a flight, or none. Same caveat.
+  const Rows* state_block(int k, const ContactState& state);
+
   /// Add the rows of a contact state to a quadratic over z (over x at k = N).
   void add_contacts(int k, const ContactState& state, Quadratic& q);
 
@@ -66,6 +69,8 @@ class LocalModel {
     std::vector<Instant> instants;
     std::vector<std::vector<Rows>> blocks;   ///< [l][choice], choice 0: free, i + 1: surfaces(l)[i]
     std::vector<std::vector<char>> made;
+    Rows flight;
+    bool flight_made = false;
   };
 
   const Problem* problem_;

@@ -47,9 +47,10 @@ struct Options {
   Weights weights;
 
   double duration_min_s = 0.15, duration_max_s = 0.50;  ///< soft box of the phase durations
+  double flight_duration_min_s = 0.40;                  ///< lower bound of phases without any contact (the paper's for all)
   double duration_initial_s = 0.45;
   double proximal_weight = 30.0;      ///< first weight on the change of the inputs; adapts
-  int interior_points = 2;            ///< instants inside each phase at which reach, force and friction are held
+  int interior_points = 4;            ///< instants inside each phase at which reach, force and friction are held
   double reach_margin_m = 0.003;      ///< the reach box is planned smaller by this
   bool friction = true;               ///< hold the friction cones
   bool whole_sequence_moves = true;   ///< dynamic programming over (step, contact state) where it pays

@@ -59,6 +59,7 @@ class Problem {
   std::vector<EndLimits> limits;            ///< by active end-effector
   Eigen::Vector3d inertia;                  ///< in units of mass length^2
   double first_duration = 0.0;              ///< what is left of the first phase when replanning, else 0
+  double flight_duration_min = 0.0;
   double duration_min = 0.0, duration_max = 0.0, duration_initial = 0.0;
   Eigen::Vector3d base_rpy;                 ///< angles of the axes that are not in the layout
   ContactRules rules;

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "mcplan/ddp/costs/costs.hpp"
 
 namespace mcplan::ddp {
@@ -54,11 +56,13 @@ void keep_out_cost(const Problem& problem, const VectorXd& x, int l, double weig
   }
 }
 
+bool in_flight(const ContactState& state) {
+  return std::all_of(state.begin(), state.end(), [](int contact) { return contact == kFree; });
+}
+
 double flight_cost(const Problem& problem, const ContactState& state) {
-  for (int contact : state)
-    if (contact != kFree) return 0.0;
-  const double w = problem.options.weights.flight;
-  return problem.options.method == Method::paper ? 0.0 : 0.5 * w * w;
+  const double w = problem.options.method == Method::paper || !in_flight(state) ? 0.0 : problem.options.weights.flight;
+  return 0.5 * w * w;
 }
 
 double contact_change_cost(const Problem& problem, const ContactState& from, const ContactState& to) {

@@ -17,4 +17,11 @@ void duration_cost(const Problem& problem, int k, const Eigen::VectorXd& u, Rows
   if (u[i] > problem.duration_max) rows.add_single(w.limit, u[i] - problem.duration_max, iz);
 }
 
+void flight_duration_cost(const Problem& problem, const Eigen::VectorXd& u, Rows& rows) {
+  const int i = problem.layout.duration();
+  rows.begin(Term::duration);
+  const double beyond = u[i] - problem.flight_duration_min;
+  if (beyond < 0.0) rows.add_single(problem.options.weights.limit, beyond, problem.layout.nx() + i);
+}
+
 }  // namespace mcplan::ddp

@@ -56,6 +56,13 @@ void keep_out_cost(const Problem& problem, const Eigen::VectorXd& x, int l, doub
 /// where walking with flight phases is a common local optimum). A constant of the contact state.
 double flight_cost(const Problem& problem, const ContactState& state);
 
+/// Duration of a phase without any contact: long enough to draw the legs up and land (the paper's lower bound of all
+/// phases). Depends on the state as a whole, not on one end-effector.
+void flight_duration_cost(const Problem& problem, const Eigen::VectorXd& u, Rows& rows);
+
+/// Whether nothing is in contact.
+bool in_flight(const ContactState& state);
+
 /// Cost of the contacts made and broken between two steps, so that the robot takes no step that gains it next to nothing
 /// (not in the paper). A constant of the two states; it counts at the full weights only, not in discovery.
 double contact_change_cost(const Problem& problem, const ContactState& from, const ContactState& to);
