@@ -84,6 +84,7 @@ __all__ = [
     "load_robot",
     "load_scene",
     "plan",
+    "replan",
     "show",
 ]
 
@@ -124,12 +125,21 @@ def load_robot(source: str | Path) -> Robot:
     return load(source)
 
 
-def plan(scene: Scene | str | Path, robot: Robot | str | Path = "humanoid44", **options: Any) -> PlanResult:
+def plan(
+    scene: Scene | str | Path,
+    robot: Robot | str | Path = "humanoid44",
+    *,
+    warm_start: Plan | None = None,
+    **options: Any,
+) -> PlanResult:
     """Find a contact sequence and a motion from the scene's start to its goal.
+
+    Ctrl-C ends the search; the result then has status ``interrupted`` and the best plan so far.
 
     Args:
         scene: A scene, or what load_scene takes.
         robot: A robot, or what load_robot takes.
+        warm_start: An earlier plan of the same robot to start from.
         **options: Fields of ``mcplan.ddp.Options``; ``time_limit`` [s] is short for ``time_limit_s``.
 
     Returns:
@@ -142,7 +152,39 @@ def plan(scene: Scene | str | Path, robot: Robot | str | Path = "humanoid44", **
     """
     from mcplan.solve import plan as solve
 
-    return solve(scene, robot, options)
+    return solve(scene, robot, options, warm_start)
+
+
+def replan(
+    previous: Plan,
+    t: float,
+    measured: Knot,
+    *,
+    scene: Scene | None = None,
+    robot: Robot | None = None,
+    **options: Any,
+) -> PlanResult:
+    """Plan on from a measured state.
+
+    Args:
+        previous: The plan under way.
+        t: Time in it [s]; the phase under way and those after it are the first guess.
+        measured: The state now; its end-effectors in contact stand where they are.
+        scene: None: the plan's own.
+        robot: None: the plan's own.
+        **options: As for plan(); the number of phases is what is left of them.
+
+    Returns:
+        A plan from the measured state to the goal (``plan.measured_start`` is set).
+
+    Raises:
+        InvalidInput: t lies outside the plan.
+        InvalidPlan: The measured state does not fit the robot.
+        InvalidOptions: No such option, or its value is out of range.
+    """
+    from mcplan.solve import replan as solve
+
+    return solve(previous, t, measured, scene, robot, options)
 
 
 def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:

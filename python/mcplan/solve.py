@@ -7,13 +7,18 @@ from pathlib import Path
 from typing import Any
 
 from mcplan import _core
-from mcplan._core import PlanResult, Robot, Scene
+from mcplan._core import Knot, Plan, PlanResult, Robot, Scene
 from mcplan.errors import InvalidOptions, did_you_mean
 
 _ALIASES = {"time_limit": "time_limit_s"}
 
 
-def plan(scene: Scene | str | Path, robot: Robot | str | Path, options: Mapping[str, Any]) -> PlanResult:
+def plan(
+    scene: Scene | str | Path,
+    robot: Robot | str | Path,
+    options: Mapping[str, Any],
+    warm_start: Plan | None = None,
+) -> PlanResult:
     """See mcplan.plan."""
     if not isinstance(scene, Scene):
         from mcplan.files.scenes import load_scene
@@ -23,7 +28,16 @@ def plan(scene: Scene | str | Path, robot: Robot | str | Path, options: Mapping[
         from mcplan.files.robots import load_robot
 
         robot = load_robot(robot)
-    return _core.ddp.SwitchedDdp(scene, robot, make_options(options)).solve()
+    planner = _core.ddp.SwitchedDdp(scene, robot, make_options(options))
+    return planner.solve() if warm_start is None else planner.solve(warm_start)
+
+
+def replan(
+    previous: Plan, t: float, measured: Knot, scene: Scene | None, robot: Robot | None, options: Mapping[str, Any]
+) -> PlanResult:
+    """See mcplan.replan."""
+    planner = _core.ddp.SwitchedDdp(scene or previous.scene, robot or previous.robot, make_options(options))
+    return planner.replan(previous, t, measured)
 
 
 def make_options(values: Mapping[str, Any]) -> Any:

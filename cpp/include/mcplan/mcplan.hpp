@@ -24,6 +24,7 @@
 #include "mcplan/ddp/whole_sequence.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "mcplan/plan/clearance.hpp"
+#include "mcplan/plan/friction_use.hpp"
 #include "mcplan/plan/plan.hpp"
 #include "mcplan/plan/report.hpp"
 #include "mcplan/robot/robot.hpp"

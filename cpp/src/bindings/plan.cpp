@@ -225,6 +225,8 @@ void bind_report(py::module_& m) {
   report.def_readonly("timing_s", &Report::timing_s, "Wall clock by part.");
   report.def_readonly("cost", &Report::cost);
   report.def_readonly("cost_terms", &Report::cost_terms);
+  report.def_readonly("friction_use", &Report::friction_use,
+                      "Largest tangential over normal force by end-effector, grasps included.");
   report.def_readonly("worst_violation", &Report::worst_violation, "Largest value / tolerance over all constraints.");
   report.def_readonly("seed", &Report::seed);
   report.def_readonly("threads", &Report::threads);

@@ -42,7 +42,7 @@ ContactSequence initial_sequence(LocalModel& model, std::size_t beam) {
         if (one_switch && distance(follower, problem.goal_contacts) > n - (k + 1)) continue;
         const double cost = node.cost + cost_of(k + 1, follower);
         const auto [it, fresh] = next.try_emplace(std::move(follower), Node{cost, state});
-        if (!fresh && cost < it->second.cost) it->second = {cost, state};
+        if (!fresh && clearly_less(cost, it->second.cost)) it->second = {cost, state};
       }
     if (next.size() > beam) {
       std::vector<double> costs;

@@ -162,7 +162,10 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
     rows_.add_constant(flight_cost(*problem_, sequence[k]));
     pendulum_.next(x, *u, next_);
     next_ -= trajectory.x[k + 1];
-    out.defect_l1 += next_.lpNorm<1>();
+    const Layout& at = problem_->layout;
+    out.defect_sum += next_.segment<3>(at.com()).norm() + next_.segment<3>(at.velocity()).norm() +
+                      next_.segment(at.angle(), 2 * at.axis_count()).lpNorm<1>();
+    for (int l = 0; l < at.ends(); ++l) out.defect_sum += next_.segment<3>(at.end(l)).norm();
     out.defect_max = std::max(out.defect_max, next_.lpNorm<Eigen::Infinity>());
   }
   if (schedule.interior_weight > 0.0) {

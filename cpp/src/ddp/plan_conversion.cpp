@@ -1,5 +1,6 @@
 #include "mcplan/ddp/plan_conversion.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mcplan/base/rotation.hpp"
@@ -10,6 +11,9 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+
+/// Durations have a soft bound only: an iterate that is stopped early may have one below zero, which no plan can have [s].
+constexpr double kShortestPhase = 1e-3;
 
 Knot make_knot(const Problem& problem, const VectorXd& x) {
   const Layout& at = problem.layout;
@@ -99,7 +103,7 @@ Plan to_plan(const Problem& problem, const Incumbent& incumbent) {
   for (int k = 0; k < problem.steps; ++k) {
     const VectorXd& u = incumbent.trajectory.u[k];
     Phase phase;
-    phase.duration = u[at.duration()] * units.time;
+    phase.duration = std::max(u[at.duration()] * units.time, kShortestPhase);
     phase.contacts.resize(ends);
     for (int l = 0; l < at.ends(); ++l) {
       Contact& contact = phase.contacts[problem.active[l]];

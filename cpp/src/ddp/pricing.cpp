@@ -107,7 +107,9 @@ const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctio
     price_s += seconds_since(start) - prepared;
   };
 #ifdef _OPENMP
-  if (steps_.size() > 1) {
+  // Below this many candidates the threads cost more than they save (measured; the paper found the same).
+  constexpr std::size_t kWorthThreads = 400;
+  if (steps_.size() > 1 && neighbours_.size() >= kWorthThreads) {
     // Steps are independent and each writes its own prices: the same numbers for any number of threads.
 #pragma omp parallel for num_threads(static_cast<int>(steps_.size())) schedule(static) reduction(+ : prepare_s, price_s)
     for (int k = 1; k < n; ++k) one_step(k, steps_[omp_get_thread_num()]);
@@ -125,7 +127,7 @@ const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctio
 const Neighbour* cheapest(const std::vector<Neighbour>& neighbours) {
   const Neighbour* best = nullptr;
   for (const Neighbour& n : neighbours)
-    if (!best || n.cost < best->cost) best = &n;
+    if (!best || clearly_less(n.cost, best->cost)) best = &n;
   return best;
 }
 

@@ -15,6 +15,7 @@
 #include "mcplan/ddp/search.hpp"
 #include "mcplan/ddp/stepping_sequence.hpp"
 #include "mcplan/plan/checker.hpp"
+#include "mcplan/plan/friction_use.hpp"
 #include "mcplan/version.hpp"
 
 namespace mcplan::ddp {
@@ -28,7 +29,11 @@ constexpr double kAcceptable = 10.0;
 /// Iterations of Method::paper: the paper counts about 50 to convergence and reports averages over 100.
 constexpr int kPaperIterations = 60;
 
-double badness(const Violation& v) { return v.tolerance > 0.0 ? v.value / v.tolerance : v.value; }
+/// Value in tolerances; what admits none is beyond every other violation.
+double badness(const Violation& v) {
+  if (v.tolerance > 0.0) return v.value / v.tolerance;
+  return v.value > 0.0 ? 1e9 * (1.0 + v.value) : 0.0;
+}
 
 }  // namespace
 
@@ -190,6 +195,7 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
   Report& report = run.report;
   if (run.best) {
     out.plan = std::move(run.best->plan);
+    report.friction_use = friction_use(out.plan);
     report.worst_violation = run.best->worst;
     report.cost = run.best->evaluation.cost;
     for (int i = 0; i < kTermCount; ++i)

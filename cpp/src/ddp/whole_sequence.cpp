@@ -75,7 +75,7 @@ PricedSequence best_whole_sequence(LocalModel& model, ValueFunctions& values, st
         if (factor.info() != Eigen::Success) continue;
         factor.matrixL().solveInPlace(g);
         const double rank = candidate.c + values.U(k).c - 0.5 * g.squaredNorm();
-        if (found && rank >= best.rank) continue;
+        if (found && !clearly_less(rank, best.rank)) continue;
         best.rank = rank;
         best.next = next;
         std::swap(best.value, candidate);

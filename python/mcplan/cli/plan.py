@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json as json_module
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -37,6 +38,9 @@ def plan(
         Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+    verbose: Annotated[
+        bool, typer.Option("-v", "--verbose", help="Print the iteration table on the way (to stderr).")
+    ] = False,
 ) -> int:
     """Find a contact sequence and a motion; exit code 0 only if the plan is solved, 1 otherwise.
 
@@ -56,6 +60,8 @@ def plan(
     options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if plots is not None:
         options["record_history"] = True
+    if verbose:
+        options["logger"] = lambda level, line: print(line, file=sys.stderr)
 
     import mcplan
 
@@ -95,7 +101,9 @@ def summary(result: PlanResult) -> dict[str, Any]:
         "end_effectors": [end.name for end in plan.robot.end_effectors],
         "contact_sequence": [[names[i] if i >= 0 else None for i in row] for row in sequence],
         "durations_s": [phase.duration for phase in plan.phases],
+        "final_contacts": [names[i] if i >= 0 else None for i in plan.final_contacts],
         "flight_phases": flight_phases(sequence),
+        "friction_use": {name: finite(value) for name, value in report.friction_use.items()},
         "worst_violation": {
             key: worst[key]
             for key in ("name", "phase", "end_effector", "time_s", "value", "tolerance", "unit")
@@ -129,6 +137,9 @@ def report_text(result: PlanResult, written: list[Path | None]) -> str:
         label = "closest to its limit" if solved else "worst"
         lines.append(f"{' ' * len(lead)}{label}: {report.worst_violation}")
     lines += contact_rows(plan)
+    if report.friction_use:
+        used = ", ".join(f"{name} {value:.2f}" for name, value in report.friction_use.items())
+        lines.append(f"  friction used (tangential / normal): {used}")
     files = [str(path) for path in written if path is not None]
     if files:
         lines.append(f"Saved {', '.join(files)}" + ("" if solved else f", with status {report.status}"))

@@ -81,11 +81,12 @@ class LocalModel {
 /// True (not modelled) cost and defects of a trajectory with a contact sequence.
 struct Evaluation {
   double cost = 0.0;
-  double defect_l1 = 0.0, defect_max = 0.0;
+  double defect_sum = 0.0;  ///< over the knots, vectors by their Euclidean norm: the same wherever the scene is turned to
+  double defect_max = 0.0;
   CostTerms terms{};
 
-  /// Exact penalty: cost + rho |defect|_1.
-  double merit() const { return cost + 30.0 * defect_l1; }
+  /// Exact penalty: cost + rho |defect|.
+  double merit() const { return cost + 30.0 * defect_sum; }
 };
 
 class Evaluator {

@@ -28,7 +28,7 @@ struct Violation {
 struct Iteration {
   int index = 0;
   double cost = 0.0;              ///< total, at the weight of this iteration
-  double merit = 0.0;             ///< cost + rho |defect|_1, what the line search lowers
+  double merit = 0.0;             ///< cost + rho |defect|, what the line search lowers
   double defect = 0.0;            ///< largest dynamics defect (non-dimensional)
   double contact_weight = 0.0;    ///< w_compl
   double proximal_weight = 0.0;
@@ -49,6 +49,7 @@ struct Report {
   double cost = 0.0;
   std::map<std::string, double> cost_terms;
   Violation worst_violation;                  ///< largest value / tolerance over all constraints
+  std::map<std::string, double> friction_use;  ///< largest tangential over normal force by end-effector, grasps included
   std::uint64_t seed = 0;
   int threads = 1;
   std::string version;

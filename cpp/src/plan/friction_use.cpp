@@ -1,0 +1,33 @@
+#include "mcplan/plan/friction_use.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mcplan/scene/polygon.hpp"
+
+namespace mcplan {
+
+std::map<std::string, double> friction_use(const Plan& plan, double sample_s) {
+  std::vector<Eigen::Vector3d> normals;
+  for (const Surface& surface : plan.scene.surfaces) normals.push_back(Polygon(surface.vertices_W).normal_W());
+  std::map<std::string, double> use;
+  for (std::size_t k = 0; k < plan.phases.size(); ++k) {
+    const double duration = plan.phases[k].duration;
+    const int samples = std::max(1, static_cast<int>(std::ceil(duration / sample_s)));
+    for (int i = 0; i <= samples; ++i) {
+      const PlanState state = plan.at_phase(static_cast<int>(k), duration * i / samples);
+      for (std::size_t l = 0; l < state.end_effectors.size(); ++l) {
+        const EndEffectorState& end = state.end_effectors[l];
+        if (end.surface < 0 || end.force_W.norm() < 1e-3) continue;
+        const double normal = normals[end.surface].dot(end.force_W);
+        const double tangential = (end.force_W - normal * normals[end.surface]).norm();
+        double& most = use[plan.robot.end_effectors[l].name];
+        most = std::max(most, normal > 0.0 ? tangential / normal : std::numeric_limits<double>::infinity());
+      }
+    }
+  }
+  return use;
+}
+
+}  // namespace mcplan

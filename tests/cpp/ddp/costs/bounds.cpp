@@ -1,0 +1,43 @@
+#include "check_rows.hpp"
+
+namespace {
+
+using namespace support;
+
+Writer bounds_of(const ddp::Problem& problem) {
+  return [&problem](const VectorXd&, const VectorXd& u, Rows& rows) { bounds_cost(problem, u, rows); };
+}
+
+}  // namespace
+
+TEST_CASE("bounds: gradients") {
+  const ddp::Problem problem = workshop();
+  check_rows(problem, bounds_of(problem), 43, 5.0, 20);
+}
+
+TEST_CASE("stiffness lies between nothing and what gives the largest force; nothing is written inside") {
+  for (auto input : {ddp::StiffnessInput::mu, ddp::StiffnessInput::lambda}) {
+    ddp::Options options = phases(6);
+    options.stiffness_input = input;
+    const ddp::Problem problem = workshop(options);
+    const ddp::Layout& at = problem.layout;
+    // In units of the weight at a distance of |(0, 0.1, 0.7)| = 0.707 m.
+    double most = 1750.0 / (44.0 * 9.8) / (std::hypot(0.1, 0.7) / 0.7);
+    if (input == ddp::StiffnessInput::lambda) most = std::sqrt(most);
+    const auto price = [&](int i, double value) {
+      VectorXd u = VectorXd::Zero(at.nu());
+      u[i] = value;
+      return cost(problem, bounds_of(problem), VectorXd(), u) / (0.5 * 100.0 * 100.0);
+    };
+    CHECK(price(at.stiffness(1), 0.0) == 0.0);
+    CHECK(price(at.stiffness(1), 0.999 * most) == 0.0);
+    CHECK(price(at.stiffness(1), -0.1) == doctest::Approx(0.01));
+    CHECK(price(at.stiffness(1), most + 0.1) == doctest::Approx(0.01));
+
+    const double moment = 20.0 / (44.0 * 9.8 * 0.7);  // moment input 0: right foot about x
+    CHECK(price(at.moment(0), 0.999 * moment) == 0.0);
+    CHECK(price(at.moment(0), -0.999 * moment) == 0.0);
+    CHECK(price(at.moment(0), moment + 0.1) == doctest::Approx(0.01));
+    CHECK(price(at.moment(0), -moment - 0.1) == doctest::Approx(0.01));
+  }
+}

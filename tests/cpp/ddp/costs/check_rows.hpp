@@ -1,0 +1,89 @@
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "ddp/support.hpp"
+#include "mcplan/ddp/costs/costs.hpp"
+
+namespace support {
+
+using ddp::Rows;
+
+/// Writes a cost's rows at x and u.
+using Writer = std::function<void(const VectorXd& x, const VectorXd& u, Rows& rows)>;
+
+/// The paper's robot with all base axes alive, on the paper's hardest scene with a slope of 30 degrees added.
+inline ddp::Problem workshop(ddp::Options options = phases(6)) {
+  mcplan::Scene scene = scenes::gap_with_rail();
+  mcplan::Surface slope = scenes::rectangle("slope", 1.3, 2.0, -1, 1, 0, "foot");
+  for (auto& v : slope.vertices_W) v.z() += std::tan(0.52) * v.x();
+  scene.surfaces.push_back(slope);
+  scene.start.yaw = 0.4;
+  mcplan::Robot robot = scenes::humanoid44();
+  robot.inertia = {4.0, 5.0, 6.0};
+  for (int i : {0, 1}) robot.end_effectors[i].max_moment = {20.0, 30.0, 10.0};
+  return ddp::Problem(scene, robot, options);
+}
+
+inline VectorXd random_z(const ddp::Problem& problem, Random& random, double size) {
+  VectorXd z(problem.layout.nz());
+  const ddp::Trajectory t = problem.initial_guess({});
+  z << t.x[2], t.u[2];
+  return z + noise(random, problem.layout.nz(), size);
+}
+
+inline VectorXd values(const ddp::Problem& problem, const Writer& write, const VectorXd& z) {
+  Rows rows(problem.layout.nz(), true);
+  write(z.head(problem.layout.nx()), z.tail(problem.layout.nu()), rows);
+  VectorXd out(rows.count());
+  for (int r = 0; r < rows.count(); ++r) out[r] = rows.value(r);
+  return out;
+}
+
+/// Check every row's gradient against differences and the value-only cost against the full one. Returns the number of
+/// rows; points whose set of active rows changes within the differences are passed over (0).
+inline int check_rows(const ddp::Problem& problem, const Writer& write, const VectorXd& z) {
+  constexpr double kStep = 1e-4;
+  const int nx = problem.layout.nx(), nu = problem.layout.nu();
+  Rows rows(problem.layout.nz(), true), value_only(problem.layout.nz(), false);
+  write(z.head(nx), z.tail(nu), rows);
+  write(z.head(nx), z.tail(nu), value_only);
+  CHECK(value_only.cost() == doctest::Approx(rows.cost()).epsilon(1e-14));
+  double sum = 0.0;
+  for (int r = 0; r < rows.count(); ++r) sum += 0.5 * rows.precision(r) * rows.value(r) * rows.value(r);
+  CHECK(sum == doctest::Approx(rows.cost()).epsilon(1e-14));
+  if (rows.count() == 0) return 0;
+  for (int i = 0; i < nx + nu; ++i)
+    for (double by : {-2 * kStep, 2 * kStep}) {
+      VectorXd moved = z;
+      moved[i] += by;
+      if (values(problem, write, moved).size() != rows.count()) return 0;
+    }
+  const MatrixXd expected = differences([&](const VectorXd& at) { return values(problem, write, at); }, z, kStep);
+  for (int r = 0; r < rows.count(); ++r) {
+    CAPTURE(r);
+    const double size = 1.0 + rows.gradient(r).cwiseAbs().maxCoeff();
+    CHECK((rows.gradient(r) - expected.row(r).transpose()).cwiseAbs().maxCoeff() <= 1e-8 * size);
+    if (rows.single(r) >= 0) CHECK(rows.gradient(r)[rows.single(r)] == 1.0);
+  }
+  return rows.count();
+}
+
+/// The same at random points until `wanted` rows have been checked.
+inline void check_rows(const ddp::Problem& problem, const Writer& write, std::uint64_t seed, double size, int wanted) {
+  Random random(seed);
+  int checked = 0;
+  for (int i = 0; i < 200 && checked < wanted; ++i) checked += check_rows(problem, write, random_z(problem, random, size));
+  CHECK(checked >= wanted);
+}
+
+inline double cost(const ddp::Problem& problem, const Writer& write, const VectorXd& x, const VectorXd& u) {
+  Rows rows(problem.layout.nz(), false);
+  write(x, u, rows);
+  return rows.cost();
+}
+
+}  // namespace support

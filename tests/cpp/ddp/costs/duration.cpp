@@ -1,0 +1,43 @@
+#include "check_rows.hpp"
+
+namespace {
+
+using namespace support;
+
+Writer duration_at(const ddp::Problem& problem, int k) {
+  return [&problem, k](const VectorXd&, const VectorXd& u, Rows& rows) { duration_cost(problem, k, u, rows); };
+}
+
+double price(const ddp::Problem& problem, int k, double h) {
+  VectorXd u = VectorXd::Zero(problem.layout.nu());
+  u[problem.layout.duration()] = h;
+  return cost(problem, duration_at(problem, k), VectorXd(), u);
+}
+
+}  // namespace
+
+TEST_CASE("duration cost: gradients") {
+  const ddp::Problem problem = workshop();
+  check_rows(problem, duration_at(problem, 2), 42, 2.0, 20);
+}
+
+TEST_CASE("durations tend to the middle of their box and are held inside it") {
+  const ddp::Problem problem = workshop();
+  const ddp::Weights& w = problem.options.weights;
+  const double low = problem.duration_min, high = problem.duration_max, middle = 0.5 * (low + high);
+  CHECK(low == doctest::Approx(problem.options.duration_min_s / std::sqrt(0.7 / 9.8)));
+  const auto soft = [&](double h) { return 0.5 * w.duration * w.duration * (h - middle) * (h - middle); };
+  const double hard = 0.5 * w.limit * w.limit * 0.01 * 0.01;
+  CHECK(price(problem, 2, middle) == 0.0);
+  CHECK(price(problem, 2, low) == doctest::Approx(soft(low)));
+  CHECK(price(problem, 2, high) == doctest::Approx(soft(high)));
+  CHECK(price(problem, 2, low - 0.01) == doctest::Approx(soft(low - 0.01) + hard));
+  CHECK(price(problem, 2, high + 0.01) == doctest::Approx(soft(high + 0.01) + hard));
+}
+
+TEST_CASE("a phase under way when replanning keeps what is left of it, short as it may be") {
+  ddp::Problem problem = workshop();
+  problem.first_duration = 0.1 * problem.duration_min;
+  CHECK(price(problem, 0, problem.first_duration) == 0.0);
+  CHECK(price(problem, 1, problem.first_duration) > 1.0);
+}

@@ -1,0 +1,93 @@
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include "mcplan/ddp/search.hpp"
+#include "mcplan/ddp/stepping_sequence.hpp"
+#include "support.hpp"
+
+namespace {
+
+using namespace support;
+using namespace mcplan::ddp;
+using Eigen::Vector3d;
+
+void check_exact(const Problem& problem, const Incumbent& now) {
+  const Layout& at = problem.layout;
+  const Pendulum pendulum(at, problem.inertia, problem.options.stiffness_input);
+  double defect = 0.0;
+  VectorXd next;
+  for (int k = 0; k < problem.steps; ++k) {
+    const VectorXd &x = now.trajectory.x[k], &u = now.trajectory.u[k];
+    pendulum.next(x, u, next);
+    defect = std::max(defect, (next - now.trajectory.x[k + 1]).cwiseAbs().maxCoeff());
+    for (int l = 0; l < at.ends(); ++l) {
+      const int surface = now.sequence[k][l];
+      if (surface == kFree) {
+        CHECK(u[at.stiffness(l)] == 0.0);
+        continue;
+      }
+      CHECK(pendulum.mu(u, l) >= 0.0);
+      const Vector3d foot = x.segment<3>(at.end(l));
+      // A contact holds from the knot at which it is made to the end of its last phase.
+      CHECK(now.trajectory.x[k + 1].segment<3>(at.end(l)) == foot);
+      CHECK(std::abs(problem.polygons[surface].height(foot)) <= 1e-14);
+      CHECK(problem.polygons[surface].outside(foot) <= 1e-14);
+    }
+    for (int i = 0; i < at.moment_count(); ++i) {
+      const int l = at.moments()[i].end_effector;
+      double most = 0.0;
+      if (now.sequence[k][l] != kFree)
+        most = std::min(problem.limits[l].moment_max[at.axes()[at.moments()[i].axis]],
+                        moment_per_stiffness(problem, l, now.sequence[k][l]) * pendulum.mu(u, l));
+      CHECK(std::abs(u[at.moment(i)]) <= most);
+    }
+  }
+  CHECK(defect <= 1e-12);
+  const int held = at.nx() - at.angle();
+  CHECK(now.trajectory.x[0].tail(held) == problem.start.tail(held));
+}
+
+}  // namespace
+
+TEST_CASE("an exact plan has no defects, contacts at rest on their surfaces and no force elsewhere") {
+  for (auto input : {StiffnessInput::mu, StiffnessInput::lambda})
+    for (const mcplan::Scene& scene : {scenes::flat(), scenes::stairs()}) {
+      if (input == StiffnessInput::lambda && scene.name != "flat") continue;
+      CAPTURE(scene.name);
+      Options options = phases(18);
+      options.stiffness_input = input;
+      const Problem problem(scene, scenes::humanoid44(), options);
+      const Deadline deadline(options.time_limit_s);
+      mcplan::Report report;
+      Search search(problem, deadline, report);
+      Incumbent now;
+      now.sequence = stepping_sequence(problem, 0);
+      REQUIRE_FALSE(now.sequence.empty());
+      now.trajectory = problem.initial_guess(now.sequence);
+      search.polish(now, 80, 1e-5, std::numeric_limits<double>::infinity());
+      const Evaluation soft = now.evaluation;
+      const Trajectory before = now.trajectory;
+      REQUIRE(search.make_exact(now));
+      check_exact(problem, now);
+      // A small correction, not another motion.
+      for (int k = 0; k <= 18; ++k) CHECK((now.trajectory.x[k] - before.x[k]).cwiseAbs().maxCoeff() < 0.05);
+      CHECK(now.evaluation.defect_max <= 1e-12);
+      CHECK(soft.defect_max > 1e-12);
+    }
+}
+
+TEST_CASE("what cannot be made exact is left as it is") {
+  const Problem problem(scenes::flat(), scenes::humanoid44(), phases(4));
+  const Deadline deadline(1e9);
+  mcplan::Report report;
+  Search search(problem, deadline, report);
+  Incumbent now;
+  now.sequence.assign(5, problem.start_contacts);
+  now.trajectory = problem.initial_guess(now.sequence);
+  now.trajectory.u[1].setConstant(std::numeric_limits<double>::quiet_NaN());
+  const Trajectory before = now.trajectory;
+  CHECK_FALSE(search.make_exact(now));
+  CHECK(now.trajectory.x[2] == before.x[2]);
+  CHECK(now.trajectory.u[2] == before.u[2]);
+}

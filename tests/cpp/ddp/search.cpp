@@ -1,0 +1,185 @@
+#include "mcplan/ddp/search.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "mcplan/ddp/initial_sequence.hpp"
+#include "mcplan/ddp/switched_ddp.hpp"
+#include "support.hpp"
+
+namespace {
+
+using namespace support;
+using namespace mcplan::ddp;
+using mcplan::Status;
+
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+/// A search with everything it points to.
+struct Bench {
+  Bench(const mcplan::Scene& scene, const Options& options)
+      : problem(scene, scenes::humanoid44(), options), deadline(options.time_limit_s), search(problem, deadline, report) {}
+  Problem problem;
+  Deadline deadline;
+  mcplan::Report report;
+  Search search;
+
+  Incumbent guess(const ContactSequence& sequence) const {
+    Incumbent out;
+    out.trajectory = problem.initial_guess(sequence);
+    out.sequence = sequence;
+    return out;
+  }
+  Incumbent discovered() {
+    Incumbent now = guess({});
+    Schedule weights;
+    weights.contact_weight = problem.options.weights.contact_min;
+    search.model().expand(now.trajectory, weights);
+    now.sequence = initial_sequence(search.model());
+    CHECK(search.discover(now, problem.options.proximal_weight) == Status::solved);
+    return now;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("discovery lets the feet alternate and leaves a valid sequence with small defects") {
+  Bench bench(scenes::flat(), phases(18));
+  const Incumbent now = bench.discovered();
+  CHECK(bench.problem.rules.valid(now.sequence));
+  CHECK(now.sequence.front() == bench.problem.start_contacts);
+  CHECK(now.sequence.back() == bench.problem.goal_contacts);
+  CHECK(switch_count(now.sequence) >= 6);
+  CHECK(now.evaluation.defect_max < 0.05);
+}
+
+TEST_CASE("polishing keeps the sequence and never lets the merit rise") {
+  for (const mcplan::Scene& scene : {scenes::flat(), scenes::gap()}) {
+    Bench bench(scene, phases(18));
+    Incumbent now = bench.discovered();
+    const ContactSequence sequence = now.sequence;
+    const double before = bench.search.evaluate(now).merit();
+    const std::size_t first = bench.report.history.size();
+    CHECK(bench.search.polish(now, 30, 0.0, kForever) == Status::solved);
+    CHECK(now.sequence == sequence);
+    REQUIRE(bench.report.history.size() == first + 30);
+    double last = before;
+    for (std::size_t i = first; i < bench.report.history.size(); ++i) {
+      const mcplan::Iteration& row = bench.report.history[i];
+      CHECK(row.merit <= last * (1.0 + 1e-12));
+      CHECK(row.switches == 0);
+      last = row.merit;
+    }
+    CHECK(bench.search.evaluate(now).merit() == doctest::Approx(last));
+    CHECK(last < before);
+  }
+}
+
+TEST_CASE("refining changes the sequence only for a lower true merit, and settles: no chattering") {
+  Options options = phases(10);
+  options.max_iterations = 1000000;
+  Bench bench(scenes::flat(1.0), options);
+  Incumbent now = bench.discovered();
+  bench.search.polish(now, 60, 1e-3, kForever);
+  const double before = now.evaluation.merit();
+  CHECK(bench.search.refine(now) == Status::solved);
+  CHECK(bench.problem.rules.valid(now.sequence));
+  CHECK(now.evaluation.merit() <= before * (1.0 + 1e-12));
+  CHECK(bench.search.evaluate(now).merit() == doctest::Approx(now.evaluation.merit()));
+  int switches = -1, rounds = 0;
+  double last = now.evaluation.merit();
+  for (; switches != bench.report.switches && rounds < 10; ++rounds) {
+    switches = bench.report.switches;
+    bench.search.polish(now, 120, 1e-5, kForever);
+    CHECK(bench.search.refine(now) == Status::solved);
+    CHECK(now.evaluation.merit() <= last * (1.0 + 1e-12));
+    last = now.evaluation.merit();
+  }
+  CAPTURE(rounds);
+  CHECK(switches == bench.report.switches);
+}
+
+TEST_CASE("what is recorded is what was done") {
+  Options options = phases(10);
+  options.record_history = true;
+  int lines = 0;
+  options.logger = [&](mcplan::LogLevel, const std::string&) { ++lines; };
+  Bench bench(scenes::flat(0.8), options);
+  bench.discovered();
+  CHECK(bench.report.iterations == static_cast<int>(bench.report.history.size()));
+  CHECK(lines >= bench.report.iterations);
+  int switches = 0;
+  double contact_weight = 0.0;
+  for (std::size_t i = 0; i < bench.report.history.size(); ++i) {
+    const mcplan::Iteration& row = bench.report.history[i];
+    CHECK(row.index == static_cast<int>(i) + 1);
+    CHECK(row.contact_weight >= contact_weight);
+    CHECK(row.sequence.size() == 11);
+    CHECK(bench.problem.rules.valid(row.sequence));
+    contact_weight = row.contact_weight;
+    switches += row.switches;
+  }
+  CHECK(contact_weight == options.weights.contact_max);
+  CHECK(switches == bench.report.switches);
+}
+
+TEST_CASE("the stop request and the iteration limit end every stage") {
+  Options options = phases(10);
+  int polls = 0;
+  options.stop = [&] { return ++polls > 5; };
+  Bench stopped(scenes::flat(), options);
+  Incumbent now = stopped.guess({});
+  now.sequence.assign(11, stopped.problem.start_contacts);
+  CHECK(stopped.search.discover(now, 30.0) == Status::interrupted);
+  CHECK(stopped.report.iterations == 5);
+  CHECK(stopped.search.polish(now, 10, 0.0, kForever) == Status::interrupted);
+
+  options.stop = nullptr;
+  options.max_iterations = 7;
+  Bench limited(scenes::flat(), options);
+  now = limited.guess({});
+  now.sequence.assign(11, limited.problem.start_contacts);
+  CHECK(limited.search.discover(now, 30.0) == Status::iteration_limit);
+  CHECK(limited.report.iterations == 7);
+  CHECK(limited.search.run_paper(now, 10) == Status::iteration_limit);
+}
+
+TEST_CASE("exhaustive enumeration of six steps: the search ends near the best of all 183 sequences") {
+  Options options = phases(6);
+  options.max_iterations = 1000000;
+  const mcplan::Scene scene = scenes::flat(0.3);
+  Bench bench(scene, options);
+  const mcplan::PlanResult result = SwitchedDdp(scene, scenes::humanoid44(), options).solve();
+  CHECK(result.report.status == Status::solved);
+  ContactSequence found;
+  for (const auto& row : result.plan.contact_sequence()) found.push_back({row[0], row[1]});
+  found.push_back({0, 0});
+
+  double best = kForever, best_of_found = kForever;
+  ContactSequence best_sequence;
+  int tried = 0, better = 0;
+  for (const ContactSequence& sequence : every_sequence(bench.problem)) {
+    if (kSlowBuild && ++tried % 8 != 0 && sequence != found) continue;
+    Incumbent now = bench.guess(sequence);
+    bench.search.polish(now, 300, 1e-6, kForever);
+    const double merit = bench.search.evaluate(now).merit();
+    if (!std::isfinite(merit)) continue;
+    if (sequence == found) best_of_found = merit;
+    better += merit < result.report.cost;
+    if (merit < best) {
+      best = merit;
+      best_sequence = sequence;
+    }
+  }
+  const auto text = [](const ContactSequence& sequence) {
+    std::string out;
+    for (const ContactState& s : sequence) out += s[0] == kFree ? (s[1] == kFree ? "x" : "r") : s[1] == kFree ? "l" : ".";
+    return out;
+  };
+  MESSAGE("global best ", best, " ", text(best_sequence), "; found ", result.report.cost, " ", text(found), ", which polishes to ",
+          best_of_found, "; ", better, " of 183 are better");
+  CHECK(best_of_found <= 1.05 * best);
+  CHECK(result.report.cost <= 1.25 * best);
+}
