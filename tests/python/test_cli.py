@@ -177,7 +177,7 @@ def solve_result(status: str = "solved") -> types.SimpleNamespace:
     """What mcplan.plan returns, with the report made up."""
     report = types.SimpleNamespace(
         status=status, message="", cost=1.5, cost_terms={"com": 1.0, "limit": float("nan")}, iterations=20, time_s=0.1,
-        switches=4, seed=7, threads=2, version="0.1.0",
+        switches=4, seed=7, threads=2, version="0.1.0", friction_use={"left_foot": 0.4},
         worst_violation=mp.Violation(name="reach", phase=1, end_effector="left_foot", time_s=0.5, value=-0.01, unit="m"),
     )  # fmt: skip
     return types.SimpleNamespace(plan=standing_plan(), report=report)
@@ -199,6 +199,7 @@ def test_plan_hands_its_options_on_and_prints_json(capsys, tmp_path, monkeypatch
     assert report["durations_s"] == [0.4] * 3 and report["phases"] == 3 and report["flight_phases"] == 0
     assert report["iteration_ms"] == pytest.approx(5.0)
     assert report["cost_terms"] == {"com": 1.0, "limit": None}
+    assert report["friction_use"] == {"left_foot": 0.4}
     assert report["worst_violation"]["name"] == "reach" and report["worst_violation"]["value"] == -0.01
     same = {"scene": "flat", "robot": "humanoid44", "status": "solved", "cost": 1.5, "iterations": 20, "time_s": 0.1}
     same |= {"switches": 4, "seed": 7, "threads": 2, "version": "0.1.0"}

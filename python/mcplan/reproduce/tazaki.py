@@ -188,7 +188,8 @@ def _differences(ratio: float, threads: int, threaded: float) -> list[str]:
         "",
         "Not the same as in the paper: a proximal term in its form too (docs/theory/ddp.md says why); the machine. Figure 3:",
         "the published form keeps switching to the end, which the paper calls persistent chattering; ours stops when the cost",
-        "no longer falls. In Figure 4 the costs are those at the weight of each iteration, so they rise with it; ours polishes",
+        "no longer falls. The sequence is drawn as it is after an iteration; switches there and back within one do not show.",
+        "In Figure 4 the costs are those at the weight of each iteration, so they rise with it; ours polishes",
         "at the full weight after the search, compares several first guesses, and begins again from other settings when the",
         "checker rejects a plan: where its cost jumps, another candidate begins.",
     ]

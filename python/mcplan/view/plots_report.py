@@ -37,11 +37,13 @@ def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
     if not rows:
         raise ValueError("report.history: must hold contact sequences, got none (record them in the planner's options)")
     counts = np.cumsum([row.switches for row in rows])
-    # Iterations without a switch change nothing: the last one of each count stands for it.
-    latest = {int(count): np.asarray(row.sequence) for count, row in zip(counts, rows, strict=True)}
-    at = sorted(latest)
+    # The iteration that switched stands for its count: those after it polish, or try changes that are rejected.
+    reached: dict[int, np.ndarray] = {}
+    for count, row in zip(counts, rows, strict=True):
+        reached.setdefault(int(count), np.asarray(row.sequence))
+    at = sorted(reached)
     edges = np.append(np.array(at) - 0.5, at[-1] + 0.5)
-    grid = np.array([latest[count] for count in at])  # counts x steps x end-effectors
+    grid = np.array([reached[count] for count in at])  # counts x steps x end-effectors
     surfaces = int(max(grid.max() + 1, len(plan.scene.surfaces) if plan is not None else 1))
     palette = (
         surface_colours(plan.scene) if plan is not None else [SURFACES[i % len(SURFACES)] for i in range(surfaces)]
