@@ -38,7 +38,7 @@ TEST_CASE("counts are refused outside their range and accepted at its ends") {
     const char* name;
     int least, most;
   };
-  const Count counts[] = {{&Options::phases, "phases", 1, 2000},
+  const Count counts[] = {{&Options::phases, "phases", 0, 2000},
                           {&Options::interior_points, "interior_points", 0, 20},
                           {&Options::restarts, "restarts", 0, 1000000},
                           {&Options::max_iterations, "max_iterations", 1, 1000000},

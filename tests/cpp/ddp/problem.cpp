@@ -131,7 +131,7 @@ TEST_CASE("bad scenes, robots and options are refused when the problem is made")
   mcplan::Scene scene = scenes::flat();
   mcplan::Robot robot = scenes::humanoid44();
   Options options;
-  options.phases = 0;
+  options.phases = -1;
   CHECK(refused_field<mcplan::InvalidOptions>(make(scene, robot, options)) == "phases");
   options = {};
   robot.mass = -1.0;
