@@ -1,6 +1,6 @@
-// Kernels of the contact-sequence search: one linearisation, backward and forward pass, and what a neighbour costs when it
-// is priced by its low rank, by the paper's MINCOST (a backward step and a minimisation), and by a full Riccati recursion.
-// The three prices are compared, so that a kernel which is fast and wrong is seen.
+// Kernels of the contact-sequence search: one linearisation, backward and forward pass, and what a neighbour costs when
+// it is priced by its low rank, by the paper's MINCOST (a backward step and a minimisation), and by a full Riccati
+// recursion. The three prices are compared, so that a kernel which is fast and wrong is seen.
 //
 //     ddp_benchmark [repeats, default 200]
 
@@ -25,7 +25,8 @@ using namespace mcplan::ddp;
 mcplan::Scene gap_with_rail() {
   mcplan::Scene scene = examples::gap();
   scene.name = "gap_with_rail";
-  for (const auto& [name, hand, low] : {std::tuple{"right_pad", "right_hand", -0.50}, {"left_pad", "left_hand", 0.25}}) {
+  for (const auto& [name, hand, low] :
+       {std::tuple{"right_pad", "right_hand", -0.50}, {"left_pad", "left_hand", 0.25}}) {
     mcplan::Surface pad = examples::rectangle(name, 0.85, 0.95, low, low + 0.25, 0.5);
     pad.grasp = true;
     pad.end_effectors = {hand};
@@ -119,8 +120,8 @@ void measure(const mcplan::Scene& scene, int phases, int repeats) {
   std::printf("  a neighbour: low rank %.2f us, MINCOST %.2f us (x %.1f), full Riccati %.1f us (x %.0f)\n",
               low_rank_us / count, mincost_us / count, mincost_us / low_rank_us, riccati_us / count,
               riccati_us / low_rank_us);
-  std::printf("  largest relative difference of the price: to MINCOST %.1e, to the full Riccati %.1e\n\n", mincost_error,
-              riccati_error);
+  std::printf("  largest relative difference of the price: to MINCOST %.1e, to the full Riccati %.1e\n\n",
+              mincost_error, riccati_error);
   std::fflush(stdout);
 }
 

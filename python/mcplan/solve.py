@@ -61,9 +61,7 @@ def make_options(values: Mapping[str, Any]) -> Any:
 def _set(target: Any, name: str, value: Any, prefix: str = "") -> None:
     legal = option_names(type(target))
     if name not in legal:
-        raise InvalidOptions(
-            prefix + name, f"no such option. {did_you_mean(name, legal)}Options: {', '.join(legal)}"
-        )
+        raise InvalidOptions(prefix + name, f"no such option. {did_you_mean(name, legal)}Options: {', '.join(legal)}")
     if isinstance(value, str) and hasattr(type(getattr(target, name)), "__members__"):
         members = type(getattr(target, name)).__members__
         if value not in members:

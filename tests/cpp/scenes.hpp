@@ -72,8 +72,8 @@ inline mcplan::Scene stairs() {
 }
 
 inline mcplan::Scene gap() {
-  return made_of("gap", {rectangle("before", -1, 0.5, -5, 5, 0), rectangle("after", 1.3, 5, -5, 5, 0)}, "before", "after",
-                 {2, 0, 0});
+  return made_of("gap", {rectangle("before", -1, 0.5, -5, 5, 0), rectangle("after", 1.3, 5, -5, 5, 0)}, "before",
+                 "after", {2, 0, 0});
 }
 
 inline mcplan::Scene gap_with_rail() {

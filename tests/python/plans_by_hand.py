@@ -58,9 +58,7 @@ def stairs() -> mp.Scene:
 
 
 def flat() -> mp.Scene:
-    return _scene(
-        "flat", [rectangle("ground", (-1.0, 5.0), (-5.0, 5.0), 0.0)], [1.6, 0.0, 0.0], "ground", "ground"
-    )
+    return _scene("flat", [rectangle("ground", (-1.0, 5.0), (-5.0, 5.0), 0.0)], [1.6, 0.0, 0.0], "ground", "ground")
 
 
 def gap() -> mp.Scene:
@@ -145,9 +143,7 @@ def _solve(scene, robot, steps, yaw, start=None, goal=None) -> mp.Plan:
     standing = np.array([[c >= 0 for c in s[0]] for s in steps])
     supports = np.array(
         [
-            np.mean([p for p, on in zip(s[1], row, strict=True) if on], axis=0)
-            if row.any()
-            else np.full(3, np.nan)
+            np.mean([p for p, on in zip(s[1], row, strict=True) if on], axis=0) if row.any() else np.full(3, np.nan)
             for s, row in zip(steps, standing, strict=True)
         ]
     )
@@ -165,9 +161,7 @@ def _solve(scene, robot, steps, yaw, start=None, goal=None) -> mp.Plan:
         for k in range(n):
             z = mu[k] * durations[k] ** 2
             root = np.sqrt(z) if z > 0 else 0.0
-            f0, f1, f2 = (
-                (np.cosh(root), np.sinh(root) / root, (np.cosh(root) - 1) / z) if z > 0 else (1.0, 1.0, 0.5)
-            )
+            f0, f1, f2 = (np.cosh(root), np.sinh(root) / root, (np.cosh(root) - 1) / z) if z > 0 else (1.0, 1.0, 0.5)
             a = mu[k] * (p[k] - cop[k]) - np.array([0.0, 0.0, g])
             p.append(p[k] + durations[k] * f1 * v[k] + durations[k] ** 2 * f2 * a)
             v.append(f0 * v[k] + durations[k] * f1 * a)
@@ -178,13 +172,9 @@ def _solve(scene, robot, steps, yaw, start=None, goal=None) -> mp.Plan:
     def residuals(x):
         _, _, p, v = simulate(x)
         regular = np.concatenate([0.3 * (x[:n] - 1.0), 3.0 * x[n : 2 * n], 6.0 * x[2 * n :]])
-        return np.concatenate(
-            [1e3 * (p[-1] - last), 1e3 * v[-1], ((p - reference) * [0.3, 0.3, 2.0]).ravel(), regular]
-        )
+        return np.concatenate([1e3 * (p[-1] - last), 1e3 * v[-1], ((p - reference) * [0.3, 0.3, 2.0]).ravel(), regular])
 
-    best = least_squares(
-        residuals, np.concatenate([np.ones(n), np.zeros(2 * n)]), xtol=1e-14, ftol=1e-14, gtol=1e-14
-    )
+    best = least_squares(residuals, np.concatenate([np.ones(n), np.zeros(2 * n)]), xtol=1e-14, ftol=1e-14, gtol=1e-14)
     mu, cop, p, v = simulate(best.x)
     return _assemble(scene, robot, steps, standing, durations, mu, cop, p, v, yaw)
 
@@ -199,20 +189,14 @@ def _assemble(scene, robot, steps, standing, durations, mu, cop, p, v, yaw) -> m
             if not standing[k, foot]:
                 contacts.append(mp.Contact())
                 continue
-            if standing[
-                k
-            ].all():  # share the stiffness so that the two anchors average to the centre of pressure
+            if standing[k].all():  # share the stiffness so that the two anchors average to the centre of pressure
                 right, left = steps[k][1]
                 span = left - right
                 share = np.clip(np.dot(cop[k] - right, span) / np.dot(span, span), 0.02, 0.98)
                 share = share if foot == LEFT else 1.0 - share
-                shift = cop[k] - (
-                    right + np.clip(np.dot(cop[k] - right, span) / np.dot(span, span), 0.02, 0.98) * span
-                )
+                shift = cop[k] - (right + np.clip(np.dot(cop[k] - right, span) / np.dot(span, span), 0.02, 0.98) * span)
                 contacts.append(
-                    mp.Contact(
-                        surface=steps[k][0][foot], stiffness=share * mu[k], anchor_W=steps[k][1][foot] + shift
-                    )
+                    mp.Contact(surface=steps[k][0][foot], stiffness=share * mu[k], anchor_W=steps[k][1][foot] + shift)
                 )
             else:
                 contacts.append(mp.Contact(surface=steps[k][0][foot], stiffness=mu[k], anchor_W=cop[k]))
@@ -225,15 +209,10 @@ def _assemble(scene, robot, steps, standing, durations, mu, cop, p, v, yaw) -> m
         for foot in (RIGHT, LEFT):
             lifting = not standing[i, foot] and k < n and (k == 0 or standing[k - 1, foot])
             feet.append(
-                np.array(
-                    steps[i][1][foot] if standing[i, foot] or lifting else steps[min(k + 1, n - 1)][1][foot]
-                )
+                np.array(steps[i][1][foot] if standing[i, foot] or lifting else steps[min(k + 1, n - 1)][1][foot])
             )
         swing = 0.10 * np.sin(2.0 * np.pi * k / max(n, 1))
-        arms = [
-            p[k] + robot.end_effectors[2 + i].nominal_B + [swing * (2 * i - 1), 0.0, 0.0]
-            for i in range(hands)
-        ]
+        arms = [p[k] + robot.end_effectors[2 + i].nominal_B + [swing * (2 * i - 1), 0.0, 0.0] for i in range(hands)]
         arm_velocity = [v[k]] * hands
         knots.append(
             mp.Knot(

@@ -33,9 +33,5 @@ def standing_plan(phases: int = 3, duration_s: float = 0.4) -> mp.Plan:
         knots=[knot] * (phases + 1),
         phases=[mp.Phase(duration=duration_s, contacts=contacts)] * phases,
         final_contacts=[0 if foot else -1 for foot in feet],
-        swings=[
-            mp.Swing(end_effector=i, first_phase=0, end_phase=phases)
-            for i, foot in enumerate(feet)
-            if not foot
-        ],
+        swings=[mp.Swing(end_effector=i, first_phase=0, end_phase=phases) for i, foot in enumerate(feet) if not foot],
     )

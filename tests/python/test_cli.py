@@ -150,9 +150,7 @@ BAD_WORDS = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("words", "message"), BAD_WORDS, ids=lambda v: " ".join(v) if isinstance(v, tuple) else ""
-)
+@pytest.mark.parametrize(("words", "message"), BAD_WORDS, ids=lambda v: " ".join(v) if isinstance(v, tuple) else "")
 def test_bad_words_give_one_line_and_exit_code_2(words, message, capsys):
     assert one_line_error(run(capsys, *words)).startswith(message)
 
@@ -160,9 +158,7 @@ def test_bad_words_give_one_line_and_exit_code_2(words, message, capsys):
 @pytest.mark.parametrize("verb", ["scenes", "plan"])
 def test_a_broken_scene_file_is_named(verb, capsys, tmp_path):
     file = tmp_path / "bad.toml"
-    file.write_text(
-        toml_text(malformed.broken(malformed.SCENE, ("surfaces", 1, "vertices"), malformed.SQUARE[:2]))
-    )
+    file.write_text(toml_text(malformed.broken(malformed.SCENE, ("surfaces", 1, "vertices"), malformed.SQUARE[:2])))
     message = one_line_error(run(capsys, verb, file))
     assert message == f"{file}: surfaces[1].vertices: needs at least 3 points, got 2"
 
@@ -190,9 +186,7 @@ def test_plan_hands_its_options_on_and_prints_json(capsys, tmp_path, monkeypatch
     words += ["--threads", 2, "--seed", 7, "-o", tmp_path / "plan.npz", "--json"]
     code, out, _ = run(capsys, *words)
     assert code == 0
-    assert given == [
-        (("flat", "talos"), {"phases": 20, "method": "paper", "time_limit": 1.5, "threads": 2, "seed": 7})
-    ]
+    assert given == [(("flat", "talos"), {"phases": 20, "method": "paper", "time_limit": 1.5, "threads": 2, "seed": 7})]
     assert mp.check(mp.Plan.load(tmp_path / "plan.npz")).ok()
     report = json.loads(out, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
     assert report["contact_sequence"] == [["ground", "ground", None, None]] * 3
@@ -206,7 +200,9 @@ def test_plan_hands_its_options_on_and_prints_json(capsys, tmp_path, monkeypatch
     assert {key: report[key] for key in same} == same
 
 
-@pytest.mark.parametrize(("status", "expected"), [("solved", 0), ("acceptable", 1), ("time_limit", 1), ("infeasible", 1)])
+@pytest.mark.parametrize(
+    ("status", "expected"), [("solved", 0), ("acceptable", 1), ("time_limit", 1), ("infeasible", 1)]
+)
 def test_only_a_solved_plan_gives_exit_code_0(status, expected, capsys, monkeypatch):
     monkeypatch.setattr(mp, "plan", lambda *args, **options: solve_result(status))
     code, out, _ = run(capsys, "plan", "flat")
@@ -248,9 +244,7 @@ def test_a_robot_of_a_urdf_file_is_written(capsys, tmp_path):
     assert robot.com_height == pytest.approx(0.5 - (0.25 * 0.4 + 0.25 * 0.5) / 11, abs=1e-3)
     assert robot.end_effectors[0].reach_max_B[2] - robot.end_effectors[0].reach_min_B[2] < 0.3
     text = Path(tmp_path / "leg.toml").read_text()
-    assert text.startswith(
-        f"# Made by: mcplan robots --from-urdf {tmp_path / 'leg.urdf'} --end foot=tip:foot -o "
-    )
+    assert text.startswith(f"# Made by: mcplan robots --from-urdf {tmp_path / 'leg.urdf'} --end foot=tip:foot -o ")
 
 
 JOINT = (

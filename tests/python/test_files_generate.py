@@ -43,9 +43,7 @@ def test_both_stances_of_a_random_scene_are_the_nominal_one_on_the_surface(seed)
     scene, robot = random_scene(seed), mp.load_robot("humanoid44")
     for stance in (scene.start, scene.goal):
         resolved = resolve_stance(scene, robot, stance)
-        turn = np.array(
-            [[math.cos(stance.yaw), math.sin(stance.yaw)], [-math.sin(stance.yaw), math.cos(stance.yaw)]]
-        )
+        turn = np.array([[math.cos(stance.yaw), math.sin(stance.yaw)], [-math.sin(stance.yaw), math.cos(stance.yaw)]])
         for end, position_W, surface in zip(
             robot.end_effectors, resolved.end_effectors_W, resolved.contacts, strict=True
         ):
@@ -67,9 +65,7 @@ def test_next_surfaces_are_within_a_step_or_a_jump(seed):
         assert begin - end <= (0.8 if "gap" in scene.name else 0.3) + 1e-9
         if "slope" not in scene.name:
             assert abs(np.ptp([before.vertices_W[0, 2], after.vertices_W[0, 2]])) <= 0.12 + 1e-9
-    slopes = [
-        math.degrees(math.acos(min(abs(Polygon(s.vertices_W).normal_W[2]), 1.0))) for s in scene.surfaces
-    ]
+    slopes = [math.degrees(math.acos(min(abs(Polygon(s.vertices_W).normal_W[2]), 1.0))) for s in scene.surfaces]
     assert max(slopes) <= 15.0 + 1e-6
     assert np.linalg.norm(scene.goal.position_W - scene.start.position_W) < 2.2
 
@@ -80,10 +76,7 @@ def test_surfaces_of_random_scenes_do_not_overlap():
         for i, one in enumerate(scene.surfaces):
             for other in scene.surfaces[i + 1 :]:
                 middle = Polygon(one.vertices_W).centroid_W
-                inside = [
-                    Polygon(other.vertices_W).outside(p * [1, 1, 0] + middle * [0, 0, 1])
-                    for p in one.vertices_W
-                ]
+                inside = [Polygon(other.vertices_W).outside(p * [1, 1, 0] + middle * [0, 0, 1]) for p in one.vertices_W]
                 assert min(inside) > -1e-9, (scene.name, one.name, other.name)
 
 

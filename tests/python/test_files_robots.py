@@ -39,9 +39,7 @@ def test_a_broken_robot_file_is_named_with_field_and_rule(case, tmp_path):
 
 
 def test_an_unknown_name_lists_the_names_that_exist():
-    with pytest.raises(
-        mp.UnknownRobot, match=r"no robot 'talus' and no file of that name. Did you mean 'talos'\?"
-    ):
+    with pytest.raises(mp.UnknownRobot, match=r"no robot 'talus' and no file of that name. Did you mean 'talos'\?"):
         load_robot("talus")
 
 

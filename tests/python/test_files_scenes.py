@@ -132,9 +132,7 @@ class TestBuiltIn:
                 robot.end_effectors, resolved.end_effectors_W, resolved.contacts, strict=True
             ):
                 relative = turn.T @ (position_W - resolved.com_W)
-                assert (relative >= end.reach_min_B - 1e-9).all() and (
-                    relative <= end.reach_max_B + 1e-9
-                ).all()
+                assert (relative >= end.reach_min_B - 1e-9).all() and (relative <= end.reach_max_B + 1e-9).all()
                 assert (surface >= 0) == (end.kind == "foot")
 
 
@@ -191,9 +189,7 @@ def scenes(draw):
         )
         for _ in range(2)
     ]
-    rules = draw(
-        st.lists(st.builds(mp.ContactRule, when_free=st.just(["foot"]), require=st.lists(names, min_size=1)))
-    )
+    rules = draw(st.lists(st.builds(mp.ContactRule, when_free=st.just(["foot"]), require=st.lists(names, min_size=1))))
     return mp.Scene(
         name=draw(names),
         description=draw(st.text(st.characters(codec="utf-8"), max_size=20)),

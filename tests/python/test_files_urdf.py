@@ -25,9 +25,7 @@ def test_mass_height_and_inertia_are_those_of_the_urdf(loaded):
     assert robot.mass == pytest.approx(pin.computeTotalMass(model), abs=1e-3)
     com_W = pin.centerOfMass(model, data, posture)
     pin.framesForwardKinematics(model, data, posture)
-    soles = [
-        data.oMf[model.getFrameId(e.frame)].translation[2] for e in robot.end_effectors if e.kind == "foot"
-    ]
+    soles = [data.oMf[model.getFrameId(e.frame)].translation[2] for e in robot.end_effectors if e.kind == "foot"]
     assert robot.com_height == pytest.approx(com_W[2] - np.mean(soles), abs=2e-3)
     # Steiner's sum over the bodies, independent of Pinocchio's centroidal algorithm
     inertia = np.zeros((3, 3))

@@ -137,9 +137,7 @@ def test_a_scene_may_be_assigned_to_itself():
     assert plan.scene.surfaces[0].name == "ground"
 
 
-@pytest.mark.parametrize(
-    "value", [[[1.0, 2.0]], [1.0, 2.0, 3.0], "abc", [["a", "b", "c"]], None, np.zeros((2, 3, 1))]
-)
+@pytest.mark.parametrize("value", [[[1.0, 2.0]], [1.0, 2.0, 3.0], "abc", [["a", "b", "c"]], None, np.zeros((2, 3, 1))])
 def test_points_of_the_wrong_shape_are_rejected(value):
     with pytest.raises(mp.InvalidInput, match="vertices_W: must be an N x 3 array of numbers"):
         mp.Surface(name="s", vertices_W=value)

@@ -57,9 +57,7 @@ class SwitchedDdp:
 
 @pytest.fixture(autouse=True)
 def stand_in(monkeypatch):
-    monkeypatch.setattr(
-        _core, "ddp", types.SimpleNamespace(Options=Options, SwitchedDdp=SwitchedDdp), raising=False
-    )
+    monkeypatch.setattr(_core, "ddp", types.SimpleNamespace(Options=Options, SwitchedDdp=SwitchedDdp), raising=False)
 
 
 def test_names_and_objects_are_taken_alike():

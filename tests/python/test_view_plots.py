@@ -114,18 +114,14 @@ def test_normal_forces_carry_the_robot(plan):
 def test_friction_of_a_slope_is_measured_in_its_own_frame():
     scene, robot = by_hand.flat(), by_hand.humanoid()
     plan = by_hand.walk(scene, robot)
-    level = next(
-        line for line in plot_friction(plan).axes[0].lines if "normal" in line.get_label()
-    ).get_ydata()
+    level = next(line for line in plot_friction(plan).axes[0].lines if "normal" in line.get_label()).get_ydata()
     tilt = np.array([[np.cos(0.2), 0.0, np.sin(0.2)], [0.0, 1.0, 0.0], [-np.sin(0.2), 0.0, np.cos(0.2)]])
     slope = by_hand.flat()
     surface = slope.surfaces[0]
     surface.vertices_W = np.asarray(surface.vertices_W) @ tilt.T
     slope.surfaces = [surface]
     plan.scene = slope
-    tilted = next(
-        line for line in plot_friction(plan).axes[0].lines if "normal" in line.get_label()
-    ).get_ydata()
+    tilted = next(line for line in plot_friction(plan).axes[0].lines if "normal" in line.get_label()).get_ydata()
     state = plan.at(0.0).end_effectors[0]
     normal = state.force_W @ tilt[:, 2]
     assert tilted[0] == pytest.approx(np.linalg.norm(state.force_W - normal * tilt[:, 2]) / normal)

@@ -84,9 +84,7 @@ def test_clipping_keeps_exactly_the_part_inside():
     rng = np.random.default_rng(11)
     extent = Extent(np.array([0.2, -0.1]), np.array([0.8, 0.6]), 0.7, 0.4)
     for _ in range(20):
-        outline = np.column_stack(
-            [shapes.circle(7) * rng.uniform(0.3, 1.5) + rng.uniform(-0.5, 0.5, 2), np.zeros(7)]
-        )
+        outline = np.column_stack([shapes.circle(7) * rng.uniform(0.3, 1.5) + rng.uniform(-0.5, 0.5, 2), np.zeros(7)])
         clipped = extent.clip(outline)
         points = rng.uniform(-2.0, 2.0, (400, 2))
         along, across = (points - extent.centre) @ extent.forward, (points - extent.centre) @ extent.left

@@ -46,7 +46,8 @@ void bind_options(py::module_& m) {
   py::enum_<StiffnessInput>(m, "StiffnessInput", "How the contact stiffness enters: mu, or lambda with mu = lambda^2.")
       .value("mu", StiffnessInput::mu)
       .value("lambda_", StiffnessInput::lambda);
-  py::class_<Options> c(m, "Options", "Options of the contact-sequence search; the defaults serve all built-in scenes.");
+  py::class_<Options> c(m, "Options",
+                        "Options of the contact-sequence search; the defaults serve all built-in scenes.");
   c.def(py::init<>());
   c.def_readwrite("phases", &Options::phases, "Number of phases N; 0: 18, or more where the way asks for more steps.");
   c.def_readwrite("method", &Options::method);

@@ -5,7 +5,8 @@
 
 namespace mcplan::ddp {
 
-ContactRules::ContactRules(std::vector<std::vector<int>> surfaces, std::vector<StateRule> rules, bool one_switch_per_step)
+ContactRules::ContactRules(std::vector<std::vector<int>> surfaces, std::vector<StateRule> rules,
+                           bool one_switch_per_step)
     : surfaces_(std::move(surfaces)), rules_(std::move(rules)), one_switch_(one_switch_per_step) {}
 
 bool ContactRules::allowed(const ContactState& state) const {
@@ -54,8 +55,10 @@ std::vector<ContactState> ContactRules::successors(const ContactState& state) co
   std::vector<std::vector<int>> choices(ends());
   for (int l = 0; l < ends(); ++l) {
     choices[l] = {state[l]};
-    if (state[l] != kFree) choices[l].push_back(kFree);
-    else choices[l].insert(choices[l].end(), surfaces_[l].begin(), surfaces_[l].end());
+    if (state[l] != kFree)
+      choices[l].push_back(kFree);
+    else
+      choices[l].insert(choices[l].end(), surfaces_[l].begin(), surfaces_[l].end());
   }
   std::vector<std::size_t> digit(ends(), 0);
   for (;;) {
@@ -101,9 +104,7 @@ bool ContactRules::valid(const ContactSequence& sequence) const {
 std::vector<ContactState> ContactRules::neighbours(const ContactSequence& sequence, int k) const {
   std::vector<ContactState> out = successors(sequence[k - 1]);
   out.erase(std::remove_if(out.begin(), out.end(),
-                           [&](const ContactState& s) {
-                             return s == sequence[k] || !may_follow(s, sequence[k + 1]);
-                           }),
+                           [&](const ContactState& s) { return s == sequence[k] || !may_follow(s, sequence[k + 1]); }),
             out.end());
   return out;
 }

@@ -38,8 +38,8 @@ constexpr double kHeld = 1e10;
 /// Turn the quadratic of step k into the metric of the least change.
 void hold_inputs(const Problem& problem, int k, const std::vector<char>* held, Quadratic& q) {
   const int nx = problem.layout.nx(), held_states = nx - Layout::angle();
-  // The stiff costs count a little, so that the change avoids the limits, but not so much that it runs through the inputs
-  // that are soft (durations above all) beyond where the linear model holds.
+  // The stiff costs count a little, so that the change avoids the limits, but not so much that it runs through the
+  // inputs that are soft (durations above all) beyond where the linear model holds.
   constexpr double kCostShare = 1e-3;
   q.g.setZero();
   q.h *= kCostShare;
@@ -100,8 +100,7 @@ void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) 
     for (int l = 0; l < at.ends(); ++l)
       stage.defect.segment<3>(at.end(l)) = x.segment<3>(at.end(l)) + u->segment<3>(at.stride(l));
     stage.defect -= trajectory.x[k + 1];
-    if (schedule.interior_weight > 0.0)
-      make_instants(*problem_, pendulum_, x, *u, true, scratch_step_, stage.instants);
+    if (schedule.interior_weight > 0.0) make_instants(*problem_, pendulum_, x, *u, true, scratch_step_, stage.instants);
   }
 }
 
@@ -115,8 +114,8 @@ const Rows& LocalModel::block(int k, int l, int contact) {
   Rows& rows = stage.blocks[l][choice];
   if (!stage.made[l][choice]) {
     rows.clear();
-    add_contact_rows(*problem_, pendulum_, trajectory_->x[k], k < steps() ? &trajectory_->u[k] : nullptr, stage.instants,
-                     l, contact, schedule_, rows);
+    add_contact_rows(*problem_, pendulum_, trajectory_->x[k], k < steps() ? &trajectory_->u[k] : nullptr,
+                     stage.instants, l, contact, schedule_, rows);
     stage.made[l][choice] = 1;
   }
   return rows;
@@ -159,7 +158,8 @@ Evaluator::Evaluator(const Problem& problem)
       pendulum_(problem.layout, problem.inertia, problem.options.stiffness_input),
       rows_(problem.layout.nz(), false) {}
 
-Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequence& sequence, const Schedule& schedule) {
+Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequence& sequence,
+                                 const Schedule& schedule) {
   Evaluation out;
   rows_.clear();
   for (int k = 0; k <= problem_->steps; ++k) {
@@ -167,8 +167,7 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
     const VectorXd& x = trajectory.x[k];
     const VectorXd* u = last ? nullptr : &trajectory.u[k];
     add_base_rows(*problem_, k, x, u, rows_);
-    if (u && schedule.interior_weight > 0.0)
-      make_instants(*problem_, pendulum_, x, *u, false, step_, instants_);
+    if (u && schedule.interior_weight > 0.0) make_instants(*problem_, pendulum_, x, *u, false, step_, instants_);
     for (int l = 0; l < problem_->layout.ends(); ++l)
       add_contact_rows(*problem_, pendulum_, x, u, instants_, l, sequence[k][l], schedule, rows_);
     if (last) break;

@@ -57,7 +57,8 @@ void Options::validate() const {
   require_positive("weights.contact_min", weights.contact_min);
   require_positive("weights.contact_max", weights.contact_max);
   if (weights.contact_max < weights.contact_min)
-    throw InvalidOptions("weights.contact_max", "must be at least weights.contact_min (" + text(weights.contact_min) + ")",
+    throw InvalidOptions("weights.contact_max",
+                         "must be at least weights.contact_min (" + text(weights.contact_min) + ")",
                          text(weights.contact_max));
   if (!(weights.contact_growth > 1.0 && std::isfinite(weights.contact_growth)))
     throw InvalidOptions("weights.contact_growth", "must be above 1", text(weights.contact_growth));

@@ -200,7 +200,8 @@ void Pendulum::add_transposed(const PendulumStep& s, const VectorXd& w, VectorXd
 
 void Pendulum::substitute_inverse(const PendulumStep& s, MatrixXd& m) const {
   const int nx = layout_.nx(), axes = layout_.axis_count();
-  // The 2x2 block of p and v has determinant 1 (it is a flow of a linear Hamiltonian system), so its inverse swaps signs.
+  // The 2x2 block of p and v has determinant 1 (it is a flow of a linear Hamiltonian system), so its inverse swaps
+  // signs.
   for (int i = 0; i < 3; ++i) {
     auto p = m.col(layout_.com() + i);
     auto v = m.col(layout_.velocity() + i);

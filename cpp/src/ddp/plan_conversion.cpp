@@ -12,7 +12,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Durations have a soft bound only: an iterate that is stopped early may have one below zero, which no plan can have [s].
+/// Durations have a soft bound only: an iterate that is stopped early may have one below zero, which no plan can have
+/// [s].
 constexpr double kShortestPhase = 1e-3;
 
 Knot make_knot(const Problem& problem, const VectorXd& x) {
@@ -158,12 +159,12 @@ Incumbent from_plan(const Problem& problem, const Plan& plan, int first) {
       u.segment<3>(at.stride(l)) =
           out.trajectory.x[k + 1].segment<3>(at.end(l)) - out.trajectory.x[k].segment<3>(at.end(l));
       const double mu = phase.contacts[problem.active[l]].stiffness / units.stiffness();
-      u[at.stiffness(l)] = problem.options.stiffness_input == StiffnessInput::lambda ? std::sqrt(std::max(mu, 0.0)) : mu;
+      u[at.stiffness(l)] =
+          problem.options.stiffness_input == StiffnessInput::lambda ? std::sqrt(std::max(mu, 0.0)) : mu;
     }
     for (int i = 0; i < at.moment_count(); ++i) {
       const Layout::Moment& m = at.moments()[i];
-      u[at.moment(i)] =
-          phase.contacts[problem.active[m.end_effector]].moment_W[at.axes()[m.axis]] / units.moment();
+      u[at.moment(i)] = phase.contacts[problem.active[m.end_effector]].moment_W[at.axes()[m.axis]] / units.moment();
     }
     u[at.duration()] = phase.duration / units.time;
     out.trajectory.u.push_back(u);

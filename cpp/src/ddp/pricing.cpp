@@ -34,8 +34,8 @@ bool StepPricing::prepare(LocalModel& model, const ValueFunctions& values, int k
       total += whole->count();
     }
     for (int l = 0; l < at.ends(); ++l) {
-      const bool known = std::any_of(spans_.begin(), spans_.end(),
-                                     [&](const Span& s) { return s.end == l && s.contact == state[l]; });
+      const bool known =
+          std::any_of(spans_.begin(), spans_.end(), [&](const Span& s) { return s.end == l && s.contact == state[l]; });
       if (known) continue;
       const int count = model.block(k, l, state[l]).count();
       spans_.push_back({l, state[l], total, count});
@@ -89,7 +89,8 @@ double StepPricing::price(const ContactState& state) {
   return base_cost_ + flight_cost(*problem_, state) + 0.5 * y_.squaredNorm();
 }
 
-const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctions& values, const ContactSequence& sequence) {
+const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctions& values,
+                                           const ContactSequence& sequence) {
   neighbours_.clear();
   const int n = model.steps();
   std::vector<std::pair<std::size_t, std::size_t>> range(n);

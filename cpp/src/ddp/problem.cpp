@@ -30,9 +30,8 @@ std::vector<int> addressed(const std::vector<std::string>& who, const Robot& rob
 Layout make_layout(const Robot& robot, const std::vector<int>& active, bool all_axes) {
   std::vector<int> axes;
   for (int axis = 0; axis < 3; ++axis) {
-    const bool driven = std::any_of(active.begin(), active.end(), [&](int e) {
-      return robot.end_effectors[e].max_moment[axis] > 0.0;
-    });
+    const bool driven =
+        std::any_of(active.begin(), active.end(), [&](int e) { return robot.end_effectors[e].max_moment[axis] > 0.0; });
     if (driven || all_axes) axes.push_back(axis);
   }
   std::vector<Layout::Moment> moments;
@@ -137,8 +136,8 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
 }
 
 /// As many steps as the end-effectors that stand need to cover the way one after the other, a swing and a phase of full
-/// support each; at least the paper's 18. The stride is what the reach box leaves inside the friction cone, since forces
-/// point at the CoM.
+/// support each; at least the paper's 18. The stride is what the reach box leaves inside the friction cone, since
+/// forces point at the CoM.
 int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const {
   constexpr int kPaper = 18, kMost = 400;
   int movers = 0, strides = 0;
@@ -167,8 +166,7 @@ void Problem::make_reference(const VectorXd& goal) {
     VectorXd x = start + s * s * (3.0 - 2.0 * s) * (goal - start);
     const double rate = 6.0 * s * (1.0 - s) / total;
     x.segment<3>(layout.velocity()) = rate * (goal - start).segment<3>(layout.com());
-    for (int a = 0; a < layout.axis_count(); ++a)
-      x[layout.rate(a)] = rate * (goal - start)[layout.angle(a)];
+    for (int a = 0; a < layout.axis_count(); ++a) x[layout.rate(a)] = rate * (goal - start)[layout.angle(a)];
     reference.x.push_back(x);
   }
 }
@@ -223,23 +221,28 @@ Trajectory Problem::initial_guess(const ContactSequence& sequence) const {
 ContactSequence Problem::to_active(const ContactSequence& sequence) const {
   const std::string field = "initial_sequence";
   if (static_cast<int>(sequence.size()) != steps + 1)
-    throw InvalidOptions(field, "must have phases + 1 rows (" + text(steps + 1) + ")", text(static_cast<int>(sequence.size())));
+    throw InvalidOptions(field, "must have phases + 1 rows (" + text(steps + 1) + ")",
+                         text(static_cast<int>(sequence.size())));
   ContactSequence out;
   for (std::size_t k = 0; k < sequence.size(); ++k) {
     if (sequence[k].size() != robot.end_effectors.size())
-      throw InvalidOptions(field + "[" + std::to_string(k) + "]", "must be one surface per end-effector (" +
-                           text(static_cast<int>(robot.end_effectors.size())) + ")", text(static_cast<int>(sequence[k].size())));
+      throw InvalidOptions(
+          field + "[" + std::to_string(k) + "]",
+          "must be one surface per end-effector (" + text(static_cast<int>(robot.end_effectors.size())) + ")",
+          text(static_cast<int>(sequence[k].size())));
     out.emplace_back();
     for (int e : active) out.back().push_back(sequence[k][e]);
     for (std::size_t e = 0; e < sequence[k].size(); ++e)
       if (sequence[k][e] != kFree && std::find(active.begin(), active.end(), static_cast<int>(e)) == active.end())
         throw InvalidOptions(field + "[" + std::to_string(k) + "][" + std::to_string(e) + "]",
-                             "must be -1: " + robot.end_effectors[e].name + " may touch nothing here", text(sequence[k][e]));
+                             "must be -1: " + robot.end_effectors[e].name + " may touch nothing here",
+                             text(sequence[k][e]));
   }
   if (out.front() != start_contacts || out.back() != goal_contacts)
     throw InvalidOptions(field, "must go from the start's contacts to the goal's", "others");
   if (!rules.valid(out))
-    throw InvalidOptions(field, "must keep permissions, rules and at most one switch a step", "a sequence that does not");
+    throw InvalidOptions(field, "must keep permissions, rules and at most one switch a step",
+                         "a sequence that does not");
   return out;
 }
 

@@ -5,8 +5,8 @@
 namespace mcplan::ddp {
 
 const char* to_string(Term term) {
-  constexpr const char* kNames[kTermCount] = {"task",     "duration",  "reach",  "bounds",        "contact", "free",
-                                              "friction", "force_cap", "flight", "contact_change"};
+  constexpr const char* kNames[kTermCount] = {"task", "duration", "reach",     "bounds", "contact",
+                                              "free", "friction", "force_cap", "flight", "contact_change"};
   return kNames[static_cast<int>(term)];
 }
 

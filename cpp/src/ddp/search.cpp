@@ -50,10 +50,14 @@ Schedule Search::full_schedule() const {
 Evaluation Search::evaluate(const Incumbent& at) { return evaluate_(at.trajectory, at.sequence, full_schedule()); }
 
 bool Search::should_stop(Status& status) const {
-  if (problem_->options.stop && problem_->options.stop()) status = Status::interrupted;
-  else if (deadline_->passed()) status = Status::time_limit;
-  else if (report_->iterations >= problem_->options.max_iterations) status = Status::iteration_limit;
-  else return false;
+  if (problem_->options.stop && problem_->options.stop())
+    status = Status::interrupted;
+  else if (deadline_->passed())
+    status = Status::time_limit;
+  else if (report_->iterations >= problem_->options.max_iterations)
+    status = Status::iteration_limit;
+  else
+    return false;
   return true;
 }
 
@@ -69,8 +73,8 @@ void Search::record(Iteration&& row, const Incumbent& now, const Schedule& sched
     char line[160];
     if (row.index % 20 == 1)
       logger(LogLevel::info, "iter       cost      merit    defect  w_contact  proximal  step  switches");
-    std::snprintf(line, sizeof line, "%4d %10.4g %10.4g  %8.1e  %9.3g  %8.3g  %4.2g  %8d", row.index, row.cost, row.merit,
-                  row.defect, row.contact_weight, row.proximal_weight, row.step, row.switches);
+    std::snprintf(line, sizeof line, "%4d %10.4g %10.4g  %8.1e  %9.3g  %8.3g  %4.2g  %8d", row.index, row.cost,
+                  row.merit, row.defect, row.contact_weight, row.proximal_weight, row.step, row.switches);
     logger(LogLevel::info, line);
   }
   report_->history.push_back(std::move(row));
@@ -143,7 +147,8 @@ Status Search::iterate(Incumbent& now, Schedule& schedule, bool free_sequence) {
     // weight it must beat staying.
     const bool growing = schedule.contact_weight < problem_->options.weights.contact_max;
     const double stay_merit = moved ? stay_.evaluation.merit() : before;
-    const double to_beat = growing ? evaluate_(now.trajectory, sequence, schedule).merit() : stay_merit * (1.0 - kSwitchGain);
+    const double to_beat =
+        growing ? evaluate_(now.trajectory, sequence, schedule).merit() : stay_merit * (1.0 - kSwitchGain);
     switched = line_search(now, sequence, schedule, to_beat, moved_);
   }
   if (switched) {
@@ -157,8 +162,10 @@ Status Search::iterate(Incumbent& now, Schedule& schedule, bool free_sequence) {
     row.step = taken.step;
   }
   if (!free_sequence) {
-    if (row.step >= 0.99) schedule.proximal_weight = std::max(0.7 * schedule.proximal_weight, kProximalMin);
-    else if (row.step < 0.2) schedule.proximal_weight = std::min(4.0 * schedule.proximal_weight, kProximalMax);
+    if (row.step >= 0.99)
+      schedule.proximal_weight = std::max(0.7 * schedule.proximal_weight, kProximalMin);
+    else if (row.step < 0.2)
+      schedule.proximal_weight = std::min(4.0 * schedule.proximal_weight, kProximalMax);
   }
   record(std::move(row), now, schedule);
   return Status::solved;

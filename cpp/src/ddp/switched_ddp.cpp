@@ -183,8 +183,8 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
       status = run.attempt(std::move(guesses));
 
       // Other settings of what the outcome depends on most, in an order drawn from the seed.
-      std::vector<std::pair<double, double>> settings{{10.0, 0.30}, {100.0, 0.40}, {30.0, 0.35}, {10.0, 0.45},
-                                                      {100.0, 0.30}, {30.0, 0.50}};
+      std::vector<std::pair<double, double>> settings{{10.0, 0.30}, {100.0, 0.40}, {30.0, 0.35},
+                                                      {10.0, 0.45}, {100.0, 0.30}, {30.0, 0.50}};
       std::mt19937_64 random(options.seed);
       for (std::size_t i = settings.size(); i > 1; --i) std::swap(settings[i - 1], settings[random() % i]);
       for (int i = 0; i < options.restarts && !(run.best && run.best->ok); ++i) {
@@ -208,7 +208,8 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
     for (int i = 0; i < kTermCount; ++i)
       if (run.best->evaluation.terms[i] > 0.0)
         report.cost_terms[to_string(static_cast<Term>(i))] = run.best->evaluation.terms[i];
-    if (run.best->ok) status = Status::solved;
+    if (run.best->ok)
+      status = Status::solved;
     else if (status == Status::solved)
       status = badness(run.best->worst) <= kAcceptable ? Status::acceptable : Status::infeasible;
   } else {
@@ -220,11 +221,13 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
   report.status = status;
   report.time_s = deadline.elapsed_s();
   std::ostringstream message;
-  if (status == Status::solved) message << "solved";
+  if (status == Status::solved)
+    message << "solved";
   else if (status == Status::no_sequence)
     message << "no contact sequence joins start and goal in " << p.steps << " phases; raise `phases`, or look at the "
             << "surfaces' end_effectors and the scene's rules";
-  else message << to_string(status) << ": the best plan violates " << report.worst_violation.to_string();
+  else
+    message << to_string(status) << ": the best plan violates " << report.worst_violation.to_string();
   report.message = message.str();
   out.report = std::move(report);
   return out;
@@ -240,7 +243,9 @@ SwitchedDdp::~SwitchedDdp() = default;
 SwitchedDdp::SwitchedDdp(SwitchedDdp&&) noexcept = default;
 SwitchedDdp& SwitchedDdp::operator=(SwitchedDdp&&) noexcept = default;
 
-PlanResult SwitchedDdp::solve() { return impl_->solve(Problem(impl_->scene, impl_->robot, impl_->options), nullptr, false); }
+PlanResult SwitchedDdp::solve() {
+  return impl_->solve(Problem(impl_->scene, impl_->robot, impl_->options), nullptr, false);
+}
 
 PlanResult SwitchedDdp::solve(const Plan& warm_start) {
   warm_start.validate();
@@ -256,7 +261,8 @@ PlanResult SwitchedDdp::replan(const Plan& previous, double t, const Knot& measu
   previous.validate();
   const PlanState now = previous.at(t);
   if (static_cast<int>(measured.end_effectors_W.size()) != previous.end_effector_count())
-    throw InvalidPlan("measured.end_effectors_W", "must be one per end-effector (" + text(previous.end_effector_count()) + ")",
+    throw InvalidPlan("measured.end_effectors_W",
+                      "must be one per end-effector (" + text(previous.end_effector_count()) + ")",
                       text(static_cast<int>(measured.end_effectors_W.size())));
   const std::vector<double> times = previous.knot_times();
   int first = now.phase;

@@ -121,7 +121,8 @@ double ValueFunctions::minimum_with(const ContactSequence& changed, const Contac
   while (last > first && changed[last] == sequence[last]) --last;
   from_ = V_[last + 1];
   for (int k = last; k >= first; --k) {
-    if (!backward_step(k, changed[k], from_, to_, nullptr, nullptr, nullptr)) return std::numeric_limits<double>::infinity();
+    if (!backward_step(k, changed[k], from_, to_, nullptr, nullptr, nullptr))
+      return std::numeric_limits<double>::infinity();
     std::swap(from_, to_);
   }
   from_.h += U_[first].h;

@@ -186,7 +186,8 @@ void Plan::validate() const {
   const int surfaces = static_cast<int>(scene.surfaces.size());
   if (n == 0) throw InvalidPlan("phases", "needs at least one phase", "none");
   if (static_cast<int>(knots.size()) != n + 1)
-    throw InvalidPlan("knots", "must be one more than the phases (" + text(n + 1) + ")", text(static_cast<int>(knots.size())));
+    throw InvalidPlan("knots", "must be one more than the phases (" + text(n + 1) + ")",
+                      text(static_cast<int>(knots.size())));
   for (int k = 0; k <= n; ++k) {
     const std::string field = "knots[" + std::to_string(k) + "]";
     const Knot& knot = knots[k];
@@ -221,7 +222,8 @@ void Plan::validate() const {
                       text(static_cast<int>(final_contacts.size())));
   for (int surface : final_contacts)
     if (surface < -1 || surface >= surfaces)
-      throw InvalidPlan("final_contacts", "must be -1 or the index of a surface (below " + text(surfaces) + ")", text(surface));
+      throw InvalidPlan("final_contacts", "must be -1 or the index of a surface (below " + text(surfaces) + ")",
+                        text(surface));
   for (std::size_t i = 0; i < swings.size(); ++i) {
     const Swing& swing = swings[i];
     const std::string field = "swings[" + std::to_string(i) + "]";

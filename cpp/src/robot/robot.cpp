@@ -35,8 +35,9 @@ void validate_end_effector(const EndEffector& e, const std::string& field) {
       throw InvalidRobot(field + ".reach_max", std::string("must exceed reach_min in ") + axes[i],
                          text(e.reach_min_B[i]) + " to " + text(e.reach_max_B[i]));
     if (e.nominal_B[i] < e.reach_min_B[i] || e.nominal_B[i] > e.reach_max_B[i])
-      throw InvalidRobot(field + ".nominal", std::string("must lie in the reach box in ") + axes[i],
-                         text(e.nominal_B[i]) + " outside [" + text(e.reach_min_B[i]) + ", " + text(e.reach_max_B[i]) + "]");
+      throw InvalidRobot(
+          field + ".nominal", std::string("must lie in the reach box in ") + axes[i],
+          text(e.nominal_B[i]) + " outside [" + text(e.reach_min_B[i]) + ", " + text(e.reach_max_B[i]) + "]");
   }
   if (!(e.max_force > 0.0)) throw InvalidRobot(field + ".max_force", "must be a positive number", text(e.max_force));
   if (!(e.max_moment.array() >= 0.0).all())
@@ -84,8 +85,8 @@ ResolvedStance resolve_stance(const Scene& scene, const Robot& robot, const Stan
     if (std::none_of(ends.begin(), ends.end(), [&w = who](const EndEffector& e) { return addresses(w, e); })) {
       std::string names;
       for (const auto& e : ends) names += (names.empty() ? "" : ", ") + e.name;
-      throw InvalidScene(field + ".contacts", "must name end-effectors of " + robot.name + " (" + names + ") or their kind",
-                         text(who));
+      throw InvalidScene(field + ".contacts",
+                         "must name end-effectors of " + robot.name + " (" + names + ") or their kind", text(who));
     }
 
   ResolvedStance out;
@@ -101,8 +102,9 @@ ResolvedStance resolve_stance(const Scene& scene, const Robot& robot, const Stan
       surface = scene.surface_index(contact->second);
       if (surface < 0) throw InvalidScene(field + ".contacts." + e.name, "must name a surface", text(contact->second));
       if (!may_touch(scene.surfaces[surface], e))
-        throw InvalidScene(field + ".contacts." + e.name, "must be allowed on its surface (surfaces[" +
-                           std::to_string(surface) + "].end_effectors)", text(contact->second));
+        throw InvalidScene(field + ".contacts." + e.name,
+                           "must be allowed on its surface (surfaces[" + std::to_string(surface) + "].end_effectors)",
+                           text(contact->second));
       position = Polygon(scene.surfaces[surface].vertices_W).nearest(position);
     }
     out.contacts.push_back(surface);

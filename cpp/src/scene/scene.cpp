@@ -47,7 +47,8 @@ void validate_polygon(const std::string& field, const std::vector<Vector3d>& ver
     const Vector3d before = (vertices[i] - vertices[(i + n - 1) % n]).normalized();
     const Vector3d after = (vertices[(i + 1) % n] - vertices[i]).normalized();
     const double turn = std::atan2(normal.dot(before.cross(after)), before.dot(after));
-    if (turn < 1e-6) throw InvalidScene(item(field, i), "must be a corner of a strictly convex polygon", text(vertices[i]));
+    if (turn < 1e-6)
+      throw InvalidScene(item(field, i), "must be a corner of a strictly convex polygon", text(vertices[i]));
     turned += turn;
   }
   if (std::abs(turned - 2.0 * M_PI) > 1e-6)
@@ -85,8 +86,7 @@ void Scene::validate() const {
     const Surface& surface = surfaces[i];
     const std::string field = item("surfaces", i);
     if (surface.name.empty()) throw InvalidScene(field + ".name", "must not be empty", "''");
-    if (!names.insert(surface.name).second)
-      throw InvalidScene(field + ".name", "must be unique", text(surface.name));
+    if (!names.insert(surface.name).second) throw InvalidScene(field + ".name", "must be unique", text(surface.name));
     require_positive(field + ".friction", surface.friction);
     require_positive(field + ".thickness", surface.thickness);
     validate_polygon(field + ".vertices", surface.vertices_W);

@@ -15,9 +15,7 @@ if TYPE_CHECKING:
 
 def plan(
     scene: Annotated[str, typer.Argument(metavar="SCENE", help="Built-in name or TOML file.")],
-    robot: Annotated[
-        str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")
-    ] = "humanoid44",
+    robot: Annotated[str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")] = "humanoid44",
     phases: Annotated[int | None, typer.Option("--phases", metavar="N", help="Phases of the plan.")] = None,
     method: Annotated[str | None, typer.Option("--method", metavar="M", help="standard or paper.")] = None,
     time_limit: Annotated[
@@ -28,15 +26,9 @@ def plan(
         int | None, typer.Option("--threads", metavar="N", help="The plan does not depend on it.")
     ] = None,
     seed: Annotated[int | None, typer.Option("--seed", metavar="K", help="Of the order of restarts.")] = None,
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")
-    ] = None,
-    html: Annotated[
-        Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")
-    ] = None,
-    plots: Annotated[
-        Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")
-    ] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")] = None,
+    html: Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")] = None,
+    plots: Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")] = None,
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
     verbose: Annotated[
         bool, typer.Option("-v", "--verbose", help="Print the iteration table on the way (to stderr).")
@@ -105,8 +97,7 @@ def summary(result: PlanResult) -> dict[str, Any]:
         "flight_phases": flight_phases(sequence),
         "friction_use": {name: finite(value) for name, value in report.friction_use.items()},
         "worst_violation": {
-            key: worst[key]
-            for key in ("name", "phase", "end_effector", "time_s", "value", "tolerance", "unit")
+            key: worst[key] for key in ("name", "phase", "end_effector", "time_s", "value", "tolerance", "unit")
         },
         "seed": report.seed,
         "threads": report.threads,
@@ -130,9 +121,7 @@ def report_text(result: PlanResult, written: list[Path | None]) -> str:
         flight = "no flight" if flights == 0 else f"{flights} flight phase{'s' if flights > 1 else ''}"
         lines = [f"{lead}solved in {took}: {len(plan.phases)} phases, {plan.duration():.2f} s long, {flight}"]
     else:
-        lines = [
-            f"{lead}{report.status} after {took}: {report.message or 'no plan that the checker accepts'}"
-        ]
+        lines = [f"{lead}{report.status} after {took}: {report.message or 'no plan that the checker accepts'}"]
     if report.worst_violation.name:
         label = "closest to its limit" if solved else "worst"
         lines.append(f"{' ' * len(lead)}{label}: {report.worst_violation}")

@@ -16,9 +16,7 @@ def robots(
     name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Built-in name or TOML file.")] = None,
     from_urdf: Annotated[
         str | None,
-        typer.Option(
-            "--from-urdf", metavar="URDF", help="Work out a robot: a URDF file, or talos or anymal."
-        ),
+        typer.Option("--from-urdf", metavar="URDF", help="Work out a robot: a URDF file, or talos or anymal."),
     ] = None,
     end: Annotated[
         list[str] | None,
@@ -28,12 +26,8 @@ def robots(
             help="End-effector, its URDF frame, kind and half size.",
         ),
     ] = None,
-    srdf: Annotated[
-        Path | None, typer.Option("--srdf", metavar="FILE", help="Nominal posture: its first one.")
-    ] = None,
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file to write.")
-    ] = None,
+    srdf: Annotated[Path | None, typer.Option("--srdf", metavar="FILE", help="Nominal posture: its first one.")] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file to write.")] = None,
 ) -> None:
     """List the built-in robots, print one, or work one out from a URDF.
 
@@ -55,9 +49,7 @@ def _from_urdf(source: str, ends: list[str], srdf: Path | None, output: Path | N
     from mcplan.files.toml import toml_text
     from mcplan.files.urdf import header, robot_from_urdf
 
-    robot = robot_from_urdf(
-        source, tuple(_parse_end(text) for text in ends), srdf=str(srdf) if srdf else None
-    )
+    robot = robot_from_urdf(source, tuple(_parse_end(text) for text in ends), srdf=str(srdf) if srdf else None)
     words = ["mcplan robots --from-urdf", source, *(f"--end {text}" for text in ends)]
     words += [f"--srdf {srdf}"] if srdf else []
     words += [f"-o {output}"] if output else []
@@ -76,9 +68,7 @@ def _parse_end(text: str) -> End:
 
     try:
         name, rest = text.split("=", 1)
-        frame, kind, size = (
-            [*rest.split(":"), "foot", "0x0"][:3] if ":" not in rest else [*rest.split(":"), "0x0"][:3]
-        )
+        frame, kind, size = [*rest.split(":"), "foot", "0x0"][:3] if ":" not in rest else [*rest.split(":"), "0x0"][:3]
         length, width = (float(part) for part in size.split("x"))
     except ValueError:
         raise InvalidInput("--end", "must read NAME=FRAME[:KIND[:LENGTHxWIDTH]]", repr(text)) from None

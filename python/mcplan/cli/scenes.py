@@ -13,9 +13,7 @@ if TYPE_CHECKING:
 
 def scenes(
     name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Built-in name or TOML file.")] = None,
-    html: Annotated[
-        Path | None, typer.Option("--html", metavar="FILE", help="Draw the scene on a page.")
-    ] = None,
+    html: Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the scene on a page.")] = None,
 ) -> None:
     """List the built-in scenes, or print or draw one.
 

@@ -51,9 +51,7 @@ def stairs(rng: Random) -> Scene:
     surfaces = [_rectangle("ground", -1.0, first - pitch + depth, 0.0)]
     for i in range(count):
         begin = first + i * pitch
-        surfaces.append(
-            _rectangle(f"tread_{i + 1}", begin, begin + (depth if i < count - 1 else 0.8), (i + 1) * rise)
-        )
+        surfaces.append(_rectangle(f"tread_{i + 1}", begin, begin + (depth if i < count - 1 else 0.8), (i + 1) * rise))
     return _scene(surfaces, first + (count - 1) * pitch + 0.2, count * rise, "ground", f"tread_{count}")
 
 
@@ -121,9 +119,7 @@ def mirrored(scene: Scene) -> Scene:
 
 def moved(scene: Scene, yaw: float, offset_W: np.ndarray) -> Scene:
     """The scene turned about the world's z axis by yaw [rad], then moved by offset_W [m]."""
-    turn = np.array(
-        [[math.cos(yaw), -math.sin(yaw), 0.0], [math.sin(yaw), math.cos(yaw), 0.0], [0.0, 0.0, 1.0]]
-    )
+    turn = np.array([[math.cos(yaw), -math.sin(yaw), 0.0], [math.sin(yaw), math.cos(yaw), 0.0], [0.0, 0.0, 1.0]])
     out = scene.__copy__()
     for surface in out.surfaces:
         surface.vertices_W = surface.vertices_W @ turn.T + offset_W

@@ -31,9 +31,7 @@ class SurfaceModel(_Table):
         description="[m] Corners of a convex polygon, world frame, counter-clockwise about the outward normal.",
     )
     friction: Positive = Field(0.7, description="[-] Coulomb coefficient.")
-    grasp: bool = Field(
-        False, description="May be held: no friction cone, only the end-effector's force cap."
-    )
+    grasp: bool = Field(False, description="May be held: no friction cone, only the end-effector's force cap.")
     end_effectors: Names = Field([], description="Names or kinds of those that may touch it; empty: all.")
     thickness: Positive = Field(0.05, description="[m] Solid below the surface that swings must clear.")
 

@@ -92,13 +92,11 @@ def plan_to_bytes(plan: Plan) -> bytes:
         "anchors_W": np.array([c.anchor_W for c in contacts]).reshape(count, ends, 3),
         "moments_W": np.array([c.moment_W for c in contacts]).reshape(count, ends, 3),
         "final_contacts": np.array(plan.final_contacts, dtype=np.int32),
-        "swings": np.array(
-            [[s.end_effector, s.first_phase, s.end_phase] for s in plan.swings], dtype=np.int32
-        ).reshape(-1, 3),
-        "swing_heights": np.array([s.height for s in plan.swings], dtype=float),
-        "swing_normals_W": np.array([[s.lift_normal_W, s.land_normal_W] for s in plan.swings]).reshape(
-            -1, 2, 3
+        "swings": np.array([[s.end_effector, s.first_phase, s.end_phase] for s in plan.swings], dtype=np.int32).reshape(
+            -1, 3
         ),
+        "swing_heights": np.array([s.height for s in plan.swings], dtype=float),
+        "swing_normals_W": np.array([[s.lift_normal_W, s.land_normal_W] for s in plan.swings]).reshape(-1, 2, 3),
     }
     for name in (
         "com_W",
@@ -187,9 +185,7 @@ def plan_from_bytes(data: bytes) -> Plan:
 
 def _read_arrays(data: bytes) -> dict[str, np.ndarray]:
     if not zipfile.is_zipfile(io.BytesIO(data)):
-        raise InvalidPlan(
-            "", "must be an .npz file written by mcplan", "no zip archive, or an incomplete one"
-        )
+        raise InvalidPlan("", "must be an .npz file written by mcplan", "no zip archive, or an incomplete one")
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as archive:
             return {name: archive[name] for name in archive.files}
@@ -229,9 +225,7 @@ def _read_header(arrays: dict[str, np.ndarray]) -> dict[str, Any]:
     if not isinstance(header, dict):
         raise InvalidPlan("header", "must be a JSON object", type(header).__name__)
     if header.get("format") != FORMAT:
-        raise InvalidPlan(
-            "header.format", f"must be {FORMAT} for this version of mcplan", repr(header.get("format"))
-        )
+        raise InvalidPlan("header.format", f"must be {FORMAT} for this version of mcplan", repr(header.get("format")))
     for key, kind in (("planner", str), ("scene", dict), ("robot", dict)):
         if not isinstance(header.get(key), kind):
             raise InvalidPlan(f"header.{key}", f"must be a {kind.__name__}", type(header.get(key)).__name__)

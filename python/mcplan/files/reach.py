@@ -59,9 +59,7 @@ class Limb:
 
         whole = np.concatenate([self.base, joints])
         com = pin.jacobianCenterOfMass(self.model, self._data, whole)[:, 6:]
-        out = pin.computeFrameJacobian(self.model, self._data, whole, self.frame, pin.LOCAL_WORLD_ALIGNED)[
-            :, 6:
-        ].copy()
+        out = pin.computeFrameJacobian(self.model, self._data, whole, self.frame, pin.LOCAL_WORLD_ALIGNED)[:, 6:].copy()
         out[:3] -= com
         return out
 
@@ -88,9 +86,7 @@ class Limb:
                 if not (beyond & free).any():
                     break
                 free &= ~beyond
-            joints = np.clip(
-                joints + step * min(1.0, _STEP_RAD / (np.abs(step).max() + 1e-12)), self.lower, self.upper
-            )
+            joints = np.clip(joints + step * min(1.0, _STEP_RAD / (np.abs(step).max() + 1e-12)), self.lower, self.upper)
         return None
 
 
@@ -166,9 +162,7 @@ def largest_box(grid: Grid) -> tuple[np.ndarray, np.ndarray]:
     for x0, x1, y0, y1 in itertools.product(range(ox + 1), range(ox, nx), range(oy + 1), range(oy, ny)):
         area = (x1 - x0) * (y1 - y0)
         line = counts[x1 + 1, y1 + 1] - counts[x0, y1 + 1] - counts[x1 + 1, y0] + counts[x0, y0]
-        full = line[oz + 1 :][None, :] - line[: oz + 1][:, None] == (depth + 1) * (x1 - x0 + 1) * (
-            y1 - y0 + 1
-        )
+        full = line[oz + 1 :][None, :] - line[: oz + 1][:, None] == (depth + 1) * (x1 - x0 + 1) * (y1 - y0 + 1)
         margin = 1 + 999 * (inside_z & (x0 < ox < x1) & (y0 < oy < y1))
         worth = np.where(full, depth * area * margin, 0)
         if worth.max() > best:

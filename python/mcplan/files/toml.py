@@ -50,9 +50,7 @@ def toml_text(data: Mapping[str, Any], header: str = "") -> str:
         header: Comment to put on top.
     """
     lines = [f"# {line}".rstrip() for line in header.splitlines()]
-    lines += [
-        _pair(key, value) for key, value in data.items() if not _is_table(value) and not _is_tables(value)
-    ]
+    lines += [_pair(key, value) for key, value in data.items() if not _is_table(value) and not _is_tables(value)]
     for key, value in data.items():
         for title, table in _sections(key, value):
             lines += ["", title, *(_pair(inner, entry) for inner, entry in table.items())]
@@ -92,9 +90,7 @@ def _value(value: Any) -> str:
     if isinstance(value, float):
         return repr(value) if math.isfinite(value) else str(value)
     if isinstance(value, Mapping):
-        return (
-            "{ " + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + " }" if value else "{}"
-        )
+        return "{ " + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + " }" if value else "{}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(item) for item in value) + "]"
     return str(value)

@@ -23,9 +23,7 @@ from mcplan.files.reach import Limb, explore, largest_box
 GRAVITY = 9.81
 FOOT_FORCE = 2.5  # of the robot's weight
 STANCE_TANGENT = 0.6  # largest horizontal over vertical distance of a foot to the CoM in the nominal stance
-HAND_INSET_M = (
-    0.03  # of a hand's nominal position in its box: an arm hanging down is at the edge of what it reaches
-)
+HAND_INSET_M = 0.03  # of a hand's nominal position in its box: an arm hanging down is at the edge of what it reaches
 SOLE_MOMENT = 0.0033  # of weight x CoM height: 1 N m on humanoid44
 _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
@@ -157,8 +155,7 @@ def robot_from_urdf(
         com_height=round(com_height, 3),
         swing_height=setup.swing_height if setup else swing_height,
         end_effectors=[
-            _end_effector(end, *_both_sides(made, end, com_height), weight, com_height, model, posture)
-            for end in ends
+            _end_effector(end, *_both_sides(made, end, com_height), weight, com_height, model, posture) for end in ends
         ],
         urdf=urdf,
         posture={
@@ -240,9 +237,7 @@ def _search_box(nominal: np.ndarray, end: End, com_height: float) -> tuple[np.nd
     return np.array([nominal[0] - ahead, y[0], low]), np.array([nominal[0] + ahead, y[1], high])
 
 
-def _both_sides(
-    made: dict[str, Any], end: End, com_height: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _both_sides(made: dict[str, Any], end: End, com_height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Nominal position and box shared with the twin: the mean position, the intersection of the boxes."""
     nominal, low, high = (value.copy() for value in made[end.name])
     if end.twin in made:

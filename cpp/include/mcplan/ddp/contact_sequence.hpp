@@ -52,8 +52,8 @@ class ContactRules {
   bool one_switch_ = true;
 };
 
-/// Whether a cost is below another by more than rounding. Scenes with a mirror plane are full of sequences that cost the
-/// same; the first of them is taken, so that the plan does not depend on where the scene lies in the world.
+/// Whether a cost is below another by more than rounding. Scenes with a mirror plane are full of sequences that cost
+/// the same; the first of them is taken, so that the plan does not depend on where the scene lies in the world.
 inline bool clearly_less(double cost, double than) { return cost < than - 1e-9 * std::abs(than); }
 
 /// Steps at which an end-effector's contact differs from the step before, summed over the end-effectors.

@@ -25,8 +25,8 @@ class Layout {
       : ends_(end_effectors), axes_(std::move(axes)), moments_(std::move(moments)) {}
 
   int ends() const { return ends_; }
-  const std::vector<int>& axes() const { return axes_; }             ///< active base axes: 0 roll, 1 pitch, 2 yaw
-  const std::vector<Moment>& moments() const { return moments_; }    ///< which moments are inputs
+  const std::vector<int>& axes() const { return axes_; }           ///< active base axes: 0 roll, 1 pitch, 2 yaw
+  const std::vector<Moment>& moments() const { return moments_; }  ///< which moments are inputs
   int axis_count() const { return static_cast<int>(axes_.size()); }
   int moment_count() const { return static_cast<int>(moments_.size()); }
 

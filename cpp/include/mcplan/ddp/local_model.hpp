@@ -20,18 +20,18 @@ struct Quadratic {
 
 /// Weights that change from iteration to iteration.
 struct Schedule {
-  double contact_weight = 0.01;    ///< w_compl
-  double interior_weight = 0.0;    ///< on reach, friction and force inside the phases
-  double proximal_weight = 30.0;   ///< on the change of the input: 1/2 r |du|^2, a part of the model's cost
+  double contact_weight = 0.01;   ///< w_compl
+  double interior_weight = 0.0;   ///< on reach, friction and force inside the phases
+  double proximal_weight = 30.0;  ///< on the change of the input: 1/2 r |du|^2, a part of the model's cost
 
   /// Not null: only the least change that closes the dynamics defects is sought, whatever it costs. Held (by a
-  /// weight so large that their change is rounding) are the base and the end-effectors at the start and, at every step, the
-  /// inputs that are marked here.
+  /// weight so large that their change is rounding) are the base and the end-effectors at the start and, at every step,
+  /// the inputs that are marked here.
   const std::vector<std::vector<char>>* held_inputs = nullptr;
 };
 
-/// The problem about a trajectory: dynamics to first order, costs to second order (Gauss-Newton), one stage a step. What
-/// depends on the contact state is kept apart, as blocks of rows per end-effector and contact, so that any contact
+/// The problem about a trajectory: dynamics to first order, costs to second order (Gauss-Newton), one stage a step.
+/// What depends on the contact state is kept apart, as blocks of rows per end-effector and contact, so that any contact
 /// sequence can be assembled from it.
 class LocalModel {
  public:
@@ -51,8 +51,8 @@ class LocalModel {
   /// Cost of step k that does not depend on the contact state, with the proximal term; over z, at k = N over x.
   const Quadratic& base(int k) const { return stages_[k].base; }
 
-  /// Rows of end-effector l of step k with this contact (a surface or kFree). Computed at the first call: make those that
-  /// are needed before reading from several threads.
+  /// Rows of end-effector l of step k with this contact (a surface or kFree). Computed at the first call: make those
+  /// that are needed before reading from several threads.
   const Rows& block(int k, int l, int contact);
 
   /// Rows that stand for the state as a whole: those of a flight, or none. Same caveat.
@@ -67,7 +67,7 @@ class LocalModel {
     Eigen::VectorXd defect;
     Quadratic base;
     std::vector<Instant> instants;
-    std::vector<std::vector<Rows>> blocks;   ///< [l][choice], choice 0: free, i + 1: surfaces(l)[i]
+    std::vector<std::vector<Rows>> blocks;  ///< [l][choice], choice 0: free, i + 1: surfaces(l)[i]
     std::vector<std::vector<char>> made;
     Rows flight;
     bool flight_made = false;
@@ -86,7 +86,8 @@ class LocalModel {
 /// True (not modelled) cost and defects of a trajectory with a contact sequence.
 struct Evaluation {
   double cost = 0.0;
-  double defect_sum = 0.0;  ///< over the knots, vectors by their Euclidean norm: the same wherever the scene is turned to
+  double defect_sum =
+      0.0;  ///< over the knots, vectors by their Euclidean norm: the same wherever the scene is turned to
   double defect_max = 0.0;
   CostTerms terms{};
 
@@ -110,7 +111,8 @@ class Evaluator {
 
 /// All rows of one step and contact state into `rows` (shared by model and evaluation). `u` null at k = N.
 void add_base_rows(const Problem& problem, int k, const Eigen::VectorXd& x, const Eigen::VectorXd* u, Rows& rows);
-void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x, const Eigen::VectorXd* u,
-                      const std::vector<Instant>& instants, int l, int contact, const Schedule& schedule, Rows& rows);
+void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x,
+                      const Eigen::VectorXd* u, const std::vector<Instant>& instants, int l, int contact,
+                      const Schedule& schedule, Rows& rows);
 
 }  // namespace mcplan::ddp

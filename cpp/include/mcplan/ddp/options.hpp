@@ -16,57 +16,58 @@ enum class Method {
 
 /// How the contact stiffness enters as an input.
 enum class StiffnessInput {
-  mu,      ///< mu = lambda^2 >= 0: contact forces are linear in it, so a free end-effector can see what contact would give
+  mu,  ///< mu = lambda^2 >= 0: contact forces are linear in it, so a free end-effector can see what contact would give
   lambda,  ///< the paper's lambda; its derivative vanishes at lambda = 0
 };
 
-/// Weights w of the cost terms 1/2 w^2 e^2 (Tazaki, Table I). They apply to non-dimensional quantities: lengths in units
-/// of the CoM height, time in sqrt(height / gravity), mass 1. `_end` holds at the first and the last knot.
+/// Weights w of the cost terms 1/2 w^2 e^2 (Tazaki, Table I). They apply to non-dimensional quantities: lengths in
+/// units of the CoM height, time in sqrt(height / gravity), mass 1. `_end` holds at the first and the last knot.
 struct Weights {
-  double com = 0.1, com_end = 100.0;                    ///< w_p
-  double velocity = 1.0, velocity_end = 100.0;          ///< w_v
-  double rotation = 100.0, rotation_end = 100.0;        ///< w_theta, w_omega
-  double end_effector = 0.01, end_effector_end = 100.0; ///< w_p,l: not in Table I; the value of the author's program
-  double stride = 0.01;                                 ///< on the end-effector's travel within a phase, likewise
-  double stiffness = 0.01;                              ///< w_lambda
-  double moment = 0.01;                                 ///< w_tau
-  double limit = 100.0;                                 ///< w_lim: reach, stiffness, moment, force, friction, duration
-  double duration = 0.1;                                ///< towards the middle of the duration box
-  double contact_min = 0.01, contact_max = 100.0;       ///< w_compl
-  double contact_growth = 2.0;                          ///< gamma
-  double flight = 1.0;                                  ///< on every phase without any contact
-  double contact_change = 0.1;                          ///< on every contact made or broken
-  double overshoot_factor = 2.0;                        ///< on leaving a finite polygon sideways, times w_compl
+  double com = 0.1, com_end = 100.0;                     ///< w_p
+  double velocity = 1.0, velocity_end = 100.0;           ///< w_v
+  double rotation = 100.0, rotation_end = 100.0;         ///< w_theta, w_omega
+  double end_effector = 0.01, end_effector_end = 100.0;  ///< w_p,l: not in Table I; the value of the author's program
+  double stride = 0.01;                                  ///< on the end-effector's travel within a phase, likewise
+  double stiffness = 0.01;                               ///< w_lambda
+  double moment = 0.01;                                  ///< w_tau
+  double limit = 100.0;                                  ///< w_lim: reach, stiffness, moment, force, friction, duration
+  double duration = 0.1;                                 ///< towards the middle of the duration box
+  double contact_min = 0.01, contact_max = 100.0;        ///< w_compl
+  double contact_growth = 2.0;                           ///< gamma
+  double flight = 1.0;                                   ///< on every phase without any contact
+  double contact_change = 0.1;                           ///< on every contact made or broken
+  double overshoot_factor = 2.0;                         ///< on leaving a finite polygon sideways, times w_compl
 };
 
 /// Options of the contact-sequence search. Defaults serve all built-in scenes.
 struct Options {
-  int phases = 0;                     ///< N; 0: 18 as in the paper, or more where the way asks for more steps
+  int phases = 0;  ///< N; 0: 18 as in the paper, or more where the way asks for more steps
   Method method = Method::standard;
   StiffnessInput stiffness_input = StiffnessInput::mu;
   Weights weights;
 
   double duration_min_s = 0.15, duration_max_s = 0.50;  ///< soft box of the phase durations
-  double flight_duration_min_s = 0.40;                  ///< lower bound of phases without any contact (the paper's for all)
+  double flight_duration_min_s = 0.40;  ///< lower bound of phases without any contact (the paper's for all)
   double duration_initial_s = 0.45;
-  double proximal_weight = 30.0;      ///< first weight on the change of the inputs; adapts
-  int interior_points = 4;            ///< instants inside each phase at which reach, force and friction are held
-  double reach_margin_m = 0.003;      ///< the reach box is planned smaller by this
-  bool friction = true;               ///< hold the friction cones
-  bool whole_sequence_moves = true;   ///< dynamic programming over (step, contact state) where it pays
-  bool one_switch_per_step = true;    ///< Tazaki's eq. (32)
-  int restarts = 3;                   ///< further attempts from other settings while the checker rejects the plan
+  double proximal_weight = 30.0;     ///< first weight on the change of the inputs; adapts
+  int interior_points = 4;           ///< instants inside each phase at which reach, force and friction are held
+  double reach_margin_m = 0.003;     ///< the reach box is planned smaller by this
+  bool friction = true;              ///< hold the friction cones
+  bool whole_sequence_moves = true;  ///< dynamic programming over (step, contact state) where it pays
+  bool one_switch_per_step = true;   ///< Tazaki's eq. (32)
+  int restarts = 3;                  ///< further attempts from other settings while the checker rejects the plan
 
-  int max_iterations = 5000;          ///< over all attempts
+  int max_iterations = 5000;                                      ///< over all attempts
   double time_limit_s = std::numeric_limits<double>::infinity();  ///< wall clock
-  int threads = 1;                    ///< for pricing; the result does not depend on it
-  std::uint64_t seed = 0;             ///< of the order in which restarts vary the settings
+  int threads = 1;                                                ///< for pricing; the result does not depend on it
+  std::uint64_t seed = 0;                                         ///< of the order in which restarts vary the settings
 
-  std::vector<std::vector<int>> initial_sequence;  ///< phases+1 rows (or empty): surface index per end-effector, -1 free
+  std::vector<std::vector<int>>
+      initial_sequence;  ///< phases+1 rows (or empty): surface index per end-effector, -1 free
 
-  bool record_history = false;        ///< keep the contact sequence of every iteration in the report
-  Logger logger;                      ///< iteration table and decisions, line by line; null: silent
-  StopRequest stop;                   ///< polled every iteration; null: never
+  bool record_history = false;  ///< keep the contact sequence of every iteration in the report
+  Logger logger;                ///< iteration table and decisions, line by line; null: silent
+  StopRequest stop;             ///< polled every iteration; null: never
 
   /// Throws InvalidOptions naming the first field out of its range.
   void validate() const;

@@ -18,8 +18,8 @@ struct Neighbour {
 };
 
 /// Prices contact states of one step by their low rank. All else held, the cost of step k without its contact rows plus
-/// U_k plus V_{k+1} is one quadratic W over z = [x_k, u_k]; a contact state adds rows e + R'z with precisions D, so with
-/// the posterior mean m and covariance S = W^-1
+/// U_k plus V_{k+1} is one quadratic W over z = [x_k, u_k]; a contact state adds rows e + R'z with precisions D, so
+/// with the posterior mean m and covariance S = W^-1
 ///
 ///     J = J_0 + 1/2 y' (D^-1 + P)^-1 y,    y = e + R'm,    P = R'S R    (r x r, r = 8..30)
 ///

@@ -21,7 +21,7 @@ struct Units {
   double mass = 1.0;    ///< [kg]
 
   double velocity() const { return length / time; }
-  double stiffness() const { return 1.0 / (time * time); }        ///< of mu = lambda^2
+  double stiffness() const { return 1.0 / (time * time); }  ///< of mu = lambda^2
   double force() const { return mass * length / (time * time); }
   double moment() const { return force() * length; }
 };
@@ -51,21 +51,21 @@ class Problem {
   Options options;
   Units units;
   Layout layout;
-  int steps = 0;                            ///< N
-  std::vector<int> active;                  ///< end-effector of the robot behind each of the problem's
-  std::vector<Polygon> polygons;            ///< by scene surface
-  std::vector<double> friction;             ///< by scene surface; infinite where it may be held (grasp)
-  std::vector<double> keep_out_depth;       ///< by scene surface: a free end-effector below it is pushed up from here on
-  std::vector<EndLimits> limits;            ///< by active end-effector
-  Eigen::Vector3d inertia;                  ///< in units of mass length^2
-  double first_duration = 0.0;              ///< what is left of the first phase when replanning, else 0
+  int steps = 0;                       ///< N
+  std::vector<int> active;             ///< end-effector of the robot behind each of the problem's
+  std::vector<Polygon> polygons;       ///< by scene surface
+  std::vector<double> friction;        ///< by scene surface; infinite where it may be held (grasp)
+  std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
+  std::vector<EndLimits> limits;       ///< by active end-effector
+  Eigen::Vector3d inertia;             ///< in units of mass length^2
+  double first_duration = 0.0;         ///< what is left of the first phase when replanning, else 0
   double flight_duration_min = 0.0;
   double duration_min = 0.0, duration_max = 0.0, duration_initial = 0.0;
-  Eigen::Vector3d base_rpy;                 ///< angles of the axes that are not in the layout
+  Eigen::Vector3d base_rpy;  ///< angles of the axes that are not in the layout
   ContactRules rules;
   ContactState start_contacts, goal_contacts;
-  Trajectory reference;                     ///< x_ref by knot (u empty)
-  Eigen::VectorXd start;                    ///< x_0 as demanded
+  Trajectory reference;   ///< x_ref by knot (u empty)
+  Eigen::VectorXd start;  ///< x_0 as demanded
 
   /// Roll, pitch, yaw of a state.
   Eigen::Vector3d rpy(const Eigen::VectorXd& x) const;
@@ -75,8 +75,8 @@ class Problem {
   /// finds the hands of gap_with_rail); with one it rests on those in contact.
   Trajectory initial_guess(const ContactSequence& sequence) const;
 
-  /// A sequence given by all end-effectors of the robot, for the active ones. Throws InvalidOptions when it does not fit:
-  /// steps + 1 rows, valid, from the start's contacts to the goal's.
+  /// A sequence given by all end-effectors of the robot, for the active ones. Throws InvalidOptions when it does not
+  /// fit: steps + 1 rows, valid, from the start's contacts to the goal's.
   ContactSequence to_active(const ContactSequence& sequence) const;
 
   /// Start from a measured state instead of the scene's; `contacts` by active end-effector.

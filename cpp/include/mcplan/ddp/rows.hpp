@@ -42,10 +42,10 @@ class Rows {
   int count() const { return static_cast<int>(value_.size()); }
   double cost() const { return cost_; }
   const CostTerms& terms() const { return terms_; }
-  double precision(int r) const { return precision_[r]; }    ///< w_r^2
+  double precision(int r) const { return precision_[r]; }  ///< w_r^2
   double value(int r) const { return value_[r]; }
-  int single(int r) const { return single_[r]; }             ///< its one variable, or -1
-  auto gradient(int r) const { return gradient_.col(r); }    ///< zeros but for the one variable of a single row
+  int single(int r) const { return single_[r]; }           ///< its one variable, or -1
+  auto gradient(int r) const { return gradient_.col(r); }  ///< zeros but for the one variable of a single row
 
   /// Add the Gauss-Newton quadratic  c + g'z + 1/2 z'Hz  of these rows (H: both triangles). `scratch` keeps its memory.
   void accumulate(double& c, Eigen::VectorXd& g, Eigen::MatrixXd& h, Eigen::MatrixXd& scratch) const;

@@ -17,9 +17,7 @@ namespace mcplan::ddp {
 class Deadline {
  public:
   explicit Deadline(double limit_s) : start_(std::chrono::steady_clock::now()), limit_s_(limit_s) {}
-  double elapsed_s() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  double elapsed_s() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   bool passed() const { return elapsed_s() >= limit_s_; }
 
  private:
@@ -51,8 +49,8 @@ struct Incumbent {
   Evaluation evaluation;
 };
 
-/// Descends from a first guess in three stages: discover() with a growing contact weight and the sequence free, polish()
-/// with the sequence frozen, refine() by trying changed sequences one by one on the true cost. Each returns
+/// Descends from a first guess in three stages: discover() with a growing contact weight and the sequence free,
+/// polish() with the sequence frozen, refine() by trying changed sequences one by one on the true cost. Each returns
 /// Status::solved to go on, or why it stopped; `now` always holds the best iterate.
 class Search {
  public:
@@ -65,12 +63,12 @@ class Search {
   /// `give_up_above`.
   Status polish(Incumbent& now, int iterations, double calm, double give_up_above);
 
-  /// Best-neighbour search on the true cost: neighbours and swing edits, cheapest by the local model first, each polished
-  /// for a few iterations and kept if the merit falls.
+  /// Best-neighbour search on the true cost: neighbours and swing edits, cheapest by the local model first, each
+  /// polished for a few iterations and kept if the merit falls.
   Status refine(Incumbent& now);
 
-  /// Tazaki's Algorithms 1 and 2 as published, for `iterations`: full defect steps of fixed length, switches accepted on
-  /// the quadratic model, J* from infinity, every neighbour priced by MINCOST.
+  /// Tazaki's Algorithms 1 and 2 as published, for `iterations`: full defect steps of fixed length, switches accepted
+  /// on the quadratic model, J* from infinity, every neighbour priced by MINCOST.
   Status run_paper(Incumbent& now, int iterations);
 
   /// Close the dynamics defects to rounding with the contacts exact: end-effectors on their surfaces and at rest, no

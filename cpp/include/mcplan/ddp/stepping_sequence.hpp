@@ -5,9 +5,10 @@
 
 namespace mcplan::ddp {
 
-/// A second first guess for the sequence: the end-effectors that stand at start and goal step in turn, one swing and one
-/// phase of full support after the other, each onto the allowed surface nearest to where the reference will have it.
-/// Empty when that breaks a rule. Not in the paper; it saves the search from the many poor local optima of open ground.
+/// A second first guess for the sequence: the end-effectors that stand at start and goal step in turn, one swing and
+/// one phase of full support after the other, each onto the allowed surface nearest to where the reference will have
+/// it. Empty when that breaks a rule. Not in the paper; it saves the search from the many poor local optima of open
+/// ground.
 ContactSequence stepping_sequence(const Problem& problem, int first_mover);
 
 }  // namespace mcplan::ddp

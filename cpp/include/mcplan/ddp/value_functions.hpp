@@ -9,8 +9,8 @@
 namespace mcplan::ddp {
 
 /// Backward value functions V_k (cost-to-go, Tazaki eq. 27) and forward ones U_k (cost-so-far, eq. 30) of a local model
-/// with a contact sequence. The proximal term is part of the stage cost in both, so min U_k + V_k is the same number for
-/// every k (eq. 31).
+/// with a contact sequence. The proximal term is part of the stage cost in both, so min U_k + V_k is the same number
+/// for every k (eq. 31).
 class ValueFunctions {
  public:
   explicit ValueFunctions(LocalModel& model);
@@ -35,8 +35,8 @@ class ValueFunctions {
   /// min over x of U_k + V_k (eq. 31).
   double minimum(int k) const;
 
-  /// Minimum of the model with `changed` instead of `sequence`, for which V and U stand: the backward recursion over the
-  /// steps between the first and the last difference, then eq. (31) there. Infinite when a Hessian is not positive
+  /// Minimum of the model with `changed` instead of `sequence`, for which V and U stand: the backward recursion over
+  /// the steps between the first and the last difference, then eq. (31) there. Infinite when a Hessian is not positive
   /// definite.
   double minimum_with(const ContactSequence& changed, const ContactSequence& sequence);
 
@@ -48,7 +48,7 @@ class ValueFunctions {
 
   LocalModel* model_;
   std::vector<Quadratic> V_, U_, without_contacts_;
-  std::vector<Eigen::MatrixXd> gain_;      ///< K: du = offset - K dx
+  std::vector<Eigen::MatrixXd> gain_;  ///< K: du = offset - K dx
   std::vector<Eigen::VectorXd> offset_;
   // Scratch.
   Quadratic q_, from_, to_;

@@ -29,10 +29,9 @@ struct Tolerances {
 ///
 ///     finite             every number of the plan is finite
 ///     phase_duration     every phase lasts longer than a microsecond
-///     dynamics           f_l = m mu_l (p - s_l), gravity and contact moments, integrated by RK4 over a phase, end at the next knot
-///     at_consistency     Plan::at_phase agrees with that integration
-///     contact_distance   height of an end-effector in contact off its plane
-///     contact_polygon    its distance beyond the polygon's boundary
+///     dynamics           f_l = m mu_l (p - s_l), gravity and contact moments, integrated by RK4 over a phase, end at
+///     the next knot at_consistency     Plan::at_phase agrees with that integration contact_distance   height of an
+///     end-effector in contact off its plane contact_polygon    its distance beyond the polygon's boundary
 ///     contact_permission it may touch that surface
 ///     slip               its distance from where it touched down
 ///     anchor             distance of the force's anchor from the sole (from the point, without a sole)

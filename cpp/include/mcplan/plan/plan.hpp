@@ -16,10 +16,10 @@ namespace mcplan {
 ///
 /// so the CoM p obeys a linear equation and has a closed form.
 struct Contact {
-  int surface = -1;                                     ///< index into scene.surfaces, -1: free
-  double stiffness = 0.0;                               ///< mu_l [1/s^2], 0 when free
-  Eigen::Vector3d anchor_W = Eigen::Vector3d::Zero();   ///< s_l [m], through which the line of force passes
-  Eigen::Vector3d moment_W = Eigen::Vector3d::Zero();   ///< contact moment [N m], constant over the phase
+  int surface = -1;                                    ///< index into scene.surfaces, -1: free
+  double stiffness = 0.0;                              ///< mu_l [1/s^2], 0 when free
+  Eigen::Vector3d anchor_W = Eigen::Vector3d::Zero();  ///< s_l [m], through which the line of force passes
+  Eigen::Vector3d moment_W = Eigen::Vector3d::Zero();  ///< contact moment [N m], constant over the phase
 };
 
 /// A stretch of time with constant contacts.
@@ -30,12 +30,12 @@ struct Phase {
 
 /// State at the instant between two phases.
 struct Knot {
-  Eigen::Vector3d com_W = Eigen::Vector3d::Zero();            ///< [m]
-  Eigen::Vector3d com_velocity_W = Eigen::Vector3d::Zero();   ///< [m/s]
-  Eigen::Vector3d base_rpy = Eigen::Vector3d::Zero();         ///< roll, pitch, yaw of the base [rad]
-  Eigen::Vector3d base_rpy_rate = Eigen::Vector3d::Zero();    ///< [rad/s]
-  std::vector<Eigen::Vector3d> end_effectors_W;               ///< [m]
-  std::vector<Eigen::Vector3d> end_effector_velocities_W;     ///< [m/s], zero at contacts
+  Eigen::Vector3d com_W = Eigen::Vector3d::Zero();           ///< [m]
+  Eigen::Vector3d com_velocity_W = Eigen::Vector3d::Zero();  ///< [m/s]
+  Eigen::Vector3d base_rpy = Eigen::Vector3d::Zero();        ///< roll, pitch, yaw of the base [rad]
+  Eigen::Vector3d base_rpy_rate = Eigen::Vector3d::Zero();   ///< [rad/s]
+  std::vector<Eigen::Vector3d> end_effectors_W;              ///< [m]
+  std::vector<Eigen::Vector3d> end_effector_velocities_W;    ///< [m/s], zero at contacts
 };
 
 /// A stretch of phases in which an end-effector is free. Its path is the C2 quintic spline through the knots (zero
@@ -51,21 +51,21 @@ struct Swing {
 
 /// An end-effector at an instant.
 struct EndEffectorState {
-  int surface = -1;                  ///< index into scene.surfaces, -1: free
-  Eigen::Vector3d position_W;        ///< [m]
-  Eigen::Vector3d velocity_W;        ///< [m/s]
-  Eigen::Vector3d force_W;           ///< contact force on the robot [N], zero when free
-  Eigen::Vector3d moment_W;          ///< contact moment on the robot [N m], zero when free
+  int surface = -1;            ///< index into scene.surfaces, -1: free
+  Eigen::Vector3d position_W;  ///< [m]
+  Eigen::Vector3d velocity_W;  ///< [m/s]
+  Eigen::Vector3d force_W;     ///< contact force on the robot [N], zero when free
+  Eigen::Vector3d moment_W;    ///< contact moment on the robot [N m], zero when free
 };
 
 /// The robot at an instant.
 struct PlanState {
   double time = 0.0;  ///< [s]
   int phase = 0;
-  Eigen::Vector3d com_W, com_velocity_W, com_acceleration_W;     ///< [m], [m/s], [m/s^2]
-  Eigen::Vector3d base_rpy, base_rpy_rate;                       ///< [rad], [rad/s]
-  Eigen::Vector4d base_quat_wxyz;                                ///< R_WB
-  Eigen::Vector3d angular_momentum_W;                            ///< about the CoM [kg m^2/s]
+  Eigen::Vector3d com_W, com_velocity_W, com_acceleration_W;  ///< [m], [m/s], [m/s^2]
+  Eigen::Vector3d base_rpy, base_rpy_rate;                    ///< [rad], [rad/s]
+  Eigen::Vector4d base_quat_wxyz;                             ///< R_WB
+  Eigen::Vector3d angular_momentum_W;                         ///< about the CoM [kg m^2/s]
   std::vector<EndEffectorState> end_effectors;
 };
 
@@ -74,14 +74,14 @@ class Plan {
  public:
   Scene scene;
   Robot robot;
-  std::string planner;                ///< e.g. "ddp"
-  std::vector<Knot> knots;            ///< phases + 1
+  std::string planner;      ///< e.g. "ddp"
+  std::vector<Knot> knots;  ///< phases + 1
   std::vector<Phase> phases;
-  std::vector<int> final_contacts;    ///< surface index per end-effector after the last phase
+  std::vector<int> final_contacts;  ///< surface index per end-effector after the last phase
   std::vector<Swing> swings;
-  bool measured_start = false;        ///< starts from a measured state, not from the scene's start
+  bool measured_start = false;  ///< starts from a measured state, not from the scene's start
 
-  double duration() const;            ///< [s]
+  double duration() const;                 ///< [s]
   std::vector<double> knot_times() const;  ///< [s], phases + 1 entries, from 0
   int end_effector_count() const { return static_cast<int>(robot.end_effectors.size()); }
 

@@ -16,8 +16,8 @@ struct Violation {
   int phase = -1;            ///< -1: not tied to a phase
   std::string end_effector;  ///< empty: not tied to one
   double time_s = 0.0;
-  double value = 0.0;        ///< amount beyond the limit, in `unit`; negative: margin left
-  double tolerance = 0.0;    ///< largest value that is still accepted
+  double value = 0.0;      ///< amount beyond the limit, in `unit`; negative: margin left
+  double tolerance = 0.0;  ///< largest value that is still accepted
   std::string unit;
 
   /// "friction at left_foot in phase 7 (t = 2.61 s): 0.08 over the limit (tolerance 0.001)"
@@ -27,14 +27,14 @@ struct Violation {
 /// One row of the iteration table.
 struct Iteration {
   int index = 0;
-  double cost = 0.0;              ///< total, at the weight of this iteration
-  double merit = 0.0;             ///< cost + rho |defect|, what the line search lowers
-  double defect = 0.0;            ///< largest dynamics defect (non-dimensional)
-  double contact_weight = 0.0;    ///< w_compl
+  double cost = 0.0;            ///< total, at the weight of this iteration
+  double merit = 0.0;           ///< cost + rho |defect|, what the line search lowers
+  double defect = 0.0;          ///< largest dynamics defect (non-dimensional)
+  double contact_weight = 0.0;  ///< w_compl
   double proximal_weight = 0.0;
-  double step = 0.0;              ///< accepted step length
-  int switches = 0;               ///< contact switches accepted in this iteration
-  int neighbours = 0;             ///< candidates priced
+  double step = 0.0;                       ///< accepted step length
+  int switches = 0;                        ///< contact switches accepted in this iteration
+  int neighbours = 0;                      ///< candidates priced
   std::vector<std::vector<int>> sequence;  ///< after this iteration (steps x end-effectors), if history is recorded
 };
 
@@ -44,16 +44,17 @@ struct Report {
   std::string message;
   int iterations = 0;
   int switches = 0;
-  double time_s = 0.0;                        ///< wall clock of the whole solve
-  std::map<std::string, double> timing_s;     ///< wall clock by part
+  double time_s = 0.0;                     ///< wall clock of the whole solve
+  std::map<std::string, double> timing_s;  ///< wall clock by part
   double cost = 0.0;
   std::map<std::string, double> cost_terms;
-  Violation worst_violation;                  ///< largest value / tolerance over all constraints
-  std::map<std::string, double> friction_use;  ///< largest tangential over normal force by end-effector, grasps included
+  Violation worst_violation;  ///< largest value / tolerance over all constraints
+  std::map<std::string, double>
+      friction_use;  ///< largest tangential over normal force by end-effector, grasps included
   std::uint64_t seed = 0;
   int threads = 1;
   std::string version;
-  std::vector<Iteration> history;             ///< one row an iteration
+  std::vector<Iteration> history;  ///< one row an iteration
 };
 
 struct PlanResult {

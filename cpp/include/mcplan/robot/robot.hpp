@@ -12,11 +12,12 @@ namespace mcplan {
 
 /// A contact link of the robot. Frame B sits at the CoM and turns with the base.
 struct EndEffector {
-  std::string name;          ///< e.g. "left_foot"
-  std::string kind = "foot"; ///< group that scenes may address as a whole, e.g. "foot", "hand"
-  std::string frame;         ///< URDF frame, empty for robots without a URDF
-  Eigen::Vector2d half_size = Eigen::Vector2d::Zero();  ///< [m] half length and half width of the sole; 0: point contact
-  Eigen::Vector3d nominal_B = Eigen::Vector3d::Zero();  ///< [m] nominal position relative to the CoM
+  std::string name;           ///< e.g. "left_foot"
+  std::string kind = "foot";  ///< group that scenes may address as a whole, e.g. "foot", "hand"
+  std::string frame;          ///< URDF frame, empty for robots without a URDF
+  Eigen::Vector2d half_size =
+      Eigen::Vector2d::Zero();  ///< [m] half length and half width of the sole; 0: point contact
+  Eigen::Vector3d nominal_B = Eigen::Vector3d::Zero();    ///< [m] nominal position relative to the CoM
   Eigen::Vector3d reach_min_B = Eigen::Vector3d::Zero();  ///< [m] box of reachable positions relative to the CoM
   Eigen::Vector3d reach_max_B = Eigen::Vector3d::Zero();
   double max_force = std::numeric_limits<double>::infinity();  ///< [N] largest norm of the contact force
@@ -27,13 +28,13 @@ struct EndEffector {
 struct Robot {
   std::string name;
   std::string description;
-  double mass = 0.0;                                   ///< [kg]
-  Eigen::Vector3d inertia = Eigen::Vector3d::Ones();   ///< [kg m^2] diagonal, about the CoM, nominal posture
-  double com_height = 0.0;                             ///< [m] of the CoM above the ground in the nominal stance
-  double swing_height = 0.10;                          ///< [m] clearance of a swinging end-effector
+  double mass = 0.0;                                  ///< [kg]
+  Eigen::Vector3d inertia = Eigen::Vector3d::Ones();  ///< [kg m^2] diagonal, about the CoM, nominal posture
+  double com_height = 0.0;                            ///< [m] of the CoM above the ground in the nominal stance
+  double swing_height = 0.10;                         ///< [m] clearance of a swinging end-effector
   std::vector<EndEffector> end_effectors;
-  std::string urdf;                         ///< path, or "example-robot-data:NAME"; empty: none
-  std::map<std::string, double> posture;    ///< nominal joint positions [rad] by URDF joint name
+  std::string urdf;                       ///< path, or "example-robot-data:NAME"; empty: none
+  std::map<std::string, double> posture;  ///< nominal joint positions [rad] by URDF joint name
 
   int end_effector_index(const std::string& end_effector_name) const;  ///< or -1
 
@@ -49,10 +50,10 @@ bool may_touch(const Surface& surface, const EndEffector& end_effector);
 
 /// A stance of a scene worked out for one robot.
 struct ResolvedStance {
-  Eigen::Vector3d com_W;                          ///< [m]
-  double yaw;                                     ///< [rad]
-  std::vector<int> contacts;                      ///< surface index per end-effector, -1: free
-  std::vector<Eigen::Vector3d> end_effectors_W;   ///< [m] nominal positions, those in contact on their surface
+  Eigen::Vector3d com_W;                         ///< [m]
+  double yaw;                                    ///< [rad]
+  std::vector<int> contacts;                     ///< surface index per end-effector, -1: free
+  std::vector<Eigen::Vector3d> end_effectors_W;  ///< [m] nominal positions, those in contact on their surface
 };
 
 /// Throws InvalidScene when contacts name an end-effector that the robot does not have, or one that may not touch the

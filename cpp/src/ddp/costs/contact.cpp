@@ -19,12 +19,14 @@ void contact_cost(const Problem& problem, const VectorXd& x, const VectorXd* u, 
   const Vector3d p = x.segment<3>(at.end(l));
   rows.begin(Term::contact);
   const auto along = [&](double w, double value, const Vector3d& direction) {
-    if (rows.with_gradient()) rows.add_dense(w, value).segment<3>(at.end(l)) = direction;
-    else rows.add_value(w, value);
+    if (rows.with_gradient())
+      rows.add_dense(w, value).segment<3>(at.end(l)) = direction;
+    else
+      rows.add_value(w, value);
   };
   along(weight, polygon.height(p), polygon.normal_W());
-  // Without the extra weight a foot stretches over the edge instead of the hands taking hold (measured: 0 of 108 runs of
-  // gap_with_rail find the hands at factor 1, 16 of 16 at 2).
+  // Without the extra weight a foot stretches over the edge instead of the hands taking hold (measured: 0 of 108 runs
+  // of gap_with_rail find the hands at factor 1, 16 of 16 at 2).
   const bool paper = problem.options.method == Method::paper;
   const double edge_weight = weight * (paper ? 1.0 : problem.options.weights.overshoot_factor);
   const double margin = paper ? 0.0 : kEdgeMargin / problem.units.length;
@@ -51,8 +53,10 @@ void keep_out_cost(const Problem& problem, const VectorXd& x, int l, double weig
     const Polygon& polygon = problem.polygons[i];
     const double height = polygon.height(p);
     if (height >= 0.0 || height < -problem.keep_out_depth[i] || polygon.outside(p) > 0.0) continue;
-    if (rows.with_gradient()) rows.add_dense(weight, height).segment<3>(problem.layout.end(l)) = polygon.normal_W();
-    else rows.add_value(weight, height);
+    if (rows.with_gradient())
+      rows.add_dense(weight, height).segment<3>(problem.layout.end(l)) = polygon.normal_W();
+    else
+      rows.add_value(weight, height);
   }
 }
 

@@ -64,8 +64,8 @@ double moment_per_stiffness(const Problem& problem, int l, int surface) {
   return kLowestHeight * std::min(friction, 1.0) * problem.limits[l].half_width;
 }
 
-void torsion_cost(const Problem& problem, const Pendulum& pendulum, const VectorXd& u, int l, int surface, double weight,
-                  Rows& rows) {
+void torsion_cost(const Problem& problem, const Pendulum& pendulum, const VectorXd& u, int l, int surface,
+                  double weight, Rows& rows) {
   const Layout& at = problem.layout;
   const double ratio = moment_per_stiffness(problem, l, surface);
   if (std::isinf(ratio)) return;

@@ -19,21 +19,28 @@ void reach_rows(const Problem& problem, const VectorXd& x, int l, const Vector3d
   const Vector3d relative = r.transpose() * offset;
   for (int i = 0; i < 3; ++i) {
     double beyond = 0.0;
-    if (relative[i] < limit.reach_min[i]) beyond = relative[i] - limit.reach_min[i];
-    else if (relative[i] > limit.reach_max[i]) beyond = relative[i] - limit.reach_max[i];
-    else continue;
+    if (relative[i] < limit.reach_min[i])
+      beyond = relative[i] - limit.reach_min[i];
+    else if (relative[i] > limit.reach_max[i])
+      beyond = relative[i] - limit.reach_max[i];
+    else
+      continue;
     if (!rows.with_gradient()) {
       rows.add_value(weight, beyond);
       continue;
     }
     auto g = rows.add_dense(weight, beyond);
-    if (inside) g -= inside->com_jacobian.transpose() * r.col(i);
-    else g.segment<3>(at.com()) = -r.col(i);
+    if (inside)
+      g -= inside->com_jacobian.transpose() * r.col(i);
+    else
+      g.segment<3>(at.com()) = -r.col(i);
     g.segment<3>(at.end(l)) += r.col(i);
     for (int a = 0; a < at.axis_count(); ++a) {
       const double turn = rotation_derivative(rpy, at.axes()[a]).col(i).dot(offset);
-      if (inside) g += turn * inside->angle_jacobian.row(a).transpose();
-      else g[at.angle(a)] += turn;
+      if (inside)
+        g += turn * inside->angle_jacobian.row(a).transpose();
+      else
+        g[at.angle(a)] += turn;
     }
   }
 }

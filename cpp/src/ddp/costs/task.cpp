@@ -16,10 +16,14 @@ void task_cost(const Problem& problem, int k, const Eigen::VectorXd& x, const Ei
   rows.begin(Term::task);
   for (int i = 0; i < at.nx(); ++i) {
     double wi = 0.0;
-    if (i < at.velocity()) wi = weight(w.com, w.com_end);
-    else if (i < at.angle()) wi = weight(w.velocity, w.velocity_end);
-    else if (i < at.end(0)) wi = weight(w.rotation, w.rotation_end);
-    else wi = weight(w.end_effector, w.end_effector_end);
+    if (i < at.velocity())
+      wi = weight(w.com, w.com_end);
+    else if (i < at.angle())
+      wi = weight(w.velocity, w.velocity_end);
+    else if (i < at.end(0))
+      wi = weight(w.rotation, w.rotation_end);
+    else
+      wi = weight(w.end_effector, w.end_effector_end);
     if (pinned && i >= at.velocity()) wi = kPinned;
     rows.add_single(wi, x[i] - reference[i], i);
   }
@@ -28,8 +32,7 @@ void task_cost(const Problem& problem, int k, const Eigen::VectorXd& x, const Ei
     for (int i = 0; i < 3; ++i) rows.add_single(w.stride, (*u)[at.stride(l) + i], at.nx() + at.stride(l) + i);
     rows.add_single(w.stiffness, (*u)[at.stiffness(l)], at.nx() + at.stiffness(l));
   }
-  for (int i = 0; i < at.moment_count(); ++i)
-    rows.add_single(w.moment, (*u)[at.moment(i)], at.nx() + at.moment(i));
+  for (int i = 0; i < at.moment_count(); ++i) rows.add_single(w.moment, (*u)[at.moment(i)], at.nx() + at.moment(i));
 }
 
 }  // namespace mcplan::ddp

@@ -48,8 +48,8 @@ void contact_cost(const Problem& problem, const Eigen::VectorXd& x, const Eigen:
 /// No contact (Tazaki, eq. 19, third term): no stiffness, no moment.
 void free_cost(const Problem& problem, const Eigen::VectorXd& u, int l, double weight, Rows& rows);
 
-/// A free end-effector stays out of the solids below the surfaces (at the knots; not in the paper): height above the plane
-/// at least 0 where it is inside a polygon's outline and not far below it.
+/// A free end-effector stays out of the solids below the surfaces (at the knots; not in the paper): height above the
+/// plane at least 0 where it is inside a polygon's outline and not far below it.
 void keep_out_cost(const Problem& problem, const Eigen::VectorXd& x, int l, double weight, Rows& rows);
 
 /// Cost of a phase without any contact, so that the robot jumps where it must and not because it may (not in the paper,
@@ -63,8 +63,8 @@ void flight_duration_cost(const Problem& problem, const Eigen::VectorXd& u, Rows
 /// Whether nothing is in contact.
 bool in_flight(const ContactState& state);
 
-/// Cost of the contacts made and broken between two steps, so that the robot takes no step that gains it next to nothing
-/// (not in the paper). A constant of the two states; it counts at the full weights only, not in discovery.
+/// Cost of the contacts made and broken between two steps, so that the robot takes no step that gains it next to
+/// nothing (not in the paper). A constant of the two states; it counts at the full weights only, not in discovery.
 double contact_change_cost(const Problem& problem, const ContactState& from, const ContactState& to);
 
 /// The same over a whole sequence.
@@ -74,17 +74,17 @@ double contact_change_cost(const Problem& problem, const ContactSequence& sequen
 void interior_reach_cost(const Problem& problem, const Eigen::VectorXd& x, const std::vector<Instant>& instants, int l,
                          double weight, Rows& rows);
 
-/// Friction cone: the force points along d = p - p_l, so |d_t| <= mu_friction n.d at every instant. Stiffness drops out.
-/// Not in the paper.
+/// Friction cone: the force points along d = p - p_l, so |d_t| <= mu_friction n.d at every instant. Stiffness drops
+/// out. Not in the paper.
 void friction_cost(const Problem& problem, const Eigen::VectorXd& x, const std::vector<Instant>& instants, int l,
                    int surface, double weight, Rows& rows);
 
 /// mu_l |p - p_l| <= f_max at every instant. The paper bounds the stiffness instead.
-void force_cap_cost(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x, const Eigen::VectorXd& u,
-                    const std::vector<Instant>& instants, int l, double weight, Rows& rows);
+void force_cap_cost(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x,
+                    const Eigen::VectorXd& u, const std::vector<Instant>& instants, int l, double weight, Rows& rows);
 
-/// Largest contact moment per stiffness [length^2]: what friction under the sole and the sole's half width can bear of a
-/// force that carries the CoM at about its nominal height. Infinite for moments that nothing bears down on (grasp).
+/// Largest contact moment per stiffness [length^2]: what friction under the sole and the sole's half width can bear of
+/// a force that carries the CoM at about its nominal height. Infinite for moments that nothing bears down on (grasp).
 double moment_per_stiffness(const Problem& problem, int l, int surface);
 
 /// |tau_l| <= moment_per_stiffness mu_l: a foot that hardly presses cannot twist. Not in the paper.
