@@ -29,12 +29,13 @@ _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
 
 HEADER = (
-    "Mass, inertia (its diagonal, about the CoM) and com_height are those of the URDF in the SRDF's posture. "
-    "Reach boxes: the largest box around the nominal position whose every grid point ({step} m apart) is reached by "
-    "inverse kinematics within the joint limits: base upright, other limbs nominal, soles level, feet on their own side "
-    "of the body. Left and right are given the same box. max_force of feet: {foot} times the weight; of hands: the "
-    "upward force that the arm's torque limits bear in the nominal posture (tau = J^T f plus gravity). Feet "
-    "stand at most {tangent} x com_height off the CoM, since forces point at it. A hand's nominal position is moved {inset} m into its box. max_moment of soles: {moment} x weight x com_height, vertical."
+    "Mass, inertia (its diagonal, about the CoM) and com_height are those of the URDF in the SRDF's posture. Reach "
+    "boxes: the largest box around the nominal position whose every grid point ({step} m apart) is reached by inverse "
+    "kinematics within the joint limits: base upright, other limbs nominal, soles level, feet on their own side of the "
+    "body. Left and right are given the same box. max_force of feet: {foot} times the weight; of hands: the upward "
+    "force that the arm's torque limits bear in the nominal posture (tau = J^T f plus gravity). Feet stand at most "
+    "{tangent} x com_height off the CoM, since forces point at it. A hand's nominal position is moved {inset} m into "
+    "its box. max_moment of soles: {moment} x weight x com_height, vertical."
 )
 
 
