@@ -15,6 +15,8 @@ using Eigen::VectorXd;
 
 /// Soft constraints settle slightly beyond their bound, so friction is planned a little tighter than the surface's.
 constexpr double kFrictionMargin = 0.02;
+/// Footholds likewise [m].
+constexpr double kEdgeMargin = 0.002;
 
 std::vector<int> addressed(const std::vector<std::string>& who, const Robot& robot, const std::vector<int>& active) {
   std::vector<int> out;
@@ -53,6 +55,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   units.time = std::sqrt(robot.com_height / scene.gravity);
   units.mass = robot.mass;
   inertia = robot.inertia / (units.mass * units.length * units.length);
+  edge_margin = kEdgeMargin / units.length;
   duration_min = options.duration_min_s / units.time;
   duration_max = options.duration_max_s / units.time;
   flight_duration_min = std::min(options.flight_duration_min_s, options.duration_max_s) / units.time;

@@ -25,6 +25,8 @@ constexpr int kPolishIterations = 60, kFinalIterations = 120;
 constexpr double kRoughCalm = 1e-3, kFinalCalm = 1e-4;
 constexpr double kHardening = 4.0;
 constexpr double kSecondDiscovery = 4.0;
+/// How much further inside footholds go when a swing has caught an edge [m].
+constexpr double kClearanceMargin_m = 0.04;
 /// A violation within this factor of its tolerance is called acceptable, beyond it infeasible.
 constexpr double kAcceptable = 10.0;
 /// Iterations of Method::paper: the paper counts about 50 to convergence and reports averages over 100.
@@ -60,6 +62,7 @@ struct SwitchedDdp::Impl {
       Evaluation evaluation;
     };
     std::optional<Finished> best;
+    Incumbent last;  ///< of the last attempt, before its contacts were made exact
     bool measured_start = false;
 
     bool finish(Incumbent now);
@@ -127,6 +130,7 @@ Status SwitchedDdp::Impl::Run::attempt(std::vector<Guess> guesses) {
     status = search->polish(chosen, kFinalIterations, kFinalCalm, std::numeric_limits<double>::infinity());
     problem.options.weights.limit = limit;
   }
+  last = chosen;
   finish(std::move(chosen));
   return status;
 }
@@ -157,6 +161,7 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
     initial = p.to_active(initial);
   }
 
+  using Guess = Run::Guess;
   Status status = Status::no_sequence;
   if (!initial.empty()) {
     Incumbent start = first_guess({});
@@ -165,7 +170,6 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
       status = run.search->run_paper(start, std::min(kPaperIterations, options.max_iterations));
       if (status != Status::numerical_failure) run.finish(start);
     } else {
-      using Guess = Run::Guess;
       std::vector<Guess> guesses;
       if (warm) {
         guesses.push_back({*warm});
@@ -193,7 +197,13 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
         run.problem.duration_initial = std::clamp(duration_s / p.units.time, p.duration_min, p.duration_max);
         Incumbent again = first_guess({});
         again.sequence = initial;
-        status = run.attempt({{again, proximal}});
+        std::vector<Guess> others{{again, proximal}};
+        // A foot too close to the next step catches it with its toe: the same motion with footholds further inside.
+        if (run.best && run.best->worst.name == "clearance" && !run.last.sequence.empty()) {
+          run.problem.edge_margin += kClearanceMargin_m / p.units.length;
+          others.insert(others.begin(), Guess{run.last});
+        }
+        status = run.attempt(std::move(others));
       }
     }
   }

@@ -7,11 +7,6 @@ namespace mcplan::ddp {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-namespace {
-/// Footholds are planned this much inside the polygon, so that soft constraints end up on it [m].
-constexpr double kEdgeMargin = 0.002;
-}  // namespace
-
 void contact_cost(const Problem& problem, const VectorXd& x, const VectorXd* u, int l, int surface, double weight,
                   Rows& rows) {
   const Layout& at = problem.layout;
@@ -29,7 +24,7 @@ void contact_cost(const Problem& problem, const VectorXd& x, const VectorXd* u, 
   // of gap_with_rail find the hands at factor 1, 16 of 16 at 2).
   const bool paper = problem.options.method == Method::paper;
   const double edge_weight = weight * (paper ? 1.0 : problem.options.weights.overshoot_factor);
-  const double margin = paper ? 0.0 : kEdgeMargin / problem.units.length;
+  const double margin = paper ? 0.0 : problem.edge_margin;
   for (int i = 0; i < polygon.edge_count(); ++i) {
     const double beyond = polygon.overshoot(i, p) + margin;
     if (beyond > 0.0) along(edge_weight, beyond, polygon.edge_outward_W(i));
