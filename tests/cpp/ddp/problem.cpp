@@ -53,6 +53,21 @@ TEST_CASE("end-effectors that may touch nothing cost no variables, but the paper
   CHECK(paper.layout.axis_count() == 3);
 }
 
+TEST_CASE("left to the planner, the number of steps grows with the way; the paper's scenes have the paper's 18") {
+  const auto steps = [](const mcplan::Scene& scene) { return Problem(scene, scenes::humanoid44(), Options{}).steps; };
+  for (const mcplan::Scene& scene : scenes::all_four()) CHECK(steps(scene) == 18);
+  const auto plain = [&](double length) {
+    mcplan::Scene scene = scenes::flat(length);
+    scene.surfaces = {scenes::rectangle("ground", -1, length + 1, -5, 5, 0)};
+    return scene;
+  };
+  const int ten = steps(plain(10.0)), twenty = steps(plain(20.0));
+  CHECK(ten > 18);
+  CHECK(ten >= 2 * 10.0 / 0.6);  // a stride of 0.6 m at most, a swing and a phase of support each
+  CHECK(twenty == doctest::Approx(2 * ten).epsilon(0.1));
+  CHECK(Problem(plain(10.0), scenes::humanoid44(), phases(12)).steps == 12);
+}
+
 TEST_CASE("the reference runs from start to goal and rests at both") {
   mcplan::Scene scene = scenes::stairs();
   scene.goal.yaw = 0.5;

@@ -62,7 +62,9 @@ TEST_CASE("reach is a box in the base's frame, planned smaller by its margin; no
 }
 
 TEST_CASE("between the knots the box moves with the CoM") {
-  const ddp::Problem problem = workshop();
+  ddp::Options options = phases(6);
+  options.interior_points = 2;
+  const ddp::Problem problem = workshop(options);
   const ddp::Layout& at = problem.layout;
   const ddp::Pendulum pendulum(at, problem.inertia, problem.options.stiffness_input);
   VectorXd x = nominal(problem), u = VectorXd::Zero(at.nu());
