@@ -54,9 +54,7 @@ const std::vector<std::vector<int>> kSurfaces{{0, 1}, {0, 1}, {2}, {1, 3}};
 const std::vector<StateRule> kRules{{{0, 1}, {2, 3}}};
 
 /// The rule of gap_with_rail: without a foot, both hands.
-bool keeps_rule(const ContactState& s) {
-  return s[0] != kFree || s[1] != kFree || (s[2] != kFree && s[3] != kFree);
-}
+bool keeps_rule(const ContactState& s) { return s[0] != kFree || s[1] != kFree || (s[2] != kFree && s[3] != kFree); }
 
 }  // namespace
 
@@ -89,7 +87,7 @@ TEST_CASE("permissions and rules decide what is allowed") {
   CHECK(rules.allowed({0, kFree, kFree, kFree}));
   CHECK(rules.allowed({kFree, kFree, 2, 3}));
   CHECK_FALSE(rules.allowed({kFree, kFree, 2, kFree}));
-  CHECK_FALSE(rules.allowed({2, 0, kFree, kFree}));   // a surface that is not this end's
+  CHECK_FALSE(rules.allowed({2, 0, kFree, kFree}));  // a surface that is not this end's
   CHECK_FALSE(rules.valid({{0, 0, kFree, kFree}, {0, 0, kFree}}));
   CHECK(ContactRules(kSurfaces, {}).allowed({kFree, kFree, kFree, kFree}));
 }

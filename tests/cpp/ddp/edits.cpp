@@ -52,11 +52,11 @@ TEST_CASE("edits are valid, new, different, and keep start and goal") {
 TEST_CASE("a swing is shifted, left out, handed over and exchanged") {
   const ContactSequence now = walk("..a...b...");
   const std::vector<ContactSequence> edits = swing_edits(kTwoFeet, now);
-  for (const char* expected : {".a....b...", "...a..b...", "....a.b...",   // the first swing shifted
-                               "..a.b.....", "..a..b....", "..a....b..", "..a.....b.",
-                               "......b...", "..a.......",                // one left out
-                               "..b...b...", "..a...a...",                // handed to the other foot
-                               "..b...a..."})                             // exchanged
+  for (const char* expected :
+       {".a....b...", "...a..b...", "....a.b...",                                            // the first swing shifted
+        "..a.b.....", "..a..b....", "..a....b..", "..a.....b.", "......b...", "..a.......",  // one left out
+        "..b...b...", "..a...a...",                                                          // handed to the other foot
+        "..b...a..."})                                                                       // exchanged
     CHECK_MESSAGE(contains(edits, walk(expected)), expected);
   CHECK(edits.size() == 12);
 }

@@ -11,7 +11,9 @@ using namespace mcplan::ddp;
 
 struct Point {
   Point(const mcplan::Scene& scene, const Options& options, std::uint64_t seed, double size)
-      : problem(scene, scenes::humanoid44(), options), random(seed), trajectory(shaken_guess(problem, random, size)),
+      : problem(scene, scenes::humanoid44(), options),
+        random(seed),
+        trajectory(shaken_guess(problem, random, size)),
         sequence(random_sequence(problem, random)) {}
   Problem problem;
   Random random;

@@ -30,7 +30,9 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::nu
 
 }  // namespace
 
-TEST_CASE("the defaults are accepted") { CHECK(refused([](Options&) {}) == "accepted"); }
+TEST_CASE("the defaults are accepted") {
+  CHECK(refused([](Options&) {}) == "accepted");
+}
 
 TEST_CASE("counts are refused outside their range and accepted at its ends") {
   struct Count {
@@ -87,12 +89,14 @@ TEST_CASE("numbers with a range of their own") {
     CHECK(refused([&](Options& o) { o.weights.contact_min = bad; }) == "weights.contact_min");
     CHECK(refused([&](Options& o) { o.weights.contact_max = bad; }) == "weights.contact_max");
   }
-  for (double bad : {0.1, -1.0, kNan, kInf}) CHECK(refused([&](Options& o) { o.duration_max_s = bad; }) == "duration_max_s");
+  for (double bad : {0.1, -1.0, kNan, kInf})
+    CHECK(refused([&](Options& o) { o.duration_max_s = bad; }) == "duration_max_s");
   for (double bad : {1.0, 0.0, kNan, kInf})
     CHECK(refused([&](Options& o) { o.weights.contact_growth = bad; }) == "weights.contact_growth");
   for (double bad : {0.99, kNan, kInf})
     CHECK(refused([&](Options& o) { o.weights.overshoot_factor = bad; }) == "weights.overshoot_factor");
-  for (double bad : {-0.001, kNan, kInf}) CHECK(refused([&](Options& o) { o.reach_margin_m = bad; }) == "reach_margin_m");
+  for (double bad : {-0.001, kNan, kInf})
+    CHECK(refused([&](Options& o) { o.reach_margin_m = bad; }) == "reach_margin_m");
   for (double bad : {0.0, -1.0, kNan}) CHECK(refused([&](Options& o) { o.time_limit_s = bad; }) == "time_limit_s");
   CHECK(refused([](Options& o) { o.time_limit_s = kInf; }) == "accepted");
   CHECK(refused([](Options& o) { o.weights.overshoot_factor = 1.0; }) == "accepted");
@@ -100,5 +104,6 @@ TEST_CASE("numbers with a range of their own") {
 }
 
 TEST_CASE("contact weights that fall instead of growing are refused") {
-  CHECK(refused([](Options& o) { o.weights.contact_min = 10.0, o.weights.contact_max = 1.0; }) == "weights.contact_max");
+  CHECK(refused([](Options& o) { o.weights.contact_min = 10.0, o.weights.contact_max = 1.0; }) ==
+        "weights.contact_max");
 }

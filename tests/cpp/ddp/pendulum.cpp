@@ -1,7 +1,8 @@
 #include "mcplan/ddp/pendulum.hpp"
 
-#include <Eigen/LU>
 #include <doctest/doctest.h>
+
+#include <Eigen/LU>
 
 #include "support.hpp"
 
@@ -87,8 +88,8 @@ TEST_CASE("every entry of the Jacobian agrees with differences, from stiff conta
         c.pendulum.step(c.x, c.u, 1.0, step);
         VectorXd z(layout.nz());
         z << c.x, c.u;
-        const MatrixXd expected = differences(
-            [&](const VectorXd& at) { return next(c, at.head(layout.nx()), at.tail(layout.nu())); }, z);
+        const MatrixXd expected =
+            differences([&](const VectorXd& at) { return next(c, at.head(layout.nx()), at.tail(layout.nu())); }, z);
         const MatrixXd jacobian = c.pendulum.dense_jacobian(step);
         REQUIRE(jacobian.rows() == layout.nx());
         REQUIRE(jacobian.cols() == layout.nz());
@@ -135,7 +136,8 @@ TEST_CASE("flight is a parabola") {
     c.u[c.layout.duration()] = h;
     const Vector3d p = c.x.segment<3>(c.layout.com()), v = c.x.segment<3>(c.layout.velocity());
     const VectorXd there = next(c, c.x, c.u);
-    CHECK((there.segment<3>(c.layout.com()) - (p + h * v - 0.5 * h * h * Vector3d::UnitZ())).norm() <= 1e-15 * (1 + h * h));
+    CHECK((there.segment<3>(c.layout.com()) - (p + h * v - 0.5 * h * h * Vector3d::UnitZ())).norm() <=
+          1e-15 * (1 + h * h));
     CHECK((there.segment<3>(c.layout.velocity()) - (v - h * Vector3d::UnitZ())).norm() <= 1e-15 * (1 + h));
   }
 }

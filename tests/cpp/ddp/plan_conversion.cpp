@@ -72,8 +72,9 @@ TEST_CASE("the plan is in SI units, obeys the dynamics, and touches where the se
     for (int hand : {2, 3}) CHECK(plan.phases[k].contacts[hand].surface == kFree);
   }
   const mcplan::CheckResult result = mcplan::check(plan, scenes::flat(), scenes::humanoid44());
-  for (const char* name : {"finite", "dynamics", "at_consistency", "contact_distance", "contact_polygon", "slip", "anchor",
-                           "path_continuity", "free_force", "stiffness_sign", "pull", "moment", "sequence_switch"}) {
+  for (const char* name :
+       {"finite", "dynamics", "at_consistency", "contact_distance", "contact_polygon", "slip", "anchor",
+        "path_continuity", "free_force", "stiffness_sign", "pull", "moment", "sequence_switch"}) {
     const mcplan::Violation& v = named(result, name);
     CHECK_MESSAGE(v.value <= v.tolerance, v.to_string());
   }

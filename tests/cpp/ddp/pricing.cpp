@@ -22,8 +22,10 @@ std::vector<Setting> settings() {
     for (double weight : {0.01, 1.0, 100.0})
       for (double proximal : {1e-2, 10.0})
         for (double interior : {0.0, 100.0})
-          if (!kSlowBuild || out.size() % 5 == 0) out.push_back({scene, weight, interior, proximal});
-          else out.push_back({});
+          if (!kSlowBuild || out.size() % 5 == 0)
+            out.push_back({scene, weight, interior, proximal});
+          else
+            out.push_back({});
   return out;
 }
 

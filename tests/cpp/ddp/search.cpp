@@ -20,7 +20,9 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 /// A search with everything it points to.
 struct Bench {
   Bench(const mcplan::Scene& scene, const Options& options)
-      : problem(scene, scenes::humanoid44(), options), deadline(options.time_limit_s), search(problem, deadline, report) {}
+      : problem(scene, scenes::humanoid44(), options),
+        deadline(options.time_limit_s),
+        search(problem, deadline, report) {}
   Problem problem;
   Deadline deadline;
   mcplan::Report report;
@@ -175,11 +177,12 @@ TEST_CASE("exhaustive enumeration of six steps: the search ends near the best of
   }
   const auto text = [](const ContactSequence& sequence) {
     std::string out;
-    for (const ContactState& s : sequence) out += s[0] == kFree ? (s[1] == kFree ? "x" : "r") : s[1] == kFree ? "l" : ".";
+    for (const ContactState& s : sequence)
+      out += s[0] == kFree ? (s[1] == kFree ? "x" : "r") : s[1] == kFree ? "l" : ".";
     return out;
   };
-  MESSAGE("global best ", best, " ", text(best_sequence), "; found ", result.report.cost, " ", text(found), ", which polishes to ",
-          best_of_found, "; ", better, " of 183 are better");
+  MESSAGE("global best ", best, " ", text(best_sequence), "; found ", result.report.cost, " ", text(found),
+          ", which polishes to ", best_of_found, "; ", better, " of 183 are better");
   CHECK(best_of_found <= 1.05 * best);
   CHECK(result.report.cost <= 1.25 * best);
 }

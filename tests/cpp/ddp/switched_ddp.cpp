@@ -1,8 +1,8 @@
 #include "mcplan/ddp/switched_ddp.hpp"
 
-#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -22,7 +22,8 @@ using mcplan::Status;
 using mcplan::ddp::Options;
 using mcplan::ddp::SwitchedDdp;
 
-PlanResult solve(const mcplan::Scene& scene, const Options& options = {}, const mcplan::Robot& robot = scenes::humanoid44()) {
+PlanResult solve(const mcplan::Scene& scene, const Options& options = {},
+                 const mcplan::Robot& robot = scenes::humanoid44()) {
   return SwitchedDdp(scene, robot, options).solve();
 }
 

@@ -14,8 +14,11 @@ using namespace mcplan::ddp;
 /// A local model about a shaken guess with a random sequence.
 struct Model {
   Model(const mcplan::Scene& scene, int steps, const Schedule& weights, std::uint64_t seed)
-      : problem(scene, scenes::humanoid44(), phases(steps)), random(seed),
-        trajectory(shaken_guess(problem, random, 0.05)), sequence(random_sequence(problem, random)), model(problem) {
+      : problem(scene, scenes::humanoid44(), phases(steps)),
+        random(seed),
+        trajectory(shaken_guess(problem, random, 0.05)),
+        sequence(random_sequence(problem, random)),
+        model(problem) {
     model.expand(trajectory, weights);
   }
   Problem problem;

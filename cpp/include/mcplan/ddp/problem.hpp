@@ -55,7 +55,7 @@ class Problem {
   std::vector<int> active;             ///< end-effector of the robot behind each of the problem's
   std::vector<Polygon> polygons;       ///< by scene surface
   std::vector<double> friction;        ///< by scene surface; infinite where it may be held (grasp)
-  double edge_margin = 0.0;                 ///< footholds are planned this much inside their polygon
+  double edge_margin = 0.0;            ///< footholds are planned this much inside their polygon
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<EndLimits> limits;       ///< by active end-effector
   Eigen::Vector3d inertia;             ///< in units of mass length^2

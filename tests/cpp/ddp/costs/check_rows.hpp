@@ -76,7 +76,8 @@ inline int check_rows(const ddp::Problem& problem, const Writer& write, const Ve
 inline void check_rows(const ddp::Problem& problem, const Writer& write, std::uint64_t seed, double size, int wanted) {
   Random random(seed);
   int checked = 0;
-  for (int i = 0; i < 200 && checked < wanted; ++i) checked += check_rows(problem, write, random_z(problem, random, size));
+  for (int i = 0; i < 200 && checked < wanted; ++i)
+    checked += check_rows(problem, write, random_z(problem, random, size));
   CHECK(checked >= wanted);
 }
 

@@ -18,8 +18,9 @@ Writer contact_of(const ddp::Problem& problem, int l, int surface) {
 TEST_CASE("contact and free: gradients") {
   const ddp::Problem problem = workshop();
   for (int surface : {before, slope, right_pad}) check_rows(problem, contact_of(problem, 1, surface), 46, 0.8, 40);
-  check_rows(problem, [&](const VectorXd&, const VectorXd& u, Rows& rows) { free_cost(problem, u, 1, 3.0, rows); }, 47,
-             0.5, 10);
+  check_rows(
+      problem, [&](const VectorXd&, const VectorXd& u, Rows& rows) { free_cost(problem, u, 1, 3.0, rows); }, 47, 0.5,
+      10);
 }
 
 TEST_CASE("contact: height off the plane, way beyond every edge, and motion") {
@@ -66,7 +67,9 @@ TEST_CASE("free: no stiffness and no moment of this end-effector, whatever the o
 TEST_CASE("a free end-effector is kept out of the solids, at their outline and down to twice their thickness") {
   const ddp::Problem problem = workshop();
   const ddp::Layout& at = problem.layout;
-  const Writer keep_out = [&](const VectorXd& x, const VectorXd&, Rows& rows) { keep_out_cost(problem, x, 1, 3.0, rows); };
+  const Writer keep_out = [&](const VectorXd& x, const VectorXd&, Rows& rows) {
+    keep_out_cost(problem, x, 1, 3.0, rows);
+  };
   check_rows(problem, keep_out, 52, 0.3, 10);
   const auto price = [&](const Vector3d& position_W) {
     VectorXd x = VectorXd::Zero(at.nx());
@@ -75,8 +78,8 @@ TEST_CASE("a free end-effector is kept out of the solids, at their outline and d
   };
   CHECK(price({0.0, 0.0, 0.01}) == 0.0);
   CHECK(price({0.0, 0.0, -0.07}) == doctest::Approx(0.01));
-  CHECK(price({0.0, 0.0, -0.11}) == 0.0);   // below the solid
-  CHECK(price({0.9, 0.0, -0.07}) == 0.0);   // in the gap
+  CHECK(price({0.0, 0.0, -0.11}) == 0.0);                    // below the solid
+  CHECK(price({0.9, 0.0, -0.07}) == 0.0);                    // in the gap
   CHECK(price({0.9, -0.4, 0.43}) == doctest::Approx(0.01));  // a foot in a pad
 }
 

@@ -1,5 +1,4 @@
 #include "check_rows.hpp"
-
 #include "mcplan/base/rotation.hpp"
 
 namespace {
@@ -44,8 +43,9 @@ TEST_CASE("reach: gradients, at the knot and inside the phase") {
 TEST_CASE("reach is a box in the base's frame, planned smaller by its margin; nothing is written inside") {
   const ddp::Problem problem = workshop();
   const VectorXd inside = nominal(problem), u;
-  CHECK(values(problem, reach_of(problem), (VectorXd(problem.layout.nz()) << inside,
-                                            VectorXd::Zero(problem.layout.nu())).finished()).size() == 0);
+  CHECK(values(problem, reach_of(problem),
+               (VectorXd(problem.layout.nz()) << inside, VectorXd::Zero(problem.layout.nu())).finished())
+            .size() == 0);
   const Eigen::Matrix3d r = mcplan::rotation_from_rpy(inside.segment<3>(problem.layout.angle()));
   const double margin = problem.options.reach_margin_m / 0.7;
   for (int l = 0; l < 4; ++l)
