@@ -112,7 +112,7 @@ void bind_ddp(py::module_& parent) {
   c.def(py::init([](const Scene& scene, const Robot& robot, const Options& options) {
           return SwitchedDdp(scene, robot, guarded(options));
         }),
-        py::arg("scene"), py::arg("robot"), py::arg("options") = Options());
+        py::arg("scene"), py::arg("robot"), py::arg_v("options", Options(), "Options()"));
   c.def(
       "solve", [](SwitchedDdp& self) { return without_gil([&] { return self.solve(); }); },
       "Plan from the scene's start to its goal.");
