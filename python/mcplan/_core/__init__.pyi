@@ -7,6 +7,7 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
+from . import ddp
 
 __all__: list[str] = [
     "CheckResult",
@@ -35,6 +36,7 @@ __all__: list[str] = [
     "Violation",
     "addresses",
     "check",
+    "ddp",
     "may_touch",
     "quat_wxyz_from_rpy",
     "resolve_stance",
@@ -853,6 +855,7 @@ class Plan:
         phases: collections.abc.Sequence[Phase] = [],
         final_contacts: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
         swings: collections.abc.Sequence[Swing] = [],
+        measured_start: bool = False,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     @typing.overload
@@ -904,6 +907,13 @@ class Plan:
         """
     @knots.setter
     def knots(self, arg1: collections.abc.Sequence[Knot]) -> None: ...
+    @property
+    def measured_start(self) -> bool:
+        """
+        Starts from a measured state, not from the scene's start.
+        """
+    @measured_start.setter
+    def measured_start(self, arg0: bool) -> None: ...
     @property
     def phases(self) -> tuple:
         """
@@ -1062,6 +1072,11 @@ class Report:
     def cost(self) -> float: ...
     @property
     def cost_terms(self) -> dict[str, float]: ...
+    @property
+    def friction_use(self) -> dict[str, float]:
+        """
+        Largest tangential over normal force by end-effector, grasps included.
+        """
     @property
     def history(self) -> tuple:
         """

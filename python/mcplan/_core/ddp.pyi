@@ -1,0 +1,348 @@
+"""
+Contact-sequence search by switched differential dynamic programming.
+"""
+
+from __future__ import annotations
+import collections.abc
+import mcplan._core
+import typing
+
+__all__: list[str] = ["Method", "Options", "StiffnessInput", "SwitchedDdp", "Weights"]
+
+class Weights:
+    """
+    Weights w of the cost terms 1/2 w^2 e^2 (Tazaki, Table I), for non-dimensional quantities: length in CoM heights, time in sqrt(height / gravity), mass 1.
+    """
+    def __init__(self) -> None: ...
+    @property
+    def com(self) -> float: ...
+    @com.setter
+    def com(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def com_end(self) -> float:
+        """
+        At the first and last knot.
+        """
+    @com_end.setter
+    def com_end(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def contact_change(self) -> float:
+        """
+        On every contact made or broken.
+        """
+    @contact_change.setter
+    def contact_change(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def contact_growth(self) -> float:
+        """
+        Factor between iterations, above 1.
+        """
+    @contact_growth.setter
+    def contact_growth(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def contact_max(self) -> float:
+        """
+        Last complementarity weight.
+        """
+    @contact_max.setter
+    def contact_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def contact_min(self) -> float:
+        """
+        First complementarity weight.
+        """
+    @contact_min.setter
+    def contact_min(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def duration(self) -> float:
+        """
+        Towards the middle of the duration box.
+        """
+    @duration.setter
+    def duration(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def end_effector(self) -> float: ...
+    @end_effector.setter
+    def end_effector(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def end_effector_end(self) -> float: ...
+    @end_effector_end.setter
+    def end_effector_end(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def flight(self) -> float:
+        """
+        On every phase without any contact.
+        """
+    @flight.setter
+    def flight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def limit(self) -> float:
+        """
+        Reach, stiffness, moment, force, friction, duration.
+        """
+    @limit.setter
+    def limit(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def moment(self) -> float: ...
+    @moment.setter
+    def moment(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def overshoot_factor(self) -> float:
+        """
+        On leaving a polygon sideways, at least 1.
+        """
+    @overshoot_factor.setter
+    def overshoot_factor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def rotation(self) -> float: ...
+    @rotation.setter
+    def rotation(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def rotation_end(self) -> float: ...
+    @rotation_end.setter
+    def rotation_end(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def stiffness(self) -> float: ...
+    @stiffness.setter
+    def stiffness(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def stride(self) -> float:
+        """
+        On the travel of an end-effector within a phase.
+        """
+    @stride.setter
+    def stride(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def velocity(self) -> float: ...
+    @velocity.setter
+    def velocity(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def velocity_end(self) -> float: ...
+    @velocity_end.setter
+    def velocity_end(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class Method:
+    """
+    Which search runs.
+
+    Members:
+
+      standard
+
+      paper
+    """
+
+    __members__: typing.ClassVar[dict[str, Method]]
+    paper: typing.ClassVar[Method]
+    standard: typing.ClassVar[Method]
+    @typing.overload
+    def __eq__(self, other: Method) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Method) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class StiffnessInput:
+    """
+    How the contact stiffness enters: mu, or lambda with mu = lambda^2.
+
+    Members:
+
+      mu
+
+      lambda_
+    """
+
+    __members__: typing.ClassVar[dict[str, StiffnessInput]]
+    lambda_: typing.ClassVar[StiffnessInput]
+    mu: typing.ClassVar[StiffnessInput]
+    @typing.overload
+    def __eq__(self, other: StiffnessInput) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: StiffnessInput) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class Options:
+    """
+    Options of the contact-sequence search; the defaults serve all built-in scenes.
+    """
+
+    method: Method
+    one_switch_per_step: bool
+    stiffness_input: StiffnessInput
+    weights: Weights
+    whole_sequence_moves: bool
+    def __init__(self) -> None: ...
+    def validate(self) -> None:
+        """
+        Raises InvalidOptions naming the first field out of its range.
+        """
+    @property
+    def duration_initial_s(self) -> float:
+        """
+        [s]
+        """
+    @duration_initial_s.setter
+    def duration_initial_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def duration_max_s(self) -> float:
+        """
+        [s]
+        """
+    @duration_max_s.setter
+    def duration_max_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def duration_min_s(self) -> float:
+        """
+        Soft box of the phase durations [s].
+        """
+    @duration_min_s.setter
+    def duration_min_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def flight_duration_min_s(self) -> float:
+        """
+        Lower bound of phases without any contact [s].
+        """
+    @flight_duration_min_s.setter
+    def flight_duration_min_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def friction(self) -> bool:
+        """
+        Hold the friction cones.
+        """
+    @friction.setter
+    def friction(self, arg0: bool) -> None: ...
+    @property
+    def initial_sequence(self) -> list[list[int]]:
+        """
+        phases + 1 rows: surface index per end-effector, -1 free. Empty: searched for.
+        """
+    @initial_sequence.setter
+    def initial_sequence(
+        self, arg0: collections.abc.Sequence[collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]]
+    ) -> None: ...
+    @property
+    def interior_points(self) -> int:
+        """
+        Instants inside a phase where limits are held.
+        """
+    @interior_points.setter
+    def interior_points(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def logger(self) -> collections.abc.Callable[[mcplan._core.LogLevel, str], None]:
+        """
+        Called with (LogLevel, line); None: silent.
+        """
+    @logger.setter
+    def logger(self, arg0: collections.abc.Callable[[mcplan._core.LogLevel, str], None]) -> None: ...
+    @property
+    def max_iterations(self) -> int:
+        """
+        Over all attempts.
+        """
+    @max_iterations.setter
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def phases(self) -> int:
+        """
+        Number of phases N; 0: 18, or more where the way asks for more steps.
+        """
+    @phases.setter
+    def phases(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def proximal_weight(self) -> float:
+        """
+        First weight on the change of the inputs.
+        """
+    @proximal_weight.setter
+    def proximal_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def reach_margin_m(self) -> float:
+        """
+        The reach box is planned smaller by this [m].
+        """
+    @reach_margin_m.setter
+    def reach_margin_m(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def record_history(self) -> bool:
+        """
+        Keep the sequence of every iteration in the report.
+        """
+    @record_history.setter
+    def record_history(self, arg0: bool) -> None: ...
+    @property
+    def restarts(self) -> int:
+        """
+        Further attempts while the checker rejects the plan.
+        """
+    @restarts.setter
+    def restarts(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def seed(self) -> int: ...
+    @seed.setter
+    def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def threads(self) -> int:
+        """
+        For pricing; the result does not depend on it.
+        """
+    @threads.setter
+    def threads(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def time_limit_s(self) -> float:
+        """
+        Wall clock [s].
+        """
+    @time_limit_s.setter
+    def time_limit_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class SwitchedDdp:
+    """
+    Contact-sequence search for one scene and robot. Solves release the GIL; Ctrl-C ends them with Status.interrupted and the best plan so far.
+    """
+    def __init__(self, scene: mcplan._core.Scene, robot: mcplan._core.Robot, options: Options = ...) -> None: ...
+    def replan(
+        self, previous: mcplan._core.Plan, t: typing.SupportsFloat | typing.SupportsIndex, measured: mcplan._core.Knot
+    ) -> mcplan._core.PlanResult:
+        """
+        Plan on from a measured state at time t [s] of an earlier plan.
+        """
+    @typing.overload
+    def solve(self) -> mcplan._core.PlanResult:
+        """
+        Plan from the scene's start to its goal.
+        """
+    @typing.overload
+    def solve(self, warm_start: mcplan._core.Plan) -> mcplan._core.PlanResult:
+        """
+        The same, starting from an earlier plan's contact sequence, motion and timing.
+        """
