@@ -1,7 +1,6 @@
 #include "mcplan/ddp/switched_ddp.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -23,7 +22,9 @@ namespace {
 
 constexpr int kPolishIterations = 60, kFinalIterations = 120;
 constexpr double kRoughCalm = 1e-3, kFinalCalm = 1e-4;
+/// Limits are penalties; this much harder ones at the end leave a fraction of the violation.
 constexpr double kHardening = 4.0;
+/// Proximal weight of the second discovery over the first one's.
 constexpr double kSecondDiscovery = 4.0;
 /// How much further inside footholds go when a swing has caught an edge [m].
 constexpr double kClearanceMargin_m = 0.04;
@@ -237,7 +238,7 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
     message << "no contact sequence joins start and goal in " << p.steps << " phases; raise `phases`, or look at the "
             << "surfaces' end_effectors and the scene's rules";
   else
-    message << to_string(status) << ": the best plan violates " << report.worst_violation.to_string();
+    message << "the best plan violates " << report.worst_violation.to_string();
   report.message = message.str();
   out.report = std::move(report);
   return out;
