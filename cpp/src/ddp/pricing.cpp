@@ -53,22 +53,46 @@ bool StepPricing::prepare(LocalModel& model, const ValueFunctions& values, int k
   factor_.matrixL().solveInPlace(mean_);
   base_cost_ = q.c + values.U(k).c - 0.5 * mean_.squaredNorm();
 
-  rows_.resize(nz, total);
-  value_.resize(total);
-  inverse_precision_.resize(total);
+  // Rows of one input alone, most of them, need no solve of their own: with W = L L', their columns of L^-1 are those
+  // of the inverse of L's last block.
+  const int nu = at.nu();
+  input_factor_.setIdentity(nu, nu);
+  factor_.matrixLLT().bottomRightCorner(nu, nu).triangularView<Eigen::Lower>().solveInPlace(input_factor_);
+  input_covariance_.noalias() = input_factor_.transpose() * input_factor_;
+  input_mean_.noalias() = input_factor_.transpose() * mean_.tail(nu);
+
+  table_.clear();
+  general_count_ = 0;
+  if (rows_.rows() != nz || rows_.cols() < total) rows_.resize(nz, std::max(total, 1));
   for (const Span& span : spans_) {
     const Rows& block = span.end == kWholeState ? *whole : model.block(k, span.end, span.contact);
-    for (int r = 0; r < span.count; ++r) {
-      rows_.col(span.first + r) = block.gradient(r);
-      value_[span.first + r] = block.value(r);
-      inverse_precision_[span.first + r] = 1.0 / block.precision(r);
-    }
+    for (int r = 0; r < span.count; ++r) add_row(block, r);
   }
-  factor_.matrixL().solveInPlace(rows_);
-  value_.noalias() -= rows_.transpose() * mean_;
-  gram_.resize(total, total);
-  gram_.noalias() = rows_.transpose() * rows_;
+  auto general = rows_.leftCols(general_count_);
+  factor_.matrixL().solveInPlace(general);
+  gram_.resize(general_count_, general_count_);
+  gram_.noalias() = general.transpose() * general;
+  cross_.resize(general_count_, nu);
+  cross_.noalias() = general.bottomRows(nu).transpose() * input_factor_;
+  for (Row& row : table_) row.value -= row.input >= 0 ? input_mean_[row.input] : general.col(row.general).dot(mean_);
   return true;
+}
+
+void StepPricing::add_row(const Rows& block, int r) {
+  const int nx = problem_->layout.nx();
+  Row row{-1, -1, block.value(r), 1.0 / block.precision(r)};
+  if (block.single(r) >= nx) {
+    row.input = block.single(r) - nx;
+  } else {
+    row.general = general_count_;
+    rows_.col(general_count_++) = block.gradient(r);
+  }
+  table_.push_back(row);
+}
+
+double StepPricing::covariance(const Row& a, const Row& b) const {
+  if (a.input >= 0) return b.input >= 0 ? input_covariance_(a.input, b.input) : cross_(b.general, a.input);
+  return b.input >= 0 ? cross_(a.general, b.input) : gram_(a.general, b.general);
 }
 
 double StepPricing::price(const ContactState& state) {
@@ -80,9 +104,10 @@ double StepPricing::price(const ContactState& state) {
   small_.resize(n, n);
   y_.resize(n);
   for (int j = 0; j < n; ++j) {
-    y_[j] = value_[picked_[j]];
-    for (int i = j; i < n; ++i) small_(i, j) = gram_(picked_[i], picked_[j]);
-    small_(j, j) += inverse_precision_[picked_[j]];
+    const Row& row = table_[picked_[j]];
+    y_[j] = row.value;
+    for (int i = j; i < n; ++i) small_(i, j) = covariance(table_[picked_[i]], row);
+    small_(j, j) += row.inverse_precision;
   }
   small_factor_.compute(small_);
   small_factor_.matrixL().solveInPlace(y_);

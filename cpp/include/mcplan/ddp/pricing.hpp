@@ -37,13 +37,23 @@ class StepPricing {
   struct Span {
     int end, contact, first, count;
   };
+  /// A row of some contact: of one input alone (most are), or with a gradient of its own.
+  struct Row {
+    int input;    ///< offset in u, or -1
+    int general;  ///< column of rows_, or -1
+    double value, inverse_precision;
+  };
+  void add_row(const Rows& block, int r);
+  double covariance(const Row& a, const Row& b) const;
+
   const Problem* problem_ = nullptr;
   std::vector<Span> spans_;
-  Eigen::MatrixXd rows_, gram_, small_;
-  Eigen::VectorXd value_, inverse_precision_, mean_, y_;
+  std::vector<Row> table_;
+  int general_count_ = 0;
+  Eigen::MatrixXd w_, rows_, gram_, cross_, input_factor_, input_covariance_, small_;
+  Eigen::VectorXd mean_, input_mean_, y_;
   Eigen::LLT<Eigen::MatrixXd> factor_, small_factor_;
   std::vector<int> picked_;
-  Eigen::MatrixXd w_;
   double base_cost_ = 0.0;
 };
 
