@@ -26,8 +26,9 @@ constexpr double kRoughCalm = 1e-3, kFinalCalm = 1e-4;
 constexpr double kHardening = 4.0;
 /// Proximal weight of the second discovery over the first one's.
 constexpr double kSecondDiscovery = 4.0;
-/// How much further inside footholds go when a swing has caught an edge [m].
-constexpr double kClearanceMargin_m = 0.04;
+/// How much further inside footholds go, each time a swing has caught an edge: a share of the longest half sole, so
+/// that the second time the whole sole stands clear of the next riser.
+constexpr double kClearanceShare = 0.6, kClearanceLeast_m = 0.04;
 /// A violation within this factor of its tolerance is called acceptable, beyond it infeasible.
 constexpr double kAcceptable = 10.0;
 /// Iterations of Method::paper: the paper counts about 50 to convergence and reports averages over 100.
@@ -201,7 +202,10 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
         std::vector<Guess> others{{again, proximal}};
         // A foot too close to the next step catches it with its toe: the same motion with footholds further inside.
         if (run.best && run.best->worst.name == "clearance" && !run.last.sequence.empty()) {
-          run.problem.edge_margin += kClearanceMargin_m / p.units.length;
+          double sole_m = kClearanceLeast_m;
+          for (const EndEffector& end : robot.end_effectors)
+            sole_m = std::max(sole_m, kClearanceShare * end.half_size.maxCoeff());
+          run.problem.edge_margin += sole_m / p.units.length;
           others.insert(others.begin(), Guess{run.last});
         }
         status = run.attempt(std::move(others));
@@ -233,7 +237,7 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
   report.time_s = deadline.elapsed_s();
   std::ostringstream message;
   if (status == Status::solved)
-    message << "solved";
+    message << "the checker accepts the plan";
   else if (status == Status::no_sequence)
     message << "no contact sequence joins start and goal in " << p.steps << " phases; raise `phases`, or look at the "
             << "surfaces' end_effectors and the scene's rules";
