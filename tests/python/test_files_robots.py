@@ -91,6 +91,6 @@ def test_humanoid44_has_the_published_numbers():
     robot = load_robot("humanoid44")
     assert (robot.mass, robot.com_height) == (44.0, 0.70)
     assert [end.name for end in robot.end_effectors] == ["right_foot", "left_foot", "right_hand", "left_hand"]
-    np.testing.assert_allclose(robot.end_effectors[0].reach_min_B, [-0.2, -0.15, -0.75])
-    np.testing.assert_allclose(robot.end_effectors[0].reach_max_B, [0.2, -0.05, -0.55])
+    np.testing.assert_allclose(robot.end_effectors[0].reach_min_B, [-0.3, -0.15, -0.75])
+    np.testing.assert_allclose(robot.end_effectors[0].reach_max_B, [0.3, -0.05, -0.55])
     assert robot.end_effectors[2].max_force == pytest.approx(4.06 * 44.0 * 9.8, rel=1e-3)

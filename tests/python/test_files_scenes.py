@@ -208,6 +208,6 @@ def test_every_scene_survives_toml(scene):
 
 
 def test_the_scene_of_the_documentation_is_valid():
-    page = (DATA.parents[2] / "docs" / "scenes_and_robots.md").read_text()
+    page = (Path(__file__).parents[2] / "docs" / "scenes_and_robots.md").read_text()
     scene = scene_from_dict(tomllib.loads(page.split("```toml\n")[1].split("```")[0]))
     assert [surface.name for surface in scene.surfaces] == ["ground", "ledge"]
