@@ -32,6 +32,14 @@ Vector3d Pendulum::com_at(const VectorXd& x, const VectorXd& u, double fraction)
   return p + tau * f(1) * x.segment<3>(layout_.velocity()) + tau * tau * f(2) * (total * p - pull);
 }
 
+double Pendulum::angle_at(const VectorXd& x, const VectorXd& u, double fraction, int axis) const {
+  const double tau = fraction * u[layout_.duration()];
+  double moment = 0.0;
+  for (int i = 0; i < layout_.moment_count(); ++i)
+    if (layout_.moments()[i].axis == axis) moment += u[layout_.moment(i)];
+  return x[layout_.angle(axis)] + tau * x[layout_.rate(axis)] + 0.5 * tau * tau * moment / axis_inertia_[axis];
+}
+
 void Pendulum::step(const VectorXd& x, const VectorXd& u, double fraction, PendulumStep& s) const {
   const int ends = layout_.ends(), axes = layout_.axis_count(), moments = layout_.moment_count();
   s.mu.resize(ends);

@@ -122,6 +122,8 @@ TEST_CASE("step, next and com_at are one function") {
       const VectorXd there = next(c, c.x, u);
       CHECK((step.com - there.segment<3>(layout.com())).norm() <= 1e-14);
       CHECK((step.com - c.pendulum.com_at(c.x, c.u, fraction)).norm() <= 1e-14);
+      for (int a = 0; a < step.angle.size(); ++a)
+        CHECK(std::abs(step.angle[a] - c.pendulum.angle_at(c.x, c.u, fraction, a)) <= 1e-14);
       CHECK((step.velocity - there.segment<3>(layout.velocity())).norm() <= 1e-14);
       CHECK((step.angle - there.segment(layout.angle(), layout.axis_count())).norm() <= 1e-14);
       CHECK((step.rate - there.segment(layout.rate(), layout.axis_count())).norm() <= 1e-14);

@@ -46,6 +46,9 @@ class Pendulum {
   /// p(fraction h) alone, for cost evaluations.
   Eigen::Vector3d com_at(const Eigen::VectorXd& x, const Eigen::VectorXd& u, double fraction) const;
 
+  /// theta(fraction h) of an active base axis alone, likewise.
+  double angle_at(const Eigen::VectorXd& x, const Eigen::VectorXd& u, double fraction, int axis) const;
+
   /// x+ = f(x, u).
   void next(const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_next) const;
 

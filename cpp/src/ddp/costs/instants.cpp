@@ -14,11 +14,16 @@ void make_instants(const Problem& problem, const Pendulum& pendulum, const Vecto
   for (int i = 0; i < count; ++i) {
     Instant& instant = out[i];
     instant.fraction = static_cast<double>(i) / (count - 1);
+    instant.rpy = problem.base_rpy;
+    if (!with_gradient) {
+      // A line search evaluates many of these; the derivatives are most of the work.
+      instant.com = pendulum.com_at(x, u, instant.fraction);
+      for (int a = 0; a < axes; ++a) instant.rpy[at.axes()[a]] = pendulum.angle_at(x, u, instant.fraction, a);
+      continue;
+    }
     pendulum.step(x, u, instant.fraction, s);
     instant.com = s.com;
-    instant.rpy = problem.base_rpy;
     for (int a = 0; a < axes; ++a) instant.rpy[at.axes()[a]] = s.angle[a];
-    if (!with_gradient) continue;
     auto& jc = instant.com_jacobian;
     jc.setZero(3, at.nz());
     jc.middleCols<3>(at.com()).diagonal().setConstant(s.pp);
