@@ -13,7 +13,7 @@ void bind_phases(py::module_& m) {
   py::class_<Contact> contact(m, "Contact",
                               "What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor).");
   contact.def(py::init([](int surface, double stiffness, const Vector3d& anchor_W, const Vector3d& moment_W) {
-                return Contact{surface, stiffness, anchor_W, moment_W};
+                return Contact{surface, stiffness, anchor_W, moment_W, {}, {}};
               }),
               py::kw_only(), py::arg("surface") = -1, py::arg("stiffness") = 0.0,
               py::arg("anchor_W") = Vector3d(Vector3d::Zero()), py::arg("moment_W") = Vector3d(Vector3d::Zero()));
@@ -25,7 +25,7 @@ void bind_phases(py::module_& m) {
 
   py::class_<Phase> phase(m, "Phase", "A stretch of time with constant contacts.");
   phase.def(py::init([](double duration, std::vector<Contact> contacts) {
-              return Phase{duration, std::move(contacts)};
+              return Phase{duration, std::move(contacts), ForceLaw::pendulum, 0};
             }),
             py::kw_only(), py::arg("duration") = 0.0, py::arg("contacts") = std::vector<Contact>());
   phase.def_readwrite("duration", &Phase::duration, "[s]");
@@ -44,7 +44,8 @@ void bind_knot(py::module_& m) {
                     base_rpy,
                     base_rpy_rate,
                     points_from(end_effectors_W, "end_effectors_W"),
-                    points_from(velocities_W, "end_effector_velocities_W")};
+                    points_from(velocities_W, "end_effector_velocities_W"),
+                    Vector3d::Zero()};
       }),
       py::kw_only(), py::arg("com_W") = zero, py::arg("com_velocity_W") = zero, py::arg("base_rpy") = zero,
       py::arg("base_rpy_rate") = zero, py::arg("end_effectors_W") = py::tuple(),

@@ -15,8 +15,8 @@ void bind_end_effector(py::module_& m) {
   c.def(py::init([](std::string name, std::string kind, std::string frame, const Vector2d& half_size,
                     const Vector3d& nominal_B, const Vector3d& reach_min_B, const Vector3d& reach_max_B,
                     double max_force, const Vector3d& max_moment) {
-          return EndEffector{std::move(name), std::move(kind), std::move(frame), half_size, nominal_B,
-                             reach_min_B,     reach_max_B,     max_force,        max_moment};
+          return EndEffector{std::move(name), std::move(kind), std::move(frame), half_size, nominal_B, reach_min_B,
+                             reach_max_B,     max_force,       max_moment,       {},        {}};
         }),
         py::kw_only(), py::arg("name") = d.name, py::arg("kind") = d.kind, py::arg("frame") = d.frame,
         py::arg("half_size") = d.half_size, py::arg("nominal_B") = d.nominal_B, py::arg("reach_min_B") = d.reach_min_B,

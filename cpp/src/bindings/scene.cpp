@@ -97,8 +97,8 @@ void bind_scene(py::module_& m) {
   py::class_<Scene> c(m, "Scene", "The world: surfaces, start and goal. World frame W with z up.");
   c.def(py::init([](std::string name, std::string description, double gravity, std::vector<Surface> surfaces,
                     const Stance& start, const Stance& goal, std::vector<ContactRule> rules) {
-          return Scene{std::move(name), std::move(description), gravity, std::move(surfaces), start, goal,
-                       std::move(rules)};
+          return Scene{
+              std::move(name), std::move(description), gravity, std::move(surfaces), start, goal, std::move(rules), {}};
         }),
         py::kw_only(), py::arg("name") = "", py::arg("description") = "", py::arg("gravity") = Scene().gravity,
         py::arg("surfaces") = std::vector<Surface>(), py::arg("start") = Stance(), py::arg("goal") = Stance(),

@@ -9,33 +9,45 @@
 
 namespace mcplan {
 
-/// What one end-effector does during one phase. The contact force follows the multi-contact pendulum
-/// (Tazaki, sec. II, eq. 5, with mu = lambda^2):
-///
-///     f_l(t) = m mu_l (p(t) - s_l)
-///
-/// so the CoM p obeys a linear equation and has a closed form.
+/// How contact forces depend on time within a phase. All give the CoM in closed form.
+enum class ForceLaw {
+  pendulum,  ///< f_l(t) = m mu_l (p(t) - s_l): the multi-contact pendulum (Tazaki, sec. II, eq. 5, mu = lambda^2)
+  held,      ///< forces at points, constant over each of `intervals` equal intervals
+  linear,    ///< forces at points, linear over each of `intervals` equal intervals: the CoM is cubic, L of degree 5
+};
+
+/// What one end-effector does during one phase. Under ForceLaw::pendulum stiffness, anchor and moment say its force;
+/// otherwise the forces at its points do, and those three stay zero.
 struct Contact {
   int surface = -1;                                    ///< index into scene.surfaces, -1: free
   double stiffness = 0.0;                              ///< mu_l [1/s^2], 0 when free
   Eigen::Vector3d anchor_W = Eigen::Vector3d::Zero();  ///< s_l [m], through which the line of force passes
   Eigen::Vector3d moment_W = Eigen::Vector3d::Zero();  ///< contact moment [N m], constant over the phase
+  std::vector<Eigen::Vector3d> points_W;               ///< [m] where forces act, e.g. the corners of the sole
+  std::vector<Eigen::Vector3d>
+      point_forces_W;  ///< [N] node by node, a force for each point: Phase::node_count() x points
 };
 
 /// A stretch of time with constant contacts.
 struct Phase {
   double duration = 0.0;          ///< [s]
   std::vector<Contact> contacts;  ///< one per end-effector
+  ForceLaw law = ForceLaw::pendulum;
+  int intervals = 0;  ///< of the forces at points, equally long; 0 under ForceLaw::pendulum
+
+  /// Instants at which forces are given: `intervals` when held (at the begin of each), one more when linear.
+  int node_count() const { return law == ForceLaw::pendulum ? 0 : intervals + (law == ForceLaw::linear ? 1 : 0); }
 };
 
 /// State at the instant between two phases.
 struct Knot {
-  Eigen::Vector3d com_W = Eigen::Vector3d::Zero();           ///< [m]
-  Eigen::Vector3d com_velocity_W = Eigen::Vector3d::Zero();  ///< [m/s]
-  Eigen::Vector3d base_rpy = Eigen::Vector3d::Zero();        ///< roll, pitch, yaw of the base [rad]
-  Eigen::Vector3d base_rpy_rate = Eigen::Vector3d::Zero();   ///< [rad/s]
-  std::vector<Eigen::Vector3d> end_effectors_W;              ///< [m]
-  std::vector<Eigen::Vector3d> end_effector_velocities_W;    ///< [m/s], zero at contacts
+  Eigen::Vector3d com_W = Eigen::Vector3d::Zero();               ///< [m]
+  Eigen::Vector3d com_velocity_W = Eigen::Vector3d::Zero();      ///< [m/s]
+  Eigen::Vector3d base_rpy = Eigen::Vector3d::Zero();            ///< roll, pitch, yaw of the base [rad]
+  Eigen::Vector3d base_rpy_rate = Eigen::Vector3d::Zero();       ///< [rad/s]
+  std::vector<Eigen::Vector3d> end_effectors_W;                  ///< [m]
+  std::vector<Eigen::Vector3d> end_effector_velocities_W;        ///< [m/s], zero at contacts
+  Eigen::Vector3d angular_momentum_W = Eigen::Vector3d::Zero();  ///< about the CoM [kg m^2/s]; see Plan
 };
 
 /// A stretch of phases in which an end-effector is free. Its path is the C2 quintic spline through the knots (zero
@@ -55,7 +67,8 @@ struct EndEffectorState {
   Eigen::Vector3d position_W;  ///< [m]
   Eigen::Vector3d velocity_W;  ///< [m/s]
   Eigen::Vector3d force_W;     ///< contact force on the robot [N], zero when free
-  Eigen::Vector3d moment_W;    ///< contact moment on the robot [N m], zero when free
+  Eigen::Vector3d moment_W;    ///< contact moment on the robot about position_W [N m], zero when free
+  std::vector<Eigen::Vector3d> points_W, point_forces_W;  ///< [m], [N] where the law has forces at points
 };
 
 /// The robot at an instant.
@@ -70,6 +83,13 @@ struct PlanState {
 };
 
 /// A motion: phases with constant contacts between knots. Plain data; carries the scene and the robot it was made for.
+///
+/// Under ForceLaw::pendulum the base turns as a rigid body, I theta'' = sum_l tau_l, and the angular momentum is
+/// I theta': Knot::angular_momentum_W is not looked at. With forces at points p_i the angular momentum is a state,
+///
+///     L' = sum_i (p_i - p) x f_i,
+///
+/// and the base follows the quintic through its knots, since the limbs carry what the base does not.
 class Plan {
  public:
   Scene scene;
@@ -80,6 +100,7 @@ class Plan {
   std::vector<int> final_contacts;  ///< surface index per end-effector after the last phase
   std::vector<Swing> swings;
   bool measured_start = false;  ///< starts from a measured state, not from the scene's start
+  bool open_end = false;        ///< ends on the way, not at the scene's goal: a piece of a receding horizon
 
   double duration() const;                 ///< [s]
   std::vector<double> knot_times() const;  ///< [s], phases + 1 entries, from 0

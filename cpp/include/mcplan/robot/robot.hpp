@@ -10,6 +10,14 @@
 
 namespace mcplan {
 
+/// Convex set {x : A x <= b} [m], rows of A of unit length. Without rows: not given.
+struct Polytope {
+  Eigen::Matrix<double, Eigen::Dynamic, 3> A;
+  Eigen::VectorXd b;
+
+  bool given() const { return A.rows() > 0; }
+};
+
 /// A contact link of the robot. Frame B sits at the CoM and turns with the base.
 struct EndEffector {
   std::string name;           ///< e.g. "left_foot"
@@ -22,6 +30,10 @@ struct EndEffector {
   Eigen::Vector3d reach_max_B = Eigen::Vector3d::Zero();
   double max_force = std::numeric_limits<double>::infinity();  ///< [N] largest norm of the contact force
   Eigen::Vector3d max_moment = Eigen::Vector3d::Zero();        ///< [N m] largest contact moment about each world axis
+  /// Finer than the box, where given. Axes: level, x along the heading (yaw alone), whatever the slope of the sole.
+  Polytope
+      com_reach;  ///< where the CoM may be relative to this end-effector (its sole's centre) while it is in contact
+  std::map<std::string, Polytope> partner_reach;  ///< where other end-effectors may stand relative to it, by name
 };
 
 /// What a planner needs to know of a robot: lumped inertia and where its limbs reach.

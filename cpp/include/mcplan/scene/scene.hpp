@@ -31,6 +31,12 @@ struct ContactRule {
   std::vector<std::string> require;
 };
 
+/// One step of a walk: the foot that swings and the surface on which it lands.
+struct Step {
+  std::string end_effector;
+  std::string surface;
+};
+
 /// The world: surfaces, start and goal. World frame W with z up.
 struct Scene {
   std::string name;
@@ -39,13 +45,14 @@ struct Scene {
   std::vector<Surface> surfaces;
   Stance start, goal;
   std::vector<ContactRule> rules;
+  std::vector<Step> steps;  ///< contact sequence of a walk, for planners that want it given; may be empty
 
   /// Index into surfaces, or -1.
   int surface_index(const std::string& surface_name) const;
 
   /// Throws InvalidScene naming the first field out of its range: polygons of at least 3 vertices, finite, planar
   /// within 1 mm, strictly convex, area at least 1e-6 m^2; unique names; friction and thickness positive; contacts and
-  /// rules naming what exists.
+  /// rules naming what exists, steps naming surfaces that exist.
   void validate() const;
 };
 

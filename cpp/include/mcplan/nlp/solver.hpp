@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <string>
+
+#include "mcplan/base/logging.hpp"
+#include "mcplan/base/status.hpp"
+#include "mcplan/nlp/problem.hpp"
+
+namespace mcplan::nlp {
+
+/// How pivots are ordered before the factorisation; which is faster depends on the problem, by up to a factor of two.
+enum class Ordering { automatic, amd };
+
+/// Where second derivatives come from.
+enum class Hessian { exact, limited_memory };
+
+struct SolverOptions {
+  double tolerance = 1e-5;             ///< on the optimality error
+  double constraint_tolerance = 1e-6;  ///< on rows and bounds, absolute
+  int max_iterations = 400;
+  double time_limit_s = std::numeric_limits<double>::infinity();  ///< wall clock, looked at in every evaluation
+  Ordering ordering = Ordering::amd;
+  Hessian hessian = Hessian::exact;
+  double initial_barrier = 0.1;
+  bool adaptive_barrier = false;
+  Logger logger;     ///< one line an iteration; null: silent
+  StopRequest stop;  ///< polled once an iteration; null: never
+
+  /// Throws InvalidOptions naming the first field out of its range.
+  void validate() const;
+};
+
+struct Solution {
+  Status status = Status::numerical_failure;  ///< solved: converged; whether a plan is good is for its checker to say
+  std::string message;                        ///< why it ended, in one sentence
+  Eigen::VectorXd x;            ///< the solution, or the best iterate: feasible and cheap, or least violated
+  Eigen::VectorXd multipliers;  ///< of the rows
+  double cost = 0.0;
+  Problem::Worst worst;  ///< largest violation at x
+  int iterations = 0;
+  double time_s = 0.0;           ///< wall clock
+  double evaluation_s = 0.0;     ///< of which in the problem's functions
+  double linear_solver_s = 0.0;  ///< of which in factorisations and back-substitutions
+};
+
+/// Solve with Ipopt from x0 (projected into the bounds).
+///
+/// Ipopt before 3.14 and its MUMPS are not re-entrant: calls wait for each other, process-wide. The problem's finish()
+/// must have been called. Rethrows what a piece throws; a number that is not finite ends with numerical_failure and a
+/// message that names the piece.
+Solution solve(const Problem& problem, const Eigen::VectorXd& x0, const SolverOptions& options = {});
+
+/// Version of the Ipopt that is linked, e.g. "3.11.9".
+std::string ipopt_version();
+
+}  // namespace mcplan::nlp

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "mcplan/base/logging.hpp"
+
+namespace mcplan::rhp {
+
+/// Model of the steps that are predicted but not executed (Wang et al., sec. IV). The executed step always has the
+/// full centroidal dynamics.
+enum class Fidelity {
+  single,     ///< centroidal dynamics, free timing: the baseline
+  com,        ///< candidate 1: linear CoM dynamics, no angular momentum
+  rectangle,  ///< candidate 2: convex relaxation of the angular momentum's rate, four corner forces per foot
+  point,      ///< candidate 3: the same with one force per foot
+};
+
+/// How the continuous motion becomes algebraic equations.
+enum class Transcription {
+  trapezoidal,  ///< forces linear between nodes, CoM and angular momentum integrated exactly
+  euler,        ///< the paper's forward Euler; a replay of its forces drifts by centimetres a step
+};
+
+/// A closed interval.
+struct Range {
+  double min = 0.0, max = 0.0;
+};
+
+/// Options of the receding-horizon planner. Where numbers are not in the paper they come from its authors' published
+/// research code; docs/theory/rhp.md lists them.
+struct Options {
+  Fidelity fidelity = Fidelity::point;
+  int lookahead = 3;  ///< steps in the horizon, 1..10: one executed, the others predicted
+  int cycles = 14;    ///< steps to execute
+  Transcription transcription = Transcription::trapezoidal;
+  bool paper = false;       ///< absolute CoM box, outer friction pyramid, no rest at the end, all as published
+  bool lifted_psi = false;  ///< keep the bounds psi of the relaxation as variables instead of eliminating them
+  bool all_faces = false;   ///< keep faces of the reach polytopes that others imply
+
+  int intervals = 7;                        ///< per phase
+  Range double_support_s{0.1, 0.3};         ///< duration of a phase on two feet
+  Range single_support_s{0.8, 1.2};         ///< duration of a phase on one foot
+  double predicted_double_support_s = 0.2;  ///< fixed durations of predicted phases of the reduced models
+  double predicted_single_support_s = 0.6;
+  double com_velocity_max = 1.5;   ///< [m/s] each component
+  double momentum_max = 2.5;       ///< [kg m^2/s] each component of L
+  double momentum_rate_max = 3.5;  ///< [N m] each component of L'
+  Range com_height{0.87, 1.07};    ///< of the CoM above every foot in contact, over robot.com_height [-]
+  double psi_max = 0.55;           ///< bound of the relaxation's |a +- d|^2 [-]
+  double goal_weight = 10.0;       ///< on the squared distance of the horizon's end to the goal [1/m^2]
+  int friction_sides = 8;          ///< of the inner friction pyramid; `paper` takes the outer one of 4
+
+  double tolerance = 1e-5, constraint_tolerance = 1e-6;           ///< of the solver
+  int max_iterations = 400;                                       ///< of a cycle
+  double time_limit_s = std::numeric_limits<double>::infinity();  ///< of a cycle, wall clock
+  bool automatic_ordering = false;  ///< the linear solver's own choice of pivot order, slower here than AMD
+
+  Logger logger;     ///< a line a cycle; null: silent
+  StopRequest stop;  ///< polled every iteration; null: never
+
+  /// Throws InvalidOptions naming the first field out of its range.
+  void validate() const;
+};
+
+}  // namespace mcplan::rhp
