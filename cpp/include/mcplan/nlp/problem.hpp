@@ -77,7 +77,8 @@ class Problem {
   std::string row_name(int row) const;            ///< "momentum_rate[0] at stage 7"
   Stages variable_stages(int variable) const { return stages_[variable]; }
 
-  /// Latest stage at which all variables of the piece are in use together with those of the stage before.
+  /// The stage of the piece's states and inputs, or the two neighbours that a transition joins; what lasts is in use
+  /// there and does not count.
   Stages piece_stages(const Piece& piece) const;
 
   struct Block {
@@ -91,7 +92,8 @@ class Problem {
 
  private:
   std::string piece_name(const Block& block) const;
-  void gather(const Block& block, const ConstVector& x, Eigen::VectorXd& local) const;
+  ConstVector gather(const Block& block, const ConstVector& x) const;  ///< the piece's variables, in x_
+  Eigen::Map<Eigen::MatrixXd> zeroed(int rows, int columns) const;     ///< a dense block, in buffer_
 
   struct Group {
     std::string name;
@@ -103,9 +105,8 @@ class Problem {
   std::vector<Block> blocks_;
   std::vector<Entry> jacobian_, hessian_;
   int row_count_ = 0;
-  mutable Eigen::VectorXd x_, f_, weights_;  ///< workspace of the evaluations
-  mutable Eigen::MatrixXd block_;
-  Eigen::VectorXd linear_jacobian_;  ///< values of the linear pieces, zero elsewhere
+  mutable Eigen::VectorXd x_, f_, weights_, buffer_;  ///< workspace of the evaluations
+  Eigen::VectorXd linear_jacobian_;                   ///< values of the linear pieces, zero elsewhere
 };
 
 }  // namespace mcplan::nlp
