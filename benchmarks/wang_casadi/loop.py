@@ -44,11 +44,11 @@ class Cycle:
 class Loop:
     """Cycle after cycle of one walker with one setting; the two programs (left or right first) are built once."""
 
-    def __init__(self, walker: Walker, settings: Settings) -> None:
+    def __init__(self, walker: Walker, settings: Settings, horizons: dict[int, Horizon] | None = None) -> None:
         self.walker, self.settings = walker, settings
         self.state = State.start(walker)
         self.cycles: list[Cycle] = []
-        self.horizons: dict[int, Horizon] = {}
+        self.horizons = horizons if horizons is not None else {}
 
     def horizon(self, index: int) -> Horizon:
         foot, _ = self.walker.step(index)

@@ -62,6 +62,11 @@ def record(cycle: Cycle) -> dict[str, Any]:
     }
 
 
+def times(cycle: Cycle) -> dict[str, float]:
+    """Of a cycle [s]: wall clock, process, wall clock in functions and derivatives."""
+    return {name: getattr(cycle.outcome, name) for name in ("time_s", "cpu_s", "evaluation_s")}
+
+
 def noisy(guess: Values, seed: int) -> Values:
     """A guess with normal noise: 0.05 (m, m/s, s) on motion, footholds and durations, 0.1 on all else."""
     rng = np.random.default_rng(seed)
@@ -80,8 +85,7 @@ def first_cycles() -> list[dict[str, Any]]:
                 cycle = loop.step()
                 others = []
                 for seed in (1, 2, 3):
-                    again = Loop(loop.walker, settings)
-                    again.horizons = loop.horizons
+                    again = Loop(loop.walker, settings, loop.horizons)
                     other = again.step(perturb=partial(noisy, seed=seed)).outcome
                     others.append(other.objective if other.success else None)
                 about = {"terrain": terrain, "fidelity": fidelity, "lookahead": lookahead}
@@ -105,11 +109,12 @@ def summary(loop: Loop, cycles: int) -> dict[str, Any]:
         "acc_per_m": per_metre["acc"], "momentum_per_m": per_metre["momentum"],
         "status": loop.cycles[-1].outcome.status, "sizes": loop.horizon(0).program.sizes}
     if warm:
-        times = np.array([outcome.time_s for outcome in warm])
+        wall = np.array([outcome.time_s for outcome in warm])
         out |= {
             "iterations": float(np.mean([outcome.iterations for outcome in warm])),
-            "time_s": float(times.mean()), "time_std_s": float(times.std()), "time_max_s": float(times.max()),
-            "evaluation_share": float(sum(outcome.evaluation_s for outcome in warm) / times.sum())}
+            "time_s": float(wall.mean()), "time_std_s": float(wall.std()), "time_max_s": float(wall.max()),
+            "cpu_s": float(np.mean([outcome.cpu_s for outcome in warm])),
+            "evaluation_share": float(sum(outcome.evaluation_s for outcome in warm) / wall.sum())}
     return out
 
 
@@ -122,7 +127,7 @@ def walks(form: str, cycles: int, mode: tuple[str, bool]) -> list[dict[str, Any]
             loop = Loop(load_walker(terrain), settings)
             loop.run(cycles)
             total = summary(loop, cycles)
-            each = [record(c) | {"time_s": c.outcome.time_s, "evaluation_s": c.outcome.evaluation_s} for c in loop.cycles]
+            each = [record(c) | times(c) for c in loop.cycles]
             rows.append({"terrain": terrain} | asdict(settings) | total | {"cycles": each})
             numbers = {k: round(v, 4) for k, v in total.items() if isinstance(v, float)}
             print(fidelity, lookahead, *mode, form, terrain, total["cycles_done"], total["status"], numbers, flush=True)

@@ -81,13 +81,20 @@ class Walker:
         return (foot + i - last) % 2, patch
 
 
+def load_patches(scene: str) -> list[Patch]:
+    """Surfaces of a scene, in its order."""
+    import mcplan
+
+    return [Patch(np.array(s.vertices_W), s.friction) for s in mcplan.load_scene(scene).surfaces]
+
+
 def load_walker(scene: str = "rubbles", robot: str = "talos_wang") -> Walker:
     """A scene with steps and a robot with reach polytopes, by mcplan's files."""
     import mcplan
 
     world, model = mcplan.load_scene(scene), mcplan.load_robot(robot)
     feet = [next(e for e in model.end_effectors if e.name == name) for name in FEET]
-    patches = {s.name: Patch(np.array(s.vertices_W), s.friction) for s in world.surfaces}
+    patches = dict(zip((s.name for s in world.surfaces), load_patches(scene), strict=True))
     contacts = world.start.contacts
     stand = [patches[contacts.get(foot.name, contacts.get(foot.kind, ""))] for foot in feet]
     up = np.array([0.0, 0.0, model.com_height])
