@@ -5,7 +5,7 @@
 namespace mcplan::rhp {
 
 /// One interval, of length h = T / intervals, in which the forces are linear: the CoM is cubic in time, the angular
-/// momentum of degree 5. 0 and 1 are the interval's two ends. All variables are first of three, but the duration T.
+/// momentum of degree 4. 0 and 1 are the interval's two ends. All variables are first of three, but the duration T.
 struct LinearForceInterval {
   int com0, com1, velocity0, velocity1, acceleration0, acceleration1;
   int momentum0 = -1, momentum1 = -1, rate0 = -1, rate1 = -1;  ///< of the angular momentum, where there is one
