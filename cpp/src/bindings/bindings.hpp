@@ -20,6 +20,23 @@ void bind_scene(py::module_& m);
 void bind_robot(py::module_& m);
 void bind_plan(py::module_& m);
 void bind_ddp(py::module_& m);
+void bind_rhp(py::module_& m);
+
+/// Runs a solve without the GIL.
+template <class Solve>
+auto without_gil(Solve&& solve) {
+  const py::gil_scoped_release release;
+  return solve();
+}
+
+/// StopRequest of every solve: Ctrl-C ends it with Status.interrupted and the best iterate. The KeyboardInterrupt itself is
+/// swallowed then, because the caller gets its result.
+inline bool stop_on_signal() {
+  const py::gil_scoped_acquire acquire;
+  if (PyErr_CheckSignals() == 0) return false;
+  PyErr_Clear();
+  return true;
+}
 
 /// Text that Python reads back as the same value: arrays as nested lists, infinity as float('inf').
 std::string paste(py::handle value);
