@@ -38,7 +38,7 @@ def planner(terrain: str, robot: str, fidelity: str, lookahead: int, transcripti
 
 def state_of(ours: Any, terrain: str) -> State:
     """Where mcplan's next cycle starts."""
-    patches, at = load_patches(terrain), ours.state
+    patches, at = load_patches(terrain), ours.state()
     return State(np.array(at.com_W), np.array(at.com_velocity_W), np.array(at.angular_momentum_W), np.array(at.feet_W),
                  (patches[at.surfaces[0]], patches[at.surfaces[1]]))
 
