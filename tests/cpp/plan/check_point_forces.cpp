@@ -199,7 +199,7 @@ TEST_CASE("a swinging foot whose polytope admits its footholds may go from one t
   Plan plan = step_on_corners();
   auto& foot = plan.robot.end_effectors[left_foot];
   foot.reach_max_B.x() = 0.05;
-  CHECK(value(check(plan), "reach") > 0.03);
+  CHECK(value(check(plan), "reach") > 0.02);
   foot.com_reach = box({-0.3, -0.3, 0.5}, {0.3, 0.3, 0.8});
   CHECK(check(plan).ok());
 }
