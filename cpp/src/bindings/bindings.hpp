@@ -30,6 +30,9 @@ std::string paste(py::handle self, const std::string& name, const std::vector<st
 /// Rows of an N x 3 array (or of nested lists); InvalidInput naming `field` for any other shape.
 std::vector<Eigen::Vector3d> points_from(py::handle value, const std::string& field);
 
+/// Numbers of a 1-D array (or of a list); InvalidInput naming `field` for any other shape.
+Eigen::VectorXd vector_from(py::handle value, const std::string& field);
+
 /// Writable N x 3 view of `points`, which `owner` keeps alive.
 py::array points_view(std::vector<Eigen::Vector3d>& points, py::handle owner);
 
