@@ -39,12 +39,18 @@ def planner(terrain: str, robot: str, fidelity: str, lookahead: int, transcripti
 def state_of(ours: Any, terrain: str) -> State:
     """Where mcplan's next cycle starts."""
     patches, at = load_patches(terrain), ours.state()
-    return State(np.array(at.com_W), np.array(at.com_velocity_W), np.array(at.angular_momentum_W), np.array(at.feet_W),
-                 (patches[at.surfaces[0]], patches[at.surfaces[1]]))
+    return State(
+        np.array(at.com_W),
+        np.array(at.com_velocity_W),
+        np.array(at.angular_momentum_W),
+        np.array(at.feet_W),
+        (patches[at.surfaces[0]], patches[at.surfaces[1]]),
+    )
 
 
-def walk(terrain: str, robot: str, case: tuple[str, int], mode: tuple[str, bool], peers: dict[str, Loop],
-         cycles: int) -> list[dict[str, Any]]:
+def walk(
+    terrain: str, robot: str, case: tuple[str, int], mode: tuple[str, bool], peers: dict[str, Loop], cycles: int
+) -> list[dict[str, Any]]:
     """One walk of mcplan, every cycle solved by the peers too."""
     ours = planner(terrain, robot, *case, *mode)
     rows = []
@@ -52,25 +58,38 @@ def walk(terrain: str, robot: str, case: tuple[str, int], mode: tuple[str, bool]
         start = state_of(ours, terrain)
         cpu = time.process_time()
         cycle = ours.step()
-        row: dict[str, Any] = {"mcplan": {
-            "cost": cycle.cost, "iterations": cycle.iterations, "time_s": cycle.time_s, "evaluation_s": cycle.evaluation_s,
-            "cpu_s": time.process_time() - cpu, "success": cycle.executed}}
+        row: dict[str, Any] = {
+            "mcplan": {
+                "cost": cycle.cost,
+                "iterations": cycle.iterations,
+                "time_s": cycle.time_s,
+                "evaluation_s": cycle.evaluation_s,
+                "cpu_s": time.process_time() - cpu,
+                "success": cycle.executed,
+            }
+        }
         for form, peer in peers.items():
             out = peer.step(start).outcome
             running = out.objective - out.parts["terminal"]
             row[form] = {
-                "cost": out.objective, "iterations": out.iterations, "time_s": out.time_s,
-                "evaluation_s": out.evaluation_s, "cpu_s": out.cpu_s, "success": out.success,
+                "cost": out.objective,
+                "iterations": out.iterations,
+                "time_s": out.time_s,
+                "evaluation_s": out.evaluation_s,
+                "cpu_s": out.cpu_s,
+                "success": out.success,
                 "difference": (cycle.cost - out.objective) / abs(out.objective),
-                "difference_running": (cycle.cost - out.objective) / running}
+                "difference_running": (cycle.cost - out.objective) / running,
+            }
         rows.append(row)
         if not cycle.executed:
             break
     return rows
 
 
-def measured(terrain: str, robot: str, case: tuple[str, int], mode: tuple[str, bool], cycles: int,
-             repeats: int) -> dict[str, Any]:
+def measured(
+    terrain: str, robot: str, case: tuple[str, int], mode: tuple[str, bool], cycles: int, repeats: int
+) -> dict[str, Any]:
     """Medians over repeats of every cycle; means of them over the cycles with a warm start."""
     forms = ("same", "plain") if mode[1] else ("same",)
     walker = load_walker(terrain, robot)
@@ -86,8 +105,14 @@ def measured(terrain: str, robot: str, case: tuple[str, int], mode: tuple[str, b
     def mean(name: str, key: str) -> float:
         return float(np.mean([np.median([run[i][name][key] for run in runs]) for i in range(2, len(runs[0]))]))
 
-    out: dict[str, Any] = {"terrain": terrain, "fidelity": case[0], "lookahead": case[1], "transcription": mode[0],
-                           "paper": mode[1], "cycles_done": sum(row["mcplan"]["success"] for row in runs[0])}
+    out: dict[str, Any] = {
+        "terrain": terrain,
+        "fidelity": case[0],
+        "lookahead": case[1],
+        "transcription": mode[0],
+        "paper": mode[1],
+        "cycles_done": sum(row["mcplan"]["success"] for row in runs[0]),
+    }
     for name in names:
         out[name] = {key: mean(name, key) for key in ("time_s", "cpu_s", "iterations")}
         out[name]["evaluation_share"] = mean(name, "evaluation_s") / out[name]["time_s"]
@@ -101,8 +126,23 @@ def measured(terrain: str, robot: str, case: tuple[str, int], mode: tuple[str, b
     return out | {"cycles": runs[0]}
 
 
-HEAD = ("terrain", "fidelity", "look-ahead", "transcription", "mcplan [s]", "it.", "eval.", "CasADi", "[s]", "it.", "eval.",
-        "ratio", "of CPU time", "median and largest difference of the optima", "cycles with another optimum")
+HEAD = (
+    "terrain",
+    "fidelity",
+    "look-ahead",
+    "transcription",
+    "mcplan [s]",
+    "it.",
+    "eval.",
+    "CasADi",
+    "[s]",
+    "it.",
+    "eval.",
+    "ratio",
+    "of CPU time",
+    "median and largest difference of the optima",
+    "cycles with another optimum",
+)
 
 
 def markdown(rows: list[dict[str, Any]]) -> str:
@@ -114,10 +154,23 @@ def markdown(rows: list[dict[str, Any]]) -> str:
             if form not in row:
                 continue
             peer, apart = row[form], np.abs(row[form]["difference"])
-            cells = (row["terrain"], row["fidelity"], row["lookahead"], row["transcription"], f"{ours['time_s']:.3f}",
-                     f"{ours['iterations']:.1f}", f"{ours['evaluation_share']:.1%}", form, f"{peer['time_s']:.3f}",
-                     f"{peer['iterations']:.1f}", f"{peer['evaluation_share']:.1%}", f"{peer['ratio']:.2f}",
-                     f"{peer['ratio_cpu']:.2f}", f"{np.median(apart):.1e}, {np.max(apart):.1e}", peer["other_optima"])
+            cells = (
+                row["terrain"],
+                row["fidelity"],
+                row["lookahead"],
+                row["transcription"],
+                f"{ours['time_s']:.3f}",
+                f"{ours['iterations']:.1f}",
+                f"{ours['evaluation_share']:.1%}",
+                form,
+                f"{peer['time_s']:.3f}",
+                f"{peer['iterations']:.1f}",
+                f"{peer['evaluation_share']:.1%}",
+                f"{peer['ratio']:.2f}",
+                f"{peer['ratio_cpu']:.2f}",
+                f"{np.median(apart):.1e}, {np.max(apart):.1e}",
+                peer["other_optima"],
+            )
             lines.append("| " + " | ".join(str(cell) for cell in cells) + " |")
     return "\n".join(lines) + "\n"
 

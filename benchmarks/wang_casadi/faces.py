@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.optimize import linprog
-
 from walker import Array
 
 #: Where the planner can be [m]: CoM over a foot, foot over a foot, either of them to the sides.

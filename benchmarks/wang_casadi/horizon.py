@@ -11,10 +11,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import casadi as ca
-
 from faces import COM_HEIGHT, FOOT_HEIGHT, force_axes, pruned
 from program import Program
-from walker import Patch, Walker
+from walker import Walker
 
 N = 7  # intervals of a phase
 FORCE_UNIT = 100.0  # [N]
@@ -253,8 +252,12 @@ class Horizon:
             up = ca.SX([0, 0, 1])
             self.program.equal(
                 self.L[g + 1],
-                self.L[g] + h / 2 * (here["R"] + there["R"]) - m * h**2 / 6 * ca.cross(v0, a0 - a1)
-                + m * h**3 / 12 * ca.cross(a0, a1) + m * gravity * h**3 / 24 * ca.cross(a0 + a1, up))
+                self.L[g]
+                + h / 2 * (here["R"] + there["R"])
+                - m * h**2 / 6 * ca.cross(v0, a0 - a1)
+                + m * h**3 / 12 * ca.cross(a0, a1)
+                + m * gravity * h**3 / 24 * ca.cross(a0 + a1, up),
+            )
 
     # Kinematics
 
@@ -284,5 +287,8 @@ class Horizon:
 def relaxation(l, d) -> list:  # noqa: ANN001, E741
     """The six |alpha +- delta|^2 of a normalised lever and force: x+, x-, y+, y-, z+, z-."""
     pairs = (((-l[2], l[1]), (d[1], d[2])), ((l[2], -l[0]), (d[0], d[2])), ((-l[1], l[0]), (d[0], d[1])))
-    return [sum((a + sign * b) ** 2 for a, b in zip(alpha, delta, strict=True))
-            for alpha, delta in pairs for sign in (1, -1)]
+    return [
+        sum((a + sign * b) ** 2 for a, b in zip(alpha, delta, strict=True))
+        for alpha, delta in pairs
+        for sign in (1, -1)
+    ]

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-
 from horizon import DOUBLE_SUPPORT, FORCE_UNIT, LEVER, SINGLE_SUPPORT, Horizon, N, Settings, relaxation
 from program import Outcome, Values
 from walker import Array, Patch, Walker
@@ -74,20 +73,25 @@ class Loop:
         else:
             footholds, guess = self.moved(self.cycles[index - 2], start, patches, horizon)
         outcome = horizon.program.solve(
-            perturb(guess), self.parameters(start, foot, patches, footholds),
-            {("c", 0): start.com, ("v", 0): start.velocity, ("L", 0): start.momentum})
+            perturb(guess),
+            self.parameters(start, foot, patches, footholds),
+            {("c", 0): start.com, ("v", 0): start.velocity, ("L", 0): start.momentum},
+        )
         self.cycles.append(self._finish(index, start, horizon, patches, footholds, outcome))
         self.state = self.cycles[-1].end
         return self.cycles[-1]
 
-    def _finish(self, index: int, start: State, horizon: Horizon, patches: list[Patch], origins: Array,
-                outcome: Outcome) -> Cycle:
+    def _finish(
+        self, index: int, start: State, horizon: Horizon, patches: list[Patch], origins: Array, outcome: Outcome
+    ) -> Cycle:
         x, foot = outcome.values, horizon.first_foot
         w = [x["w", i + 2] for i in range(len(patches))]
         if self.settings.form == "plain":
             footholds = np.array(w)
         else:
-            footholds = np.array([o + patch.frame[:, :2] @ each for o, patch, each in zip(origins, patches, w, strict=True)])
+            footholds = np.array(
+                [o + patch.frame[:, :2] @ each for o, patch, each in zip(origins, patches, w, strict=True)]
+            )
         feet, stand = start.feet.copy(), list(start.patches)
         feet[foot], stand[foot] = footholds[0], patches[0]
         end = State(x["c", 3 * N], x["v", 3 * N], x["L", 3 * N], feet, (stand[0], stand[1]))
@@ -152,8 +156,9 @@ class Loop:
     def moved(self, before: Cycle, start: State, patches: list[Patch], horizon: Horizon) -> tuple[Array, Values]:
         """The solution of two cycles before, moved along with the CoM; footholds and guess."""
         by = start.com - before.start.com
-        footholds = np.array([patch.nearest(p + by, self.walker.half_size)
-                              for patch, p in zip(patches, before.footholds, strict=True)])
+        footholds = np.array(
+            [patch.nearest(p + by, self.walker.half_size) for patch, p in zip(patches, before.footholds, strict=True)]
+        )
         guess = dict(before.outcome.values)
         for name, value in guess.items():
             if name[0] == "c":

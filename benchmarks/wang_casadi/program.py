@@ -10,7 +10,6 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-
 from walker import Array
 
 Values = dict[Hashable, Array]
@@ -72,8 +71,12 @@ class Program:
         f = sum(self.parts[name] for name in objective)
         g = ca.vertcat(*self.rows)
         quiet = {"print_level": 0, "sb": "yes"} | ipopt
-        self.solver = ca.nlpsol("program", "ipopt", {"x": x, "p": p, "f": f, "g": g},
-                                {"ipopt": quiet, "print_time": False, "error_on_fail": False})
+        self.solver = ca.nlpsol(
+            "program",
+            "ipopt",
+            {"x": x, "p": p, "f": f, "g": g},
+            {"ipopt": quiet, "print_time": False, "error_on_fail": False},
+        )
         self._parts = ca.Function("parts", [x, p], list(self.parts.values()))
         self._rows = ca.Function("rows", [x, p], [g])
         multipliers = ca.SX.sym("multipliers", g.numel())
@@ -88,23 +91,34 @@ class Program:
     def solve(self, guess: Values, parameters: Values, fixed: Values) -> Outcome:
         """Solve from a guess; variables in `fixed` are held at the given values."""
         if set(guess) != set(self.x) or set(parameters) != set(self.p):
-            raise KeyError(f"names that differ: {sorted(map(str, set(guess) ^ set(self.x)))}, "
-                           f"{sorted(map(str, set(parameters) ^ set(self.p)))}")
+            raise KeyError(
+                f"names that differ: {sorted(map(str, set(guess) ^ set(self.x)))}, "
+                f"{sorted(map(str, set(parameters) ^ set(self.p)))}"
+            )
         bounds = self.bounds | {name: (value, value) for name, value in fixed.items()}
         p = np.concatenate([np.ravel(parameters[name], order="F") for name in self.p])
         begin, cpu = time.perf_counter(), time.process_time()
         out = self.solver(
-            x0=np.concatenate([np.ravel(guess[name]) for name in self.x]), p=p,
+            x0=np.concatenate([np.ravel(guess[name]) for name in self.x]),
+            p=p,
             lbx=np.concatenate([bounds[name][0] for name in self.x]),
-            ubx=np.concatenate([bounds[name][1] for name in self.x]), lbg=self.low, ubg=self.high)
+            ubx=np.concatenate([bounds[name][1] for name in self.x]),
+            lbg=self.low,
+            ubg=self.high,
+        )
         elapsed, cpu = time.perf_counter() - begin, time.process_time() - cpu
         stats = self.solver.stats()
         x = out["x"].full().ravel()
         sizes = np.cumsum([each.numel() for each in self.x.values()])[:-1]
         parts = self._parts(x, p)
         return Outcome(
-            values=dict(zip(self.x, np.split(x, sizes), strict=True)), objective=float(out["f"]),
+            values=dict(zip(self.x, np.split(x, sizes), strict=True)),
+            objective=float(out["f"]),
             parts=dict(zip(self.parts, map(float, parts if isinstance(parts, tuple) else (parts,)), strict=True)),
-            success=bool(stats["success"]), status=str(stats["return_status"]), iterations=int(stats["iter_count"]),
-            time_s=elapsed, cpu_s=cpu,
-            evaluation_s=sum(value for key, value in stats.items() if key.startswith("t_wall_nlp_")))
+            success=bool(stats["success"]),
+            status=str(stats["return_status"]),
+            iterations=int(stats["iter_count"]),
+            time_s=elapsed,
+            cpu_s=cpu,
+            evaluation_s=sum(value for key, value in stats.items() if key.startswith("t_wall_nlp_")),
+        )

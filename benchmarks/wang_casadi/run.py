@@ -24,7 +24,6 @@ for _library in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 
 import casadi as ca  # noqa: E402
 import numpy as np  # noqa: E402
-
 from horizon import Settings  # noqa: E402
 from loop import Cycle, Loop  # noqa: E402
 from program import Values  # noqa: E402
@@ -70,8 +69,10 @@ def times(cycle: Cycle) -> dict[str, float]:
 def noisy(guess: Values, seed: int) -> Values:
     """A guess with normal noise: 0.05 (m, m/s, s) on motion, footholds and durations, 0.1 on all else."""
     rng = np.random.default_rng(seed)
-    return {name: value + rng.normal(scale=0.05 if name[0] in "cvwT" else 0.1, size=value.shape)
-            for name, value in guess.items()}
+    return {
+        name: value + rng.normal(scale=0.05 if name[0] in "cvwT" else 0.1, size=value.shape)
+        for name, value in guess.items()
+    }
 
 
 def first_cycles() -> list[dict[str, Any]]:
@@ -92,8 +93,14 @@ def first_cycles() -> list[dict[str, Any]]:
                 about |= {"transcription": transcription, "paper": paper}
                 sizes = {"from_noisy_guesses": others, "sizes": loop.horizon(0).program.sizes}
                 rows.append(about | record(cycle) | sizes)
-                print(*about.values(), cycle.outcome.status, cycle.outcome.iterations,
-                      f"{cycle.outcome.objective:.6f}", others, flush=True)
+                print(
+                    *about.values(),
+                    cycle.outcome.status,
+                    cycle.outcome.iterations,
+                    f"{cycle.outcome.objective:.6f}",
+                    others,
+                    flush=True,
+                )
     return rows
 
 
@@ -102,19 +109,29 @@ def summary(loop: Loop, cycles: int) -> dict[str, Any]:
     done = [cycle for cycle in loop.cycles if cycle.outcome.success]
     warm = [cycle.outcome for cycle in loop.cycles[2:]]
     distance = float(done[-1].end.com[0] - done[0].start.com[0]) if done else 0.0
-    per_metre = {name: sum(cycle.outcome.parts[f"{name}_executed"] for cycle in done) / distance if done else None
-                 for name in ("acc", "momentum")}
+    per_metre = {
+        name: sum(cycle.outcome.parts[f"{name}_executed"] for cycle in done) / distance if done else None
+        for name in ("acc", "momentum")
+    }
     out: dict[str, Any] = {
-        "success": len(done) == cycles, "cycles_done": len(done), "distance_m": distance,
-        "acc_per_m": per_metre["acc"], "momentum_per_m": per_metre["momentum"],
-        "status": loop.cycles[-1].outcome.status, "sizes": loop.horizon(0).program.sizes}
+        "success": len(done) == cycles,
+        "cycles_done": len(done),
+        "distance_m": distance,
+        "acc_per_m": per_metre["acc"],
+        "momentum_per_m": per_metre["momentum"],
+        "status": loop.cycles[-1].outcome.status,
+        "sizes": loop.horizon(0).program.sizes,
+    }
     if warm:
         wall = np.array([outcome.time_s for outcome in warm])
         out |= {
             "iterations": float(np.mean([outcome.iterations for outcome in warm])),
-            "time_s": float(wall.mean()), "time_std_s": float(wall.std()), "time_max_s": float(wall.max()),
+            "time_s": float(wall.mean()),
+            "time_std_s": float(wall.std()),
+            "time_max_s": float(wall.max()),
             "cpu_s": float(np.mean([outcome.cpu_s for outcome in warm])),
-            "evaluation_share": float(sum(outcome.evaluation_s for outcome in warm) / wall.sum())}
+            "evaluation_share": float(sum(outcome.evaluation_s for outcome in warm) / wall.sum()),
+        }
     return out
 
 

@@ -29,6 +29,7 @@ def test_recorded_optimum_is_found_again(row: dict) -> None:
 def test_plain_form_has_the_optimum_of_the_reduced_one(fidelity: str, lookahead: int) -> None:
     same, plain = (
         Loop(load_walker("v_shape"), Settings(fidelity, lookahead, "euler", True, form)).step().outcome
-        for form in ("same", "plain"))
+        for form in ("same", "plain")
+    )
     assert plain.objective == pytest.approx(same.objective, rel=1e-6)
     assert plain.parts["acc_executed"] == pytest.approx(same.parts["acc_executed"], rel=1e-2)

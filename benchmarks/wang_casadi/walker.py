@@ -104,9 +104,16 @@ def load_walker(scene: str = "rubbles", robot: str = "talos_wang") -> Walker:
         return np.array(polytope.A), np.array(polytope.b)
 
     return Walker(
-        mass=model.mass, gravity=world.gravity, half_size=np.array(feet[0].half_size), max_force=feet[0].max_force,
-        com_height=model.com_height, com_reach=(faces(feet[0].com_reach), faces(feet[1].com_reach)),
+        mass=model.mass,
+        gravity=world.gravity,
+        half_size=np.array(feet[0].half_size),
+        max_force=feet[0].max_force,
+        com_height=model.com_height,
+        com_reach=(faces(feet[0].com_reach), faces(feet[1].com_reach)),
         foot_reach=(faces(feet[0].partner_reach[FEET[1]]), faces(feet[1].partner_reach[FEET[0]])),
-        start_com=start, start_feet=np.array([start + foot.nominal_B for foot in feet]),
-        start_patches=(stand[0], stand[1]), goal_com=np.array(world.goal.position_W) + up,
-        steps=tuple((FEET.index(step.end_effector), patches[step.surface]) for step in world.steps))
+        start_com=start,
+        start_feet=np.array([start + foot.nominal_B for foot in feet]),
+        start_patches=(stand[0], stand[1]),
+        goal_com=np.array(world.goal.position_W) + up,
+        steps=tuple((FEET.index(step.end_effector), patches[step.surface]) for step in world.steps),
+    )
