@@ -41,7 +41,7 @@ Clock::time_point deadline_of(Clock::time_point start, double time_limit_s) {
 /// How a solve ends, and whether Ipopt's last iterate is the one to return (otherwise the best of all points).
 struct Ending {
   Status status = Status::numerical_failure;
-  const char* message = "";
+  std::string message;
   bool keep_last = false;
 };
 
@@ -77,7 +77,7 @@ Ending ending_of(Ipopt::ApplicationReturnStatus code, bool feasible) {
     case Ipopt::Not_Enough_Degrees_Of_Freedom:
       return {Status::infeasible, "there are more equalities than free variables", false};
     case Ipopt::Invalid_Problem_Definition:
-      return {Status::infeasible, "a lower bound lies above its upper bound", false};
+      return {Status::infeasible, "Ipopt finds a contradiction in the bounds", false};
     case Ipopt::Invalid_Number_Detected:
       return {Status::numerical_failure, "a number in Ipopt's own computation is not finite", false};
     case Ipopt::Invalid_Option:
@@ -395,6 +395,15 @@ VectorXd projected(const Problem& problem, const VectorXd& x0) {
   return x;
 }
 
+/// Name of a variable or row whose lower bound lies above its upper bound, or "".
+std::string crossed(const Problem& problem) {
+  for (int i = 0; i < problem.variable_count(); ++i)
+    if (problem.variable_lower()[i] > problem.variable_upper()[i]) return problem.variable_name(i);
+  for (int i = 0; i < problem.row_count(); ++i)
+    if (problem.row_lower()[i] > problem.row_upper()[i]) return problem.row_name(i);
+  return "";
+}
+
 /// Without a free variable there is nothing to optimise, and Ipopt's versions disagree on how to say so.
 Ending judge_fixed(const Problem& problem, const VectorXd& x, double constraint_tolerance) {
   if (problem.worst_violation(x).value <= constraint_tolerance)
@@ -404,6 +413,9 @@ Ending judge_fixed(const Problem& problem, const VectorXd& x, double constraint_
 
 Ending run(const Problem& problem, const VectorXd& x0, Adapter& adapter, const SolverOptions& options,
            Clock::time_point deadline) {
+  const std::string impossible = crossed(problem);
+  if (!impossible.empty())
+    return {Status::infeasible, "the lower bound of " + impossible + " lies above its upper bound", false};
   if (problem.variable_lower() == problem.variable_upper())
     return judge_fixed(problem, x0, options.constraint_tolerance);
   const Turn turn(deadline);
@@ -414,7 +426,8 @@ Ending run(const Problem& problem, const VectorXd& x0, Adapter& adapter, const S
   if (code == Ipopt::Solve_Succeeded) code = application->OptimizeTNLP(&adapter);
   adapter.rethrow();
   if (adapter.reason() == Adapter::Reason::time) return {Status::time_limit, "reached time_limit_s", false};
-  if (adapter.reason() == Adapter::Reason::not_finite) return {Status::numerical_failure, "not finite: ", false};
+  if (adapter.reason() == Adapter::Reason::not_finite)
+    return {Status::numerical_failure, "not finite: " + adapter.not_finite(), false};
   return ending_of(code, adapter.feasible());
 }
 
@@ -429,7 +442,7 @@ Solution solve(const Problem& problem, const VectorXd& x0, const SolverOptions& 
 
   Solution out;
   out.status = ending.status;
-  out.message = ending.message + adapter->not_finite();
+  out.message = ending.message;
   out.x = ending.keep_last ? adapter->last_x() : adapter->best().x;
   out.multipliers = adapter->multipliers();
   out.cost = problem.cost(out.x);
