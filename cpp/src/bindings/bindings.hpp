@@ -20,6 +20,7 @@ void bind_scene(py::module_& m);
 void bind_robot(py::module_& m);
 void bind_plan(py::module_& m);
 void bind_ddp(py::module_& m);
+void bind_nlp(py::module_& m);
 
 /// Text that Python reads back as the same value: arrays as nested lists, infinity as float('inf').
 std::string paste(py::handle value);

@@ -419,17 +419,18 @@ TEST_CASE("solves from several threads give the same bytes as one after the othe
   const Solution expected = solve(reference.problem, reference.x0);
   CHECK(same_bytes(solve(reference.problem, reference.x0).x, expected.x));
   std::vector<std::thread> threads;
+  constexpr int kSolves = 40;
   std::vector<int> same(3, 0);
   for (int t = 0; t < 3; ++t)
     threads.emplace_back([&, t] {
       const HockSchittkowski71 own;  // a Problem serves one thread at a time
-      for (int i = 0; i < 10; ++i) {
+      for (int i = 0; i < kSolves; ++i) {
         const Solution s = solve(own.problem, own.x0);
         same[t] += same_bytes(s.x, expected.x) && same_bytes(s.multipliers, expected.multipliers);
       }
     });
   for (std::thread& thread : threads) thread.join();
-  CHECK(same == std::vector<int>(3, 10));
+  CHECK(same == std::vector<int>(3, kSolves));
 }
 
 TEST_CASE("a solve within a solve is refused instead of waiting for itself") {
