@@ -20,7 +20,27 @@ void bind_scene(py::module_& m);
 void bind_robot(py::module_& m);
 void bind_plan(py::module_& m);
 void bind_ddp(py::module_& m);
+<<<<<<< HEAD
 void bind_nlp(py::module_& m);
+=======
+void bind_rhp(py::module_& m);
+
+/// Runs a solve without the GIL.
+template <class Solve>
+auto without_gil(Solve&& solve) {
+  const py::gil_scoped_release release;
+  return solve();
+}
+
+/// StopRequest of every solve: Ctrl-C ends it with Status.interrupted and the best iterate. The KeyboardInterrupt itself is
+/// swallowed then, because the caller gets its result.
+inline bool stop_on_signal() {
+  const py::gil_scoped_acquire acquire;
+  if (PyErr_CheckSignals() == 0) return false;
+  PyErr_Clear();
+  return true;
+}
+>>>>>>> main
 
 /// Text that Python reads back as the same value: arrays as nested lists, infinity as float('inf').
 std::string paste(py::handle value);
@@ -30,6 +50,9 @@ std::string paste(py::handle self, const std::string& name, const std::vector<st
 
 /// Rows of an N x 3 array (or of nested lists); InvalidInput naming `field` for any other shape.
 std::vector<Eigen::Vector3d> points_from(py::handle value, const std::string& field);
+
+/// Numbers of a 1-D array (or of a list); InvalidInput naming `field` for any other shape.
+Eigen::VectorXd vector_from(py::handle value, const std::string& field);
 
 /// Writable N x 3 view of `points`, which `owner` keeps alive.
 py::array points_view(std::vector<Eigen::Vector3d>& points, py::handle owner);

@@ -76,27 +76,9 @@ void bind_options(py::module_& m) {
   c.def("validate", &Options::validate, "Raises InvalidOptions naming the first field out of its range.");
 }
 
-/// Runs a solve without the GIL. Ctrl-C ends it with Status.interrupted and the best plan so far; the KeyboardInterrupt
-/// itself is swallowed then, because the caller gets its result.
-template <class Solve>
-PlanResult without_gil(Solve&& solve) {
-  const py::gil_scoped_release release;
-  return solve();
-}
-
-/// The caller's options with everything that reaches into Python made safe to call without the GIL.
+/// The caller's options with Ctrl-C heard.
 Options guarded(Options options) {
-  if (options.logger) {
-    // std::function of a Python callable: pybind11 takes the GIL for each call.
-    const Logger logger = options.logger;
-    options.logger = [logger](LogLevel level, const std::string& line) { logger(level, line); };
-  }
-  options.stop = [] {
-    const py::gil_scoped_acquire acquire;
-    if (PyErr_CheckSignals() == 0) return false;
-    PyErr_Clear();
-    return true;
-  };
+  options.stop = stop_on_signal;
   return options;
 }
 

@@ -74,6 +74,18 @@ std::vector<Eigen::Vector3d> points_from(py::handle value, const std::string& fi
   return points;
 }
 
+Eigen::VectorXd vector_from(py::handle value, const std::string& field) {
+  const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
+  if (!array) {
+    PyErr_Clear();
+    throw InvalidInput(field, "must be a list of numbers", py::str(py::type::handle_of(value).attr("__name__")));
+  }
+  if (array.ndim() != 1)
+    throw InvalidInput(field, "must be a list of numbers",
+                       "shape " + std::string(py::str(py::tuple(array.attr("shape")))));
+  return Eigen::Map<const Eigen::VectorXd>(array.data(), array.size());
+}
+
 py::array points_view(std::vector<Eigen::Vector3d>& points, py::handle owner) {
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "rows must be contiguous");
   const py::ssize_t rows = static_cast<py::ssize_t>(points.size());
@@ -97,5 +109,6 @@ PYBIND11_MODULE(_core, m) {
   bind_plan(m);
   bind_ddp(m);
   bind_nlp(m);
+  bind_rhp(m);
   // The planners' rooms go here, one line each: they may use everything above.
 }

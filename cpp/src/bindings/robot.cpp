@@ -8,20 +8,57 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+/// Values are set once, so that nobody changes a copy: A and b read as arrays that cannot be written.
+void bind_polytope(py::module_& m) {
+  const auto fixed = [](const auto& matrix) {
+    py::array out = py::cast(matrix);
+    out.attr("setflags")(py::arg("write") = false);
+    return out;
+  };
+  py::class_<Polytope> c(m, "Polytope",
+                         "Convex set {x : A x <= b} [m], rows of A of unit length. Without rows: not given.");
+  c.def(py::init([](const py::object& a, const py::object& b) {
+          const auto rows = points_from(a, "A");
+          Polytope out;
+          out.A.resize(static_cast<Eigen::Index>(rows.size()), 3);
+          for (std::size_t i = 0; i < rows.size(); ++i) out.A.row(static_cast<Eigen::Index>(i)) = rows[i];
+          out.b = vector_from(b, "b");
+          return out;
+        }),
+        py::kw_only(), py::arg("A") = py::tuple(), py::arg("b") = py::tuple());
+  c.def_property_readonly(
+      "A", [fixed](const Polytope& self) { return fixed(self.A); }, "N x 3, rows of unit length.");
+  c.def_property_readonly(
+      "b", [fixed](const Polytope& self) { return fixed(self.b); }, "N [m].");
+  c.def_property_readonly("given", &Polytope::given, "Whether it has rows.");
+  def_value(c, "Polytope", {"A", "b"});
+}
+
 void bind_end_effector(py::module_& m) {
   py::class_<EndEffector> c(m, "EndEffector",
                             "A contact link of the robot. Frame B sits at the CoM and turns with the base.");
   const EndEffector d;
   c.def(py::init([](std::string name, std::string kind, std::string frame, const Vector2d& half_size,
                     const Vector3d& nominal_B, const Vector3d& reach_min_B, const Vector3d& reach_max_B,
-                    double max_force, const Vector3d& max_moment) {
-          return EndEffector{std::move(name), std::move(kind), std::move(frame), half_size, nominal_B, reach_min_B,
-                             reach_max_B,     max_force,       max_moment,       {},        {}};
+                    double max_force, const Vector3d& max_moment, const Polytope& com_reach,
+                    std::map<std::string, Polytope> partner_reach) {
+          return EndEffector{std::move(name),
+                             std::move(kind),
+                             std::move(frame),
+                             half_size,
+                             nominal_B,
+                             reach_min_B,
+                             reach_max_B,
+                             max_force,
+                             max_moment,
+                             com_reach,
+                             std::move(partner_reach)};
         }),
         py::kw_only(), py::arg("name") = d.name, py::arg("kind") = d.kind, py::arg("frame") = d.frame,
         py::arg("half_size") = d.half_size, py::arg("nominal_B") = d.nominal_B, py::arg("reach_min_B") = d.reach_min_B,
         py::arg("reach_max_B") = d.reach_max_B, py::arg("max_force") = d.max_force,
-        py::arg("max_moment") = d.max_moment);
+        py::arg("max_moment") = d.max_moment, py::arg("com_reach") = Polytope(),
+        py::arg("partner_reach") = std::map<std::string, Polytope>());
   c.def_readwrite("name", &EndEffector::name);
   c.def_readwrite("kind", &EndEffector::kind, "Group that scenes may address as a whole, e.g. 'foot', 'hand'.");
   c.def_readwrite("frame", &EndEffector::frame, "URDF frame, empty for robots without a URDF.");
@@ -31,9 +68,14 @@ void bind_end_effector(py::module_& m) {
   def_vector(c, "reach_max_B", &EndEffector::reach_max_B, "Box of reachable positions relative to the CoM [m].");
   c.def_readwrite("max_force", &EndEffector::max_force, "Largest norm of the contact force [N].");
   def_vector(c, "max_moment", &EndEffector::max_moment, "Largest contact moment about each world axis [N m].");
-  def_value(
-      c, "EndEffector",
-      {"name", "kind", "frame", "half_size", "nominal_B", "reach_min_B", "reach_max_B", "max_force", "max_moment"});
+  def_member(
+      c, "com_reach", &EndEffector::com_reach,
+      "Where the CoM may be relative to this end-effector while it is in contact; axes level, x along the heading.");
+  def_names(c, "partner_reach", &EndEffector::partner_reach,
+            "Where other end-effectors may stand relative to it, by name; same axes. Assign a dict to change it.");
+  def_value(c, "EndEffector",
+            {"name", "kind", "frame", "half_size", "nominal_B", "reach_min_B", "reach_max_B", "max_force", "max_moment",
+             "com_reach", "partner_reach"});
 }
 
 void bind_resolved_stance(py::module_& m) {
@@ -54,6 +96,7 @@ void bind_resolved_stance(py::module_& m) {
 }  // namespace
 
 void bind_robot(py::module_& m) {
+  bind_polytope(m);
   bind_end_effector(m);
 
   using Posture = std::map<std::string, double>;

@@ -86,6 +86,17 @@ void bind_rule(py::module_& m) {
   def_value(c, "ContactRule", {"when_free", "require"});
 }
 
+void bind_step(py::module_& m) {
+  py::class_<Step> c(m, "Step", "One step of a walk: the foot that swings and the surface on which it lands.");
+  c.def(py::init([](std::string end_effector, std::string surface) {
+          return Step{std::move(end_effector), std::move(surface)};
+        }),
+        py::kw_only(), py::arg("end_effector") = "", py::arg("surface") = "");
+  c.def_readwrite("end_effector", &Step::end_effector, "Name of the end-effector that swings.");
+  c.def_readwrite("surface", &Step::surface, "Name of the surface on which it lands.");
+  def_value(c, "Step", {"end_effector", "surface"});
+}
+
 }  // namespace
 
 void bind_scene(py::module_& m) {
@@ -93,16 +104,17 @@ void bind_scene(py::module_& m) {
   bind_surface(m);
   bind_stance(m);
   bind_rule(m);
+  bind_step(m);
 
   py::class_<Scene> c(m, "Scene", "The world: surfaces, start and goal. World frame W with z up.");
   c.def(py::init([](std::string name, std::string description, double gravity, std::vector<Surface> surfaces,
-                    const Stance& start, const Stance& goal, std::vector<ContactRule> rules) {
-          return Scene{
-              std::move(name), std::move(description), gravity, std::move(surfaces), start, goal, std::move(rules), {}};
+                    const Stance& start, const Stance& goal, std::vector<ContactRule> rules, std::vector<Step> steps) {
+          return Scene{std::move(name),  std::move(description), gravity, std::move(surfaces), start, goal,
+                       std::move(rules), std::move(steps)};
         }),
         py::kw_only(), py::arg("name") = "", py::arg("description") = "", py::arg("gravity") = Scene().gravity,
         py::arg("surfaces") = std::vector<Surface>(), py::arg("start") = Stance(), py::arg("goal") = Stance(),
-        py::arg("rules") = std::vector<ContactRule>());
+        py::arg("rules") = std::vector<ContactRule>(), py::arg("steps") = std::vector<Step>());
   c.def_readwrite("name", &Scene::name);
   c.def_readwrite("description", &Scene::description);
   c.def_readwrite("gravity", &Scene::gravity, "[m/s^2]");
@@ -110,9 +122,11 @@ void bind_scene(py::module_& m) {
   def_member(c, "start", &Scene::start, "Stance at the start.");
   def_member(c, "goal", &Scene::goal, "Stance at the goal.");
   def_items(c, "rules", &Scene::rules, "Tuple of ContactRule; assign a list to add or remove.");
+  def_items(c, "steps", &Scene::steps,
+            "Contact sequence of a walk, for planners that want it given: tuple of Step; assign a list to change it.");
   c.def("surface_index", &Scene::surface_index, py::arg("surface_name"), "Index into surfaces, or -1.");
   c.def("validate", &Scene::validate, "Raise InvalidScene naming the first field out of its range.");
-  def_value(c, "Scene", {"name", "description", "gravity", "surfaces", "start", "goal", "rules"});
+  def_value(c, "Scene", {"name", "description", "gravity", "surfaces", "start", "goal", "rules", "steps"});
   def_pickle(c, "mcplan.files.scenes", "scene_to_dict", "rebuild_scene");
 }
 

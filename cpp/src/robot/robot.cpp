@@ -44,6 +44,36 @@ void validate_end_effector(const EndEffector& e, const std::string& field) {
     throw InvalidRobot(field + ".max_moment", "must be three numbers >= 0", text(e.max_moment));
 }
 
+/// `nominal`: the point of the nominal stance that the set must hold.
+void validate_polytope(const Polytope& set, const Vector3d& nominal, const std::string& field) {
+  constexpr double unit_tolerance = 1e-3, inside_tolerance_m = 1e-6;
+  if (set.A.rows() != set.b.size())
+    throw InvalidRobot(field + ".b", "must have a number for each row of A",
+                       text(static_cast<int>(set.b.size())) + " for " + text(static_cast<int>(set.A.rows())) + " rows");
+  for (int i = 0; i < set.A.rows(); ++i) {
+    const std::string row = "[" + std::to_string(i) + "]";
+    const Vector3d normal = set.A.row(i);
+    require_finite(field + ".A" + row, normal);
+    if (std::abs(normal.norm() - 1.0) > unit_tolerance)
+      throw InvalidRobot(field + ".A" + row, "must have length 1 within 0.001", text(normal.norm()));
+    if (!std::isfinite(set.b[i])) throw InvalidRobot(field + ".b" + row, "must be a finite number", text(set.b[i]));
+    const double outside = normal.dot(nominal) - set.b[i];
+    if (outside > inside_tolerance_m)
+      throw InvalidRobot(field, "must hold the nominal stance",
+                         text(nominal) + ", " + text(outside) + " m outside row " + std::to_string(i));
+  }
+}
+
+void validate_reach(const Robot& robot, const EndEffector& e, const std::string& field) {
+  validate_polytope(e.com_reach, -e.nominal_B, field + ".com_reach");
+  for (const auto& [partner, reach] : e.partner_reach) {
+    const int other = robot.end_effector_index(partner);
+    if (other < 0 || partner == e.name)
+      throw InvalidRobot(field + ".partner_reach." + partner, "must name another end-effector", text(partner));
+    validate_polytope(reach, robot.end_effectors[other].nominal_B - e.nominal_B, field + ".partner_reach." + partner);
+  }
+}
+
 }  // namespace
 
 int Robot::end_effector_index(const std::string& end_effector_name) const {
@@ -67,6 +97,8 @@ void Robot::validate() const {
     if (!names.insert(end_effectors[l].name).second)
       throw InvalidRobot(field + ".name", "must be unique", text(end_effectors[l].name));
   }
+  for (std::size_t l = 0; l < end_effectors.size(); ++l)
+    validate_reach(*this, end_effectors[l], "end_effectors[" + std::to_string(l) + "]");
 }
 
 bool addresses(const std::string& who, const EndEffector& end_effector) {

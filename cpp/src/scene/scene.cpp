@@ -55,6 +55,12 @@ void validate_polygon(const std::string& field, const std::vector<Vector3d>& ver
     throw InvalidScene(field, "must run once around a convex polygon", text(turned / (2.0 * M_PI)) + " turns");
 }
 
+std::string surface_names(const Scene& scene) {
+  std::string names;
+  for (const auto& surface : scene.surfaces) names += (names.empty() ? "" : ", ") + surface.name;
+  return names;
+}
+
 void validate_stance(const Scene& scene, const std::string& field, const Stance& stance) {
   require_finite(field + ".position", stance.position_W);
   if (!std::isfinite(stance.yaw)) throw InvalidScene(field + ".yaw", "must be a finite number", text(stance.yaw));
@@ -63,11 +69,9 @@ void validate_stance(const Scene& scene, const std::string& field, const Stance&
   if (stance.contacts.empty())
     throw InvalidScene(field + ".contacts", "must put at least one end-effector on a surface", "{}");
   for (const auto& [who, surface] : stance.contacts)
-    if (scene.surface_index(surface) < 0) {
-      std::string names;
-      for (const auto& s : scene.surfaces) names += (names.empty() ? "" : ", ") + s.name;
-      throw InvalidScene(field + ".contacts." + who, "must name a surface (" + names + ")", text(surface));
-    }
+    if (scene.surface_index(surface) < 0)
+      throw InvalidScene(field + ".contacts." + who, "must name a surface (" + surface_names(scene) + ")",
+                         text(surface));
 }
 
 }  // namespace
@@ -98,6 +102,13 @@ void Scene::validate() const {
       throw InvalidScene(item("rules", i) + ".when_free", "must name at least one end-effector or kind", "[]");
     if (rules[i].require.empty())
       throw InvalidScene(item("rules", i) + ".require", "must name at least one end-effector or kind", "[]");
+  }
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (steps[i].end_effector.empty())
+      throw InvalidScene(item("steps", i) + ".end_effector", "must not be empty", "''");
+    if (surface_index(steps[i].surface) < 0)
+      throw InvalidScene(item("steps", i) + ".surface", "must name a surface (" + surface_names(*this) + ")",
+                         text(steps[i].surface));
   }
 }
 

@@ -24,12 +24,14 @@ __all__: list[str] = [
     "PlanResult",
     "PlanState",
     "Polygon",
+    "Polytope",
     "Report",
     "ResolvedStance",
     "Robot",
     "Scene",
     "Stance",
     "Status",
+    "Step",
     "Surface",
     "Swing",
     "Tolerances",
@@ -304,6 +306,29 @@ class ContactRule:
     @when_free.setter
     def when_free(self, arg1: collections.abc.Sequence[str]) -> None: ...
 
+class Step:
+    """
+    One step of a walk: the foot that swings and the surface on which it lands.
+    """
+    def __copy__(self) -> Step: ...
+    def __deepcopy__(self, memo: dict) -> Step: ...
+    def __init__(self, *, end_effector: str = "", surface: str = "") -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def end_effector(self) -> str:
+        """
+        Name of the end-effector that swings.
+        """
+    @end_effector.setter
+    def end_effector(self, arg0: str) -> None: ...
+    @property
+    def surface(self) -> str:
+        """
+        Name of the surface on which it lands.
+        """
+    @surface.setter
+    def surface(self, arg0: str) -> None: ...
+
 class Scene:
     """
     The world: surfaces, start and goal. World frame W with z up.
@@ -323,6 +348,7 @@ class Scene:
         start: Stance = ...,
         goal: Stance = ...,
         rules: collections.abc.Sequence[ContactRule] = [],
+        steps: collections.abc.Sequence[Step] = [],
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
@@ -363,12 +389,43 @@ class Scene:
     @start.setter
     def start(self, arg1: Stance) -> None: ...
     @property
+    def steps(self) -> tuple:
+        """
+        Contact sequence of a walk, for planners that want it given: tuple of Step; assign a list to change it.
+        """
+    @steps.setter
+    def steps(self, arg1: collections.abc.Sequence[Step]) -> None: ...
+    @property
     def surfaces(self) -> tuple:
         """
         Tuple of Surface; assign a list to add or remove.
         """
     @surfaces.setter
     def surfaces(self, arg1: collections.abc.Sequence[Surface]) -> None: ...
+
+class Polytope:
+    """
+    Convex set {x : A x <= b} [m], rows of A of unit length. Without rows: not given.
+    """
+    def __copy__(self) -> Polytope: ...
+    def __deepcopy__(self, memo: dict) -> Polytope: ...
+    def __init__(self, *, A: typing.Any = (), b: typing.Any = ()) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def A(self) -> numpy.ndarray:
+        """
+        N x 3, rows of unit length.
+        """
+    @property
+    def b(self) -> numpy.ndarray:
+        """
+        N [m].
+        """
+    @property
+    def given(self) -> bool:
+        """
+        Whether it has rows.
+        """
 
 class EndEffector:
     """
@@ -390,8 +447,17 @@ class EndEffector:
         reach_max_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         max_force: typing.SupportsFloat | typing.SupportsIndex = ...,
         max_moment: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        com_reach: Polytope = ...,
+        partner_reach: collections.abc.Mapping[str, Polytope] = {},
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def com_reach(self) -> Polytope:
+        """
+        Where the CoM may be relative to this end-effector while it is in contact; axes level, x along the heading.
+        """
+    @com_reach.setter
+    def com_reach(self, arg1: Polytope) -> None: ...
     @property
     def frame(self) -> str:
         """
@@ -434,6 +500,13 @@ class EndEffector:
         """
     @nominal_B.setter
     def nominal_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def partner_reach(self) -> typing.Any:
+        """
+        Where other end-effectors may stand relative to it, by name; same axes. Assign a dict to change it.
+        """
+    @partner_reach.setter
+    def partner_reach(self, arg1: collections.abc.Mapping[str, Polytope]) -> None: ...
     @property
     def reach_max_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """

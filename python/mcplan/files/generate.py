@@ -1,6 +1,7 @@
-"""Scenes made from a seed: the built-in stepping stones, and random scenes for measuring robustness.
+"""Scenes made by rule: the built-in stepping stones, random scenes for measuring robustness, terrains for walks.
 
     python -m mcplan.files.generate stones > python/mcplan/data/scenes/stepping_stones.toml
+    python -m mcplan.files.generate rubbles > python/mcplan/data/scenes/rubbles.toml
     python -m mcplan.files.generate random 17        # prints random_scene(17) as TOML
 
 Sizes suit humanoid44 in 18 phases: ways of at most 2 m, foot strides of about 0.45 m. Python's own random numbers are
@@ -17,6 +18,7 @@ import numpy as np
 
 from mcplan._core import Scene, Stance, Surface
 from mcplan.files.scenes import scene_to_dict
+from mcplan.files.terrains import TERRAINS, terrain_text
 from mcplan.files.toml import toml_text
 
 KINDS = ("stairs", "gap", "stones", "slope")
@@ -181,8 +183,10 @@ def main(arguments: list[str]) -> None:
         sys.stdout.write(stepping_stones_text())
     elif len(arguments) == 2 and arguments[0] == "random":
         sys.stdout.write(toml_text(scene_to_dict(random_scene(int(arguments[1])))))
+    elif len(arguments) == 1 and arguments[0] in TERRAINS:
+        sys.stdout.write(terrain_text(arguments[0]))
     else:
-        sys.exit("usage: python -m mcplan.files.generate stones | random SEED")
+        sys.exit(f"usage: python -m mcplan.files.generate stones | {' | '.join(TERRAINS)} | random SEED")
 
 
 if __name__ == "__main__":

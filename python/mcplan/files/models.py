@@ -51,6 +51,13 @@ class RuleModel(_Table):
     require: Names = Field(min_length=1, description="Names or kinds of end-effectors.")
 
 
+class StepModel(_Table):
+    """One step of a walk."""
+
+    end_effector: Name = Field(description="Name of the end-effector that swings.")
+    surface: Name = Field(description="Name of the surface on which it lands.")
+
+
 class SceneModel(_Table):
     """The world: surfaces, start and goal. World frame with z up, SI units."""
 
@@ -61,6 +68,16 @@ class SceneModel(_Table):
     start: StanceModel
     goal: StanceModel
     rules: list[RuleModel] = []
+    steps: list[StepModel] = Field([], description="Contact sequence of a walk, for planners that want it given.")
+
+
+class PolytopeModel(_Table):
+    """Convex set {x : A x <= b}: given by A and b, or by the file that holds them."""
+
+    A: list[Point] = Field([], description="Outward normals of the faces, of length 1 within 0.001.")
+    b: list[Number] = Field([], description="[m] Distance of each face from the origin.")
+    file: str = Field("", description="JSON file with A and b, relative to the robot's file.")
+    name: str = Field("", description="Key of the polytope among the file's `polytopes`.")
 
 
 class EndEffectorModel(_Table):
@@ -82,6 +99,12 @@ class EndEffectorModel(_Table):
     )
     max_moment: Annotated[list[NotNegative], Field(min_length=3, max_length=3)] = Field(
         [0.0, 0.0, 0.0], description="[N m] Largest contact moment about each world axis."
+    )
+    com_reach: PolytopeModel | None = Field(
+        None, description="[m] Where the CoM may be relative to the sole's centre. Axes: level, x along the heading."
+    )
+    partner_reach: dict[Name, PolytopeModel] = Field(
+        {}, description="[m] Where other end-effectors may stand relative to it, by name. Same axes."
     )
 
 

@@ -10,6 +10,7 @@ from typing import Any
 from mcplan._core import EndEffector, Robot
 from mcplan.errors import InvalidRobot, UnknownRobot
 from mcplan.files import builtin
+from mcplan.files.polytopes import polytope_from_dict, polytope_to_dict, read_polytope
 from mcplan.files.toml import read_toml, toml_text
 
 _POSITIONS = {"nominal": "nominal_B", "reach_min": "reach_min_B", "reach_max": "reach_max_B"}
@@ -25,7 +26,7 @@ def load_robot(source: str | Path) -> Robot:
     path = builtin.find(source, "robots", UnknownRobot)
     data = read_toml(path, InvalidRobot)
     data.setdefault("name", path.stem)
-    return robot_from_dict(data, source=str(path))
+    return robot_from_dict(data, source=str(path), folder=path.parent)
 
 
 def save_robot(robot: Robot, path: str | Path, header: str = "") -> None:
@@ -44,7 +45,7 @@ def save_robot(robot: Robot, path: str | Path, header: str = "") -> None:
 
 
 def robot_to_dict(robot: Robot) -> dict[str, Any]:
-    """Plain data with the keys of a robot file; what is at its default is left out."""
+    """Plain data with the keys of a robot file; what is at its default is left out, reach polytopes are inline."""
     data: dict[str, Any] = {"name": robot.name}
     if robot.description:
         data["description"] = robot.description
@@ -60,12 +61,13 @@ def robot_to_dict(robot: Robot) -> dict[str, Any]:
     return data
 
 
-def robot_from_dict(data: Mapping[str, Any], source: str = "") -> Robot:
+def robot_from_dict(data: Mapping[str, Any], source: str = "", folder: Path | None = None) -> Robot:
     """The robot of plain data with the keys of a robot file.
 
     Args:
         data: As from robot_to_dict, or read from a file.
         source: Named in errors.
+        folder: Where the files of reach polytopes are looked for; None: they must be inline.
 
     Raises:
         InvalidRobot: A key is unknown or missing, or a value has the wrong type or is out of range.
@@ -74,7 +76,14 @@ def robot_from_dict(data: Mapping[str, Any], source: str = "") -> Robot:
     from mcplan.files.models import RobotModel
 
     model = validated(RobotModel, dict(data), InvalidRobot, source)
-    robot = rebuild_robot(model.model_dump())
+    plain = model.model_dump()
+    for i, end in enumerate(plain["end_effectors"]):
+        field = f"end_effectors[{i}]"
+        if end["com_reach"] is not None:
+            end["com_reach"] = read_polytope(end["com_reach"], folder, f"{field}.com_reach", source)
+        for partner, reach in end["partner_reach"].items():
+            end["partner_reach"][partner] = read_polytope(reach, folder, f"{field}.partner_reach.{partner}", source)
+    robot = rebuild_robot(plain)
     try:
         robot.validate()
     except InvalidRobot as found:
@@ -100,8 +109,14 @@ def _end_effector_to_dict(end: EndEffector) -> dict[str, Any]:
         data["max_force"] = end.max_force
     if end.max_moment.any():
         data["max_moment"] = end.max_moment.tolist()
+    if end.com_reach.given:
+        data["com_reach"] = polytope_to_dict(end.com_reach)
+    if end.partner_reach:
+        data["partner_reach"] = {name: polytope_to_dict(reach) for name, reach in end.partner_reach.items()}
     return data
 
 
 def _end_effector_from_dict(data: Mapping[str, Any]) -> EndEffector:
-    return EndEffector(**{_POSITIONS.get(key, key): value for key, value in data.items()})
+    rest = {_POSITIONS.get(key, key): value for key, value in data.items() if not key.endswith("_reach")}
+    partners = {name: polytope_from_dict(reach) for name, reach in data.get("partner_reach", {}).items()}
+    return EndEffector(com_reach=polytope_from_dict(data.get("com_reach")), partner_reach=partners, **rest)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mcplan._core import ContactRule, Scene, Stance, Surface
+from mcplan._core import ContactRule, Scene, Stance, Step, Surface
 from mcplan.errors import InvalidScene, UnknownScene
 from mcplan.files import builtin
 from mcplan.files.toml import read_toml, toml_text
@@ -51,6 +51,8 @@ def scene_to_dict(scene: Scene) -> dict[str, Any]:
     data["surfaces"] = [_surface_to_dict(surface) for surface in scene.surfaces]
     if scene.rules:
         data["rules"] = [{"when_free": list(r.when_free), "require": list(r.require)} for r in scene.rules]
+    if scene.steps:
+        data["steps"] = [{"end_effector": step.end_effector, "surface": step.surface} for step in scene.steps]
     return data
 
 
@@ -86,6 +88,7 @@ def rebuild_scene(data: Mapping[str, Any]) -> Scene:
         start=_stance_from_dict(data["start"]),
         goal=_stance_from_dict(data["goal"]),
         rules=[ContactRule(**rule) for rule in data.get("rules", [])],
+        steps=[Step(**step) for step in data.get("steps", [])],
     )
 
 

@@ -43,7 +43,7 @@ def read_toml(path: Path, error: type[InvalidInput]) -> dict[str, Any]:
 
 
 def toml_text(data: Mapping[str, Any], header: str = "") -> str:
-    """A mapping as TOML: plain values first, then tables, then lists of tables.
+    """A mapping as TOML: plain values first, then tables and lists of tables.
 
     Args:
         data: Nested mappings, lists, strings, numbers and booleans.
@@ -52,15 +52,21 @@ def toml_text(data: Mapping[str, Any], header: str = "") -> str:
     lines = [f"# {line}".rstrip() for line in header.splitlines()]
     lines += [_pair(key, value) for key, value in data.items() if not _is_table(value) and not _is_tables(value)]
     for key, value in data.items():
-        for title, table in _sections(key, value):
-            lines += ["", title, *(_pair(inner, entry) for inner, entry in table.items())]
+        if _is_table(value):
+            lines += _section(_key(key), value)
+        elif _is_tables(value):
+            lines += [line for table in value for line in _section(_key(key), table, "[[", "]]")]
     return "\n".join(lines) + "\n"
 
 
-def _sections(key: str, value: Any) -> list[tuple[str, Mapping[str, Any]]]:
-    if _is_table(value):
-        return [(f"[{_key(key)}]", value)]
-    return [(f"[[{_key(key)}]]", table) for table in value] if _is_tables(value) else []
+def _section(path: str, table: Mapping[str, Any], opening: str = "[", closing: str = "]") -> list[str]:
+    """A table under its title; tables in it that are too long for a line become sections of their own."""
+    inner = {key: value for key, value in table.items() if _is_table(value) and len(_pair(key, value)) > _LINE_WIDTH}
+    lines = ["", f"{opening}{path}{closing}"]
+    lines += [_pair(key, value) for key, value in table.items() if key not in inner]
+    for key, value in inner.items():
+        lines += _section(f"{path}.{_key(key)}", value)
+    return lines
 
 
 def _is_table(value: Any) -> bool:

@@ -106,6 +106,38 @@ TEST_CASE("a robot has one to eight end-effectors") {
   CHECK(field([](Robot& r) { r.end_effectors.assign(9, r.end_effectors[0]); }) == "end_effectors");
 }
 
+TEST_CASE("reach polytopes that cannot be meant are named") {
+  const auto half_space = [](const Vector3d& normal, double offset) {
+    mcplan::Polytope set;
+    set.A = normal.transpose();
+    set.b = Eigen::VectorXd::Constant(1, offset);
+    return set;
+  };
+  const auto com = [&](const mcplan::Polytope& set) {
+    return field([&](Robot& r) { r.end_effectors[0].com_reach = set; });
+  };
+  const auto partner = [&](const std::string& name, const mcplan::Polytope& set) {
+    return field([&](Robot& r) { r.end_effectors[0].partner_reach[name] = set; });
+  };
+  const Vector3d up = Vector3d::UnitZ();
+  CHECK(com(half_space(up, 0.5)) == "accepted");
+  CHECK(com(half_space(up, 0.499)) == "end_effectors[0].com_reach");
+  CHECK(com(half_space(1.0009 * up, 0.6)) == "accepted");
+  CHECK(com(half_space(1.002 * up, 0.6)) == "end_effectors[0].com_reach.A[0]");
+  CHECK(com(half_space(Vector3d(0, std::nan(""), 1), 0.6)) == "end_effectors[0].com_reach.A[0]");
+  CHECK(com(half_space(up, std::nan(""))) == "end_effectors[0].com_reach.b[0]");
+  CHECK(com(half_space(up, INFINITY)) == "end_effectors[0].com_reach.b[0]");
+  mcplan::Polytope longer = half_space(up, 0.6);
+  longer.b = Eigen::Vector2d(0.6, 0.6);
+  CHECK(com(longer) == "end_effectors[0].com_reach.b");
+
+  const Vector3d left = Vector3d::UnitY();  // the right foot stands 0.4 m to the right of the left one
+  CHECK(partner("right", half_space(left, -0.4)) == "accepted");
+  CHECK(partner("right", half_space(left, -0.41)) == "end_effectors[0].partner_reach.right");
+  CHECK(partner("left", half_space(left, 0.1)) == "end_effectors[0].partner_reach.left");
+  CHECK(partner("tail", half_space(left, 0.1)) == "end_effectors[0].partner_reach.tail");
+}
+
 TEST_CASE("end-effectors are addressed by name or kind") {
   const Robot robot = hopper();
   CHECK(robot.end_effector_index("right") == 1);

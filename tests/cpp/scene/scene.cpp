@@ -95,6 +95,12 @@ TEST_CASE("names that are missing, doubled or unknown are named") {
   CHECK(field([](Scene& s) { s.rules = {{{"foot"}, {"hand"}}, {{"foot"}, {}}}; }) == "rules[1].require");
 }
 
+TEST_CASE("steps name surfaces that exist") {
+  CHECK(field([](Scene& s) { s.steps = {{"left_foot", "near"}, {"right_foot", "far"}}; }) == "accepted");
+  CHECK(field([](Scene& s) { s.steps = {{"left_foot", "near"}, {"right_foot", "moon"}}; }) == "steps[1].surface");
+  CHECK(field([](Scene& s) { s.steps = {{"", "near"}}; }) == "steps[0].end_effector");
+}
+
 TEST_CASE("stances out of range are named") {
   CHECK(field([](Scene& s) { s.goal.position_W.y() = std::nan(""); }) == "goal.position");
   CHECK(field([](Scene& s) { s.start.yaw = INFINITY; }) == "start.yaw");

@@ -13,7 +13,7 @@ namespace mcplan {
 enum class ForceLaw {
   pendulum,  ///< f_l(t) = m mu_l (p(t) - s_l): the multi-contact pendulum (Tazaki, sec. II, eq. 5, mu = lambda^2)
   held,      ///< forces at points, constant over each of `intervals` equal intervals
-  linear,    ///< forces at points, linear over each of `intervals` equal intervals: the CoM is cubic, L of degree 5
+  linear,    ///< forces at points, linear over each of `intervals` equal intervals: the CoM is cubic, L of degree 4
 };
 
 /// What one end-effector does during one phase. Under ForceLaw::pendulum stiffness, anchor and moment say its force;

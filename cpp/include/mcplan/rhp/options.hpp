@@ -27,6 +27,10 @@ struct Range {
   double min = 0.0, max = 0.0;
 };
 
+/// The paper's absolute box of the CoM's height, and how far its terrains go above and below zero [m].
+inline constexpr Range kPaperComHeight{0.7, 0.8};
+inline constexpr double kPaperTerrain_m = 0.06;
+
 /// Options of the receding-horizon planner. Where numbers are not in the paper they come from its authors' published
 /// research code; docs/theory/rhp.md lists them.
 struct Options {

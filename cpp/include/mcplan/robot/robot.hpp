@@ -50,7 +50,8 @@ struct Robot {
 
   int end_effector_index(const std::string& end_effector_name) const;  ///< or -1
 
-  /// Throws InvalidRobot naming the first field out of its range.
+  /// Throws InvalidRobot naming the first field out of its range: among others polytopes with a b for each row of A,
+  /// rows of length 1 within 1e-3, the nominal stance inside, partners that exist.
   void validate() const;
 };
 

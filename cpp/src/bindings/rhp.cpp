@@ -1,0 +1,164 @@
+#include <pybind11/functional.h>
+
+#include "bindings.hpp"
+#include "mcplan/rhp/options.hpp"
+#include "mcplan/rhp/receding_horizon.hpp"
+
+namespace mcplan::bindings {
+namespace {
+
+using rhp::Cycle;
+using rhp::Fidelity;
+using rhp::Options;
+using rhp::Range;
+using rhp::RecedingHorizon;
+using rhp::State;
+using rhp::Transcription;
+using rhp::Walk;
+
+/// Member that is a closed interval: reads and writes as a pair.
+void def_range(py::class_<Options>& c, const char* name, Range Options::*member, const char* doc) {
+  c.def_property(
+      name, [member](const Options& self) { return std::make_pair((self.*member).min, (self.*member).max); },
+      [member](Options& self, const std::pair<double, double>& value) { self.*member = {value.first, value.second}; },
+      doc);
+}
+
+void bind_options(py::module_& m) {
+  py::enum_<Fidelity>(m, "Fidelity", "Model of the steps that are predicted but not executed (Wang et al., sec. IV).")
+      .value("single", Fidelity::single, "Centroidal dynamics, free timing: the baseline.")
+      .value("com", Fidelity::com, "Candidate 1: linear CoM dynamics.")
+      .value("rectangle", Fidelity::rectangle, "Candidate 2: relaxed torque, four corner forces per foot.")
+      .value("point", Fidelity::point, "Candidate 3: relaxed torque, one force per foot.");
+  py::enum_<Transcription>(m, "Transcription", "How the continuous motion becomes algebraic equations.")
+      .value("trapezoidal", Transcription::trapezoidal, "Forces linear between nodes, motion integrated exactly.")
+      .value("euler", Transcription::euler, "The paper's forward Euler.");
+  py::class_<Options> c(m, "Options", "Options of the receding-horizon planner.");
+  c.def(py::init<>());
+  c.def_readwrite("fidelity", &Options::fidelity);
+  c.def_readwrite("lookahead", &Options::lookahead, "Steps in the horizon, 1 to 10, the executed one included.");
+  c.def_readwrite("cycles", &Options::cycles, "Steps to execute.");
+  c.def_readwrite("transcription", &Options::transcription);
+  c.def_readwrite("paper", &Options::paper, "Absolute CoM box and outer friction pyramid, as published.");
+  c.def_readwrite("lifted_psi", &Options::lifted_psi, "Keep the relaxation's bounds psi as variables.");
+  c.def_readwrite("all_faces", &Options::all_faces, "Keep faces of the reach polytopes that others imply.");
+  c.def_readwrite("intervals", &Options::intervals, "Per phase.");
+  def_range(c, "double_support_s", &Options::double_support_s, "Duration of a phase on two feet: min, max [s].");
+  def_range(c, "single_support_s", &Options::single_support_s, "Duration of a phase on one foot: min, max [s].");
+  c.def_readwrite("predicted_double_support_s", &Options::predicted_double_support_s,
+                  "Fixed duration in predicted steps of the reduced models [s].");
+  c.def_readwrite("predicted_single_support_s", &Options::predicted_single_support_s, "[s]");
+  c.def_readwrite("com_velocity_max", &Options::com_velocity_max, "Each component [m/s].");
+  c.def_readwrite("momentum_max", &Options::momentum_max, "Each component of L [kg m^2/s].");
+  c.def_readwrite("momentum_rate_max", &Options::momentum_rate_max, "Each component of L' [N m].");
+  def_range(c, "com_height", &Options::com_height, "CoM over every foot in contact, over robot.com_height: min, max.");
+  c.def_readwrite("psi_max", &Options::psi_max, "Bound of the relaxation [-].");
+  c.def_readwrite("goal_weight", &Options::goal_weight, "On the squared distance of the end to the goal [1/m^2].");
+  c.def_readwrite("friction_sides", &Options::friction_sides, "Of the pyramid inside the friction cone.");
+  c.def_readwrite("tolerance", &Options::tolerance, "Optimality tolerance of the solver.");
+  c.def_readwrite("constraint_tolerance", &Options::constraint_tolerance);
+  c.def_readwrite("max_iterations", &Options::max_iterations, "Of a cycle.");
+  c.def_readwrite("time_limit_s", &Options::time_limit_s, "Wall clock of a cycle [s].");
+  c.def_readwrite("automatic_ordering", &Options::automatic_ordering, "The linear solver's own pivot order.");
+  c.def_readwrite("logger", &Options::logger, "Called with (LogLevel, line), a line a cycle; None: silent.");
+  c.def("validate", &Options::validate, "Raises InvalidOptions naming the first field out of its range.");
+}
+
+void bind_state(py::module_& m) {
+  py::class_<State> c(m, "State", "Where the robot is: the start of a horizon.");
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  c.def(py::init([](const Eigen::Vector3d& com_W, const Eigen::Vector3d& com_velocity_W,
+                    const Eigen::Vector3d& angular_momentum_W, const py::object& feet_W, std::vector<int> surfaces) {
+          return State{com_W, com_velocity_W, angular_momentum_W, points_from(feet_W, "feet_W"), std::move(surfaces)};
+        }),
+        py::kw_only(), py::arg("com_W") = zero, py::arg("com_velocity_W") = zero,
+        py::arg("angular_momentum_W") = zero, py::arg("feet_W") = py::tuple(),
+        py::arg("surfaces") = std::vector<int>());
+  def_vector(c, "com_W", &State::com_W, "[m]");
+  def_vector(c, "com_velocity_W", &State::com_velocity_W, "[m/s]");
+  def_vector(c, "angular_momentum_W", &State::angular_momentum_W, "About the CoM [kg m^2/s].");
+  def_points(c, "feet_W", &State::feet_W, "Sole centres, one row a foot, in the robot's order [m].");
+  def_names(c, "surfaces", &State::surfaces, "Indices of the surfaces on which the feet stand.");
+  def_value(c, "State", {"com_W", "com_velocity_W", "angular_momentum_W", "feet_W", "surfaces"});
+}
+
+void bind_results(py::module_& m) {
+  py::class_<Cycle> c(m, "Cycle", "How one cycle went.");
+  c.def_readonly("index", &Cycle::index);
+  c.def_readonly("status", &Cycle::status, "solved: converged, and the checker accepts the executed step.");
+  c.def_readonly("message", &Cycle::message);
+  c.def_readonly("executed", &Cycle::executed, "Its first step keeps the constraints and was taken into the walk.");
+  c.def_readonly("iterations", &Cycle::iterations);
+  c.def_readonly("time_s", &Cycle::time_s, "Wall clock, set-up and check included [s].");
+  c.def_readonly("evaluation_s", &Cycle::evaluation_s, "Of which in functions and derivatives [s].");
+  c.def_readonly("linear_solver_s", &Cycle::linear_solver_s, "Of which in the linear solver [s].");
+  c.def_readonly("variables", &Cycle::variables);
+  c.def_readonly("constraints", &Cycle::constraints);
+  c.def_readonly("cost", &Cycle::cost, "Of the whole horizon.");
+  c.def_readonly("acceleration_cost", &Cycle::acceleration_cost, "Executed step: integral of |a|^2 [m^2/s^3].");
+  c.def_readonly("momentum_cost", &Cycle::momentum_cost, "Executed step: integral of |L|^2.");
+  c.def_readonly("distance_m", &Cycle::distance_m, "Executed step: travel of the CoM along the heading [m].");
+  c.def_readonly("duration_s", &Cycle::duration_s, "Executed step [s].");
+  c.def_readonly("defect", &Cycle::defect, "Largest residual of the horizon's equations.");
+  c.def_readonly("drift_com_m", &Cycle::drift_com_m,
+                 "Forces of the executed step replayed in continuous time against its states, at its end [m].");
+  c.def_readonly("drift_momentum", &Cycle::drift_momentum, "The same of L [kg m^2/s].");
+  c.def_readonly("worst_violation", &Cycle::worst_violation, "Of the executed step.");
+  c.def("__repr__", [](py::handle self) {
+    return "<Cycle " + std::string(py::str(self.attr("index"))) + ": " + std::string(py::str(self.attr("status"))) +
+           ", " + std::string(py::str(self.attr("iterations"))) + " iterations>";
+  });
+
+  py::class_<Walk> w(m, "Walk", "A walk: its plan, how it was found, cycle by cycle.");
+  def_member(w, "plan", &Walk::plan, "The executed steps, one after the other.");
+  def_member(w, "report", &Walk::report, "Status and message of the worst cycle, times summed.");
+  def_items(w, "cycles", &Walk::cycles, "Tuple of Cycle.");
+  w.def_readonly("success", &Walk::success, "Every cycle that was asked for gave a step within its constraints.");
+  w.def("distance_m", &Walk::distance_m, "Travelled by the CoM along the heading [m].");
+  w.def("acc_per_m", &Walk::acc_per_m, "Integral of |a|^2 per metre, executed steps.");
+  w.def("momentum_per_m", &Walk::momentum_per_m, "Integral of |L|^2 per metre, executed steps.");
+  w.def("drift_com_m", &Walk::drift_com_m, "Largest of a cycle [m].");
+  w.def("drift_momentum", &Walk::drift_momentum, "Largest of a cycle [kg m^2/s].");
+}
+
+}  // namespace
+
+void bind_rhp(py::module_& parent) {
+  py::module_ m = parent.def_submodule("rhp", "Multi-fidelity receding-horizon planning of walks on two feet.");
+  bind_options(m);
+  bind_state(m);
+  bind_results(m);
+  const auto guarded = [](Options options) {
+    options.stop = stop_on_signal;
+    return options;
+  };
+  py::class_<RecedingHorizon> c(m, "RecedingHorizon",
+                                "One nonlinear program a cycle, of whose steps the first is executed. Solves release "
+                                "the GIL; Ctrl-C ends them with Status.interrupted.");
+  c.def(py::init([guarded](const Scene& scene, const Robot& robot, const Options& options) {
+          return RecedingHorizon(scene, robot, guarded(options));
+        }),
+        py::arg("scene"), py::arg("robot"), py::arg_v("options", Options(), "Options()"),
+        "The contact sequence is scene.steps; after its end the feet go on in turn on its last surface.");
+  c.def(py::init([guarded](const Scene& scene, const Robot& robot, const Plan& sequence, const Options& options) {
+          return RecedingHorizon(scene, robot, sequence, guarded(options));
+        }),
+        py::arg("scene"), py::arg("robot"), py::arg("sequence"), py::arg_v("options", Options(), "Options()"),
+        "Contact sequence and start are those of a plan; the walk comes to rest after its last step.");
+  c.def(
+      "walk", [](RecedingHorizon& self) { return without_gil([&] { return self.walk(); }); },
+      "Run all cycles that the options ask for, or until one fails.");
+  c.def(
+      "step", [](RecedingHorizon& self) { return without_gil([&] { return self.step(); }); },
+      "One cycle from where the last one ended.");
+  c.def(
+      "step",
+      [](RecedingHorizon& self, const State& measured) { return without_gil([&] { return self.step(measured); }); },
+      py::arg("measured"), "One cycle from a measured state.");
+  c.def("state", &RecedingHorizon::state, "At the start of the next cycle.", py::return_value_policy::copy);
+  c.def("executed", &RecedingHorizon::executed, "The step that the last good cycle executes, from time 0.");
+  c.def("horizon", &RecedingHorizon::horizon, "Its whole horizon, predicted steps included.");
+  c.def("result", &RecedingHorizon::result, "What was executed so far.");
+}
+
+}  // namespace mcplan::bindings

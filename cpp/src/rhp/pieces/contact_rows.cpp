@@ -1,0 +1,70 @@
+#include "mcplan/rhp/pieces/contact_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mcplan::rhp {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+std::vector<int> triple(int first) { return {first, first + 1, first + 2}; }
+
+/// Whether |f_component| <= limit follows from f_z <= limit for all forces in the outer pyramid, whose edges these are.
+bool implied(const Eigen::Matrix3d& axes_W, double friction, int component) {
+  for (double s1 : {-1.0, 1.0})
+    for (double s2 : {-1.0, 1.0}) {
+      const Vector3d edge = axes_W * Vector3d(s1 * friction, s2 * friction, 1.0);
+      if (edge.z() <= 0.0 || std::abs(edge[component]) > edge.z()) return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+void add_acceleration(nlp::Problem& problem, int acceleration, const std::vector<Placement>& placements,
+                      const std::vector<ContactPoint>& points, double mass, double gravity) {
+  std::vector<int> variables = triple(acceleration);
+  MatrixXd A(3, 3 + 3 * points.size());
+  A.leftCols<3>() = mass / kForceUnit * Eigen::Matrix3d::Identity();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    append(variables, points[i].variable, 3);
+    A.middleCols<3>(3 + 3 * i) = -placements[points[i].placement].axes_W;
+  }
+  const VectorXd weight = -mass * gravity / kForceUnit * Vector3d::UnitZ();
+  problem.add_constraint(std::make_unique<nlp::LinearPiece>("acceleration", variables, A), weight, weight);
+}
+
+void add_friction(nlp::Problem& problem, const ContactPoint& point, double friction, int sides, bool outer) {
+  const int rows = outer ? 4 : sides;
+  MatrixXd A(rows, 3);
+  for (int j = 0; j < rows; ++j) {
+    const double angle = 2.0 * M_PI * j / rows;
+    A.row(j) << std::cos(angle), std::sin(angle), -friction * (outer ? 1.0 : std::cos(M_PI / sides));
+  }
+  for (double& entry : A.reshaped())
+    if (std::abs(entry) < 1e-12) entry = 0.0;  // the sines of multiples of pi, which would fill the sparse structure
+  problem.add_constraint(std::make_unique<nlp::LinearPiece>("friction", triple(point.variable), A), -nlp::kInfinity,
+                         0.0);
+}
+
+void add_force_box(nlp::Problem& problem, const Placement& placement, const ContactPoint& point, double limit,
+                   double friction) {
+  const Eigen::Matrix3d& axes = placement.axes_W;
+  const double most = limit / kForceUnit;
+  if (std::abs(axes(2, 2) - 1.0) < 1e-12) {
+    problem.set_bounds(point.variable + 2, 0.0, most);
+    if (implied(axes, friction, 0) && implied(axes, friction, 1)) return;
+  }
+  for (int component : {2, 0, 1}) {
+    if (component == 2 && std::abs(axes(2, 2) - 1.0) < 1e-12) continue;
+    if (component != 2 && implied(axes, friction, component)) continue;
+    problem.add_constraint(
+        std::make_unique<nlp::LinearPiece>("force_box", triple(point.variable), MatrixXd(axes.row(component))), -most,
+        most);
+  }
+}
+
+}  // namespace mcplan::rhp

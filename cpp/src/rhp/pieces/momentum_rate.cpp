@@ -1,0 +1,73 @@
+#include "mcplan/rhp/pieces/momentum_rate.hpp"
+
+#include <Eigen/Geometry>
+#include <map>
+#include <utility>
+
+namespace mcplan::rhp {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kRate = 0, kCom = 3;  // places in x
+
+std::vector<int> gather(int rate, int com, const std::vector<Placement>& placements,
+                        const std::vector<ContactPoint>& points) {
+  std::vector<int> variables;
+  append(variables, rate, 3);
+  append(variables, com, 3);
+  std::map<int, bool> seen;
+  for (const ContactPoint& point : points)
+    if (!std::exchange(seen[point.placement], true)) append(variables, placements[point.placement].variable, 2);
+  for (const ContactPoint& point : points) append(variables, point.variable, 3);
+  return variables;
+}
+
+}  // namespace
+
+MomentumRate::MomentumRate(int rate, int com, const std::vector<Placement>& placements,
+                           const std::vector<ContactPoint>& points)
+    : Piece("momentum_rate", gather(rate, com, placements, points), 3) {
+  std::map<int, int> foothold;
+  int next = 6;
+  for (const ContactPoint& point : points)
+    if (foothold.try_emplace(point.placement, next).second) next += 2;
+  for (const ContactPoint& point : points) {
+    const Placement& placement = placements[point.placement];
+    points_.push_back({placement.origin_W + point.offset_W, placement.axes_W, kForceUnit * placement.axes_W,
+                       foothold[point.placement], next});
+    next += 3;
+  }
+}
+
+Vector3d MomentumRate::lever(const nlp::ConstVector& x, const Point& point) const {
+  return point.base_W + point.axes_W.leftCols<2>() * x.segment<2>(point.foothold) - x.segment<3>(kCom);
+}
+
+void MomentumRate::values(const nlp::ConstVector& x, nlp::Vector f) const {
+  Vector3d sum = x.segment<3>(kRate);
+  for (const Point& point : points_) sum -= lever(x, point).cross(point.force_axes_W * x.segment<3>(point.force));
+  f = sum;
+}
+
+void MomentumRate::jacobian(const nlp::ConstVector& x, nlp::Matrix J) const {
+  J.middleCols<3>(kRate).setIdentity();
+  for (const Point& point : points_) {
+    const Vector3d force = point.force_axes_W * x.segment<3>(point.force);
+    J.middleCols<3>(kCom) -= skew(force);
+    for (int i = 0; i < 2; ++i) J.col(point.foothold + i) -= point.axes_W.col(i).cross(force);
+    J.middleCols<3>(point.force) = -skew(lever(x, point)) * point.force_axes_W;
+  }
+}
+
+/// With weights y, y . (l x f) = f . (y x l): the only second derivatives are between l = l(c, w) and f.
+void MomentumRate::hessian(const nlp::ConstVector&, const nlp::ConstVector& weights, nlp::Matrix H) const {
+  const Vector3d y = weights;
+  for (const Point& point : points_) {
+    H.block<3, 3>(point.force, kCom) = point.force_axes_W.transpose() * skew(y);
+    for (int i = 0; i < 2; ++i)
+      H.block<3, 1>(point.force, point.foothold + i) = -point.force_axes_W.transpose() * y.cross(point.axes_W.col(i));
+  }
+}
+
+}  // namespace mcplan::rhp

@@ -1,0 +1,293 @@
+#include "mcplan/rhp/receding_horizon.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <optional>
+#include <utility>
+
+#include "mcplan/base/error.hpp"
+#include "mcplan/nlp/solver.hpp"
+#include "mcplan/plan/checker.hpp"
+#include "mcplan/plan/friction_use.hpp"
+#include "mcplan/rhp/execution.hpp"
+#include "mcplan/rhp/guess.hpp"
+#include "mcplan/rhp/horizon.hpp"
+#include "mcplan/rhp/walker.hpp"
+#include "mcplan/version.hpp"
+
+namespace mcplan::rhp {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+nlp::SolverOptions solver_options(const Options& options, double time_left_s) {
+  nlp::SolverOptions out;
+  out.tolerance = options.tolerance;
+  out.constraint_tolerance = options.constraint_tolerance;
+  out.max_iterations = options.max_iterations;
+  out.time_limit_s = std::max(time_left_s, 1e-3);
+  out.ordering = options.automatic_ordering ? nlp::Ordering::automatic : nlp::Ordering::amd;
+  out.stop = options.stop;
+  return out;
+}
+
+/// The forward-Euler motion is not the integral of its forces: what the checker says of that comes with the method.
+bool only_euler_drift(const CheckResult& result) {
+  for (const Violation& v : result.violations())
+    if (v.name != "dynamics" && v.name != "at_consistency") return false;
+  return true;
+}
+
+void require_state(const Walker& walker, const State& state) {
+  if (state.feet_W.size() != 2 || state.surfaces.size() != 2)
+    throw InvalidInput("measured.feet_W", "must have two feet, with a surface for each",
+                       text(static_cast<int>(state.feet_W.size())));
+  for (int surface : state.surfaces)
+    if (surface < 0 || surface >= static_cast<int>(walker.surfaces.size()))
+      throw InvalidInput("measured.surfaces", "must be indices of surfaces", text(surface));
+  bool finite = state.com_W.allFinite() && state.com_velocity_W.allFinite() && state.angular_momentum_W.allFinite();
+  for (const Vector3d& foot : state.feet_W) finite = finite && foot.allFinite();
+  if (!finite) throw InvalidInput("measured", "must be finite numbers", "nan or inf");
+}
+
+}  // namespace
+
+struct RecedingHorizon::Impl {
+  Impl(const Scene& scene, const Robot& robot, const Options& options) : walker(scene, robot, options) {}
+
+  Walker walker;
+  Footsteps footsteps;
+  State state;
+  bool measured = false;       ///< the walk did not start where the scene says
+  int index = 0;               ///< cycles done well
+  std::deque<Memory> memories;  ///< of the last two cycles
+  Plan executed, horizon;
+  Plan walked;
+  std::vector<Cycle> cycles;
+
+  int steps_left() const { return footsteps.ends() ? footsteps.count() - index : walker.options.lookahead; }
+
+  Cycle run();
+  void accept(Cycle& cycle, const Horizon& horizon_now, const nlp::Solution& solution, Clock::time_point begin);
+};
+
+Cycle RecedingHorizon::Impl::run() {
+  const Clock::time_point begin = Clock::now();
+  const Options& options = walker.options;
+  Cycle cycle;
+  cycle.index = static_cast<int>(cycles.size());
+  const int steps = std::min(options.lookahead, steps_left());
+  if (steps <= 0) throw InvalidInput("cycles", "must not go beyond the sequence of steps", text(index + 1));
+  const bool rest = footsteps.ends() && steps == steps_left();
+
+  // Solutions of one leg repeat two cycles later; before that, and where the horizon has become shorter, there is none.
+  const Memory* memory = memories.size() == 2 ? &memories.front() : nullptr;
+  if (memory && (memory->swing != footsteps[index].foot || static_cast<int>(memory->footholds_W.size()) != steps))
+    memory = nullptr;
+  const std::vector<Vector3d> footholds = memory ? moved_footholds(walker, state, footsteps, index, *memory)
+                                                 : nominal_footholds(walker, state, footsteps, index, steps);
+  const Horizon horizon_now = build_horizon(walker, state, footsteps, index, steps, footholds, rest);
+  if (memory && memory->x.size() != horizon_now.problem.variable_count()) memory = nullptr;
+  const VectorXd guess =
+      memory ? remembered_guess(state, horizon_now, *memory) : nominal_guess(walker, state, horizon_now);
+
+  const nlp::Solution solution =
+      nlp::solve(horizon_now.problem, guess, solver_options(options, options.time_limit_s - seconds_since(begin)));
+  cycle.status = solution.status;
+  cycle.message = solution.message;
+  cycle.iterations = solution.iterations;
+  cycle.evaluation_s = solution.evaluation_s;
+  cycle.linear_solver_s = solution.linear_solver_s;
+  cycle.variables = horizon_now.problem.variable_count();
+  cycle.constraints = horizon_now.problem.row_count();
+  cycle.cost = solution.cost;
+  cycle.worst_violation.name = solution.worst.name;
+  cycle.worst_violation.value = solution.worst.value;
+  cycle.worst_violation.tolerance = options.constraint_tolerance;
+  if (solution.worst.value <= options.constraint_tolerance)
+    accept(cycle, horizon_now, solution, begin);
+  else if (cycle.status == Status::solved)
+    cycle.status = Status::acceptable;
+  cycle.time_s = seconds_since(begin);
+  cycles.push_back(cycle);
+  if (options.logger)
+    options.logger(LogLevel::info, "cycle " + std::to_string(cycle.index) + "  " +
+                                       std::string(to_string(cycle.status)) + "  " + text(cycle.iterations) +
+                                       " iterations, " + text(cycle.time_s) + " s");
+  return cycle;
+}
+
+/// Take a motion that keeps the program's constraints; the checker decides whether it is called solved.
+void RecedingHorizon::Impl::accept(Cycle& cycle, const Horizon& horizon_now, const nlp::Solution& solution,
+                                   Clock::time_point) {
+  Plan next = executed_plan(walker, state, horizon_now, solution.x, 1);
+  Tolerances tolerances;
+  tolerances.sample_s = 0.005;
+  const CheckResult found = check(next, walker.scene, walker.robot, tolerances);
+  const bool euler = walker.options.transcription == Transcription::euler;
+  cycle.worst_violation = found.worst();
+  if (cycle.status == Status::solved && !found.ok()) {
+    cycle.status = Status::acceptable;
+    cycle.message = euler && only_euler_drift(found)
+                        ? "converged; the forward-Euler motion is not the integral of its forces"
+                        : "converged, but the checker finds " + found.worst().to_string();
+  }
+  const Measures measures = measure(walker, state, horizon_now, solution.x, next);
+  cycle.acceleration_cost = measures.acceleration_cost;
+  cycle.momentum_cost = measures.momentum_cost;
+  cycle.drift_com_m = measures.drift_com_m;
+  cycle.drift_momentum = measures.drift_momentum;
+  cycle.defect = measures.defect;
+  cycle.duration_s = next.duration();
+  const State end = end_of(walker, next);
+  cycle.distance_m = walker.r_WH.col(0).dot(end.com_W - state.com_W);
+  cycle.executed = true;
+
+  Memory memory;
+  memory.state = state;
+  memory.x = solution.x;
+  for (int i = 0; i < horizon_now.steps; ++i) memory.footholds_W.push_back(horizon_now.position_W(solution.x, 2 + i));
+  memory.swing = footsteps[index].foot;
+  memories.push_back(std::move(memory));
+  if (memories.size() > 2) memories.pop_front();
+
+  horizon = executed_plan(walker, state, horizon_now, solution.x, horizon_now.steps);
+  if (walked.phases.empty()) {
+    walked = next;
+    walked.measured_start = measured;
+  } else {
+    append_plan(walked, next);
+  }
+  executed = std::move(next);
+  state = end;
+  ++index;
+}
+
+RecedingHorizon::RecedingHorizon(const Scene& scene, const Robot& robot, const Options& options)
+    : impl_(std::make_unique<Impl>(scene, robot, options)) {
+  impl_->footsteps = footsteps_of(impl_->walker);
+  impl_->state = impl_->walker.start();
+}
+
+RecedingHorizon::RecedingHorizon(const Scene& scene, const Robot& robot, const Plan& sequence, const Options& options)
+    : impl_(std::make_unique<Impl>(scene, robot, options)) {
+  impl_->footsteps = footsteps_of(impl_->walker, sequence);
+  impl_->state = start_of(impl_->walker, sequence);
+  impl_->measured = sequence.measured_start;
+}
+
+RecedingHorizon::~RecedingHorizon() = default;
+RecedingHorizon::RecedingHorizon(RecedingHorizon&&) noexcept = default;
+RecedingHorizon& RecedingHorizon::operator=(RecedingHorizon&&) noexcept = default;
+
+Cycle RecedingHorizon::step() { return impl_->run(); }
+
+Cycle RecedingHorizon::step(const State& measured) {
+  require_state(impl_->walker, measured);
+  if (impl_->walked.phases.empty()) {
+    impl_->measured = true;
+  } else {
+    // What was executed ends where the plan said; a walk joins its steps only where they meet.
+    impl_->walked = {};
+    impl_->measured = true;
+  }
+  impl_->state = measured;
+  return impl_->run();
+}
+
+const State& RecedingHorizon::state() const { return impl_->state; }
+Plan RecedingHorizon::executed() const { return impl_->executed; }
+Plan RecedingHorizon::horizon() const { return impl_->horizon; }
+
+Walk RecedingHorizon::walk() {
+  const int cycles = impl_->footsteps.ends() ? std::min(impl_->walker.options.cycles, impl_->steps_left())
+                                             : impl_->walker.options.cycles;
+  for (int i = 0; i < cycles; ++i)
+    if (!impl_->run().executed) break;
+  Walk out = result();
+  out.success = static_cast<int>(impl_->cycles.size()) == cycles && out.success;
+  return out;
+}
+
+Walk RecedingHorizon::result() const {
+  Walk out;
+  out.plan = impl_->walked;
+  out.cycles = impl_->cycles;
+  out.success = !out.cycles.empty();
+  Report& report = out.report;
+  report.status = out.cycles.empty() ? Status::infeasible : Status::solved;
+  report.message = out.cycles.empty() ? "no cycle has run" : "";
+  report.version = MCPLAN_VERSION;
+  for (const Cycle& cycle : out.cycles) {
+    out.success = out.success && cycle.executed;
+    report.iterations += cycle.iterations;
+    report.time_s += cycle.time_s;
+    report.timing_s["evaluation"] += cycle.evaluation_s;
+    report.timing_s["linear solver"] += cycle.linear_solver_s;
+    report.cost_terms["acceleration"] += cycle.acceleration_cost;
+    report.cost_terms["momentum"] += cycle.momentum_cost;
+    report.cost += cycle.acceleration_cost + cycle.momentum_cost;
+    report.worst_violation = cycle.worst_violation;
+    if (cycle.status == Status::solved || (report.status != Status::solved && cycle.executed)) continue;
+    report.status = cycle.status;
+    report.message = "cycle " + std::to_string(cycle.index) + ": " + cycle.message;
+    if (!cycle.executed && cycle.index > 0) report.message += "; the steps before it stand";
+  }
+  if (out.plan.phases.empty()) return out;
+
+  // The whole walk is what the user gets: it is solved only if the checker accepts it as one piece.
+  Plan& plan = out.plan;
+  plan.open_end = false;
+  CheckResult found = check(plan, plan.scene, plan.robot);
+  bool goal_reached = true;
+  for (const Violation& v : found.violations()) goal_reached = goal_reached && v.name != "goal";
+  if (!goal_reached) {
+    plan.open_end = true;
+    found = check(plan, plan.scene, plan.robot);
+  }
+  report.friction_use = friction_use(plan);
+  if (out.cycles.back().executed) report.worst_violation = found.worst();
+  if (report.status == Status::solved && !found.ok()) {
+    report.status = Status::acceptable;
+    report.message = "every cycle converged, but the checker finds " + found.worst().to_string();
+  }
+  return out;
+}
+
+double Walk::distance_m() const {
+  double total = 0.0;
+  for (const Cycle& cycle : cycles) total += cycle.distance_m;
+  return total;
+}
+
+double Walk::acc_per_m() const {
+  double total = 0.0;
+  for (const Cycle& cycle : cycles) total += cycle.acceleration_cost;
+  return total / std::max(std::abs(distance_m()), 1e-9);
+}
+
+double Walk::momentum_per_m() const {
+  double total = 0.0;
+  for (const Cycle& cycle : cycles) total += cycle.momentum_cost;
+  return total / std::max(std::abs(distance_m()), 1e-9);
+}
+
+double Walk::drift_com_m() const {
+  double most = 0.0;
+  for (const Cycle& cycle : cycles) most = std::max(most, cycle.drift_com_m);
+  return most;
+}
+
+double Walk::drift_momentum() const {
+  double most = 0.0;
+  for (const Cycle& cycle : cycles) most = std::max(most, cycle.drift_momentum);
+  return most;
+}
+
+}  // namespace mcplan::rhp
