@@ -20,9 +20,7 @@ void bind_scene(py::module_& m);
 void bind_robot(py::module_& m);
 void bind_plan(py::module_& m);
 void bind_ddp(py::module_& m);
-<<<<<<< HEAD
 void bind_nlp(py::module_& m);
-=======
 void bind_rhp(py::module_& m);
 
 /// Runs a solve without the GIL.
@@ -40,7 +38,6 @@ inline bool stop_on_signal() {
   PyErr_Clear();
   return true;
 }
->>>>>>> main
 
 /// Text that Python reads back as the same value: arrays as nested lists, infinity as float('inf').
 std::string paste(py::handle value);
