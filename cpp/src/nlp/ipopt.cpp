@@ -384,15 +384,17 @@ class Turn {
   std::unique_lock<std::timed_mutex> lock_;
 };
 
-VectorXd projected(const Problem& problem, const VectorXd& x0) {
+VectorXd projected(const Problem& problem, VectorXd x) {
+  for (int i = 0; i < problem.variable_count(); ++i)
+    x[i] = std::max(problem.variable_lower()[i], std::min(problem.variable_upper()[i], x[i]));
+  return x;
+}
+
+void require_start(const Problem& problem, const VectorXd& x0) {
   const int n = problem.variable_count();
   if (x0.size() != n) throw InvalidInput("x0", "must have " + text(n) + " values", text(static_cast<int>(x0.size())));
-  VectorXd x = x0;
-  for (int i = 0; i < n; ++i) {
-    if (!std::isfinite(x[i])) throw InvalidInput("x0, " + problem.variable_name(i), "must be finite", text(x[i]));
-    x[i] = std::max(problem.variable_lower()[i], std::min(problem.variable_upper()[i], x[i]));
-  }
-  return x;
+  for (int i = 0; i < n; ++i)
+    if (!std::isfinite(x0[i])) throw InvalidInput("x0, " + problem.variable_name(i), "must be finite", text(x0[i]));
 }
 
 /// Name of a variable or row whose lower bound lies above its upper bound, or "".
@@ -436,6 +438,7 @@ Ending run(const Problem& problem, const VectorXd& x0, Adapter& adapter, const S
 Solution solve(const Problem& problem, const VectorXd& x0, const SolverOptions& options) {
   const Clock::time_point start = Clock::now(), deadline = deadline_of(start, options.time_limit_s);
   options.validate();
+  require_start(problem, x0);
   const VectorXd x = projected(problem, x0);
   Ipopt::SmartPtr<Adapter> adapter = new Adapter(problem, x, options, deadline);
   const Ending ending = run(problem, x, *adapter, options, deadline);
@@ -443,7 +446,8 @@ Solution solve(const Problem& problem, const VectorXd& x0, const SolverOptions& 
   Solution out;
   out.status = ending.status;
   out.message = ending.message;
-  out.x = ending.keep_last ? adapter->last_x() : adapter->best().x;
+  // Ipopt moves a bound by some 1e-12 where it would divide by the distance to it.
+  out.x = projected(problem, ending.keep_last ? adapter->last_x() : adapter->best().x);
   out.multipliers = adapter->multipliers();
   out.cost = problem.cost(out.x);
   out.worst = problem.worst_violation(out.x);
