@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mcplan/base/rotation.hpp"
-#include "mcplan/plan/clearance.hpp"
+#include "mcplan/plan/swings.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -59,36 +59,6 @@ void set_swing_velocities(const Problem& problem, Plan& plan) {
   }
 }
 
-void add_swings(const Problem& problem, Plan& plan) {
-  const std::vector<Solid> solids = solids_of(plan.scene);
-  for (int e = 0; e < plan.end_effector_count(); ++e)
-    for (const mcplan::FreeStretch& stretch : free_stretches(plan, solids, e)) {
-      Swing swing;
-      swing.end_effector = e;
-      swing.first_phase = stretch.first_phase;
-      swing.end_phase = stretch.end_phase;
-      swing.lift_normal_W = stretch.lift_normal_W;
-      swing.land_normal_W = stretch.land_normal_W;
-      const bool leaves = touches(plan, stretch.first_phase - 1, e), arrives = touches(plan, stretch.end_phase, e);
-      swing.height = leaves || arrives ? problem.robot.swing_height : 0.0;
-      plan.swings.push_back(swing);
-      if (swing.height == 0.0) continue;
-      // The least of a few heights that clears the scene.
-      constexpr double kSample = 0.01;
-      double best_depth = clearance_depth(plan, solids, e, stretch, kSample);
-      double best_height = swing.height;
-      for (double factor : {1.5, 2.0, 3.0, 0.5}) {
-        if (best_depth <= 0.0) break;
-        plan.swings.back().height = factor * swing.height;
-        const double depth = clearance_depth(plan, solids, e, stretch, kSample);
-        if (depth >= best_depth) continue;
-        best_depth = depth;
-        best_height = plan.swings.back().height;
-      }
-      plan.swings.back().height = best_height;
-    }
-}
-
 }  // namespace
 
 Plan to_plan(const Problem& problem, const Incumbent& incumbent) {
@@ -121,7 +91,7 @@ Plan to_plan(const Problem& problem, const Incumbent& incumbent) {
   plan.final_contacts.assign(ends, kFree);
   for (int l = 0; l < at.ends(); ++l) plan.final_contacts[problem.active[l]] = incumbent.sequence[problem.steps][l];
   set_swing_velocities(problem, plan);
-  add_swings(problem, plan);
+  choose_swings(plan);
   return plan;
 }
 

@@ -19,6 +19,13 @@ void offer_place(const Polygon& polygon, const Vector3d& position, const Place& 
   findings.offer(Constraint::contact_polygon, beyond, place);
 }
 
+double beyond_sole(const Eigen::Vector2d& half, const Vector3d& normal, double yaw, const Vector3d& offset) {
+  if (half.maxCoeff() <= 0.0 || offset.norm() == 0.0) return offset.norm();
+  Vector3d d = sole_frame(normal, yaw).transpose() * offset;
+  for (int i = 0; i < 2; ++i) d[i] = std::max(std::abs(d[i]) - half[i], 0.0);
+  return d.norm();
+}
+
 }  // namespace
 
 void check_contact_place(const Problem& problem, const Sample& sample, Findings& findings) {
@@ -51,23 +58,22 @@ void check_contact_permission(const Problem& problem, Findings& findings) {
     }
 }
 
-/// The anchor s_l lies on the sole: |d_i| <= half_size_i along the sole and d_n = 0, d = s_l - p_l. Otherwise the force
-/// would act on the robot where the robot does not touch anything.
+/// The anchor s_l, or every point s at which a force acts, lies on the sole: |d_i| <= half_size_i along the sole and
+/// d_n = 0, d = s - p_l. Otherwise the force would act on the robot where the robot does not touch anything.
 void check_anchor(const Problem& problem, const Sample& sample, Findings& findings) {
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const int surface = problem.surface(sample.phase, l);
     if (surface < 0) continue;
+    const Contact& contact = problem.plan.phases[sample.phase].contacts[l];
     const Eigen::Vector2d& half = problem.robot.end_effectors[l].half_size;
-    const Vector3d offset =
-        problem.plan.phases[sample.phase].contacts[l].anchor_W - sample.at.end_effectors[l].position_W;
-    double beyond = offset.norm();
-    if (half.maxCoeff() > 0.0 && beyond > 0.0) {
-      const Vector3d& normal = problem.solids[surface].polygon.normal_W();
-      Vector3d d = sole_frame(normal, sample.replay.rpy.z()).transpose() * offset;
-      for (int i = 0; i < 2; ++i) d[i] = std::max(std::abs(d[i]) - half[i], 0.0);
-      beyond = d.norm();
-    }
-    findings.offer(Constraint::anchor, beyond, {sample.phase, l, sample.time_s});
+    const Vector3d& normal = problem.solids[surface].polygon.normal_W();
+    const Vector3d& position = sample.at.end_effectors[l].position_W;
+    const Place place{sample.phase, l, sample.time_s};
+    if (!problem.has_points(sample.phase))
+      findings.offer(Constraint::anchor, beyond_sole(half, normal, sample.replay.rpy.z(), contact.anchor_W - position),
+                     place);
+    for (const Vector3d& point : contact.points_W)
+      findings.offer(Constraint::anchor, beyond_sole(half, normal, sample.replay.rpy.z(), point - position), place);
   }
 }
 

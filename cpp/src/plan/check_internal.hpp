@@ -82,6 +82,7 @@ struct Problem {
   std::vector<std::vector<FreeStretch>> stretches;  ///< per end-effector
   std::vector<double> knot_times;
 
+  bool has_points(int k) const { return plan.phases[k].law != ForceLaw::pendulum; }
   int phase_count() const { return static_cast<int>(plan.phases.size()); }
   int end_effector_count() const { return static_cast<int>(robot.end_effectors.size()); }
 
@@ -94,9 +95,10 @@ struct Problem {
   Place at_knot(int k, int l) const { return {k < phase_count() ? k : k - 1, l, knot_times[k]}; }
 };
 
-/// CoM and base, integrated by the checker itself.
+/// CoM, base and angular momentum, integrated by the checker itself. The momentum is a state of its own under forces
+/// at points alone; otherwise it stays zero here, since the base carries it.
 struct Replay {
-  Eigen::Vector3d com_W, com_velocity_W, rpy, rpy_rate;
+  Eigen::Vector3d com_W, com_velocity_W, rpy, rpy_rate, momentum_W;
 };
 
 /// An instant of a phase.
@@ -106,14 +108,25 @@ struct Sample {
   Replay replay;                          ///< what the checker integrated
   Eigen::Matrix3d r_WB;                   ///< of replay.rpy
   PlanState at;                           ///< what the plan says
-  std::vector<Eigen::Vector3d> forces_W;  ///< per end-effector, from replay.com_W [N]
+  std::vector<Eigen::Vector3d> forces_W;  ///< per end-effector, from replay.com_W or from its points [N]
+  std::vector<std::vector<Eigen::Vector3d>> cone_forces_W;  ///< per end-effector, what friction holds one by one: the
+                                                            ///< forces at its points, or the one of the pendulum
 };
 
-/// check_replay.cpp: advance by h [s] with RK4 (error far below 1e-9), and the force of each contact there.
-Replay advance(const Problem& problem, int phase, const Replay& from, double h);
+/// check_replay.cpp: the steps in which a phase is looked at, none of which crosses an instant between two intervals of
+/// forces; one step of h [s] with RK4 (error far below 1e-9); the force of each contact.
+int sample_count(const Problem& problem, int phase);
+Replay start_of(const Problem& problem, int phase);
+Replay advance(const Problem& problem, int phase, const Replay& from, double since_start, double h);
 void contact_forces(const Problem& problem, Sample& sample);
 void check_dynamics(const Problem& problem, const Sample& phase_end, Findings& findings);
 void check_at_consistency(const Problem& problem, const Sample& sample, Findings& findings);
+
+/// check_point_forces.cpp: the laws with forces at points, evaluated once more and without the plan's own code.
+int interval_of(const Phase& phase, double since_start);
+Eigen::Vector3d point_force(const Phase& phase, const Contact& contact, int point, int interval, double since_start);
+Replay point_force_rate(const Problem& problem, int phase, const Replay& state, int interval, double since_start);
+void turn_base(const Problem& problem, int phase, double since_start, Replay& state);
 
 /// check_numbers.cpp: both return whether the rest can be evaluated.
 bool check_finite(const Problem& problem, Findings& findings);

@@ -15,13 +15,17 @@ bool check_finite(const Problem& problem, Findings& findings) {
   const auto count = [](const Eigen::Vector3d& v) { return v.allFinite() ? 0 : 1; };
   for (int k = 0; k <= problem.phase_count(); ++k) {
     const Knot& knot = plan.knots[k];
-    int bad = count(knot.com_W) + count(knot.com_velocity_W) + count(knot.base_rpy) + count(knot.base_rpy_rate);
+    int bad = count(knot.com_W) + count(knot.com_velocity_W) + count(knot.base_rpy) + count(knot.base_rpy_rate) +
+              count(knot.angular_momentum_W);
     for (int l = 0; l < problem.end_effector_count(); ++l)
       bad += count(knot.end_effectors_W[l]) + count(knot.end_effector_velocities_W[l]);
     if (k < problem.phase_count()) {
       bad += !std::isfinite(plan.phases[k].duration);
-      for (const Contact& contact : plan.phases[k].contacts)
+      for (const Contact& contact : plan.phases[k].contacts) {
         bad += !std::isfinite(contact.stiffness) + count(contact.anchor_W) + count(contact.moment_W);
+        for (const Eigen::Vector3d& point : contact.points_W) bad += count(point);
+        for (const Eigen::Vector3d& force : contact.point_forces_W) bad += count(force);
+      }
     }
     offer(bad, k);
   }

@@ -23,6 +23,21 @@ void require_surface(const std::string& field, int surface, const Scene& scene) 
     throw InvalidPlan(field, "must be -1 or the index of a surface (below " + text(count) + ")", text(surface));
 }
 
+void require_points(const Phase& phase, const std::string& field) {
+  const bool has_points = phase.law != ForceLaw::pendulum;
+  constexpr int kMost = 100000;
+  if (has_points ? phase.intervals < 1 || phase.intervals > kMost : phase.intervals != 0)
+    throw InvalidPlan(field + ".intervals",
+                      has_points ? "must lie in [1, " + text(kMost) + "]" : "must be 0 under the pendulum's force law",
+                      text(phase.intervals));
+  for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
+    const std::string contact = field + ".contacts[" + std::to_string(l) + "]";
+    if (!has_points) require_size(contact + ".points", phase.contacts[l].points_W.size(), 0);
+    require_size(contact + ".point_forces", phase.contacts[l].point_forces_W.size(),
+                 phase.node_count() * phase.contacts[l].points_W.size());
+  }
+}
+
 /// Sizes and indices alone: numbers that make no sense are violations with a name, not exceptions.
 void require_shape(const Plan& plan, const Scene& scene, const Robot& robot) {
   const std::size_t n = plan.phases.size(), ends = robot.end_effectors.size();
@@ -39,6 +54,7 @@ void require_shape(const Plan& plan, const Scene& scene, const Robot& robot) {
     const std::string field = "phases[" + std::to_string(k) + "].contacts";
     require_size(field, plan.phases[k].contacts.size(), ends);
     for (const Contact& contact : plan.phases[k].contacts) require_surface(field, contact.surface, scene);
+    require_points(plan.phases[k], "phases[" + std::to_string(k) + "]");
   }
   for (int surface : plan.final_contacts) require_surface("final_contacts", surface, scene);
   for (const Swing& swing : plan.swings)
@@ -75,13 +91,12 @@ void check_motion(const Problem& problem, Findings& findings) {
   Travel travel;
   Sample sample;
   for (int k = 0; k < problem.phase_count(); ++k) {
-    const Knot& knot = problem.plan.knots[k];
     const double duration = problem.plan.phases[k].duration;
-    const int steps = std::max(1, static_cast<int>(std::ceil(duration / problem.tolerances.sample_s)));
+    const int steps = sample_count(problem, k);
     sample.phase = k;
-    sample.replay = {knot.com_W, knot.com_velocity_W, knot.base_rpy, knot.base_rpy_rate};
+    sample.replay = start_of(problem, k);
     for (int i = 0; i <= steps; ++i) {
-      if (i > 0) sample.replay = advance(problem, k, sample.replay, duration / steps);
+      if (i > 0) sample.replay = advance(problem, k, sample.replay, sample.since_start_s, duration / steps);
       sample.since_start_s = duration * i / steps;
       sample.time_s = problem.knot_times[k] + sample.since_start_s;
       sample.r_WB = rotation_from_rpy(sample.replay.rpy);

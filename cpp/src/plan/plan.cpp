@@ -1,11 +1,13 @@
 #include "mcplan/plan/plan.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "mcplan/base/entire_functions.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/base/rotation.hpp"
+#include "mcplan/plan/point_forces.hpp"
 
 namespace mcplan {
 namespace {
@@ -89,6 +91,68 @@ void hold_in_reach(const Plan& plan, const Swing& swing, const PlanState& state,
   end.velocity_W = state.com_velocity_W + spin.cross(r_WB * relative) + r_WB * rate;
 }
 
+/// p'' = Lambda p - sum mu_l s_l - g, solved by the entire functions (docs/theory/ddp.md, "Closed form"), and the
+/// small-angle rotation of the paper, eqs. (10)-(11): theta'' = I^-1 sum tau_l.
+void pendulum_motion(const Plan& plan, const Phase& phase, const Knot& from, double tau, PlanState& state) {
+  double stiffness = 0.0;
+  Vector3d pull(0.0, 0.0, plan.scene.gravity), moment = Vector3d::Zero();
+  for (const Contact& contact : phase.contacts) {
+    stiffness += contact.stiffness;
+    pull += contact.stiffness * contact.anchor_W;
+    moment += contact.moment_W;
+  }
+  const EntireFunctions f(stiffness * tau * tau);
+  const Vector3d acceleration = stiffness * from.com_W - pull;
+  state.com_W = from.com_W + tau * f(1) * from.com_velocity_W + tau * tau * f(2) * acceleration;
+  state.com_velocity_W = f(0) * from.com_velocity_W + tau * f(1) * acceleration;
+  state.com_acceleration_W = stiffness * state.com_W - pull;
+
+  const Vector3d spin_up = moment.cwiseQuotient(plan.robot.inertia);
+  state.base_rpy = from.base_rpy + tau * from.base_rpy_rate + 0.5 * tau * tau * spin_up;
+  state.base_rpy_rate = from.base_rpy_rate + tau * spin_up;
+  state.angular_momentum_W = plan.robot.inertia.cwiseProduct(state.base_rpy_rate);
+
+  for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
+    const Contact& contact = phase.contacts[l];
+    state.end_effectors[l].force_W = plan.robot.mass * contact.stiffness * (state.com_W - contact.anchor_W);
+    state.end_effectors[l].moment_W = contact.moment_W;
+  }
+}
+
+/// CoM and angular momentum from the forces at points; the base on its own quintic. A contact's moment is the one of
+/// its forces about the end-effector, which stands still: sum (p_i - p_l) x f_i.
+void point_force_motion(const Plan& plan, const Phase& phase, const Knot& from, const Knot& to, double tau,
+                        PlanState& state) {
+  for (const Contact& contact : phase.contacts)  // at() is often called on plans that nobody has validated
+    if (phase.intervals < 1 || contact.point_forces_W.size() != phase.node_count() * contact.points_W.size())
+      throw InvalidPlan("point_forces", "must be one per node and point", text(phase.intervals) + " intervals");
+  const double mass = plan.robot.mass, gravity = plan.scene.gravity;
+  const CentroidalState motion =
+      integrate_phase(phase, {from.com_W, from.com_velocity_W, from.angular_momentum_W}, tau, mass, gravity);
+  state.com_W = motion.com_W;
+  state.com_velocity_W = motion.com_velocity_W;
+  state.angular_momentum_W = motion.angular_momentum_W;
+
+  const Hermite base(from.base_rpy, from.base_rpy_rate, to.base_rpy, to.base_rpy_rate, phase.duration,
+                     tau / phase.duration);
+  state.base_rpy = base.position;
+  state.base_rpy_rate = base.velocity;
+
+  const IntervalTime at = interval_time(phase, tau);
+  state.com_acceleration_W = Vector3d(0.0, 0.0, -gravity);
+  for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
+    EndEffectorState& end = state.end_effectors[l];
+    end.points_W = phase.contacts[l].points_W;
+    end.point_forces_W = point_forces(phase, phase.contacts[l], at);
+    end.force_W = end.moment_W = Vector3d::Zero();
+    for (std::size_t i = 0; i < end.points_W.size(); ++i) {
+      end.force_W += end.point_forces_W[i];
+      end.moment_W += (end.points_W[i] - from.end_effectors_W[l]).cross(end.point_forces_W[i]);
+    }
+    state.com_acceleration_W += end.force_W / mass;
+  }
+}
+
 }  // namespace
 
 double Plan::duration() const {
@@ -138,34 +202,16 @@ PlanState Plan::at_phase(int k, double since_start) const {
   for (int i = 0; i < k; ++i) state.time += phases[i].duration;
   state.time += tau;
 
-  // p'' = Lambda p - sum mu_l s_l - g, solved by the entire functions (docs/theory/ddp.md, "Closed form").
-  double stiffness = 0.0;
-  Vector3d pull(0.0, 0.0, scene.gravity), moment = Vector3d::Zero();
-  for (const Contact& contact : phase.contacts) {
-    stiffness += contact.stiffness;
-    pull += contact.stiffness * contact.anchor_W;
-    moment += contact.moment_W;
-  }
-  const EntireFunctions f(stiffness * tau * tau);
-  const Vector3d acceleration = stiffness * from.com_W - pull;
-  state.com_W = from.com_W + tau * f(1) * from.com_velocity_W + tau * tau * f(2) * acceleration;
-  state.com_velocity_W = f(0) * from.com_velocity_W + tau * f(1) * acceleration;
-  state.com_acceleration_W = stiffness * state.com_W - pull;
-
-  // Small-angle rotation of the paper, eqs. (10)-(11): theta'' = I^-1 sum tau_l.
-  const Vector3d spin_up = moment.cwiseQuotient(robot.inertia);
-  state.base_rpy = from.base_rpy + tau * from.base_rpy_rate + 0.5 * tau * tau * spin_up;
-  state.base_rpy_rate = from.base_rpy_rate + tau * spin_up;
-  state.base_quat_wxyz = quat_wxyz_from_rpy(state.base_rpy);
-  state.angular_momentum_W = robot.inertia.cwiseProduct(state.base_rpy_rate);
-
   state.end_effectors.resize(phase.contacts.size());
+  if (phase.law == ForceLaw::pendulum)
+    pendulum_motion(*this, phase, from, tau, state);
+  else
+    point_force_motion(*this, phase, from, to, tau, state);
+  state.base_quat_wxyz = quat_wxyz_from_rpy(state.base_rpy);
+
   for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
-    const Contact& contact = phase.contacts[l];
     EndEffectorState& end = state.end_effectors[l];
-    end.surface = contact.surface;
-    end.force_W = robot.mass * contact.stiffness * (state.com_W - contact.anchor_W);
-    end.moment_W = contact.moment_W;
+    end.surface = phase.contacts[l].surface;
     const Hermite path(from.end_effectors_W[l], from.end_effector_velocities_W[l], to.end_effectors_W[l],
                        to.end_effector_velocities_W[l], phase.duration, tau / phase.duration);
     end.position_W = path.position;
@@ -178,63 +224,6 @@ PlanState Plan::at_phase(int k, double since_start) const {
     hold_in_reach(*this, swing, state, end);
   }
   return state;
-}
-
-void Plan::validate() const {
-  const int n = static_cast<int>(phases.size());
-  const int ends = end_effector_count();
-  const int surfaces = static_cast<int>(scene.surfaces.size());
-  if (n == 0) throw InvalidPlan("phases", "needs at least one phase", "none");
-  if (static_cast<int>(knots.size()) != n + 1)
-    throw InvalidPlan("knots", "must be one more than the phases (" + text(n + 1) + ")",
-                      text(static_cast<int>(knots.size())));
-  for (int k = 0; k <= n; ++k) {
-    const std::string field = "knots[" + std::to_string(k) + "]";
-    const Knot& knot = knots[k];
-    if (static_cast<int>(knot.end_effectors_W.size()) != ends ||
-        static_cast<int>(knot.end_effector_velocities_W.size()) != ends)
-      throw InvalidPlan(field + ".end_effectors", "must be one per end-effector (" + text(ends) + ")",
-                        text(static_cast<int>(knot.end_effectors_W.size())));
-    bool finite = knot.com_W.allFinite() && knot.com_velocity_W.allFinite() && knot.base_rpy.allFinite() &&
-                  knot.base_rpy_rate.allFinite();
-    for (int l = 0; l < ends; ++l)
-      finite = finite && knot.end_effectors_W[l].allFinite() && knot.end_effector_velocities_W[l].allFinite();
-    if (!finite) throw InvalidPlan(field, "must be finite numbers", "nan or inf");
-  }
-  for (int k = 0; k < n; ++k) {
-    const std::string field = "phases[" + std::to_string(k) + "]";
-    if (!(phases[k].duration > 0.0 && std::isfinite(phases[k].duration)))
-      throw InvalidPlan(field + ".duration", "must be a positive number", text(phases[k].duration));
-    if (static_cast<int>(phases[k].contacts.size()) != ends)
-      throw InvalidPlan(field + ".contacts", "must be one per end-effector (" + text(ends) + ")",
-                        text(static_cast<int>(phases[k].contacts.size())));
-    for (int l = 0; l < ends; ++l) {
-      const Contact& contact = phases[k].contacts[l];
-      if (contact.surface < -1 || contact.surface >= surfaces)
-        throw InvalidPlan(field + ".contacts[" + std::to_string(l) + "].surface",
-                          "must be -1 or the index of a surface (below " + text(surfaces) + ")", text(contact.surface));
-      if (!(std::isfinite(contact.stiffness) && contact.anchor_W.allFinite() && contact.moment_W.allFinite()))
-        throw InvalidPlan(field + ".contacts[" + std::to_string(l) + "]", "must be finite numbers", "nan or inf");
-    }
-  }
-  if (static_cast<int>(final_contacts.size()) != ends)
-    throw InvalidPlan("final_contacts", "must be one per end-effector (" + text(ends) + ")",
-                      text(static_cast<int>(final_contacts.size())));
-  for (int surface : final_contacts)
-    if (surface < -1 || surface >= surfaces)
-      throw InvalidPlan("final_contacts", "must be -1 or the index of a surface (below " + text(surfaces) + ")",
-                        text(surface));
-  for (std::size_t i = 0; i < swings.size(); ++i) {
-    const Swing& swing = swings[i];
-    const std::string field = "swings[" + std::to_string(i) + "]";
-    if (swing.end_effector < 0 || swing.end_effector >= ends || swing.first_phase < 0 ||
-        swing.end_phase <= swing.first_phase || swing.end_phase > n)
-      throw InvalidPlan(field, "must name an end-effector and a range of phases",
-                        "end-effector " + text(swing.end_effector) + ", phases " + text(swing.first_phase) + " to " +
-                            text(swing.end_phase));
-    if (!(std::isfinite(swing.height) && swing.lift_normal_W.allFinite() && swing.land_normal_W.allFinite()))
-      throw InvalidPlan(field, "must be finite numbers", "nan or inf");
-  }
 }
 
 }  // namespace mcplan

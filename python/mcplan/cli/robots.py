@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -27,6 +28,11 @@ def robots(
         ),
     ] = None,
     srdf: Annotated[Path | None, typer.Option("--srdf", metavar="FILE", help="Nominal posture: its first one.")] = None,
+    reach_polytopes: Annotated[
+        bool, typer.Option("--reach-polytopes", help="With --from-urdf: the reach of feet as polytopes too, for rhp.")
+    ] = False,
+    faces: Annotated[int, typer.Option("--faces", metavar="N", help="Largest number of faces of a polytope.")] = 30,
+    seed: Annotated[int, typer.Option("--seed", metavar="SEED", help="Of the random postures.")] = 0,
     output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file to write.")] = None,
 ) -> None:
     """List the built-in robots, print one, or work one out from a URDF.
@@ -34,26 +40,42 @@ def robots(
     Example: mcplan robots --from-urdf my.urdf --end left_foot=l_sole:foot:0.10x0.05 --end right_foot=r_sole -o my.toml
     """
     from mcplan.cli.table import print_table
+    from mcplan.errors import InvalidInput
     from mcplan.files.robots import list_robots, load_robot
 
     if from_urdf is not None:
-        _from_urdf(from_urdf, end or [], srdf, output)
+        _from_urdf(from_urdf, end or [], srdf, output, faces if reach_polytopes else None, seed)
+    elif reach_polytopes:
+        raise InvalidInput("--reach-polytopes", "needs --from-urdf")
     elif name is None:
         print_table([entry, load_robot(entry).description] for entry in list_robots())
     else:
         _print_robot(load_robot(name))
 
 
-def _from_urdf(source: str, ends: list[str], srdf: Path | None, output: Path | None) -> None:
+def _from_urdf(
+    source: str, ends: list[str], srdf: Path | None, output: Path | None, faces: int | None, seed: int
+) -> None:
+    """faces: of the reach polytopes; None: without them."""
+    from mcplan.files import reach_polytopes
     from mcplan.files.robots import robot_to_dict, save_robot
     from mcplan.files.toml import toml_text
     from mcplan.files.urdf import header, robot_from_urdf
 
-    robot = robot_from_urdf(source, tuple(_parse_end(text) for text in ends), srdf=str(srdf) if srdf else None)
+    parsed, srdf_path = tuple(_parse_end(text) for text in ends), str(srdf) if srdf else None
+    robot = robot_from_urdf(source, parsed, srdf=srdf_path, seed=seed)
     words = ["mcplan robots --from-urdf", source, *(f"--end {text}" for text in ends)]
     words += [f"--srdf {srdf}"] if srdf else []
+    if faces is not None:
+        words += ["--reach-polytopes", *([f"--faces {faces}"] if faces != reach_polytopes.FACES else [])]
+    words += [f"--seed {seed}"] if seed else []
     words += [f"-o {output}"] if output else []
     comment = header(" ".join(words))
+    if faces is not None:
+        reach_polytopes.add_reach_polytopes(
+            robot, source, parsed, srdf_path, faces, seed=seed, progress=lambda line: print(line, file=sys.stderr)
+        )
+        comment += "\n" + reach_polytopes.header(faces, seed)
     if output is None:
         robot.validate()
         print(toml_text(robot_to_dict(robot), comment), end="")
@@ -100,6 +122,10 @@ def _print_robot(robot: Robot) -> None:
     ]
     head = ["end-effector", "kind", "nominal [m]", "reach [m]", "half size [m]", "force [N]", "moment [N m]"]
     print_table(rows, head)
+    for e in robot.end_effectors:
+        reaches = [("CoM", e.com_reach)] if e.com_reach.given else []
+        for who, reach in [*reaches, *e.partner_reach.items()]:
+            print(f"{e.name}: polytope of the {who}, {len(reach.b)} faces")
 
 
 def _numbers(values: object) -> str:

@@ -14,23 +14,33 @@ if TYPE_CHECKING:
 def scenes(
     name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Built-in name or TOML file.")] = None,
     html: Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the scene on a page.")] = None,
+    seed: Annotated[
+        int | None, typer.Option("--seed", metavar="SEED", help="Other patches: for random_patches alone.")
+    ] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file to write.")] = None,
 ) -> None:
-    """List the built-in scenes, or print or draw one.
+    """List the built-in scenes, or print, draw or copy one.
 
-    Example: mcplan scenes gap_with_rail --html rail.html
+    Examples: mcplan scenes gap_with_rail --html rail.html; mcplan scenes random_patches --seed 3 -o my.toml
     """
     from mcplan.cli.table import print_table
     from mcplan.errors import InvalidInput
-    from mcplan.files.scenes import list_scenes, load_scene
+    from mcplan.files.scenes import list_scenes, load_scene, save_scene
 
     if name is None:
-        if html is not None:
-            raise InvalidInput("--html", "needs the NAME of a scene")
+        for option, value in (("--html", html), ("--seed", seed), ("--output", output)):
+            if value is not None:
+                raise InvalidInput(option, "needs the NAME of a scene")
         print_table([entry, load_scene(entry).description] for entry in list_scenes())
         return
-    scene = load_scene(name)
+    scene = load_scene(name) if seed is None else _seeded(name, seed)
+    if output is not None:
+        made = "" if seed is None else f" --seed {seed}"
+        save_scene(scene, output, f"Made by: mcplan scenes {name}{made} -o {output}")
+        print(f"Wrote {output}")
     if html is None:
-        _print_scene(scene)
+        if output is None:
+            _print_scene(scene)
         return
     from mcplan.extras import require
 
@@ -39,6 +49,15 @@ def scenes(
 
     show_scene(scene).save_html(html)
     print(f"Wrote {html}")
+
+
+def _seeded(name: str, seed: int) -> Scene:
+    from mcplan.errors import InvalidInput
+    from mcplan.files.terrains import random_patches
+
+    if name != "random_patches":
+        raise InvalidInput("--seed", "is for random_patches alone", repr(name))
+    return random_patches(seed)
 
 
 def _print_scene(scene: Scene) -> None:
@@ -51,6 +70,8 @@ def _print_scene(scene: Scene) -> None:
         print(_stance_line(field, stance))
     for rule in scene.rules:
         print(f"rule    when {_listed(rule.when_free)} is free, {_listed(rule.require)} must be in contact")
+    if scene.steps:
+        print("steps   " + ", ".join(f"{step.end_effector} on {step.surface}" for step in scene.steps))
     print()
     rows = []
     for surface in scene.surfaces:

@@ -53,6 +53,13 @@ class Limb:
         pin.updateFramePlacements(self.model, self._data)
         return self._data.oMf[self.frame].translation - com
 
+    def rotation_error(self, joints: np.ndarray) -> np.ndarray:
+        """Rotation vector [rad] from the contact frame's orientation to that of the nominal posture, base axes."""
+        import pinocchio as pin
+
+        self.position(joints)
+        return pin.log3(self._orientation @ self._data.oMf[self.frame].rotation.T)
+
     def jacobian(self, joints: np.ndarray) -> np.ndarray:
         """Of the position relative to the CoM and of the frame's rotation, 6 x joints."""
         import pinocchio as pin

@@ -121,10 +121,8 @@ def robot_from_urdf(
     import pinocchio as pin
 
     setup = SETUPS.get(source)
-    model, posture, urdf = _load(source, srdf)
-    ends = ends or (setup.ends if setup else ())
-    if not ends:
-        raise InvalidInput("ends", f"must be given for a robot other than {', '.join(SETUPS)}", repr(source))
+    model, posture, urdf = load_model(source, srdf)
+    ends = ends_of(source, ends)
     for end in ends:
         if not model.existBodyName(end.frame):
             raise InvalidInput(f"ends.{end.name}", "must name a link of the URDF", repr(end.frame))
@@ -173,6 +171,17 @@ def header(command: str, step: float = 0.02) -> str:
     return f"Made by: {command}\n{textwrap.fill(text, 116)}"
 
 
+def ends_of(source: str, ends: tuple[End, ...] = ()) -> tuple[End, ...]:
+    """The end-effectors given, or those in SETUPS.
+
+    Raises:
+        InvalidInput: None are given and there are none in SETUPS.
+    """
+    if not ends and source not in SETUPS:
+        raise InvalidInput("ends", f"must be given for a robot other than {', '.join(SETUPS)}", repr(source))
+    return ends or SETUPS[source].ends
+
+
 def frame_id(model: Any, link: str) -> int:
     """Index of a link's frame; joints, which have frames too, may bear the same name."""
     return model.getBodyId(link)
@@ -204,7 +213,12 @@ def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...]) ->
     )
 
 
-def _load(source: str, srdf: str | None) -> tuple[Any, np.ndarray, str]:
+def load_model(source: str, srdf: str | None) -> tuple[Any, np.ndarray, str]:
+    """Pinocchio model with a free base, nominal posture, and what to write as `urdf` of the robot.
+
+    Raises:
+        InvalidInput: No such file, and no such name in example-robot-data.
+    """
     import pinocchio as pin
 
     if Path(source).is_file():

@@ -7,19 +7,7 @@
 
 #include "mcplan/base/error.hpp"
 #include "plan/fixtures.hpp"
-
-namespace doctest {
-
-template <>
-struct StringMaker<std::set<std::string>> {
-  static String convert(const std::set<std::string>& names) {
-    std::string out = "{";
-    for (const auto& name : names) out += " " + name;
-    return (out + " }").c_str();
-  }
-};
-
-}  // namespace doctest
+#include "plan/name_sets.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@ namespace mcplan {
 
 /// Published tolerances of the checker.
 struct Tolerances {
-  double dynamics = 1e-8;          ///< [m], [m/s], [rad], [rad/s] replayed state against the next knot
+  double dynamics = 1e-8;          ///< [m], [m/s], [rad], [rad/s], [kg m^2/s] replayed state against the next knot
   double contact_distance = 1e-3;  ///< [m] end-effector in contact off its plane, or beyond its polygon
   double slip = 1e-3;              ///< [m] travel of an end-effector while in contact
   double friction = 1e-3;          ///< [-] tangential over normal force, beyond the coefficient
@@ -29,24 +29,28 @@ struct Tolerances {
 ///
 ///     finite             every number of the plan is finite
 ///     phase_duration     every phase lasts longer than a microsecond
-///     dynamics           f_l = m mu_l (p - s_l), gravity and contact moments, integrated by RK4 over a phase, end at
-///     the next knot at_consistency     Plan::at_phase agrees with that integration contact_distance   height of an
-///     end-effector in contact off its plane contact_polygon    its distance beyond the polygon's boundary
+///     dynamics           forces, gravity and moments, integrated by RK4 over a phase, end at the next knot
+///     at_consistency     Plan::at_phase agrees with that integration
+///     contact_distance   height of an end-effector in contact off its plane
+///     contact_polygon    its distance beyond the polygon's boundary
 ///     contact_permission it may touch that surface
 ///     slip               its distance from where it touched down
-///     anchor             distance of the force's anchor from the sole (from the point, without a sole)
+///     anchor             distance of the force's anchor, or of its points, from the sole (from the point, without one)
 ///     path_continuity    jump of an end-effector at a knot
-///     free_force         stiffness and moment of a free end-effector are exactly zero
+///     free_force         stiffness, moment and points of a free end-effector are none
 ///     stiffness_sign     mu_l >= 0
-///     pull               a contact does not pull, n . f >= 0 (grasp surfaces excepted)
-///     friction           |tangential force| / (n . f) <= friction coefficient (grasp surfaces excepted)
-///     force_cap          |f_l| <= max_force
-///     moment             contact moment within max_moment and within what the sole can give
-///     reach              every end-effector, swinging or not, in its reach box about the CoM
+///     pull               no contact and no point of one pulls, n . f >= 0 (grasp surfaces excepted)
+///     friction           |tangential force| / (n . f) <= friction coefficient, at every point (grasp surfaces
+///     excepted) force_cap          |f_l| <= max_force, f_l the sum over its points moment             contact moment
+///     within max_moment and within what the sole can give (not of forces at points,
+///                        which `anchor`, `pull` and `friction` hold)
+///     reach              every end-effector, swinging or not, in its reach box about the CoM; in contact in com_reach
+///                        and partner_reach, where the robot has them
 ///     clearance          depth of a swinging end-effector in a solid
 ///     sequence_switch    contacts made or broken in one step
 ///     sequence_rule      the scene's contact rules, in every phase and at the end
-///     start, goal        CoM, heading and contacts of the scene's stances, at rest
+///     start, goal        CoM, heading and contacts of the scene's stances, at rest (no start where the plan begins
+///                        at a measured state, no goal where its end is open)
 ///
 /// A constraint that nothing in the plan touches stands there with value 0 and phase -1. When `finite` or
 /// `phase_duration` is violated nothing else can be evaluated, and the list ends there.

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cmath>
+
+#include "mcplan/base/error.hpp"
+#include "mcplan/plan/plan.hpp"
+
+namespace mcplan {
+namespace {
+
+using Eigen::Vector3d;
+
+bool finite(const std::vector<Vector3d>& vectors) {
+  return std::all_of(vectors.begin(), vectors.end(), [](const Vector3d& v) { return v.allFinite(); });
+}
+
+void validate_knot(const Knot& knot, int ends, const std::string& field) {
+  if (static_cast<int>(knot.end_effectors_W.size()) != ends ||
+      static_cast<int>(knot.end_effector_velocities_W.size()) != ends)
+    throw InvalidPlan(field + ".end_effectors", "must be one per end-effector (" + text(ends) + ")",
+                      text(static_cast<int>(knot.end_effectors_W.size())));
+  if (!(knot.com_W.allFinite() && knot.com_velocity_W.allFinite() && knot.base_rpy.allFinite() &&
+        knot.base_rpy_rate.allFinite() && knot.angular_momentum_W.allFinite() && finite(knot.end_effectors_W) &&
+        finite(knot.end_effector_velocities_W)))
+    throw InvalidPlan(field, "must be finite numbers", "nan or inf");
+}
+
+void validate_contact(const Phase& phase, const Contact& contact, int surfaces, const std::string& field) {
+  if (contact.surface < -1 || contact.surface >= surfaces)
+    throw InvalidPlan(field + ".surface", "must be -1 or the index of a surface (below " + text(surfaces) + ")",
+                      text(contact.surface));
+  if (!(std::isfinite(contact.stiffness) && contact.anchor_W.allFinite() && contact.moment_W.allFinite() &&
+        finite(contact.points_W) && finite(contact.point_forces_W)))
+    throw InvalidPlan(field, "must be finite numbers", "nan or inf");
+
+  const int points = static_cast<int>(contact.points_W.size());
+  if (points > 0 && phase.law == ForceLaw::pendulum)
+    throw InvalidPlan(field + ".points", "must be none under the pendulum's force law", text(points));
+  if (points > 0 && contact.surface < 0)
+    throw InvalidPlan(field + ".points", "must be none at a free end-effector", text(points));
+  const int wanted = phase.node_count() * points;
+  if (static_cast<int>(contact.point_forces_W.size()) != wanted)
+    throw InvalidPlan(field + ".point_forces", "must be one per node and point (" + text(wanted) + ")",
+                      text(static_cast<int>(contact.point_forces_W.size())));
+  if (phase.law == ForceLaw::pendulum) return;
+  if (contact.stiffness != 0.0)
+    throw InvalidPlan(field + ".stiffness", "must be 0 where forces act at points", text(contact.stiffness));
+  if (contact.anchor_W != Vector3d::Zero())
+    throw InvalidPlan(field + ".anchor", "must be 0 where forces act at points", text(contact.anchor_W));
+  if (contact.moment_W != Vector3d::Zero())
+    throw InvalidPlan(field + ".moment", "must be 0 where forces act at points", text(contact.moment_W));
+}
+
+void validate_phase(const Phase& phase, int ends, int surfaces, const std::string& field) {
+  if (!(phase.duration > 0.0 && std::isfinite(phase.duration)))
+    throw InvalidPlan(field + ".duration", "must be a positive number", text(phase.duration));
+  if (static_cast<int>(phase.contacts.size()) != ends)
+    throw InvalidPlan(field + ".contacts", "must be one per end-effector (" + text(ends) + ")",
+                      text(static_cast<int>(phase.contacts.size())));
+  if (phase.law == ForceLaw::pendulum && phase.intervals != 0)
+    throw InvalidPlan(field + ".intervals", "must be 0 under the pendulum's force law", text(phase.intervals));
+  if (phase.law != ForceLaw::pendulum && phase.intervals < 1)
+    throw InvalidPlan(field + ".intervals", "must be at least 1 where forces act at points", text(phase.intervals));
+  for (int l = 0; l < ends; ++l)
+    validate_contact(phase, phase.contacts[l], surfaces, field + ".contacts[" + std::to_string(l) + "]");
+}
+
+void validate_swing(const Swing& swing, int ends, int phases, const std::string& field) {
+  if (swing.end_effector < 0 || swing.end_effector >= ends || swing.first_phase < 0 ||
+      swing.end_phase <= swing.first_phase || swing.end_phase > phases)
+    throw InvalidPlan(field, "must name an end-effector and a range of phases",
+                      "end-effector " + text(swing.end_effector) + ", phases " + text(swing.first_phase) + " to " +
+                          text(swing.end_phase));
+  if (!(std::isfinite(swing.height) && swing.lift_normal_W.allFinite() && swing.land_normal_W.allFinite()))
+    throw InvalidPlan(field, "must be finite numbers", "nan or inf");
+}
+
+}  // namespace
+
+void Plan::validate() const {
+  const int n = static_cast<int>(phases.size());
+  const int ends = end_effector_count();
+  const int surfaces = static_cast<int>(scene.surfaces.size());
+  if (n == 0) throw InvalidPlan("phases", "needs at least one phase", "none");
+  if (static_cast<int>(knots.size()) != n + 1)
+    throw InvalidPlan("knots", "must be one more than the phases (" + text(n + 1) + ")",
+                      text(static_cast<int>(knots.size())));
+  for (int k = 0; k <= n; ++k) validate_knot(knots[k], ends, "knots[" + std::to_string(k) + "]");
+  for (int k = 0; k < n; ++k) validate_phase(phases[k], ends, surfaces, "phases[" + std::to_string(k) + "]");
+  if (static_cast<int>(final_contacts.size()) != ends)
+    throw InvalidPlan("final_contacts", "must be one per end-effector (" + text(ends) + ")",
+                      text(static_cast<int>(final_contacts.size())));
+  for (int surface : final_contacts)
+    if (surface < -1 || surface >= surfaces)
+      throw InvalidPlan("final_contacts", "must be -1 or the index of a surface (below " + text(surfaces) + ")",
+                        text(surface));
+  for (std::size_t i = 0; i < swings.size(); ++i)
+    validate_swing(swings[i], ends, n, "swings[" + std::to_string(i) + "]");
+}
+
+}  // namespace mcplan

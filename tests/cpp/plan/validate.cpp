@@ -1,0 +1,64 @@
+#include <doctest/doctest.h>
+
+#include <functional>
+
+#include "mcplan/base/error.hpp"
+#include "mcplan/plan/plan.hpp"
+#include "plan/point_fixtures.hpp"
+
+using namespace fixtures;
+using mcplan::Plan;
+
+namespace {
+
+/// Field of the error that a change to a valid plan brings.
+std::string field(const std::function<void(Plan&)>& mutate, Plan plan = walk()) {
+  mutate(plan);
+  try {
+    plan.validate();
+  } catch (const mcplan::InvalidPlan& error) {
+    return error.field();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("validate names the field that does not fit") {
+  CHECK(field([](Plan&) {}) == "accepted");
+  CHECK(field([](Plan& p) { p.phases.clear(); }) == "phases");
+  CHECK(field([](Plan& p) { p.knots.pop_back(); }) == "knots");
+  CHECK(field([](Plan& p) { p.knots[2].end_effectors_W.pop_back(); }) == "knots[2].end_effectors");
+  CHECK(field([](Plan& p) { p.knots[2].com_W.x() = std::nan(""); }) == "knots[2]");
+  CHECK(field([](Plan& p) { p.knots[4].end_effector_velocities_W[1].x() = INFINITY; }) == "knots[4]");
+  CHECK(field([](Plan& p) { p.phases[1].duration = 0.0; }) == "phases[1].duration");
+  CHECK(field([](Plan& p) { p.phases[1].contacts.pop_back(); }) == "phases[1].contacts");
+  CHECK(field([](Plan& p) { p.phases[1].contacts[2].surface = 5; }) == "phases[1].contacts[2].surface");
+  CHECK(field([](Plan& p) { p.phases[1].contacts[2].stiffness = std::nan(""); }) == "phases[1].contacts[2]");
+  CHECK(field([](Plan& p) { p.final_contacts.pop_back(); }) == "final_contacts");
+  CHECK(field([](Plan& p) { p.final_contacts[0] = 9; }) == "final_contacts");
+  CHECK(field([](Plan& p) { p.swings[1].end_phase = 13; }) == "swings[1]");
+  CHECK(field([](Plan& p) { p.swings[1].end_effector = 4; }) == "swings[1]");
+  CHECK(field([](Plan& p) { p.swings[1].height = std::nan(""); }) == "swings[1]");
+  CHECK(field([](Plan& p) { p.swings[2].lift_normal_W.z() = INFINITY; }) == "swings[2]");
+}
+
+TEST_CASE("validate names the field of forces at points that does not fit") {
+  const auto of_step = [](const std::function<void(Plan&)>& mutate) { return field(mutate, step_on_corners()); };
+  CHECK(of_step([](Plan&) {}) == "accepted");
+  CHECK(of_step([](Plan& p) { p.knots[1].angular_momentum_W.y() = INFINITY; }) == "knots[1]");
+  CHECK(of_step([](Plan& p) { p.phases[0].intervals = 0; }) == "phases[0].intervals");
+  CHECK(of_step([](Plan& p) { p.phases[0].intervals = 3; }) == "phases[0].contacts[0].point_forces");
+  CHECK(of_step([](Plan& p) { p.phases[2].law = mcplan::ForceLaw::linear; }) == "phases[2].contacts[0].point_forces");
+  CHECK(of_step([](Plan& p) { p.phases[1].contacts[1].points_W.pop_back(); }) == "phases[1].contacts[1].point_forces");
+  CHECK(of_step([](Plan& p) { p.phases[1].contacts[1].points_W[2].x() = std::nan(""); }) == "phases[1].contacts[1]");
+  CHECK(of_step([](Plan& p) { p.phases[1].contacts[1].point_forces_W[7].x() = NAN; }) == "phases[1].contacts[1]");
+  CHECK(of_step([](Plan& p) { p.phases[0].contacts[0].surface = -1; }) == "phases[0].contacts[0].points");
+  CHECK(of_step([](Plan& p) { p.phases[0].contacts[1].stiffness = 1.0; }) == "phases[0].contacts[1].stiffness");
+  CHECK(of_step([](Plan& p) { p.phases[0].contacts[1].anchor_W.z() = 1.0; }) == "phases[0].contacts[1].anchor");
+  CHECK(of_step([](Plan& p) { p.phases[0].contacts[1].moment_W.z() = 1.0; }) == "phases[0].contacts[1].moment");
+  CHECK(field([](Plan& p) { p.phases[2].intervals = 4; }) == "phases[2].intervals");
+  CHECK(field([](Plan& p) {
+          p.phases[2].contacts[0].points_W.push_back({0, 0, 0});
+        }) == "phases[2].contacts[0].points");
+}
