@@ -13,8 +13,9 @@ import numpy as np
 import pytest
 
 import mcplan as mp
-from mcplan.files.plans import load_plan, plan_to_bytes
+from mcplan.files.plans import load_plan, plan_from_bytes, plan_to_bytes
 from standing import standing_plan
+from stepping import stepping_plan
 
 
 @pytest.fixture
@@ -130,8 +131,11 @@ DAMAGE = {
         put("header", lambda a: np.frombuffer(b"[]", np.uint8)),
         "header: must be a JSON object",
     ),
-    "future format": (header(format=2), r"header.format: must be 1 for this version of mcplan, got 2"),
+    "future format": (header(format=3), r"header.format: must be 1 or 2 for this version of mcplan, got 3"),
     "no format": (header(format=None), "header.format: must be 1"),
+    "format a list": (header(format=[1]), "header.format: must be 1"),
+    "format true": (header(format=True), "header.format: must be 1 or 2"),
+    "points promised": (header(format=2), "laws: is required"),
     "planner a number": (header(planner=1), "header.planner: must be a str, got int"),
     "scene a list": (header(scene=[]), "header.scene: must be a dict"),
     "scene broken": (header(scene={"name": "x"}), "header.scene.surfaces: is required"),
@@ -158,6 +162,61 @@ DAMAGE = {
     "NaN": (put("stiffness", lambda a: a * np.nan), "must be finite numbers"),
     "time runs back": (put("durations", lambda a: -a), "duration"),
 }
+
+
+POINT_DAMAGE = {
+    "no laws": (without("laws"), "laws: is required"),
+    "no points": (without("points_W"), "points_W: is required"),
+    "unknown law": (put("laws", lambda a: a + 2), r"laws: must lie in \[0, 2\], got [34]"),
+    "negative intervals": (put("intervals", lambda a: -a), r"intervals: must lie in \[0, 100000\]"),
+    "many intervals": (put("intervals", lambda a: a * 10**8), r"intervals: must lie in \[0, 100000\]"),
+    "more intervals": (put("intervals", lambda a: a + 1), r"point_forces_W: must have the \d+ rows that point_counts"),
+    "no intervals": (
+        lambda arrays: arrays.update(intervals=0 * arrays["intervals"], laws=0 * arrays["laws"] + 1),
+        "point_forces_W: must have the 0 rows",
+    ),
+    "negative points": (put("point_counts", lambda a: -a), r"point_counts: must lie in"),
+    "more points": (put("point_counts", lambda a: a + 1), r"points_W: must have the \d+ rows that point_counts imply"),
+    "points of two": (put("points_W", lambda a: a[:, :2]), r"points_W: must have shape"),
+    "flat points": (put("points_W", lambda a: a.ravel()), r"points_W: must have shape"),
+    "one number": (put("points_W", lambda a: a[0, 0]), r"points_W: must have shape"),
+    "half a count": (put("point_counts", lambda a: a + 0.5), "point_counts: must hold integers"),
+    "infinite force": (put("point_forces_W", lambda a: a * np.inf), "must be finite numbers"),
+    "infinite momentum": (put("angular_momentum_W", lambda a: a + np.inf), "must be finite numbers"),
+    "free foot with points": (put("surfaces", lambda a: a * 0 - 1), "points: must be none at a free end-effector"),
+    "stiff": (put("stiffness", lambda a: a + 1.0), "stiffness: must be 0 where forces act at points"),
+}
+
+
+@pytest.mark.parametrize("damage", POINT_DAMAGE)
+def test_damaged_forces_at_points_are_named(damage, tmp_path):
+    change, message = POINT_DAMAGE[damage]
+    arrays = arrays_of(plan_to_bytes(stepping_plan()))
+    change(arrays)
+    (tmp_path / "bad.npz").write_bytes(bytes_of(arrays))
+    with pytest.raises(mp.InvalidPlan, match=message) as found:
+        load_plan(tmp_path / "bad.npz")
+    assert str(found.value).startswith(str(tmp_path / "bad.npz"))
+
+
+def test_forces_at_points_come_back_exactly(tmp_path):
+    plan = stepping_plan()
+    plan.phases[1].contacts[0].point_forces_W[3, 1] = 1 / 3
+    plan.save(tmp_path / "plan.npz")
+    for other in (mp.Plan.load(tmp_path / "plan.npz"), pickle.loads(pickle.dumps(plan)), copy.deepcopy(plan)):
+        assert states(other) == states(plan)
+        assert repr(other.phases) == repr(plan.phases) and repr(other.knots) == repr(plan.knots)
+        assert other.open_end and plan_to_bytes(other) == plan_to_bytes(plan)
+    assert json.loads(arrays_of(plan_to_bytes(plan))["header"].tobytes())["format"] == 2
+
+
+def test_files_from_before_there_were_points_still_load(plan):
+    arrays = arrays_of(plan_to_bytes(plan))
+    data = json.loads(arrays["header"].tobytes())
+    assert data.pop("open_end") is False and data["format"] == 1  # what the first version did not write
+    arrays["header"] = np.frombuffer(json.dumps(data).encode(), np.uint8)
+    other = plan_from_bytes(bytes_of(arrays))
+    assert states(other) == states(plan) and not other.open_end
 
 
 @pytest.mark.parametrize("damage", DAMAGE)

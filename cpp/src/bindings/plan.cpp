@@ -9,55 +9,85 @@ namespace {
 
 using Eigen::Vector3d;
 
+void bind_force_law(py::module_& m) {
+  py::enum_<ForceLaw>(m, "ForceLaw", "How contact forces depend on time within a phase.")
+      .value("pendulum", ForceLaw::pendulum, "f(t) = mass stiffness (com(t) - anchor): the multi-contact pendulum.")
+      .value("held", ForceLaw::held, "Forces at points, constant over each of `intervals` equal intervals.")
+      .value("linear", ForceLaw::linear, "Forces at points, linear over each of `intervals` equal intervals.")
+      .def(
+          "__repr__", [](ForceLaw law) { return "ForceLaw." + std::string(py::str(py::cast(law).attr("name"))); },
+          py::prepend());
+}
+
 void bind_phases(py::module_& m) {
-  py::class_<Contact> contact(m, "Contact",
-                              "What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor).");
-  contact.def(py::init([](int surface, double stiffness, const Vector3d& anchor_W, const Vector3d& moment_W) {
-                return Contact{surface, stiffness, anchor_W, moment_W, {}, {}};
+  py::class_<Contact> contact(
+      m, "Contact",
+      "What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor), or "
+      "forces at points where the phase's law says so.");
+  contact.def(py::init([](int surface, double stiffness, const Vector3d& anchor_W, const Vector3d& moment_W,
+                          const py::object& points_W, const py::object& point_forces_W) {
+                return Contact{surface,
+                               stiffness,
+                               anchor_W,
+                               moment_W,
+                               points_from(points_W, "points_W"),
+                               points_from(point_forces_W, "point_forces_W")};
               }),
               py::kw_only(), py::arg("surface") = -1, py::arg("stiffness") = 0.0,
-              py::arg("anchor_W") = Vector3d(Vector3d::Zero()), py::arg("moment_W") = Vector3d(Vector3d::Zero()));
+              py::arg("anchor_W") = Vector3d(Vector3d::Zero()), py::arg("moment_W") = Vector3d(Vector3d::Zero()),
+              py::arg("points_W") = py::tuple(), py::arg("point_forces_W") = py::tuple());
   contact.def_readwrite("surface", &Contact::surface, "Index into scene.surfaces, -1: free.");
   contact.def_readwrite("stiffness", &Contact::stiffness, "mu [1/s^2], 0 when free.");
   def_vector(contact, "anchor_W", &Contact::anchor_W, "Point through which the line of force passes [m].");
   def_vector(contact, "moment_W", &Contact::moment_W, "Contact moment, constant over the phase [N m].");
-  def_value(contact, "Contact", {"surface", "stiffness", "anchor_W", "moment_W"});
+  def_points(contact, "points_W", &Contact::points_W, "N x 3 [m], where forces act, e.g. the corners of the sole.");
+  def_points(contact, "point_forces_W", &Contact::point_forces_W,
+             "[N] node by node, a row for each point: (Phase.node_count() N) x 3.");
+  def_value(contact, "Contact", {"surface", "stiffness", "anchor_W", "moment_W", "points_W", "point_forces_W"});
 
   py::class_<Phase> phase(m, "Phase", "A stretch of time with constant contacts.");
-  phase.def(py::init([](double duration, std::vector<Contact> contacts) {
-              return Phase{duration, std::move(contacts), ForceLaw::pendulum, 0};
+  phase.def(py::init([](double duration, std::vector<Contact> contacts, ForceLaw law, int intervals) {
+              return Phase{duration, std::move(contacts), law, intervals};
             }),
-            py::kw_only(), py::arg("duration") = 0.0, py::arg("contacts") = std::vector<Contact>());
+            py::kw_only(), py::arg("duration") = 0.0, py::arg("contacts") = std::vector<Contact>(),
+            py::arg("law") = ForceLaw::pendulum, py::arg("intervals") = 0);
   phase.def_readwrite("duration", &Phase::duration, "[s]");
   def_items(phase, "contacts", &Phase::contacts, "One Contact per end-effector.");
-  def_value(phase, "Phase", {"duration", "contacts"});
+  phase.def_readwrite("law", &Phase::law, "How forces depend on time.");
+  phase.def_readwrite("intervals", &Phase::intervals, "Of the forces at points, equally long; 0 for the pendulum.");
+  phase.def("node_count", &Phase::node_count,
+            "Instants at which forces are given: `intervals` when held, one more when linear, 0 for the pendulum.");
+  def_value(phase, "Phase", {"duration", "contacts", "law", "intervals"});
 }
 
 void bind_knot(py::module_& m) {
   py::class_<Knot> knot(m, "Knot", "State at the instant between two phases.");
   const Vector3d zero = Vector3d::Zero();
-  knot.def(
-      py::init([](const Vector3d& com_W, const Vector3d& com_velocity_W, const Vector3d& base_rpy,
-                  const Vector3d& base_rpy_rate, const py::object& end_effectors_W, const py::object& velocities_W) {
-        return Knot{com_W,
-                    com_velocity_W,
-                    base_rpy,
-                    base_rpy_rate,
-                    points_from(end_effectors_W, "end_effectors_W"),
-                    points_from(velocities_W, "end_effector_velocities_W"),
-                    Vector3d::Zero()};
-      }),
-      py::kw_only(), py::arg("com_W") = zero, py::arg("com_velocity_W") = zero, py::arg("base_rpy") = zero,
-      py::arg("base_rpy_rate") = zero, py::arg("end_effectors_W") = py::tuple(),
-      py::arg("end_effector_velocities_W") = py::tuple());
+  knot.def(py::init([](const Vector3d& com_W, const Vector3d& com_velocity_W, const Vector3d& base_rpy,
+                       const Vector3d& base_rpy_rate, const py::object& end_effectors_W, const py::object& velocities_W,
+                       const Vector3d& angular_momentum_W) {
+             return Knot{com_W,
+                         com_velocity_W,
+                         base_rpy,
+                         base_rpy_rate,
+                         points_from(end_effectors_W, "end_effectors_W"),
+                         points_from(velocities_W, "end_effector_velocities_W"),
+                         angular_momentum_W};
+           }),
+           py::kw_only(), py::arg("com_W") = zero, py::arg("com_velocity_W") = zero, py::arg("base_rpy") = zero,
+           py::arg("base_rpy_rate") = zero, py::arg("end_effectors_W") = py::tuple(),
+           py::arg("end_effector_velocities_W") = py::tuple(), py::arg("angular_momentum_W") = zero);
   def_vector(knot, "com_W", &Knot::com_W, "[m]");
   def_vector(knot, "com_velocity_W", &Knot::com_velocity_W, "[m/s]");
   def_vector(knot, "base_rpy", &Knot::base_rpy, "Roll, pitch, yaw of the base [rad].");
   def_vector(knot, "base_rpy_rate", &Knot::base_rpy_rate, "[rad/s]");
   def_points(knot, "end_effectors_W", &Knot::end_effectors_W, "One row per end-effector [m].");
   def_points(knot, "end_effector_velocities_W", &Knot::end_effector_velocities_W, "[m/s], zero at contacts.");
+  def_vector(knot, "angular_momentum_W", &Knot::angular_momentum_W,
+             "About the CoM [kg m^2/s]; not looked at under ForceLaw.pendulum, whose base carries it.");
   def_value(knot, "Knot",
-            {"com_W", "com_velocity_W", "base_rpy", "base_rpy_rate", "end_effectors_W", "end_effector_velocities_W"});
+            {"com_W", "com_velocity_W", "base_rpy", "base_rpy_rate", "end_effectors_W", "end_effector_velocities_W",
+             "angular_momentum_W"});
 }
 
 void bind_swing(py::module_& m) {
@@ -86,7 +116,14 @@ void bind_state(py::module_& m) {
   end.def_readonly("velocity_W", &EndEffectorState::velocity_W, "[m/s]");
   end.def_readonly("force_W", &EndEffectorState::force_W, "Contact force on the robot [N], zero when free.");
   end.def_readonly("moment_W", &EndEffectorState::moment_W, "Contact moment on the robot [N m], zero when free.");
-  def_value(end, "EndEffectorState", {"surface", "position_W", "velocity_W", "force_W", "moment_W"});
+  const auto def_rows = [&end](const char* name, std::vector<Vector3d> EndEffectorState::*member, const char* doc) {
+    end.def_property_readonly(
+        name, [member](py::object self) { return points_view(self.cast<EndEffectorState&>().*member, self); }, doc);
+  };
+  def_rows("points_W", &EndEffectorState::points_W, "N x 3 [m], where the law has forces at points.");
+  def_rows("point_forces_W", &EndEffectorState::point_forces_W, "N x 3, force on the robot at each point [N].");
+  def_value(end, "EndEffectorState",
+            {"surface", "position_W", "velocity_W", "force_W", "moment_W", "points_W", "point_forces_W"});
 
   py::class_<PlanState> state(m, "PlanState", "The robot at an instant.");
   state.def_readonly("time", &PlanState::time, "[s]");
@@ -120,7 +157,8 @@ void bind_plan_class(py::module_& m) {
   py::class_<Plan> plan(m, "Plan",
                         "A motion: phases with constant contacts between knots. Carries its scene and robot.");
   plan.def(py::init([](const Scene& scene, const Robot& robot, std::string planner, std::vector<Knot> knots,
-                       std::vector<Phase> phases, Ints final_contacts, std::vector<Swing> swings, bool measured_start) {
+                       std::vector<Phase> phases, Ints final_contacts, std::vector<Swing> swings, bool measured_start,
+                       bool open_end) {
              Plan out;
              out.scene = scene;
              out.robot = robot;
@@ -130,14 +168,16 @@ void bind_plan_class(py::module_& m) {
              out.final_contacts = std::move(final_contacts);
              out.swings = std::move(swings);
              out.measured_start = measured_start;
+             out.open_end = open_end;
              return out;
            }),
            py::kw_only(), py::arg("scene") = Scene(), py::arg("robot") = Robot(), py::arg("planner") = "",
            py::arg("knots") = std::vector<Knot>(), py::arg("phases") = std::vector<Phase>(),
            py::arg("final_contacts") = Ints(), py::arg("swings") = std::vector<Swing>(),
-           py::arg("measured_start") = false);
+           py::arg("measured_start") = false, py::arg("open_end") = false);
   plan.def_readwrite("measured_start", &Plan::measured_start,
                      "Starts from a measured state, not from the scene's start.");
+  plan.def_readwrite("open_end", &Plan::open_end, "Ends on the way, not at the scene's goal.");
   def_member(plan, "scene", &Plan::scene, "The scene it was made for.");
   def_member(plan, "robot", &Plan::robot, "The robot it was made for.");
   plan.def_readwrite("planner", &Plan::planner, "E.g. 'ddp'.");
@@ -310,6 +350,7 @@ void bind_checker(py::module_& m) {
 }  // namespace
 
 void bind_plan(py::module_& m) {
+  bind_force_law(m);
   bind_phases(m);
   bind_knot(m);
   bind_swing(m);

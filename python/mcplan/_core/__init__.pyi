@@ -18,6 +18,7 @@ __all__: list[str] = [
     "EndEffector",
     "EndEffectorState",
     "EntireFunctions",
+    "ForceLaw",
     "Iteration",
     "Knot",
     "LogLevel",
@@ -638,9 +639,50 @@ class ResolvedStance:
         [rad]
         """
 
+class ForceLaw:
+    """
+    How contact forces depend on time within a phase.
+
+    Members:
+
+      pendulum : f(t) = mass stiffness (com(t) - anchor): the multi-contact pendulum.
+
+      held : Forces at points, constant over each of `intervals` equal intervals.
+
+      linear : Forces at points, linear over each of `intervals` equal intervals.
+    """
+
+    __members__: typing.ClassVar[dict[str, ForceLaw]]
+    held: typing.ClassVar[ForceLaw]
+    linear: typing.ClassVar[ForceLaw]
+    pendulum: typing.ClassVar[ForceLaw]
+    @typing.overload
+    def __eq__(self, other: ForceLaw) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: ForceLaw) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
 class Contact:
     """
-    What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor).
+    What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor), or forces at points where the phase's law says so.
     """
     def __copy__(self) -> Contact: ...
     def __deepcopy__(self, memo: dict) -> Contact: ...
@@ -651,6 +693,8 @@ class Contact:
         stiffness: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         anchor_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         moment_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        points_W: typing.Any = (),
+        point_forces_W: typing.Any = (),
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -667,6 +711,20 @@ class Contact:
         """
     @moment_W.setter
     def moment_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def point_forces_W(self) -> numpy.ndarray:
+        """
+        [N] node by node, a row for each point: (Phase.node_count() N) x 3.
+        """
+    @point_forces_W.setter
+    def point_forces_W(self, arg1: typing.Any) -> None: ...
+    @property
+    def points_W(self) -> numpy.ndarray:
+        """
+        N x 3 [m], where forces act, e.g. the corners of the sole.
+        """
+    @points_W.setter
+    def points_W(self, arg1: typing.Any) -> None: ...
     @property
     def stiffness(self) -> float:
         """
@@ -693,8 +751,14 @@ class Phase:
         *,
         duration: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         contacts: collections.abc.Sequence[Contact] = [],
+        law: ForceLaw = ...,
+        intervals: typing.SupportsInt | typing.SupportsIndex = 0,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def node_count(self) -> int:
+        """
+        Instants at which forces are given: `intervals` when held, one more when linear, 0 for the pendulum.
+        """
     @property
     def contacts(self) -> tuple:
         """
@@ -709,6 +773,20 @@ class Phase:
         """
     @duration.setter
     def duration(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def intervals(self) -> int:
+        """
+        Of the forces at points, equally long; 0 for the pendulum.
+        """
+    @intervals.setter
+    def intervals(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def law(self) -> ForceLaw:
+        """
+        How forces depend on time.
+        """
+    @law.setter
+    def law(self, arg0: ForceLaw) -> None: ...
 
 class Knot:
     """
@@ -725,8 +803,16 @@ class Knot:
         base_rpy_rate: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         end_effectors_W: typing.Any = (),
         end_effector_velocities_W: typing.Any = (),
+        angular_momentum_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    @property
+    def angular_momentum_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        About the CoM [kg m^2/s]; not looked at under ForceLaw.pendulum, whose base carries it.
+        """
+    @angular_momentum_W.setter
+    def angular_momentum_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def base_rpy(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
@@ -839,6 +925,16 @@ class EndEffectorState:
         Contact moment on the robot [N m], zero when free.
         """
     @property
+    def point_forces_W(self) -> numpy.ndarray:
+        """
+        N x 3, force on the robot at each point [N].
+        """
+    @property
+    def points_W(self) -> numpy.ndarray:
+        """
+        N x 3 [m], where the law has forces at points.
+        """
+    @property
     def position_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
         [m]
@@ -933,6 +1029,7 @@ class Plan:
         final_contacts: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
         swings: collections.abc.Sequence[Swing] = [],
         measured_start: bool = False,
+        open_end: bool = False,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     @typing.overload
@@ -991,6 +1088,13 @@ class Plan:
         """
     @measured_start.setter
     def measured_start(self, arg0: bool) -> None: ...
+    @property
+    def open_end(self) -> bool:
+        """
+        Ends on the way, not at the scene's goal.
+        """
+    @open_end.setter
+    def open_end(self, arg0: bool) -> None: ...
     @property
     def phases(self) -> tuple:
         """

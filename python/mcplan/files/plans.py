@@ -6,6 +6,13 @@ and the robot with the keys of their files. N phases, L end-effectors and S swin
     durations (N)  surfaces (N, L)  stiffness (N, L)  anchors_W, moments_W (N, L, 3)  final_contacts (L)
     com_W, com_velocity_W, base_rpy, base_rpy_rate (N+1, 3)  end_effectors_W, end_effector_velocities_W (N+1, L, 3)
     swings (S, 3: end-effector, first phase, end phase)  swing_heights (S)  swing_normals_W (S, 2, 3)
+
+That is format 1, for plans of the pendulum alone. A plan with forces at points has format 2, with these in addition:
+
+    laws (N: 0 pendulum, 1 held, 2 linear)  intervals (N)  angular_momentum_W (N+1, 3)
+    point_counts (N, L)  points_W (P, 3)  point_forces_W (F, 3)
+
+Points stand phase by phase and end-effector by end-effector; so do forces, and within a contact node by node.
 """
 
 from __future__ import annotations
@@ -22,14 +29,16 @@ from typing import Any, cast
 
 import numpy as np
 
-from mcplan._core import Contact, Knot, Phase, Plan, Swing, __version__
+from mcplan._core import Contact, ForceLaw, Knot, Phase, Plan, Swing, __version__
 from mcplan.errors import InvalidInput, InvalidPlan
 from mcplan.files.robots import robot_from_dict, robot_to_dict
 from mcplan.files.scenes import scene_from_dict, scene_to_dict
 
-FORMAT = 1
+#: 2 since forces may act at points; what has none is still written as 1, which older versions read.
+FORMATS = (1, 2)
 UNITS = "SI: m, kg, s, N, rad; stiffness in 1/s^2; _W: world frame, z up"
-_INTEGERS = {"surfaces", "final_contacts", "swings"}
+_INTEGERS = {"surfaces", "final_contacts", "swings", "laws", "intervals", "point_counts"}
+_LAWS = (ForceLaw.pendulum, ForceLaw.held, ForceLaw.linear)
 
 
 def save_plan(plan: Plan, path: str | Path) -> None:
@@ -76,11 +85,12 @@ def plan_to_bytes(plan: Plan) -> bytes:
     count, ends = len(plan.phases), plan.end_effector_count()
     contacts = [contact for phase in plan.phases for contact in phase.contacts]
     header = {
-        "format": FORMAT,
+        "format": 2 if _needs_points(plan) else 1,
         "units": UNITS,
         "mcplan": __version__,
         "planner": plan.planner,
         "measured_start": plan.measured_start,
+        "open_end": plan.open_end,
         "scene": scene_to_dict(plan.scene),
         "robot": robot_to_dict(plan.robot),
     }
@@ -107,6 +117,8 @@ def plan_to_bytes(plan: Plan) -> bytes:
         "end_effector_velocities_W",
     ):
         arrays[name] = np.array([getattr(knot, name) for knot in plan.knots])
+    if _needs_points(plan):
+        arrays.update(_point_arrays(plan))
     buffer = io.BytesIO()
     np.savez(buffer, **cast(Any, arrays))
     return buffer.getvalue()
@@ -122,9 +134,11 @@ def plan_from_bytes(data: bytes) -> Plan:
     header = _read_header(arrays)
     scene = _part("header.scene", scene_from_dict, header["scene"])
     robot = _part("header.robot", robot_from_dict, header["robot"])
-    _check_shapes(arrays, len(robot.end_effectors))
+    _check_shapes(arrays, len(robot.end_effectors), header["format"])
+    laws, points = _read_points(arrays, header["format"])
     plan = Plan(
         measured_start=header.get("measured_start", False) is True,
+        open_end=header.get("open_end", False) is True,
         scene=scene,
         robot=robot,
         planner=header["planner"],
@@ -136,31 +150,37 @@ def plan_from_bytes(data: bytes) -> Plan:
                 base_rpy_rate=rate,
                 end_effectors_W=ends,
                 end_effector_velocities_W=end_velocities,
+                angular_momentum_W=momentum,
             )
-            for com, velocity, rpy, rate, ends, end_velocities in zip(
+            for com, velocity, rpy, rate, ends, end_velocities, momentum in zip(
                 arrays["com_W"],
                 arrays["com_velocity_W"],
                 arrays["base_rpy"],
                 arrays["base_rpy_rate"],
                 arrays["end_effectors_W"],
                 arrays["end_effector_velocities_W"],
+                arrays.get("angular_momentum_W", np.zeros_like(arrays["com_W"])),
                 strict=True,
             )
         ],
         phases=[
             Phase(
                 duration=duration,
+                law=law,
+                intervals=intervals,
                 contacts=[
-                    Contact(surface=int(surface), stiffness=stiffness, anchor_W=anchor, moment_W=moment)
-                    for surface, stiffness, anchor, moment in zip(*row, strict=True)
+                    Contact(surface=int(surface), stiffness=stiffness, anchor_W=anchor, moment_W=moment, **at_points)
+                    for surface, stiffness, anchor, moment, at_points in zip(*row, strict=True)
                 ],
             )
-            for duration, *row in zip(
+            for duration, (law, intervals), *row in zip(
                 arrays["durations"],
+                laws,
                 arrays["surfaces"],
                 arrays["stiffness"],
                 arrays["anchors_W"],
                 arrays["moments_W"],
+                points,
                 strict=True,
             )
         ],
@@ -181,6 +201,57 @@ def plan_from_bytes(data: bytes) -> Plan:
     )
     plan.validate()
     return plan
+
+
+def _needs_points(plan: Plan) -> bool:
+    return any(phase.law != ForceLaw.pendulum for phase in plan.phases) or any(
+        knot.angular_momentum_W.any() for knot in plan.knots
+    )
+
+
+def _point_arrays(plan: Plan) -> dict[str, np.ndarray]:
+    contacts = [contact for phase in plan.phases for contact in phase.contacts]
+    counts = [len(contact.points_W) for contact in contacts]
+    return {
+        "laws": np.array([_LAWS.index(phase.law) for phase in plan.phases], dtype=np.int32),
+        "intervals": np.array([phase.intervals for phase in plan.phases], dtype=np.int32),
+        "angular_momentum_W": np.array([knot.angular_momentum_W for knot in plan.knots]),
+        "point_counts": np.array(counts, dtype=np.int32).reshape(len(plan.phases), -1),
+        "points_W": np.concatenate([contact.points_W for contact in contacts]),
+        "point_forces_W": np.concatenate([contact.point_forces_W for contact in contacts]),
+    }
+
+
+def _read_points(arrays: dict[str, np.ndarray], version: int) -> tuple[list[Any], list[list[dict[str, Any]]]]:
+    """Law and number of intervals of every phase; points and forces of every phase and contact."""
+    count, ends = arrays["surfaces"].shape
+    if version == 1:
+        return [(ForceLaw.pendulum, 0)] * count, [[{}] * ends] * count
+    for name, most in (("laws", len(_LAWS) - 1), ("intervals", 100_000), ("point_counts", 100_000)):
+        bad = arrays[name][(arrays[name] < 0) | (arrays[name] > most)]
+        if bad.size:
+            raise InvalidPlan(name, f"must lie in [0, {most}]", str(bad[0]))
+    laws = [(_LAWS[law], int(n)) for law, n in zip(arrays["laws"], arrays["intervals"], strict=True)]
+    nodes = [Phase(law=law, intervals=intervals).node_count() for law, intervals in laws]
+    sizes = arrays["point_counts"].astype(np.int64)
+    for name, wanted in (("points_W", sizes), ("point_forces_W", sizes * np.array(nodes, dtype=np.int64)[:, None])):
+        if len(arrays[name]) != wanted.sum():
+            raise InvalidPlan(
+                name, f"must have the {wanted.sum()} rows that point_counts imply", str(len(arrays[name]))
+            )
+    contacts: list[list[dict[str, Any]]] = []
+    point = force = 0
+    for n, row in zip(nodes, sizes.tolist(), strict=True):
+        contacts.append([])
+        for size in row:
+            contacts[-1].append(
+                {
+                    "points_W": arrays["points_W"][point : point + size],
+                    "point_forces_W": arrays["point_forces_W"][force : force + n * size],
+                }
+            )
+            point, force = point + size, force + n * size
+    return laws, contacts
 
 
 def _read_arrays(data: bytes) -> dict[str, np.ndarray]:
@@ -224,15 +295,19 @@ def _read_header(arrays: dict[str, np.ndarray]) -> dict[str, Any]:
         raise InvalidPlan("header", "must be JSON", _first_line(found)) from None
     if not isinstance(header, dict):
         raise InvalidPlan("header", "must be a JSON object", type(header).__name__)
-    if header.get("format") != FORMAT:
-        raise InvalidPlan("header.format", f"must be {FORMAT} for this version of mcplan", repr(header.get("format")))
+    if header.get("format") not in FORMATS or isinstance(header["format"], bool):
+        raise InvalidPlan("header.format", "must be 1 or 2 for this version of mcplan", repr(header.get("format")))
     for key, kind in (("planner", str), ("scene", dict), ("robot", dict)):
         if not isinstance(header.get(key), kind):
             raise InvalidPlan(f"header.{key}", f"must be a {kind.__name__}", type(header.get(key)).__name__)
     return header
 
 
-def _check_shapes(arrays: dict[str, np.ndarray], ends: int) -> None:
+def _rows(arrays: dict[str, np.ndarray], name: str) -> int:
+    return len(arrays[name]) if name in arrays and arrays[name].ndim else 0
+
+
+def _check_shapes(arrays: dict[str, np.ndarray], ends: int, version: int) -> None:
     count = arrays["durations"].size if "durations" in arrays else 0
     swings = arrays["swing_heights"].size if "swing_heights" in arrays else 0
     expected = {
@@ -252,6 +327,15 @@ def _check_shapes(arrays: dict[str, np.ndarray], ends: int) -> None:
         "swing_heights": (swings,),
         "swing_normals_W": (swings, 2, 3),
     }
+    if version == 2:
+        expected |= {
+            "laws": (count,),
+            "intervals": (count,),
+            "angular_momentum_W": (count + 1, 3),
+            "point_counts": (count, ends),
+            "points_W": (_rows(arrays, "points_W"), 3),
+            "point_forces_W": (_rows(arrays, "point_forces_W"), 3),
+        }
     for name, shape in expected.items():
         if name not in arrays:
             raise InvalidPlan(name, "is required")

@@ -11,6 +11,9 @@ from .plots import (
     plot_forces,
     plot_friction,
     plot_gait,
+    plot_momentum,
+    plot_pressure,
+    plot_timing,
     save_plots,
 )
 from .show import show, show_scene
@@ -24,6 +27,9 @@ __all__ = [
     "plot_forces",
     "plot_friction",
     "plot_gait",
+    "plot_momentum",
+    "plot_pressure",
+    "plot_timing",
     "save_plots",
     "show",
     "show_scene",

@@ -146,7 +146,7 @@ def _paint_robot(
             continue
         direction = force / size
         head = min(0.055 * scale, 0.5 * length)
-        start = samples.positions_W[n, end]
+        start = samples.pressure_W[n, end]
         shade = mix(FORCE, "#ffffff", fade)
         canvas.line(
             np.linspace(start, start + (length - head) * direction, 6),

@@ -106,7 +106,7 @@ def _draw_force(stage: Stage, end: int, samples: Samples, robot: Robot, weight: 
     rotation = np.array(frames)
     shrink = np.clip(length / (2.0 * head), 1e-3, 1.0)
     shaft = np.maximum(length - head * shrink, 1e-4)
-    start = samples.positions_W[:, end]
+    start = samples.pressure_W[:, end]
     seen = length > 0.02 * height
     ones = np.ones(samples.count)
     ring = 0.011 * height * circle(10)

@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .picture import picture
-from .plots_plan import plot_com, plot_forces, plot_friction, plot_gait
+from .plots_plan import plot_com, plot_forces, plot_friction, plot_gait, plot_momentum
+from .plots_points import plot_pressure, plot_timing
 from .plots_report import has_sequences, plot_contact_sequence, plot_cost
 
 if TYPE_CHECKING:
@@ -20,13 +21,16 @@ __all__ = [
     "plot_forces",
     "plot_friction",
     "plot_gait",
+    "plot_momentum",
+    "plot_pressure",
+    "plot_timing",
     "save_plots",
 ]
 
 
 def save_plots(plan: Plan, report: Report | None, directory: str | Path) -> list[Path]:
-    """Write picture.png, gait.png, com.png, forces.png, friction.png, and from the report cost.png and
-    contact_sequence.png as far as it holds their data.
+    """Write picture.png, gait.png, com.png, momentum.png, forces.png, friction.png, for a plan with forces at points
+    pressure.png and timing.png, and from the report cost.png and contact_sequence.png as far as it holds their data.
 
     Args:
         plan: The plan.
@@ -46,9 +50,12 @@ def save_plots(plan: Plan, report: Report | None, directory: str | Path) -> list
     figures = {
         "gait": plot_gait(plan),
         "com": plot_com(plan),
+        "momentum": plot_momentum(plan),
         "forces": plot_forces(plan),
         "friction": plot_friction(plan),
     }
+    if any(phase.intervals for phase in plan.phases):
+        figures |= {"pressure": plot_pressure(plan), "timing": plot_timing(plan)}
     if report is not None and report.history:
         figures["cost"] = plot_cost(report)
         if has_sequences(report):

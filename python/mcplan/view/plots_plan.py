@@ -1,4 +1,4 @@
-"""Plots of a plan over time: CoM, contacts, forces, friction."""
+"""Plots of a plan over time: CoM, angular momentum, contacts, forces, friction."""
 
 from __future__ import annotations
 
@@ -49,6 +49,25 @@ def plot_com(plan: Plan) -> Figure:
     return figure
 
 
+def plot_momentum(plan: Plan) -> Figure:
+    """Angular momentum about the CoM; stretches in flight and on one contact are tinted."""
+    samples = sample(plan, plan.scene, plan.robot, RATE)
+    figure, axes = sheet(3, 1, size=(10.0, 5.6), sharex=True, sharey=True)
+    for i, name in enumerate("xyz"):
+        shade_support(axes[i, 0], samples)
+        axes[i, 0].axhline(0.0, color=QUIET, linewidth=0.7)
+        axes[i, 0].plot(samples.times_s, samples.angular_momentum_W[:, i], color=COM, linewidth=2.0)
+        label(axes[i, 0], y=f"$L_{name}$ [kg m²/s]")
+    largest = float(np.abs(samples.angular_momentum_W).max())
+    if largest < 1e-6:  # a base at rest: no axis in units of rounding
+        axes[0, 0].set_ylim(-1.0, 1.0)
+    label(axes[0, 0], title="angular momentum about the CoM")
+    label(axes[2, 0], x="time [s]")
+    axes[0, 0].set_xlim(0.0, samples.times_s[-1])
+    legend(figure, handles=support_patches(), loc="outside lower center", ncol=2)
+    return figure
+
+
 def plot_gait(plan: Plan) -> Figure:
     """Contacts of every end-effector over time, coloured by surface."""
     from matplotlib.patches import Patch
@@ -90,9 +109,11 @@ def plot_gait(plan: Plan) -> Figure:
 
 
 def plot_forces(plan: Plan) -> Figure:
-    """Normal and tangential force of every end-effector that touches something."""
+    """Normal and tangential force of every end-effector that touches something, and the normal forces at its points
+    where it has some."""
     samples = sample(plan, plan.scene, plan.robot, RATE)
     normal, tangential = contact_forces(plan, samples)
+    at_points, _ = point_forces(plan, samples)
     used = [e for e in range(len(plan.robot.end_effectors)) if (samples.surfaces[:, e] >= 0).any()]
     colours = end_effector_colours(plan.robot)
     figure, axes = sheet(max(len(used), 1), 1, size=(10.0, 1.0 + 1.55 * max(len(used), 1)), sharex=True, sharey=True)
@@ -104,6 +125,9 @@ def plot_forces(plan: Plan) -> Figure:
         chart.fill_between(samples.times_s, np.nan_to_num(normal[:, end]), color=colours[end], alpha=0.18, linewidth=0)
         chart.plot(samples.times_s, normal[:, end], color=colours[end], linewidth=2.0, label="normal")
         chart.plot(samples.times_s, tangential[:, end], color=TEXT, linewidth=1.2, linestyle="--", label="tangential")
+        if samples.has_points:
+            lines = chart.plot(samples.times_s, at_points[:, end], color=colours[end], linewidth=0.8)
+            lines[0].set_label("normal, at a point")
         cap = float(plan.robot.end_effectors[end].max_force)
         if np.isfinite(cap) and cap < 1.5 * top:
             chart.axhline(cap, color="#B00020", linewidth=0.9, label="cap of the force")
@@ -124,6 +148,7 @@ def plot_friction(plan: Plan) -> Figure:
     """
     samples = sample(plan, plan.scene, plan.robot, RATE)
     normal, tangential = contact_forces(plan, samples)
+    at_points = point_forces(plan, samples)
     weight = float(plan.robot.mass) * float(plan.scene.gravity)
     used = [e for e in range(len(plan.robot.end_effectors)) if (samples.surfaces[:, e] >= 0).any()]
     colours = end_effector_colours(plan.robot)
@@ -138,6 +163,11 @@ def plot_friction(plan: Plan) -> Figure:
                 limit[samples.surfaces[:, end] == s] = float(surface.friction)
         chart.plot(samples.times_s, limit, color="#B00020", linewidth=1.2, label="coefficient of friction")
         chart.plot(samples.times_s, ratio, color=colours[end], linewidth=2.0, label="tangential / normal")
+        if samples.has_points:
+            largest = largest_ratio(at_points[0][:, end], at_points[1][:, end], 1e-3 * weight)
+            chart.plot(samples.times_s, largest, color=colours[end], linewidth=0.8, label="largest at a point")
+            # A corner about to lift may show any ratio; the cone is what is to be read.
+            ratio = np.append(ratio, np.minimum(largest, 2.0 * np.nanmax(np.append(limit, 0.1))))
         label(chart, y="ratio [-]", title=plan.robot.end_effectors[end].name.replace("_", " "))
         chart.set_ylim(0.0, 1.15 * float(np.nanmax(np.append(np.concatenate([limit, ratio]), 0.1), initial=0.1)))
     axes[0, 0].set_xlim(0.0, samples.times_s[-1])
@@ -155,3 +185,17 @@ def contact_forces(plan: Plan, samples: Samples) -> tuple[Array, Array]:
     normal = np.sum(along * samples.forces_W, axis=2)
     tangential = np.linalg.norm(samples.forces_W - normal[..., None] * along, axis=2)
     return np.where(touching, normal, np.nan), np.where(touching, tangential, np.nan)
+
+
+def point_forces(plan: Plan, samples: Samples) -> tuple[Array, Array]:
+    """Normal and tangential force (n, end-effectors, points) [N] at the points of every contact; NaN where none is."""
+    normals = np.array([polygon_normal(np.asarray(s.vertices_W)) for s in plan.scene.surfaces])
+    along = normals[np.maximum(samples.surfaces, 0)][:, :, None]
+    normal = np.sum(along * samples.point_forces_W, axis=3)
+    return normal, np.linalg.norm(samples.point_forces_W - normal[..., None] * along, axis=3)
+
+
+def largest_ratio(normal: Array, tangential: Array, least: float) -> Array:
+    """Largest tangential over normal force (n,) of points (n, p) that carry at least `least` [N]; NaN without such."""
+    ratio = np.where(normal > least, tangential / np.maximum(normal, least), -np.inf).max(axis=1)
+    return np.where(ratio < 0.0, np.nan, ratio)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +34,8 @@ class Interval:
 class Samples:
     """States of a plan at equally spaced times.
 
-    n times, e end-effectors; lengths in [m], forces in [N], world frame W.
+    n times, e end-effectors, p points of a contact at most (0 without forces at points); lengths in [m], forces in [N],
+    world frame W.
     """
 
     times_s: Array  # (n,)
@@ -44,8 +45,16 @@ class Samples:
     positions_W: Array  # (n, e, 3)
     rotations_W: Array  # (n, e, 3, 3) soles and palms
     forces_W: Array  # (n, e, 3)
+    pressure_W: Array  # (n, e, 3) where they act: centre of pressure of the points, else the end-effector itself
+    points_W: Array  # (n, e, p, 3), NaN where there are fewer
+    point_forces_W: Array  # (n, e, p, 3) [N], NaN likewise
+    angular_momentum_W: Array  # (n, 3) about the CoM [kg m^2/s]
     surfaces: NDArray[np.int64]  # (n, e), -1: free
     intervals: list[Interval]
+
+    @property
+    def has_points(self) -> bool:
+        return self.points_W.shape[2] > 0
 
     @property
     def count(self) -> int:
@@ -65,15 +74,22 @@ def sample(plan: Plan, scene: Scene, robot: Robot, rate_hz: float = 30.0) -> Sam
     rotation_WB = from_rpy(np.array([s.base_rpy for s in states]))
     ends = [s.end_effectors for s in states]
     intervals = contact_intervals(plan, scene, robot)
+    positions_W = np.array([[e.position_W for e in row] for row in ends], float)
+    surfaces = np.array([[e.surface for e in row] for row in ends], int)
+    points_W, point_forces_W = _padded(ends, "points_W"), _padded(ends, "point_forces_W")
     return Samples(
         times_s=times,
         com_W=np.array([s.com_W for s in states], float),
         com_velocity_W=np.array([s.com_velocity_W for s in states], float),
         rotation_WB=rotation_WB,
-        positions_W=np.array([[e.position_W for e in row] for row in ends], float),
+        positions_W=positions_W,
         rotations_W=_sole_rotations(times, rotation_WB, intervals, len(robot.end_effectors)),
         forces_W=np.array([[e.force_W for e in row] for row in ends], float),
-        surfaces=np.array([[e.surface for e in row] for row in ends], int),
+        pressure_W=_centres_of_pressure(scene, positions_W, surfaces, points_W, point_forces_W),
+        points_W=points_W,
+        point_forces_W=point_forces_W,
+        angular_momentum_W=np.array([s.angular_momentum_W for s in states], float),
+        surfaces=surfaces,
         intervals=intervals,
     )
 
@@ -96,6 +112,10 @@ def stance_samples(scene: Scene, robot: Robot, stance: ResolvedStance) -> Sample
         positions_W=np.array([stance.end_effectors_W], float),
         rotations_W=np.array([rotations]),
         forces_W=np.zeros((1, ends, 3)),
+        pressure_W=np.array([stance.end_effectors_W], float),
+        points_W=np.zeros((1, ends, 0, 3)),
+        point_forces_W=np.zeros((1, ends, 0, 3)),
+        angular_momentum_W=np.zeros((1, 3)),
         surfaces=np.array([stance.contacts], int),
         intervals=[],
     )
@@ -130,6 +150,30 @@ def contact_intervals(plan: Plan, scene: Scene, robot: Robot) -> list[Interval]:
                 )
             k = until
     return intervals
+
+
+def _padded(ends: list[Any], attribute: str) -> Array:
+    rows = [[getattr(end, attribute) for end in row] for row in ends]
+    most = max(len(points) for row in rows for points in row)
+    result = np.full((len(rows), len(rows[0]), most, 3), np.nan)
+    for n, row in enumerate(rows if most else []):
+        for end, points in enumerate(row):
+            result[n, end, : len(points)] = points
+    return result
+
+
+def _centres_of_pressure(
+    scene: Scene, positions_W: Array, surfaces: NDArray[np.int64], points_W: Array, point_forces_W: Array
+) -> Array:
+    """sum (n . f_i) p_i / sum n . f_i; the end-effector itself where it has no points or next to no force."""
+    if points_W.shape[2] == 0:
+        return positions_W
+    normals = np.array([polygon_normal(np.asarray(s.vertices_W)) for s in scene.surfaces])[np.maximum(surfaces, 0)]
+    weights = np.nan_to_num(np.einsum("nei,nepi->nep", normals, point_forces_W))
+    total = weights.sum(axis=2, keepdims=True)
+    carries = (surfaces[..., None] >= 0) & (total > 1e-3)
+    centres = (weights[..., None] * np.nan_to_num(points_W)).sum(axis=2) / np.where(carries, total, 1.0)
+    return np.where(carries, centres, positions_W)
 
 
 def _sole_rotations(times: Array, rotation_WB: Array, intervals: list[Interval], ends: int) -> Array:
