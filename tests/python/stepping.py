@@ -20,34 +20,48 @@ def corners(robot: mp.Robot, foot: int, centre_W: np.ndarray, normal_W: np.ndarr
 
 
 def stepping_plan(steps: int = 1, scene: mp.Scene | None = None, robot: mp.Robot | None = None) -> mp.Plan:
-    """A walk in place of what a planner would give: the CoM glides along while the feet step, left foot first, on the
-    surfaces of scene.steps (level ground where there are none). Forces come from the CoM's wanted acceleration and
-    moment, shared by the corners with the least squares; knots are replayed from the forces."""
+    """A walk on the surfaces of scene.steps (level ground where there are none), left foot first, that ends at rest.
+
+    The centre of pressure waits under the stance foot, or between the feet; the divergent motion xi = c + c' / omega of
+    the pendulum then follows backwards from the end. The corners share the force that points from the centre of pressure
+    to the CoM. Knots are replayed from the forces.
+    """
     scene = scene or mp.load_scene("flat")
     robot = robot or mp.load_robot("humanoid44")
     ends = len(robot.end_effectors)
-    feet = [i for i in range(ends) if robot.end_effectors[i].kind == "foot"]
-    right = next(i for i in feet if "right" in robot.end_effectors[i].name)
-    left = next(i for i in feet if "left" in robot.end_effectors[i].name)
-    surface = dict.fromkeys(feet, 0)
+    right, left = (robot.end_effector_index(f"{side}_foot") for side in ("right", "left"))
     com = np.array([*scene.start.position_W[:2], scene.start.position_W[2] + robot.com_height])
-    foot_W = {i: com + robot.end_effectors[i].nominal_B for i in feet}
-    for i in feet:
-        foot_W[i] = _put_down(scene, surface[i], foot_W[i])
-    knots = [_knot(robot, com, np.zeros(3), np.zeros(3), foot_W)]
-    phases, swings = [], []
+    surface = {right: 0, left: 0}
+    foot_W = {i: _put_down(scene, 0, com + robot.end_effectors[i].nominal_B) for i in (right, left)}
+    stretches = []  # duration, feet in contact, their places and surfaces
     for step in range(steps):
         swing, stance = ((left, right), (right, left))[step % 2]
+        stretches.append((0.2 if step else 0.7, (swing, stance), foot_W, surface))
+        stretches.append((0.6, (stance,), foot_W, surface))
         target = scene.steps[step].surface if step < len(scene.steps) else scene.surfaces[-1].name
-        for duration, active in ((0.3, (swing, stance)), (0.8, (stance,)), (0.3, (swing, stance))):
-            phase, end = _phase(scene, robot, knots[-1], foot_W, surface, active, duration)
-            if len(active) == 1:
-                swings.append((swing, len(phases)))
-                surface = {**surface, swing: scene.surface_index(target)}
-                length = 0.18 if step in (0, steps - 1) else 0.36
-                foot_W = {**foot_W, swing: _put_down(scene, surface[swing], foot_W[swing] + [length, 0, 0])}
-            phases.append(phase)
-            knots.append(_knot(robot, *end, foot_W))
+        surface = {**surface, swing: scene.surface_index(target)}
+        length = 0.14 if step in (0, steps - 1) else 0.28
+        foot_W = {**foot_W, swing: _put_down(scene, surface[swing], foot_W[swing] + [length, 0, 0])}
+        stretches.append((0.2, (swing, stance), foot_W, surface))
+    stretches.append((0.6, (right, left), foot_W, surface))
+
+    omega = np.sqrt(scene.gravity / robot.com_height)
+    centres = [np.mean([feet[i] for i in active], axis=0)[:2] for _, active, feet, _ in stretches]
+    divergent = [centres[-1]]
+    for (duration, *_), centre in zip(reversed(stretches), reversed(centres), strict=True):
+        divergent.insert(0, centre + (divergent[0] - centre) * np.exp(-omega * duration))
+    grown = np.exp(omega * stretches[0][0])
+    centres[0] = (divergent[1] - com[:2] * grown) / (1.0 - grown)  # from rest instead
+
+    state, phases, swings = (com, np.zeros(3), np.zeros(3)), [], []
+    knots = [_knot(robot, *state, stretches[0][2])]
+    for k, (stretch, centre) in enumerate(zip(stretches, centres, strict=True)):
+        wanted = (centre, divergent[k + 1], omega)
+        phase, state = _phase(scene, robot, state, stretch, wanted)
+        phases.append(phase)
+        knots.append(_knot(robot, *state, stretches[min(k + 1, len(stretches) - 1)][2]))
+        if len(stretch[1]) == 1:
+            swings.append((left if stretch[1][0] == right else right, k))
     plan = mp.Plan(
         scene=scene,
         robot=robot,
@@ -85,20 +99,26 @@ def _knot(robot, com, velocity, momentum, foot_W) -> mp.Knot:
     )
 
 
-def _phase(scene, robot, knot, foot_W, surface, active, duration):
-    """The phase whose forces keep the CoM about the middle of the feet, and the state at its end."""
+def _phase(scene, robot, state, stretch, wanted):
+    """One phase from a state, and the state at its end."""
+    duration, active, foot_W, surface = stretch
+    centre, divergent, omega = wanted
     points = {i: corners(robot, i, foot_W[i], _plane(scene, surface[i])[1]) for i in active}
     all_W = np.concatenate([points[i] for i in active])
-    position, velocity = np.array(knot.com_W), np.array(knot.com_velocity_W)
-    momentum, gravity = np.array(knot.angular_momentum_W), np.array([0.0, 0.0, -scene.gravity])
-    middle = np.mean([foot_W[i] for i in foot_W], axis=0) + [0.05, 0.0, robot.com_height]
+    position, velocity, momentum = state
+    gravity = np.array([0.0, 0.0, -scene.gravity])
+    ground = np.mean([foot_W[i][2] for i in foot_W])
     h = duration / (NODES - 1)
     nodes = []
-    for _ in range(NODES):
-        wanted = 4.0 * (middle - position) - 4.0 * velocity
-        force = robot.mass * (wanted * [1.0, 0.3, 1.0] - gravity)
+    for node in range(NODES):
+        # Where xi should be by now, and a centre of pressure that steers back to it.
+        xi = position[:2] + velocity[:2] / omega
+        reference = centre + (divergent - centre) * np.exp(-omega * (duration - node * h))
+        pressure = np.array([*(centre + np.clip(1.5 * (xi - reference), -0.03, 0.03)), ground])
+        lift = robot.mass * (scene.gravity + 16.0 * (ground + robot.com_height - position[2]) - 8.0 * velocity[2])
+        force = lift * (position - pressure) / (position[2] - ground)
         system = np.vstack([np.tile(np.eye(3), len(all_W)), np.hstack([_cross(p - position) for p in all_W])])
-        nodes.append(np.linalg.lstsq(system, np.concatenate([force, -2.0 * momentum]), rcond=None)[0].reshape(-1, 3))
+        nodes.append(np.linalg.lstsq(system, np.concatenate([force, -momentum]), rcond=None)[0].reshape(-1, 3))
         if len(nodes) > 1:
             position, velocity, momentum = _advance(
                 robot, gravity, all_W, position, velocity, momentum, nodes[-2], nodes[-1], h

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 import types
@@ -49,7 +50,9 @@ def test_no_words_print_the_verbs(capsys):
 
 
 def test_version(capsys):
-    assert run(capsys, "version") == (0, f"{mp.__version__}\n", "")
+    status, output, errors = run(capsys, "version")
+    assert (status, errors) == (0, "")
+    assert re.fullmatch(re.escape(mp.__version__) + r"\nIpopt 3\.\d+\.\d+\n", output)
 
 
 def test_the_command_runs_as_a_process():

@@ -12,6 +12,7 @@ import pytest
 import mcplan as mp
 from mcplan import _core, errors
 from standing import standing_plan, standing_scene
+from stepping import stepping_plan
 
 HEAVY = ("pydantic", "typer", "rich", "matplotlib", "meshcat", "pinocchio", "mujoco", "scipy")
 
@@ -152,6 +153,7 @@ def test_reprs_can_be_pasted_back():
         mp.Contact(surface=2, stiffness=1 / 3),
         standing_plan().knots[0],
         standing_plan().phases[0],
+        stepping_plan().phases[1],
         mp.Swing(height=0.1),
         mp.Violation(name="x", value=float("nan")),
     ):
@@ -182,3 +184,27 @@ def test_a_missing_viewer_says_what_to_install(monkeypatch):
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     with pytest.raises(errors.MissingExtra, match=r"mcplan.show needs meshcat: pip install 'mcplan\[view\]'"):
         mp.show(standing_plan())
+
+
+def test_a_step_with_forces_at_the_corners_is_checked():
+    robot = mp.load_robot("humanoid44")
+    for end in robot.end_effectors:  # the hand-made gait leans further than this robot reaches
+        end.reach_min_B, end.reach_max_B = end.reach_min_B - 0.05, end.reach_max_B + 0.05
+    plan = stepping_plan(robot=robot)
+    mp.check(plan).raise_if_violated()
+    plan.phases[0].contacts[0].point_forces_W[5] += [0.0, 0.0, 1e-2]  # a view: changes the plan
+    assert [violation.name for violation in mp.check(plan).violations()] == ["dynamics"]
+    plan.phases[0].intervals = 99
+    with pytest.raises(mp.InvalidPlan, match="point_forces"):
+        mp.check(plan)
+
+
+def test_states_carry_points_and_their_forces():
+    plan = stepping_plan()
+    stance = plan.at(0.9).end_effectors[0]
+    assert stance.points_W.shape == stance.point_forces_W.shape == (4, 3)
+    assert stance.force_W == pytest.approx(stance.point_forces_W.sum(axis=0))
+    about = np.cross(stance.points_W - stance.position_W, stance.point_forces_W).sum(axis=0)
+    assert stance.moment_W == pytest.approx(about)
+    assert plan.at(0.9).end_effectors[1].points_W.shape == (0, 3)
+    assert plan.phases[0].node_count() == 8 and mp.Phase().node_count() == 0

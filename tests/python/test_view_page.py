@@ -17,6 +17,7 @@ import mcplan as mp
 import plans_by_hand as by_hand
 from mcplan.view import show, show_scene
 from mcplan.view.snapshot import find_browser
+from stepping import stepping_plan
 
 umsgpack = pytest.importorskip("umsgpack")
 pytest.importorskip("meshcat")
@@ -190,3 +191,14 @@ def test_missing_browser_is_named(plan, tmp_path, monkeypatch):
     with pytest.raises(mp.errors.MissingExtra, match="apt-get install chromium") as error:
         show(plan).save_png(tmp_path / "page.png")
     assert "\n" not in str(error.value)
+
+
+def test_forces_at_points_start_at_the_centre_of_pressure():
+    plan = stepping_plan()
+    clips = clips_of(show(plan).html())
+    shaft = track(clips["forces/right_foot/shaft"], "position")
+    for t, start in list(zip(floats(shaft["times"]), floats(shaft["values"]).reshape(-1, 3), strict=True))[::7]:
+        end = plan.at(min(float(t), plan.duration())).end_effectors[0]
+        weights = end.point_forces_W[:, 2]
+        assert start == pytest.approx(weights @ end.points_W / weights.sum(), abs=1e-4)
+    assert np.ptp(floats(shaft["values"]).reshape(-1, 3)[:, 1]) > 0.01

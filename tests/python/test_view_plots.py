@@ -14,8 +14,12 @@ from mcplan.view import (
     plot_forces,
     plot_friction,
     plot_gait,
+    plot_momentum,
+    plot_pressure,
+    plot_timing,
     save_plots,
 )
+from stepping import LEFT, RIGHT, stepping_plan
 
 pytest.importorskip("matplotlib")
 Image = pytest.importorskip("PIL.Image")
@@ -52,6 +56,7 @@ def test_save_plots_writes_pictures_that_are_not_blank(plan, tmp_path):
         "picture.png",
         "gait.png",
         "com.png",
+        "momentum.png",
         "forces.png",
         "friction.png",
         "cost.png",
@@ -69,6 +74,7 @@ def test_without_a_report_only_the_plan_is_plotted(plan, tmp_path):
         "picture.png",
         "gait.png",
         "com.png",
+        "momentum.png",
         "forces.png",
         "friction.png",
     }
@@ -149,3 +155,61 @@ def test_reports_without_data_are_refused_by_name():
     for plot in (plot_cost, plot_contact_sequence):
         with pytest.raises(ValueError, match=r"report\.history"):
             plot(empty)
+
+
+@pytest.fixture(scope="module")
+def steps():
+    return stepping_plan(2)
+
+
+def drawn(axes, name: str) -> tuple[np.ndarray, np.ndarray]:
+    line = next(line for line in axes.lines if line.get_label() == name)
+    return line.get_xdata(), line.get_ydata()
+
+
+def test_a_plan_with_points_gets_pressure_and_timing_too(steps, tmp_path):
+    names = {path.stem for path in save_plots(steps, None, tmp_path)}
+    assert names == {"picture", "gait", "com", "momentum", "forces", "friction", "pressure", "timing"}
+    for name in names:
+        assert (pixels(tmp_path / f"{name}.png") < 250).any(axis=2).sum() > 500, name
+
+
+def test_momentum_is_drawn_about_every_axis(plan, steps):
+    for each in (plan, steps):
+        for axis, axes in enumerate(plot_momentum(each).axes):
+            times, values = axes.lines[-1].get_data()
+            for t, value in zip(times[::40], values[::40], strict=True):
+                assert value == pytest.approx(each.at(min(t, each.duration())).angular_momentum_W[axis], abs=1e-12)
+    assert np.abs(plot_momentum(steps).axes[1].lines[-1].get_ydata()).max() > 0.1
+
+
+def test_forces_at_the_corners_add_up_to_the_foots(steps):
+    for axes in plot_forces(steps).axes:
+        corners = [line.get_ydata() for line in axes.lines if line.get_linewidth() == 0.8]
+        assert len(corners) == 4
+        assert np.nan_to_num(np.sum(corners, axis=0)) == pytest.approx(np.nan_to_num(drawn(axes, "normal")[1]))
+
+
+def test_centre_of_pressure_is_where_the_foot_has_no_moment(steps):
+    panels = plot_pressure(steps).axes
+    assert [axes.get_title(loc="left") for axes in panels[:2]] == [
+        "right foot, along its length",
+        "right foot, along its width",
+    ]
+    for row, foot in enumerate((RIGHT, LEFT)):
+        times, along = drawn(panels[2 * row], "centre of pressure")
+        _, across = drawn(panels[2 * row + 1], "centre of pressure")
+        for t, x, y in list(zip(times, along, across, strict=True))[::23]:
+            end = steps.at(min(t, steps.duration())).end_effectors[foot]
+            if end.surface < 0:
+                assert np.isnan(x) and np.isnan(y)
+                continue
+            # moment about the sole's centre = cop x f, whose level components see the normal force alone
+            assert end.moment_W[:2] == pytest.approx([y * end.force_W[2], -x * end.force_W[2]], abs=1e-6)
+
+
+def test_timing_bars_are_the_durations(steps):
+    axes = plot_timing(steps).axes[0]
+    assert [bar.get_height() for bar in axes.patches] == pytest.approx([phase.duration for phase in steps.phases])
+    colours = [bar.get_facecolor() for bar in axes.patches]
+    assert colours[0] == colours[2] != colours[1] != colours[4]

@@ -20,6 +20,7 @@ void bind_scene(py::module_& m);
 void bind_robot(py::module_& m);
 void bind_plan(py::module_& m);
 void bind_ddp(py::module_& m);
+void bind_nlp(py::module_& m);
 void bind_rhp(py::module_& m);
 
 /// Runs a solve without the GIL.

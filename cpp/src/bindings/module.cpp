@@ -108,6 +108,7 @@ PYBIND11_MODULE(_core, m) {
   bind_robot(m);
   bind_plan(m);
   bind_ddp(m);
+  bind_nlp(m);
   bind_rhp(m);
   // The planners' rooms go here, one line each: they may use everything above.
 }

@@ -232,10 +232,10 @@ Problem::Worst Problem::worst_violation(const ConstVector& x) const {
   int row = -1;
   for (int i = 0; i < row_count_; ++i) {
     const double amount = violation(values[i], row_lower_[i], row_upper_[i]);
-    if (!(amount <= worst.value)) {
-      worst.value = amount;
-      row = i;
-    }
+    if (amount <= worst.value) continue;
+    worst.value = amount;
+    row = i;
+    if (std::isnan(amount)) break;  // nothing is worse
   }
   if (row >= 0) worst.name = row_name(row);
   return worst;

@@ -123,6 +123,9 @@ void pendulum_motion(const Plan& plan, const Phase& phase, const Knot& from, dou
 /// its forces about the end-effector, which stands still: sum (p_i - p_l) x f_i.
 void point_force_motion(const Plan& plan, const Phase& phase, const Knot& from, const Knot& to, double tau,
                         PlanState& state) {
+  for (const Contact& contact : phase.contacts)  // at() is often called on plans that nobody has validated
+    if (phase.intervals < 1 || contact.point_forces_W.size() != phase.node_count() * contact.points_W.size())
+      throw InvalidPlan("point_forces", "must be one per node and point", text(phase.intervals) + " intervals");
   const double mass = plan.robot.mass, gravity = plan.scene.gravity;
   const CentroidalState motion =
       integrate_phase(phase, {from.com_W, from.com_velocity_W, from.angular_momentum_W}, tau, mass, gravity);

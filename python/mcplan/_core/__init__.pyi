@@ -8,6 +8,8 @@ import numpy
 import numpy.typing
 import typing
 from . import ddp
+from . import nlp
+from . import rhp
 
 __all__: list[str] = [
     "CheckResult",
@@ -41,8 +43,10 @@ __all__: list[str] = [
     "check",
     "ddp",
     "may_touch",
+    "nlp",
     "quat_wxyz_from_rpy",
     "resolve_stance",
+    "rhp",
     "rotation_derivative",
     "rotation_from_rpy",
 ]

@@ -239,7 +239,8 @@ def _read_points(arrays: dict[str, np.ndarray], version: int) -> tuple[list[Any]
             raise InvalidPlan(
                 name, f"must have the {wanted.sum()} rows that point_counts imply", str(len(arrays[name]))
             )
-    contacts, point, force = [], 0, 0
+    contacts: list[list[dict[str, Any]]] = []
+    point = force = 0
     for n, row in zip(nodes, sizes.tolist(), strict=True):
         contacts.append([])
         for size in row:
@@ -302,6 +303,10 @@ def _read_header(arrays: dict[str, np.ndarray]) -> dict[str, Any]:
     return header
 
 
+def _rows(arrays: dict[str, np.ndarray], name: str) -> int:
+    return len(arrays[name]) if name in arrays and arrays[name].ndim else 0
+
+
 def _check_shapes(arrays: dict[str, np.ndarray], ends: int, version: int) -> None:
     count = arrays["durations"].size if "durations" in arrays else 0
     swings = arrays["swing_heights"].size if "swing_heights" in arrays else 0
@@ -328,8 +333,8 @@ def _check_shapes(arrays: dict[str, np.ndarray], ends: int, version: int) -> Non
             "intervals": (count,),
             "angular_momentum_W": (count + 1, 3),
             "point_counts": (count, ends),
-            "points_W": (len(arrays["points_W"]) if np.ndim(arrays.get("points_W")) else 0, 3),
-            "point_forces_W": (len(arrays["point_forces_W"]) if np.ndim(arrays.get("point_forces_W")) else 0, 3),
+            "points_W": (_rows(arrays, "points_W"), 3),
+            "point_forces_W": (_rows(arrays, "point_forces_W"), 3),
         }
     for name, shape in expected.items():
         if name not in arrays:

@@ -113,6 +113,7 @@ def plot_forces(plan: Plan) -> Figure:
     where it has some."""
     samples = sample(plan, plan.scene, plan.robot, RATE)
     normal, tangential = contact_forces(plan, samples)
+    at_points, _ = point_forces(plan, samples)
     used = [e for e in range(len(plan.robot.end_effectors)) if (samples.surfaces[:, e] >= 0).any()]
     colours = end_effector_colours(plan.robot)
     figure, axes = sheet(max(len(used), 1), 1, size=(10.0, 1.0 + 1.55 * max(len(used), 1)), sharex=True, sharey=True)
@@ -125,9 +126,7 @@ def plot_forces(plan: Plan) -> Figure:
         chart.plot(samples.times_s, normal[:, end], color=colours[end], linewidth=2.0, label="normal")
         chart.plot(samples.times_s, tangential[:, end], color=TEXT, linewidth=1.2, linestyle="--", label="tangential")
         if samples.has_points:
-            lines = chart.plot(
-                samples.times_s, point_forces(plan, samples)[0][:, end], color=colours[end], linewidth=0.8
-            )
+            lines = chart.plot(samples.times_s, at_points[:, end], color=colours[end], linewidth=0.8)
             lines[0].set_label("normal, at a point")
         cap = float(plan.robot.end_effectors[end].max_force)
         if np.isfinite(cap) and cap < 1.5 * top:
@@ -149,6 +148,7 @@ def plot_friction(plan: Plan) -> Figure:
     """
     samples = sample(plan, plan.scene, plan.robot, RATE)
     normal, tangential = contact_forces(plan, samples)
+    at_points = point_forces(plan, samples)
     weight = float(plan.robot.mass) * float(plan.scene.gravity)
     used = [e for e in range(len(plan.robot.end_effectors)) if (samples.surfaces[:, e] >= 0).any()]
     colours = end_effector_colours(plan.robot)
@@ -164,9 +164,10 @@ def plot_friction(plan: Plan) -> Figure:
         chart.plot(samples.times_s, limit, color="#B00020", linewidth=1.2, label="coefficient of friction")
         chart.plot(samples.times_s, ratio, color=colours[end], linewidth=2.0, label="tangential / normal")
         if samples.has_points:
-            at_points = largest_ratio(*(part[:, end] for part in point_forces(plan, samples)), 1e-3 * weight)
-            chart.plot(samples.times_s, at_points, color=colours[end], linewidth=0.8, label="largest at a point")
-            ratio = np.append(ratio, at_points)
+            largest = largest_ratio(at_points[0][:, end], at_points[1][:, end], 1e-3 * weight)
+            chart.plot(samples.times_s, largest, color=colours[end], linewidth=0.8, label="largest at a point")
+            # A corner about to lift may show any ratio; the cone is what is to be read.
+            ratio = np.append(ratio, np.minimum(largest, 2.0 * np.nanmax(np.append(limit, 0.1))))
         label(chart, y="ratio [-]", title=plan.robot.end_effectors[end].name.replace("_", " "))
         chart.set_ylim(0.0, 1.15 * float(np.nanmax(np.append(np.concatenate([limit, ratio]), 0.1), initial=0.1)))
     axes[0, 0].set_xlim(0.0, samples.times_s[-1])

@@ -1,9 +1,12 @@
-// Uses the installed library the way another project does: a scene and a robot in code, checked, and some mathematics.
+// Uses the installed library the way another project does: a scene and a robot in code, checked, some mathematics, and
+// a nonlinear program.
 
 #include <cmath>
 #include <cstdio>
 #include <mcplan/mcplan.hpp>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -58,6 +61,15 @@ int main() {
 
   const double z = 0.3;
   expect(std::abs(mcplan::EntireFunctions(z)(0) - std::cosh(std::sqrt(z))) < 1e-14, "F_0 is not cosh(sqrt z)");
+
+  // Pulls Ipopt in: without it the program would link although the package forgets what the static library needs.
+  mcplan::nlp::Problem problem;
+  problem.add_variables("x", 1, 1.0, 3.0, {0, 0});
+  problem.add_cost(std::make_unique<mcplan::nlp::LinearPiece>("x", std::vector<int>{0}, Eigen::MatrixXd::Ones(1, 1)));
+  problem.finish();
+  const mcplan::nlp::Solution least = mcplan::nlp::solve(problem, Eigen::VectorXd::Constant(1, 2.0));
+  expect(least.status == mcplan::Status::solved && std::abs(least.x[0] - 1.0) < 1e-4,
+         "the least x is not at its bound");
 
   scene.surfaces[0].vertices_W.resize(2);
   try {

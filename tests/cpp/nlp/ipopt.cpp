@@ -1,21 +1,479 @@
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "mcplan/base/error.hpp"
 #include "mcplan/nlp/solver.hpp"
 #include "nlp/problems.hpp"
 
 using namespace mcplan;
 using namespace mcplan::nlp;
 using namespace mcplan::nlp::tests;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using Clock = std::chrono::steady_clock;
 
-TEST_CASE("problem 71 of Hock and Schittkowski: optimum, multipliers, no output") {
+namespace {
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+bool before_3_14() { return std::stoi(ipopt_version().substr(2)) < 14; }
+
+bool same_bytes(const VectorXd& a, const VectorXd& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0;
+}
+
+/// Rosenbrock's valley from (-1.2, 1): some twenty iterations. The spies are called with the point.
+struct Valley {
+  using Spy = std::function<void(const ConstVector&)>;
+  explicit Valley(Spy in_values = nullptr, Spy in_jacobian = nullptr, Spy in_hessian = nullptr) {
+    problem.add_variables("x", 2, -10.0, 10.0, {3, 3});
+    problem.add_cost(std::make_unique<FunctionPiece>(
+        "valley", std::vector<int>{0, 1}, 1,
+        [=, on = armed](const ConstVector& x, Vector f) {
+          if (in_values && *on) in_values(x);
+          f[0] = 100 * std::pow(x[1] - x[0] * x[0], 2) + std::pow(1 - x[0], 2);
+        },
+        [=, on = armed](const ConstVector& x, Matrix J) {
+          if (in_jacobian && *on) in_jacobian(x);
+          J << -400 * x[0] * (x[1] - x[0] * x[0]) - 2 * (1 - x[0]), 200 * (x[1] - x[0] * x[0]);
+        },
+        [=, on = armed](const ConstVector& x, const ConstVector& w, Matrix H) {
+          if (in_hessian && *on) in_hessian(x);
+          H(0, 0) = w[0] * (1200 * x[0] * x[0] - 400 * x[1] + 2);
+          H(1, 0) = w[0] * -400 * x[0];
+          H(1, 1) = w[0] * 200;
+        }));
+    problem.finish();
+    *armed = true;
+  }
+
+  Problem problem;
+  std::shared_ptr<bool> armed = std::make_shared<bool>(false);  ///< finish() is not spied on
+  VectorXd x0 = Vector2d(-1.2, 1.0);
+};
+
+/// Everything that is written to the process's standard output and error while it lives.
+class Output {
+ public:
+  Output() {
+    std::fflush(nullptr);
+    const int file = open(path_.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
+    for (int i : {1, 2}) {
+      saved_[i] = dup(i);
+      dup2(file, i);
+    }
+    close(file);
+  }
+  std::string text() {
+    restore();
+    std::ifstream file(path_);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  ~Output() {
+    restore();
+    std::filesystem::remove(path_);
+  }
+
+ private:
+  void restore() {
+    if (!saved_[1]) return;
+    std::fflush(nullptr);
+    for (int i : {1, 2}) {
+      dup2(saved_[i], i);
+      close(saved_[i]);
+      saved_[i] = 0;
+    }
+  }
+  std::string path_ = std::filesystem::temp_directory_path() / ("mcplan_output_" + std::to_string(getpid()));
+  int saved_[3] = {0, 0, 0};
+};
+
+}  // namespace
+
+TEST_CASE("problem 71 of Hock and Schittkowski: the published optimum and multipliers, by every option") {
   const HockSchittkowski71 hs;
+  for (const Ordering ordering : {Ordering::amd, Ordering::automatic})
+    for (const Hessian hessian : {Hessian::exact, Hessian::limited_memory})
+      for (const bool adaptive : {false, true}) {
+        SolverOptions options;
+        options.tolerance = options.constraint_tolerance = 1e-9;
+        options.ordering = ordering;
+        options.hessian = hessian;
+        options.adaptive_barrier = adaptive;
+        const Solution s = solve(hs.problem, hs.x0, options);
+        CHECK_MESSAGE(s.status == Status::solved, s.message);
+        CHECK((s.x - hs.optimum).lpNorm<Eigen::Infinity>() < 1e-6);
+        CHECK(std::abs(s.cost - hs.cost) < 1e-6);
+        CHECK(s.worst.value < 1e-8);
+        // Negative at a lower limit, positive or of any sign at an equality.
+        CHECK(std::abs(s.multipliers[0] + 0.55229366) < 1e-5);
+        CHECK(std::abs(s.multipliers[1] - 0.16146857) < 1e-5);
+      }
+}
+
+TEST_CASE("gradient + Jacobian' multipliers vanishes in the variables that are at no bound; bounds hold exactly") {
+  Problem problem;
+  problem.add_variables("x", 2, 0.0, 5.0, {0, 0});
+  problem.add_variables("y", 1, 0.0, 1.0, {0, 0});
+  problem.add_cost(squared_distance({0, 1, 2}, Eigen::Vector3d(1, 2, 7)));
+  problem.add_constraint(std::make_unique<LinearPiece>("sum", std::vector<int>{0, 1}, MatrixXd::Ones(1, 2)), -kInfinity,
+                         2.0);
+  problem.finish();
   SolverOptions options;
   options.tolerance = 1e-9;
-  const Solution s = solve(hs.problem, hs.x0, options);
-  CAPTURE(s.message);
+  const Solution s = solve(problem, VectorXd::Zero(3), options);
   CHECK(s.status == Status::solved);
-  CHECK((s.x - hs.optimum).lpNorm<Eigen::Infinity>() < 1e-6);
-  CHECK(std::abs(s.cost - hs.cost) < 1e-6);
-  MESSAGE(s.iterations << " " << s.time_s << " " << s.evaluation_s << " " << s.linear_solver_s << " "
-                       << s.multipliers.transpose());
+  CHECK((s.x - Eigen::Vector3d(0.5, 1.5, 1.0)).lpNorm<Eigen::Infinity>() < 1e-7);
+  CHECK(s.x[2] <= 1.0);
+  CHECK(std::abs(s.multipliers[0] - 1.0) < 1e-6);  // an upper limit: positive
+}
+
+TEST_CASE("no rows; fixed variables; nothing but fixed variables") {
+  Problem free;
+  free.add_variables("x", 2, 0.0, 2.0, {0, 0});
+  free.add_cost(squared_distance({0, 1}, Vector2d(3, 1)));
+  free.finish();
+  const Solution at_bound = solve(free, Vector2d(-5, 9));  // outside: projected
+  CHECK(at_bound.status == Status::solved);
+  CHECK((at_bound.x - Vector2d(2, 1)).lpNorm<Eigen::Infinity>() < 1e-4);
+  CHECK(at_bound.multipliers.size() == 0);
+
+  for (const double limit : {kInfinity, 2.0}) {
+    Problem some;
+    some.add_variables("x", 3, -10.0, 10.0, {0, 0});
+    some.set_bounds(1, 4.0, 4.0);
+    some.add_cost(squared_distance({0, 1, 2}, Eigen::Vector3d(1, 2, 3)));
+    some.add_constraint(std::make_unique<LinearPiece>("sum", std::vector<int>{0, 1, 2}, MatrixXd::Ones(1, 3)), 6.0,
+                        limit == 2.0 ? 6.0 : kInfinity);
+    some.finish();
+    SolverOptions options;
+    options.tolerance = 1e-8;
+    const Solution s = solve(some, VectorXd::Zero(3), options);
+    CHECK_MESSAGE(s.status == Status::solved, s.message);
+    CHECK(s.x[1] == 4.0);
+    const Eigen::Vector3d expected = limit == 2.0 ? Eigen::Vector3d(0, 4, 2) : Eigen::Vector3d(1, 4, 3);
+    CHECK((s.x - expected).lpNorm<Eigen::Infinity>() < 1e-6);
+
+    options.max_iterations = 0;  // the best iterate has all three variables too
+    const Solution first = solve(some, VectorXd::Zero(3), options);
+    CHECK(first.x.size() == 3);
+    CHECK(first.x[1] == 4.0);
+  }
+
+  Problem none;
+  none.add_variables("x", 2, 1.0, 1.0, {0, 0});
+  none.add_cost(squared_norm("norm", {0, 1}));
+  none.add_constraint(std::make_unique<LinearPiece>("sum", std::vector<int>{0, 1}, MatrixXd::Ones(1, 2)), 0.0, 3.0);
+  none.finish();
+  const Solution fixed = solve(none, VectorXd::Zero(2));
+  CHECK(fixed.status == Status::solved);
+  CHECK(fixed.cost == 2.0);
+}
+
+TEST_CASE("what cannot be satisfied is infeasible, and the least violated point is returned") {
+  Problem apart;  // x + y = 3 in the unit square
+  apart.add_variables("x", 2, 0.0, 1.0, {0, 0});
+  apart.add_cost(squared_norm("norm", {0, 1}));
+  apart.add_constraint(std::make_unique<LinearPiece>("sum", std::vector<int>{0, 1}, MatrixXd::Ones(1, 2)), 3.0, 3.0);
+  apart.finish();
+  const Solution corner = solve(apart, Vector2d(0.5, 0.5));
+  CHECK_MESSAGE(corner.status == Status::infeasible, corner.message);
+  CHECK(corner.x.minCoeff() > 0.99);
+  CHECK(corner.worst.name == "sum at stage 0");
+  CHECK(std::abs(corner.worst.value - 1.0) < 0.02);
+
+  Problem curved;  // x^2 + y^2 <= -1: found out in Ipopt's restoration phase
+  curved.add_variables("x", 2, -5.0, 5.0, {0, 0});
+  curved.add_cost(squared_distance({0, 1}, Vector2d(3, 1)));
+  curved.add_constraint(squared_norm("norm", {0, 1}), -kInfinity, -1.0);
+  curved.finish();
+  bool restored = false;
+  SolverOptions options;
+  options.logger = [&](LogLevel, const std::string& line) { restored |= line.size() > 4 && line[4] == 'r'; };
+  const Solution centre = solve(curved, Vector2d(2, 2), options);
+  CHECK_MESSAGE(centre.status == Status::infeasible, centre.message);
+  CHECK(restored);
+  CHECK(centre.x.norm() < 0.05);
+
+  Problem square;  // two equalities for one variable
+  square.add_variables("x", 1, -5.0, 5.0, {0, 0});
+  square.add_constraint(std::make_unique<LinearPiece>("twice", std::vector<int>{0}, MatrixXd::Ones(2, 1)),
+                        Vector2d(1, 2), Vector2d(1, 2));
+  square.finish();
+  CHECK(solve(square, VectorXd::Zero(1)).status == Status::infeasible);
+
+  Problem crossed;
+  crossed.add_variables("x", 2, 0.0, 1.0, {0, 0});
+  crossed.set_bounds(1, 2.0, 1.0);
+  crossed.add_cost(squared_norm("norm", {0, 1}));
+  crossed.finish();
+  const Solution upside_down = solve(crossed, VectorXd::Zero(2));
+  CHECK(upside_down.status == Status::infeasible);
+  CHECK(upside_down.message == "the lower bound of x[1] at stage 0 lies above its upper bound");
+
+  Problem fixed;
+  fixed.add_variables("x", 1, 1.0, 1.0, {0, 0});
+  fixed.add_constraint(squared_norm("norm", {0}), 2.0, 3.0);
+  fixed.finish();
+  CHECK(solve(fixed, VectorXd::Zero(1)).status == Status::infeasible);
+}
+
+TEST_CASE("a cost without a lower bound is a numerical failure") {
+  Problem problem;
+  problem.add_variables("x", 2, -kInfinity, kInfinity, {0, 0});
+  problem.add_cost(std::make_unique<LinearPiece>("fall", std::vector<int>{0, 1}, MatrixXd::Ones(1, 2)));
+  problem.finish();
+  SolverOptions options;
+  options.max_iterations = 3000;
+  CHECK(solve(problem, VectorXd::Zero(2), options).status == Status::numerical_failure);
+}
+
+TEST_CASE("at a limit of iterations no point that was evaluated is better than the one returned") {
+  for (int limit = 0; limit < 9; ++limit) {
+    std::vector<VectorXd> seen;
+    Problem problem;
+    problem.add_variables("x", 2, -3.0, 3.0, {0, 0});
+    bool armed = false;
+    problem.add_cost(squared_distance({0, 1}, Vector2d(2, 1), [&](const ConstVector& x) {
+      if (armed) seen.push_back(x);
+    }));
+    problem.add_constraint(squared_norm("ring", {0, 1}), 1.0, 1.5);
+    problem.finish();
+    armed = true;
+    SolverOptions options;
+    options.max_iterations = limit;
+    options.tolerance = 1e-12;
+    const Solution s = solve(problem, Vector2d(-2.5, 0.3), options);
+    armed = false;
+    if (s.status == Status::solved) continue;
+    CHECK(s.status == Status::iteration_limit);
+    CHECK(s.iterations == limit);
+    const double violation = problem.worst_violation(s.x).value;
+    CHECK(s.worst.value == violation);
+    for (const VectorXd& x : seen) {
+      const double other = problem.worst_violation(x).value;
+      if (violation > options.constraint_tolerance) CHECK(violation <= other);
+      if (violation <= options.constraint_tolerance && other <= options.constraint_tolerance)
+        CHECK(s.cost <= problem.cost(x));
+    }
+  }
+}
+
+TEST_CASE("the time limit holds within 50 ms when pieces are slow") {
+  const Valley::Spy sleep = [](const ConstVector&) { std::this_thread::sleep_for(std::chrono::milliseconds(10)); };
+  for (const Valley& valley : {Valley(sleep), Valley(nullptr, sleep), Valley(nullptr, nullptr, sleep)}) {
+    SolverOptions options;
+    options.time_limit_s = 0.06;
+    double shortest_s = kInfinity;  // a busy machine may hold up one solve, hardly all five
+    Solution s;
+    for (int attempt = 0; attempt < 5 && shortest_s > 0.11; ++attempt) {
+      const Clock::time_point start = Clock::now();
+      s = solve(valley.problem, valley.x0, options);
+      shortest_s = std::min(shortest_s, seconds_since(start));
+    }
+    CHECK(shortest_s < 0.11);
+    CHECK(s.status == Status::time_limit);
+    CHECK(s.evaluation_s > 0.01);
+    CHECK(s.evaluation_s < s.time_s);
+    CHECK(s.cost <= valley.problem.cost(valley.x0));
+  }
+  SolverOptions options;
+  options.time_limit_s = 1e-9;  // over before the first evaluation
+  const Valley valley;
+  const Solution s = solve(valley.problem, valley.x0, options);
+  CHECK(s.status == Status::time_limit);
+  CHECK(same_bytes(s.x, valley.x0));
+}
+
+TEST_CASE("waiting for another solve counts against the time limit") {
+  std::atomic<bool> done = false;
+  const Valley slow([](const ConstVector&) { std::this_thread::sleep_for(std::chrono::milliseconds(20)); });
+  std::thread other([&] {
+    solve(slow.problem, slow.x0);
+    done = true;
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const Valley valley;
+  SolverOptions options;
+  options.time_limit_s = 0.05;
+  const Clock::time_point start = Clock::now();
+  const Solution s = solve(valley.problem, valley.x0, options);
+  if (before_3_14()) CHECK(!done);
+  CHECK(seconds_since(start) < 0.4);  // the other solve takes half a second at least
+  CHECK(s.status == (before_3_14() ? Status::time_limit : Status::solved));
+  other.join();
+  CHECK(done);
+}
+
+TEST_CASE("what a piece, the logger or the stop request throws arrives unchanged, and the next solve works") {
+  struct Own : std::runtime_error {
+    using std::runtime_error::runtime_error;
+  };
+  for (int when : {0, 5}) {
+    int calls = 0;
+    const auto raise = [&] {
+      if (calls++ == when) throw Own("knee 3");
+    };
+    const Valley::Spy spy = [&](const ConstVector&) { raise(); };
+    SolverOptions logging, stopping;
+    logging.logger = [&](LogLevel, const std::string&) { raise(); };
+    stopping.stop = [&] { return raise(), false; };
+    struct Case {
+      Valley valley;
+      SolverOptions options;
+    };
+    const Case cases[] = {{Valley(spy), {}},
+                          {Valley(nullptr, spy), {}},
+                          {Valley(nullptr, nullptr, spy), {}},
+                          {Valley(), logging},
+                          {Valley(), stopping}};
+    for (const auto& [valley, options] : cases) {
+      calls = 0;
+      CHECK_THROWS_WITH_AS(solve(valley.problem, valley.x0, options), "knee 3", Own);
+      CHECK(calls == when + 1);
+      CHECK(solve(Valley().problem, valley.x0).status == Status::solved);
+    }
+  }
+}
+
+TEST_CASE("a value or derivative that is not finite is named, and the point returned is finite") {
+  for (const double bad : {std::nan(""), kInfinity})
+    for (int where = 0; where < 3; ++where)
+      for (int when : {0, 4}) {
+        int calls = 0;
+        bool armed = false;
+        const auto number = [&, when](int here, double value) {
+          return armed && here == where && calls++ >= when ? bad : value;
+        };
+        Problem problem;
+        problem.add_variables("x", 2, -3.0, 3.0, {7, 7});
+        problem.add_cost(squared_distance({0, 1}, Vector2d(2, 1)));
+        problem.add_constraint(std::make_unique<FunctionPiece>(
+                                   "ring", std::vector<int>{0, 1}, 1,
+                                   [&](const ConstVector& x, Vector f) { f[0] = number(0, x.squaredNorm()); },
+                                   [&](const ConstVector& x, Matrix J) { J << number(1, 2 * x[0]), 2 * x[1]; },
+                                   [&](const ConstVector&, const ConstVector& w, Matrix H) {
+                                     H(0, 0) = number(2, 2 * w[0]);
+                                     H(1, 1) = 2 * w[0];
+                                   }),
+                               1.0, 1.5);
+        problem.finish();
+        armed = true;
+        const Solution s = solve(problem, Vector2d(-2.5, 0.3));
+        CHECK(s.status == Status::numerical_failure);
+        CHECK(s.message == "not finite: constraint ring at stage 7");
+        CHECK(s.x.allFinite());
+      }
+}
+
+TEST_CASE("the stop request is polled once an iteration") {
+  const Valley valley;
+  int polls = 0;
+  SolverOptions options;
+  options.stop = [&] { return ++polls == 4; };
+  const Solution stopped = solve(valley.problem, valley.x0, options);
+  CHECK(stopped.status == Status::interrupted);
+  CHECK(polls == 4);
+  CHECK(stopped.iterations == 3);  // the first poll is at iteration 0
+  CHECK(stopped.cost < valley.problem.cost(valley.x0));
+
+  polls = -1000;
+  const Solution s = solve(valley.problem, valley.x0, options);
+  CHECK(s.status == Status::solved);
+  CHECK(polls + 1000 == s.iterations + 1);
+}
+
+TEST_CASE("derivatives are evaluated once an iterate") {
+  std::vector<VectorXd> gradients, hessians;
+  const Valley valley(
+      nullptr, [&](const ConstVector& x) { gradients.push_back(x); },
+      [&](const ConstVector& x) { hessians.push_back(x); });
+  const Solution s = solve(valley.problem, valley.x0);
+  REQUIRE(s.iterations > 10);
+  CHECK(static_cast<int>(hessians.size()) == s.iterations);
+  CHECK(static_cast<int>(gradients.size()) == s.iterations + 2);  // Ipopt's scaling asks for the first one as well
+  for (std::size_t i = 1; i < hessians.size(); ++i) CHECK_FALSE(same_bytes(hessians[i - 1], hessians[i]));
+}
+
+TEST_CASE("the logger gets a header and a line an iteration; nothing else is printed, and no ipopt.opt is read") {
+  const std::filesystem::path before = std::filesystem::current_path(),
+                              folder = std::filesystem::temp_directory_path() / ("mcplan_" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  std::filesystem::current_path(folder);
+  std::ofstream("ipopt.opt") << "max_iter 1\nprint_level 5\noutput_file ipopt.out\n";
+  const Valley valley;
+  std::vector<std::string> lines;
+  SolverOptions options;
+  options.logger = [&](LogLevel, const std::string& line) { lines.push_back(line); };
+  Output output;
+  const Solution s = solve(valley.problem, valley.x0, options);
+  CHECK(output.text() == "");
+  CHECK(!std::filesystem::exists("ipopt.out"));
+  std::filesystem::current_path(before);
+  std::filesystem::remove_all(folder);
+  CHECK(s.status == Status::solved);
+  CHECK(static_cast<int>(lines.size()) == s.iterations + 2);
+  CHECK(lines[0].substr(0, 4) == "iter");
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    CHECK(std::stoi(lines[i]) == static_cast<int>(i) - 1);
+    CHECK(lines[i].find('\n') == std::string::npos);
+  }
+}
+
+TEST_CASE("solves from several threads give the same bytes as one after the other") {
+  const HockSchittkowski71 reference;
+  const Solution expected = solve(reference.problem, reference.x0);
+  CHECK(same_bytes(solve(reference.problem, reference.x0).x, expected.x));
+  std::vector<std::thread> threads;
+  constexpr int kSolves = 40;
+  std::vector<int> same(3, 0);
+  for (int t = 0; t < 3; ++t)
+    threads.emplace_back([&, t] {
+      const HockSchittkowski71 own;  // a Problem serves one thread at a time
+      for (int i = 0; i < kSolves; ++i) {
+        const Solution s = solve(own.problem, own.x0);
+        same[t] += same_bytes(s.x, expected.x) && same_bytes(s.multipliers, expected.multipliers);
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(same == std::vector<int>(3, kSolves));
+}
+
+TEST_CASE("a solve within a solve is refused instead of waiting for itself") {
+  const Valley inner, outer([&](const ConstVector&) { solve(inner.problem, inner.x0); });
+  if (before_3_14())
+    CHECK_THROWS_AS(solve(outer.problem, outer.x0), std::logic_error);
+  else
+    CHECK(solve(outer.problem, outer.x0).status == Status::solved);
+}
+
+TEST_CASE("a start that is no start is refused by name") {
+  const Valley valley;
+  CHECK_THROWS_WITH_AS(solve(valley.problem, VectorXd::Zero(3)), "x0: must have 2 values, got 3", InvalidInput);
+  CHECK_THROWS_WITH_AS(solve(valley.problem, Vector2d(0, std::nan(""))), "x0, x[1] at stage 3: must be finite, got nan",
+                       InvalidInput);
+  SolverOptions options;
+  options.tolerance = -1.0;
+  CHECK_THROWS_AS(solve(valley.problem, valley.x0, options), InvalidOptions);
+}
+
+TEST_CASE("the parts of the time add up to no more than the whole") {
+  const HockSchittkowski71 hs;
+  const Solution s = solve(hs.problem, hs.x0);
+  CHECK(s.linear_solver_s > 0.0);
+  CHECK(s.evaluation_s > 0.0);
+  CHECK(s.linear_solver_s + s.evaluation_s < s.time_s);
 }

@@ -299,6 +299,14 @@ TEST_CASE("a contact's force and moment are those of the forces at its points") 
   }
 }
 
+TEST_CASE("at() rejects forces that do not fit their points instead of reading beyond them") {
+  Plan plan = step_on_corners();
+  plan.phases[0].intervals = 9;
+  CHECK_THROWS_AS(plan.at(0.0), mcplan::InvalidPlan);
+  plan.phases[0].intervals = 0;
+  CHECK_THROWS_AS(plan.at(0.0), mcplan::InvalidPlan);
+}
+
 TEST_CASE("a walk without points says so, and free flight keeps what it spins") {
   for (const auto& end : walk().at(0.1).end_effectors) CHECK(end.points_W.empty());
   Plan thrown = flight();

@@ -36,7 +36,7 @@ struct Solution {
   Status status = Status::numerical_failure;  ///< solved: converged; whether a plan is good is for its checker to say
   std::string message;                        ///< why it ended, in one sentence
   Eigen::VectorXd x;            ///< the solution, or the best iterate: feasible and cheap, or least violated
-  Eigen::VectorXd multipliers;  ///< of the rows
+  Eigen::VectorXd multipliers;  ///< of the rows, at the last iterate: <= 0 at a lower limit, >= 0 at an upper one
   double cost = 0.0;
   Problem::Worst worst;  ///< largest violation at x
   int iterations = 0;
@@ -48,8 +48,8 @@ struct Solution {
 /// Solve with Ipopt from x0 (projected into the bounds).
 ///
 /// Ipopt before 3.14 and its MUMPS are not re-entrant: calls wait for each other, process-wide. The problem's finish()
-/// must have been called. Rethrows what a piece throws; a number that is not finite ends with numerical_failure and a
-/// message that names the piece.
+/// must have been called, and a Problem serves one thread at a time. Rethrows what a piece throws; a number that is not
+/// finite ends with numerical_failure and a message that names the piece.
 Solution solve(const Problem& problem, const Eigen::VectorXd& x0, const SolverOptions& options = {});
 
 /// Version of the Ipopt that is linked, e.g. "3.11.9".

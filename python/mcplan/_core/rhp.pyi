@@ -1,0 +1,501 @@
+"""
+Multi-fidelity receding-horizon planning of walks on two feet.
+"""
+
+from __future__ import annotations
+import collections.abc
+import mcplan._core
+import numpy
+import numpy.typing
+import typing
+
+__all__: list[str] = ["Cycle", "Fidelity", "Options", "RecedingHorizon", "State", "Transcription", "Walk"]
+
+class Fidelity:
+    """
+    Model of the steps that are predicted but not executed (Wang et al., sec. IV).
+
+    Members:
+
+      single : Centroidal dynamics, free timing: the baseline.
+
+      com : Candidate 1: linear CoM dynamics.
+
+      rectangle : Candidate 2: relaxed torque, four corner forces per foot.
+
+      point : Candidate 3: relaxed torque, one force per foot.
+    """
+
+    __members__: typing.ClassVar[dict[str, Fidelity]]
+    com: typing.ClassVar[Fidelity]
+    point: typing.ClassVar[Fidelity]
+    rectangle: typing.ClassVar[Fidelity]
+    single: typing.ClassVar[Fidelity]
+    @typing.overload
+    def __eq__(self, other: Fidelity) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Fidelity) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class Transcription:
+    """
+    How the continuous motion becomes algebraic equations.
+
+    Members:
+
+      trapezoidal : Forces linear between nodes, motion integrated exactly.
+
+      euler : The paper's forward Euler.
+    """
+
+    __members__: typing.ClassVar[dict[str, Transcription]]
+    euler: typing.ClassVar[Transcription]
+    trapezoidal: typing.ClassVar[Transcription]
+    @typing.overload
+    def __eq__(self, other: Transcription) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Transcription) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class Options:
+    """
+    Options of the receding-horizon planner.
+    """
+
+    fidelity: Fidelity
+    transcription: Transcription
+    def __init__(self) -> None: ...
+    def validate(self) -> None:
+        """
+        Raises InvalidOptions naming the first field out of its range.
+        """
+    @property
+    def all_faces(self) -> bool:
+        """
+        Keep faces of the reach polytopes that others imply.
+        """
+    @all_faces.setter
+    def all_faces(self, arg0: bool) -> None: ...
+    @property
+    def automatic_ordering(self) -> bool:
+        """
+        The linear solver's own pivot order.
+        """
+    @automatic_ordering.setter
+    def automatic_ordering(self, arg0: bool) -> None: ...
+    @property
+    def com_height(self) -> tuple[float, float]:
+        """
+        CoM over every foot in contact, over robot.com_height: min, max.
+        """
+    @com_height.setter
+    def com_height(
+        self, arg1: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]
+    ) -> None: ...
+    @property
+    def com_velocity_max(self) -> float:
+        """
+        Each component [m/s].
+        """
+    @com_velocity_max.setter
+    def com_velocity_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def constraint_tolerance(self) -> float: ...
+    @constraint_tolerance.setter
+    def constraint_tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def cycles(self) -> int:
+        """
+        Steps to execute.
+        """
+    @cycles.setter
+    def cycles(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def double_support_s(self) -> tuple[float, float]:
+        """
+        Duration of a phase on two feet: min, max [s].
+        """
+    @double_support_s.setter
+    def double_support_s(
+        self, arg1: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]
+    ) -> None: ...
+    @property
+    def friction_sides(self) -> int:
+        """
+        Of the pyramid inside the friction cone.
+        """
+    @friction_sides.setter
+    def friction_sides(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def goal_weight(self) -> float:
+        """
+        On the squared distance of the end to the goal [1/m^2].
+        """
+    @goal_weight.setter
+    def goal_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def intervals(self) -> int:
+        """
+        Per phase.
+        """
+    @intervals.setter
+    def intervals(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def lifted_psi(self) -> bool:
+        """
+        Keep the relaxation's bounds psi as variables.
+        """
+    @lifted_psi.setter
+    def lifted_psi(self, arg0: bool) -> None: ...
+    @property
+    def logger(self) -> collections.abc.Callable[[mcplan._core.LogLevel, str], None]:
+        """
+        Called with (LogLevel, line), a line a cycle; None: silent.
+        """
+    @logger.setter
+    def logger(self, arg0: collections.abc.Callable[[mcplan._core.LogLevel, str], None]) -> None: ...
+    @property
+    def lookahead(self) -> int:
+        """
+        Steps in the horizon, 1 to 10, the executed one included.
+        """
+    @lookahead.setter
+    def lookahead(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def max_iterations(self) -> int:
+        """
+        Of a cycle.
+        """
+    @max_iterations.setter
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def momentum_max(self) -> float:
+        """
+        Each component of L [kg m^2/s].
+        """
+    @momentum_max.setter
+    def momentum_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def momentum_rate_max(self) -> float:
+        """
+        Each component of L' [N m].
+        """
+    @momentum_rate_max.setter
+    def momentum_rate_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def paper(self) -> bool:
+        """
+        Absolute CoM box and outer friction pyramid, as published.
+        """
+    @paper.setter
+    def paper(self, arg0: bool) -> None: ...
+    @property
+    def predicted_double_support_s(self) -> float:
+        """
+        Fixed duration in predicted steps of the reduced models [s].
+        """
+    @predicted_double_support_s.setter
+    def predicted_double_support_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def predicted_single_support_s(self) -> float:
+        """
+        [s]
+        """
+    @predicted_single_support_s.setter
+    def predicted_single_support_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def psi_max(self) -> float:
+        """
+        Bound of the relaxation [-].
+        """
+    @psi_max.setter
+    def psi_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def single_support_s(self) -> tuple[float, float]:
+        """
+        Duration of a phase on one foot: min, max [s].
+        """
+    @single_support_s.setter
+    def single_support_s(
+        self, arg1: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]
+    ) -> None: ...
+    @property
+    def time_limit_s(self) -> float:
+        """
+        Wall clock of a cycle [s].
+        """
+    @time_limit_s.setter
+    def time_limit_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def tolerance(self) -> float:
+        """
+        Optimality tolerance of the solver.
+        """
+    @tolerance.setter
+    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class State:
+    """
+    Where the robot is: the start of a horizon.
+    """
+    def __copy__(self) -> State: ...
+    def __deepcopy__(self, memo: dict) -> State: ...
+    def __init__(
+        self,
+        *,
+        com_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        com_velocity_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        angular_momentum_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        feet_W: typing.Any = (),
+        surfaces: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def angular_momentum_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        About the CoM [kg m^2/s].
+        """
+    @angular_momentum_W.setter
+    def angular_momentum_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def com_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m]
+        """
+    @com_W.setter
+    def com_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def com_velocity_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m/s]
+        """
+    @com_velocity_W.setter
+    def com_velocity_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def feet_W(self) -> numpy.ndarray:
+        """
+        Sole centres, one row a foot, in the robot's order [m].
+        """
+    @feet_W.setter
+    def feet_W(self, arg1: typing.Any) -> None: ...
+    @property
+    def surfaces(self) -> typing.Any:
+        """
+        Indices of the surfaces on which the feet stand.
+        """
+    @surfaces.setter
+    def surfaces(self, arg1: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]) -> None: ...
+
+class Cycle:
+    """
+    How one cycle went.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def acceleration_cost(self) -> float:
+        """
+        Executed step: integral of |a|^2 [m^2/s^3].
+        """
+    @property
+    def constraints(self) -> int: ...
+    @property
+    def cost(self) -> float:
+        """
+        Of the whole horizon.
+        """
+    @property
+    def defect(self) -> float:
+        """
+        Largest residual of the horizon's equations.
+        """
+    @property
+    def distance_m(self) -> float:
+        """
+        Executed step: travel of the CoM along the heading [m].
+        """
+    @property
+    def drift_com_m(self) -> float:
+        """
+        Forces of the executed step replayed in continuous time against its states, at its end [m].
+        """
+    @property
+    def drift_momentum(self) -> float:
+        """
+        The same of L [kg m^2/s].
+        """
+    @property
+    def duration_s(self) -> float:
+        """
+        Executed step [s].
+        """
+    @property
+    def evaluation_s(self) -> float:
+        """
+        Of which in functions and derivatives [s].
+        """
+    @property
+    def executed(self) -> bool:
+        """
+        Its first step keeps the constraints and was taken into the walk.
+        """
+    @property
+    def index(self) -> int: ...
+    @property
+    def iterations(self) -> int: ...
+    @property
+    def linear_solver_s(self) -> float:
+        """
+        Of which in the linear solver [s].
+        """
+    @property
+    def message(self) -> str: ...
+    @property
+    def momentum_cost(self) -> float:
+        """
+        Executed step: integral of |L|^2.
+        """
+    @property
+    def status(self) -> mcplan._core.Status:
+        """
+        solved: converged, and the checker accepts the executed step.
+        """
+    @property
+    def time_s(self) -> float:
+        """
+        Wall clock, set-up and check included [s].
+        """
+    @property
+    def variables(self) -> int: ...
+    @property
+    def worst_violation(self) -> mcplan._core.Violation:
+        """
+        Of the executed step.
+        """
+
+class Walk:
+    """
+    A walk: its plan, how it was found, cycle by cycle.
+    """
+    def acc_per_m(self) -> float:
+        """
+        Integral of |a|^2 per metre, executed steps.
+        """
+    def distance_m(self) -> float:
+        """
+        Travelled by the CoM along the heading [m].
+        """
+    def drift_com_m(self) -> float:
+        """
+        Largest of a cycle [m].
+        """
+    def drift_momentum(self) -> float:
+        """
+        Largest of a cycle [kg m^2/s].
+        """
+    def momentum_per_m(self) -> float:
+        """
+        Integral of |L|^2 per metre, executed steps.
+        """
+    @property
+    def cycles(self) -> tuple:
+        """
+        Tuple of Cycle.
+        """
+    @cycles.setter
+    def cycles(self, arg1: collections.abc.Sequence[Cycle]) -> None: ...
+    @property
+    def plan(self) -> mcplan._core.Plan:
+        """
+        The executed steps, one after the other.
+        """
+    @plan.setter
+    def plan(self, arg1: mcplan._core.Plan) -> None: ...
+    @property
+    def report(self) -> mcplan._core.Report:
+        """
+        Status and message of the worst cycle, times summed.
+        """
+    @report.setter
+    def report(self, arg1: mcplan._core.Report) -> None: ...
+    @property
+    def success(self) -> bool:
+        """
+        Every cycle that was asked for gave a step within its constraints.
+        """
+
+class RecedingHorizon:
+    """
+    One nonlinear program a cycle, of whose steps the first is executed. Solves release the GIL; Ctrl-C ends them with Status.interrupted.
+    """
+    @typing.overload
+    def __init__(self, scene: mcplan._core.Scene, robot: mcplan._core.Robot, options: Options = ...) -> None:
+        """
+        The contact sequence is scene.steps; after its end the feet go on in turn on its last surface.
+        """
+    @typing.overload
+    def __init__(
+        self, scene: mcplan._core.Scene, robot: mcplan._core.Robot, sequence: mcplan._core.Plan, options: Options = ...
+    ) -> None:
+        """
+        Contact sequence and start are those of a plan; the walk comes to rest after its last step.
+        """
+    def executed(self) -> mcplan._core.Plan:
+        """
+        The step that the last good cycle executes, from time 0.
+        """
+    def horizon(self) -> mcplan._core.Plan:
+        """
+        Its whole horizon, predicted steps included.
+        """
+    def result(self) -> Walk:
+        """
+        What was executed so far.
+        """
+    def state(self) -> State:
+        """
+        At the start of the next cycle.
+        """
+    @typing.overload
+    def step(self) -> Cycle:
+        """
+        One cycle from where the last one ended.
+        """
+    @typing.overload
+    def step(self, measured: State) -> Cycle:
+        """
+        One cycle from a measured state.
+        """
+    def walk(self) -> Walk:
+        """
+        Run all cycles that the options ask for, or until one fails.
+        """
