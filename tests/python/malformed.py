@@ -19,6 +19,7 @@ SCENE: dict[str, Any] = {
     "start": {"position": [0.5, 0.5, 0.0], "contacts": {"foot": "floor"}},
     "goal": {"position": [0.6, 0.5, 0.0], "yaw": 0.1, "contacts": {"foot": "floor"}},
     "rules": [{"when_free": ["foot"], "require": ["hand"]}],
+    "steps": [{"end_effector": "leg", "surface": "floor"}],
 }
 
 ROBOT: dict[str, Any] = {
@@ -38,6 +39,8 @@ ROBOT: dict[str, Any] = {
             "reach_max": [0.2, 0.2, -0.3],
             "max_force": 400.0,
             "max_moment": [0.0, 0.0, 1.0],
+            "com_reach": {"A": [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]], "b": [0.6, -0.3]},
+            "partner_reach": {"arm": {"A": [[1.0, 0.0, 0.0]], "b": [0.4]}},
         },
         {
             "name": "arm",
@@ -159,6 +162,10 @@ SCENE_BREAKS: list[Break] = [
         "must run once around a convex polygon, got 2 turns",
     ),
     # Stances and rules
+    (("steps", 0, "end_effector"), DELETE, "steps[0].end_effector", "is required"),
+    (("steps", 0, "end_effector"), "", "steps[0].end_effector", "must not be empty"),
+    (("steps", 0, "surface"), "roof", "steps[0].surface", "must name a surface (floor, pad), got 'roof'"),
+    (("steps", 0), "floor", "steps[0]", "must be a table"),
     (("start",), DELETE, "start", "is required"),
     (("goal",), DELETE, "goal", "is required"),
     (("start",), [0.0, 0.0, 0.0], "start", "must be a table"),
@@ -237,6 +244,51 @@ ROBOT_BREAKS: list[Break] = [
     (("end_effectors", 0, "max_force"), 0.0, "end_effectors[0].max_force", "must be a positive number"),
     (("end_effectors", 0, "max_force"), NAN, "end_effectors[0].max_force", "must be a positive number"),
     (("end_effectors", 0, "max_moment", 2), -1.0, "end_effectors[0].max_moment[2]", "must be at least 0"),
+    (("end_effectors", 0, "com_reach"), [1.0], "end_effectors[0].com_reach", "must be a table"),
+    (("end_effectors", 0, "com_reach", "A"), DELETE, "end_effectors[0].com_reach.A", "is required, or file and name"),
+    (
+        ("end_effectors", 0, "com_reach", "b"),
+        [0.6],
+        "end_effectors[0].com_reach.b",
+        "must have a number for each row of A, got 1 for 2 rows",
+    ),
+    (("end_effectors", 0, "com_reach", "b", 1), NAN, "end_effectors[0].com_reach.b[1]", "must be a finite number"),
+    (
+        ("end_effectors", 0, "com_reach", "A", 1),
+        [0.0, 0.0, -1.1],
+        "end_effectors[0].com_reach.A[1]",
+        "must have length 1 within 0.001, got 1.1",
+    ),
+    (
+        ("end_effectors", 0, "com_reach", "b", 1),
+        -0.51,
+        "end_effectors[0].com_reach",
+        "must hold the nominal stance, got",
+    ),
+    (
+        ("end_effectors", 0, "com_reach", "file"),
+        "reach.json",
+        "end_effectors[0].com_reach.file",
+        "must stand alone, without A and b",
+    ),
+    (
+        ("end_effectors", 0, "com_reach"),
+        {"file": "reach.json", "name": "com"},
+        "end_effectors[0].com_reach.file",
+        "cannot be read: No such file",
+    ),
+    (
+        ("end_effectors", 0, "partner_reach"),
+        {"tail": {"A": [[1.0, 0.0, 0.0]], "b": [0.4]}},
+        "end_effectors[0].partner_reach.tail",
+        "must name another end-effector",
+    ),
+    (
+        ("end_effectors", 0, "partner_reach", "arm", "b", 0),
+        0.19,
+        "end_effectors[0].partner_reach.arm",
+        "must hold the nominal stance",
+    ),
     (("end_effectors", 0, "maxforce"), 1.0, "end_effectors[0].maxforce", "Did you mean 'max_force'?"),
 ]
 

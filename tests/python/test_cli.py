@@ -15,7 +15,8 @@ import malformed
 import mcplan as mp
 from mcplan.cli import main
 from mcplan.files.robots import list_robots, load_robot
-from mcplan.files.scenes import list_scenes
+from mcplan.files.scenes import list_scenes, load_scene, scene_to_dict
+from mcplan.files.terrains import random_patches
 from mcplan.files.toml import toml_text
 from standing import standing_plan
 
@@ -82,6 +83,31 @@ def test_a_scene_file_is_printed_like_a_built_in_one(capsys, tmp_path):
     (tmp_path / "room.toml").write_text(toml_text(malformed.SCENE))
     code, out, _ = run(capsys, "scenes", tmp_path / "room.toml")
     assert code == 0 and out.startswith("room\n") and "floor" in out
+
+
+def test_random_patches_of_a_seed_are_written(capsys, tmp_path):
+    file = tmp_path / "mine.toml"
+    assert run(capsys, "scenes", "random_patches", "--seed", 7, "-o", file) == (0, f"Wrote {file}\n", "")
+    assert file.read_text().startswith(f"# Made by: mcplan scenes random_patches --seed 7 -o {file}\n")
+    assert scene_to_dict(load_scene(file)) == scene_to_dict(random_patches(7))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["flat", "--seed", 3], "--seed: is for random_patches alone, got 'flat'"),
+        (["--seed", 3], "--seed: needs the NAME of a scene"),
+        (["-o", "x.toml"], "--output: needs the NAME of a scene"),
+    ],
+)
+def test_options_of_scenes_that_do_not_fit_are_named(arguments, message, capsys):
+    code, _, err = run(capsys, "scenes", *arguments)
+    assert code == 2 and message in err
+
+
+def test_reach_polytopes_are_for_urdfs(capsys):
+    code, _, err = run(capsys, "robots", "talos", "--reach-polytopes")
+    assert code == 2 and "--reach-polytopes: needs --from-urdf" in err
 
 
 def test_a_scene_is_drawn_on_a_page(capsys, tmp_path):

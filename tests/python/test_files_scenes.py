@@ -198,6 +198,9 @@ def scenes(draw):
         start=stances[0],
         goal=stances[1],
         rules=rules,
+        steps=[
+            mp.Step(end_effector=draw(names), surface=surface.name) for surface in surfaces[: draw(st.integers(0, 4))]
+        ],
     )
 
 

@@ -4,7 +4,7 @@
 
 1. Draw joint positions of a leg within its limits, a third of the joints at a limit, where the edge of the reach is. The base
    is upright, the other limbs are nominal. Turn the sole level by Newton's method; keep the sample if the sole's orientation
-   comes within 10 degrees of level and ahead. Point feet are kept as drawn.
+   comes within 5 degrees of level and ahead. Point feet are kept as drawn.
 2. com_reach: CoM relative to the sole, of the samples whose foot is at most half a sole's width past the CoM sideways.
 3. partner_reach: the other foot relative to the sole while the robot stands on that sole, its CoM above it: sums of a sample
    of one leg with one of the other. The feet stay on their sides, 1.25 sole widths apart at least.
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 FACES = 30  # of a polytope at most
 SAMPLES = 20_000  # of each leg
 PAIRS = 200_000  # of samples of two legs
-LEVEL_RAD = np.radians(10.0)
+LEVEL_RAD = np.radians(5.0)
 AT_LIMIT = 1.0 / 3.0  # share of joints drawn at one of their limits
 FEET_APART = 1.25  # least sideways distance of two feet over the width of a sole
 _ITERATIONS = 8
@@ -44,7 +44,7 @@ ROUNDING_M = 2e-6  # added to a polytope whose numbers are rounded, so that it h
 
 HEADER = (
     "Reach polytopes: joint positions of each leg drawn within their limits ({samples}, seed {seed}; base upright, other "
-    "limbs nominal), soles within 10 degrees of level and ahead, feet not past the CoM by more than half a sole's width; "
+    "limbs nominal), soles within 5 degrees of level and ahead, feet not past the CoM by more than half a sole's width; "
     "partners: put down while the CoM is above the sole, {apart} sole widths apart or more. Each is the convex hull of "
     "points reached, with {faces} faces at most."
 )
