@@ -33,6 +33,7 @@ nlp::SolverOptions solver_options(const Options& options, double time_left_s) {
   out.max_iterations = options.max_iterations;
   out.time_limit_s = std::max(time_left_s, 1e-3);
   out.ordering = options.automatic_ordering ? nlp::Ordering::automatic : nlp::Ordering::amd;
+  out.gradient_scaling = false;  // the variables are of the order of one as they are
   out.stop = options.stop;
   return out;
 }

@@ -97,6 +97,7 @@ def tiled_floor(tiles: int) -> Scene:
         tile.vertices_W = [[begin, -1.0, 0.0], [end, -1.0, 0.0], [end, 1.0, 0.0], [begin, 1.0, 0.0]]
         surfaces.append(tile)
     scene.surfaces = surfaces
+    scene.steps = []  # they name the floor that was cut
     for stance in (scene.start, scene.goal):
         at = min(int(np.searchsorted(cuts, stance.position_W[0], side="right")) - 1, tiles - 1)
         stance.contacts = {who: f"tile_{at}" for who in stance.contacts}

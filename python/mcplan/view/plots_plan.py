@@ -59,8 +59,8 @@ def plot_momentum(plan: Plan) -> Figure:
         axes[i, 0].plot(samples.times_s, samples.angular_momentum_W[:, i], color=COM, linewidth=2.0)
         label(axes[i, 0], y=f"$L_{name}$ [kg m²/s]")
     largest = float(np.abs(samples.angular_momentum_W).max())
-    if largest < 1e-6:  # a base at rest: no axis in units of rounding
-        axes[0, 0].set_ylim(-1.0, 1.0)
+    if largest < 1e-2:  # a base as good as at rest: no axis in units of rounding
+        axes[0, 0].set_ylim(-0.1, 0.1)
     label(axes[0, 0], title="angular momentum about the CoM")
     label(axes[2, 0], x="time [s]")
     axes[0, 0].set_xlim(0.0, samples.times_s[-1])
