@@ -188,7 +188,8 @@ def main() -> None:
         for mode in MODES:
             for terrain in args.terrains:
                 rows.append(measured(terrain, args.robot, case, mode, args.cycles, args.repeats))
-                print(markdown(rows[-1:]).splitlines()[-1] if len(rows) > 1 else markdown(rows), flush=True)
+                lines = markdown(rows[-1:]).splitlines()
+                print("\n".join(lines if len(rows) == 1 else lines[2:]), flush=True)
     args.out.mkdir(parents=True, exist_ok=True)
     (args.out / "compare.json").write_text(json.dumps({"versions": versions(), "rows": rows}, indent=1) + "\n")
     (args.out / "compare.md").write_text(markdown(rows))
