@@ -41,6 +41,7 @@ void bind_options(py::module_& m) {
   c.def_readwrite("transcription", &Options::transcription);
   c.def_readwrite("paper", &Options::paper, "Absolute CoM box and outer friction pyramid, as published.");
   c.def_readwrite("lifted_psi", &Options::lifted_psi, "Keep the relaxation's bounds psi as variables.");
+  c.def_readwrite("friction_rows", &Options::friction_rows, "Friction as rows, not as edges of the pyramid.");
   c.def_readwrite("all_faces", &Options::all_faces, "Keep faces of the reach polytopes that others imply.");
   c.def_readwrite("intervals", &Options::intervals, "Per phase.");
   def_range(c, "double_support_s", &Options::double_support_s, "Duration of a phase on two feet: min, max [s].");

@@ -174,9 +174,14 @@ class Builder {
         ContactPoint point;
         point.placement = phase.placements[foot];
         if (!one) point.offset_W = placement.axes_W.leftCols<2>() * Eigen::Vector2d(s1 * half[0], s2 * half[1]);
-        point.variable = problem().add_variables("force", 3, -kInfinity, kInfinity, here);
-        problem().set_bounds(point.variable + 2, 0.0, kInfinity);
-        add_friction(problem(), point, friction, options_.friction_sides, options_.paper);
+        if (options_.friction_rows) {
+          point.variable = problem().add_variables("force", 3, -kInfinity, kInfinity, here);
+          problem().set_bounds(point.variable + 2, 0.0, kInfinity);
+          add_friction(problem(), point, friction, options_.friction_sides, options_.paper);
+        } else {
+          point.edges_W = pyramid_edges(placement, friction, options_.friction_sides, options_.paper);
+          point.variable = problem().add_variables("force", point.count(), 0.0, kInfinity, here);
+        }
         add_force_box(problem(), placement, point, force_limit(foot, one), friction);
         control.points.push_back(point);
         if (one) return;
@@ -259,7 +264,10 @@ class Builder {
     const Eigen::VectorXd distance = reach_distance(all, out_, out_.guess, node, placement);
     std::vector<int> rows;
     for (int row = 0; row < distance.size(); ++row) {
-      if (distance[row] < (node > last_stage_ - (std::getenv("LN") ? atoi(std::getenv("LN")) : 21) ? (std::getenv("RL") ? atof(std::getenv("RL")) : 10.0) : kReachMargin_m) || request_.reach_rows.count({node, placement, row}))
+      if (distance[row] < (node > last_stage_ - (std::getenv("LN") ? atoi(std::getenv("LN")) : 21)
+                               ? (std::getenv("RL") ? atof(std::getenv("RL")) : 10.0)
+                               : kReachMargin_m) ||
+          request_.reach_rows.count({node, placement, row}))
         rows.push_back(row);
       else
         out_.left_out.push_back({node, placement, row});

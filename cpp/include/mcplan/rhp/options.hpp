@@ -38,9 +38,10 @@ struct Options {
   int lookahead = 3;  ///< steps in the horizon, 1..10: one executed, the others predicted
   int cycles = 14;    ///< steps to execute
   Transcription transcription = Transcription::trapezoidal;
-  bool paper = false;       ///< absolute CoM box, outer friction pyramid, no rest at the end, all as published
-  bool lifted_psi = false;  ///< keep the bounds psi of the relaxation as variables instead of eliminating them
-  bool all_faces = false;   ///< keep faces of the reach polytopes that others imply
+  bool paper = false;          ///< absolute CoM box, outer friction pyramid, no rest at the end, all as published
+  bool lifted_psi = false;     ///< keep the bounds psi of the relaxation as variables instead of eliminating them
+  bool friction_rows = false;  ///< forces along t1, t2, n and friction as rows, instead of along the pyramid's edges
+  bool all_faces = false;      ///< keep faces of the reach polytopes that others imply
 
   int intervals = 7;                        ///< per phase
   Range double_support_s{0.1, 0.3};         ///< duration of a phase on two feet
