@@ -295,7 +295,7 @@ class Builder {
       const Placement& fresh = out_.placements[2 + i];
       Placement shifted = fresh;
       shifted.origin_W += out_.shift_W;
-      add_foothold(problem(), shifted, walker_.surfaces[fresh.surface], walker_.taken_size(fresh.foot));
+      add_foothold(problem(), shifted, walker_.surfaces[fresh.surface], walker_.taken_size(fresh.foot, fresh.surface));
     }
   }
 
