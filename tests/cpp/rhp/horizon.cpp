@@ -57,10 +57,15 @@ struct First {
   explicit First(const Options& options, const Scene& scene = walkers::uneven(), bool rest = false)
       : walker(scene, walkers::robot(), options), state(walker.start()) {
     const Footsteps footsteps = footsteps_of(walker);
-    horizon = build_horizon(walker, state, footsteps, 0, options.lookahead,
-                            nominal_footholds(walker, state, footsteps, 0, options.lookahead), rest);
+    HorizonRequest request;
+    request.state = state;
+    request.steps = options.lookahead;
+    request.footholds_W = nominal_footholds(walker, state, footsteps, 0, options.lookahead);
+    request.rest = rest;
+    request.guess = [&](const Horizon& built) { return nominal_guess(walker, state, built); };
+    horizon = build_horizon(walker, footsteps, request);
   }
-  VectorXd guess() const { return nominal_guess(walker, state, horizon); }
+  const VectorXd& guess() const { return horizon.guess; }
 };
 
 /// Rows of the problem by the name of their piece.
@@ -163,6 +168,7 @@ TEST_CASE("horizons of the four fidelities have the models of the paper's table"
 
 TEST_CASE("reach and height bind both feet at every node where they stand, boundaries of phases included") {
   Options options = walkers::quick(Fidelity::single, 1);
+  options.all_faces = true;
   const First first(options);
   const int n = options.intervals;
   const nlp::Problem& problem = first.horizon.problem;
@@ -254,6 +260,31 @@ TEST_CASE("psi eliminated and lifted have the same optimum, and the lifted psi a
   }
 }
 
+TEST_CASE("faces that are left out of the reach are remembered, and found where a motion violates them") {
+  Options options = walkers::quick(Fidelity::single);
+  const First fewer(options);
+  options.all_faces = true;
+  const First all(options);
+  CHECK(all.horizon.left_out.empty());
+  REQUIRE_FALSE(fewer.horizon.left_out.empty());
+  int kept = 0;
+  for (const auto& [name, rows] : row_counts(fewer.horizon.problem)) kept += name == "com_reach" ? rows : 0;
+  int on_ground = 0;  // a foot at a node, the first excepted
+  for (const auto& [name, rows] : row_counts(fewer.horizon.problem)) on_ground += name == "com_height" ? rows : 0;
+  const int faces = static_cast<int>(fewer.walker.feet[0].com_reach_W.A.rows());
+  CHECK(kept + static_cast<int>(fewer.horizon.left_out.size()) == faces * on_ground);
+
+  // A CoM that leaves the reach of a foot at one node: the rows of the complete problem say so, and so must these.
+  VectorXd x = fewer.guess();
+  CHECK(violated_reach(fewer.walker, fewer.horizon, x, 1e-9).empty());
+  const ReachRow somewhere = fewer.horizon.left_out[fewer.horizon.left_out.size() / 2];
+  const Polytope& reach_W = fewer.walker.feet[fewer.horizon.placements[somewhere.placement].foot].com_reach_W;
+  x.segment<3>(fewer.horizon.nodes[somewhere.node].com) += 2.0 * reach_W.A.row(somewhere.row).transpose();
+  const std::set<ReachRow> violated = violated_reach(fewer.walker, fewer.horizon, x, 1e-9);
+  CHECK(violated.count(somewhere) == 1);
+  for (const ReachRow& row : violated) CHECK(row.node == somewhere.node);
+}
+
 TEST_CASE("leaving out faces that others imply does not change the optimum") {
   Options options = walkers::quick(Fidelity::single);
   const First fewer(options);
@@ -263,8 +294,57 @@ TEST_CASE("leaving out faces that others imply does not change the optimum") {
   const nlp::Solution a = nlp::solve(fewer.horizon.problem, fewer.guess()), b = nlp::solve(all.horizon.problem, all.guess());
   REQUIRE(a.status == Status::solved);
   REQUIRE(b.status == Status::solved);
+  CHECK(violated_reach(fewer.walker, fewer.horizon, a.x, 1e-6).empty());
   CHECK(all.horizon.problem.worst_violation(a.x).value <= 1e-6);
   CHECK(a.cost == doctest::Approx(b.cost).epsilon(1e-6));
+}
+
+TEST_CASE("the cost of a horizon is the documented integral") {
+  for (const Case& test : all_cases()) {
+    if (test.options.lifted_psi) continue;
+    CAPTURE(test.name);
+    const First first(test.options);
+    const Horizon& horizon = first.horizon;
+    Random random(23);
+    const VectorXd x = first.guess() + random.vector(horizon.problem.variable_count(), 0.2);
+    const bool euler = test.options.transcription == Transcription::euler;
+    const int n = test.options.intervals;
+    double cost = 10.0 * (x.segment<3>(horizon.nodes.back().com) + horizon.shift_W - Vector3d(20.0, 0.0, 0.75)).squaredNorm();
+    for (const Horizon::Phase& phase : horizon.phases) {
+      const double h = x[phase.duration] / n, planned_h = (phase.swing >= 0 ? 0.6 : 0.2) / n;
+      const auto acceleration = [&](int k) -> Vector3d {
+        return x.segment<3>(horizon.controls[phase.first_control + k].acceleration);
+      };
+      for (int k = 0; k < n; ++k) {
+        if (euler) {
+          cost += h * acceleration(k).squaredNorm();
+          continue;
+        }
+        // Simpson's rule is exact for the square of a linear function.
+        const Vector3d a = acceleration(k), b = acceleration(k + 1);
+        cost += h / 6.0 * (a.squaredNorm() + 4.0 * (0.5 * (a + b)).squaredNorm() + b.squaredNorm());
+      }
+      for (int k = 0; k < phase.control_count; ++k) {
+        const double weight = !euler && (k == 0 || k == n) ? 0.5 : 1.0;
+        const Horizon::Control& control = horizon.controls[phase.first_control + k];
+        if (phase.centroidal) cost += weight * h * x.segment<3>(horizon.nodes[control.node].momentum).squaredNorm();
+        if (phase.centroidal || test.options.fidelity == Fidelity::com) continue;
+        for (const ContactPoint& point : control.points) {
+          const Placement& foot = horizon.placements[point.placement];
+          const double unit = test.options.fidelity == Fidelity::point ? 1600.0 : 400.0;
+          const Vector3d l = (foot.origin_W + foot.axes_W.leftCols<2>() * x.segment<2>(foot.variable) + point.offset_W -
+                              x.segment<3>(horizon.nodes[control.node].com)) / 1.5;
+          const Vector3d d = 100.0 / unit * (foot.axes_W * x.segment<3>(point.variable));
+          const Eigen::Vector2d alphas[] = {{-l.z(), l.y()}, {l.z(), -l.x()}, {-l.y(), l.x()}};
+          const Eigen::Vector2d deltas[] = {{d.y(), d.z()}, {d.x(), d.z()}, {d.x(), d.y()}};
+          for (int i = 0; i < 3; ++i)
+            for (double sign : {1.0, -1.0})
+              cost += weight * planned_h * std::pow((alphas[i] + sign * deltas[i]).squaredNorm(), 2);
+        }
+      }
+    }
+    CHECK(horizon.problem.cost(x) == doctest::Approx(cost).epsilon(1e-10));
+  }
 }
 
 }  // namespace mcplan::rhp::tests
