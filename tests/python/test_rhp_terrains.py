@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 
 import numpy as np
 import pytest
-from walk_margins import margins_of
 
 import mcplan as mp
 from mcplan._core import rhp
+from walk_margins import margins_of
 
 TERRAINS = ("up_and_down", "v_shape", "rubbles")
 CYCLES = 14
@@ -51,8 +52,9 @@ def check_walk(walk: rhp.Walk, *, paper: bool, cycles: int = CYCLES) -> None:
     margins = margins_of(walk.plan, paper=paper)
     short = {name: value for name, value in margins.least.items() if value < -1e-6}
     assert not short, f"margins below -1e-6: {short}"
-    off = {name: value for name, value in margins.defect.items() if value > 1e-6}
-    assert not off, f"defects above 1e-6: {off}"
+    # Over a phase, in which a CoM that is off by 1e-6 m under the weight makes 1e-4 kg m^2/s in a tenth of a second.
+    off = {name: value for name, value in margins.defect.items() if value > (1e-4 if name == "momentum" else 1e-6)}
+    assert not off, f"knots off the integral of the forces: {off}"
 
 
 def test_point_walks_four_cycles_over_rubbles() -> None:
@@ -75,7 +77,7 @@ def test_walk_lands_on_the_patches_of_the_scene() -> None:
 def test_margins_see_a_force_that_slips_and_a_foot_over_the_edge() -> None:
     """The validator of these tests is able to object."""
     plan = walk_over("rubbles", "point_3", False, 4).plan
-    plan = mp.Plan.from_dict(plan.to_dict()) if hasattr(mp.Plan, "from_dict") else plan
+    plan = copy.deepcopy(plan)
     good = margins_of(plan, paper=False)
     assert min(good.least.values()) >= -1e-6
     phases = list(plan.phases)
