@@ -93,7 +93,7 @@ Vector3d Walker::nearest_foothold_W(int foot, int surface, const Vector3d& wante
     int edge = -1;
     for (int j = 0; j < polygon.edge_count(); ++j) {
       const Vector2d along = frame.leftCols<2>().transpose() * polygon.edge_outward_W(j);
-      const double over = polygon.overshoot(j, p) + along.cwiseAbs().dot(feet[foot].half_size);
+      const double over = polygon.overshoot(j, p) + along.cwiseAbs().dot(taken_size(foot));
       if (over <= worst) continue;
       worst = over;
       edge = j;
@@ -102,6 +102,10 @@ Vector3d Walker::nearest_foothold_W(int foot, int surface, const Vector3d& wante
     p -= worst * polygon.edge_outward_W(edge);
   }
   return p;
+}
+
+Vector2d Walker::taken_size(int foot) const {
+  return feet[foot].half_size.array() + (options.paper ? 0.0 : options.foothold_margin_m);
 }
 
 int Walker::foot_of(int end_effector) const {
