@@ -56,7 +56,7 @@ TEST_CASE("the plan of a step has the forces of its control nodes, in newtons an
         Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero();
         for (const ContactPoint& point : control.points) {
           const Placement& foot = any.horizon.placements[point.placement];
-          const Vector3d f = 100.0 * (foot.axes_W * any.x.segment<3>(point.variable));
+          const Vector3d f = walkers::force_W(point, foot, any.x);
           force += f;
           moment += (any.horizon.position_W(any.x, point.placement) + point.offset_W).cross(f);
         }

@@ -46,7 +46,7 @@ TEST_CASE("the first guess stands in balance: its forces carry the weight, its d
   for (const Horizon::Control& control : horizon.controls) {
     Vector3d sum = Vector3d::Zero();
     for (const ContactPoint& point : control.points)
-      sum += 100.0 * (horizon.placements[point.placement].axes_W * x.segment<3>(point.variable));
+      sum += walkers::force_W(point, horizon.placements[point.placement], x);
     CHECK((sum - Vector3d(0.0, 0.0, 95.0 * walkers::kGravity)).norm() < 1e-9);
   }
   for (const Horizon::Phase& phase : horizon.phases) {

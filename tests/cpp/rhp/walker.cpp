@@ -76,14 +76,14 @@ TEST_CASE("on a wall square to the heading a foot's first axis goes up") {
   CHECK((frame.col(0) - Vector3d::UnitZ()).norm() < 1e-12);
 }
 
-TEST_CASE("a foothold near any point has the whole sole on its surface, and stays where it fits already") {
+TEST_CASE("a foothold near any point has the whole sole and a margin on its surface, and stays where it fits already") {
   const Walker walker = walker_on(walkers::moved(walkers::uneven(), 0.3, {0.0, 0.0, 1.0}));
   Random random(1);
   for (int trial = 0; trial < 200; ++trial) {
     const int surface = 1 + trial % 4;
     const Vector3d wanted = walker.surfaces[surface].centroid_W() + random.three();
     const Vector3d foothold = walker.nearest_foothold_W(0, surface, wanted);
-    CHECK(overhang(walker, surface, foothold) < 1e-6);
+    CHECK(overhang(walker, surface, foothold) < -walker.options.foothold_margin_m + 1e-6);
     CHECK(std::abs(walker.surfaces[surface].height(foothold)) < 1e-12);
     CHECK((walker.nearest_foothold_W(0, surface, foothold) - foothold).norm() < 1e-6);
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mcplan/rhp/pieces/contact_point.hpp"
 #include "mcplan/rhp/polytopes.hpp"
 #include "mcplan/rhp/receding_horizon.hpp"
 #include "mcplan/rhp/walker.hpp"
@@ -41,6 +42,16 @@ class Random {
  private:
   std::mt19937 engine_;
 };
+
+/// Force of a contact point [N], written out: along t1, t2, n of its surface, or along the edges of its pyramid.
+inline Vector3d force_W(const mcplan::rhp::ContactPoint& point, const mcplan::rhp::Placement& foot, const VectorXd& x) {
+  Vector3d sum = Vector3d::Zero();
+  if (point.edges_W.cols() == 0)
+    for (int i = 0; i < 3; ++i) sum += 100.0 * x[point.variable + i] * foot.axes_W.col(i);
+  else
+    for (int i = 0; i < point.edges_W.cols(); ++i) sum += 100.0 * x[point.variable + i] * point.edges_W.col(i);
+  return sum;
+}
 
 /// Polytope of the rows a . x <= b that are given as (a, b), a of any length.
 inline mcplan::Polytope polytope(const std::vector<Eigen::Vector4d>& rows) {

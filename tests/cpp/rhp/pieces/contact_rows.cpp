@@ -11,7 +11,7 @@ nlp::Problem one_force(const Add& add) {
   nlp::Problem problem;
   problem.add_variables("force", 3, -nlp::kInfinity, nlp::kInfinity, {0, 0});
   problem.set_bounds(2, 0.0, nlp::kInfinity);
-  add(problem, ContactPoint{0, Vector3d::Zero(), 0});
+  add(problem, ContactPoint{0, Vector3d::Zero(), 0, {}});
   problem.finish();
   return problem;
 }
@@ -24,17 +24,18 @@ TEST_CASE("the acceleration is what the forces of all points leave of gravity") 
   Random random(1);
   const std::vector<Placement> placements{random_placement(random, 0), random_placement(random, 0)};
   std::vector<ContactPoint> points;
-  for (int i = 0; i < 5; ++i) points.push_back({i % 2, random.three(), 3 + 3 * i});
+  for (int i = 0; i < 5; ++i) points.push_back({i % 2, random.three(), 3 + 3 * i, {}});
+  points.back().edges_W = pyramid_edges(placements[0], 0.4, 6, false);  // the last one along edges
   nlp::Problem problem;
   problem.add_variables("acceleration", 3, -nlp::kInfinity, nlp::kInfinity, {0, 0});
-  problem.add_variables("force", 15, -nlp::kInfinity, nlp::kInfinity, {0, 0});
+  problem.add_variables("force", 18, -nlp::kInfinity, nlp::kInfinity, {0, 0});
   add_acceleration(problem, 0, placements, points, 95.0, 9.81);
   problem.finish();
 
-  VectorXd x = random.vector(18, 5.0);
+  VectorXd x = random.vector(21, 5.0);
   Vector3d sum = Vector3d::Zero();
   for (const ContactPoint& point : points)
-    sum += 100.0 * (placements[point.placement].axes_W * x.segment<3>(point.variable));
+    sum += walkers::force_W(point, placements[point.placement], x);
   x.head<3>() = sum / 95.0 - Vector3d(0.0, 0.0, 9.81);
   CHECK(problem.equality_count() == 3);
   CHECK(violation(problem, x) < 1e-12);
@@ -77,6 +78,63 @@ TEST_CASE("the paper's friction pyramid is the square around the cone") {
     CHECK(holds(problem, f) == within);
   }
   CHECK(inside > 100);
+}
+
+TEST_CASE("the edges of a pyramid span what its rows allow") {
+  for (bool outer : {false, true})
+    for (int sides : {4, 8}) {
+      Random random(sides);
+      const Placement placement = random_placement(random, 0);
+      const Eigen::Matrix3Xd edges = pyramid_edges(placement, 0.3, sides, outer);
+      const nlp::Problem rows =
+          one_force([&](nlp::Problem& p, const ContactPoint& point) { add_friction(p, point, 0.3, sides, outer); });
+      const int count = static_cast<int>(edges.cols());
+      REQUIRE(count == (outer ? 4 : sides));
+      for (int j = 0; j < count; ++j) {
+        const Vector3d edge = placement.axes_W.transpose() * edges.col(j);
+        CHECK(edge.z() == doctest::Approx(1.0));
+        CHECK(edge.head<2>().norm() == doctest::Approx(outer ? 0.3 * std::sqrt(2.0) : 0.3));
+        for (int k = 0; k < j; ++k) CHECK((edges.col(j) - edges.col(k)).norm() > 0.05);
+        // Sums of neighbours are as far out as a force may be; the rows bound the same polygon, perhaps turned by half a side.
+        if (outer) CHECK(violation(rows, edge) < 1e-12);
+      }
+      for (int i = 0; i < 200; ++i) {
+        const VectorXd share = (random.vector(count).array() + 1.0).matrix();
+        const Vector3d f = placement.axes_W.transpose() * (edges * share);
+        CHECK(f.head<2>().norm() <= (outer ? std::sqrt(2.0) : 1.0) * 0.3 * f.z() + 1e-12);
+        if (outer) CHECK(holds(rows, f));
+      }
+    }
+}
+
+TEST_CASE("the force box binds forces along the edges of the pyramid as it does those along the axes") {
+  constexpr double kLimit = 400.0;
+  int in = 0, out = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    Placement placement = random_placement(random, 0);
+    if (seed % 3 == 0) placement.axes_W = Eigen::AngleAxisd(random.in(-3.0, 3.0), Vector3d::UnitZ()).toRotationMatrix();
+    if (seed % 3 == 1) placement.axes_W = random.rotation(1.2);
+    const double friction = random.in(0.1, 1.5);
+    ContactPoint point{0, Vector3d::Zero(), 0, pyramid_edges(placement, friction, 8, seed % 2 == 0)};
+    const int count = static_cast<int>(point.edges_W.cols());
+    nlp::Problem problem;
+    problem.add_variables("force", count, 0.0, nlp::kInfinity, {0, 0});
+    add_force_box(problem, placement, point, kLimit, friction);
+    problem.finish();
+    for (int i = 0; i < 200; ++i) {
+      VectorXd x = random.vector(count).cwiseMax(0.0);
+      const double largest = walkers::force_W(point, placement, x).cwiseAbs().maxCoeff();
+      if (largest < 1.0) continue;
+      x *= random.in(0.8, 1.2) * kLimit / largest;
+      const double component = walkers::force_W(point, placement, x).cwiseAbs().maxCoeff();
+      ++(component < kLimit ? in : out);
+      CHECK(holds(problem, x) == (component <= kLimit));
+    }
+  }
+  CHECK(in > 2000);
+  CHECK(out > 2000);
 }
 
 TEST_CASE("what the force box leaves out is implied: no force within the rows has a component beyond the limit") {

@@ -1,5 +1,8 @@
 #include "mcplan/rhp/pieces/momentum_rate.hpp"
 
+#include <algorithm>
+
+#include "mcplan/rhp/pieces/contact_rows.hpp"
 #include "rhp/pieces/support.hpp"
 
 namespace mcplan::rhp::tests {
@@ -11,15 +14,16 @@ struct Feet {
   std::vector<Placement> placements;
   std::vector<ContactPoint> points;
 
-  explicit Feet(unsigned seed) {
+  explicit Feet(unsigned seed, bool edges) {
     Random random(seed);
     placements = {random_placement(random, 6), random_placement(random, 8)};
     int next = 10;
     for (int placement : {1, 0})
       for (double s1 : {1.0, -1.0})
         for (double s2 : {1.0, -1.0}) {
-          points.push_back({placement, placements[placement].axes_W * Vector3d(0.11 * s1, 0.06 * s2, 0.0), next});
-          next += 3;
+          points.push_back({placement, placements[placement].axes_W * Vector3d(0.11 * s1, 0.06 * s2, 0.0), next, {}});
+          if (edges) points.back().edges_W = pyramid_edges(placements[placement], 0.3, 5, false);
+          next += edges ? 5 : 3;
         }
   }
 };
@@ -29,28 +33,27 @@ struct Feet {
 TEST_CASE("the rate of the angular momentum is the sum of cross products about the CoM") {
   for (unsigned seed = 0; seed < 10; ++seed) {
     CAPTURE(seed);
-    const Feet feet(seed);
+    const Feet feet(seed, seed % 2 == 0);
     const MomentumRate piece(0, 3, feet.placements, feet.points);
     Random random(seed + 100);
-    const VectorXd all = random.vector(34);  // by the problem's indices
+    const VectorXd all = random.vector(50);  // by the problem's indices
     VectorXd x(piece.size());
     for (int i = 0; i < piece.size(); ++i) x[i] = all[piece.variables()[i]];
 
     Vector3d torque = Vector3d::Zero();
     for (const ContactPoint& point : feet.points) {
       const Placement& foot = feet.placements[point.placement];
-      const Vector3d t1 = foot.axes_W.col(0), t2 = foot.axes_W.col(1), n = foot.axes_W.col(2);
+      const Vector3d t1 = foot.axes_W.col(0), t2 = foot.axes_W.col(1);
       const Vector3d where =
           foot.origin_W + all[foot.variable] * t1 + all[foot.variable + 1] * t2 + point.offset_W;
-      const Vector3d force = 100.0 * (all[point.variable] * t1 + all[point.variable + 1] * t2 + all[point.variable + 2] * n);
-      torque += (where - all.segment<3>(3)).cross(force);
+      torque += (where - all.segment<3>(3)).cross(walkers::force_W(point, foot, all));
     }
     CHECK((values(piece, x) - (all.head<3>() - torque)).norm() < 1e-10);
   }
 }
 
 TEST_CASE("a piece of momentum names no variable twice, though four points share a foothold") {
-  const Feet feet(3);
+  const Feet feet(3, false);
   std::vector<int> variables = MomentumRate(0, 3, feet.placements, feet.points).variables();
   std::sort(variables.begin(), variables.end());
   CHECK(variables.size() == 34);
@@ -59,7 +62,7 @@ TEST_CASE("a piece of momentum names no variable twice, though four points share
 
 TEST_CASE("derivatives of the rate of the angular momentum") {
   for (unsigned seed : {5u, 6u}) {
-    const Feet feet(seed);
+    const Feet feet(seed, seed % 2 == 0);
     expect_derivatives(MomentumRate(0, 3, feet.placements, feet.points), seed);
   }
 }
