@@ -172,13 +172,13 @@ class Builder {
   double force_limit(int foot, bool one) const { return walker_.feet[foot].max_force / (one ? 1.0 : 4.0); }
 
   void add_relaxation(const Horizon::Phase& phase, int k, Horizon::Control& control) {
-    const double psi_max = options_.psi_max, weight = share(k) * options_.intervals;
+    const double psi_max = options_.psi_max;
     for (const ContactPoint& point : control.points) {
       const Placement& placement = out_.placements[point.placement];
       const double unit = force_limit(placement.foot, phase.single_force);
       const int com = out_.nodes[control.node].com;
       // The duration is fixed in these phases.
-      const double time = weight * problem().variable_lower()[phase.duration] / options_.intervals;
+      const double time = share(k) * problem().variable_lower()[phase.duration] / options_.intervals;
       if (!options_.lifted_psi) {
         problem().add_constraint(std::make_unique<TorqueBound>(com, placement, point, unit), -kInfinity, psi_max);
         problem().add_cost(std::make_unique<TorqueCost>(com, placement, point, unit, time));
