@@ -10,9 +10,23 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from mcplan import rhp
 
-_COLUMNS = (("cycle", 5), ("status", 17), ("iterations", 10), ("time [s]", 8), ("length [s]", 10))
-_COLUMNS += (("travel [m]", 10), ("acc cost", 8))
-_MORE = (("variables", 9), ("rows", 6), ("evaluation", 10), ("linear solver", 13), ("CoM drift", 9), ("L drift", 8))
+_COLUMNS: tuple[tuple[str, int], ...] = (
+    ("cycle", 5),
+    ("status", 17),
+    ("iterations", 10),
+    ("time [s]", 8),
+    ("length [s]", 10),
+    ("travel [m]", 10),
+    ("acc cost", 8),
+)
+_MORE = (
+    ("variables", 9),
+    ("rows", 6),
+    ("evaluation", 10),
+    ("linear solver", 13),
+    ("CoM drift", 9),
+    ("L drift", 8),
+)
 
 
 class Progress:
