@@ -70,7 +70,7 @@ def test_quiet_has_no_rows_and_verbose_more_columns(capsys):
 
 
 def test_the_papers_form_says_that_it_drifts(capsys):
-    words = ("flat", "--cycles", 1, "--lookahead", 1, "--paper", "--transcription", "euler", "--json")
+    words = ("flat", "--cycles", 1, "--paper", "--transcription", "euler", "--json")
     code, out, _ = run(capsys, *words)
     report = strict(out)
     assert (code, report["success"], report["status"]) == (0, True, "acceptable")
@@ -102,7 +102,7 @@ def test_a_walk_out_of_time_writes_nothing_and_gives_exit_code_1(capsys, tmp_pat
 def test_a_walk_is_drawn(capsys, tmp_path):
     pytest.importorskip("meshcat")
     pytest.importorskip("matplotlib")
-    words = ("flat", "--cycles", 1, "--lookahead", 1, "-q", "--html", tmp_path / "walk.html", "--plots")
+    words = ("flat", "--cycles", 1, "-q", "--html", tmp_path / "walk.html", "--plots")
     code, out, _ = run(capsys, *words, tmp_path / "plots")
     assert code == 0 and f"Saved {tmp_path / 'walk.html'}, {tmp_path / 'plots'}" in out
     assert "<html" in (tmp_path / "walk.html").read_text().lower()

@@ -20,10 +20,10 @@ Array = NDArray[np.float64]
 
 # Weights: 1 m of position, 1 rad of turning.
 COM, BASE, CONTACT, SWING, HAND = 10.0, 2.0, 20.0, 10.0, 3.0
-#: Of the base where the plan has forces at points: such plans say nothing of how it turns.
-FREE_BASE = 0.2
-#: Of a sole's turning; in the air, where nothing is planned of it, it may give way to a joint's limit.
-SOLE, SWING_SOLE = 3.0, 0.2
+SOLE = 3.0
+#: Of the base, and of soles in the air, in plans with forces at points: they say nothing of how those turn, and keep the
+#: CoM so low that ankles come to their limits.
+FREE_BASE, FREE_SOLE = 0.2, 0.2
 POSTURE = 0.05
 DAMPING = 1e-6
 #: Largest change of a joint in one iteration [rad].
@@ -156,7 +156,7 @@ class _Solver:
             jacobians.append(weight * jacobian[:3])
             if foot and np.asarray(self.robot.end_effectors[end].half_size).all():
                 wanted = samples.rotations_W[n, end] @ self.local[end]
-                weight = SOLE if samples.surfaces[n, end] >= 0 else SWING_SOLE
+                weight = FREE_SOLE if samples.has_points and samples.surfaces[n, end] < 0 else SOLE
                 errors.append(weight * pin.log3(wanted @ placement.rotation.T))
                 jacobians.append(weight * jacobian[3:])
         return errors, jacobians
