@@ -41,6 +41,7 @@ void bind_options(py::module_& m) {
   c.def_readwrite("transcription", &Options::transcription);
   c.def_readwrite("paper", &Options::paper, "Absolute CoM box and outer friction pyramid, as published.");
   c.def_readwrite("lifted_psi", &Options::lifted_psi, "Keep the relaxation's bounds psi as variables.");
+  c.def_readwrite("friction_rows", &Options::friction_rows, "Friction as rows, not as edges of the pyramid.");
   c.def_readwrite("all_faces", &Options::all_faces, "Keep faces of the reach polytopes that others imply.");
   c.def_readwrite("intervals", &Options::intervals, "Per phase.");
   def_range(c, "double_support_s", &Options::double_support_s, "Duration of a phase on two feet: min, max [s].");
@@ -52,6 +53,7 @@ void bind_options(py::module_& m) {
   c.def_readwrite("momentum_max", &Options::momentum_max, "Each component of L [kg m^2/s].");
   c.def_readwrite("momentum_rate_max", &Options::momentum_rate_max, "Each component of L' [N m].");
   def_range(c, "com_height", &Options::com_height, "CoM over every foot in contact, over robot.com_height: min, max.");
+  c.def_readwrite("foothold_margin_m", &Options::foothold_margin_m, "Of the sole to the edges of a surface [m].");
   c.def_readwrite("psi_max", &Options::psi_max, "Bound of the relaxation [-].");
   c.def_readwrite("goal_weight", &Options::goal_weight, "On the squared distance of the end to the goal [1/m^2].");
   c.def_readwrite("friction_sides", &Options::friction_sides, "Of the pyramid inside the friction cone.");

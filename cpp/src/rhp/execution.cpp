@@ -39,7 +39,7 @@ Phase make_phase(const Walker& walker, const Horizon& horizon, const VectorXd& x
       for (const ContactPoint& point : horizon.controls[from.first_control + k].points) {
         if (point.placement != index) continue;
         if (k == 0) contact.points_W.push_back(horizon.position_W(x, index) + point.offset_W);
-        contact.point_forces_W.push_back(kForceUnit * placement.axes_W * x.segment<3>(point.variable));
+        contact.point_forces_W.push_back(point.force_W(placement, x));
       }
   }
   return phase;

@@ -1,5 +1,6 @@
 #include "mcplan/rhp/guess.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -51,9 +52,14 @@ VectorXd nominal_guess(const Walker& walker, const State& state, const Horizon& 
     x[phase.duration] = 0.5 * (problem.variable_lower()[phase.duration] + problem.variable_upper()[phase.duration]);
   const Vector3d weight(0.0, 0.0, walker.robot.mass * walker.scene.gravity / kForceUnit);
   for (const Horizon::Control& control : horizon.controls) {
-    for (const ContactPoint& point : control.points)
-      x.segment<3>(point.variable) =
-          horizon.placements[point.placement].axes_W.transpose() * weight / static_cast<double>(control.points.size());
+    for (const ContactPoint& point : control.points) {
+      const Placement& placement = horizon.placements[point.placement];
+      // The least factors, which for the edges of a pyramid may be a little negative on a steep slope.
+      const Eigen::Matrix3Xd directions = point.directions_W(placement);
+      x.segment(point.variable, point.count()) = directions.transpose() *
+                                                 (directions * directions.transpose()).inverse() * weight /
+                                                 static_cast<double>(control.points.size());
+    }
     for (int psi : control.psi) x.segment<6>(psi).setConstant(0.5 * options.psi_max);
   }
   return x;

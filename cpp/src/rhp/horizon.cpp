@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <set>
 #include <string>
@@ -22,7 +21,9 @@ using Eigen::Vector3d;
 using nlp::kInfinity;
 using nlp::Stages;
 
-const double kReachMargin_m = std::getenv("RM") ? atof(std::getenv("RM")) : 0.1;
+// Faces of com_reach are left out where the guess stays this far inside them. Towards the end of the horizon, where the
+// goal pulls the CoM ahead, a guess says less.
+constexpr double kReachMargin_m = 0.1, kLastReachMargin_m = 0.5;
 constexpr double kRestWeight = 100.0;  // of the goal at the end of the walk, over goal_weight: rest where it is
 constexpr double kPaperLow[2] = {0.0, -1.0}, kPaperHigh[2] = {30.0, 1.0};  // CoM, world x and y [m]
 
@@ -174,9 +175,14 @@ class Builder {
         ContactPoint point;
         point.placement = phase.placements[foot];
         if (!one) point.offset_W = placement.axes_W.leftCols<2>() * Eigen::Vector2d(s1 * half[0], s2 * half[1]);
-        point.variable = problem().add_variables("force", 3, -kInfinity, kInfinity, here);
-        problem().set_bounds(point.variable + 2, 0.0, kInfinity);
-        add_friction(problem(), point, friction, options_.friction_sides, options_.paper);
+        if (options_.friction_rows) {
+          point.variable = problem().add_variables("force", 3, -kInfinity, kInfinity, here);
+          problem().set_bounds(point.variable + 2, 0.0, kInfinity);
+          add_friction(problem(), point, friction, options_.friction_sides, options_.paper);
+        } else {
+          point.edges_W = pyramid_edges(placement, friction, options_.friction_sides, options_.paper);
+          point.variable = problem().add_variables("force", point.count(), 0.0, kInfinity, here);
+        }
         add_force_box(problem(), placement, point, force_limit(foot, one), friction);
         control.points.push_back(point);
         if (one) return;
@@ -257,9 +263,10 @@ class Builder {
     const Polytope& all = walker_.feet[out_.placements[placement].foot].com_reach_W;
     if (options_.all_faces) return all;
     const Eigen::VectorXd distance = reach_distance(all, out_, out_.guess, node, placement);
+    const double margin = node > last_stage_ - 3 * options_.intervals / 2 ? kLastReachMargin_m : kReachMargin_m;
     std::vector<int> rows;
     for (int row = 0; row < distance.size(); ++row) {
-      if (distance[row] < (node > last_stage_ - (std::getenv("LN") ? atoi(std::getenv("LN")) : 21) ? (std::getenv("RL") ? atof(std::getenv("RL")) : 10.0) : kReachMargin_m) || request_.reach_rows.count({node, placement, row}))
+      if (distance[row] < margin || request_.reach_rows.count({node, placement, row}))
         rows.push_back(row);
       else
         out_.left_out.push_back({node, placement, row});
@@ -288,7 +295,7 @@ class Builder {
       const Placement& fresh = out_.placements[2 + i];
       Placement shifted = fresh;
       shifted.origin_W += out_.shift_W;
-      add_foothold(problem(), shifted, walker_.surfaces[fresh.surface], walker_.feet[fresh.foot].half_size);
+      add_foothold(problem(), shifted, walker_.surfaces[fresh.surface], walker_.taken_size(fresh.foot, fresh.surface));
     }
   }
 

@@ -35,6 +35,8 @@ void Options::validate() const {
   require_positive("com_velocity_max", com_velocity_max);
   require_positive("momentum_max", momentum_max);
   require_positive("momentum_rate_max", momentum_rate_max);
+  require(std::isfinite(foothold_margin_m) && foothold_margin_m >= 0.0, "foothold_margin_m", "must be at least 0",
+          text(foothold_margin_m));
   require_positive("psi_max", psi_max);
   require(std::isfinite(goal_weight) && goal_weight >= 0.0, "goal_weight", "must be at least 0", text(goal_weight));
   require(friction_sides >= 3 && friction_sides <= 64, "friction_sides", "must lie in [3, 64]", text(friction_sides));

@@ -107,8 +107,6 @@ Cycle RecedingHorizon::Impl::run() {
   for (int attempt = 0;; ++attempt) {
     nlp::SolverOptions how = solver_options(options, options.time_limit_s - seconds_since(begin));
     if (attempt > 0) how.initial_barrier = 1e-4;  // close to the solution already
-    if (attempt > 0 && getenv("MU")) how.initial_barrier = atof(getenv("MU"));
-    if (attempt > 0 && getenv("SAY")) fprintf(stderr,"attempt %d missed %zu first node %d\n", attempt, request.reach_rows.size(), request.reach_rows.begin()->node);
     solution = nlp::solve(horizon_now.problem, horizon_now.guess, how);
     cycle.iterations += solution.iterations;
     cycle.evaluation_s += solution.evaluation_s;

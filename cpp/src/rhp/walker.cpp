@@ -84,24 +84,47 @@ Eigen::Matrix3d Walker::frame_W(int surface) const {
   return out;
 }
 
-Vector3d Walker::nearest_foothold_W(int foot, int surface, const Vector3d& wanted_W) const {
-  const Polygon& polygon = surfaces[surface];
-  const Eigen::Matrix3d frame = frame_W(surface);
-  Vector3d p = wanted_W - polygon.normal_W() * polygon.height(wanted_W);
-  for (int round = 0; round < 100; ++round) {
-    double worst = 0.0;
-    int edge = -1;
-    for (int j = 0; j < polygon.edge_count(); ++j) {
-      const Vector2d along = frame.leftCols<2>().transpose() * polygon.edge_outward_W(j);
-      const double over = polygon.overshoot(j, p) + along.cwiseAbs().dot(feet[foot].half_size);
-      if (over <= worst) continue;
-      worst = over;
-      edge = j;
-    }
-    if (edge < 0) break;
-    p -= worst * polygon.edge_outward_W(edge);
+namespace {
+
+/// How far a rectangle of this half size, centred at p, sticks out of a polygon at its worst edge.
+std::pair<double, int> sticks_out(const Polygon& polygon, const Eigen::Matrix3d& frame, const Vector2d& half,
+                                  const Vector3d& p) {
+  std::pair<double, int> worst{-1e9, -1};
+  for (int j = 0; j < polygon.edge_count(); ++j) {
+    const Vector2d along = frame.leftCols<2>().transpose() * polygon.edge_outward_W(j);
+    worst = std::max(worst, {polygon.overshoot(j, p) + along.cwiseAbs().dot(half), j});
+  }
+  return worst;
+}
+
+Vector3d moved_inside(const Polygon& polygon, const Eigen::Matrix3d& frame, const Vector2d& half, Vector3d p) {
+  constexpr int kRounds = 100;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto [over, edge] = sticks_out(polygon, frame, half, p);
+    if (over <= 0.0) break;
+    p -= over * polygon.edge_outward_W(edge);
   }
   return p;
+}
+
+}  // namespace
+
+Vector2d Walker::taken_size(int foot, int surface) const {
+  const Polygon& polygon = surfaces[surface];
+  const Eigen::Matrix3d frame = frame_W(surface);
+  for (double share : {1.0, 0.5, 0.25}) {
+    if (options.paper) break;
+    const Vector2d half = feet[foot].half_size.array() + share * options.foothold_margin_m;
+    if (sticks_out(polygon, frame, half, moved_inside(polygon, frame, half, polygon.centroid_W())).first <= 1e-9)
+      return half;
+  }
+  return feet[foot].half_size;
+}
+
+Vector3d Walker::nearest_foothold_W(int foot, int surface, const Vector3d& wanted_W) const {
+  const Polygon& polygon = surfaces[surface];
+  return moved_inside(polygon, frame_W(surface), taken_size(foot, surface),
+                      wanted_W - polygon.normal_W() * polygon.height(wanted_W));
 }
 
 int Walker::foot_of(int end_effector) const {

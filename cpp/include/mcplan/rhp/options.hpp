@@ -38,22 +38,24 @@ struct Options {
   int lookahead = 3;  ///< steps in the horizon, 1..10: one executed, the others predicted
   int cycles = 14;    ///< steps to execute
   Transcription transcription = Transcription::trapezoidal;
-  bool paper = false;       ///< absolute CoM box, outer friction pyramid, no rest at the end, all as published
-  bool lifted_psi = false;  ///< keep the bounds psi of the relaxation as variables instead of eliminating them
-  bool all_faces = false;   ///< keep faces of the reach polytopes that others imply
+  bool paper = false;          ///< absolute CoM box, outer friction pyramid, no rest at the end, all as published
+  bool lifted_psi = false;     ///< keep the bounds psi of the relaxation as variables instead of eliminating them
+  bool friction_rows = false;  ///< forces along t1, t2, n and friction as rows, instead of along the pyramid's edges
+  bool all_faces = false;      ///< keep faces of the reach polytopes that others imply
 
   int intervals = 7;                        ///< per phase
   Range double_support_s{0.1, 0.3};         ///< duration of a phase on two feet
   Range single_support_s{0.8, 1.2};         ///< duration of a phase on one foot
   double predicted_double_support_s = 0.2;  ///< fixed durations of predicted phases of the reduced models
   double predicted_single_support_s = 0.6;
-  double com_velocity_max = 1.5;   ///< [m/s] each component
-  double momentum_max = 2.5;       ///< [kg m^2/s] each component of L
-  double momentum_rate_max = 3.5;  ///< [N m] each component of L'
-  Range com_height{0.87, 1.07};    ///< of the CoM above every foot in contact, over robot.com_height [-]
-  double psi_max = 0.55;           ///< bound of the relaxation's |a +- d|^2 [-]
-  double goal_weight = 10.0;       ///< on the squared distance of the horizon's end to the goal [1/m^2]
-  int friction_sides = 8;          ///< of the inner friction pyramid; `paper` takes the outer one of 4
+  double com_velocity_max = 1.5;    ///< [m/s] each component
+  double momentum_max = 2.5;        ///< [kg m^2/s] each component of L
+  double momentum_rate_max = 3.5;   ///< [N m] each component of L'
+  Range com_height{0.87, 1.07};     ///< of the CoM above every foot in contact, over robot.com_height [-]
+  double foothold_margin_m = 0.03;  ///< of the sole to the edges of a surface where it has room, for swings to clear
+  double psi_max = 0.55;            ///< bound of the relaxation's |a +- d|^2 [-]
+  double goal_weight = 10.0;        ///< on the squared distance of the horizon's end to the goal [1/m^2]
+  int friction_sides = 8;           ///< of the inner friction pyramid; `paper` takes the outer one of 4
 
   double tolerance = 1e-5, constraint_tolerance = 1e-6;           ///< of the solver
   int max_iterations = 400;                                       ///< of a cycle

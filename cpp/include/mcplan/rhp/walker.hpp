@@ -67,6 +67,10 @@ struct Walker {
   /// on a surface too small for the sole, where it sticks out least.
   Eigen::Vector3d nearest_foothold_W(int foot, int surface, const Eigen::Vector3d& wanted_W) const;
 
+  /// Half size of the sole with foothold_margin_m around it, or with a half, a quarter or nothing of that where a
+  /// surface is too small.
+  Eigen::Vector2d taken_size(int foot, int surface) const;
+
   int foot_of(int end_effector) const;  ///< 0, 1, or -1
   State start() const;                  ///< at the scene's start
 };

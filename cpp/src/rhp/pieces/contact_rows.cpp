@@ -27,11 +27,13 @@ bool implied(const Eigen::Matrix3d& axes_W, double friction, int component) {
 void add_acceleration(nlp::Problem& problem, int acceleration, const std::vector<Placement>& placements,
                       const std::vector<ContactPoint>& points, double mass, double gravity) {
   std::vector<int> variables = triple(acceleration);
-  MatrixXd A(3, 3 + 3 * points.size());
+  for (const ContactPoint& point : points) append(variables, point.variable, point.count());
+  MatrixXd A(3, variables.size());
   A.leftCols<3>() = mass / kForceUnit * Eigen::Matrix3d::Identity();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    append(variables, points[i].variable, 3);
-    A.middleCols<3>(3 + 3 * i) = -placements[points[i].placement].axes_W;
+  int at = 3;
+  for (const ContactPoint& point : points) {
+    A.middleCols(at, point.count()) = -point.directions_W(placements[point.placement]);
+    at += point.count();
   }
   const VectorXd weight = -mass * gravity / kForceUnit * Vector3d::UnitZ();
   problem.add_constraint(std::make_unique<nlp::LinearPiece>("acceleration", variables, A), weight, weight);
@@ -50,20 +52,32 @@ void add_friction(nlp::Problem& problem, const ContactPoint& point, double frict
                          0.0);
 }
 
+Eigen::Matrix3Xd pyramid_edges(const Placement& placement, double friction, int sides, bool outer) {
+  const int count = outer ? 4 : sides;
+  Eigen::Matrix3Xd edges(3, count);
+  for (int j = 0; j < count; ++j) {
+    const double angle = 2.0 * M_PI * (outer ? j + 0.5 : j) / count, out = outer ? std::sqrt(2.0) : 1.0;
+    edges.col(j) = placement.axes_W * Vector3d(out * friction * std::cos(angle), out * friction * std::sin(angle), 1.0);
+  }
+  for (double& entry : edges.reshaped())
+    if (std::abs(entry) < 1e-12) entry = 0.0;
+  return edges;
+}
+
 void add_force_box(nlp::Problem& problem, const Placement& placement, const ContactPoint& point, double limit,
                    double friction) {
   const Eigen::Matrix3d& axes = placement.axes_W;
   const double most = limit / kForceUnit;
-  if (std::abs(axes(2, 2) - 1.0) < 1e-12) {
-    problem.set_bounds(point.variable + 2, 0.0, most);
-    if (implied(axes, friction, 0) && implied(axes, friction, 1)) return;
-  }
+  const bool edges = point.edges_W.cols() > 0, level = std::abs(axes(2, 2) - 1.0) < 1e-12;
+  if (level && !edges) problem.set_bounds(point.variable + 2, 0.0, most);
+  std::vector<int> variables;
+  append(variables, point.variable, point.count());
   for (int component : {2, 0, 1}) {
-    if (component == 2 && std::abs(axes(2, 2) - 1.0) < 1e-12) continue;
+    if (component == 2 && level && !edges) continue;
     if (component != 2 && implied(axes, friction, component)) continue;
-    problem.add_constraint(
-        std::make_unique<nlp::LinearPiece>("force_box", triple(point.variable), MatrixXd(axes.row(component))), -most,
-        most);
+    problem.add_constraint(std::make_unique<nlp::LinearPiece>("force_box", variables,
+                                                              MatrixXd(point.directions_W(placement).row(component))),
+                           component == 2 && edges ? -nlp::kInfinity : -most, most);
   }
 }
 

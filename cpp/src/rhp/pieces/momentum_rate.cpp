@@ -19,7 +19,7 @@ std::vector<int> gather(int rate, int com, const std::vector<Placement>& placeme
   std::map<int, bool> seen;
   for (const ContactPoint& point : points)
     if (!std::exchange(seen[point.placement], true)) append(variables, placements[point.placement].variable, 2);
-  for (const ContactPoint& point : points) append(variables, point.variable, 3);
+  for (const ContactPoint& point : points) append(variables, point.variable, point.count());
   return variables;
 }
 
@@ -34,9 +34,9 @@ MomentumRate::MomentumRate(int rate, int com, const std::vector<Placement>& plac
     if (foothold.try_emplace(point.placement, next).second) next += 2;
   for (const ContactPoint& point : points) {
     const Placement& placement = placements[point.placement];
-    points_.push_back({placement.origin_W + point.offset_W, placement.axes_W, kForceUnit * placement.axes_W,
-                       foothold[point.placement], next});
-    next += 3;
+    points_.push_back({placement.origin_W + point.offset_W, placement.axes_W,
+                       kForceUnit * point.directions_W(placement), foothold[point.placement], next});
+    next += point.count();
   }
 }
 
@@ -46,17 +46,18 @@ Vector3d MomentumRate::lever(const nlp::ConstVector& x, const Point& point) cons
 
 void MomentumRate::values(const nlp::ConstVector& x, nlp::Vector f) const {
   Vector3d sum = x.segment<3>(kRate);
-  for (const Point& point : points_) sum -= lever(x, point).cross(point.force_axes_W * x.segment<3>(point.force));
+  for (const Point& point : points_)
+    sum -= lever(x, point).cross(point.directions_W * x.segment(point.force, point.directions_W.cols()));
   f = sum;
 }
 
 void MomentumRate::jacobian(const nlp::ConstVector& x, nlp::Matrix J) const {
   J.middleCols<3>(kRate).setIdentity();
   for (const Point& point : points_) {
-    const Vector3d force = point.force_axes_W * x.segment<3>(point.force);
+    const Vector3d force = point.directions_W * x.segment(point.force, point.directions_W.cols());
     J.middleCols<3>(kCom) -= skew(force);
     for (int i = 0; i < 2; ++i) J.col(point.foothold + i) -= point.axes_W.col(i).cross(force);
-    J.middleCols<3>(point.force) = -skew(lever(x, point)) * point.force_axes_W;
+    J.middleCols(point.force, point.directions_W.cols()).noalias() = -skew(lever(x, point)) * point.directions_W;
   }
 }
 
@@ -64,9 +65,11 @@ void MomentumRate::jacobian(const nlp::ConstVector& x, nlp::Matrix J) const {
 void MomentumRate::hessian(const nlp::ConstVector&, const nlp::ConstVector& weights, nlp::Matrix H) const {
   const Vector3d y = weights;
   for (const Point& point : points_) {
-    H.block<3, 3>(point.force, kCom) = point.force_axes_W.transpose() * skew(y);
+    const int n = static_cast<int>(point.directions_W.cols());
+    H.block(point.force, kCom, n, 3).noalias() = point.directions_W.transpose() * skew(y);
     for (int i = 0; i < 2; ++i)
-      H.block<3, 1>(point.force, point.foothold + i) = -point.force_axes_W.transpose() * y.cross(point.axes_W.col(i));
+      H.col(point.foothold + i).segment(point.force, n).noalias() =
+          -point.directions_W.transpose() * y.cross(point.axes_W.col(i));
   }
 }
 

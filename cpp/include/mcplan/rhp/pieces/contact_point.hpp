@@ -17,15 +17,29 @@ struct Placement {
   Eigen::Vector3d position_W(const Eigen::Vector2d& w) const { return origin_W + axes_W.leftCols<2>() * w; }
 };
 
-/// A point of a foot in contact and its force f = kForceUnit * axes * (variables), the variables along t1, t2, n.
+/// Forces count in hundreds of newtons, so that all variables are of the order of one.
+inline constexpr double kForceUnit = 100.0;
+
+/// A point of a foot in contact and its force
+///
+///     f = kForceUnit * directions * (variables),
+///
+/// the directions either t1, t2, n with friction as rows, or the edges of the friction pyramid (of unit normal
+/// component) with variables that are not negative and no rows.
 struct ContactPoint {
   int placement = 0;                                   ///< index
   Eigen::Vector3d offset_W = Eigen::Vector3d::Zero();  ///< from the foot's centre [m]
-  int variable = -1;                                   ///< of the force along t1; t2 and n follow
-};
+  int variable = -1;                                   ///< the first; one for each direction
+  Eigen::Matrix3Xd edges_W;                            ///< of the pyramid; none: t1, t2, n
 
-/// Forces count in hundreds of newtons, so that all variables are of the order of one.
-inline constexpr double kForceUnit = 100.0;
+  int count() const { return edges_W.cols() > 0 ? static_cast<int>(edges_W.cols()) : 3; }
+  Eigen::Matrix3Xd directions_W(const Placement& at) const {
+    return edges_W.cols() > 0 ? edges_W : Eigen::Matrix3Xd(at.axes_W);
+  }
+  Eigen::Vector3d force_W(const Placement& at, const Eigen::VectorXd& x) const {
+    return kForceUnit * directions_W(at) * x.segment(variable, count());
+  }
+};
 
 /// Indices of `count` variables from `first` on, appended to a list; returns where they begin in it.
 inline int append(std::vector<int>& variables, int first, int count) {

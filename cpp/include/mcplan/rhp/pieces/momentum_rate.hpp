@@ -20,10 +20,10 @@ class MomentumRate : public nlp::Piece {
 
  private:
   struct Point {
-    Eigen::Vector3d base_W;        ///< of the point at w = 0
-    Eigen::Matrix3d axes_W;        ///< of the surface
-    Eigen::Matrix3d force_axes_W;  ///< kForceUnit * axes
-    int foothold = 0, force = 0;   ///< places in x
+    Eigen::Vector3d base_W;         ///< of the point at w = 0
+    Eigen::Matrix3d axes_W;         ///< of the surface
+    Eigen::Matrix3Xd directions_W;  ///< of the force, times kForceUnit
+    int foothold = 0, force = 0;    ///< places in x
   };
   Eigen::Vector3d lever(const nlp::ConstVector& x, const Point& point) const;
 

@@ -17,22 +17,22 @@ namespace mcplan::rhp {
 /// y-, z+, z-.
 class TorqueForms {
  public:
-  static constexpr double kLeverUnit = 1.5;    ///< [m]
-  static constexpr int kCount = 6, kSize = 8;  ///< forms; variables (c, w, f)
-  using Variables = Eigen::Matrix<double, kSize, 1>;
+  static constexpr double kLeverUnit = 1.5;  ///< [m]
+  static constexpr int kCount = 6;           ///< forms
 
   /// force_unit [N]: the largest component of the point's force.
   TorqueForms(const Placement& placement, const ContactPoint& point, double force_unit);
 
   static std::vector<int> variables(int com, const Placement& placement, const ContactPoint& point);
 
-  Eigen::Vector2d form(int j, const Variables& x) const { return E_[j] * x + e_[j]; }
-  const Eigen::Matrix<double, 2, kSize>& slope(int j) const { return E_[j]; }
-  const Eigen::Matrix<double, kSize, kSize>& squared_slope(int j) const { return EE_[j]; }  ///< E_j^T E_j
+  int size() const { return static_cast<int>(E_[0].cols()); }  ///< variables (c, w, f)
+  Eigen::Vector2d form(int j, const nlp::ConstVector& x) const { return E_[j] * x + e_[j]; }
+  const Eigen::Matrix2Xd& slope(int j) const { return E_[j]; }
+  const Eigen::MatrixXd& squared_slope(int j) const { return EE_[j]; }  ///< E_j^T E_j
 
  private:
-  std::array<Eigen::Matrix<double, 2, kSize>, kCount> E_;
-  std::array<Eigen::Matrix<double, kSize, kSize>, kCount> EE_;
+  std::array<Eigen::Matrix2Xd, kCount> E_;
+  std::array<Eigen::MatrixXd, kCount> EE_;
   std::array<Eigen::Vector2d, kCount> e_;
 };
 
