@@ -41,6 +41,7 @@ from mcplan._core import (
     Violation,
     __version__,
     check,
+    rhp,
 )
 from mcplan.errors import (
     InvalidInput,
@@ -52,6 +53,8 @@ from mcplan.errors import (
     UnknownRobot,
     UnknownScene,
 )
+
+Walk = rhp.Walk
 
 if TYPE_CHECKING:
     from mcplan.view import Page
@@ -85,13 +88,17 @@ __all__ = [
     "UnknownRobot",
     "UnknownScene",
     "Violation",
+    "Walk",
     "__version__",
     "check",
     "load_robot",
     "load_scene",
     "plan",
+    "receding_horizon",
     "replan",
+    "rhp",
     "show",
+    "walk",
 ]
 
 
@@ -191,6 +198,90 @@ def replan(
     from mcplan.solve import replan as solve
 
     return solve(previous, t, measured, scene, robot, options)
+
+
+def walk(
+    scene: Scene | str | Path,
+    robot: Robot | str | Path | None = None,
+    *,
+    sequence: Plan | str | Path | None = None,
+    fidelity: str | rhp.Fidelity = "point",
+    lookahead: int = 3,
+    cycles: int = 14,
+    transcription: str | rhp.Transcription = "trapezoidal",
+    time_limit: float | None = None,
+    **options: Any,
+) -> Walk:
+    """Plan a walk on two feet over given surfaces: CoM, angular momentum, footholds, timing and forces.
+
+    Each cycle plans `lookahead` steps and executes the first; the next cycle starts from where it ends. A cycle that
+    fails ends the walk: ``walk.plan`` is what was executed until then, ``walk.cycles`` says what happened. Ctrl-C does
+    the same, with status ``interrupted``.
+
+    Args:
+        scene: A scene, or what load_scene takes; its ``steps`` say which foot lands on which surface.
+        robot: A robot with two feet, or what load_robot takes. None: the robot of `sequence`, else talos_wang.
+        sequence: A plan, or path of one, whose start and contact sequence are taken instead of the scene's; the walk
+            comes to rest after its last step.
+        fidelity: Model of the steps after the first: "single" (centroidal), "com", "rectangle" or "point".
+        lookahead: Steps in a horizon, 1 to 10, the executed one included.
+        cycles: Steps to execute; fewer if the sequence ends before.
+        transcription: "trapezoidal" or "euler" (the paper's, whose motion is not quite the integral of its forces).
+        time_limit: Of each cycle, wall clock [s]; None: none.
+        **options: Other fields of ``rhp.Options``, such as ``paper=True``.
+
+    Returns:
+        The walk: ``plan``, ``report``, ``cycles``, ``success``, and totals such as ``distance_m()``. The report's status
+        is ``solved`` only if the checker accepts the whole plan.
+
+    Raises:
+        InvalidOptions: No such option, or its value is out of range.
+        InvalidScene: The scene is malformed, has no steps, or does not fit the robot.
+        InvalidRobot: The robot is malformed or does not have two feet.
+        InvalidPlan: The sequence lifts both feet at once, uses other end-effectors than feet, or names surfaces that
+            the scene does not have.
+        UnknownScene, UnknownRobot: No such name and no such file.
+    """
+    return receding_horizon(
+        scene,
+        robot,
+        sequence=sequence,
+        fidelity=fidelity,
+        lookahead=lookahead,
+        cycles=cycles,
+        transcription=transcription,
+        time_limit=time_limit,
+        **options,
+    ).walk()
+
+
+def receding_horizon(
+    scene: Scene | str | Path,
+    robot: Robot | str | Path | None = None,
+    *,
+    sequence: Plan | str | Path | None = None,
+    **options: Any,
+) -> rhp.RecedingHorizon:
+    """Make the planner behind walk(), to run it cycle by cycle and from measured states.
+
+        planner = mp.receding_horizon("rubbles", time_limit=1.0)
+        while running:
+            cycle = planner.step(measured)  # an rhp.State; without one: from where the last step ends
+            if cycle.executed:
+                follow(planner.executed())  # a plan of one step, from time 0
+
+    Args:
+        scene: As for walk().
+        robot: As for walk().
+        sequence: As for walk().
+        **options: As for walk().
+
+    Raises:
+        InvalidOptions, InvalidScene, InvalidRobot, InvalidPlan, UnknownScene, UnknownRobot: As for walk().
+    """
+    from mcplan.walking import receding_horizon as make
+
+    return make(scene, robot, sequence, options)
 
 
 def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:

@@ -8,9 +8,7 @@ from typing import Any
 
 from mcplan import _core
 from mcplan._core import Knot, Plan, PlanResult, Robot, Scene
-from mcplan.errors import InvalidOptions, did_you_mean
-
-_ALIASES = {"time_limit": "time_limit_s"}
+from mcplan.options import fill
 
 
 def plan(
@@ -20,15 +18,7 @@ def plan(
     warm_start: Plan | None = None,
 ) -> PlanResult:
     """See mcplan.plan."""
-    if not isinstance(scene, Scene):
-        from mcplan.files.scenes import load_scene
-
-        scene = load_scene(scene)
-    if not isinstance(robot, Robot):
-        from mcplan.files.robots import load_robot
-
-        robot = load_robot(robot)
-    planner = _core.ddp.SwitchedDdp(scene, robot, make_options(options))
+    planner = _core.ddp.SwitchedDdp(scene_of(scene), robot_of(robot), make_options(options))
     return planner.solve() if warm_start is None else planner.solve(warm_start)
 
 
@@ -46,34 +36,22 @@ def make_options(values: Mapping[str, Any]) -> Any:
     Raises:
         InvalidOptions: No such option (the message lists those that exist), a wrong type, or out of range.
     """
-    options = _core.ddp.Options()
-    for name, value in values.items():
-        name = _ALIASES.get(name, name)
-        if name == "weights" and isinstance(value, Mapping):
-            for weight, amount in value.items():
-                _set(options.weights, weight, amount, prefix="weights.")
-        else:
-            _set(options, name, value)
-    options.validate()
-    return options
+    return fill(_core.ddp.Options(), values)
 
 
-def _set(target: Any, name: str, value: Any, prefix: str = "") -> None:
-    legal = option_names(type(target))
-    if name not in legal:
-        raise InvalidOptions(prefix + name, f"no such option. {did_you_mean(name, legal)}Options: {', '.join(legal)}")
-    if isinstance(value, str) and hasattr(type(getattr(target, name)), "__members__"):
-        members = type(getattr(target, name)).__members__
-        if value not in members:
-            raise InvalidOptions(prefix + name, f"must be one of {', '.join(members)}", repr(value))
-        value = members[value]
-    try:
-        setattr(target, name, value)
-    except TypeError:
-        kind = type(getattr(target, name)).__name__
-        raise InvalidOptions(prefix + name, f"must be of type {kind}", repr(value)) from None
+def scene_of(scene: Scene | str | Path) -> Scene:
+    """The scene, or what load_scene makes of its name."""
+    if isinstance(scene, Scene):
+        return scene
+    from mcplan.files.scenes import load_scene
+
+    return load_scene(scene)
 
 
-def option_names(cls: type) -> list[str]:
-    """Names of the fields of a bound options class, in their order of declaration."""
-    return [name for name, member in vars(cls).items() if isinstance(member, property)]
+def robot_of(robot: Robot | str | Path) -> Robot:
+    """The robot, or what load_robot makes of its name."""
+    if isinstance(robot, Robot):
+        return robot
+    from mcplan.files.robots import load_robot
+
+    return load_robot(robot)

@@ -29,20 +29,22 @@ OPENMP_ROOMS = {"ddp", "rhp", "sip"}
 
 # room (a module or folder of the package) -> the rooms that it may import, beside itself; "" is the package's
 # front, which others import for annotations only
-_GROUND = {"_core", "errors", "extras"}
+_GROUND = {"_core", "errors", "extras", "options"}
 PYTHON_ROOMS = {
     "__main__": {"cli"},
     "_core": set(),
     "errors": set(),
     "extras": {"errors"},
+    "options": {"errors"},
     "files": _GROUND,
     "solve": _GROUND | {"files"},
+    "walking": _GROUND | {"files", "solve"},
     "view": _GROUND | {"files"},
     "tracking": _GROUND | {"files"},
     "bench": _GROUND | {"files", "solve", ""},
-    "reproduce": _GROUND | {"files", "solve", "view", "tracking", "bench", ""},
-    "cli": _GROUND | {"files", "solve", "view", "tracking", "bench", "reproduce", ""},
-    "": _GROUND | {"files", "solve", "view", "tracking"},
+    "reproduce": _GROUND | {"files", "solve", "walking", "view", "tracking", "bench", ""},
+    "cli": _GROUND | {"files", "solve", "walking", "view", "tracking", "bench", "reproduce", ""},
+    "": _GROUND | {"files", "solve", "walking", "view", "tracking"},
 }
 HEAVY = {"crocoddyl", "example_robot_data", "imageio", "matplotlib", "meshcat", "mink", "mujoco"}
 HEAVY |= {"PIL", "pink", "pinocchio", "proxsuite", "scipy"}

@@ -20,7 +20,7 @@ from mcplan.files.terrains import random_patches
 from mcplan.files.toml import toml_text
 from standing import standing_plan
 
-VERBS = ("bench", "check", "demo", "plan", "reproduce", "robots", "scenes", "version")
+VERBS = ("bench", "check", "demo", "plan", "reproduce", "rhp", "robots", "scenes", "version")
 
 
 def run(capsys, *words) -> tuple[int, str, str]:

@@ -95,3 +95,28 @@ def test_bad_urdf_robots_are_named(change, message):
     with pytest.raises(mp.InvalidRobot) as error:
         load_urdf(robot)
     assert message in str(error.value)
+
+
+def test_a_low_walk_over_tilted_patches_is_followed_with_its_soles_on_them():
+    """The CoM is so low that ankles stay at their limits: the other joints have to do the work."""
+    plan = mp.walk("rubbles", cycles=3).plan
+    robot = plan.robot
+    samples = sample(plan, plan.scene, robot, 10.0)
+    model, _, neutral = load_urdf(robot)
+    postures = follow(model, neutral, samples, robot)
+    ankles = [model.idx_qs[model.getJointId(f"leg_{side}_5_joint")] for side in ("left", "right")]
+    assert postures.configurations[:, ankles].min() < model.lowerPositionLimit[ankles[0]] + 1e-3  # it is such a walk
+    assert postures.residual < 0.05, postures.where
+    data = model.createData()
+    for n, q in enumerate(postures.configurations):
+        assert (q[7:] >= model.lowerPositionLimit[7:] - 1e-9).all() and (
+            q[7:] <= model.upperPositionLimit[7:] + 1e-9
+        ).all()
+        pin.framesForwardKinematics(model, data, q)
+        for end, foot in enumerate(robot.end_effectors):
+            if samples.surfaces[n, end] < 0:
+                continue
+            frame = data.oMf[model.getFrameId(foot.frame)]
+            normal = mp._core.Polygon(plan.scene.surfaces[samples.surfaces[n, end]].vertices_W).normal_W
+            assert np.linalg.norm(frame.translation - samples.positions_W[n, end]) < 5e-3
+            assert frame.rotation[:, 2] @ normal > np.cos(0.03)

@@ -38,16 +38,9 @@ def plan(
 
     Example: mcplan plan stairs --robot talos -o plan.npz --html plan.html
     """
-    from mcplan.errors import InvalidInput
-    from mcplan.extras import require
+    from mcplan.cli.outputs import require_outputs, write_outputs
 
-    for option, path in (("--output", output), ("--html", html)):
-        if path is not None and not path.parent.is_dir():  # said now, not after the plan has been found
-            raise InvalidInput(option, "must lie in a folder that exists", str(path))
-    if html is not None:
-        require("mcplan plan --html", "view", "meshcat")
-    if plots is not None:
-        require("mcplan plan --plots", "view", "matplotlib")
+    require_outputs("plan", output, html, plots)
     given = {"phases": phases, "method": method, "time_limit": time_limit, "threads": threads, "seed": seed}
     options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if plots is not None:
@@ -58,14 +51,7 @@ def plan(
     import mcplan
 
     result = mcplan.plan(scene, robot, **options)
-    if output is not None:
-        result.plan.save(output)
-    if html is not None:
-        mcplan.show(result.plan, report=result.report).save_html(html)
-    if plots is not None:
-        from mcplan.view.plots import save_plots
-
-        save_plots(result.plan, result.report, plots)
+    write_outputs(result.plan, result.report, output, html, plots)
     print(json_module.dumps(summary(result)) if json else report_text(result, [output, html, plots]))
     return 0 if str(result.report.status) == "solved" else 1
 

@@ -21,10 +21,15 @@ Array = NDArray[np.float64]
 # Weights: 1 m of position, 1 rad of turning.
 COM, BASE, CONTACT, SWING, HAND = 10.0, 2.0, 20.0, 10.0, 3.0
 SOLE = 3.0
+#: Of the base, and of soles in the air, in plans with forces at points: they say nothing of how those turn, and keep the
+#: CoM so low that ankles come to their limits.
+FREE_BASE, FREE_SOLE = 0.2, 0.2
 POSTURE = 0.05
 DAMPING = 1e-6
 #: Largest change of a joint in one iteration [rad].
 STEP = 0.4
+#: A joint so near to its limit is at it [rad].
+EDGE = 1e-4
 
 
 @dataclass(frozen=True)
@@ -97,13 +102,28 @@ class _Solver:
             error, jacobian = np.concatenate(errors), np.vstack(jacobians)
             hessian = jacobian.T @ jacobian + np.diag(self.posture + DAMPING)
             home = pin.difference(model, q, self.neutral)
-            step = np.linalg.solve(hessian, jacobian.T @ error + self.posture * home)
+            step = self._within_limits(q, hessian, jacobian.T @ error + self.posture * home)
             step *= min(1.0, STEP / max(float(np.abs(step).max()), 1e-12))
             q = pin.integrate(model, q, step)
             q[7:] = np.clip(q[7:], self.low[7:], self.high[7:])
             if np.abs(step).max() < 1e-5:
                 break
         return np.asarray(q)
+
+    def _within_limits(self, q: Array, hessian: Array, gradient: Array) -> Array:
+        """Newton step in which joints that would leave their range stay, so that the others do the work."""
+        free = np.ones(self.model.nv, dtype=bool)
+        step = np.zeros(self.model.nv)
+        for _ in range(4):
+            step[:] = 0.0
+            step[free] = np.linalg.solve(hessian[np.ix_(free, free)], gradient[free])
+            out = np.zeros_like(free)
+            out[6:] = (step[6:] < self.low[7:] - q[7:] + EDGE) & (step[6:] < 0.0) & (q[7:] < self.low[7:] + EDGE)
+            out[6:] |= (step[6:] > self.high[7:] - q[7:] - EDGE) & (step[6:] > 0.0) & (q[7:] > self.high[7:] - EDGE)
+            if not (out & free).any():
+                break
+            free &= ~out
+        return step
 
     def misses(self, q: Array, samples: Samples, n: int) -> list[tuple[str, float]]:
         self.pin.framesForwardKinematics(self.model, self.data, q)
@@ -124,8 +144,9 @@ class _Solver:
         errors = [COM * (samples.com_W[n] - data.com[0])]
         jacobians = [COM * com_jacobian]
         turn = pin.log3(samples.rotation_WB[n] @ data.oMi[1].rotation.T)
-        errors.append(BASE * turn)
-        jacobians.append(BASE * pin.getJointJacobian(model, data, 1, world)[3:])
+        base = FREE_BASE if samples.has_points else BASE
+        errors.append(base * turn)
+        jacobians.append(base * pin.getJointJacobian(model, data, 1, world)[3:])
         for end, frame in enumerate(self.frames):
             placement = data.oMf[frame]
             jacobian = pin.getFrameJacobian(model, data, frame, world)
@@ -135,6 +156,7 @@ class _Solver:
             jacobians.append(weight * jacobian[:3])
             if foot and np.asarray(self.robot.end_effectors[end].half_size).all():
                 wanted = samples.rotations_W[n, end] @ self.local[end]
-                errors.append(SOLE * pin.log3(wanted @ placement.rotation.T))
-                jacobians.append(SOLE * jacobian[3:])
+                weight = FREE_SOLE if samples.has_points and samples.surfaces[n, end] < 0 else SOLE
+                errors.append(weight * pin.log3(wanted @ placement.rotation.T))
+                jacobians.append(weight * jacobian[3:])
         return errors, jacobians

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 #: [m] by which CoM and contacts may miss the plan; beyond, a picture of the posture would mislead.
-LARGEST_MISS = 0.03
+LARGEST_MISS = 0.05
 PACKAGE = "example-robot-data:"
 
 
@@ -36,7 +36,7 @@ def urdf_robot(samples: Samples, robot: Robot) -> Figure:
     Raises:
         MissingExtra: Pinocchio (or example-robot-data) is not installed.
         InvalidRobot: The URDF cannot be read, or lacks a frame or joint that the robot names.
-        CannotFollow: Some posture misses the plan by more than 3 cm.
+        CannotFollow: Some posture misses the plan by more than 5 cm.
     """
     require(f"drawing {robot.name} with its meshes", "view", "pinocchio")
     import pinocchio as pin  # type: ignore[import-untyped]

@@ -33,7 +33,7 @@ def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, rep
         plan: The plan.
         scene: Drawn around it; None: the plan's own.
         robot: Drawn along it; None: the plan's own. With a URDF its meshes follow the plan by inverse
-            kinematics; without, or when no posture follows it within 3 cm (a warning says so), it is a stick
+            kinematics; without, or when no posture follows it within 5 cm (a warning says so), it is a stick
             robot.
         report: Named in the caption.
 

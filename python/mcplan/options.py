@@ -1,0 +1,55 @@
+"""Options by name: fields of a planner's options class from names and plain values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from mcplan.errors import InvalidOptions, did_you_mean
+
+_ALIASES = {"time_limit": "time_limit_s"}
+
+
+def fill(options: Any, values: Mapping[str, Any]) -> Any:
+    """Set fields by name and validate.
+
+    Args:
+        options: An instance of a bound options class.
+        values: By name; enumerations by the names of their members, groups of fields (`weights`) as mappings.
+
+    Returns:
+        The same object.
+
+    Raises:
+        InvalidOptions: No such option (the message lists those that exist), a wrong type, or out of range.
+    """
+    for name, value in values.items():
+        name = _ALIASES.get(name, name)
+        if name == "weights" and isinstance(value, Mapping):
+            for weight, amount in value.items():
+                _set(options.weights, weight, amount, prefix="weights.")
+        else:
+            _set(options, name, value)
+    options.validate()
+    return options
+
+
+def option_names(cls: type) -> list[str]:
+    """Names of the fields of a bound options class, in their order of declaration."""
+    return [name for name, member in vars(cls).items() if isinstance(member, property)]
+
+
+def _set(target: Any, name: str, value: Any, prefix: str = "") -> None:
+    legal = option_names(type(target))
+    if name not in legal:
+        raise InvalidOptions(prefix + name, f"no such option. {did_you_mean(name, legal)}Options: {', '.join(legal)}")
+    if isinstance(value, str) and hasattr(type(getattr(target, name)), "__members__"):
+        members = type(getattr(target, name)).__members__
+        if value not in members:
+            raise InvalidOptions(prefix + name, f"must be one of {', '.join(members)}", repr(value))
+        value = members[value]
+    try:
+        setattr(target, name, value)
+    except TypeError:
+        kind = type(getattr(target, name)).__name__
+        raise InvalidOptions(prefix + name, f"must be of type {kind}", repr(value)) from None

@@ -1,0 +1,74 @@
+"""mp.walk: options by name, scene, robot and sequence by name or object, then the receding-horizon planner."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from mcplan._core import Plan, Robot, Scene, rhp
+from mcplan.errors import InvalidInput
+from mcplan.options import fill
+from mcplan.solve import robot_of, scene_of
+
+#: Walks where no robot is named and no sequence brings one.
+ROBOT = "talos_wang"
+
+
+def receding_horizon(
+    scene: Scene | str | Path,
+    robot: Robot | str | Path | None,
+    sequence: Plan | str | Path | None,
+    options: Mapping[str, Any],
+) -> rhp.RecedingHorizon:
+    """See mcplan.receding_horizon."""
+    chosen = make_options(options)  # before files are read: what is said first is what was typed
+    return planner_of(*parts_of(scene, robot, sequence), chosen)
+
+
+def parts_of(
+    scene: Scene | str | Path, robot: Robot | str | Path | None, sequence: Plan | str | Path | None
+) -> tuple[Scene, Robot, Plan | None]:
+    """Scene, robot and sequence from what walk() takes for them."""
+    scene = scene_of(scene)
+    if sequence is not None and not isinstance(sequence, Plan):
+        from mcplan.files.plans import load_plan
+
+        sequence = load_plan(sequence)
+    if robot is None:
+        robot = ROBOT if sequence is None else sequence.robot
+    return scene, robot_of(robot), sequence
+
+
+def planner_of(scene: Scene, robot: Robot, sequence: Plan | None, options: rhp.Options) -> rhp.RecedingHorizon:
+    """The planner of a scene's own steps or of a plan's."""
+    if sequence is None:
+        return rhp.RecedingHorizon(scene, robot, options)
+    return rhp.RecedingHorizon(scene, robot, sequence, options)
+
+
+def make_options(values: Mapping[str, Any]) -> rhp.Options:
+    """Options of the receding-horizon planner from names and values; None stands for the default.
+
+    Raises:
+        InvalidOptions: No such option (the message lists those that exist), a wrong type, or out of range.
+    """
+    options: rhp.Options = fill(rhp.Options(), {name: value for name, value in values.items() if value is not None})
+    return options
+
+
+def cycles_of(planner: rhp.RecedingHorizon, count: int) -> Iterator[rhp.Cycle]:
+    """Run cycles one by one, as planner.walk() does, until `count` are done, one fails or the sequence ends.
+
+    planner.result() is the walk then, and its success that of all cycles.
+    """
+    for index in range(count):
+        try:
+            cycle = planner.step()
+        except InvalidInput as end:
+            if index > 0 and end.field == "cycles":  # the sequence has no more steps
+                return
+            raise
+        yield cycle
+        if not cycle.executed:
+            return
