@@ -150,9 +150,9 @@ def test_a_walk_cut_short_is_no_success():
 
 def test_table_3_takes_all_starts_and_figure_5_all_terrains():
     runs = [
-        made_up("v_shape", "point", 2, time_s=0.2),
-        made_up("v_shape", "point", 2, time_s=0.4, seed=1),
-        made_up("rubbles", "point", 2, time_s=0.9),
+        made_up("v_shape", "point", 2, time_s=0.2, cpu_s=0.2),
+        made_up("v_shape", "point", 2, time_s=0.4, cpu_s=0.4, seed=1),
+        made_up("rubbles", "point", 2, time_s=0.9, cpu_s=0.9),
     ]
     (here, _) = wang_tables.table_3_rows(runs)
     assert (here["starts"], here["cycles"]) == (2, 4)
@@ -165,6 +165,11 @@ def test_table_3_takes_all_starts_and_figure_5_all_terrains():
 def test_failed_walks_have_no_point_in_figure_4():
     runs = [made_up("rubbles", "point", 1), made_up("rubbles", "point", 2, cycles=1, status="infeasible")]
     assert wang_figures.curve(runs, "rubbles", "point", "cost") == ([1], [pytest.approx(0.6)])
+
+
+def test_a_longer_horizon_that_costs_more_is_counted():
+    runs = [made_up("rubbles", "point", p, acc=acc) for p, acc in ((1, 1.0), (2, 0.4), (3, 0.5), (4, 0.5))]
+    assert wang_tables.rises(wang_tables.cost_rows(runs)) == (1, 3)
 
 
 def test_noise_stays_within_its_share_and_repeats_with_its_seed():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -39,7 +39,7 @@ def reproduce(
         raise InvalidInput("PAPER", f"must be one of {', '.join(PAPERS)}", repr(paper))
     folder = out or Path("out") / paper
     given = {"cycles": cycles, "lookahead_max": lookahead_max, "seeds": seeds, "resume": resume or None}
-    options = {name: value for name, value in given.items() if value is not None}
+    options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if paper == "wang":
         from mcplan.reproduce import wang
 

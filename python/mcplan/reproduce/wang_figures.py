@@ -52,8 +52,8 @@ def figure_4(out: Path, runs: list[Run]) -> Path:
     """(a)-(c) terrains, (d)-(f) cost per metre and (g)-(i) time of a cycle over the number of predicted steps."""
     from matplotlib.image import imread
 
-    figure, axes = sheet(3, 3, size=(13.0, 9.2), height_ratios=[0.9, 1.0, 1.0])
-    rows = (("cost", "cost per metre [1/m]"), ("time_s", "time of a cycle [s]"))
+    figure, axes = sheet(3, 3, size=(13.0, 8.4), height_ratios=(0.55, 1.0, 1.0))
+    rows = (("cost", "cost per metre"), ("cpu_s", "processor time of a cycle [s]"))
     highest = [
         max((max(curve(runs, t, m, value)[1], default=0.0) for t in TERRAINS for m in METHODS), default=0.0)
         for value, _ in rows
@@ -88,14 +88,14 @@ def figure_4(out: Path, runs: list[Run]) -> Path:
 
 
 def figure_5_rows(runs: list[Run]) -> list[dict[str, Any]]:
-    """Per cycle, over terrains and starts: mean and standard deviation of the two times and of the motion [s]."""
+    """Per cycle, over terrains and starts: mean and standard deviation of the processor times and of the motion [s]."""
     rows = []
     count = max((len(run.cycles) for run in runs), default=0)
     for index in range(count):
         row: dict[str, Any] = {"cycle": index + 1}
         for name, method, predicted, key in (
-            ("single_1", "single", 1, "time_s"),
-            ("point_2", "point", 2, "time_s"),
+            ("single_1", "single", 1, "cpu_s"),
+            ("point_2", "point", 2, "cpu_s"),
             ("motion", "point", 2, "duration_s"),
         ):
             values = [
