@@ -21,9 +21,7 @@ CentroidalState node_state(const Horizon& horizon, const VectorXd& x, int node) 
   return out;
 }
 
-CentroidalState centroidal(const State& state) {
-  return {state.com_W, state.com_velocity_W, state.angular_momentum_W};
-}
+CentroidalState centroidal(const State& state) { return {state.com_W, state.com_velocity_W, state.angular_momentum_W}; }
 
 Phase make_phase(const Walker& walker, const Horizon& horizon, const VectorXd& x, const Horizon::Phase& from) {
   Phase phase;
@@ -82,8 +80,8 @@ Plan executed_plan(const Walker& walker, const State& state, const Horizon& hori
     if (walker.options.transcription == Transcription::euler)
       at = node_state(horizon, x, end);
     else
-      at = integrate_phase(plan.phases.back(), at, plan.phases.back().duration, walker.robot.mass,
-                           walker.scene.gravity);
+      at =
+          integrate_phase(plan.phases.back(), at, plan.phases.back().duration, walker.robot.mass, walker.scene.gravity);
     if (from.swing >= 0) feet_W[from.swing] = horizon.position_W(x, 2 + from.step);
     plan.knots.push_back(make_knot(walker, at, feet_W));
   }
@@ -139,9 +137,8 @@ Measures measure(const Walker& walker, const State& state, const Horizon& horizo
       const Vector3d b = x.segment<3>(horizon.controls[phase.first_control + k + 1].acceleration);
       out.acceleration_cost += h / 3.0 * (a.squaredNorm() + a.dot(b) + b.squaredNorm());
     }
-    replayed =
-        integrate_phase(executed.phases[q], replayed, executed.phases[q].duration, walker.robot.mass,
-                        walker.scene.gravity);
+    replayed = integrate_phase(executed.phases[q], replayed, executed.phases[q].duration, walker.robot.mass,
+                               walker.scene.gravity);
   }
   const CentroidalState planned = node_state(horizon, x, 3 * n);
   out.drift_com_m = (replayed.com_W - planned.com_W).norm();

@@ -48,8 +48,7 @@ VectorXd nominal_guess(const Walker& walker, const State& state, const Horizon& 
     feet_before = feet_after;
   }
   for (const Horizon::Phase& phase : horizon.phases)
-    x[phase.duration] =
-        0.5 * (problem.variable_lower()[phase.duration] + problem.variable_upper()[phase.duration]);
+    x[phase.duration] = 0.5 * (problem.variable_lower()[phase.duration] + problem.variable_upper()[phase.duration]);
   const Vector3d weight(0.0, 0.0, walker.robot.mass * walker.scene.gravity / kForceUnit);
   for (const Horizon::Control& control : horizon.controls) {
     for (const ContactPoint& point : control.points)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <set>
 #include <string>
@@ -21,25 +22,37 @@ using Eigen::Vector3d;
 using nlp::kInfinity;
 using nlp::Stages;
 
+const double kReachMargin_m = std::getenv("RM") ? atof(std::getenv("RM")) : 0.1;
 constexpr double kRestWeight = 100.0;  // of the goal at the end of the walk, over goal_weight: rest where it is
 constexpr double kPaperLow[2] = {0.0, -1.0}, kPaperHigh[2] = {30.0, 1.0};  // CoM, world x and y [m]
 
+/// How far the CoM is inside each face of a foot's reach [m].
+Eigen::VectorXd reach_distance(const Polytope& reach_W, const Horizon& horizon, const Eigen::VectorXd& x, int node,
+                               int placement) {
+  const Vector3d com_W = horizon.shift_W + x.segment<3>(horizon.nodes[node].com);
+  return reach_W.b - reach_W.A * (com_W - horizon.position_W(x, placement));
+}
+
 class Builder {
  public:
-  Builder(const Walker& walker, const State& state, const Footsteps& footsteps, int first, int steps,
-          const std::vector<Vector3d>& footholds_W, bool rest)
-      : walker_(walker), options_(walker.options), euler_(options_.transcription == Transcription::euler), rest_(rest) {
-    out_.steps = steps;
-    out_.shift_W = Vector3d(state.com_W.x(), state.com_W.y(), 0.0);
-    last_stage_ = 3 * steps * options_.intervals;
-    add_placements(state, footsteps, first, footholds_W);
-    add_phases(footsteps, first);
-    add_nodes(state);
+  Builder(const Walker& walker, const Footsteps& footsteps, const HorizonRequest& request)
+      : walker_(walker),
+        options_(walker.options),
+        request_(request),
+        euler_(options_.transcription == Transcription::euler) {
+    const Vector3d& com = request.state.com_W;
+    out_.steps = request.steps;
+    out_.shift_W = Vector3d(com.x(), com.y(), 0.0);
+    last_stage_ = 3 * request.steps * options_.intervals;
+    add_placements(footsteps);
+    add_phases(footsteps);
+    add_nodes();
     for (Horizon::Phase& phase : out_.phases) add_controls(phase);
     for (const Horizon::Phase& phase : out_.phases) {
       add_dynamics(phase);
       add_running_cost(phase);
     }
+    out_.guess = request.guess(out_);
     add_reach();
     add_end();
     out_.problem.finish();
@@ -64,28 +77,28 @@ class Builder {
     return out;
   }
 
-  void add_placements(const State& state, const Footsteps& footsteps, int first,
-                      const std::vector<Vector3d>& footholds_W) {
+  void add_placements(const Footsteps& footsteps) {
+    const State& state = request_.state;
     const int per_step = 3 * options_.intervals;
     for (int foot = 0; foot < 2; ++foot) {
       out_.placements.push_back(placement(foot, state.surfaces[foot], state.feet_W[foot], {0, last_stage_}));
       fix(out_.placements.back().variable, Eigen::Vector2d::Zero());
     }
     for (int i = 0; i < out_.steps; ++i) {
-      const Footstep step = footsteps[first + i];
+      const Footstep step = footsteps[request_.first + i];
       // A foothold is in use from the touch-down on to the foot's next lift-off, at most to the end of the next step.
       const int begins = i * per_step + 2 * options_.intervals;
-      out_.placements.push_back(placement(step.foot, step.surface, footholds_W[i], {begins, last_stage_}));
+      out_.placements.push_back(placement(step.foot, step.surface, request_.footholds_W[i], {begins, last_stage_}));
     }
   }
 
-  void add_phases(const Footsteps& footsteps, int first) {
+  void add_phases(const Footsteps& footsteps) {
     std::array<int, 2> stands{0, 1};
     const bool reduced = options_.fidelity != Fidelity::single;
     for (int i = 0; i < out_.steps; ++i)
       for (int kind = 0; kind < 3; ++kind) {
         Horizon::Phase phase;
-        const int foot = footsteps[first + i].foot;
+        const int foot = footsteps[request_.first + i].foot;
         phase.step = i;
         phase.swing = kind == 1 ? foot : -1;
         phase.centroidal = i == 0 || !reduced;
@@ -96,18 +109,19 @@ class Builder {
         phase.first_node = (3 * i + kind) * options_.intervals;
         const Range range = kind == 1 ? options_.single_support_s : options_.double_support_s;
         const double fixed = kind == 1 ? options_.predicted_single_support_s : options_.predicted_double_support_s;
-        phase.duration =
-            problem().add_variables("duration", 1, phase.centroidal ? range.min : fixed,
-                                    phase.centroidal ? range.max : fixed,
-                                    {phase.first_node, phase.first_node + options_.intervals});
+        phase.duration = problem().add_variables("duration", 1, phase.centroidal ? range.min : fixed,
+                                                 phase.centroidal ? range.max : fixed,
+                                                 {phase.first_node, phase.first_node + options_.intervals});
         out_.phases.push_back(phase);
       }
   }
 
-  void add_nodes(const State& state) {
-    const int centroidal_nodes = 1 + options_.intervals * static_cast<int>(std::count_if(
-                                         out_.phases.begin(), out_.phases.end(),
-                                         [](const Horizon::Phase& phase) { return phase.centroidal; }));
+  void add_nodes() {
+    const State& state = request_.state;
+    const int centroidal_nodes =
+        1 + options_.intervals *
+                static_cast<int>(std::count_if(out_.phases.begin(), out_.phases.end(),
+                                               [](const Horizon::Phase& phase) { return phase.centroidal; }));
     for (int k = 0; k <= last_stage_; ++k) {
       Horizon::Node node;
       node.com = problem().add_variables("com", 3, -kInfinity, kInfinity, {k, k});
@@ -172,24 +186,23 @@ class Builder {
   double force_limit(int foot, bool one) const { return walker_.feet[foot].max_force / (one ? 1.0 : 4.0); }
 
   void add_relaxation(const Horizon::Phase& phase, int k, Horizon::Control& control) {
-    const double psi_max = options_.psi_max, weight = share(k) * options_.intervals;
+    const double psi_max = options_.psi_max;
     for (const ContactPoint& point : control.points) {
       const Placement& placement = out_.placements[point.placement];
       const double unit = force_limit(placement.foot, phase.single_force);
       const int com = out_.nodes[control.node].com;
       // The duration is fixed in these phases.
-      const double time = weight * problem().variable_lower()[phase.duration] / options_.intervals;
+      const double time = share(k) * problem().variable_lower()[phase.duration] / options_.intervals;
       if (!options_.lifted_psi) {
         problem().add_constraint(std::make_unique<TorqueBound>(com, placement, point, unit), -kInfinity, psi_max);
         problem().add_cost(std::make_unique<TorqueCost>(com, placement, point, unit, time));
         continue;
       }
-      const int psi =
-          problem().add_variables("psi", TorqueForms::kCount, 0.0, psi_max, {control.node, control.node});
+      const int psi = problem().add_variables("psi", TorqueForms::kCount, 0.0, psi_max, {control.node, control.node});
       control.psi.push_back(psi);
       problem().add_constraint(std::make_unique<TorqueBound>(com, placement, point, unit, psi), -kInfinity, 0.0);
-      problem().add_cost(std::make_unique<SquaredDistance>("torque_cost", psi,
-                                                           Eigen::VectorXd::Zero(TorqueForms::kCount), time));
+      problem().add_cost(
+          std::make_unique<SquaredDistance>("torque_cost", psi, Eigen::VectorXd::Zero(TorqueForms::kCount), time));
     }
   }
 
@@ -211,9 +224,8 @@ class Builder {
         continue;
       }
       const Horizon::Control& w = out_.controls[phase.first_control + k + 1];
-      const LinearForceInterval interval{a.com,          b.com,      a.velocity, b.velocity, u.acceleration,
-                                         w.acceleration, a.momentum, b.momentum, u.rate,     w.rate,
-                                         phase.duration, n};
+      const LinearForceInterval interval{a.com,      b.com,      a.velocity, b.velocity, u.acceleration, w.acceleration,
+                                         a.momentum, b.momentum, u.rate,     w.rate,     phase.duration, n};
       problem().add_equality(std::make_unique<LinearForcePosition>(interval));
       problem().add_equality(std::make_unique<LinearForceVelocity>(interval));
       if (phase.centroidal)
@@ -241,8 +253,22 @@ class Builder {
         square("momentum_cost", out_.nodes[phase.first_node + k].momentum, share(k));
   }
 
-  /// Reach and height for the feet in contact at every node of a phase, its two ends included; between the feet once for
-  /// every pair on the ground together. What is fixed needs no rows.
+  Polytope needed_faces(int node, int placement) {
+    const Polytope& all = walker_.feet[out_.placements[placement].foot].com_reach_W;
+    if (options_.all_faces) return all;
+    const Eigen::VectorXd distance = reach_distance(all, out_, out_.guess, node, placement);
+    std::vector<int> rows;
+    for (int row = 0; row < distance.size(); ++row) {
+      if (distance[row] < (node > last_stage_ - (std::getenv("LN") ? atoi(std::getenv("LN")) : 21) ? (std::getenv("RL") ? atof(std::getenv("RL")) : 10.0) : kReachMargin_m) || request_.reach_rows.count({node, placement, row}))
+        rows.push_back(row);
+      else
+        out_.left_out.push_back({node, placement, row});
+    }
+    return {all.A(rows, Eigen::all), all.b(rows)};
+  }
+
+  /// Reach and height for the feet in contact at every node of a phase, its two ends included; between the feet once
+  /// for every pair on the ground together. What is fixed needs no rows.
   void add_reach() {
     std::set<std::pair<int, int>> done;
     for (const Horizon::Phase& phase : out_.phases)
@@ -251,7 +277,7 @@ class Builder {
           const int node = phase.first_node + k;
           if (placement < 0 || node == 0 || !done.insert({node, placement}).second) continue;
           const Placement& foot = out_.placements[placement];
-          add_com_reach(problem(), out_.nodes[node].com, foot, walker_.feet[foot.foot].com_reach_W);
+          add_com_reach(problem(), out_.nodes[node].com, foot, needed_faces(node, placement));
           if (!options_.paper) add_com_height(problem(), out_.nodes[node].com, foot, walker_.com_height_m);
         }
     for (int i = 0; i < out_.steps; ++i) {
@@ -268,17 +294,17 @@ class Builder {
 
   void add_end() {
     const Horizon::Node& end = out_.nodes.back();
-    const double weight = options_.goal_weight * (rest_ ? kRestWeight : 1.0);
-    problem().add_cost(
-        std::make_unique<SquaredDistance>("goal", end.com, walker_.goal_com_W - out_.shift_W, weight));
-    if (!rest_) return;
+    const double weight = options_.goal_weight * (request_.rest ? kRestWeight : 1.0);
+    problem().add_cost(std::make_unique<SquaredDistance>("goal", end.com, walker_.goal_com_W - out_.shift_W, weight));
+    if (!request_.rest) return;
     fix(end.velocity, Vector3d::Zero());
     if (end.momentum >= 0) fix(end.momentum, Vector3d::Zero());
   }
 
   const Walker& walker_;
   const Options& options_;
-  const bool euler_, rest_;
+  const HorizonRequest& request_;
+  const bool euler_;
   int last_stage_ = 0;
   Horizon out_;
 };
@@ -290,9 +316,18 @@ Vector3d Horizon::position_W(const Eigen::VectorXd& x, int placement) const {
   return shift_W + foot.position_W(x.segment<2>(foot.variable));
 }
 
-Horizon build_horizon(const Walker& walker, const State& state, const Footsteps& footsteps, int first, int steps,
-                      const std::vector<Vector3d>& footholds_W, bool rest) {
-  return Builder(walker, state, footsteps, first, steps, footholds_W, rest).take();
+Horizon build_horizon(const Walker& walker, const Footsteps& footsteps, const HorizonRequest& request) {
+  return Builder(walker, footsteps, request).take();
+}
+
+std::set<ReachRow> violated_reach(const Walker& walker, const Horizon& horizon, const Eigen::VectorXd& x,
+                                  double tolerance) {
+  std::set<ReachRow> out;
+  for (const ReachRow& at : horizon.left_out) {
+    const Polytope& all = walker.feet[horizon.placements[at.placement].foot].com_reach_W;
+    if (reach_distance(all, horizon, x, at.node, at.placement)[at.row] < -tolerance) out.insert(at);
+  }
+  return out;
 }
 
 }  // namespace mcplan::rhp

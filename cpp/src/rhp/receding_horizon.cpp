@@ -65,8 +65,8 @@ struct RecedingHorizon::Impl {
   Walker walker;
   Footsteps footsteps;
   State state;
-  bool measured = false;       ///< the walk did not start where the scene says
-  int index = 0;               ///< cycles done well
+  bool measured = false;        ///< the walk did not start where the scene says
+  int index = 0;                ///< cycles done well
   std::deque<Memory> memories;  ///< of the last two cycles
   Plan executed, horizon;
   Plan walked;
@@ -91,20 +91,41 @@ Cycle RecedingHorizon::Impl::run() {
   const Memory* memory = memories.size() == 2 ? &memories.front() : nullptr;
   if (memory && (memory->swing != footsteps[index].foot || static_cast<int>(memory->footholds_W.size()) != steps))
     memory = nullptr;
-  const std::vector<Vector3d> footholds = memory ? moved_footholds(walker, state, footsteps, index, *memory)
-                                                 : nominal_footholds(walker, state, footsteps, index, steps);
-  const Horizon horizon_now = build_horizon(walker, state, footsteps, index, steps, footholds, rest);
-  if (memory && memory->x.size() != horizon_now.problem.variable_count()) memory = nullptr;
-  const VectorXd guess =
-      memory ? remembered_guess(state, horizon_now, *memory) : nominal_guess(walker, state, horizon_now);
-
-  const nlp::Solution solution =
-      nlp::solve(horizon_now.problem, guess, solver_options(options, options.time_limit_s - seconds_since(begin)));
+  HorizonRequest request;
+  request.state = state;
+  request.first = index;
+  request.steps = steps;
+  request.footholds_W = memory ? moved_footholds(walker, state, footsteps, index, *memory)
+                               : nominal_footholds(walker, state, footsteps, index, steps);
+  request.rest = rest;
+  request.guess = [&](const Horizon& built) {
+    return memory && memory->x.size() == built.problem.variable_count() ? remembered_guess(state, built, *memory)
+                                                                        : nominal_guess(walker, state, built);
+  };
+  Horizon horizon_now = build_horizon(walker, footsteps, request);
+  nlp::Solution solution;
+  for (int attempt = 0;; ++attempt) {
+    nlp::SolverOptions how = solver_options(options, options.time_limit_s - seconds_since(begin));
+    if (attempt > 0) how.initial_barrier = 1e-4;  // close to the solution already
+    if (attempt > 0 && getenv("MU")) how.initial_barrier = atof(getenv("MU"));
+    if (attempt > 0 && getenv("SAY")) fprintf(stderr,"attempt %d missed %zu first node %d\n", attempt, request.reach_rows.size(), request.reach_rows.begin()->node);
+    solution = nlp::solve(horizon_now.problem, horizon_now.guess, how);
+    cycle.iterations += solution.iterations;
+    cycle.evaluation_s += solution.evaluation_s;
+    cycle.linear_solver_s += solution.linear_solver_s;
+    // Faces that were left out and matter after all: again with them, from here.
+    constexpr int kAttempts = 5;
+    const std::set<ReachRow> missed = violated_reach(walker, horizon_now, solution.x, options.constraint_tolerance);
+    if (missed.empty() || attempt == kAttempts || solution.status != Status::solved) {
+      if (!missed.empty()) solution.worst = {"com_reach", options.constraint_tolerance * 10.0};
+      break;
+    }
+    request.reach_rows.insert(missed.begin(), missed.end());
+    request.guess = [&](const Horizon&) { return solution.x; };
+    horizon_now = build_horizon(walker, footsteps, request);
+  }
   cycle.status = solution.status;
   cycle.message = solution.message;
-  cycle.iterations = solution.iterations;
-  cycle.evaluation_s = solution.evaluation_s;
-  cycle.linear_solver_s = solution.linear_solver_s;
   cycle.variables = horizon_now.problem.variable_count();
   cycle.constraints = horizon_now.problem.row_count();
   cycle.cost = solution.cost;

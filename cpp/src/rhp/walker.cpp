@@ -62,8 +62,8 @@ Walker::Walker(const Scene& scene_in, const Robot& robot_in, const Options& opti
                                        far + com_height_m.max * Vector3d::UnitZ());
       // Feet in contact at the same time differ in height by at most the range of the CoM over each of them.
       const double rise = com_height_m.max - com_height_m.min;
-      partner_reach = without_implied_rows(partner_reach, -far - rise * Vector3d::UnitZ(),
-                                           far + rise * Vector3d::UnitZ());
+      partner_reach =
+          without_implied_rows(partner_reach, -far - rise * Vector3d::UnitZ(), far + rise * Vector3d::UnitZ());
     }
     feet[i].end_effector = ends[i];
     feet[i].half_size = foot.half_size;
@@ -116,7 +116,8 @@ State Walker::start() const {
   state.com_W = stance.com_W;
   for (const Foot& foot : feet) {
     if (stance.contacts[foot.end_effector] < 0)
-      throw InvalidScene("start.contacts", "must put both feet on surfaces", robot.end_effectors[foot.end_effector].name);
+      throw InvalidScene("start.contacts", "must put both feet on surfaces",
+                         robot.end_effectors[foot.end_effector].name);
     state.feet_W.push_back(stance.end_effectors_W[foot.end_effector]);
     state.surfaces.push_back(stance.contacts[foot.end_effector]);
   }
@@ -188,7 +189,9 @@ State start_of(const Walker& walker, const Plan& plan) {
   for (const Foot& foot : walker.feet) {
     const int end = plan.robot.end_effector_index(walker.robot.end_effectors[foot.end_effector].name);
     const int surface = plan.phases.front().contacts[end].surface;
-    if (surface < 0) throw InvalidPlan("phases[0]", "must start on both feet for rhp", walker.robot.end_effectors[foot.end_effector].name);
+    if (surface < 0)
+      throw InvalidPlan("phases[0]", "must start on both feet for rhp",
+                        walker.robot.end_effectors[foot.end_effector].name);
     state.feet_W.push_back(knot.end_effectors_W[end]);
     state.surfaces.push_back(walker.scene.surface_index(plan.scene.surfaces[surface].name));
   }

@@ -8,8 +8,8 @@
 
 namespace mcplan::rhp {
 
-/// The first `steps` steps of a solution as a plan that starts at time 0. Under forward Euler its knots are the states of
-/// the discretised motion; with linear forces they are the integral of the forces from `state` on.
+/// The first `steps` steps of a solution as a plan that starts at time 0. Under forward Euler its knots are the states
+/// of the discretised motion; with linear forces they are the integral of the forces from `state` on.
 Plan executed_plan(const Walker& walker, const State& state, const Horizon& horizon, const Eigen::VectorXd& x,
                    int steps);
 

@@ -41,8 +41,8 @@ class Footsteps {
 struct Foot {
   int end_effector = 0;  ///< index into robot.end_effectors
   Eigen::Vector2d half_size = Eigen::Vector2d::Zero();
-  double max_force = 0.0;  ///< [N]
-  Polytope com_reach_W;    ///< CoM relative to this foot
+  double max_force = 0.0;    ///< [N]
+  Polytope com_reach_W;      ///< CoM relative to this foot
   Polytope partner_reach_W;  ///< the other foot relative to this one
 };
 
@@ -57,22 +57,22 @@ struct Walker {
   Eigen::Matrix3d r_WH;  ///< heading frame: turned by scene.start.yaw
   std::array<Foot, 2> feet;
   std::vector<Polygon> surfaces;
-  Range com_height_m;            ///< of the CoM over a foot in contact
+  Range com_height_m;  ///< of the CoM over a foot in contact
   Eigen::Vector3d goal_com_W;
 
   /// Frame of a foot on a surface: columns t1 (the heading projected on it), t2, n.
   Eigen::Matrix3d frame_W(int surface) const;
 
-  /// The point of the surface nearest to `wanted_W` at which the whole sole of the foot fits, by repeated projection; on
-  /// a surface too small for the sole, where it sticks out least.
+  /// The point of the surface nearest to `wanted_W` at which the whole sole of the foot fits, by repeated projection;
+  /// on a surface too small for the sole, where it sticks out least.
   Eigen::Vector3d nearest_foothold_W(int foot, int surface, const Eigen::Vector3d& wanted_W) const;
 
   int foot_of(int end_effector) const;  ///< 0, 1, or -1
   State start() const;                  ///< at the scene's start
 };
 
-/// The steps that the scene lists. Throws InvalidScene where there are none, or one names no foot of the robot or a surface
-/// that this foot may not touch.
+/// The steps that the scene lists. Throws InvalidScene where there are none, or one names no foot of the robot or a
+/// surface that this foot may not touch.
 Footsteps footsteps_of(const Walker& walker);
 
 /// The touch-downs of a plan, in their order. Throws InvalidPlan where both feet are off the ground, another

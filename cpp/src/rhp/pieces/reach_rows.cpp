@@ -17,6 +17,7 @@ std::vector<int> com_and_foothold(int com, const Placement& foot) {
 
 /// rows of `name`: A x <= upper.
 void add_below(nlp::Problem& problem, const char* name, std::vector<int> variables, MatrixXd A, VectorXd upper) {
+  if (upper.size() == 0) return;
   const VectorXd lower = VectorXd::Constant(upper.size(), -nlp::kInfinity);
   problem.add_constraint(std::make_unique<nlp::LinearPiece>(name, std::move(variables), std::move(A)), lower,
                          std::move(upper));
