@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from mcplan.cli import main
+from mcplan.errors import InvalidInput
 from mcplan.reproduce import wang_figures, wang_runs, wang_size, wang_tables
 from mcplan.reproduce.wang_runs import Config, Run
 
@@ -98,6 +99,14 @@ def test_ctrl_c_leaves_what_was_done_and_resume_goes_on(tmp_path, monkeypatch):
     assert about["interrupted"] and len(runs) == 2
     runs, about = wang_runs.collect(wanted, 2, tmp_path, True, lambda text: None)
     assert not about["interrupted"] and [run.config for run in runs] == wanted
+
+
+def test_walks_of_another_version_are_not_added_to(tmp_path):
+    old = made_up("rubbles", "single", 1)
+    wang_runs.save(tmp_path / "runs.json", [old], {"version": "0.0.1"})
+    assert wang_runs.collect([old.config], 2, tmp_path, True, print)[0] == [old]
+    with pytest.raises(InvalidInput, match="version"):
+        wang_runs.collect(wang_runs.configs(2, 0), 2, tmp_path, True, print)
 
 
 class _Nothing:

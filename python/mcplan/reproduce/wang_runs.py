@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mcplan.bench import records
+from mcplan.errors import InvalidInput
 
 if TYPE_CHECKING:
     from mcplan import Plan
@@ -217,12 +218,20 @@ def collect(
 
     Returns:
         The runs and what they were measured with.
+
+    Raises:
+        InvalidInput: Walks are missing and those in the file are of another version.
     """
+    import mcplan
+
     runs, about = load(out / FILE) if resume and (out / FILE).exists() else ([], {})
     runs = [run for run in runs if run.asked == cycles]
     done = {run.config for run in runs}
     missing = [config for config in wanted if config not in done]
     if missing or not about:
+        if runs and about["version"] != mcplan.__version__:
+            rule = f"must be of version {mcplan.__version__} to be added to; use another --out"
+            raise InvalidInput(f"{out / FILE}: version", rule, about["version"])
         about = {**records.machine(), "date": time.strftime("%Y-%m-%d"), "cycles": cycles, "interrupted": False}
     for number, config in enumerate(missing, start=1):
         try:
