@@ -112,15 +112,16 @@ def reproduce(
 
 def _head(about: dict[str, Any], seeds: list[int], table_3: list[dict[str, Any]]) -> list[str]:
     load = sum(row["load"] for row in table_3) / max(len(table_3), 1)
+    busy = ", more than the cores: wall clocks are longer than on an idle machine" if load > about["cores"] else ""
     starts = f"and for Table III from noisy ones (seeds {', '.join(map(str, seeds))})" if seeds else "(no seeds)"
     lines = [
         "# Tables I to III and Figures 4 and 5 of Wang et al.",
         "",
         f"mcplan {about['version']}, {about['date']}, on {about['cpu']}, {about['cores']} cores, one thread;",
-        f"load average during the runs of Table III: {load:.1f}.",
+        f"load average during the runs of Table III: {load:.1f}{busy}.",
         f"Robot {ROBOT}, {about['cycles']} cycles a walk, from the scene's start {starts}.",
-        "Written by `mcplan reproduce wang`; numbers of every cycle in `runs.json` and `cycles.csv`, from which",
-        "`mcplan reproduce wang --resume` draws the figures again.",
+        "Written by `mcplan reproduce wang`, which also writes the numbers of every cycle to `runs.json` and `cycles.csv`; from",
+        "the former `mcplan reproduce wang --resume` draws all again.",
         "",
         'All walks are in the paper\'s form: `transcription="euler"`, `paper=True`. "n-step PH" is a prediction horizon of n',
         "steps, `lookahead` n + 1.",
