@@ -19,7 +19,8 @@ struct Anything {
   Horizon horizon;
   VectorXd x;
 
-  explicit Anything(const Options& options) : walker(walkers::uneven(), walkers::robot(), options), state(walker.start()) {
+  explicit Anything(const Options& options)
+      : walker(walkers::uneven(), walkers::robot(), options), state(walker.start()) {
     state.com_velocity_W = {0.1, 0.05, -0.02};
     state.angular_momentum_W = {0.3, -0.1, 0.2};
     const Footsteps footsteps = footsteps_of(walker);
@@ -92,7 +93,8 @@ TEST_CASE("under linear forces the knots are the integral of the forces") {
       for (const Contact& contact : phase.contacts)
         for (std::size_t p = 0; p < contact.points_W.size(); ++p) {
           const std::size_t n = contact.points_W.size();
-          const Vector3d f = (1.0 - s) * contact.point_forces_W[k * n + p] + s * contact.point_forces_W[(k + 1) * n + p];
+          const Vector3d f =
+              (1.0 - s) * contact.point_forces_W[k * n + p] + s * contact.point_forces_W[(k + 1) * n + p];
           force += f;
           moment += (contact.points_W[p] - middle).cross(f);
         }

@@ -118,12 +118,15 @@ TEST_CASE("every piece joins one stage or two neighbours, and what lasts is aliv
       }
       CHECK_MESSAGE(to - from <= 1, block.piece->name() << " from " << from << " to " << to);
       const nlp::Stages told = problem.piece_stages(*block.piece);
-      CHECK_MESSAGE((told.first == from && told.last == to), block.piece->name() << " at " << from << ": told " << told.first << " to " << told.last);
+      CHECK_MESSAGE((told.first == from && told.last == to),
+                    block.piece->name() << " at " << from << ": told " << told.first << " to " << told.last);
       for (int variable : block.piece->variables()) {
         const nlp::Stages alive = problem.variable_stages(variable);
-        CHECK_MESSAGE((alive.first <= to && from <= alive.last), block.piece->name() << " at stage " << from << " uses " << problem.variable_name(variable));
+        CHECK_MESSAGE((alive.first <= to && from <= alive.last),
+                      block.piece->name() << " at stage " << from << " uses " << problem.variable_name(variable));
         if (alive.first != alive.last)
-          CHECK_MESSAGE((alive.first <= from && to <= alive.last), block.piece->name() << " at stage " << from << " uses " << problem.variable_name(variable));
+          CHECK_MESSAGE((alive.first <= from && to <= alive.last),
+                        block.piece->name() << " at stage " << from << " uses " << problem.variable_name(variable));
       }
     }
   }
@@ -234,8 +237,8 @@ TEST_CASE("psi eliminated and lifted have the same optimum, and the lifted psi a
     for (std::size_t q = 0; q < plain.horizon.phases.size(); ++q)
       CHECK(std::abs(a.x[plain.horizon.phases[q].duration] - b.x[lifted.horizon.phases[q].duration]) < 1e-3);
     const auto cost_of = [](const First& first, const VectorXd& x) {
-      const Measures m =
-          measure(first.walker, first.state, first.horizon, x, executed_plan(first.walker, first.state, first.horizon, x, 1));
+      const Measures m = measure(first.walker, first.state, first.horizon, x,
+                                 executed_plan(first.walker, first.state, first.horizon, x, 1));
       return m.acceleration_cost + m.momentum_cost;
     };
     CHECK(std::abs(cost_of(plain, a.x) - cost_of(lifted, b.x)) < 1e-3);
@@ -292,7 +295,8 @@ TEST_CASE("leaving out faces that others imply does not change the optimum") {
   options.all_faces = true;
   const First all(options);
   CHECK(fewer.horizon.problem.row_count() < all.horizon.problem.row_count());
-  const nlp::Solution a = nlp::solve(fewer.horizon.problem, fewer.guess()), b = nlp::solve(all.horizon.problem, all.guess());
+  const nlp::Solution a = nlp::solve(fewer.horizon.problem, fewer.guess()),
+                      b = nlp::solve(all.horizon.problem, all.guess());
   REQUIRE(a.status == Status::solved);
   REQUIRE(b.status == Status::solved);
   CHECK(violated_reach(fewer.walker, fewer.horizon, a.x, 1e-6).empty());
@@ -310,7 +314,8 @@ TEST_CASE("the cost of a horizon is the documented integral") {
     const VectorXd x = first.guess() + random.vector(horizon.problem.variable_count(), 0.2);
     const bool euler = test.options.transcription == Transcription::euler;
     const int n = test.options.intervals;
-    double cost = 10.0 * (x.segment<3>(horizon.nodes.back().com) + horizon.shift_W - Vector3d(20.0, 0.0, 0.75)).squaredNorm();
+    double cost =
+        10.0 * (x.segment<3>(horizon.nodes.back().com) + horizon.shift_W - Vector3d(20.0, 0.0, 0.75)).squaredNorm();
     for (const Horizon::Phase& phase : horizon.phases) {
       const double h = x[phase.duration] / n, planned_h = (phase.swing >= 0 ? 0.6 : 0.2) / n;
       const auto acceleration = [&](int k) -> Vector3d {
@@ -334,7 +339,8 @@ TEST_CASE("the cost of a horizon is the documented integral") {
           const Placement& foot = horizon.placements[point.placement];
           const double unit = test.options.fidelity == Fidelity::point ? 1600.0 : 400.0;
           const Vector3d l = (foot.origin_W + foot.axes_W.leftCols<2>() * x.segment<2>(foot.variable) + point.offset_W -
-                              x.segment<3>(horizon.nodes[control.node].com)) / 1.5;
+                              x.segment<3>(horizon.nodes[control.node].com)) /
+                             1.5;
           const Vector3d d = walkers::force_W(point, foot, x) / unit;
           const Eigen::Vector2d alphas[] = {{-l.z(), l.y()}, {l.z(), -l.x()}, {-l.y(), l.x()}};
           const Eigen::Vector2d deltas[] = {{d.y(), d.z()}, {d.x(), d.z()}, {d.x(), d.y()}};

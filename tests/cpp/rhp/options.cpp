@@ -20,9 +20,18 @@ TEST_CASE("options out of their range are refused by the name of their field") {
       {"lookahead", [](Options& o) { o.lookahead = 11; }},
       {"cycles", [](Options& o) { o.cycles = 0; }},
       {"intervals", [](Options& o) { o.intervals = 1; }},
-      {"double_support_s", [](Options& o) { o.double_support_s = {0.3, 0.1}; }},
-      {"single_support_s", [](Options& o) { o.single_support_s = {0.0, 0.1}; }},
-      {"com_height", [&](Options& o) { o.com_height = {nan, 1.0}; }},
+      {"double_support_s",
+       [](Options& o) {
+         o.double_support_s = {0.3, 0.1};
+       }},
+      {"single_support_s",
+       [](Options& o) {
+         o.single_support_s = {0.0, 0.1};
+       }},
+      {"com_height",
+       [&](Options& o) {
+         o.com_height = {nan, 1.0};
+       }},
       {"predicted_double_support_s", [](Options& o) { o.predicted_double_support_s = 0.0; }},
       {"predicted_single_support_s", [&](Options& o) { o.predicted_single_support_s = nan; }},
       {"com_velocity_max", [](Options& o) { o.com_velocity_max = -1.0; }},

@@ -127,10 +127,12 @@ TEST_CASE("without polytopes a robot has the boxes of its reach") {
   for (int k = 0; k < 4000; ++k) {
     // A CoM and two feet: allowed where each foot is in its box, which is fixed to the CoM.
     const Vector3d foot = Vector3d(0.05, 0.2, -0.8) + random.three(0.8);
-    const bool inside = (foot.array() >= left.reach_min_B.array()).all() && (foot.array() <= left.reach_max_B.array()).all();
+    const bool inside =
+        (foot.array() >= left.reach_min_B.array()).all() && (foot.array() <= left.reach_max_B.array()).all();
     CHECK((excess(com, -foot) <= 0.0) == inside);
     const Vector3d other = Vector3d(0.05, -0.2, -0.8) + random.three(0.8);
-    const bool also = (other.array() >= right.reach_min_B.array()).all() && (other.array() <= right.reach_max_B.array()).all();
+    const bool also =
+        (other.array() >= right.reach_min_B.array()).all() && (other.array() <= right.reach_max_B.array()).all();
     if (inside && also) {
       CHECK(excess(partner, other - foot) <= 0.0);
       ++in;

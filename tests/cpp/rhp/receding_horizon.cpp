@@ -330,7 +330,8 @@ TEST_CASE("what a scene lacks is refused by name") {
 TEST_CASE("a robot that does not have two feet is refused") {
   Robot robot = walkers::robot();
   robot.end_effectors[1].kind = "hand";
-  CHECK(field_of<InvalidRobot>([&] { RecedingHorizon(walkers::uneven(), robot, walkers::quick()); }) == "end_effectors");
+  CHECK(field_of<InvalidRobot>([&] { RecedingHorizon(walkers::uneven(), robot, walkers::quick()); }) ==
+        "end_effectors");
 }
 
 TEST_CASE("measurements that do not fit the robot are refused and change nothing") {

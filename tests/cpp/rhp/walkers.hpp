@@ -73,14 +73,27 @@ inline mcplan::Polytope mirrored(mcplan::Polytope polytope) {
 
 /// Where the CoM may be over a left foot: a box without its upper corners.
 inline mcplan::Polytope com_over_left() {
-  return polytope({{1, 0, 0, 0.6},     {-1, 0, 0, 0.75},   {0, 1, 0, 0.05},     {0, -1, 0, 0.40},  {0, 0, 1, 1.15},
-                   {0, 0, -1, -0.45},  {1, 0, 1, 1.40},    {-1, 0, 1, 1.50},    {0, -1, 1, 1.30}});
+  return polytope({{1, 0, 0, 0.6},
+                   {-1, 0, 0, 0.75},
+                   {0, 1, 0, 0.05},
+                   {0, -1, 0, 0.40},
+                   {0, 0, 1, 1.15},
+                   {0, 0, -1, -0.45},
+                   {1, 0, 1, 1.40},
+                   {-1, 0, 1, 1.50},
+                   {0, -1, 1, 1.30}});
 }
 
 /// Where a left foot may stand beside a right one: a box without the corners far ahead and far behind.
 inline mcplan::Polytope left_beside_right() {
-  return polytope({{1, 0, 0, 0.32}, {-1, 0, 0, 0.32}, {0, 1, 0, 0.85}, {0, -1, 0, -0.19}, {0, 0, 1, 0.35},
-                   {0, 0, -1, 0.35}, {1, 1, 0, 0.75}, {-1, 1, 0, 0.75}});
+  return polytope({{1, 0, 0, 0.32},
+                   {-1, 0, 0, 0.32},
+                   {0, 1, 0, 0.85},
+                   {0, -1, 0, -0.19},
+                   {0, 0, 1, 0.35},
+                   {0, 0, -1, 0.35},
+                   {1, 1, 0, 0.75},
+                   {-1, 1, 0, 0.75}});
 }
 
 inline mcplan::Robot robot() {
@@ -114,8 +127,7 @@ inline mcplan::Surface patch(const std::string& name, double x0, double x1, doub
   out.end_effectors = {"foot"};
   const double x = 0.5 * (x0 + x1), y = 0.5 * (y0 + y1);
   for (const Vector2d& corner : {Vector2d(x0, y0), Vector2d(x1, y0), Vector2d(x1, y1), Vector2d(x0, y1)})
-    out.vertices_W.push_back(
-        {corner.x(), corner.y(), z + slope_x * (corner.x() - x) + slope_y * (corner.y() - y)});
+    out.vertices_W.push_back({corner.x(), corner.y(), z + slope_x * (corner.x() - x) + slope_y * (corner.y() - y)});
   return out;
 }
 
@@ -133,7 +145,7 @@ inline mcplan::Scene uneven() {
   scene.start.contacts = {{"foot", "start"}};
   scene.goal.position_W = {20.0, 0.0, 0.0};
   scene.goal.contacts = {{"foot", "end"}};
-  scene.steps = {{"left_foot", "start"},   {"right_foot", "right_1"}, {"left_foot", "left_1"},
+  scene.steps = {{"left_foot", "start"},    {"right_foot", "right_1"}, {"left_foot", "left_1"},
                  {"right_foot", "right_2"}, {"left_foot", "left_2"},   {"right_foot", "end"}};
   return scene;
 }

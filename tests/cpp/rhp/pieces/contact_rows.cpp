@@ -34,8 +34,7 @@ TEST_CASE("the acceleration is what the forces of all points leave of gravity") 
 
   VectorXd x = random.vector(21, 5.0);
   Vector3d sum = Vector3d::Zero();
-  for (const ContactPoint& point : points)
-    sum += walkers::force_W(point, placements[point.placement], x);
+  for (const ContactPoint& point : points) sum += walkers::force_W(point, placements[point.placement], x);
   x.head<3>() = sum / 95.0 - Vector3d(0.0, 0.0, 9.81);
   CHECK(problem.equality_count() == 3);
   CHECK(violation(problem, x) < 1e-12);
@@ -95,7 +94,8 @@ TEST_CASE("the edges of a pyramid span what its rows allow") {
         CHECK(edge.z() == doctest::Approx(1.0));
         CHECK(edge.head<2>().norm() == doctest::Approx(outer ? 0.3 * std::sqrt(2.0) : 0.3));
         for (int k = 0; k < j; ++k) CHECK((edges.col(j) - edges.col(k)).norm() > 0.05);
-        // Sums of neighbours are as far out as a force may be; the rows bound the same polygon, perhaps turned by half a side.
+        // Sums of neighbours are as far out as a force may be; the rows bound the same polygon, perhaps turned by half
+        // a side.
         if (outer) CHECK(violation(rows, edge) < 1e-12);
       }
       for (int i = 0; i < 200; ++i) {
@@ -125,6 +125,7 @@ TEST_CASE("the force box binds forces along the edges of the pyramid as it does 
     problem.finish();
     for (int i = 0; i < 200; ++i) {
       VectorXd x = random.vector(count).cwiseMax(0.0);
+      if (i % 4 == 0) x = VectorXd::Unit(count, i / 4 % count);  // one edge alone, which may point downwards
       const double largest = walkers::force_W(point, placement, x).cwiseAbs().maxCoeff();
       if (largest < 1.0) continue;
       x *= random.in(0.8, 1.2) * kLimit / largest;

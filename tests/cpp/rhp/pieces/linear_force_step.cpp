@@ -31,7 +31,8 @@ struct Contacts {
     return sum;
   }
 
-  /// Newton and Euler in small steps of the classical Runge-Kutta method, which knows nothing of polynomials in closed form.
+  /// Newton and Euler in small steps of the classical Runge-Kutta method, which knows nothing of polynomials in closed
+  /// form.
   Motion integrate(Motion at) const {
     constexpr int kSteps = 400;
     const double dt = h / kSteps;
@@ -94,8 +95,8 @@ TEST_CASE("steps under linear forces are zero on an integration by Runge and Kut
     const Interval i(seed);
     CHECK(values(velocity, row({i.begin.velocity, i.end.velocity, i.a0, i.a1}, i.duration())).norm() < 1e-11);
     CHECK(values(position, row({i.begin.com, i.end.com, i.begin.velocity, i.a0, i.a1}, i.duration())).norm() < 1e-11);
-    CHECK(values(momentum, row({i.begin.momentum, i.end.momentum, i.R0, i.R1, i.begin.velocity, i.a0, i.a1},
-                               i.duration()))
+    CHECK(values(momentum,
+                 row({i.begin.momentum, i.end.momentum, i.R0, i.R1, i.begin.velocity, i.a0, i.a1}, i.duration()))
               .norm() < 1e-8);
   }
 }

@@ -44,8 +44,7 @@ TEST_CASE("the rate of the angular momentum is the sum of cross products about t
     for (const ContactPoint& point : feet.points) {
       const Placement& foot = feet.placements[point.placement];
       const Vector3d t1 = foot.axes_W.col(0), t2 = foot.axes_W.col(1);
-      const Vector3d where =
-          foot.origin_W + all[foot.variable] * t1 + all[foot.variable + 1] * t2 + point.offset_W;
+      const Vector3d where = foot.origin_W + all[foot.variable] * t1 + all[foot.variable + 1] * t2 + point.offset_W;
       torque += (where - all.segment<3>(3)).cross(walkers::force_W(point, foot, all));
     }
     CHECK((values(piece, x) - (all.head<3>() - torque)).norm() < 1e-10);

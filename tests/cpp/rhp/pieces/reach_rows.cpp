@@ -83,7 +83,8 @@ TEST_CASE("the rows of a foothold hold exactly where all four corners of the sol
       double least = 1e9;
       for (double s1 : {1.0, -1.0})
         for (double s2 : {1.0, -1.0})
-          least = std::min(least, ground.inside(centre + ground.foot.axes_W * Vector3d(s1 * half[0], s2 * half[1], 0.0)));
+          least =
+              std::min(least, ground.inside(centre + ground.foot.axes_W * Vector3d(s1 * half[0], s2 * half[1], 0.0)));
       ++(least > 0.0 ? in : out);
       // Not only the sign: the violation of the worst row is how far the worst corner is out.
       CHECK(violation(problem, w) == doctest::Approx(std::max(-least, 0.0)).epsilon(1e-9));

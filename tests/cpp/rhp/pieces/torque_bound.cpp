@@ -19,7 +19,8 @@ struct Point {
   }
   int psi() const { return 5 + (point.edges_W.cols() > 0 ? 4 : 3); }
   Vector3d torque_W(const VectorXd& x) const {
-    const Vector3d where = placement.origin_W + x[3] * placement.axes_W.col(0) + x[4] * placement.axes_W.col(1) + point.offset_W;
+    const Vector3d where =
+        placement.origin_W + x[3] * placement.axes_W.col(0) + x[4] * placement.axes_W.col(1) + point.offset_W;
     return (where - x.head<3>()).cross(walkers::force_W(point, placement, x));
   }
 };
