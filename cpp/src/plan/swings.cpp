@@ -32,7 +32,7 @@ void choose_swings(Plan& plan) {
       constexpr double kSample = 0.01;
       double best_depth = clearance_depth(plan, solids, e, stretch, kSample);
       double best_height = swing.height;
-      for (double factor : {1.5, 2.0, 3.0, 0.5}) {
+      for (double factor : {1.5, 2.0, 3.0, 4.0, 0.5}) {
         if (best_depth <= 0.0) break;
         plan.swings.back().height = factor * swing.height;
         const double depth = clearance_depth(plan, solids, e, stretch, kSample);

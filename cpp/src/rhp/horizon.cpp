@@ -327,6 +327,16 @@ Horizon build_horizon(const Walker& walker, const Footsteps& footsteps, const Ho
   return Builder(walker, footsteps, request).take();
 }
 
+nlp::Problem::Worst worst_left_out(const Walker& walker, const Horizon& horizon, const Eigen::VectorXd& x) {
+  nlp::Problem::Worst worst;
+  for (const ReachRow& at : horizon.left_out) {
+    const Polytope& all = walker.feet[horizon.placements[at.placement].foot].com_reach_W;
+    const double over = -reach_distance(all, horizon, x, at.node, at.placement)[at.row];
+    if (over > worst.value) worst = {"com_reach at stage " + std::to_string(at.node), over};
+  }
+  return worst;
+}
+
 std::set<ReachRow> violated_reach(const Walker& walker, const Horizon& horizon, const Eigen::VectorXd& x,
                                   double tolerance) {
   std::set<ReachRow> out;

@@ -115,7 +115,8 @@ Cycle RecedingHorizon::Impl::run() {
     constexpr int kAttempts = 5;
     const std::set<ReachRow> missed = violated_reach(walker, horizon_now, solution.x, options.constraint_tolerance);
     if (missed.empty() || attempt == kAttempts || solution.status != Status::solved) {
-      if (!missed.empty()) solution.worst = {"com_reach", options.constraint_tolerance * 10.0};
+      const nlp::Problem::Worst unseen = worst_left_out(walker, horizon_now, solution.x);
+      if (unseen.value > solution.worst.value) solution.worst = unseen;
       break;
     }
     request.reach_rows.insert(missed.begin(), missed.end());

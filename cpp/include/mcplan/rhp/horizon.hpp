@@ -73,6 +73,9 @@ struct HorizonRequest {
 /// options.all_faces): most of the rows, none of which is ever active. The caller checks the solution against them.
 Horizon build_horizon(const Walker& walker, const Footsteps& footsteps, const HorizonRequest& request);
 
+/// The face left out that x violates most.
+nlp::Problem::Worst worst_left_out(const Walker& walker, const Horizon& horizon, const Eigen::VectorXd& x);
+
 /// Faces left out that x violates by more than tolerance [m].
 std::set<ReachRow> violated_reach(const Walker& walker, const Horizon& horizon, const Eigen::VectorXd& x,
                                   double tolerance);

@@ -20,13 +20,14 @@ std::vector<int> TorqueForms::variables(int com, const Placement& placement, con
   return variables;
 }
 
-TorqueForms::TorqueForms(const Placement& placement, const ContactPoint& point, double force_unit) {
-  // lever = D x + d, force = F x
-  Eigen::Matrix3Xd D = Eigen::Matrix3Xd::Zero(3, 5 + point.count()), F = D;
+TorqueForms::TorqueForms(const Placement& placement, const ContactPoint& point, double force_unit)
+    : directions_(point.directions_W(placement)) {
+  // lever = D z + d, force = F z
+  Eigen::Matrix<double, 3, kSize> D = Eigen::Matrix<double, 3, kSize>::Zero(), F = D;
   D.leftCols<3>() = -Eigen::Matrix3d::Identity() / kLeverUnit;
   D.middleCols<2>(3) = placement.axes_W.leftCols<2>() / kLeverUnit;
   const Eigen::Vector3d d = (placement.origin_W + point.offset_W) / kLeverUnit;
-  F.rightCols(point.count()) = kForceUnit / force_unit * point.directions_W(placement);
+  F.rightCols<3>() = kForceUnit / force_unit * Eigen::Matrix3d::Identity();
 
   // Torque component i = l_j d_k - l_k d_j with (i, j, k) cyclic: alpha = (-l_k, l_j), delta = (d_j, d_k).
   for (int i = 0; i < 3; ++i) {
@@ -34,12 +35,34 @@ TorqueForms::TorqueForms(const Placement& placement, const ContactPoint& point, 
     for (int sign : {0, 1}) {
       const double s = sign == 0 ? 1.0 : -1.0;
       const int at = 2 * i + sign;
-      E_[at].resize(2, D.cols());
       E_[at].row(0) = -D.row(k) + s * F.row(j);
       E_[at].row(1) = D.row(j) + s * F.row(k);
       e_[at] = Vector2d(-d[k], d[j]);
       EE_[at] = E_[at].transpose() * E_[at];
     }
+  }
+}
+
+TorqueForms::Point TorqueForms::point(const nlp::ConstVector& x) const {
+  Point z;
+  z.head<5>() = x.head<5>();
+  z.tail<3>().noalias() = directions_ * x.segment(5, directions_.cols());
+  return z;
+}
+
+void TorqueForms::expand_row(const Eigen::Matrix<double, 1, kSize>& row, int at, nlp::Matrix J) const {
+  J.row(at).head<5>() = row.head<5>();
+  J.row(at).segment(5, directions_.cols()).noalias() = row.tail<3>() * directions_;
+}
+
+void TorqueForms::expand(const Square& square, nlp::Matrix H) const {
+  const auto n = directions_.cols();
+  H.topLeftCorner<5, 5>() = square.topLeftCorner<5, 5>();
+  H.block(5, 0, n, 5).noalias() = directions_.transpose() * square.bottomLeftCorner<3, 5>();
+  const Eigen::Matrix3d force = square.bottomRightCorner<3, 3>();
+  for (int i = 0; i < n; ++i) {
+    const Eigen::Vector3d along = force * directions_.col(i);
+    for (int j = i; j < n; ++j) H(5 + j, 5 + i) = along.dot(directions_.col(j));
   }
 }
 
@@ -49,22 +72,23 @@ TorqueBound::TorqueBound(int com, const Placement& placement, const ContactPoint
       lifted_(psi >= 0) {}
 
 void TorqueBound::values(const nlp::ConstVector& x, nlp::Vector f) const {
-  const auto z = x.head(forms_.size());
+  const TorqueForms::Point z = forms_.point(x);
   for (int j = 0; j < TorqueForms::kCount; ++j)
     f[j] = forms_.form(j, z).squaredNorm() - (lifted_ ? x[forms_.size() + j] : 0.0);
 }
 
 void TorqueBound::jacobian(const nlp::ConstVector& x, nlp::Matrix J) const {
-  const auto z = x.head(forms_.size());
+  const TorqueForms::Point z = forms_.point(x);
   for (int j = 0; j < TorqueForms::kCount; ++j) {
-    J.row(j).head(forms_.size()).noalias() = 2.0 * forms_.form(j, z).transpose() * forms_.slope(j);
+    forms_.expand_row(2.0 * forms_.form(j, z).transpose() * forms_.slope(j), j, J);
     if (lifted_) J(j, forms_.size() + j) = -1.0;
   }
 }
 
 void TorqueBound::hessian(const nlp::ConstVector&, const nlp::ConstVector& weights, nlp::Matrix H) const {
-  auto block = H.topLeftCorner(forms_.size(), forms_.size());
-  for (int j = 0; j < TorqueForms::kCount; ++j) block += 2.0 * weights[j] * forms_.squared_slope(j);
+  TorqueForms::Square sum = TorqueForms::Square::Zero();
+  for (int j = 0; j < TorqueForms::kCount; ++j) sum += 2.0 * weights[j] * forms_.squared_slope(j);
+  forms_.expand(sum, H);
 }
 
 TorqueCost::TorqueCost(int com, const Placement& placement, const ContactPoint& point, double force_unit, double weight)
@@ -73,7 +97,7 @@ TorqueCost::TorqueCost(int com, const Placement& placement, const ContactPoint& 
       weight_(weight) {}
 
 void TorqueCost::values(const nlp::ConstVector& x, nlp::Vector f) const {
-  const auto z = x.head(forms_.size());
+  const TorqueForms::Point z = forms_.point(x);
   f[0] = 0.0;
   for (int j = 0; j < TorqueForms::kCount; ++j) {
     const double square = forms_.form(j, z).squaredNorm();
@@ -82,23 +106,25 @@ void TorqueCost::values(const nlp::ConstVector& x, nlp::Vector f) const {
 }
 
 void TorqueCost::jacobian(const nlp::ConstVector& x, nlp::Matrix J) const {
-  const auto z = x.head(forms_.size());
+  const TorqueForms::Point z = forms_.point(x);
+  Eigen::Matrix<double, 1, TorqueForms::kSize> row = Eigen::Matrix<double, 1, TorqueForms::kSize>::Zero();
   for (int j = 0; j < TorqueForms::kCount; ++j) {
     const Vector2d e = forms_.form(j, z);
-    J.row(0).noalias() += 4.0 * weight_ * e.squaredNorm() * (e.transpose() * forms_.slope(j));
+    row += 4.0 * weight_ * e.squaredNorm() * (e.transpose() * forms_.slope(j));
   }
+  forms_.expand_row(row, 0, J);
 }
 
 void TorqueCost::hessian(const nlp::ConstVector& x, const nlp::ConstVector& weights, nlp::Matrix H) const {
-  const auto z = x.head(forms_.size());
+  const TorqueForms::Point z = forms_.point(x);
   const double w = weights[0] * weight_;
+  TorqueForms::Square sum = TorqueForms::Square::Zero();
   for (int j = 0; j < TorqueForms::kCount; ++j) {
     const Vector2d e = forms_.form(j, z);
-    H += 4.0 * w * e.squaredNorm() * forms_.squared_slope(j);
-    const auto& slope = forms_.slope(j);
-    for (int column = 0; column < forms_.size(); ++column)
-      H.col(column).noalias() += 8.0 * w * e.dot(slope.col(column)) * (slope.transpose() * e);
+    const TorqueForms::Point slope = forms_.slope(j).transpose() * e;
+    sum += 4.0 * w * e.squaredNorm() * forms_.squared_slope(j) + 8.0 * w * slope * slope.transpose();
   }
+  forms_.expand(sum, H);
 }
 
 }  // namespace mcplan::rhp

@@ -19,20 +19,30 @@ class TorqueForms {
  public:
   static constexpr double kLeverUnit = 1.5;  ///< [m]
   static constexpr int kCount = 6;           ///< forms
+  static constexpr int kSize = 8;            ///< c, w and f / kForceUnit in world axes
+  using Point = Eigen::Matrix<double, kSize, 1>;
+  using Square = Eigen::Matrix<double, kSize, kSize>;
 
   /// force_unit [N]: the largest component of the point's force.
   TorqueForms(const Placement& placement, const ContactPoint& point, double force_unit);
 
   static std::vector<int> variables(int com, const Placement& placement, const ContactPoint& point);
 
-  int size() const { return static_cast<int>(E_[0].cols()); }  ///< variables (c, w, f)
-  Eigen::Vector2d form(int j, const nlp::ConstVector& x) const { return E_[j] * x + e_[j]; }
-  const Eigen::Matrix2Xd& slope(int j) const { return E_[j]; }
-  const Eigen::MatrixXd& squared_slope(int j) const { return EE_[j]; }  ///< E_j^T E_j
+  int size() const { return 5 + static_cast<int>(directions_.cols()); }  ///< variables: c, w, those of the force
+
+  Point point(const nlp::ConstVector& x) const;  ///< (c, w, f) of the variables
+  Eigen::Vector2d form(int j, const Point& z) const { return E_[j] * z + e_[j]; }
+  const Eigen::Matrix<double, 2, kSize>& slope(int j) const { return E_[j]; }
+  const Square& squared_slope(int j) const { return EE_[j]; }  ///< E_j^T E_j
+
+  /// From derivatives with respect to (c, w, f) to those with respect to the variables.
+  void expand_row(const Eigen::Matrix<double, 1, kSize>& row, int at, nlp::Matrix J) const;
+  void expand(const Square& square, nlp::Matrix H) const;
 
  private:
-  std::array<Eigen::Matrix2Xd, kCount> E_;
-  std::array<Eigen::MatrixXd, kCount> EE_;
+  Eigen::Matrix3Xd directions_;  ///< of the force
+  std::array<Eigen::Matrix<double, 2, kSize>, kCount> E_;
+  std::array<Square, kCount> EE_;
   std::array<Eigen::Vector2d, kCount> e_;
 };
 
