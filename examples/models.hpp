@@ -100,15 +100,15 @@ inline mcplan::Scene rubbles() {
     return surface;
   };
   scene.surfaces = {rectangle("start", -1.0, 1.0, -0.5, 0.5, 0.0), patch("right_1", 1.0, -0.5, {1, 1, -1, -1}),
-                    patch("left_1", 1.0, 0.0, {1, -1, -1, 1}), patch("right_2", 1.6, -0.5, {-1, -1, 1, 1}),
-                    patch("left_2", 1.6, 0.0, {-1, 1, 1, -1}), rectangle("end", 2.2, 50.0, -0.5, 0.5, 0.0)};
+                    patch("left_1", 1.0, 0.0, {1, -1, -1, 1}),     patch("right_2", 1.6, -0.5, {-1, -1, 1, 1}),
+                    patch("left_2", 1.6, 0.0, {-1, 1, 1, -1}),     rectangle("end", 2.2, 50.0, -0.5, 0.5, 0.0)};
   for (mcplan::Surface& surface : scene.surfaces) surface.friction = 0.3;
   scene.start.position_W = {0.6, 0.0, 0.0};
   scene.start.contacts = {{"foot", "start"}};
   scene.goal.position_W = {20.0, 0.0, 0.0};
   scene.goal.contacts = {{"foot", "end"}};
-  scene.steps = {{"left_foot", "start"}, {"right_foot", "right_1"}, {"left_foot", "left_1"},
-                 {"right_foot", "right_2"}, {"left_foot", "left_2"}, {"right_foot", "end"}};
+  scene.steps = {{"left_foot", "start"},    {"right_foot", "right_1"}, {"left_foot", "left_1"},
+                 {"right_foot", "right_2"}, {"left_foot", "left_2"},   {"right_foot", "end"}};
   return scene;
 }
 
