@@ -117,6 +117,19 @@ class Builder {
       }
   }
 
+  /// Three variables, each component within +- limit in the axes of the heading: bounds where these are the world's.
+  int add_boxed(const char* name, double limit, int stage) {
+    const bool aligned = (walker_.r_WH.cwiseAbs().array() > 1.0 - 1e-12).count() == 3;
+    const double bound = aligned ? limit : kInfinity;
+    const int first = problem().add_variables(name, 3, -bound, bound, {stage, stage});
+    if (!aligned && stage > 0)
+      problem().add_constraint(
+          std::make_unique<nlp::LinearPiece>(std::string(name) + "_box", std::vector<int>{first, first + 1, first + 2},
+                                             walker_.r_WH.transpose()),
+          -limit, limit);
+    return first;
+  }
+
   void add_nodes() {
     const State& state = request_.state;
     const int centroidal_nodes =
@@ -127,8 +140,8 @@ class Builder {
       Horizon::Node node;
       node.com = problem().add_variables("com", 3, -kInfinity, kInfinity, {k, k});
       const double v = options_.com_velocity_max, L = options_.momentum_max;
-      node.velocity = problem().add_variables("velocity", 3, -v, v, {k, k});
-      if (k < centroidal_nodes) node.momentum = problem().add_variables("angular_momentum", 3, -L, L, {k, k});
+      node.velocity = add_boxed("velocity", v, k);
+      if (k < centroidal_nodes) node.momentum = add_boxed("angular_momentum", L, k);
       if (options_.paper) {
         for (int i = 0; i < 2; ++i)
           problem().set_bounds(node.com + i, kPaperLow[i] - out_.shift_W[i], kPaperHigh[i] - out_.shift_W[i]);
@@ -155,7 +168,7 @@ class Builder {
                        walker_.scene.gravity);
       if (phase.centroidal) {
         const double R = options_.momentum_rate_max;
-        control.rate = problem().add_variables("momentum_rate", 3, -R, R, here);
+        control.rate = add_boxed("momentum_rate", R, control.node);
         problem().add_equality(std::make_unique<MomentumRate>(control.rate, out_.nodes[control.node].com,
                                                               out_.placements, control.points));
       } else if (options_.fidelity != Fidelity::com) {

@@ -75,9 +75,10 @@ void add_force_box(nlp::Problem& problem, const Placement& placement, const Cont
   for (int component : {2, 0, 1}) {
     if (component == 2 && level && !edges) continue;
     if (component != 2 && implied(axes, friction, component)) continue;
+    const bool never_below = edges && point.edges_W.row(component).minCoeff() >= 0.0;
     problem.add_constraint(std::make_unique<nlp::LinearPiece>("force_box", variables,
                                                               MatrixXd(point.directions_W(placement).row(component))),
-                           component == 2 && edges ? -nlp::kInfinity : -most, most);
+                           never_below ? -nlp::kInfinity : -most, most);
   }
 }
 
