@@ -150,6 +150,20 @@ class Options:
         self, arg1: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]
     ) -> None: ...
     @property
+    def foothold_margin_m(self) -> float:
+        """
+        Of the sole to the edges of a surface [m].
+        """
+    @foothold_margin_m.setter
+    def foothold_margin_m(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def friction_rows(self) -> bool:
+        """
+        Friction as rows, not as edges of the pyramid.
+        """
+    @friction_rows.setter
+    def friction_rows(self, arg0: bool) -> None: ...
+    @property
     def friction_sides(self) -> int:
         """
         Of the pyramid inside the friction cone.
