@@ -172,25 +172,28 @@ def noisy_start(terrain: str, seed: int) -> rhp.State:
     )
 
 
-def cycles_done_from(terrain: str, seed: int) -> tuple[int, str]:
-    """Cycles of `point` that give a step, from a noisy start, until one fails; and why it did."""
+def cycles_solved_from(terrain: str, seed: int) -> tuple[int, str]:
+    """Cycles of `point` that are solved, from a noisy start, until one gives no step; and what was wrong last."""
     options = options_for("point_3", paper=False)
     options.time_limit_s = 10.0
     planner = rhp.RecedingHorizon(mp.load_scene(terrain), mp.load_robot("talos_wang"), options)
-    cycle = planner.step(noisy_start(terrain, seed))
-    for done in range(CYCLES):
+    solved, wrong = 0, ""
+    for k in range(CYCLES):
+        cycle = planner.step(noisy_start(terrain, seed)) if k == 0 else planner.step()
+        if cycle.status == mp.Status.solved:
+            solved += 1
+        else:
+            wrong = f"cycle {k}: {cycle.status.name}, {cycle.worst_violation}"
         if not cycle.executed:
-            return done, f"{cycle.status.name} at {cycle.worst_violation.name}"
-        if done < CYCLES - 1:
-            cycle = planner.step()
-    return CYCLES, ""
+            break
+    return solved, wrong
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("terrain", TERRAINS)
 def test_noisy_starts(terrain: str) -> None:
-    """At least 97 of 100 cycles give a step, those after a failure counted as failed."""
+    """At least 97 of 100 cycles are solved, those after a failure counted as not solved."""
     seeds = 100
-    done = {seed: cycles_done_from(terrain, seed) for seed in range(seeds)}
+    done = {seed: cycles_solved_from(terrain, seed) for seed in range(seeds)}
     failed = {seed: what for seed, what in done.items() if what[0] < CYCLES}
     assert sum(n for n, _ in done.values()) >= 0.97 * seeds * CYCLES, failed
