@@ -33,6 +33,7 @@ def planner(terrain: str, robot: str, fidelity: str, lookahead: int, transcripti
     options = rhp.Options()
     options.fidelity, options.transcription = getattr(rhp.Fidelity, fidelity), getattr(rhp.Transcription, transcription)
     options.lookahead, options.paper = lookahead, paper
+    options.foothold_margin_m = 0.0  # as in the peers' program
     return rhp.RecedingHorizon(mcplan.load_scene(terrain), mcplan.load_robot(robot), options)
 
 
