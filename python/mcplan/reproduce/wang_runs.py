@@ -126,8 +126,8 @@ def configs(lookahead_max: int, seeds: int, terrains: Iterable[str] = TERRAINS) 
     return out
 
 
-def planner(config: Config, max_iterations: int | None = None, lifted_psi: bool = False) -> RecedingHorizon:
-    """The paper's form: forward Euler, its CoM box and friction pyramid."""
+def planner(config: Config, **more: Any) -> RecedingHorizon:
+    """The paper's form: forward Euler, its CoM box and friction pyramid; `more` are further options."""
     import mcplan
     from mcplan._core import rhp
 
@@ -136,10 +136,9 @@ def planner(config: Config, max_iterations: int | None = None, lifted_psi: bool 
     options.lookahead = config.predicted + 1
     options.transcription = rhp.Transcription.euler
     options.paper = True
-    options.lifted_psi = lifted_psi
     options.time_limit_s = TIME_LIMIT_S[config.method]
-    if max_iterations is not None:
-        options.max_iterations = max_iterations
+    for name, value in more.items():
+        setattr(options, name, value)
     return rhp.RecedingHorizon(mcplan.load_scene(config.terrain), mcplan.load_robot(ROBOT), options)
 
 

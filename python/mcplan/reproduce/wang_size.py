@@ -68,8 +68,10 @@ def built(terrain: str = "rubbles") -> list[dict[str, Any]]:
         for lifted in (False, True) if method in ("rectangle", "point") else (False,):
             sizes[method, lifted] = []
             for predicted in (1, 2):
-                # One iteration: the program is built whether or not it is solved.
-                cycle = planner(Config(terrain, method, predicted), max_iterations=1, lifted_psi=lifted).step()
+                # One iteration: the program is built whether or not it is solved. Forces of three components and all
+                # rows, as in the paper.
+                options = {"friction_rows": True, "all_faces": True, "lifted_psi": lifted, "max_iterations": 1}
+                cycle = planner(Config(terrain, method, predicted), **options).step()
                 sizes[method, lifted].append((cycle.variables, cycle.constraints))
     out = []
     com_rows = sizes["com", False][1][1] - sizes["com", False][0][1]
@@ -123,6 +125,8 @@ def table(sizes: list[dict[str, Any]]) -> list[str]:
         "- psi is eliminated: 48 and 12 variables less, with the same number of rows, |alpha +- delta|^2 <= psi_max instead of",
         "  <= psi. The optimum is the same (docs/theory/rhp.md).",
         "- The levers p - c are no variables in either; here footholds are two coordinates of their surface.",
+        "- Counted with forces of three components and friction as rows, as in the paper. What runs by default has factors",
+        "  of the friction pyramid's 4 edges instead (8 without `paper`): one variable a point more, 4 rows less.",
         "- On one foot the forces of the other do not exist here; the paper gives one count for every knot.",
         "- The paper does not say what its rows count, and its sums differ in kind: 78 = 6 + 24 + 48 would be c, v, the forces",
         "  of 8 corners and psi, whereas 12 = 6 + 6 has no room for the 12 psi of two point feet, and 18 = 6 + 12 none for",
