@@ -138,7 +138,7 @@ void Problem::finish() {
   x_.resize(most_variables);
   f_.resize(most_rows);
   weights_.resize(most_rows);
-  buffer_.resize(std::max(most_variables, most_rows) * most_variables);
+  buffer_ = VectorXd::Zero(std::max(most_variables, most_rows) * most_variables);
 
   linear_jacobian_ = VectorXd::Zero(static_cast<int>(jacobian_.size()));
   for (const Block& block : blocks_) {
@@ -162,10 +162,10 @@ ConstVector Problem::gather(const Block& block, const ConstVector& x) const {
   return x_.head(variables.size());
 }
 
-Eigen::Map<MatrixXd> Problem::zeroed(int rows, int columns) const {
-  Eigen::Map<MatrixXd> out(buffer_.data(), rows, columns);
-  out.setZero();
-  return out;
+Eigen::Map<MatrixXd> Problem::zeroed(int rows, int columns, const std::vector<int>& entries) const {
+  // Of a block of thousands of entries some hundred are ever looked at.
+  for (int entry : entries) buffer_[entry] = 0.0;
+  return {buffer_.data(), rows, columns};
 }
 
 double Problem::cost(const ConstVector& x) const {
@@ -182,7 +182,7 @@ void Problem::gradient(const ConstVector& x, Vector out) const {
   out.setZero();
   for (const Block& block : blocks_) {
     if (!block.is_cost()) continue;
-    auto J = zeroed(block.piece->rows(), block.piece->size());
+    auto J = zeroed(block.piece->rows(), block.piece->size(), block.jacobian_from);
     block.piece->jacobian(gather(block, x), J);
     for (std::size_t i = 0; i < block.jacobian_at.size(); ++i)
       out[block.jacobian_at[i]] += J.data()[block.jacobian_from[i]];
@@ -198,7 +198,7 @@ void Problem::jacobian(const ConstVector& x, Vector values) const {
   values = linear_jacobian_;
   for (const Block& block : blocks_) {
     if (block.is_cost() || block.piece->linear()) continue;
-    auto J = zeroed(block.piece->rows(), block.piece->size());
+    auto J = zeroed(block.piece->rows(), block.piece->size(), block.jacobian_from);
     block.piece->jacobian(gather(block, x), J);
     for (std::size_t i = 0; i < block.jacobian_at.size(); ++i)
       values[block.jacobian_at[i]] += J.data()[block.jacobian_from[i]];
@@ -214,7 +214,7 @@ void Problem::hessian(const ConstVector& x, double cost_factor, const ConstVecto
       weights_.head(m).setConstant(cost_factor);
     else
       weights_.head(m) = multipliers.segment(block.first_row, m);
-    auto H = zeroed(n, n);
+    auto H = zeroed(n, n, block.hessian_from);
     block.piece->hessian(gather(block, x), weights_.head(m), H);
     for (std::size_t i = 0; i < block.hessian_at.size(); ++i)
       values[block.hessian_at[i]] += H.data()[block.hessian_from[i]];

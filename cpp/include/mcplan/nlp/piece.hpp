@@ -31,10 +31,10 @@ class Piece {
   /// f(x), `rows` values.
   virtual void values(const ConstVector& x, Vector f) const = 0;
 
-  /// df/dx, rows x size. J is zero on entry.
+  /// df/dx, rows x size. On entry J is zero wherever it has structure; other entries are not looked at.
   virtual void jacobian(const ConstVector& x, Matrix J) const = 0;
 
-  /// sum_i weights_i d2f_i/dx2, size x size. H is zero on entry; only its lower triangle is read.
+  /// sum_i weights_i d2f_i/dx2, size x size, likewise; only the lower triangle of H is read.
   virtual void hessian(const ConstVector& x, const ConstVector& weights, Matrix H) const = 0;
 
   /// True if the Jacobian is constant and the Hessian zero: both are then evaluated once.

@@ -93,7 +93,8 @@ class Problem {
  private:
   std::string piece_name(const Block& block) const;
   ConstVector gather(const Block& block, const ConstVector& x) const;  ///< the piece's variables, in x_
-  Eigen::Map<Eigen::MatrixXd> zeroed(int rows, int columns) const;     ///< a dense block, in buffer_
+  Eigen::Map<Eigen::MatrixXd> zeroed(int rows, int columns,
+                                     const std::vector<int>& entries) const;  ///< a dense block, in buffer_
 
   struct Group {
     std::string name;

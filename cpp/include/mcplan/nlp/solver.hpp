@@ -26,8 +26,8 @@ struct SolverOptions {
   double initial_barrier = 0.1;
   bool adaptive_barrier = false;
   bool gradient_scaling = true;  ///< Ipopt scales costs and rows by their gradients at x0; off for well-scaled problems
-  Logger logger;     ///< one line an iteration; null: silent
-  StopRequest stop;  ///< polled once an iteration; null: never
+  Logger logger;                 ///< one line an iteration; null: silent
+  StopRequest stop;              ///< polled once an iteration; null: never
 
   /// Throws InvalidOptions naming the first field out of its range.
   void validate() const;
