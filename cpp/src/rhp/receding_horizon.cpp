@@ -79,7 +79,7 @@ struct RecedingHorizon::Impl {
   int steps_left() const { return footsteps.ends() ? footsteps.count() - index : walker.options.lookahead; }
 
   Cycle run();
-  void accept(Cycle& cycle, const Horizon& horizon_now, const nlp::Solution& solution, Clock::time_point begin);
+  void accept(Cycle& cycle, const Horizon& horizon_now, const nlp::Solution& solution);
 };
 
 Cycle RecedingHorizon::Impl::run() {
@@ -137,7 +137,7 @@ Cycle RecedingHorizon::Impl::run() {
   cycle.worst_violation.value = solution.worst.value;
   cycle.worst_violation.tolerance = options.constraint_tolerance;
   if (solution.worst.value <= options.constraint_tolerance)
-    accept(cycle, horizon_now, solution, begin);
+    accept(cycle, horizon_now, solution);
   else if (cycle.status == Status::solved)
     cycle.status = Status::acceptable;
   cycle.time_s = seconds_since(begin);
@@ -150,8 +150,7 @@ Cycle RecedingHorizon::Impl::run() {
 }
 
 /// Take a motion that keeps the program's constraints; the checker decides whether it is called solved.
-void RecedingHorizon::Impl::accept(Cycle& cycle, const Horizon& horizon_now, const nlp::Solution& solution,
-                                   Clock::time_point) {
+void RecedingHorizon::Impl::accept(Cycle& cycle, const Horizon& horizon_now, const nlp::Solution& solution) {
   Plan next = executed_plan(walker, state, horizon_now, solution.x, 1);
   Tolerances tolerances;
   tolerances.sample_s = 0.005;

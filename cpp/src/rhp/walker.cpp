@@ -13,9 +13,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Largest difference in height between two surfaces on which feet may stand at the same time, taken as all of them
-/// where that is not known: enough for leaving out faces that can never matter.
-constexpr double kFarthestStep_m = 2.0;
+/// No CoM and no other foot is further than this from a foot in contact, along either horizontal axis [m].
+constexpr double kFarthest_m = 2.0;
 
 std::array<int, 2> two_feet(const Robot& robot) {
   std::vector<int> feet;
@@ -57,7 +56,7 @@ Walker::Walker(const Scene& scene_in, const Robot& robot_in, const Options& opti
     const EndEffector& other = robot.end_effectors[ends[1 - i]];
     Polytope com_reach = com_reach_of(foot), partner_reach = partner_reach_of(foot, other);
     if (!options.all_faces) {
-      const Vector3d far(kFarthestStep_m, kFarthestStep_m, 0.0);
+      const Vector3d far(kFarthest_m, kFarthest_m, 0.0);
       com_reach = without_implied_rows(com_reach, -far + com_height_m.min * Vector3d::UnitZ(),
                                        far + com_height_m.max * Vector3d::UnitZ());
       // Feet in contact at the same time differ in height by at most the range of the CoM over each of them.
