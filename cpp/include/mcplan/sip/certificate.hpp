@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mcplan/plan/whole_body_checker.hpp"
+#include "mcplan/plan/whole_body_plan.hpp"
+
+namespace mcplan::sip {
+
+enum class Proof { proved, not_proved, violated };
+
+/// What certify() found out about one kind of constraint.
+struct ProvedConstraint {
+  std::string name;  ///< as in plan/whole_body_checker.hpp
+  Proof proof = Proof::not_proved;
+  double bound = 0.0;      ///< proved upper bound of the amount beyond the limit, over the whole motion, in `unit`
+  double tolerance = 0.0;  ///< what was to be proved: bound <= tolerance
+  std::string unit;
+  int phase = -1;     ///< where the bound is largest
+  std::string where;  ///< joint, end-effector or point
+  double time_s = 0.0;
+};
+
+struct Certificate {
+  std::vector<ProvedConstraint> constraints;
+  int subdivisions = 0;   ///< pieces of time looked at
+  double rounding = 0.0;  ///< largest allowance for floating-point arithmetic that was added, relative
+  double time_s = 0.0;    ///< wall clock
+
+  bool proved() const;  ///< every constraint
+  std::string to_string() const;
+};
+
+struct CertifyOptions {
+  WholeBodyTolerances tolerances;  ///< what is to be proved
+  int order = 8;                   ///< of the Taylor models
+  int max_depth = 12;              ///< halvings of an interval
+};
+
+/// Prove every inequality of a whole-body plan at every instant, not only at samples: sines, cosines, forces and
+/// torques are Taylor models (polynomial and bound of what is left out), Bernstein coefficients bound the polynomials,
+/// and an interval is halved until its bound is below the tolerance, a point of it is above it, or max_depth is
+/// reached. Throws InvalidPlan where the plan is malformed, InvalidOptions for an order out of 2..12.
+Certificate certify(const WholeBodyPlan& plan, const CertifyOptions& options = {});
+
+}  // namespace mcplan::sip
