@@ -59,4 +59,5 @@
 #include "mcplan/sip/certificate.hpp"
 #include "mcplan/sip/options.hpp"
 #include "mcplan/sip/planner.hpp"
+#include "mcplan/sip/polynomial.hpp"
 #include "mcplan/version.hpp"
