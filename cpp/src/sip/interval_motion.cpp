@@ -200,8 +200,8 @@ void IntervalMotion::add_forces(const std::array<Node, 3>& demand) {
     for (int i = 0; i < 3; ++i) balance[i] = graph.linear(left[i]);
     return;
   }
-  gain_.emplace_back(points, local.weights);
-  const Eigen::MatrixXd& gain = gain_[0].value();
+  gain_.emplace(points, local.weights);
+  const Eigen::MatrixXd& gain = gain_->value();
   std::vector<int> columns;
   for (int a = 0; a < local.weights; ++a) columns.push_back(local.weight_column(a));
   for (int row = 0; row < gain.rows(); ++row) {
@@ -373,7 +373,7 @@ void IntervalMotion::set_parameters(const Eigen::Ref<const Eigen::VectorXd>& x, 
   for (std::size_t i = 0; i < force_inputs_.size(); ++i)
     graph.input_of(force_inputs_[i]).coefficients = x.segment<4>(local.force_column(4 * static_cast<int>(i)));
   if (gain_nodes_.empty()) return;
-  ContactGain& gain = gain_[0];
+  ContactGain& gain = *gain_;
   gain.update(x.segment(local.weight_column(0), local.weights));
   for (std::size_t row = 0; row < gain_nodes_.size(); ++row)
     for (int i = 0; i < 3; ++i) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "mcplan/plan/planar_motion.hpp"
@@ -84,7 +85,7 @@ struct IntervalMotion {
   std::vector<Node> splines_;       ///< inputs: joints, then the base's
   std::vector<Power> powers_;       ///< h/2, then (2/h)^k
   std::vector<Node> force_inputs_;  ///< of given forces: tangential and normal, point by point
-  std::vector<ContactGain> gain_;   ///< one, where forces are computed
+  std::optional<ContactGain> gain_;  ///< where forces are computed
   std::vector<std::array<Node, 3>> gain_nodes_;  ///< by row of the gain; where it has parameters
 };
 
