@@ -91,8 +91,9 @@ def motion_from_dict(data: Mapping[str, Any], source: str = "", folder: Path | N
     plain = validated(MotionModel, plain, InvalidMotion, source).model_dump()
     if robot is None:
         robot = _load_robot(plain["robot"], folder)
-    stances = Stances(robot, plain["surfaces"])
+    stances = None
     try:
+        stances = Stances(robot, plain["surfaces"])
         motion = _motion_from_plain(plain, robot, stances)
         motion.validate()
     except InvalidMotion as found:
@@ -105,10 +106,11 @@ def _load_robot(name: str, folder: Path | None) -> PlanarRobot:
     return load_planar_robot(path if name not in list_planar_robots() and path.is_file() else name)
 
 
-def _field(field: str, stances: Stances) -> str:
+def _field(field: str, stances: Stances | None) -> str:
     """Field of the C++ struct as the user wrote it."""
-    field = re.sub(r"^phases\[(\d+)\]\.contacts\[(\d+)\]", lambda at: stances.field(int(at[1]), int(at[2])), field)
-    return re.sub(r"^(surfaces\[\d+\])\.(from|to)$", r"\1.extent", field_in_file(field))
+    field = re.sub(r"^(surfaces\[\d+\])\.(from|to)$", r"\1.extent", field_in_file(field))
+    contact = re.fullmatch(r"phases\[(\d+)\]\.contacts\[(\d+)\]\.(\w+)", field)
+    return stances.field(int(contact[1]), int(contact[2]), contact[3]) if stances and contact else field
 
 
 def _motion_from_plain(plain: Mapping[str, Any], robot: PlanarRobot, stances: Stances) -> PlanarMotion:
@@ -153,12 +155,12 @@ def _surface_from_plain(surface: Mapping[str, Any]) -> PlanarSurface:
 
 
 def _clearance_from_plain(entry: Mapping[str, Any], stances: Stances, field: str) -> PlanarClearance:
-    height, end = entry["middle_height"], entry["end_interval"]
+    height = entry["middle_height"]
     return PlanarClearance(
         end_effector=stances.end_effector(entry["end_effector"], f"{field}.end_effector"),
         surface=stances.surface(entry["surface"], f"{field}.surface"),
         first_interval=entry["first_interval"],
-        end_interval=-1 if end is None else end,
+        end_interval=entry["end_interval"],
         middle_height=-math.inf if height is None else height,
     )
 

@@ -95,8 +95,8 @@ class PlanarClearanceModel(Table):
     end_effector: Name = Field(description="Name.")
     surface: Name = Field(description="Name.")
     first_interval: Annotated[int, Field(ge=0)] = Field(0, description="[-] First interval of the phase that counts.")
-    end_interval: Annotated[int, Field(ge=0)] | None = Field(
-        None, description="[-] First interval that no longer counts; left out: to the end of the phase."
+    end_interval: Annotated[int, Field(ge=-1)] = Field(
+        -1, description="[-] First interval that no longer counts; -1: to the end of the phase."
     )
     middle_height: Number | None = Field(
         None, description="[m] Least height when interval n / 2 of the phase's n begins; left out: none."

@@ -99,6 +99,13 @@ def index_of(name: str, legal: Sequence[str], field: str, what: str, error: type
     raise error(field, rule, repr(name))
 
 
+def require_unique(names: Sequence[str], field: str, error: type[InvalidInput]) -> None:
+    """Names that are looked up have to be unique first: InvalidInput of the given class names the second of a pair."""
+    for i, name in enumerate(names):
+        if name in names[:i]:
+            raise error(f"{field}[{i}].name", "must be unique", repr(name))
+
+
 def _body_to_dict(body: PlanarBody, names: Sequence[str]) -> dict[str, Any]:
     data: dict[str, Any] = {"name": body.name}
     if body.parent >= 0:
@@ -125,6 +132,7 @@ def _end_effector_to_dict(end: PlanarEndEffector, names: Sequence[str]) -> dict[
 
 def _robot_from_plain(plain: Mapping[str, Any]) -> PlanarRobot:
     names = [body["name"] for body in plain["bodies"]]
+    require_unique(names, "bodies", InvalidRobot)
     return PlanarRobot(
         name=plain["name"] or "",
         description=plain["description"],

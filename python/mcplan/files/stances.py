@@ -10,7 +10,7 @@ import numpy as np
 
 from mcplan._core import PlanarContact, PlanarMotion, PlanarRobot
 from mcplan.errors import InvalidMotion
-from mcplan.files.planar_robots import index_of
+from mcplan.files.planar_robots import index_of, require_unique
 
 _TURN = 2.0 * math.pi
 
@@ -25,8 +25,9 @@ class Stances:
         self._ends = [end.name for end in robot.end_effectors]
         self._surfaces = surfaces
         self._names = [surface["name"] for surface in surfaces]
-        self._current: dict[int, tuple[PlanarContact, str]] = {}  # end-effector -> contact, field where it stands
-        self._fields: list[list[str]] = []
+        require_unique(self._names, "surfaces", InvalidMotion)
+        self._current: dict[int, tuple[PlanarContact, str, bool]] = {}  # end-effector -> contact, its field, by `at`
+        self._fields: list[list[tuple[str, bool]]] = []
 
     def next(self, phase: Mapping[str, Any]) -> list[PlanarContact]:
         """Contacts of the next phase.
@@ -56,12 +57,13 @@ class Stances:
             if not self._current:
                 raise InvalidMotion(f"{field}.lift", "must leave one contact at least")
         ordered = [self._current[end] for end in sorted(self._current)]
-        self._fields.append([where for _, where in ordered])
-        return [contact for contact, _ in ordered]
+        self._fields.append([(where, by_at) for _, where, by_at in ordered])
+        return [contact for contact, _, _ in ordered]
 
-    def field(self, phase: int, contact: int) -> str:
-        """Where a contact of a phase that next() has returned stands in the file."""
-        return self._fields[phase][contact]
+    def field(self, phase: int, contact: int, attribute: str) -> str:
+        """Where an attribute of a contact that next() has returned stands in the file."""
+        where, by_at = self._fields[phase][contact]
+        return f"{where}.{'at' if by_at and attribute == 'position' else attribute}"
 
     def end_effector(self, name: str, field: str) -> int:
         """Index of an end-effector by name, or InvalidMotion."""
@@ -84,7 +86,7 @@ class Stances:
             if contact.end_effector in self._current:
                 rule = "is in contact already" + (": lift it first" if field.endswith("place") else "")
                 raise InvalidMotion(f"{where}.end_effector", rule, repr(entry["end_effector"]))
-            self._current[contact.end_effector] = (contact, where)
+            self._current[contact.end_effector] = (contact, where, entry["at"] is not None)
 
     def _contact(self, entry: Mapping[str, Any], field: str) -> PlanarContact:
         end = self.end_effector(entry["end_effector"], f"{field}.end_effector")
