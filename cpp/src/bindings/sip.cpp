@@ -1,12 +1,16 @@
 #include <pybind11/operators.h>
 
 #include "bindings.hpp"
-#include "mcplan/sip/polynomial.hpp"
+#include "mcplan/sip/certificate.hpp"
 #include "mcplan/sip/taylor_model.hpp"
 
 namespace mcplan::bindings {
 namespace {
 
+using sip::Certificate;
+using sip::CertifyOptions;
+using sip::Proof;
+using sip::ProvedConstraint;
 using sip::TaylorModel;
 using sip::UncertainPolynomial;
 
@@ -53,11 +57,58 @@ void bind_taylor_model(py::module_& m) {
   c.def("__repr__", [](py::handle self) { return paste(self, "TaylorModel", {"coefficients", "order", "remainder"}); });
 }
 
+void bind_certificate(py::module_& m) {
+  py::enum_<Proof>(m, "Proof", "What is known of a constraint.")
+      .value("proved", Proof::proved, "Holds at every instant.")
+      .value("not_proved", Proof::not_proved, "Neither proved nor violated at any point looked at.")
+      .value("violated", Proof::violated, "Does not hold at the instant named.");
+  py::class_<ProvedConstraint> c(m, "ProvedConstraint", "What certify() found out about one kind of constraint.");
+  c.def_readonly("name", &ProvedConstraint::name, "As in the checker of whole-body plans.");
+  c.def_readonly("proof", &ProvedConstraint::proof);
+  c.def_readonly("bound", &ProvedConstraint::bound,
+                 "Proved upper bound of the amount beyond the limit, over the whole motion, in `unit`.");
+  c.def_readonly("reached", &ProvedConstraint::reached,
+                 "Proved lower bound of its maximum; above the tolerance: violated.");
+  c.def_readonly("tolerance", &ProvedConstraint::tolerance, "What was to be proved: bound <= tolerance.");
+  c.def_readonly("unit", &ProvedConstraint::unit);
+  c.def_readonly("phase", &ProvedConstraint::phase, "-1: nothing to prove.");
+  c.def_readonly("where", &ProvedConstraint::where, "Joint, end-effector or point.");
+  c.def_readonly("time_s", &ProvedConstraint::time_s,
+                 "Where the bound is largest; of a violated constraint, where `reached` is.");
+  c.def("__repr__", [](py::handle self) {
+    return paste(self, "ProvedConstraint", {"name", "proof", "bound", "tolerance", "phase", "where", "time_s"});
+  });
+
+  py::class_<Certificate> certificate(m, "Certificate", "What is proved of a whole-body plan at every instant.");
+  certificate.def_property_readonly("constraints", [](const Certificate& self) { return self.constraints; });
+  certificate.def_readonly("subdivisions", &Certificate::subdivisions, "Pieces of time looked at.");
+  certificate.def_readonly("rounding", &Certificate::rounding,
+                           "Largest allowance for floating-point arithmetic in a bound, in shares of its tolerance.");
+  certificate.def_readonly("time_s", &Certificate::time_s, "Wall clock [s].");
+  certificate.def("proved", &Certificate::proved, "Whether every constraint is.");
+  certificate.def("__str__", &Certificate::to_string);
+  certificate.def("__repr__", [](py::handle self) {
+    return paste(self, "Certificate", {"constraints", "subdivisions", "rounding", "time_s"});
+  });
+
+  m.def(
+      "certify",
+      [](const WholeBodyPlan& plan, const WholeBodyTolerances& tolerances, int order, int max_depth) {
+        return without_gil([&] { return sip::certify(plan, {tolerances, order, max_depth}); });
+      },
+      py::arg("plan"), py::arg("tolerances") = WholeBodyTolerances(), py::arg("order") = CertifyOptions().order,
+      py::arg("max_depth") = CertifyOptions().max_depth,
+      "Prove every inequality of a whole-body plan at every instant, with Taylor models of `order` (2 to 12) on "
+      "intervals that are halved up to `max_depth` (0 to 40) times. Raises InvalidPlan, InvalidMotion, InvalidRobot, "
+      "InvalidOptions.");
+}
+
 }  // namespace
 
 void bind_sip(py::module_& parent) {
   py::module_ m = parent.def_submodule("sip", "Whole-body semi-infinite planning of planar robots.");
   bind_taylor_model(m);
+  bind_certificate(m);
 }
 
 }  // namespace mcplan::bindings
