@@ -76,7 +76,8 @@ void check_continuity(const std::vector<IntervalSplines>& splines, const PlanarR
     for (Eigen::Index j = 0; j < before.position.size(); ++j) {
       double jump = 0.0, size = 1.0;
       const auto compare = [&](double a, double b, double scale) {
-        jump = std::max(jump, scale * std::abs(a - b));
+        const double difference = scale * std::abs(a - b);
+        if (!(difference <= jump)) jump = difference;  // not a number, where a spline overflows, is kept
         size = std::max(size, scale * std::abs(a));
       };
       compare(before.position[j], after.position[j], 1.0);
