@@ -60,4 +60,5 @@
 #include "mcplan/sip/options.hpp"
 #include "mcplan/sip/planner.hpp"
 #include "mcplan/sip/polynomial.hpp"
+#include "mcplan/sip/taylor_model.hpp"
 #include "mcplan/version.hpp"
