@@ -34,6 +34,10 @@ class InvalidRobot(InvalidInput):
     """A robot is malformed."""
 
 
+class InvalidMotion(InvalidInput):
+    """A motion is malformed."""
+
+
 class InvalidOptions(InvalidInput):
     """An option does not exist or is out of its range."""
 

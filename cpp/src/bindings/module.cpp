@@ -1,4 +1,5 @@
 #include "bindings.hpp"
+#include "mcplan/plan/planar_motion.hpp"
 #include "mcplan/version.hpp"
 
 namespace mcplan::bindings {
@@ -18,6 +19,8 @@ void translate(std::exception_ptr pointer) {
     raise("InvalidScene", error);
   } catch (const InvalidRobot& error) {
     raise("InvalidRobot", error);
+  } catch (const InvalidMotion& error) {
+    raise("InvalidMotion", error);
   } catch (const InvalidOptions& error) {
     raise("InvalidOptions", error);
   } catch (const InvalidPlan& error) {
@@ -107,6 +110,8 @@ PYBIND11_MODULE(_core, m) {
   bind_scene(m);
   bind_robot(m);
   bind_plan(m);
+  bind_planar(m);
+  bind_whole_body(m);
   bind_ddp(m);
   bind_nlp(m);
   bind_rhp(m);

@@ -13,21 +13,26 @@ def check(
     plan: Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan -o.")],
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
 ) -> int:
-    """Check a plan against the scene and robot it carries; exit code 1 if it violates a constraint.
+    """Check a plan against the scene and robot, or the motion, it carries; exit code 1 if it violates a constraint.
 
     Example: mcplan check plan.npz
     """
+    from mcplan._core import WholeBodyPlan
     from mcplan._core import check as run
     from mcplan.cli.table import print_table
-    from mcplan.files.plans import load_plan
+    from mcplan.files.whole_body_plans import load_any_plan
 
-    loaded = load_plan(plan)
-    result = run(loaded)
+    loaded = load_any_plan(plan)
+    if isinstance(loaded, WholeBodyPlan):
+        result = run(loaded)
+        carried = {"motion": loaded.motion.name, "robot": loaded.motion.robot.name}
+    else:
+        result = run(loaded)
+        carried = {"scene": loaded.scene.name, "robot": loaded.robot.name}
     if json:
         report = {
             "plan": str(plan),
-            "scene": loaded.scene.name,
-            "robot": loaded.robot.name,
+            **carried,
             "ok": result.ok(),
             "violations": [violation_dict(v) for v in result.violations()],
             "constraints": [violation_dict(v) for v in result.constraints],

@@ -17,20 +17,15 @@ Points stand phase by phase and end-effector by end-effector; so do forces, and 
 
 from __future__ import annotations
 
-import io
-import json
-import os
-import tempfile
-import zipfile
-import zlib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
 from mcplan._core import Contact, ForceLaw, Knot, Phase, Plan, Swing, __version__
 from mcplan.errors import InvalidInput, InvalidPlan
+from mcplan.files.archives import archive_bytes, read_arrays, read_header, write_whole
 from mcplan.files.robots import robot_from_dict, robot_to_dict
 from mcplan.files.scenes import scene_from_dict, scene_to_dict
 
@@ -51,19 +46,7 @@ def save_plan(plan: Plan, path: str | Path) -> None:
     Raises:
         InvalidPlan: Its sizes do not fit together or a number is not finite.
     """
-    data = plan_to_bytes(plan)
-    target = Path(path)
-    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(temporary, 0o666 & ~umask)  # mkstemp makes files that only their owner can read
-        os.replace(temporary, target)
-    except BaseException:
-        os.unlink(temporary)
-        raise
+    write_whole(plan_to_bytes(plan), path)
 
 
 def load_plan(path: str | Path) -> Plan:
@@ -95,7 +78,6 @@ def plan_to_bytes(plan: Plan) -> bytes:
         "robot": robot_to_dict(plan.robot),
     }
     arrays = {
-        "header": np.frombuffer(json.dumps(header, allow_nan=False).encode(), dtype=np.uint8),
         "durations": np.array([phase.duration for phase in plan.phases]),
         "surfaces": np.array([c.surface for c in contacts], dtype=np.int32).reshape(count, ends),
         "stiffness": np.array([c.stiffness for c in contacts]).reshape(count, ends),
@@ -119,9 +101,7 @@ def plan_to_bytes(plan: Plan) -> bytes:
         arrays[name] = np.array([getattr(knot, name) for knot in plan.knots])
     if _needs_points(plan):
         arrays.update(_point_arrays(plan))
-    buffer = io.BytesIO()
-    np.savez(buffer, **cast(Any, arrays))
-    return buffer.getvalue()
+    return archive_bytes(header, arrays)
 
 
 def plan_from_bytes(data: bytes) -> Plan:
@@ -130,7 +110,7 @@ def plan_from_bytes(data: bytes) -> Plan:
     Raises:
         InvalidPlan: Not such a file, or its content does not fit together.
     """
-    arrays = _read_arrays(data)
+    arrays = read_arrays(data)
     header = _read_header(arrays)
     scene = _part("header.scene", scene_from_dict, header["scene"])
     robot = _part("header.robot", robot_from_dict, header["robot"])
@@ -254,27 +234,6 @@ def _read_points(arrays: dict[str, np.ndarray], version: int) -> tuple[list[Any]
     return laws, contacts
 
 
-def _read_arrays(data: bytes) -> dict[str, np.ndarray]:
-    if not zipfile.is_zipfile(io.BytesIO(data)):
-        raise InvalidPlan("", "must be an .npz file written by mcplan", "no zip archive, or an incomplete one")
-    try:
-        with np.load(io.BytesIO(data), allow_pickle=False) as archive:
-            return {name: archive[name] for name in archive.files}
-    except (
-        ValueError,
-        KeyError,
-        EOFError,
-        OSError,
-        MemoryError,
-        NotImplementedError,
-        RuntimeError,
-        SyntaxError,
-        zipfile.BadZipFile,
-        zlib.error,
-    ) as found:  # what NumPy and zipfile raise for damaged files
-        raise InvalidPlan("", "must be an .npz file written by mcplan", _first_line(found)) from None
-
-
 def _part(field: str, read: Callable[[Any], Any], data: Any) -> Any:
     try:
         return read(data)
@@ -282,19 +241,10 @@ def _part(field: str, read: Callable[[Any], Any], data: Any) -> Any:
         raise InvalidPlan(f"{field}.{found.field}", found.rule, found.value) from None
 
 
-def _first_line(error: BaseException) -> str:
-    return (str(error).splitlines() or [type(error).__name__])[0]
-
-
 def _read_header(arrays: dict[str, np.ndarray]) -> dict[str, Any]:
-    if "header" not in arrays:
-        raise InvalidPlan("header", "is required")
-    try:
-        header = json.loads(arrays["header"].tobytes())
-    except (ValueError, RecursionError) as found:
-        raise InvalidPlan("header", "must be JSON", _first_line(found)) from None
-    if not isinstance(header, dict):
-        raise InvalidPlan("header", "must be a JSON object", type(header).__name__)
+    header = read_header(arrays)
+    if header.get("kind") is not None:
+        raise InvalidPlan("header.kind", "must be none: a plan of contacts and CoM", repr(header["kind"]))
     if header.get("format") not in FORMATS or isinstance(header["format"], bool):
         raise InvalidPlan("header.format", "must be 1 or 2 for this version of mcplan", repr(header.get("format")))
     for key, kind in (("planner", str), ("scene", dict), ("robot", dict)):

@@ -98,4 +98,8 @@ struct PlanarInverseDynamics {
 PlanarInverseDynamics planar_inverse_dynamics(const PlanarRobot& robot, const PlanarConfiguration& configuration,
                                               const std::vector<PlanarForce>& forces);
 
+/// The same from the frames of planar_kinematics(), with their velocities and accelerations.
+PlanarInverseDynamics planar_inverse_dynamics(const PlanarRobot& robot, const std::vector<PlanarMotionOfFrame>& frames,
+                                              const std::vector<PlanarForce>& forces);
+
 }  // namespace mcplan

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mcplan/plan/whole_body_checker.hpp"
+#include "whole_body_evaluation.hpp"
+
+/// What the files whole_body_check*.cpp share. One constraint is one small function with its equation; it offers what
+/// it measures to WholeBodyFindings, which keep the worst of each.
+namespace mcplan::whole_body {
+
+enum class Constraint {
+  finite,
+  phase_duration,
+  position,
+  velocity,
+  torque,
+  continuity,
+  rest,
+  drift,
+  drift_angle,
+  balance,
+  moment,
+  friction,
+  pull,
+  clearance,
+  collision,
+  pose,
+};
+constexpr int kConstraints = static_cast<int>(Constraint::pose) + 1;
+
+/// Where something was measured. Names are those of joints (their bodies) or end-effectors; a collision has two.
+struct Place {
+  int phase = -1;
+  const std::string* who = nullptr;
+  const std::string* other = nullptr;
+  double time_s = 0.0;
+};
+
+class Findings {
+ public:
+  explicit Findings(const WholeBodyTolerances& tolerances);
+
+  /// Keep this measurement if it is the worst of its constraint. Not a number counts as the largest number.
+  void offer(Constraint constraint, double value, const Place& place);
+
+  /// The first `count` constraints, in the order of the enumeration.
+  std::vector<Violation> violations(int count) const;
+
+ private:
+  struct Worst {
+    double value = 0.0;
+    Place place;
+    bool measured = false;
+  };
+  std::array<Worst, kConstraints> worst_;
+  WholeBodyTolerances tolerances_;
+};
+
+/// An instant of a plan, evaluated.
+struct Sample {
+  const WholeBodyPlan& plan;
+  const Evaluation& at;
+  int phase = 0, interval_of_phase = 0;
+  bool begin = false;  ///< of the interval
+  double time_s = 0.0;
+};
+
+// Of the whole plan; the first two say whether anything else can be evaluated.
+bool check_finite(const WholeBodyPlan& plan, Findings& findings);
+bool check_phase_duration(const WholeBodyPlan& plan, Findings& findings);
+void check_continuity(const std::vector<IntervalSplines>& splines, const PlanarRobot& robot, Findings& findings);
+void check_rest(const std::vector<IntervalSplines>& splines, const PlanarRobot& robot, Findings& findings);
+void check_poses(const WholeBodyPlan& plan, Findings& findings);
+
+// Of one instant.
+void check_joints(const Sample& sample, Findings& findings);
+void check_drift(const Sample& sample, Findings& findings);
+void check_balance(const Sample& sample, Findings& findings);
+void check_forces(const Sample& sample, Findings& findings);
+void check_clearance(const Sample& sample, Findings& findings);
+void check_collision(const Sample& sample, Findings& findings);
+
+/// Distance of two segments [m], 0 where they cross.
+double segment_distance(const Eigen::Vector2d& a0, const Eigen::Vector2d& a1, const Eigen::Vector2d& b0,
+                        const Eigen::Vector2d& b1);
+
+}  // namespace mcplan::whole_body

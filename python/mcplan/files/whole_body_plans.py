@@ -1,0 +1,168 @@
+"""Whole-body plans in .npz files: arrays and a JSON header, no pickles.
+
+The header (bytes of UTF-8 JSON) holds the kind "whole_body", the format's version, the units, the version of mcplan, the
+planner, the force law, and the motion with its robot (planar_data.py). F phases, I intervals and J joints give these
+arrays:
+
+    durations (F)  control_points (J, I+3)  base_control_points (3, I+3), or (0, 0) for a base that is computed
+    weights (W)  force_polynomials (4, C)
+
+Weights stand phase by phase, contact by contact, point by point, columns of the force polynomials interval by interval
+(tangential and normal for each point). One of the two is empty.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mcplan._core import Plan, PlanarForceLaw, PlanarMotion, WholeBodyPlan, __version__
+from mcplan.errors import InvalidInput, InvalidPlan
+from mcplan.files.archives import archive_bytes, read_arrays, read_header, write_whole
+from mcplan.files.planar_data import motion_from_plain, motion_to_plain
+from mcplan.files.plans import load_plan
+
+KIND = "whole_body"
+FORMAT = 1
+UNITS = "SI: m, kg, s, N, rad; _W: world frame, x forward, y up; _B: frame of a body; _P: frame of its parent"
+_LAWS = {"least_norm": PlanarForceLaw.least_norm, "polynomial": PlanarForceLaw.polynomial}
+
+
+def save_whole_body_plan(plan: WholeBodyPlan, path: str | Path) -> None:
+    """Write a plan to a file, which is complete or not there at all.
+
+    Args:
+        plan: The plan.
+        path: Where to; used as it stands, no ending is added.
+
+    Raises:
+        InvalidPlan, InvalidMotion, InvalidRobot: Its sizes do not fit together or a number is out of range.
+    """
+    write_whole(plan_to_bytes(plan), path)
+
+
+def load_whole_body_plan(path: str | Path) -> WholeBodyPlan:
+    """Read a plan written by save_whole_body_plan.
+
+    Raises:
+        InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
+        FileNotFoundError: There is no such file.
+    """
+    try:
+        return plan_from_bytes(Path(path).read_bytes())
+    except InvalidInput as found:
+        raise InvalidPlan(found.field, found.rule, found.value, str(path)) from None
+
+
+def load_any_plan(path: str | Path) -> Plan | WholeBodyPlan:
+    """Read a plan file of either kind.
+
+    Raises:
+        InvalidPlan: No plan file, or its content does not fit together; the message names file, field and rule.
+        FileNotFoundError: There is no such file.
+    """
+    try:
+        kind = read_header(read_arrays(Path(path).read_bytes())).get("kind")
+    except InvalidPlan as found:
+        raise InvalidPlan(found.field, found.rule, found.value, str(path)) from None
+    return load_whole_body_plan(path) if kind == KIND else load_plan(path)
+
+
+def plan_to_bytes(plan: WholeBodyPlan) -> bytes:
+    """The content of a plan file."""
+    plan.validate()
+    header = {
+        "kind": KIND,
+        "format": FORMAT,
+        "units": UNITS,
+        "mcplan": __version__,
+        "planner": plan.planner,
+        "force_law": plan.force_law.name,
+        "motion": motion_to_plain(plan.motion),
+    }
+    weights = plan.weights if plan.force_law == PlanarForceLaw.least_norm else ()
+    polynomials = plan.force_polynomials if plan.force_law == PlanarForceLaw.polynomial else ()
+    arrays = {
+        "durations": np.array(plan.durations, dtype=float),
+        "control_points": np.array(plan.control_points),
+        "base_control_points": np.array(plan.base_control_points),
+        "weights": np.concatenate([np.zeros(0), *weights]),
+        "force_polynomials": np.concatenate([np.zeros((4, 0)), *polynomials], axis=1),
+    }
+    return archive_bytes(header, arrays)
+
+
+def plan_from_bytes(data: bytes) -> WholeBodyPlan:
+    """The plan of the content of a plan file.
+
+    Raises:
+        InvalidPlan: Not such a file, or its content does not fit together.
+    """
+    arrays = read_arrays(data)
+    header = _checked_header(read_header(arrays))
+    try:
+        motion = motion_from_plain(header["motion"])
+        motion.validate()
+    except InvalidInput as found:
+        raise InvalidPlan(f"header.motion.{found.field}", found.rule, found.value) from None
+    _check_arrays(arrays)
+    law = _LAWS[header["force_law"]]
+    points = _point_counts(motion)
+    intervals = [count for phase, count in zip(motion.phases, points, strict=True) for _ in range(phase.intervals)]
+    weights = _cut(arrays, "weights", points if law == PlanarForceLaw.least_norm else [])
+    columns = [2 * count for count in intervals] if law == PlanarForceLaw.polynomial else []
+    plan = WholeBodyPlan(
+        motion=motion,
+        planner=header["planner"],
+        durations=arrays["durations"],
+        control_points=arrays["control_points"],
+        base_control_points=arrays["base_control_points"],
+        force_law=law,
+        weights=weights,
+        force_polynomials=_cut(arrays, "force_polynomials", columns),
+    )
+    plan.validate()
+    return plan
+
+
+def _point_counts(motion: PlanarMotion) -> list[int]:
+    """Points in contact, phase by phase."""
+    ends = motion.robot.end_effectors
+    return [sum(len(ends[contact.end_effector].points) for contact in phase.contacts) for phase in motion.phases]
+
+
+def _checked_header(header: dict[str, Any]) -> dict[str, Any]:
+    if header.get("kind") != KIND:
+        raise InvalidPlan("header.kind", f"must be {KIND!r}", repr(header.get("kind")))
+    version = header.get("format")
+    if version != FORMAT or isinstance(version, bool):
+        raise InvalidPlan("header.format", f"must be {FORMAT} for this version of mcplan", repr(version))
+    for key, kind in (("planner", str), ("force_law", str), ("motion", dict)):
+        if not isinstance(header.get(key), kind):
+            raise InvalidPlan(f"header.{key}", f"must be a {kind.__name__}", type(header.get(key)).__name__)
+    if header["force_law"] not in _LAWS:
+        raise InvalidPlan("header.force_law", f"must be one of {', '.join(_LAWS)}", repr(header["force_law"]))
+    return header
+
+
+def _check_arrays(arrays: dict[str, np.ndarray]) -> None:
+    """Their types and numbers of axes; what sizes they must have is known to the plan."""
+    axes = {"durations": 1, "control_points": 2, "base_control_points": 2, "weights": 1, "force_polynomials": 2}
+    for name, count in axes.items():
+        if name not in arrays:
+            raise InvalidPlan(name, "is required")
+        if arrays[name].dtype.kind != "f":
+            raise InvalidPlan(name, "must hold floating-point numbers", str(arrays[name].dtype))
+        if arrays[name].ndim != count:
+            raise InvalidPlan(name, f"must have {count} axes", str(arrays[name].ndim))
+
+
+def _cut(arrays: dict[str, np.ndarray], name: str, sizes: list[int]) -> list[np.ndarray]:
+    """Pieces of these sizes along the last axis."""
+    array = arrays[name]
+    if array.shape[-1] != sum(sizes) or (array.ndim == 2 and array.shape[0] != 4):
+        wanted = (4, sum(sizes)) if array.ndim == 2 else (sum(sizes),)
+        raise InvalidPlan(name, f"must have shape {wanted}", str(array.shape))
+    return np.split(array, np.cumsum(sizes)[:-1], axis=-1) if sizes else []
