@@ -10,6 +10,7 @@ from .samples import Interval
 
 if TYPE_CHECKING:
     from mcplan import Robot, Scene
+    from mcplan._core import PlanarMotion, PlanarRobot
 
 
 def caption(title: str, lines: list[str], entries: list[str]) -> str:
@@ -34,7 +35,13 @@ def scene_legend(scene: Scene) -> list[str]:
     return [entry(" ".join(f"scene/{name}" for name in grasps), "", GRASP, "may be held")] if grasps else []
 
 
-def timeline(scene: Scene, robot: Robot, intervals: list[Interval], colours: list[str], duration_s: float) -> str:
+def timeline(
+    scene: Scene | PlanarMotion,
+    robot: Robot | PlanarRobot,
+    intervals: list[Interval],
+    colours: list[str],
+    duration_s: float,
+) -> str:
     """Panel at the bottom: contacts of every end-effector over time, and a cursor."""
     names, tracks = [], []
     for end, colour in zip(range(len(colours)), colours, strict=True):

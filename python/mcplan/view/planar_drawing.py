@@ -8,25 +8,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .colours import COM, GROUND, OUTLINE, WALL
-from .film_strip import CONE, cone_outline
 from .plan_drawing import draw_arrow
 from .planar_figure import Shape, limbs_of
-from .planar_ground import Slab
+from .planar_ground import CONE, Slab, cone_outline
 from .planar_samples import PlanarSamples
 from .rotations import pose
 from .samples import Interval
 from .shapes import Mesh, capsule, ellipsoid, prism, tube
 
 if TYPE_CHECKING:
-    from mcplan import WholeBodyPlan
-    from mcplan._core import PlanarRobot
+    from mcplan._core import PlanarContact, PlanarRobot, WholeBodyPlan
 
     from .stage import Stage
 
 Array = NDArray[np.float64]
 
-#: Half the distance between the outer limbs, and half the width of the ground, as shares of the robot's size.
-LANE, GROUND_WIDTH = 0.12, 0.42
+#: Half the distance between the outer limbs, as a share of the robot's size.
+LANE = 0.12
+#: From where to where the ground reaches beside the plane, likewise: to the right, where the camera is, just under the feet.
+GROUND_RIGHT, GROUND_LEFT = -0.20, 0.42
 
 
 def into_space(points: Array, lateral: float = 0.0) -> Array:
@@ -54,13 +54,18 @@ def lanes_of(robot: PlanarRobot, size: float) -> list[float]:
 def draw_ground(stage: Stage, slabs: list[Slab], size: float) -> None:
     """Put surfaces onto a page as solid slabs, under "scene"."""
     for slab in slabs:
-        path, half = f"scene/{slab.name}", GROUND_WIDTH * size
-        stage.mesh(f"{path}/solid", extruded(slab.outline_W, half), WALL if slab.is_wall else GROUND)
+        path = f"scene/{slab.name}"
+        stage.mesh(f"{path}/solid", ground_solid(slab, size), WALL if slab.is_wall else GROUND)
         n = len(slab.outline_W)
-        near, far = (into_space(slab.outline_W, side) for side in (-half, half))
+        near, far = (into_space(slab.outline_W, side * size) for side in (GROUND_RIGHT, GROUND_LEFT))
         pairs = [(ring[i], ring[(i + 1) % n]) for ring in (near, far) for i in range(n)]
         pairs += [(near[i], far[i]) for i in range(n)]
         stage.lines(f"{path}/outline", np.array(pairs), OUTLINE, 0.9)
+
+
+def ground_solid(slab: Slab, size: float) -> Mesh:
+    """What a slab is in space."""
+    return prism(into_space(slab.outline_W, GROUND_RIGHT * size), (GROUND_LEFT - GROUND_RIGHT) * size)
 
 
 def draw_body(stage: Stage, samples: PlanarSamples, robot: PlanarRobot, shapes: list[Shape], size: float) -> None:
@@ -167,6 +172,6 @@ def _solid(shape: Shape, size: float) -> Mesh:
     return extruded(shape.outline_B(), (0.075 if shape.lane == 0.0 else 0.045) * size, lateral)
 
 
-def _interval(end: int, contact: object, start_s: float, end_s: float) -> Interval:
-    position = into_space(contact.position_W)  # type: ignore[attr-defined]
-    return Interval(end, int(contact.surface), start_s, end_s, position, turns(np.array(contact.angle)))  # type: ignore[attr-defined]
+def _interval(end: int, contact: PlanarContact, start_s: float, end_s: float) -> Interval:
+    position = into_space(contact.position_W)
+    return Interval(end, int(contact.surface), start_s, end_s, position, turns(np.array(contact.angle)))

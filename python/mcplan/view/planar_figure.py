@@ -13,7 +13,7 @@ from .colours import BODY, COOL, WARM, mix
 from .shapes import circle
 
 if TYPE_CHECKING:
-    from mcplan._core import PlanarRobot
+    from mcplan._core import PlanarEndEffector, PlanarRobot
 
 Array = NDArray[np.float64]
 
@@ -58,14 +58,14 @@ def size_of(robot: PlanarRobot) -> float:
 def limbs_of(robot: PlanarRobot) -> list[Limb]:
     """Chains that end at a tip, each as far up as no other branch joins; the rest is the trunk."""
     children = [[i for i, b in enumerate(robot.bodies) if i and b.parent == parent] for parent in range(_count(robot))]
-    chains = []
+    chains: list[tuple[int, ...]] = []
     for tip in range(1, _count(robot)):
         if children[tip]:
             continue
-        chain = [tip]
-        while (parent := robot.bodies[chain[-1]].parent) > 0 and len(children[parent]) == 1:
-            chain.append(parent)
-        chains.append(tuple(reversed(chain)))
+        upwards = [tip]
+        while (parent := robot.bodies[upwards[-1]].parent) > 0 and len(children[parent]) == 1:
+            upwards.append(parent)
+        chains.append(tuple(reversed(upwards)))
     if len(chains) == 1:  # a lone chain: its base is all the trunk there is
         return [Limb(_name(robot, chains[0]), chains[0], COOL[0], 0.0)]
     limbs: list[Limb] = []
@@ -149,12 +149,12 @@ def _discs(robot: PlanarRobot, i: int, limb: Limb | None, size: float) -> list[A
     return [np.vstack([[[0.0, 0.0, radius[0]]], [[*p, radius[1]] for p in far] or np.zeros((0, 3)), soles])]
 
 
-def _sole(end: object, radius: float) -> list[list[float]]:
+def _sole(end: PlanarEndEffector, radius: float) -> list[list[float]]:
     """Small discs that rest on the contact frame's x axis, at the outermost points."""
-    angle = float(end.angle_B)  # type: ignore[attr-defined]
+    angle = float(end.angle_B)
     x, y = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
-    points = [float(p) for p in end.points]  # type: ignore[attr-defined]
-    at = np.asarray(end.position_B, float)  # type: ignore[attr-defined]
+    points = [float(p) for p in end.points]
+    at = np.asarray(end.position_B, float)
     return [[*(at + p * x + radius * y), radius] for p in sorted({min(points), max(points)})]
 
 

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+#: Radius of a friction cone, as a share of the robot's size.
+CONE = 0.16
+
 
 @dataclass(frozen=True)
 class Slab:
@@ -42,18 +45,18 @@ def slabs_of(motion: PlanarMotion, points_W: Array, margin: float, thickness: fl
     for i, (surface, (front, cut)) in enumerate(zip(motion.surfaces, fronts, strict=True)):
         if not len(front):
             continue
-        normal = np.asarray(surface.normal_W(), float)
+        normal = np.asarray(surface.normal_W, float)
         column = not endless(surface) and normal[1] > 0.5
         if column:
             feet = np.column_stack([front[:, 0], [bottom, bottom]])
             outline = np.vstack([front, feet[::-1]])
         else:
             # In a corner the solids meet behind the surfaces: reach into each other, then be cut there.
-            reach = front + thickness * np.outer([-1.0, 1.0] * cut, surface.tangent_W())
+            reach = front + thickness * np.outer([-1.0, 1.0] * cut, surface.tangent_W)
             outline = np.vstack([reach, (reach - thickness * normal)[::-1]])
             for j in _before(motion, i):
                 other = motion.surfaces[j]
-                height = (outline - np.asarray(other.origin_W)) @ np.asarray(other.normal_W())
+                height = (outline - np.asarray(other.origin_W)) @ np.asarray(other.normal_W)
                 outline = below(outline, -height - thickness)
         slabs.append(Slab(i, surface.name, front, outline[::-1], abs(normal[1]) < 0.3))
     return sorted(slabs, key=lambda s: (not endless(motion.surfaces[s.surface]), float(s.front_W[:, 1].max())))
@@ -64,16 +67,23 @@ def endless(surface: PlanarSurface) -> bool:
     return not (np.isfinite(_from(surface)) or np.isfinite(float(surface.to)))
 
 
+def cone_outline(angle: float, friction: float, radius: float) -> Array:
+    """Sector (m, 2) [m] of the directions within a friction cone, its apex at the origin, on a surface at `angle`."""
+    half = float(np.arctan(friction))
+    turn = angle + 0.5 * np.pi + np.linspace(-half, half, 17)
+    return np.vstack([np.zeros((1, 2)), radius * np.column_stack([np.cos(turn), np.sin(turn)])])
+
+
 def _front(motion: PlanarMotion, i: int, points_W: Array, margin: float) -> tuple[Array, Array]:
     """Ends (2, 2) [m] of what is seen of a surface, (0, 2) when nothing is; whether others cut it off there, (2,)."""
     surface = motion.surfaces[i]
-    origin, tangent = np.asarray(surface.origin_W, float), np.asarray(surface.tangent_W(), float)
+    origin, tangent = np.asarray(surface.origin_W, float), np.asarray(surface.tangent_W, float)
     along = (points_W - origin) @ tangent
     low, high = max(along.min() - margin, _from(surface)), min(along.max() + margin, float(surface.to))
     cut = np.zeros(2)
     for j in _before(motion, i):
         other = motion.surfaces[j]
-        normal = np.asarray(other.normal_W(), float)
+        normal = np.asarray(other.normal_W, float)
         slope = float(tangent @ normal)
         if abs(slope) < 1e-6:
             continue
@@ -94,7 +104,7 @@ def _before(motion: PlanarMotion, i: int) -> list[int]:
     for j, other in enumerate(motion.surfaces):
         if j == i or not endless(other):
             continue
-        heights = [float((p - np.asarray(other.origin_W)) @ np.asarray(other.normal_W())) for p in places]
+        heights = [float((p - np.asarray(other.origin_W)) @ np.asarray(other.normal_W)) for p in places]
         if heights and min(heights) > 1e-6:
             cutting.append(j)
     return cutting

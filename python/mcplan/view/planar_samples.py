@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from mcplan import WholeBodyPlan
-    from mcplan._core import PlanarRobot, WholeBodyState
+    from mcplan._core import PlanarRobot, WholeBodyPlan, WholeBodyState
 
 Array = NDArray[np.float64]
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mcplan._core import WholeBodyPlan
+
 from .film_strip import film_strip, stroboscope
 from .picture import picture
 from .plots_plan import plot_com, plot_forces, plot_friction, plot_gait, plot_momentum
@@ -12,12 +14,11 @@ from .plots_point_forces import plot_cones, plot_point_forces
 from .plots_points import plot_pressure, plot_timing
 from .plots_report import has_sequences, plot_contact_sequence, plot_cost
 from .plots_whole_body import plot_base, plot_drift, plot_joint_velocities, plot_joints, plot_torques
-from .whole_body import is_whole_body
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from mcplan import Plan, Report, WholeBodyPlan
+    from mcplan import Plan, Report
 
 __all__ = [
     "film_strip",
@@ -66,8 +67,9 @@ def save_plots(plan: Plan | WholeBodyPlan, report: Report | None, directory: str
     """
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
-    if is_whole_body(plan):
-        written, figures = [], _whole_body_figures(plan)
+    if isinstance(plan, WholeBodyPlan):
+        written: list[Path] = []
+        figures = _whole_body_figures(plan)
     else:
         written, figures = [picture(plan, path=directory / "picture.png")], _figures(plan, report)
     for name, figure in figures.items():

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .colours import TEXT, mix
+from .colours import BODY, TEXT, mix
 from .planar_figure import end_colours
 from .planar_samples import sample_phases
 from .plots_whole_body import LIMIT, RATE, curve, shade_phases
@@ -15,7 +15,7 @@ from .sheets import label, legend, sheet
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from mcplan import WholeBodyPlan
+    from mcplan._core import WholeBodyPlan
 
 
 def plot_point_forces(plan: WholeBodyPlan) -> Figure:
@@ -71,6 +71,8 @@ def plot_point_forces(plan: WholeBodyPlan) -> Figure:
 
 def plot_cones(plan: WholeBodyPlan) -> Figure:
     """Normal over tangential force of every end-effector, a curve for each point, within the cone of what it touches."""
+    from matplotlib.lines import Line2D
+
     samples = sample_phases(plan, RATE)
     ends, colours = plan.motion.robot.end_effectors, end_colours(plan.motion.robot)
     top = 1.06 * float(np.nanmax(samples.normal, initial=1.0))
@@ -81,24 +83,24 @@ def plot_cones(plan: WholeBodyPlan) -> Figure:
     )  # inches of a panel; both axes have one scale, so that cones look as wide as they are
     height = 1.5 + (width - 0.6) * top / (2.0 * side)
     figure, axes = sheet(1, count, size=(0.6 + width * count, height), sharex=True, sharey=True)
-    for chart, end, name, colour in zip(axes[0], range(len(ends)), [e.name for e in ends], colours, strict=True):
+    shades = {}
+    for chart, end, colour in zip(axes[0], range(len(ends)), colours, strict=False):
         for friction in sorted({float(f) for f in samples.friction[:, end] if np.isfinite(f)}):
             edge = np.array([-side, 0.0, side])
             chart.fill_between(edge, np.abs(edge) / max(friction, 1e-6), top, color=colour, alpha=0.08, linewidth=0)
-            chart.plot(edge, np.abs(edge) / max(friction, 1e-6), color=LIMIT, linewidth=1.1, label="cone")
+            chart.plot(edge, np.abs(edge) / max(friction, 1e-6), color=LIMIT, linewidth=1.1, label="friction cone")
         for point, at in enumerate(ends[end].points):
-            shade = mix(colour, "#000000" if point else "#ffffff", 0.35)
-            chart.plot(
-                curve(samples, samples.tangential[:, end, point])[1],
-                curve(samples, samples.normal[:, end, point])[1],
-                color=shade,
-                linewidth=1.3,
-                label=f"at {1e3 * float(at):+.0f} mm",
-            )
+            name, shade = f"point at {1e3 * float(at):+.0f} mm", "#000000" if point else "#ffffff"
+            shades[name] = mix(BODY, shade, 0.35)
+            _, tangential = curve(samples, samples.tangential[:, end, point])
+            _, normal = curve(samples, samples.normal[:, end, point])
+            chart.plot(tangential, normal, color=mix(colour, shade, 0.35), linewidth=1.3, label=name)
         chart.set_aspect("equal")
-        legend(chart, loc="upper center", bbox_to_anchor=(0.5, -0.62 / (height - 1.1)), ncol=3, handlelength=1.3)
-        label(chart, x="tangential force [N]", title=name.replace("_", " "))
+        label(chart, x="tangential force [N]", title=ends[end].name.replace("_", " "))
     label(axes[0, 0], y="normal force [N]")
     axes[0, 0].set_xlim(-side, side)
     axes[0, 0].set_ylim(-0.04 * top, top)
+    handles = [Line2D([], [], color=LIMIT, linewidth=1.1, label="friction cone")]
+    handles += [Line2D([], [], color=shade, linewidth=2.0, label=name) for name, shade in shades.items()]
+    legend(figure, handles=handles, loc="outside lower center", ncol=len(handles))
     return figure

@@ -15,7 +15,7 @@ from .sheets import label, legend, sheet
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from mcplan import WholeBodyPlan
+    from mcplan._core import WholeBodyPlan
 
 Array = NDArray[np.float64]
 
@@ -83,7 +83,9 @@ def plot_drift(plan: WholeBodyPlan) -> Figure:
         shade_phases(chart, plan)
         for end, colour in zip(range(len(ends)), colours, strict=True):
             name = ends[end].name.replace("_", " ")
-            chart.plot(*curve(samples, values[:, end]), color=colour, linewidth=max(1.2, 2.8 - 0.8 * end), label=name)
+            # Contacts share their errors: later ones are dashed, so that those below are seen.
+            dashes = "-" if end == 0 else (0.0, (6.0 / end, 4.0))
+            chart.plot(*curve(samples, values[:, end]), color=colour, linewidth=1.6, linestyle=dashes, label=name)
         chart.axhline(limit, color=LIMIT, linewidth=1.0, label="tolerance of the checker")
         largest = float(np.nanmax(values, initial=0.0))
         chart.set_ylim(0.0, 1.08 * max(limit, largest))
@@ -122,7 +124,8 @@ def _joint_panels(
     order, colour_of = _joint_order(plan)
     rows = max(-(-len(order) // columns), 1)
     figure, axes = sheet(rows, columns, size=(12.0, 0.7 + 1.75 * rows), sharex=True)
-    for chart, body in zip(axes.flat, order, strict=False):
+    charts: list[Any] = list(axes.flat)
+    for chart, body in zip(charts, order, strict=False):
         low, high = limits[body]
         line = values[:, body - 1]
         shade_phases(chart, plan)
@@ -140,7 +143,7 @@ def _joint_panels(
         label(chart, title=title)
     for chart in axes[:, 0]:
         label(chart, y=f"{quantity} [{unit}]")
-    for chart in axes.flat[len(order) :]:
+    for chart in charts[len(order) :]:
         chart.set_visible(False)
     for column in range(columns):
         lowest = (len(order) - 1 - column) // columns

@@ -27,7 +27,7 @@ def sheet(rows: int, columns: int = 1, size: tuple[float, float] = (9.0, 4.0), *
     Raises:
         MissingExtra: matplotlib is not installed.
     """
-    figure = blank_sheet("mcplan.view.plots", size, layout="constrained")
+    figure = blank_sheet("mcplan.view.plots", size, constrained=True)
     axes = np.asarray(figure.subplots(rows, columns, squeeze=False, **options))
     for each in axes.flat:
         for side in ("top", "right"):
@@ -40,8 +40,8 @@ def sheet(rows: int, columns: int = 1, size: tuple[float, float] = (9.0, 4.0), *
     return figure, axes
 
 
-def blank_sheet(what: str, size: tuple[float, float], layout: str | None = None) -> Figure:
-    """A white figure without axes; size in inches.
+def blank_sheet(what: str, size: tuple[float, float], constrained: bool = False) -> Figure:
+    """A white figure without axes; size in inches; `constrained`: matplotlib places what is added.
 
     Raises:
         MissingExtra: matplotlib is not installed; the message says what needs it.
@@ -50,7 +50,7 @@ def blank_sheet(what: str, size: tuple[float, float], layout: str | None = None)
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=size, dpi=140, facecolor="white", layout=layout)
+    figure = Figure(figsize=size, dpi=140, facecolor="white", layout="constrained" if constrained else None)
     FigureCanvasAgg(figure)
     return figure
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mcplan._core import WholeBodyPlan
 from mcplan.errors import InvalidInput
 
 from .colours import end_effector_colours
@@ -21,10 +22,9 @@ from .scene_drawing import draw_surfaces, surface_drawings
 from .show_whole_body import show_whole_body
 from .stage import Stage
 from .viewpoint import camera_direction, sun_direction, view_points
-from .whole_body import is_whole_body
 
 if TYPE_CHECKING:
-    from mcplan import Plan, Report, Robot, Scene, WholeBodyPlan
+    from mcplan import Plan, Report, Robot, Scene
 
 #: [1/s] frames of the animation; the browser blends between them.
 FRAME_RATE = 30.0
@@ -48,7 +48,7 @@ def show(
         InvalidPlan: The plan's arrays do not fit together.
         InvalidInput: A scene or a robot for a whole-body plan.
     """
-    if is_whole_body(plan):
+    if isinstance(plan, WholeBodyPlan):
         for name, given in (("scene", scene), ("robot", robot)):
             if given is not None:
                 raise InvalidInput(name, "a whole-body plan is drawn with its own motion", repr(given.name))

@@ -12,14 +12,13 @@ from .overlay import caption, entry, timeline
 from .page import Page
 from .plan_drawing import WEIGHT_ARROW
 from .planar_drawing import (
-    GROUND_WIDTH,
     contact_intervals,
     draw_body,
     draw_cones,
     draw_forces,
     draw_ground,
     draw_paths,
-    extruded,
+    ground_solid,
     into_space,
     side_direction,
 )
@@ -29,7 +28,8 @@ from .planar_samples import frame_times, sample_whole_body, turned
 from .stage import Stage
 
 if TYPE_CHECKING:
-    from mcplan import Report, WholeBodyPlan
+    from mcplan import Report
+    from mcplan._core import WholeBodyPlan
 
 Array = NDArray[np.float64]
 
@@ -87,7 +87,7 @@ def show_whole_body(plan: WholeBodyPlan, report: Report | None = None) -> Page:
     legend.append(entry("cones", "", "#c3cad2", "friction cones"))
     legend.append(entry("robot", "", "#98a2ae", "robot"))
     # All of the ground that is drawn, all of the motion, and room for the caption at the left.
-    ground = [extruded(slab.outline_W, GROUND_WIDTH * size).vertices for slab in slabs]
+    ground = [ground_solid(slab, size).vertices for slab in slabs]
     seen = np.vstack([into_space(reached), *ground])
     left = [seen[:, 0].min() - 0.22 * float(np.ptp(seen[:, 2])), 0.0, float(np.median(seen[:, 2]))]
     return Page(
