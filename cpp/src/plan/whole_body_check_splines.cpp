@@ -76,7 +76,9 @@ void check_continuity(const std::vector<IntervalSplines>& splines, const PlanarR
     for (Eigen::Index j = 0; j < before.position.size(); ++j) {
       double jump = 0.0, size = 1.0;
       const auto compare = [&](double a, double b, double scale) {
-        jump = std::max(jump, scale * std::abs(a - b));
+        const double difference = scale * std::abs(a - b);
+        // Where a spline overflows the difference is no number, which std::max would pass over.
+        jump = std::isfinite(difference) ? std::max(jump, difference) : std::numeric_limits<double>::infinity();
         size = std::max(size, scale * std::abs(a));
       };
       compare(before.position[j], after.position[j], 1.0);

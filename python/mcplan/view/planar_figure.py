@@ -70,7 +70,7 @@ def limbs_of(robot: PlanarRobot) -> list[Limb]:
         return [Limb(_name(robot, chains[0]), chains[0], COOL[0], 0.0)]
     limbs: list[Limb] = []
     with_sole = {int(end.body) for end in robot.end_effectors}
-    turn = 0
+    counts = {"left": 0, "right": 0, "none": 0}
     for chain in chains:
         root = robot.bodies[chain[0]].parent
         siblings = [c for c in chains if robot.bodies[c[0]].parent == root]
@@ -80,14 +80,15 @@ def limbs_of(robot: PlanarRobot) -> list[Limb]:
         place = siblings.index(chain)
         lane = 1.0 - 2.0 * place / (len(siblings) - 1) if len(siblings) > 1 else 0.0
         if side is None and supports:
-            colour = IN_TURN[turn % len(IN_TURN)]
-            turn += 1
+            colour = IN_TURN[counts["none"] % len(IN_TURN)]
+            counts["none"] += 1
         elif side is None:  # an arm that touches nothing: its place says its side
             colour = mix((COOL if lane >= 0.0 else WARM)[0], BODY, 0.45)
         else:
             lane = 1.0 if side == "left" else -1.0
-            colour = (COOL if side == "left" else WARM)[0]
-            colour = colour if supports else mix(colour, BODY, 0.45)
+            palette = COOL if side == "left" else WARM
+            colour = palette[counts[side] % len(palette)] if supports else mix(palette[0], BODY, 0.45)
+            counts[side] += supports
         limbs.append(Limb(name, chain, colour, lane))
     return limbs
 
@@ -134,9 +135,8 @@ def _discs(robot: PlanarRobot, i: int, limb: Limb | None, size: float) -> list[A
     soles = np.array([row for end in ends for row in _sole(end, 0.012 * size)]).reshape(-1, 3)
     if body.capsules:
         pieces = [np.array([[*c.from_B, c.radius], [*c.to_B, c.radius]], float) for c in body.capsules]
-        ankle = np.array(
-            [[0.0, 0.0, 0.030 * size]]
-        )  # a foot reaches from its joint to its sole, whatever it collides with
+        # A foot reaches from its joint to its sole, whatever part of it is checked for collisions.
+        ankle = [[0.0, 0.0, 0.030 * size]]
         return [*pieces, np.vstack([ankle, soles])] if len(soles) else pieces
     joints = [np.asarray(child.joint_P, float) for child in robot.bodies[1:] if child.parent == i]
     if limb is None:
