@@ -98,12 +98,15 @@ void add_middle_heights(const WholeBodyPlan& plan, const std::vector<PhaseConsta
       PieceModels models(plan, constants[p], instant, order);
       models.kinematics();
       const PlanarEndEffector& end = motion.robot.end_effectors[clearance.end_effector];
-      for (std::size_t k = 0; k < end.points.size(); ++k)
-        out.push_back({{Kind::clearance, end.name + " point " + std::to_string(k) + " at mid-swing"},
+      for (std::size_t k = 0; k < end.points.size(); ++k) {
+        InstantRow row{{Kind::clearance, end.name + " point " + std::to_string(k) + " at mid-swing"},
                        static_cast<int>(p),
                        rows.time_s(-1.0),
-                       scaled(Amount::of(over_surface(plan, models, clearance, static_cast<int>(k)).height), -1.0,
-                              clearance.middle_height)});
+                       {}};
+        row.amount = scaled(Amount::of(over_surface(plan, models, clearance, static_cast<int>(k)).height), -1.0,
+                            clearance.middle_height);
+        out.push_back(std::move(row));
+      }
     }
   }
 }
