@@ -2506,14 +2506,14 @@ class WholeBodyTolerances:
     @property
     def clearance(self) -> float:
         """
-        [m] swinging end-effector in a solid.
+        [m] swinging end-effector in a solid, capsules in each other.
         """
     @clearance.setter
     def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def continuity(self) -> float:
         """
-        [rad], [rad/s], relative: joints at knots.
+        [rad] jumps at knots, and what is not rest at the ends.
         """
     @continuity.setter
     def continuity(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
