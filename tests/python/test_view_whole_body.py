@@ -136,7 +136,13 @@ def test_caption_tells_how_the_plan_was_found(plan):
     report = SimpleNamespace(status="solved", iterations=73, time_s=1.25, cost=808.51)
     html = mp.show(plan, report=report).html()
     robot, seconds = plan.motion.robot, f"{plan.duration():.2f} s"
-    for text in (plan.motion.name, f"{robot.name}: 9 phases, {seconds}", "73 iterations, 1.25 s", "cost 808.5", "solved"):
+    for text in (
+        plan.motion.name,
+        f"{robot.name}: 9 phases, {seconds}",
+        "73 iterations, 1.25 s",
+        "cost 808.5",
+        "solved",
+    ):
         assert text in html
     for end in robot.end_effectors:
         assert end.name.replace("_", " ") in html

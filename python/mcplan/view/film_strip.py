@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mcplan.errors import InvalidInput
+from mcplan.extras import require
 
 from .colours import TEXT
 from .planar_picture import (
@@ -58,6 +59,7 @@ def film_strip(
         InvalidPlan: The plan's arrays do not fit together.
         InvalidInput: No frame, or an instant outside of the plan.
     """
+    require("mcplan.view.film_strip", "view", "matplotlib")
     times = _instants(plan, "frames", frames)
     drawing = drawing_of(plan)
     span = drawing.window[1] - drawing.window[0]
@@ -70,7 +72,7 @@ def film_strip(
     # inches: a frame, the time below it, the legend
     height, line, band = cell * float(span[1] / span[0]), 0.27, 0.20 + 0.24 * lines
     total = rows * (height + line) + band
-    sheet = blank_sheet("mcplan.view.film_strip", (width, total))
+    sheet = blank_sheet((width, total))
     samples = sample_whole_body(plan, np.array(times))
     for n, t in enumerate(times):
         row, column = divmod(n, columns)
@@ -111,6 +113,7 @@ def stroboscope(
         InvalidPlan: The plan's arrays do not fit together.
         InvalidInput: No posture, or an instant outside of the plan.
     """
+    require("mcplan.view.stroboscope", "view", "matplotlib")
     times = _instants(plan, "postures", postures)
     drawing = drawing_of(plan)
     span = drawing.window[1] - drawing.window[0]
@@ -120,7 +123,7 @@ def stroboscope(
     entries = legend_entries(drawing, forces, cones)
     lines = legend_rows(entries, width)
     band = 0.20 + 0.24 * lines
-    sheet = blank_sheet("mcplan.view.stroboscope", (width, height + band))
+    sheet = blank_sheet((width, height + band))
     axes = sheet.add_axes((0.0, band / (height + band), 1.0, height / (height + band)))
     samples = sample_whole_body(plan, np.array(times))
     paint_ground(axes, drawing)

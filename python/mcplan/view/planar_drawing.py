@@ -55,6 +55,8 @@ def draw_ground(stage: Stage, slabs: list[Slab], size: float) -> None:
     """Put surfaces onto a page as solid slabs, under "scene"."""
     for slab in slabs:
         path = f"scene/{slab.name}"
+        if not len(slab.outline_W):
+            continue
         stage.mesh(f"{path}/solid", ground_solid(slab, size), WALL if slab.is_wall else GROUND)
         n = len(slab.outline_W)
         near, far = (into_space(slab.outline_W, side * size) for side in (GROUND_RIGHT, GROUND_LEFT))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,7 +26,7 @@ class Slab:
     surface: int
     name: str
     front_W: Array  # (2, 2) [m] ends of the surface, along its tangent
-    outline_W: Array  # (m, 2) [m] convex polygon, counter-clockwise
+    outline_W: Array  # (m, 2) [m] convex polygon, counter-clockwise; (0, 2) where another slab has that solid in it
     is_wall: bool
 
 
@@ -59,7 +59,10 @@ def slabs_of(motion: PlanarMotion, points_W: Array, margin: float, thickness: fl
                 height = (outline - np.asarray(other.origin_W)) @ np.asarray(other.normal_W)
                 outline = below(outline, -height - thickness)
         slabs.append(Slab(i, surface.name, front, outline[::-1], abs(normal[1]) < 0.3))
-    return sorted(slabs, key=lambda s: (not endless(motion.surfaces[s.surface]), float(s.front_W[:, 1].max())))
+    return sorted(
+        (_without_solid_in(slab, slabs) for slab in slabs),
+        key=lambda s: (not endless(motion.surfaces[s.surface]), float(s.front_W[:, 1].max())),
+    )
 
 
 def endless(surface: PlanarSurface) -> bool:
@@ -95,6 +98,21 @@ def _front(motion: PlanarMotion, i: int, points_W: Array, margin: float) -> tupl
     if high <= low:
         return np.zeros((0, 2)), cut
     return origin + np.outer([low, high], tangent), cut
+
+
+def _without_solid_in(slab: Slab, slabs: list[Slab]) -> Slab:
+    """The slab, without its solid if that lies in another one's, as a riser's does in its tread's."""
+    for other in slabs:
+        earlier = other.surface < slab.surface
+        if other is not slab and _within(slab, other) and (earlier or not _within(other, slab)):
+            return replace(slab, outline_W=np.zeros((0, 2)))
+    return slab
+
+
+def _within(slab: Slab, other: Slab) -> bool:
+    edges = np.roll(other.outline_W, -1, axis=0) - other.outline_W
+    away = slab.outline_W[:, None] - other.outline_W[None]
+    return bool(np.all(edges[None, :, 0] * away[:, :, 1] - edges[None, :, 1] * away[:, :, 0] > -1e-9))
 
 
 def _before(motion: PlanarMotion, i: int) -> list[int]:

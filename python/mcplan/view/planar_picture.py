@@ -84,6 +84,8 @@ def paint_ground(axes: Any, drawing: Drawing) -> None:
     from matplotlib.patches import Polygon
 
     for slab in drawing.slabs:
+        if not len(slab.outline_W):
+            continue
         fill = mix(WALL if slab.is_wall else GROUND, "#ffffff", 0.45)
         edge = mix(TEXT, "#ffffff", 0.6)
         axes.add_patch(Polygon(slab.outline_W, facecolor=fill, edgecolor=edge, hatch="////", linewidth=0.0, zorder=1))
@@ -185,8 +187,12 @@ def legend_entries(drawing: Drawing, forces: bool, cones: bool) -> list[Any]:
 
 def legend_rows(entries: list[Any], width: float) -> int:
     """Rows that a legend needs below a figure of this width [inch]."""
-    needed = sum(0.55 + 0.078 * len(entry.get_label()) for entry in entries)
-    return max(1, int(np.ceil(needed / width)))
+    lengths = [0.55 + 0.078 * len(entry.get_label()) for entry in entries]
+    for rows in range(1, len(entries)):
+        # Filled column by column; a column is as wide as its longest entry.
+        if sum(max(lengths[i : i + rows]) for i in range(0, len(entries), rows)) < width:
+            return rows
+    return len(entries)
 
 
 def add_legend(sheet: Figure, entries: list[Any], rows: int) -> None:

@@ -71,8 +71,6 @@ def plot_point_forces(plan: WholeBodyPlan) -> Figure:
 
 def plot_cones(plan: WholeBodyPlan) -> Figure:
     """Normal over tangential force of every end-effector, a curve for each point, within the cone of what it touches."""
-    from matplotlib.lines import Line2D
-
     samples = sample_phases(plan, RATE)
     ends, colours = plan.motion.robot.end_effectors, end_colours(plan.motion.robot)
     top = 1.06 * float(np.nanmax(samples.normal, initial=1.0))
@@ -100,6 +98,8 @@ def plot_cones(plan: WholeBodyPlan) -> Figure:
     label(axes[0, 0], y="normal force [N]")
     axes[0, 0].set_xlim(-side, side)
     axes[0, 0].set_ylim(-0.04 * top, top)
+    from matplotlib.lines import Line2D
+
     handles = [Line2D([], [], color=LIMIT, linewidth=1.1, label="friction cone")]
     handles += [Line2D([], [], color=shade, linewidth=2.0, label=name) for name, shade in shades.items()]
     legend(figure, handles=handles, loc="outside lower center", ncol=len(handles))

@@ -27,7 +27,8 @@ def sheet(rows: int, columns: int = 1, size: tuple[float, float] = (9.0, 4.0), *
     Raises:
         MissingExtra: matplotlib is not installed.
     """
-    figure = blank_sheet("mcplan.view.plots", size, constrained=True)
+    require("mcplan.view.plots", "view", "matplotlib")
+    figure = blank_sheet(size, constrained=True)
     axes = np.asarray(figure.subplots(rows, columns, squeeze=False, **options))
     for each in axes.flat:
         for side in ("top", "right"):
@@ -40,13 +41,8 @@ def sheet(rows: int, columns: int = 1, size: tuple[float, float] = (9.0, 4.0), *
     return figure, axes
 
 
-def blank_sheet(what: str, size: tuple[float, float], constrained: bool = False) -> Figure:
-    """A white figure without axes; size in inches; `constrained`: matplotlib places what is added.
-
-    Raises:
-        MissingExtra: matplotlib is not installed; the message says what needs it.
-    """
-    require(what, "view", "matplotlib")
+def blank_sheet(size: tuple[float, float], constrained: bool = False) -> Figure:
+    """A white figure without axes; size in inches; `constrained`: matplotlib places what is added."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 

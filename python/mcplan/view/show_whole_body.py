@@ -87,7 +87,7 @@ def show_whole_body(plan: WholeBodyPlan, report: Report | None = None) -> Page:
     legend.append(entry("cones", "", "#c3cad2", "friction cones"))
     legend.append(entry("robot", "", "#98a2ae", "robot"))
     # All of the ground that is drawn, all of the motion, and room for the caption at the left.
-    ground = [ground_solid(slab, size).vertices for slab in slabs]
+    ground = [ground_solid(slab, size).vertices for slab in slabs if len(slab.outline_W)]
     seen = np.vstack([into_space(reached), *ground])
     left = [seen[:, 0].min() - 0.22 * float(np.ptp(seen[:, 2])), 0.0, float(np.median(seen[:, 2]))]
     return Page(
