@@ -16,6 +16,7 @@ import malformed_planar
 import mcplan as mp
 from mcplan.files.builtin import DATA
 from mcplan.files.motions import list_motions, load_motion, motion_from_dict, motion_to_dict, save_motion
+from mcplan.files.planar_robots import planar_robot_from_dict
 from mcplan.files.toml import toml_text, tomllib
 from planar_statics import stand
 from reference_solutions import reference_motion
@@ -217,3 +218,10 @@ def test_swings_of_the_stairs_are_clear_of_each_step_throughout():
                     allowed &= from_origin @ surface.normal_W >= 0.0
             near = allowed & solid & (xs < 0.48 if k < 3 else xs > -1.0)
             assert not near.any(), (k, interval, xs[near][:3], ys[near][:3])
+
+
+def test_the_robot_and_the_motion_of_the_documentation_are_valid():
+    page = (Path(__file__).parents[2] / "docs" / "motions.md").read_text()
+    robot, motion = (tomllib.loads(text.split("```")[0]) for text in page.split("```toml\n")[1:])
+    assert planar_robot_from_dict(robot).mass() == 9.0
+    assert [len(phase.contacts) for phase in motion_from_dict(motion).phases] == [2, 1, 2]
