@@ -335,16 +335,19 @@ def receding_horizon(
     return make(scene, robot, sequence, options)
 
 
-def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
+def show(
+    plan: Plan | WholeBodyPlan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None
+) -> Page:
     """Draw a plan in the browser; the result has ``save_html(path)``.
 
     Args:
-        plan: The plan.
+        plan: The plan; a whole-body plan is drawn with its own motion, and takes no scene and no robot.
         scene: Drawn around it; None: the plan's own.
         robot: Drawn along it; None: the plan's own. With a URDF its meshes are drawn, else a stick robot.
         report: How the plan was found, for the caption.
 
     Raises:
+        InvalidInput: A scene or a robot for a whole-body plan.
         MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
     """
     from mcplan.extras import require

@@ -3,6 +3,8 @@
 import subprocess
 import sys
 
+import pytest
+
 
 def run(script: str) -> str:
     result = subprocess.run(
@@ -62,3 +64,30 @@ except mp.errors.MissingExtra as error:
 """
     )
     assert run(script) == "mcplan.view.plots needs matplotlib: pip install 'mcplan[view]'"
+
+
+@pytest.mark.parametrize(
+    ("call", "hidden", "message"),
+    [
+        ("mp.show(plan)", ["meshcat", "umsgpack"], "mcplan.show needs meshcat"),
+        ("view.film_strip(plan)", ["matplotlib"], "mcplan.view.film_strip needs matplotlib"),
+        ("view.stroboscope(plan)", ["matplotlib"], "mcplan.view.stroboscope needs matplotlib"),
+        ("view.plot_torques(plan)", ["matplotlib"], "mcplan.view.plots needs matplotlib"),
+        ("view.plot_cones(plan)", ["matplotlib"], "mcplan.view.plots needs matplotlib"),
+        ("view.save_plots(plan, None, '.')", ["matplotlib"], "mcplan.view.film_strip needs matplotlib"),
+    ],
+)
+def test_pictures_of_whole_body_plans_name_what_they_miss(call, hidden, message):
+    script = (
+        HIDE.format(hidden=hidden)
+        + f"""
+import mcplan as mp, mcplan.view as view
+from reference_solutions import reference_plan
+plan = reference_plan("walking", "optimised_uniform")
+try:
+    {call}
+except mp.errors.MissingExtra as error:
+    print(error)
+"""
+    )
+    assert run(script) == f"{message}: pip install 'mcplan[view]'"

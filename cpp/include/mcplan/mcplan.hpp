@@ -59,4 +59,6 @@
 #include "mcplan/sip/certificate.hpp"
 #include "mcplan/sip/options.hpp"
 #include "mcplan/sip/planner.hpp"
+#include "mcplan/sip/polynomial.hpp"
+#include "mcplan/sip/taylor_model.hpp"
 #include "mcplan/version.hpp"

@@ -22,6 +22,7 @@ void bind_plan(py::module_& m);
 void bind_ddp(py::module_& m);
 void bind_nlp(py::module_& m);
 void bind_rhp(py::module_& m);
+void bind_sip(py::module_& m);
 void bind_planar(py::module_& m);
 void bind_whole_body(py::module_& m);
 

@@ -115,5 +115,6 @@ PYBIND11_MODULE(_core, m) {
   bind_ddp(m);
   bind_nlp(m);
   bind_rhp(m);
+  bind_sip(m);
   // The planners' rooms go here, one line each: they may use everything above.
 }

@@ -162,8 +162,10 @@ void bind_checker(py::module_& m) {
   c.def_readwrite("moment", &WholeBodyTolerances::moment, "[N m] moment that nothing carries.");
   c.def_readwrite("friction", &WholeBodyTolerances::friction, "[-] of m g: tangential force beyond the cone.");
   c.def_readwrite("pull", &WholeBodyTolerances::pull, "[-] of m g");
-  c.def_readwrite("clearance", &WholeBodyTolerances::clearance, "[m] swinging end-effector in a solid.");
-  c.def_readwrite("continuity", &WholeBodyTolerances::continuity, "[rad], [rad/s], relative: joints at knots.");
+  c.def_readwrite("clearance", &WholeBodyTolerances::clearance,
+                  "[m] swinging end-effector in a solid, capsules in each other.");
+  c.def_readwrite("continuity", &WholeBodyTolerances::continuity,
+                  "[rad] jumps at knots, and what is not rest at the ends.");
   c.def_readwrite("pose", &WholeBodyTolerances::pose, "[m], [rad]");
   c.def_readwrite("sample_s", &WholeBodyTolerances::sample_s, "[s] sampling in time.");
   def_value(c, "WholeBodyTolerances",

@@ -34,6 +34,10 @@ Pattern probe(const Piece& piece) {
   constexpr int kPoints = 3;
   const int n = piece.size(), m = piece.rows();
   MatrixXd jacobian = MatrixXd::Zero(m, n), hessian = MatrixXd::Zero(n, n);
+  if (piece.entries_come_and_go()) {
+    jacobian.setOnes();
+    if (!piece.linear()) hessian.setOnes();
+  }
   Probe random;
   VectorXd x(n), weights(m);
   for (int trial = 0; trial < kPoints; ++trial) {
@@ -268,8 +272,8 @@ std::string Problem::variable_name(int variable) const {
 std::string Problem::row_name(int row) const {
   for (const Block& block : blocks_) {
     if (block.is_cost() || row < block.first_row || row >= block.first_row + block.piece->rows()) continue;
-    const std::string which = block.piece->rows() == 1 ? "" : "[" + std::to_string(row - block.first_row) + "]";
-    return block.piece->name() + which + " at stage " + std::to_string(piece_stages(*block.piece).last);
+    const std::string name = block.piece->row_name(row - block.first_row);
+    return name + " at stage " + std::to_string(piece_stages(*block.piece).last);
   }
   return "row " + std::to_string(row);
 }

@@ -12,9 +12,11 @@ from . import nlp
 from . import rhp
 
 __all__: list[str] = [
+    "Capsule",
     "CheckResult",
     "Contact",
     "ContactRule",
+    "Drift",
     "EndEffector",
     "EndEffectorState",
     "EntireFunctions",
@@ -26,6 +28,21 @@ __all__: list[str] = [
     "Plan",
     "PlanResult",
     "PlanState",
+    "PlanarBody",
+    "PlanarClearance",
+    "PlanarConfiguration",
+    "PlanarContact",
+    "PlanarEndEffector",
+    "PlanarForce",
+    "PlanarForceLaw",
+    "PlanarInverseDynamics",
+    "PlanarMotion",
+    "PlanarMotionOfFrame",
+    "PlanarPhase",
+    "PlanarPointForce",
+    "PlanarPose",
+    "PlanarRobot",
+    "PlanarSurface",
     "Polygon",
     "Polytope",
     "Report",
@@ -39,11 +56,20 @@ __all__: list[str] = [
     "Swing",
     "Tolerances",
     "Violation",
+    "WholeBodyPlan",
+    "WholeBodyState",
+    "WholeBodyTolerances",
     "addresses",
     "check",
     "ddp",
+    "largest_drift",
+    "least_norm_gain",
     "may_touch",
+    "moment_point_W",
     "nlp",
+    "planar_inverse_dynamics",
+    "planar_kinematics",
+    "planar_point",
     "quat_wxyz_from_rpy",
     "resolve_stance",
     "rhp",
@@ -1450,19 +1476,1184 @@ class CheckResult:
     @constraints.setter
     def constraints(self, arg1: collections.abc.Sequence[Violation]) -> None: ...
 
+class Capsule:
+    """
+    Segment with a radius, in a body's frame: its looks, and what it collides with.
+    """
+    def __copy__(self) -> Capsule: ...
+    def __deepcopy__(self, memo: dict) -> Capsule: ...
+    def __init__(
+        self,
+        *,
+        from_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
+        to_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
+        radius: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def from_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [m]
+        """
+    @from_B.setter
+    def from_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
+    @property
+    def radius(self) -> float:
+        """
+        [m]
+        """
+    @radius.setter
+    def radius(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def to_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [m]
+        """
+    @to_B.setter
+    def to_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
+
+class PlanarBody:
+    """
+    A rigid body of a planar robot and the revolute joint that carries it. Its frame B has its origin at the joint, turned by offset + q against its parent's.
+    """
+
+    name: str
+    def __copy__(self) -> PlanarBody: ...
+    def __deepcopy__(self, memo: dict) -> PlanarBody: ...
+    def __init__(
+        self,
+        *,
+        name: str = "",
+        parent: typing.SupportsInt | typing.SupportsIndex = -1,
+        joint_P: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
+        offset: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        mass: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        com_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
+        inertia: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        position_min: typing.SupportsFloat | typing.SupportsIndex = ...,
+        position_max: typing.SupportsFloat | typing.SupportsIndex = ...,
+        velocity_max: typing.SupportsFloat | typing.SupportsIndex = ...,
+        torque_max: typing.SupportsFloat | typing.SupportsIndex = ...,
+        capsules: collections.abc.Sequence[Capsule] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def capsules(self) -> tuple:
+        """
+        Tuple of Capsule.
+        """
+    @capsules.setter
+    def capsules(self, arg1: collections.abc.Sequence[Capsule]) -> None: ...
+    @property
+    def com_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [m]
+        """
+    @com_B.setter
+    def com_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
+    @property
+    def inertia(self) -> float:
+        """
+        About the CoM [kg m^2].
+        """
+    @inertia.setter
+    def inertia(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def joint_P(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        Joint in the parent's frame [m].
+        """
+    @joint_P.setter
+    def joint_P(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
+    @property
+    def mass(self) -> float:
+        """
+        [kg]
+        """
+    @mass.setter
+    def mass(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def offset(self) -> float:
+        """
+        Angle against the parent at q = 0 [rad].
+        """
+    @offset.setter
+    def offset(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def parent(self) -> int:
+        """
+        An earlier body; -1 for the base alone.
+        """
+    @parent.setter
+    def parent(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def position_max(self) -> float:
+        """
+        [rad]
+        """
+    @position_max.setter
+    def position_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def position_min(self) -> float:
+        """
+        Of the joint [rad].
+        """
+    @position_min.setter
+    def position_min(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def torque_max(self) -> float:
+        """
+        [N m]
+        """
+    @torque_max.setter
+    def torque_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def velocity_max(self) -> float:
+        """
+        [rad/s]
+        """
+    @velocity_max.setter
+    def velocity_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class PlanarEndEffector:
+    """
+    A contact frame of a body: x axis in the sole, y axis from the ground into the robot. Forces act at points of the sole.
+    """
+
+    name: str
+    def __copy__(self) -> PlanarEndEffector: ...
+    def __deepcopy__(self, memo: dict) -> PlanarEndEffector: ...
+    def __init__(
+        self,
+        *,
+        name: str = "",
+        body: typing.SupportsInt | typing.SupportsIndex = 0,
+        position_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
+        angle_B: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        points: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def angle_B(self) -> float:
+        """
+        Of its x axis [rad].
+        """
+    @angle_B.setter
+    def angle_B(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def body(self) -> int:
+        """
+        Index of its body.
+        """
+    @body.setter
+    def body(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def points(self) -> typing.Any:
+        """
+        Where forces act, along the x axis [m].
+        """
+    @points.setter
+    def points(self, arg1: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
+    @property
+    def position_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        Of the frame's origin [m].
+        """
+    @position_B.setter
+    def position_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
+
+class PlanarRobot:
+    """
+    A planar tree of rigid bodies on a free base; x forward, y up. Joint j moves body j + 1.
+    """
+
+    description: str
+    name: str
+    def __copy__(self) -> PlanarRobot: ...
+    def __deepcopy__(self, memo: dict) -> PlanarRobot: ...
+    def __init__(
+        self,
+        *,
+        name: str = "",
+        description: str = "",
+        bodies: collections.abc.Sequence[PlanarBody] = [],
+        end_effectors: collections.abc.Sequence[PlanarEndEffector] = [],
+        collision_pairs: collections.abc.Sequence[
+            tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex]
+        ] = [],
+        gravity: typing.SupportsFloat | typing.SupportsIndex = 9.81,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    def body_index(self, name: str) -> int:
+        """
+        Index of a body, or -1.
+        """
+    def end_effector_index(self, who: str) -> int:
+        """
+        Index of an end-effector, or -1.
+        """
+    def joint_count(self) -> int: ...
+    def joints_to(self, body: typing.SupportsInt | typing.SupportsIndex) -> list[int]:
+        """
+        Joints between the base and a body, base first.
+        """
+    def mass(self) -> float:
+        """
+        [kg]
+        """
+    def validate(self) -> None:
+        """
+        Raise InvalidRobot naming the first field out of its range.
+        """
+    @property
+    def bodies(self) -> tuple:
+        """
+        Tuple of PlanarBody, the base first.
+        """
+    @bodies.setter
+    def bodies(self, arg1: collections.abc.Sequence[PlanarBody]) -> None: ...
+    @property
+    def collision_pairs(self) -> typing.Any:
+        """
+        Bodies whose capsules may not touch.
+        """
+    @collision_pairs.setter
+    def collision_pairs(
+        self,
+        arg1: collections.abc.Sequence[
+            tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex]
+        ],
+    ) -> None: ...
+    @property
+    def end_effectors(self) -> tuple:
+        """
+        Tuple of PlanarEndEffector.
+        """
+    @end_effectors.setter
+    def end_effectors(self, arg1: collections.abc.Sequence[PlanarEndEffector]) -> None: ...
+    @property
+    def gravity(self) -> float:
+        """
+        Along -y [m/s^2].
+        """
+    @gravity.setter
+    def gravity(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class PlanarConfiguration:
+    """
+    Position, velocity, acceleration of base and joints.
+    """
+    def __copy__(self) -> PlanarConfiguration: ...
+    def __deepcopy__(self, memo: dict) -> PlanarConfiguration: ...
+    def __init__(
+        self,
+        *,
+        base: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        base_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        base_acceleration: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        q: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] = ...,
+        velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] = ...,
+        acceleration: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] = ...,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def acceleration(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [rad/s^2]
+        """
+    @acceleration.setter
+    def acceleration(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]) -> None: ...
+    @property
+    def base(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        x, y [m], angle [rad] in the world.
+        """
+    @base.setter
+    def base(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def base_acceleration(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m/s^2], [rad/s^2]
+        """
+    @base_acceleration.setter
+    def base_acceleration(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def base_velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m/s], [rad/s]
+        """
+    @base_velocity.setter
+    def base_velocity(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Joint positions [rad].
+        """
+    @q.setter
+    def q(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]) -> None: ...
+    @property
+    def velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        [rad/s]
+        """
+    @velocity.setter
+    def velocity(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]) -> None: ...
+
+class PlanarMotionOfFrame:
+    """
+    Where a frame is and how it moves.
+    """
+    def __copy__(self) -> PlanarMotionOfFrame: ...
+    def __deepcopy__(self, memo: dict) -> PlanarMotionOfFrame: ...
+    def __repr__(self) -> str: ...
+    @property
+    def acceleration_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [m/s^2]
+        """
+    @property
+    def angle(self) -> float:
+        """
+        [rad]
+        """
+    @property
+    def angular_acceleration(self) -> float:
+        """
+        [rad/s^2]
+        """
+    @property
+    def position_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [m]
+        """
+    @property
+    def rate(self) -> float:
+        """
+        [rad/s]
+        """
+    @property
+    def velocity_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [m/s]
+        """
+
+class PlanarForce:
+    """
+    A force of the environment on the robot at a point of a body.
+    """
+    def __copy__(self) -> PlanarForce: ...
+    def __deepcopy__(self, memo: dict) -> PlanarForce: ...
+    def __init__(
+        self,
+        *,
+        body: typing.SupportsInt | typing.SupportsIndex,
+        point_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"],
+        force_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def body(self) -> int:
+        """
+        Index of the body.
+        """
+    @body.setter
+    def body(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def force_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [N]
+        """
+    @force_W.setter
+    def force_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
+    @property
+    def point_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [m]
+        """
+    @point_W.setter
+    def point_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
+
+class PlanarInverseDynamics:
+    """
+    Torques, and what is left over at the base.
+    """
+    def __copy__(self) -> PlanarInverseDynamics: ...
+    def __deepcopy__(self, memo: dict) -> PlanarInverseDynamics: ...
+    def __repr__(self) -> str: ...
+    @property
+    def base_residual(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        Force x, y [N] and moment about the base's origin [N m] that nothing carries.
+        """
+    @property
+    def torque(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Of the joints [N m].
+        """
+
+class PlanarSurface:
+    """
+    A straight piece of the ground or of a wall. Its outward normal is 90 degrees to the left of its tangent; what lies behind is solid.
+    """
+
+    name: str
+    def __copy__(self) -> PlanarSurface: ...
+    def __deepcopy__(self, memo: dict) -> PlanarSurface: ...
+    def __init__(
+        self,
+        *,
+        name: str = "",
+        origin_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
+        angle: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        friction: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        from_: typing.SupportsFloat | typing.SupportsIndex = ...,
+        to: typing.SupportsFloat | typing.SupportsIndex = ...,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def angle(self) -> float:
+        """
+        Of its tangent [rad].
+        """
+    @angle.setter
+    def angle(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def friction(self) -> float:
+        """
+        Coefficient [-].
+        """
+    @friction.setter
+    def friction(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def from_(self) -> float:
+        """
+        Extent along the tangent, from the origin [m].
+        """
+    @from_.setter
+    def from_(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def normal_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        Unit vector, outward.
+        """
+    @property
+    def origin_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [m]
+        """
+    @origin_W.setter
+    def origin_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
+    @property
+    def tangent_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        Unit vector.
+        """
+    @property
+    def to(self) -> float:
+        """
+        [m]
+        """
+    @to.setter
+    def to(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class PlanarContact:
+    """
+    An end-effector that stands still on a surface for a phase.
+    """
+    def __copy__(self) -> PlanarContact: ...
+    def __deepcopy__(self, memo: dict) -> PlanarContact: ...
+    def __init__(
+        self,
+        *,
+        end_effector: typing.SupportsInt | typing.SupportsIndex = 0,
+        surface: typing.SupportsInt | typing.SupportsIndex = 0,
+        position_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
+        angle: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def angle(self) -> float:
+        """
+        Of its x axis [rad]; whole turns count.
+        """
+    @angle.setter
+    def angle(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def end_effector(self) -> int:
+        """
+        Index into robot.end_effectors.
+        """
+    @end_effector.setter
+    def end_effector(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def position_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        Of the end-effector's frame [m].
+        """
+    @position_W.setter
+    def position_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
+    @property
+    def surface(self) -> int:
+        """
+        Index into motion.surfaces.
+        """
+    @surface.setter
+    def surface(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class PlanarClearance:
+    """
+    Points of a swinging end-effector stay outside a surface's solid.
+    """
+    def __copy__(self) -> PlanarClearance: ...
+    def __deepcopy__(self, memo: dict) -> PlanarClearance: ...
+    def __init__(
+        self,
+        *,
+        end_effector: typing.SupportsInt | typing.SupportsIndex = 0,
+        surface: typing.SupportsInt | typing.SupportsIndex = 0,
+        first_interval: typing.SupportsInt | typing.SupportsIndex = 0,
+        end_interval: typing.SupportsInt | typing.SupportsIndex = -1,
+        middle_height: typing.SupportsFloat | typing.SupportsIndex = ...,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def end_effector(self) -> int:
+        """
+        Index into robot.end_effectors.
+        """
+    @end_effector.setter
+    def end_effector(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def end_interval(self) -> int:
+        """
+        One after the last; -1: to the phase's end.
+        """
+    @end_interval.setter
+    def end_interval(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def first_interval(self) -> int:
+        """
+        Of the phase.
+        """
+    @first_interval.setter
+    def first_interval(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def middle_height(self) -> float:
+        """
+        At the begin of interval n / 2 of the phase at least this [m].
+        """
+    @middle_height.setter
+    def middle_height(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def surface(self) -> int:
+        """
+        Index into motion.surfaces.
+        """
+    @surface.setter
+    def surface(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
+class PlanarPose:
+    """
+    A pose that a body has to have at an instant of a phase.
+    """
+    def __copy__(self) -> PlanarPose: ...
+    def __deepcopy__(self, memo: dict) -> PlanarPose: ...
+    def __init__(
+        self,
+        *,
+        body: typing.SupportsInt | typing.SupportsIndex = 0,
+        fraction: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        min: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        max: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def body(self) -> int:
+        """
+        Index into robot.bodies.
+        """
+    @body.setter
+    def body(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def fraction(self) -> float:
+        """
+        Of the phase, 0..1.
+        """
+    @fraction.setter
+    def fraction(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def max(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        x, y [m], angle [rad]
+        """
+    @max.setter
+    def max(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def min(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        x, y [m], angle [rad] of the body's frame.
+        """
+    @min.setter
+    def min(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+
+class PlanarPhase:
+    """
+    A stretch of time with constant contacts.
+    """
+    def __copy__(self) -> PlanarPhase: ...
+    def __deepcopy__(self, memo: dict) -> PlanarPhase: ...
+    def __init__(
+        self,
+        *,
+        intervals: typing.SupportsInt | typing.SupportsIndex = 4,
+        min_duration: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        max_duration: typing.SupportsFloat | typing.SupportsIndex = ...,
+        contacts: collections.abc.Sequence[PlanarContact] = [],
+        clearances: collections.abc.Sequence[PlanarClearance] = [],
+        poses: collections.abc.Sequence[PlanarPose] = [],
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def clearances(self) -> tuple:
+        """
+        Tuple of PlanarClearance.
+        """
+    @clearances.setter
+    def clearances(self, arg1: collections.abc.Sequence[PlanarClearance]) -> None: ...
+    @property
+    def contacts(self) -> tuple:
+        """
+        Tuple of PlanarContact.
+        """
+    @contacts.setter
+    def contacts(self, arg1: collections.abc.Sequence[PlanarContact]) -> None: ...
+    @property
+    def intervals(self) -> int:
+        """
+        Of the joints' splines.
+        """
+    @intervals.setter
+    def intervals(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def max_duration(self) -> float:
+        """
+        [s]
+        """
+    @max_duration.setter
+    def max_duration(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def min_duration(self) -> float:
+        """
+        [s]
+        """
+    @min_duration.setter
+    def min_duration(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def poses(self) -> tuple:
+        """
+        Tuple of PlanarPose.
+        """
+    @poses.setter
+    def poses(self, arg1: collections.abc.Sequence[PlanarPose]) -> None: ...
+
+class PlanarMotion:
+    """
+    A task for whole-body planning: planar robot, ground, sequence of contact stances.
+    """
+
+    description: str
+    name: str
+    def __copy__(self) -> PlanarMotion: ...
+    def __deepcopy__(self, memo: dict) -> PlanarMotion: ...
+    def __init__(
+        self,
+        *,
+        name: str = "",
+        description: str = "",
+        robot: PlanarRobot = ...,
+        surfaces: collections.abc.Sequence[PlanarSurface] = [],
+        phases: collections.abc.Sequence[PlanarPhase] = [],
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    def first_interval(self, phase: typing.SupportsInt | typing.SupportsIndex) -> int:
+        """
+        Index of the first interval of a phase.
+        """
+    def interval_count(self) -> int:
+        """
+        Of all phases.
+        """
+    def phase_of(self, interval: typing.SupportsInt | typing.SupportsIndex) -> int:
+        """
+        Phase that an interval belongs to.
+        """
+    def validate(self) -> None:
+        """
+        Raise InvalidMotion (InvalidRobot for the robot) naming the first field out of its range.
+        """
+    @property
+    def phases(self) -> tuple:
+        """
+        Tuple of PlanarPhase.
+        """
+    @phases.setter
+    def phases(self, arg1: collections.abc.Sequence[PlanarPhase]) -> None: ...
+    @property
+    def robot(self) -> PlanarRobot:
+        """
+        PlanarRobot.
+        """
+    @robot.setter
+    def robot(self, arg1: PlanarRobot) -> None: ...
+    @property
+    def surfaces(self) -> tuple:
+        """
+        Tuple of PlanarSurface.
+        """
+    @surfaces.setter
+    def surfaces(self, arg1: collections.abc.Sequence[PlanarSurface]) -> None: ...
+
+class PlanarPointForce:
+    """
+    Contact force at one point of an end-effector.
+    """
+    def __copy__(self) -> PlanarPointForce: ...
+    def __deepcopy__(self, memo: dict) -> PlanarPointForce: ...
+    def __repr__(self) -> str: ...
+    @property
+    def contact(self) -> int:
+        """
+        Index into the phase's contacts.
+        """
+    @property
+    def end_effector(self) -> int:
+        """
+        Index into robot.end_effectors.
+        """
+    @property
+    def force_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        On the robot [N].
+        """
+    @property
+    def normal(self) -> float:
+        """
+        Away from the surface [N].
+        """
+    @property
+    def point(self) -> int:
+        """
+        Index into the end-effector's points.
+        """
+    @property
+    def position_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        Actual place of the point [m].
+        """
+    @property
+    def surface(self) -> int:
+        """
+        Index into motion.surfaces.
+        """
+    @property
+    def tangential(self) -> float:
+        """
+        Along the surface [N].
+        """
+
+class WholeBodyState:
+    """
+    A planar robot at an instant.
+    """
+    def __copy__(self) -> WholeBodyState: ...
+    def __deepcopy__(self, memo: dict) -> WholeBodyState: ...
+    def __repr__(self) -> str: ...
+    @property
+    def angular_momentum(self) -> float:
+        """
+        About the CoM [kg m^2/s].
+        """
+    @property
+    def base_residual(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        Force x, y [N] and moment [N m] at the base that nothing carries.
+        """
+    @property
+    def com_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [m]
+        """
+    @property
+    def com_velocity_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [m/s]
+        """
+    @property
+    def configuration(self) -> PlanarConfiguration:
+        """
+        PlanarConfiguration: position, velocity, acceleration of base and joints.
+        """
+    @property
+    def contact_error(self) -> numpy.ndarray:
+        """
+        A row for each contact: actual minus expected x, y [m], angle [rad].
+        """
+    @property
+    def forces(self) -> tuple:
+        """
+        Tuple of PlanarPointForce.
+        """
+    @forces.setter
+    def forces(self, arg1: collections.abc.Sequence[PlanarPointForce]) -> None: ...
+    @property
+    def phase(self) -> int: ...
+    @property
+    def time(self) -> float:
+        """
+        [s]
+        """
+    @property
+    def torque(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Of the joints [N m].
+        """
+
+class PlanarForceLaw:
+    """
+    Where the contact forces of a whole-body plan come from.
+
+    Members:
+
+      least_norm : Weighted least norm that balances the motion.
+
+      polynomial : Cubic in time over each interval, given.
+    """
+
+    __members__: typing.ClassVar[dict[str, PlanarForceLaw]]
+    least_norm: typing.ClassVar[PlanarForceLaw]
+    polynomial: typing.ClassVar[PlanarForceLaw]
+    @typing.overload
+    def __eq__(self, other: PlanarForceLaw) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: PlanarForceLaw) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class WholeBodyPlan:
+    """
+    A whole-body motion of a planar robot: joint splines, durations of the phases, and what fixes the contact forces. Carries the motion (task) it was made for.
+    """
+
+    force_law: PlanarForceLaw
+    @staticmethod
+    def load(path: typing.Any) -> WholeBodyPlan:
+        """
+        Read a plan written by save(). Raises InvalidPlan.
+        """
+    def __copy__(self) -> WholeBodyPlan: ...
+    def __deepcopy__(self, memo: dict) -> WholeBodyPlan: ...
+    def __init__(
+        self,
+        *,
+        motion: PlanarMotion = ...,
+        planner: str = "",
+        durations: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [],
+        control_points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] = ...,
+        base_control_points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] = ...,
+        force_law: PlanarForceLaw = ...,
+        weights: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]] = [],
+        force_polynomials: collections.abc.Sequence[
+            typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]
+        ] = [],
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    def at(self, t: typing.SupportsFloat | typing.SupportsIndex) -> WholeBodyState:
+        """
+        WholeBodyState at time t [s] in [0, duration], in closed form. At a boundary the phase that begins there is meant (the last one at the end). Raises InvalidInput outside.
+        """
+    def at_phase(
+        self, k: typing.SupportsInt | typing.SupportsIndex, since_start: typing.SupportsFloat | typing.SupportsIndex
+    ) -> WholeBodyState:
+        """
+        WholeBodyState `since_start` [s] after the start of phase k: says which side of a boundary is meant.
+        """
+    def duration(self) -> float:
+        """
+        [s]
+        """
+    def interval_lengths(self) -> list[float]:
+        """
+        [s]
+        """
+    def knot_times(self) -> list[float]:
+        """
+        [s] phase boundaries, phases + 1 entries, from 0.
+        """
+    def save(self, path: typing.Any) -> None:
+        """
+        Write the plan to an .npz file.
+        """
+    def validate(self) -> None:
+        """
+        Raise InvalidPlan when sizes do not fit together, a duration or weight is not positive or a number is not finite; InvalidMotion and InvalidRobot for the motion.
+        """
+    @property
+    def base_control_points(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        3 x (intervals + 3): x, y [m], angle [rad]; empty: computed from the joints.
+        """
+    @base_control_points.setter
+    def base_control_points(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]) -> None: ...
+    @property
+    def control_points(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        Joints x (intervals + 3) [rad].
+        """
+    @control_points.setter
+    def control_points(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]) -> None: ...
+    @property
+    def durations(self) -> typing.Any:
+        """
+        Of the phases [s]. Assign a list to change them.
+        """
+    @durations.setter
+    def durations(self, arg1: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
+    @property
+    def force_polynomials(self) -> tuple:
+        """
+        polynomial: for each interval 4 x (2 points), coefficients of s^0..s^3, s = -1..1, of tangential and normal force [N], contact by contact, point by point.
+        """
+    @force_polynomials.setter
+    def force_polynomials(
+        self, arg1: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]]
+    ) -> None: ...
+    @property
+    def motion(self) -> PlanarMotion:
+        """
+        PlanarMotion that it was made for.
+        """
+    @motion.setter
+    def motion(self, arg1: PlanarMotion) -> None: ...
+    @property
+    def planner(self) -> str:
+        """
+        E.g. 'sip'.
+        """
+    @planner.setter
+    def planner(self, arg0: str) -> None: ...
+    @property
+    def weights(self) -> tuple:
+        """
+        least_norm: an array for each phase, contact by contact, point by point.
+        """
+    @weights.setter
+    def weights(
+        self, arg1: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]]
+    ) -> None: ...
+
+class WholeBodyTolerances:
+    """
+    Published tolerances of the checker of whole-body plans.
+    """
+    def __copy__(self) -> WholeBodyTolerances: ...
+    def __deepcopy__(self, memo: dict) -> WholeBodyTolerances: ...
+    def __init__(
+        self,
+        *,
+        limit: typing.SupportsFloat | typing.SupportsIndex = 0.0001,
+        drift: typing.SupportsFloat | typing.SupportsIndex = 0.0015,
+        drift_angle: typing.SupportsFloat | typing.SupportsIndex = 0.005,
+        balance: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
+        moment: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        friction: typing.SupportsFloat | typing.SupportsIndex = 0.0001,
+        pull: typing.SupportsFloat | typing.SupportsIndex = 0.0001,
+        clearance: typing.SupportsFloat | typing.SupportsIndex = 0.0015,
+        continuity: typing.SupportsFloat | typing.SupportsIndex = 1e-09,
+        pose: typing.SupportsFloat | typing.SupportsIndex = 0.001,
+        sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.001,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    @property
+    def balance(self) -> float:
+        """
+        [N] force that nothing carries.
+        """
+    @balance.setter
+    def balance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def clearance(self) -> float:
+        """
+        [m] swinging end-effector in a solid, capsules in each other.
+        """
+    @clearance.setter
+    def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def continuity(self) -> float:
+        """
+        [rad] jumps at knots, and what is not rest at the ends.
+        """
+    @continuity.setter
+    def continuity(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def drift(self) -> float:
+        """
+        [m] end-effector in contact from where it should be.
+        """
+    @drift.setter
+    def drift(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def drift_angle(self) -> float:
+        """
+        [rad]
+        """
+    @drift_angle.setter
+    def drift_angle(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def friction(self) -> float:
+        """
+        [-] of m g: tangential force beyond the cone.
+        """
+    @friction.setter
+    def friction(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def limit(self) -> float:
+        """
+        [-] position, velocity, torque beyond limits, relative.
+        """
+    @limit.setter
+    def limit(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def moment(self) -> float:
+        """
+        [N m] moment that nothing carries.
+        """
+    @moment.setter
+    def moment(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def pose(self) -> float:
+        """
+        [m], [rad]
+        """
+    @pose.setter
+    def pose(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def pull(self) -> float:
+        """
+        [-] of m g
+        """
+    @pull.setter
+    def pull(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def sample_s(self) -> float:
+        """
+        [s] sampling in time.
+        """
+    @sample_s.setter
+    def sample_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class Drift:
+    """
+    Largest distance and angle of a contact from where it should be.
+    """
+    def __copy__(self) -> Drift: ...
+    def __deepcopy__(self, memo: dict) -> Drift: ...
+    def __repr__(self) -> str: ...
+    @property
+    def angle_rad(self) -> float:
+        """
+        [rad]
+        """
+    @property
+    def position_m(self) -> float:
+        """
+        [m]
+        """
+
 def addresses(who: str, end_effector: EndEffector) -> bool:
     """
     Whether a name or kind addresses this end-effector.
     """
 
+@typing.overload
 def check(plan: Plan, scene: Scene = None, robot: Robot = None, tolerances: Tolerances = ...) -> CheckResult:
     """
     Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons alone. Raises InvalidPlan when its arrays do not fit together.
     """
 
+@typing.overload
+def check(plan: WholeBodyPlan, tolerances: WholeBodyTolerances = ..., self_collision: bool = False) -> CheckResult:
+    """
+    Check a whole-body plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidMotion or InvalidRobot where it is malformed.
+    """
+
+def largest_drift(plan: WholeBodyPlan, sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> Drift:
+    """
+    Drift of a whole-body plan, from samples in time and exact kinematics.
+    """
+
+def least_norm_gain(
+    motion: PlanarMotion,
+    phase: typing.SupportsInt | typing.SupportsIndex,
+    weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+    """
+    (2 points) x 3: gain from [m (a - g); moment about moment_point_W] to the forces (tangential, normal) of all points of a phase.
+    """
+
 def may_touch(surface: Surface, end_effector: EndEffector) -> bool:
     """
     Whether the surface lists the end-effector, by name or kind, or lists nobody.
+    """
+
+def moment_point_W(
+    motion: PlanarMotion, phase: typing.SupportsInt | typing.SupportsIndex
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+    """
+    Mean of the phase's expected points [m].
+    """
+
+def planar_inverse_dynamics(
+    robot: PlanarRobot, configuration: PlanarConfiguration, forces: collections.abc.Sequence[PlanarForce] = []
+) -> PlanarInverseDynamics:
+    """
+    Torques [N m] by the recursive Newton-Euler algorithm, and what is left over at the base.
+    """
+
+def planar_kinematics(robot: PlanarRobot, configuration: PlanarConfiguration) -> list[PlanarMotionOfFrame]:
+    """
+    Frames of all bodies: a list of PlanarMotionOfFrame.
+    """
+
+def planar_point(
+    body: PlanarMotionOfFrame,
+    point_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"],
+    angle_B: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+) -> PlanarMotionOfFrame:
+    """
+    A point of a body, in the body's frame [m]; angle_B [rad] is added to the body's.
     """
 
 def quat_wxyz_from_rpy(

@@ -6,6 +6,7 @@ import io
 import json
 import os
 import tempfile
+import tokenize
 import zipfile
 import zlib
 from collections.abc import Mapping
@@ -61,6 +62,7 @@ def read_arrays(data: bytes) -> dict[str, np.ndarray]:
         NotImplementedError,
         RuntimeError,
         SyntaxError,
+        tokenize.TokenError,
         zipfile.BadZipFile,
         zlib.error,
     ) as found:  # what NumPy and zipfile raise for damaged files

@@ -116,7 +116,7 @@ def plan_from_bytes(data: bytes) -> WholeBodyPlan:
     plan = WholeBodyPlan(
         motion=motion,
         planner=header["planner"],
-        durations=arrays["durations"],
+        durations=arrays["durations"].tolist(),
         control_points=arrays["control_points"],
         base_control_points=arrays["base_control_points"],
         force_law=law,

@@ -40,6 +40,14 @@ class Piece {
   /// True if the Jacobian is constant and the Hessian zero: both are then evaluated once.
   virtual bool linear() const { return false; }
 
+  /// True if entries of the Jacobian may be zero at one point and not at another: all are kept then.
+  virtual bool entries_come_and_go() const { return false; }
+
+  /// What messages call a row: "name[2]", or "name" where there is one.
+  virtual std::string row_name(int row) const {
+    return rows_ == 1 ? name_ : name_ + "[" + std::to_string(row) + "]";
+  }
+
  private:
   std::string name_;
   std::vector<int> variables_;

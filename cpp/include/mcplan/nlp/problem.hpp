@@ -42,7 +42,7 @@ class Problem {
   void add_cost(std::unique_ptr<Piece> piece);
 
   /// Find the sparse structure; to be called once, before anything below. Entries that are zero at three random points
-  /// are taken to be zero everywhere, so a piece must not have branches in which other entries appear.
+  /// are taken to be zero everywhere: a piece with branches in which other entries appear must say so.
   void finish();
 
   int variable_count() const { return static_cast<int>(lower_.size()); }

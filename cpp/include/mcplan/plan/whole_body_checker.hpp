@@ -14,8 +14,8 @@ struct WholeBodyTolerances {
   double moment = 1.0;        ///< [N m] moment that nothing carries: contacts are held where they are, to the drift
   double friction = 1e-4;     ///< [-] of m g: tangential force beyond the cone
   double pull = 1e-4;         ///< [-] of m g
-  double clearance = 1.5e-3;  ///< [m] swinging end-effector in a solid
-  double continuity = 1e-9;   ///< [rad], [rad/s], relative: joints at knots
+  double clearance = 1.5e-3;  ///< [m] swinging end-effector in a solid, capsules in each other
+  double continuity = 1e-9;   ///< [rad] of q, q' h, q'' h^2 (h: interval): jumps at knots, motion at the ends
   double pose = 1e-3;         ///< [m], [rad]
   double sample_s = 1e-3;     ///< [s] sampling in time
 };

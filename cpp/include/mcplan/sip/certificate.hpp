@@ -15,9 +15,10 @@ struct ProvedConstraint {
   std::string name;  ///< as in plan/whole_body_checker.hpp
   Proof proof = Proof::not_proved;
   double bound = 0.0;      ///< proved upper bound of the amount beyond the limit, over the whole motion, in `unit`
+  double reached = 0.0;    ///< proved lower bound of its maximum; above the tolerance: violated
   double tolerance = 0.0;  ///< what was to be proved: bound <= tolerance
   std::string unit;
-  int phase = -1;     ///< where the bound is largest
+  int phase = -1;     ///< where the bound is largest; where `reached` is, if violated; -1: nothing to prove
   std::string where;  ///< joint, end-effector or point
   double time_s = 0.0;
 };
@@ -25,7 +26,7 @@ struct ProvedConstraint {
 struct Certificate {
   std::vector<ProvedConstraint> constraints;
   int subdivisions = 0;   ///< pieces of time looked at
-  double rounding = 0.0;  ///< largest allowance for floating-point arithmetic that was added, relative
+  double rounding = 0.0;  ///< largest allowance for floating-point arithmetic in a bound, in shares of its tolerance
   double time_s = 0.0;    ///< wall clock
 
   bool proved() const;  ///< every constraint
@@ -41,7 +42,11 @@ struct CertifyOptions {
 /// Prove every inequality of a whole-body plan at every instant, not only at samples: sines, cosines, forces and
 /// torques are Taylor models (polynomial and bound of what is left out), Bernstein coefficients bound the polynomials,
 /// and an interval is halved until its bound is below the tolerance, a point of it is above it, or max_depth is
-/// reached. Throws InvalidPlan where the plan is malformed, InvalidOptions for an order out of 2..12.
+/// reached. Amounts are measured as the checker measures them. Not proved: `finite`, because plans with other numbers
+/// are malformed, and `collision`. Theory: docs/theory/sip_certificate.md.
+///
+/// Throws InvalidPlan, InvalidMotion or InvalidRobot where the plan is malformed, InvalidOptions for an order out of
+/// 2..12 or a max_depth out of 0..40.
 Certificate certify(const WholeBodyPlan& plan, const CertifyOptions& options = {});
 
 }  // namespace mcplan::sip

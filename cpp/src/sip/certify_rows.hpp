@@ -1,0 +1,82 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "certify_amount.hpp"
+#include "certify_dynamics.hpp"
+
+namespace mcplan::sip::proof {
+
+/// Constraints in the order and by the names of plan/whole_body_checker.hpp.
+enum class Kind {
+  phase_duration,
+  position,
+  velocity,
+  torque,
+  continuity,
+  rest,
+  drift,
+  drift_angle,
+  balance,
+  moment,
+  friction,
+  pull,
+  clearance,
+  pose,
+};
+inline constexpr int kKinds = static_cast<int>(Kind::pose) + 1;
+
+/// One scalar that a constraint bounds over an interval: the amount beyond the limit.
+struct Row {
+  Kind kind{};
+  std::string where;
+};
+
+/// What has to be proved over one interval, measured as the checker measures it.
+class IntervalRows {
+ public:
+  IntervalRows(const WholeBodyPlan& plan, const PhaseConstants& constants, int interval, int order);
+
+  const std::vector<Row>& rows() const { return rows_; }
+  const Trajectories& interval() const { return interval_; }
+
+  /// Amounts of the rows listed, over the piece [middle - half_width, middle + half_width] of [-1, 1].
+  std::vector<Amount> evaluate(double middle, double half_width, const std::vector<int>& listed) const;
+
+  /// Models of a piece, for what is asked at an instant only.
+  Trajectories piece(double middle, double half_width) const { return interval_.restricted(middle, half_width); }
+
+  double time_s(double s) const { return interval_.begin_s + 0.5 * (1.0 + s) * interval_.length_s; }
+
+ private:
+  template <class Visit>
+  void visit(const Trajectories& piece, const PieceModels* models, const Visit& visit) const;
+
+  const WholeBodyPlan& plan_;
+  const PhaseConstants& constants_;
+  int order_;
+  Trajectories interval_;
+  std::vector<Row> rows_;
+};
+
+/// A row that is asked at one instant, and where.
+struct InstantRow {
+  Row row;
+  int phase = -1;
+  double time_s = 0.0;
+  Amount amount;
+};
+
+/// Durations of phases, continuity at the knots, rest at both ends, heights and poses at given instants.
+std::vector<InstantRow> instant_rows(const WholeBodyPlan& plan, const std::vector<PhaseConstants>& constants,
+                                     const std::vector<IntervalRows>& intervals, int order);
+
+/// Height of a point of an end-effector over a surface, and where it is along the surface [m].
+struct OverSurface {
+  TaylorModel height, along;
+};
+OverSurface over_surface(const WholeBodyPlan& plan, const PieceModels& models, const PlanarClearance& clearance,
+                         int point);
+
+}  // namespace mcplan::sip::proof

@@ -1,0 +1,238 @@
+"""mcplan.files.whole_body_plans: a plan comes back as it was, and a damaged file is rejected with a name for it."""
+
+from __future__ import annotations
+
+import copy
+import io
+import json
+import pickle
+
+import numpy as np
+import pytest
+
+import mcplan as mp
+from mcplan import _core
+from mcplan.cli import main
+from mcplan.files.planar_data import motion_from_plain, motion_to_plain
+from mcplan.files.whole_body_plans import load_any_plan, load_whole_body_plan, plan_from_bytes, plan_to_bytes
+from reference_solutions import reference_motion, reference_plan
+from standing import standing_plan
+
+
+@pytest.fixture
+def plan() -> mp.WholeBodyPlan:
+    return reference_plan("cartwheel", "optimised_per_point")
+
+
+def given_forces() -> mp.WholeBodyPlan:
+    """A plan with forces and a base of its own."""
+    plan, rng = reference_plan("walking", "feasible_uniform"), np.random.default_rng(1)
+    plan.force_law = _core.PlanarForceLaw.polynomial
+    points = [2 * len(phase.contacts) for phase in plan.motion.phases for _ in range(phase.intervals)]
+    plan.force_polynomials = [rng.normal(size=(4, 2 * count)) for count in points]
+    plan.weights = []
+    plan.base_control_points = rng.normal(size=(3, plan.control_points.shape[1]))
+    return plan
+
+
+def arrays_of(data: bytes) -> dict:
+    with np.load(io.BytesIO(data), allow_pickle=False) as archive:
+        return {name: archive[name] for name in archive.files}
+
+
+def bytes_of(arrays: dict) -> bytes:
+    buffer = io.BytesIO()
+    np.savez(buffer, **arrays)
+    return buffer.getvalue()
+
+
+def states(plan: mp.WholeBodyPlan) -> list:
+    return [repr(plan.at(t)) for t in np.linspace(0.0, plan.duration(), 7)]
+
+
+@pytest.mark.parametrize("make", [lambda: reference_plan("cartwheel", "optimised_per_point"), given_forces])
+def test_a_plan_comes_back_exactly(make, tmp_path):
+    plan = make()
+    plan.motion.phases[1].poses = [_core.PlanarPose(body=3, fraction=1 / 3, max=[1.0, np.inf, 1e-17])]
+    plan.save(tmp_path / "plan.npz")
+    loaded = mp.WholeBodyPlan.load(tmp_path / "plan.npz")
+    for other in (loaded, pickle.loads(pickle.dumps(plan)), copy.deepcopy(plan)):
+        assert states(other) == states(plan)
+        assert repr(other.motion) == repr(plan.motion)
+        assert other.planner == "reference" and other.force_law == plan.force_law
+        assert plan_to_bytes(other) == plan_to_bytes(plan)
+
+
+def test_the_header_says_what_it_holds(plan):
+    header = json.loads(arrays_of(plan_to_bytes(plan))["header"].tobytes())
+    assert header["kind"] == "whole_body" and header["format"] == 1 and header["mcplan"] == mp.__version__
+    assert "m, kg, s" in header["units"]
+    assert header["motion"]["robot"]["name"] == "climber9"
+
+
+def test_an_invalid_plan_is_not_saved(plan, tmp_path):
+    target = tmp_path / "plan.npz"
+    target.write_text("old")
+    plan.control_points[1, 1] = np.nan
+    with pytest.raises(mp.InvalidPlan, match="control_points"):
+        plan.save(target)
+    assert target.read_text() == "old"
+    assert [path.name for path in tmp_path.iterdir()] == ["plan.npz"]
+
+
+def test_every_truncation_is_rejected(plan, tmp_path):
+    data = plan_to_bytes(plan)
+    for length in [0, 1, 100, *range(0, len(data), len(data) // 40), len(data) - 1]:
+        (tmp_path / "cut.npz").write_bytes(data[:length])
+        for load in (load_whole_body_plan, load_any_plan):
+            with pytest.raises(mp.InvalidPlan, match=r"cut.npz: must be an .npz file written by mcplan"):
+                load(tmp_path / "cut.npz")
+
+
+def test_flipped_bytes_never_crash(plan, tmp_path):
+    data, rng = plan_to_bytes(plan), np.random.default_rng(0)
+    for _ in range(300):
+        damaged = bytearray(data)
+        for position in rng.integers(0, len(data), 3):
+            damaged[position] ^= int(rng.integers(1, 256))
+        (tmp_path / "bad.npz").write_bytes(damaged)
+        try:
+            load_whole_body_plan(tmp_path / "bad.npz")  # a flip may hit bytes that nobody reads
+        except mp.InvalidPlan as found:
+            assert "bad.npz: " in str(found)
+
+
+def without(name):
+    return lambda arrays: arrays.pop(name)
+
+
+def put(name, value):
+    return lambda arrays: arrays.update({name: value(arrays[name])})
+
+
+def header(**changes):
+    def change(arrays):
+        data = {**json.loads(arrays["header"].tobytes()), **changes}
+        arrays["header"] = np.frombuffer(json.dumps(data).encode(), np.uint8)
+
+    return change
+
+
+def in_motion(change):
+    """Change the motion of the header in place."""
+
+    def apply(arrays):
+        motion = json.loads(arrays["header"].tobytes())["motion"]
+        change(motion)
+        header(motion=motion)(arrays)
+
+    return apply
+
+
+DAMAGE = {
+    "no header": (without("header"), "header: is required"),
+    "header no JSON": (put("header", lambda a: a[:-1]), "header: must be JSON"),
+    "no kind": (header(kind=None), "header.kind: must be 'whole_body', got None"),
+    "another kind": (header(kind="half_body"), "header.kind: must be 'whole_body', got 'half_body'"),
+    "future format": (header(format=2), "header.format: must be 1 for this version of mcplan, got 2"),
+    "format true": (header(format=True), "header.format: must be 1"),
+    "planner a number": (header(planner=1), "header.planner: must be a str, got int"),
+    "law of nobody": (
+        header(force_law="magic"),
+        "header.force_law: must be one of least_norm, polynomial, got 'magic'",
+    ),
+    "another law": (header(force_law="polynomial"), r"weights: must have shape \(0,\)"),
+    "no motion": (header(motion=[]), "header.motion: must be a dict, got list"),
+    "motion empty": (header(motion={}), "header.motion.name: is required"),
+    "motion with more": (in_motion(lambda m: m.update(speed=1)), "header.motion.speed: no such key. Keys: name,"),
+    "mass text": (
+        in_motion(lambda m: m["robot"]["bodies"][2].update(mass="heavy")),
+        r"header.motion.robot.bodies\[2\].mass: must be a number, got 'heavy'",
+    ),
+    "no mass": (
+        in_motion(lambda m: m["robot"]["bodies"][2].update(mass=0.0)),
+        r"header.motion.bodies\[2\].mass: must be a positive number, got 0",
+    ),
+    "loop": (in_motion(lambda m: m["robot"]["bodies"][2].update(parent=2)), r"bodies\[2\].parent: .* \(no loops\)"),
+    "half an interval": (
+        in_motion(lambda m: m["phases"][0].update(intervals=2.5)),
+        "intervals: must be a whole number",
+    ),
+    "huge index": (
+        in_motion(lambda m: m["phases"][0]["contacts"][0].update(surface=2**40)),
+        "surface: must be a whole number of 32 bits",
+    ),
+    "flat place": (
+        in_motion(lambda m: m["phases"][0]["contacts"][0].update(position_W=[1.0])),
+        "position_W: must be a list of 2",
+    ),
+    "contact in the air": (
+        in_motion(lambda m: m["phases"][0]["contacts"][0].update(position_W=[0.0, 0.1])),
+        r"header.motion.phases\[0\].contacts\[0\].position: must lie on surface 'ground'",
+    ),
+    "no durations": (without("durations"), "durations: is required"),
+    "too few durations": (put("durations", lambda a: a[1:]), "durations: must have 3 entries, got 2"),
+    "time runs back": (put("durations", lambda a: -a), r"durations\[0\]: must be a positive number"),
+    "whole durations": (put("durations", lambda a: a.astype(int)), "durations: must hold floating-point numbers"),
+    "text": (put("control_points", lambda a: a.astype(str)), "control_points: must hold floating-point numbers"),
+    "flat joints": (put("control_points", lambda a: a.ravel()), "control_points: must have 2 axes, got 1"),
+    "too few joints": (put("control_points", lambda a: a[1:]), "control_points: must be 9 x 13, got 8 x 13"),
+    "half a base": (put("base_control_points", lambda a: np.zeros((2, 13))), "base_control_points: must be 3 x 13"),
+    "a pickle": (put("weights", lambda a: a.astype(object)), "must be an .npz file written by mcplan"),
+    "weight missing": (put("weights", lambda a: a[1:]), r"weights: must have shape \(10,\), got \(9,\)"),
+    "weight 0": (put("weights", lambda a: 0 * a), r"weights\[0\]\[0\]: must be a positive number"),
+    "NaN": (put("control_points", lambda a: a * np.nan), "control_points: must be finite numbers"),
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_damaged_content_is_named(damage, plan, tmp_path):
+    change, message = DAMAGE[damage]
+    arrays = arrays_of(plan_to_bytes(plan))
+    change(arrays)
+    (tmp_path / "bad.npz").write_bytes(bytes_of(arrays))
+    with pytest.raises(mp.InvalidPlan, match=message) as found:
+        load_whole_body_plan(tmp_path / "bad.npz")
+    assert str(found.value).startswith(str(tmp_path / "bad.npz"))
+
+
+def test_forces_of_the_wrong_shape_are_named():
+    arrays = arrays_of(plan_to_bytes(given_forces()))
+    arrays["force_polynomials"] = arrays["force_polynomials"][:3]
+    with pytest.raises(mp.InvalidPlan, match=r"force_polynomials: must have shape \(4, 208\), got \(3, 208\)"):
+        plan_from_bytes(bytes_of(arrays))
+
+
+def test_files_of_the_two_kinds_are_told_apart(plan, tmp_path):
+    plan.save(tmp_path / "whole.npz")
+    standing_plan().save(tmp_path / "centroidal.npz")
+    assert isinstance(load_any_plan(tmp_path / "whole.npz"), mp.WholeBodyPlan)
+    assert isinstance(load_any_plan(tmp_path / "centroidal.npz"), mp.Plan)
+    with pytest.raises(mp.InvalidPlan, match="header.kind: must be 'whole_body', got None"):
+        mp.WholeBodyPlan.load(tmp_path / "centroidal.npz")
+    with pytest.raises(mp.InvalidPlan, match="header.kind: must be none: a plan of contacts and CoM, got 'whole_body'"):
+        mp.Plan.load(tmp_path / "whole.npz")
+    with pytest.raises(FileNotFoundError):
+        load_any_plan(tmp_path / "none.npz")
+
+
+def test_motions_come_back_exactly_from_json():
+    for name in ("cartwheel", "climbing", "climbing_steep", "walking"):
+        motion = reference_motion(name)
+        motion.surfaces[0].to = 3.5  # the other end stays open
+        plain = json.loads(json.dumps(motion_to_plain(motion), allow_nan=False))
+        assert repr(motion_from_plain(plain)) == repr(motion)
+
+
+def test_the_command_checks_whole_body_plans(plan, tmp_path, capsys):
+    target = tmp_path / "plan.npz"
+    plan.save(target)
+    assert main(["check", str(target)]) == 0
+    assert capsys.readouterr().out.startswith(f"{target}: ok. Closest to its limit: ")
+    plan.control_points[0, 3] += 0.05
+    plan.save(target)
+    assert main(["check", str(target), "--json"]) == 1
+    report = json.loads(capsys.readouterr().out)
+    assert (report["motion"], report["robot"], report["ok"]) == ("cartwheel", "climber9", False)
+    assert "drift" in {violation["name"] for violation in report["violations"]}
+    assert len(report["constraints"]) == 16
