@@ -55,6 +55,7 @@ from mcplan.errors import (
     InvalidRobot,
     InvalidScene,
     PlanViolated,
+    UnknownMotion,
     UnknownRobot,
     UnknownScene,
 )
@@ -93,6 +94,7 @@ __all__ = [
     "Surface",
     "Swing",
     "Tolerances",
+    "UnknownMotion",
     "UnknownRobot",
     "UnknownScene",
     "Violation",
@@ -101,6 +103,8 @@ __all__ = [
     "WholeBodyTolerances",
     "__version__",
     "check",
+    "load_motion",
+    "load_planar_robot",
     "load_robot",
     "load_scene",
     "plan",
@@ -144,6 +148,43 @@ def load_robot(source: str | Path) -> Robot:
         UnknownRobot: No such name and no such file; the message lists the names that exist.
     """
     from mcplan.files.robots import load_robot as load
+
+    return load(source)
+
+
+def load_planar_robot(source: str | Path) -> PlanarRobot:
+    """Load a planar robot by its built-in name or from a TOML file.
+
+    Args:
+        source: Name listed by ``mcplan robots`` as planar, or path of a file.
+
+    Returns:
+        The robot: a tree of rigid bodies (masses [kg], lengths [m], angles [rad]) and its end-effectors.
+
+    Raises:
+        InvalidRobot: A field is missing or out of range; the message names file, field, value and rule.
+        UnknownRobot: No such name and no such file; the message lists the names that exist.
+    """
+    from mcplan.files.planar_robots import load_planar_robot as load
+
+    return load(source)
+
+
+def load_motion(source: str | Path) -> PlanarMotion:
+    """Load a motion of a planar robot by its built-in name or from a TOML file.
+
+    Args:
+        source: Name listed by ``mcplan motions``, or path of a file.
+
+    Returns:
+        The motion: its planar robot, surfaces (world frame W, x forward, y up, [m]) and one stance for each phase.
+
+    Raises:
+        InvalidMotion: A field is missing or out of range; the message names file, field, value and rule.
+        InvalidRobot: The same of its robot.
+        UnknownMotion, UnknownRobot: No such name and no such file; the message lists the names that exist.
+    """
+    from mcplan.files.motions import load_motion as load
 
     return load(source)
 
@@ -294,16 +335,19 @@ def receding_horizon(
     return make(scene, robot, sequence, options)
 
 
-def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
+def show(
+    plan: Plan | WholeBodyPlan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None
+) -> Page:
     """Draw a plan in the browser; the result has ``save_html(path)``.
 
     Args:
-        plan: The plan.
+        plan: The plan; a whole-body plan is drawn with its own motion, and takes no scene and no robot.
         scene: Drawn around it; None: the plan's own.
         robot: Drawn along it; None: the plan's own. With a URDF its meshes are drawn, else a stick robot.
         report: How the plan was found, for the caption.
 
     Raises:
+        InvalidInput: A scene or a robot for a whole-body plan.
         MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
     """
     from mcplan.extras import require

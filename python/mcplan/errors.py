@@ -79,6 +79,12 @@ class UnknownRobot(UnknownName):
     kind = "robot"
 
 
+class UnknownMotion(UnknownName):
+    """No such motion."""
+
+    kind = "motion"
+
+
 class PlanViolated(RuntimeError):
     """The checker rejects a plan.
 

@@ -1,12 +1,9 @@
 """Pages stand alone, say what they show, and are the same from run to run."""
 
-import base64
-import gzip
 import hashlib
 import itertools
 import json
 import re
-import struct
 import subprocess
 import sys
 
@@ -17,9 +14,10 @@ import mcplan as mp
 import plans_by_hand as by_hand
 from mcplan.view import show, show_scene
 from mcplan.view.snapshot import find_browser
+from page_contents import clips_of, commands_of, floats, track
 from stepping import stepping_plan
 
-umsgpack = pytest.importorskip("umsgpack")
+pytest.importorskip("umsgpack")
 pytest.importorskip("meshcat")
 Image = pytest.importorskip("PIL.Image")
 
@@ -32,30 +30,6 @@ def plan():
 @pytest.fixture(scope="module")
 def html(plan):
     return show(plan).html()
-
-
-def commands_of(html: str) -> list[dict]:
-    raw = gzip.decompress(base64.b64decode(re.search(r'id="commands">([^<]*)<', html)[1]))
-    commands, at = [], 0
-    while at < len(raw):
-        (size,) = struct.unpack_from("<I", raw, at)
-        commands.append(umsgpack.unpackb(raw[at + 4 : at + 4 + size]))
-        at += 4 + size
-    return commands
-
-
-def clips_of(html: str) -> dict[str, dict]:
-    (animation,) = [c for c in commands_of(html) if c["type"] == "set_animation"]
-    return {a["path"].removeprefix("/meshcat/"): a["clip"] for a in animation["animations"]}
-
-
-def floats(values) -> np.ndarray:
-    return np.frombuffer(values.data, "<f4").astype(float)
-
-
-def track(clip: dict, name: str) -> dict:
-    (found,) = [t for t in clip["tracks"] if t["name"] == "." + name]
-    return found
 
 
 def test_page_refers_to_nothing_outside(html):

@@ -77,7 +77,8 @@ void check_continuity(const std::vector<IntervalSplines>& splines, const PlanarR
       double jump = 0.0, size = 1.0;
       const auto compare = [&](double a, double b, double scale) {
         const double difference = scale * std::abs(a - b);
-        if (!(difference <= jump)) jump = difference;  // not a number, where a spline overflows, is kept
+        // Where a spline overflows the difference is no number, which std::max would pass over.
+        jump = std::isfinite(difference) ? std::max(jump, difference) : std::numeric_limits<double>::infinity();
         size = std::max(size, scale * std::abs(a));
       };
       compare(before.position[j], after.position[j], 1.0);

@@ -130,8 +130,9 @@ void IntervalModel::add_cost_hessian(const Parameters& x, double weight, bool cu
   if (curvature) {
     graph.clear_adjoints(*work_);
     for (const Squared& term : squared_)
-      graph.adjoints(*work_, term.node) += 2.0 * weight * term.weight * half *
-                                           (square_integral(graph.order(term.node)) * graph.coefficients(*work_, term.node));
+      graph.adjoints(*work_, term.node) +=
+          2.0 * weight * term.weight * half *
+          (square_integral(graph.order(term.node)) * graph.coefficients(*work_, term.node));
     graph.hessian(*work_, H_);
   }
   for (const Squared& term : squared_) {

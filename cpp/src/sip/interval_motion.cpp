@@ -43,8 +43,7 @@ void IntervalMotion::add_inputs(const Layout& layout) {
         columns.push_back(local.duration_column(static_cast<int>(d)));
     const int count = static_cast<int>(columns.size());
     splines_.push_back(graph.input(3, std::move(columns)));
-    if (!fixed_basis)
-      graph.input_of(splines_.back()).curvature.assign(4, Eigen::MatrixXd::Zero(count, count));
+    if (!fixed_basis) graph.input_of(splines_.back()).curvature.assign(4, Eigen::MatrixXd::Zero(count, count));
   }
   const double share = local.knot_share[2];
   const int own = local.duration_column(local.own_duration);
@@ -125,8 +124,8 @@ void IntervalMotion::add_kinematics() {
     return out;
   };
   std::vector<Place> joint(count);
-  for (int b = 1; b < count; ++b) joint[b] = moved(joint[robot.bodies[b].parent], robot.bodies[b].parent,
-                                                   robot.bodies[b].joint_P);
+  for (int b = 1; b < count; ++b)
+    joint[b] = moved(joint[robot.bodies[b].parent], robot.bodies[b].parent, robot.bodies[b].joint_P);
   // P_w = mean_i (P_i^e - A_w P_i^q), eq. 12
   Terms base_x, base_y;
   Eigen::Vector2d base_constant = Eigen::Vector2d::Zero();
@@ -185,8 +184,7 @@ void IntervalMotion::add_forces(const std::array<Node, 3>& demand) {
       const Eigen::Vector2d &t = points[v].tangent, &x = points[v].place;
       for (int component = 0; component < 2; ++component) {
         std::vector<int> columns;
-        for (int m = 0; m < 4; ++m)
-          columns.push_back(local.force_column(8 * static_cast<int>(v) + 4 * component + m));
+        for (int m = 0; m < 4; ++m) columns.push_back(local.force_column(8 * static_cast<int>(v) + 4 * component + m));
         const Node node = graph.input(3, std::move(columns));
         graph.input_of(node).tangents.setIdentity();
         force_inputs_.push_back(node);
@@ -282,7 +280,8 @@ void IntervalMotion::add_dynamics() {
     const Point place = point(foot.body, foot.position_B);
     const Body& body = bodies[foot.body];
     const double c = std::cos(foot.angle_B), s = std::sin(foot.angle_B);
-    const Point tau{graph.linear({{c, body.cosine}, {-s, body.sine}}), graph.linear({{c, body.sine}, {s, body.cosine}})};
+    const Point tau{graph.linear({{c, body.cosine}, {-s, body.sine}}),
+                    graph.linear({{c, body.sine}, {s, body.cosine}})};
     Subtree& leaf = tree[foot.body];
     leaf.contact_x.push_back({1.0, total.x});
     leaf.contact_y.push_back({1.0, total.y});
@@ -314,8 +313,8 @@ void IntervalMotion::set_splines(const Eigen::Ref<const Eigen::VectorXd>& x, boo
   const bool fixed_basis = graph.columns(splines_[0]).size() == local.controls.size();
   std::array<Jet, 5> spacing;
   for (int d = 0; d < 5; ++d)
-    spacing[d] = Jet::variable(x[local.duration_column(local.knot_duration[d])], local.knot_duration[d],
-                               local.knot_share[d]);
+    spacing[d] =
+        Jet::variable(x[local.duration_column(local.knot_duration[d])], local.knot_duration[d], local.knot_share[d]);
   Eigen::Matrix4d basis = Eigen::Matrix4d::Zero();  // by distinct control point
   std::array<Eigen::Matrix4d, Jet::kSize> first;
   std::array<std::array<Eigen::Matrix4d, Jet::kSize>, Jet::kSize> second;

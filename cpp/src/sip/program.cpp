@@ -32,18 +32,19 @@ class IntervalRows : public nlp::Piece {
 /// The cost of one interval.
 class IntervalCost : public nlp::Piece {
  public:
-  IntervalCost(IntervalModel& model, Curvature curvature)
-      : Piece("cost", model.local().variables, 1), model_(model), curvature_(curvature) {}
+  IntervalCost(IntervalModel& model, Curvature curvature, double scale)
+      : Piece("cost", model.local().variables, 1), model_(model), curvature_(curvature), scale_(scale) {}
 
-  void values(const ConstVector& x, Vector f) const override { f[0] = model_.cost(x); }
-  void jacobian(const ConstVector& x, Matrix J) const override { J.row(0) = model_.cost_gradient(x); }
+  void values(const ConstVector& x, Vector f) const override { f[0] = scale_ * model_.cost(x); }
+  void jacobian(const ConstVector& x, Matrix J) const override { J.row(0) = scale_ * model_.cost_gradient(x); }
   void hessian(const ConstVector& x, const ConstVector& weights, Matrix H) const override {
-    model_.add_cost_hessian(x, weights[0], curvature_ == Curvature::exact, H);
+    model_.add_cost_hessian(x, scale_ * weights[0], curvature_ == Curvature::exact, H);
   }
 
  private:
   IntervalModel& model_;
   Curvature curvature_;
+  double scale_;
 };
 
 /// factor / 2 |x - anchor|^2
@@ -104,32 +105,31 @@ void add_parameters(nlp::Problem& problem, const PlanarMotion& motion, const Opt
                             {first, first + motion.phases[p].intervals - 1});
   }
   for (int k = 0; k < layout.intervals; ++k)
-    if (layout.forces[k] > 0)
-      problem.add_variables("force", layout.forces[k], -nlp::kInfinity, nlp::kInfinity, {k, k});
+    if (layout.forces[k] > 0) problem.add_variables("force", layout.forces[k], -nlp::kInfinity, nlp::kInfinity, {k, k});
 }
 
 }  // namespace
 
-Program::Program(const PlanarMotion& motion, const Options& options, Curvature curvature, bool cost,
+Program::Program(const PlanarMotion& motion, const Options& options, Curvature curvature, double cost_scale,
                  const Eigen::VectorXd& anchor)
     : motion_(motion), options_(options), layout_(motion_, options_) {
   add_parameters(problem_, motion_, options_, layout_);
   const auto work = std::make_shared<TaylorGraph::Workspace>();
   for (int k = 0; k < layout_.intervals; ++k)
     models_.push_back(std::make_unique<IntervalModel>(motion_, options_, layout_, k, work));
-  const bool weighted = cost && options_.has_cost();
+  const bool weighted = cost_scale > 0.0;
   for (const auto& model : models_) {
     const Rows& rows = model->rows();
     if (rows.count() > 0)
       problem_.add_constraint(std::make_unique<IntervalRows>(*model, curvature), rows.lower(), rows.upper());
     const bool squares = (options_.dynamics && options_.torque_weight > 0.0) || options_.jerk_weight > 0.0;
-    if (weighted && squares) problem_.add_cost(std::make_unique<IntervalCost>(*model, curvature));
+    if (weighted && squares) problem_.add_cost(std::make_unique<IntervalCost>(*model, curvature, cost_scale));
   }
   if (weighted && options_.duration_weight > 0.0) {
     std::vector<int> durations(layout_.durations);
     for (int i = 0; i < layout_.durations; ++i) durations[i] = layout_.first_duration + i;
     problem_.add_cost(std::make_unique<nlp::LinearPiece>(
-        "duration", durations, Eigen::MatrixXd::Constant(1, layout_.durations, options_.duration_weight)));
+        "duration", durations, Eigen::MatrixXd::Constant(1, layout_.durations, cost_scale * options_.duration_weight)));
   }
   if (!weighted) {
     constexpr int kBlock = 9;

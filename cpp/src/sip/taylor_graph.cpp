@@ -41,9 +41,8 @@ TaylorGraph::Node TaylorGraph::input(int order, std::vector<int> columns) {
   node.operation = Operation::input;
   node.order = order;
   node.input = static_cast<int>(inputs_.size());
-  inputs_.push_back({Eigen::VectorXd::Zero(order + 1),
-                     RowMajor::Zero(order + 1, static_cast<int>(columns.size())),
-                     {}});
+  inputs_.push_back(
+      {Eigen::VectorXd::Zero(order + 1), RowMajor::Zero(order + 1, static_cast<int>(columns.size())), {}});
   return add(node, std::move(columns));
 }
 

@@ -136,7 +136,7 @@ void TaylorGraph::evaluate_tangents(Workspace& work) const {
         for (int i = 0; i <= std::min(left.order, node.order); ++i)
           for (int j = 0; j <= std::min(right.order, node.order - i); ++j) {
             double* __restrict row = out + (i + j) * width;
-            const double *__restrict rb = db + j * width, *__restrict ra = da + i * width;
+            const double* __restrict rb = db + j * width, * __restrict ra = da + i * width;
             const double ai = a[i], bj = b[j];
             for (int c = 0; c < width; ++c) row[c] += ai * rb[c] + bj * ra[c];
           }

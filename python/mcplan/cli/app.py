@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from mcplan.cli import bench, check, demo, plan, reproduce, rhp, robots, scenes, version
+from mcplan.cli import bench, check, demo, motions, plan, reproduce, rhp, robots, scenes, version
 
 app = typer.Typer(
     help="Multi-contact motion planning: which limb touches what, when and where.",
@@ -13,7 +13,17 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-verbs = (demo.demo, plan.plan, rhp.rhp, check.check, scenes.scenes, robots.robots, reproduce.reproduce, version.version)
+verbs = (
+    demo.demo,
+    plan.plan,
+    rhp.rhp,
+    check.check,
+    scenes.scenes,
+    robots.robots,
+    motions.motions,
+    reproduce.reproduce,
+    version.version,
+)
 for verb in verbs:
     app.command(verb.__name__)(verb)
 app.add_typer(bench.app, name="bench")

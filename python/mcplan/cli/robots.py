@@ -24,9 +24,12 @@ def robots(
         typer.Option(
             "--end",
             metavar="NAME=FRAME[:KIND[:LxW]]",
-            help="End-effector, its URDF frame, kind and half size.",
+            help="End-effector, its URDF frame, kind and half size; with --planar NAME=FRAME[:POINT,...].",
         ),
     ] = None,
+    planar: Annotated[
+        bool, typer.Option("--planar", help="With --from-urdf: a planar robot, of joints about one axis, for sip.")
+    ] = False,
     srdf: Annotated[Path | None, typer.Option("--srdf", metavar="FILE", help="Nominal posture: its first one.")] = None,
     reach_polytopes: Annotated[
         bool, typer.Option("--reach-polytopes", help="With --from-urdf: the reach of feet as polytopes too, for rhp.")
@@ -39,18 +42,37 @@ def robots(
 
     Example: mcplan robots --from-urdf my.urdf --end left_foot=l_sole:foot:0.10x0.05 --end right_foot=r_sole -o my.toml
     """
-    from mcplan.cli.table import print_table
+    from mcplan.cli import planar_robots
     from mcplan.errors import InvalidInput
-    from mcplan.files.robots import list_robots, load_robot
+    from mcplan.files.planar_robots import load_planar_robot
+    from mcplan.files.robots import load_robot
 
-    if from_urdf is not None:
+    for option, given in (("--reach-polytopes", reach_polytopes), ("--planar", planar)):
+        if given and from_urdf is None:
+            raise InvalidInput(option, "needs --from-urdf")
+    for option, given in (("--reach-polytopes", reach_polytopes), ("--srdf", srdf is not None)):
+        if given and planar:
+            raise InvalidInput(option, "may not stand beside --planar")
+    if from_urdf is not None and planar:
+        planar_robots.planar_robot_from_urdf(from_urdf, end or [], output)
+    elif from_urdf is not None:
         _from_urdf(from_urdf, end or [], srdf, output, faces if reach_polytopes else None, seed)
-    elif reach_polytopes:
-        raise InvalidInput("--reach-polytopes", "needs --from-urdf")
     elif name is None:
-        print_table([entry, load_robot(entry).description] for entry in list_robots())
+        _print_list()
+    elif planar_robots.is_planar(name):
+        planar_robots.print_planar_robot(load_planar_robot(name))
     else:
         _print_robot(load_robot(name))
+
+
+def _print_list() -> None:
+    from mcplan.cli.table import print_table
+    from mcplan.files.planar_robots import list_planar_robots, load_planar_robot
+    from mcplan.files.robots import list_robots, load_robot
+
+    rows = [[entry, "", load_robot(entry).description] for entry in list_robots()]
+    rows += [[entry, "planar", load_planar_robot(entry).description] for entry in list_planar_robots()]
+    print_table(rows)
 
 
 def _from_urdf(

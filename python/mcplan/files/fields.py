@@ -13,6 +13,7 @@ Model = TypeVar("Model", bound=BaseModel)
 
 _TYPE_RULES = {
     "float_type": "must be a number",
+    "int_type": "must be a whole number",
     "string_type": "must be a string",
     "bool_type": "must be true or false",
     "list_type": "must be a list",
@@ -56,12 +57,15 @@ def _rule(model: type[BaseModel], finding: Any) -> str:
     if kind == "missing":
         return "is required"
     if kind == "extra_forbidden":
-        legal = list(_model_at(model, finding["loc"][:-1]).model_fields)
+        fields = _model_at(model, finding["loc"][:-1]).model_fields
+        legal = [field.alias or name for name, field in fields.items()]
         return f"no such key. {did_you_mean(str(finding['loc'][-1]), legal)}Keys: {', '.join(legal)}"
     if kind == "greater_than":
         return "must be a positive number" if context["gt"] == 0 else f"must be greater than {context['gt']}"
     if kind == "greater_than_equal":
         return f"must be at least {context['ge']:g}"
+    if kind == "less_than_equal":
+        return f"must be at most {context['le']:g}"
     if kind == "string_too_short":
         return "must not be empty"
     if kind == "too_long":

@@ -18,11 +18,11 @@ Point = Annotated[list[Number], Field(min_length=3, max_length=3)]
 Names = list[Name]
 
 
-class _Table(BaseModel):
+class Table(BaseModel):
     model_config = ConfigDict(strict=True, extra="forbid")
 
 
-class SurfaceModel(_Table):
+class SurfaceModel(Table):
     """A flat patch of the world that end-effectors may touch."""
 
     name: Name = Field(description="Unique name.")
@@ -36,7 +36,7 @@ class SurfaceModel(_Table):
     thickness: Positive = Field(0.05, description="[m] Solid below the surface that swings must clear.")
 
 
-class StanceModel(_Table):
+class StanceModel(Table):
     """Where the robot is at the start or the goal. Heights come from the robot."""
 
     position: Point = Field(description="[m] Point of the ground below the CoM, world frame.")
@@ -44,21 +44,21 @@ class StanceModel(_Table):
     contacts: dict[Name, Name] = Field(description="End-effector or kind -> surface. A name beats its kind.")
 
 
-class RuleModel(_Table):
+class RuleModel(Table):
     """If none of `when_free` is in contact, all of `require` must be."""
 
     when_free: Names = Field(min_length=1, description="Names or kinds of end-effectors.")
     require: Names = Field(min_length=1, description="Names or kinds of end-effectors.")
 
 
-class StepModel(_Table):
+class StepModel(Table):
     """One step of a walk."""
 
     end_effector: Name = Field(description="Name of the end-effector that swings.")
     surface: Name = Field(description="Name of the surface on which it lands.")
 
 
-class SceneModel(_Table):
+class SceneModel(Table):
     """The world: surfaces, start and goal. World frame with z up, SI units."""
 
     name: Name | None = Field(None, description="Default: the name of the file.")
@@ -71,7 +71,7 @@ class SceneModel(_Table):
     steps: list[StepModel] = Field([], description="Contact sequence of a walk, for planners that want it given.")
 
 
-class PolytopeModel(_Table):
+class PolytopeModel(Table):
     """Convex set {x : A x <= b}: given by A and b, or by the file that holds them."""
 
     A: list[Point] = Field([], description="Outward normals of the faces, of length 1 within 0.001.")
@@ -80,7 +80,7 @@ class PolytopeModel(_Table):
     name: str = Field("", description="Key of the polytope among the file's `polytopes`.")
 
 
-class EndEffectorModel(_Table):
+class EndEffectorModel(Table):
     """A contact link. Positions relative to the CoM, in axes that turn with the base (x forward, y left, z up)."""
 
     name: Name = Field(description="Unique name.")
@@ -108,7 +108,7 @@ class EndEffectorModel(_Table):
     )
 
 
-class RobotModel(_Table):
+class RobotModel(Table):
     """What a planner needs to know of a robot: lumped inertia and where its limbs reach. SI units."""
 
     name: Name | None = Field(None, description="Default: the name of the file.")

@@ -1,4 +1,4 @@
-"""JSON schemas of scene and robot files, for editors and other programs.
+"""JSON schemas of scene, robot and motion files, for editors and other programs.
 
 python -m mcplan.files.schema        # writes mcplan/data/schema/*.json from the models
 """
@@ -11,12 +11,18 @@ from pydantic import BaseModel
 
 from mcplan.files.builtin import DATA
 from mcplan.files.models import RobotModel, SceneModel
+from mcplan.files.planar_models import MotionModel, PlanarRobotModel
 
-MODELS: dict[str, type[BaseModel]] = {"scene": SceneModel, "robot": RobotModel}
+MODELS: dict[str, type[BaseModel]] = {
+    "scene": SceneModel,
+    "robot": RobotModel,
+    "planar_robot": PlanarRobotModel,
+    "motion": MotionModel,
+}
 
 
 def schema_text(name: str) -> str:
-    """The JSON schema ("scene" or "robot") as it stands in ``mcplan/data/schema``."""
+    """The JSON schema of a kind of file (a key of MODELS) as it stands in ``mcplan/data/schema``."""
     schema = {"$schema": "https://json-schema.org/draft/2020-12/schema", **MODELS[name].model_json_schema()}
     return json.dumps(schema, indent=2) + "\n"
 

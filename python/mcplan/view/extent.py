@@ -35,7 +35,7 @@ class Extent:
         walls = ((self.forward, self.half_length), (self.left, self.half_width))
         for axis, half in walls:
             for sign in (1.0, -1.0):
-                polygon = _below(polygon, sign * (polygon[:, :2] - self.centre) @ axis - half)
+                polygon = below(polygon, sign * (polygon[:, :2] - self.centre) @ axis - half)
                 if len(polygon) < 3:
                     return np.zeros((0, 3))
         return polygon
@@ -64,8 +64,8 @@ def extent_of(scene: Scene, robot: Robot | None, samples: Samples | None, length
     return Extent(centre, forward, 0.5 * float(np.ptp(along)) + length, 0.5 * float(np.ptp(across)) + width)
 
 
-def _below(polygon: Array, height: Array) -> Array:
-    """The part of a convex polygon with height <= 0 (Sutherland and Hodgman)."""
+def below(polygon: Array, height: Array) -> Array:
+    """The part of a convex polygon (n, 2 or 3) with height (n,) <= 0 (Sutherland and Hodgman)."""
     kept = []
     for i in range(len(polygon)):
         j = (i + 1) % len(polygon)
@@ -74,4 +74,4 @@ def _below(polygon: Array, height: Array) -> Array:
         if (height[i] < 0.0 < height[j]) or (height[j] < 0.0 < height[i]):
             share = height[i] / (height[i] - height[j])
             kept.append(polygon[i] + share * (polygon[j] - polygon[i]))
-    return np.array(kept).reshape(-1, 3)
+    return np.array(kept).reshape(-1, polygon.shape[1])

@@ -10,6 +10,7 @@ from .samples import Interval
 
 if TYPE_CHECKING:
     from mcplan import Robot, Scene
+    from mcplan._core import PlanarMotion, PlanarRobot
 
 
 def caption(title: str, lines: list[str], entries: list[str]) -> str:
@@ -20,21 +21,27 @@ def caption(title: str, lines: list[str], entries: list[str]) -> str:
 
 def plan_legend(scene: Scene, robot: Robot, colours: list[str], newton_per_metre: float) -> list[str]:
     """Legend entries for a plan; a click hides what they name."""
-    entries = [_entry("com paths/com", "ball", COM, "centre of mass")]
+    entries = [entry("com paths/com", "ball", COM, "centre of mass")]
     for end, colour in zip(robot.end_effectors, colours, strict=True):
-        entries.append(_entry(f"paths/{end.name} contacts/{end.name}", "line", colour, end.name.replace("_", " ")))
-    entries.append(_entry("forces", "arrow", "", f"contact force ({0.1 * newton_per_metre:.0f} N: 10 cm)"))
-    entries.append(_entry("robot", "", "#98a2ae", "robot"))
+        entries.append(entry(f"paths/{end.name} contacts/{end.name}", "line", colour, end.name.replace("_", " ")))
+    entries.append(entry("forces", "arrow", "", f"contact force ({0.1 * newton_per_metre:.0f} N: 10 cm)"))
+    entries.append(entry("robot", "", "#98a2ae", "robot"))
     return entries + scene_legend(scene)
 
 
 def scene_legend(scene: Scene) -> list[str]:
     """Legend entries for surfaces that are special."""
     grasps = [surface.name for surface in scene.surfaces if surface.grasp]
-    return [_entry(" ".join(f"scene/{name}" for name in grasps), "", GRASP, "may be held")] if grasps else []
+    return [entry(" ".join(f"scene/{name}" for name in grasps), "", GRASP, "may be held")] if grasps else []
 
 
-def timeline(scene: Scene, robot: Robot, intervals: list[Interval], colours: list[str], duration_s: float) -> str:
+def timeline(
+    scene: Scene | PlanarMotion,
+    robot: Robot | PlanarRobot,
+    intervals: list[Interval],
+    colours: list[str],
+    duration_s: float,
+) -> str:
     """Panel at the bottom: contacts of every end-effector over time, and a cursor."""
     names, tracks = [], []
     for end, colour in zip(range(len(colours)), colours, strict=True):
@@ -62,7 +69,8 @@ def timeline(scene: Scene, robot: Robot, intervals: list[Interval], colours: lis
     )
 
 
-def _entry(nodes: str, shape: str, colour: str, text: str) -> str:
+def entry(nodes: str, shape: str, colour: str, text: str) -> str:
+    """Legend entry that hides and shows nodes; its swatch is a "line", "ball", "arrow", or a patch."""
     style = f' style="background: {colour}"' if colour else ""
     return (
         f'<label><input type="checkbox" checked data-nodes="{escape(nodes)}">'

@@ -90,44 +90,46 @@ def _draw_contact(stage: Stage, number: int, interval: Interval, samples: Sample
 
 def _draw_force(stage: Stage, end: int, samples: Samples, robot: Robot, weight: float) -> None:
     height = float(robot.com_height)
-    name = robot.end_effectors[end].name
-    force = samples.forces_W[:, end]
-    size = np.linalg.norm(force, axis=1)
+    path = f"forces/{robot.end_effectors[end].name}"
+    draw_arrow(stage, path, samples.times_s, samples.pressure_W[:, end], samples.forces_W[:, end], weight, height)
+
+
+def draw_arrow(
+    stage: Stage, path: str, times_s: Array, start_W: Array, force_W: Array, weight: float, height: float
+) -> None:
+    """Put a force arrow onto a page, unless it is never seen.
+
+    Args:
+        stage: The page's.
+        path: Node; "shaft" and "head" hang below it.
+        times_s: Times [s], (n,).
+        start_W: Where the force acts, (n, 3) [m].
+        force_W: The force, (n, 3) [N].
+        weight: Of the robot [N]; an arrow of this size is WEIGHT_ARROW times the height long.
+        height: Of the robot [m].
+    """
+    size = np.linalg.norm(force_W, axis=1)
     if size.max() < 1e-3 * weight:
         return
     length = WEIGHT_ARROW * height * size / weight
     head = 0.085 * height
     frames = []
     frame = np.eye(3)
-    for f, s in zip(force, size, strict=True):
+    for f, s in zip(force_W, size, strict=True):
         if s > 1e-3 * weight:
             frame = with_axis_z(f, frame[:, 0])
         frames.append(frame)
     rotation = np.array(frames)
     shrink = np.clip(length / (2.0 * head), 1e-3, 1.0)
     shaft = np.maximum(length - head * shrink, 1e-4)
-    start = samples.pressure_W[:, end]
     seen = length > 0.02 * height
-    ones = np.ones(samples.count)
     ring = 0.011 * height * circle(10)
     bar = loft(np.array([np.column_stack([ring, np.full(10, z)]) for z in (0.0, 1.0)]))
-    stage.mesh(f"forces/{name}/shaft", bar, FORCE, glow=0.15)
-    stage.move(
-        f"forces/{name}/shaft",
-        samples.times_s,
-        pose(rotation, start),
-        np.column_stack([shrink, shrink, shaft]),
-        seen,
-    )
-    stage.mesh(f"forces/{name}/head", cone(0.032 * height, head), FORCE, glow=0.15)
-    tip = start + rotation[:, :, 2] * shaft[:, None]
-    stage.move(
-        f"forces/{name}/head",
-        samples.times_s,
-        pose(rotation, tip),
-        (shrink * ones)[:, None].repeat(3, axis=1),
-        seen,
-    )
+    stage.mesh(f"{path}/shaft", bar, FORCE, glow=0.15)
+    stage.move(f"{path}/shaft", times_s, pose(rotation, start_W), np.column_stack([shrink, shrink, shaft]), seen)
+    stage.mesh(f"{path}/head", cone(0.032 * height, head), FORCE, glow=0.15)
+    tip = start_W + rotation[:, :, 2] * shaft[:, None]
+    stage.move(f"{path}/head", times_s, pose(rotation, tip), shrink[:, None].repeat(3, axis=1), seen)
 
 
 def draw_standing(stage: Stage, name: str, samples: Samples, figure: Figure, opacity: float) -> None:

@@ -5,32 +5,52 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mcplan._core import WholeBodyPlan
+
+from .film_strip import film_strip, stroboscope
 from .picture import picture
 from .plots_plan import plot_com, plot_forces, plot_friction, plot_gait, plot_momentum
+from .plots_point_forces import plot_cones, plot_point_forces
 from .plots_points import plot_pressure, plot_timing
 from .plots_report import has_sequences, plot_contact_sequence, plot_cost
+from .plots_whole_body import plot_base, plot_drift, plot_joint_velocities, plot_joints, plot_torques
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from mcplan import Plan, Report
 
 __all__ = [
+    "film_strip",
     "picture",
+    "plot_base",
     "plot_com",
+    "plot_cones",
     "plot_contact_sequence",
     "plot_cost",
+    "plot_drift",
     "plot_forces",
     "plot_friction",
     "plot_gait",
+    "plot_joint_velocities",
+    "plot_joints",
     "plot_momentum",
+    "plot_point_forces",
     "plot_pressure",
     "plot_timing",
+    "plot_torques",
     "save_plots",
+    "stroboscope",
 ]
 
 
-def save_plots(plan: Plan, report: Report | None, directory: str | Path) -> list[Path]:
-    """Write picture.png, gait.png, com.png, momentum.png, forces.png, friction.png, for a plan with forces at points
-    pressure.png and timing.png, and from the report cost.png and contact_sequence.png as far as it holds their data.
+def save_plots(plan: Plan | WholeBodyPlan, report: Report | None, directory: str | Path) -> list[Path]:
+    """Write all plots of a plan.
+
+    Of a plan of contacts and CoM: picture.png, gait.png, com.png, momentum.png, forces.png, friction.png, for one with
+    forces at points pressure.png and timing.png, and from the report cost.png and contact_sequence.png as far as it holds
+    their data. Of a whole-body plan: strip.png, postures.png, joints.png, velocities.png, torques.png, forces.png,
+    cones.png, base.png and drift.png.
 
     Args:
         plan: The plan.
@@ -42,11 +62,24 @@ def save_plots(plan: Plan, report: Report | None, directory: str | Path) -> list
 
     Raises:
         MissingExtra: matplotlib is not installed.
+        InvalidPlan: The plan's arrays do not fit together.
         OSError: The directory cannot be written to.
     """
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
-    written = [picture(plan, path=directory / "picture.png")]
+    if isinstance(plan, WholeBodyPlan):
+        written: list[Path] = []
+        figures = _whole_body_figures(plan)
+    else:
+        written, figures = [picture(plan, path=directory / "picture.png")], _figures(plan, report)
+    for name, figure in figures.items():
+        path = directory / f"{name}.png"
+        figure.savefig(path, metadata={"Software": None})
+        written.append(path)
+    return written
+
+
+def _figures(plan: Plan, report: Report | None) -> dict[str, Figure]:
     figures = {
         "gait": plot_gait(plan),
         "com": plot_com(plan),
@@ -60,8 +93,18 @@ def save_plots(plan: Plan, report: Report | None, directory: str | Path) -> list
         figures["cost"] = plot_cost(report)
         if has_sequences(report):
             figures["contact_sequence"] = plot_contact_sequence(report, plan)
-    for name, figure in figures.items():
-        path = directory / f"{name}.png"
-        figure.savefig(path, metadata={"Software": None})
-        written.append(path)
-    return written
+    return figures
+
+
+def _whole_body_figures(plan: WholeBodyPlan) -> dict[str, Figure]:
+    return {
+        "strip": film_strip(plan),
+        "postures": stroboscope(plan),
+        "joints": plot_joints(plan),
+        "velocities": plot_joint_velocities(plan),
+        "torques": plot_torques(plan),
+        "forces": plot_point_forces(plan),
+        "cones": plot_cones(plan),
+        "base": plot_base(plan),
+        "drift": plot_drift(plan),
+    }

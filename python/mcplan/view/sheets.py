@@ -27,12 +27,7 @@ def sheet(rows: int, columns: int = 1, size: tuple[float, float] = (9.0, 4.0), *
     Raises:
         MissingExtra: matplotlib is not installed.
     """
-    require("mcplan.view.plots", "view", "matplotlib")
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=size, dpi=140, facecolor="white", layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = blank_sheet("mcplan.view.plots", size, constrained=True)
     axes = np.asarray(figure.subplots(rows, columns, squeeze=False, **options))
     for each in axes.flat:
         for side in ("top", "right"):
@@ -43,6 +38,21 @@ def sheet(rows: int, columns: int = 1, size: tuple[float, float] = (9.0, 4.0), *
         each.grid(True, color="#E8EBEE", linewidth=0.7)
         each.set_axisbelow(True)
     return figure, axes
+
+
+def blank_sheet(what: str, size: tuple[float, float], constrained: bool = False) -> Figure:
+    """A white figure without axes; size in inches; `constrained`: matplotlib places what is added.
+
+    Raises:
+        MissingExtra: matplotlib is not installed; the message says what needs it.
+    """
+    require(what, "view", "matplotlib")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=size, dpi=140, facecolor="white", layout="constrained" if constrained else None)
+    FigureCanvasAgg(figure)
+    return figure
 
 
 def label(axes: Any, x: str = "", y: str = "", title: str = "") -> None:

@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mcplan._core import WholeBodyPlan
+from mcplan.errors import InvalidInput
+
 from .colours import end_effector_colours
 from .extent import extent_of
 from .figure import Figure
@@ -16,6 +19,7 @@ from .plan_drawing import WEIGHT_ARROW, draw_plan, draw_standing
 from .robot_stick import stick_robot
 from .samples import Samples, sample, stance_samples
 from .scene_drawing import draw_surfaces, surface_drawings
+from .show_whole_body import show_whole_body
 from .stage import Stage
 from .viewpoint import camera_direction, sun_direction, view_points
 
@@ -26,11 +30,13 @@ if TYPE_CHECKING:
 FRAME_RATE = 30.0
 
 
-def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
+def show(
+    plan: Plan | WholeBodyPlan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None
+) -> Page:
     """Draw a plan for the browser.
 
     Args:
-        plan: The plan.
+        plan: The plan; a whole-body plan brings its ground and its robot along, and takes no others.
         scene: Drawn around it; None: the plan's own.
         robot: Drawn along it; None: the plan's own. With a URDF its meshes follow the plan by inverse
             kinematics; without, or when no posture follows it within 5 cm (a warning says so), it is a stick
@@ -40,7 +46,13 @@ def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, rep
     Raises:
         MissingExtra: meshcat (or Pinocchio, for a robot with a URDF) is not installed.
         InvalidPlan: The plan's arrays do not fit together.
+        InvalidInput: A scene or a robot for a whole-body plan.
     """
+    if isinstance(plan, WholeBodyPlan):
+        for name, given in (("scene", scene), ("robot", robot)):
+            if given is not None:
+                raise InvalidInput(name, "a whole-body plan is drawn with its own motion", repr(given.name))
+        return show_whole_body(plan, report)
     scene = scene if scene is not None else plan.scene
     robot = robot if robot is not None else plan.robot
     plan.validate()

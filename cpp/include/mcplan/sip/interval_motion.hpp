@@ -30,9 +30,9 @@ struct IntervalMotion {
     Point joint, com;   ///< [m]
   };
   struct Contact {
-    Point error;       ///< actual minus expected position [m]
-    Node angle_error;  ///< [rad]
-    bool free = true;  ///< not zero by construction
+    Point error;              ///< actual minus expected position [m]
+    Node angle_error;         ///< [rad]
+    bool free = true;         ///< not zero by construction
     std::vector<int> forces;  ///< indices into `forces`, point by point
   };
   struct Force {
@@ -82,10 +82,10 @@ struct IntervalMotion {
     return graph.linear(terms, constant);
   }
 
-  std::vector<Node> splines_;       ///< inputs: joints, then the base's
-  std::vector<Power> powers_;       ///< h/2, then (2/h)^k
-  std::vector<Node> force_inputs_;  ///< of given forces: tangential and normal, point by point
-  std::optional<ContactGain> gain_;  ///< where forces are computed
+  std::vector<Node> splines_;                    ///< inputs: joints, then the base's
+  std::vector<Power> powers_;                    ///< h/2, then (2/h)^k
+  std::vector<Node> force_inputs_;               ///< of given forces: tangential and normal, point by point
+  std::optional<ContactGain> gain_;              ///< where forces are computed
   std::vector<std::array<Node, 3>> gain_nodes_;  ///< by row of the gain; where it has parameters
 };
 

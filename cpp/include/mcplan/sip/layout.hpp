@@ -11,7 +11,8 @@ namespace mcplan::sip {
 
 /// Where the parameters of a motion's program are. P consists of
 ///
-///     control points    of each joint's spline, intervals - 1: the first three of a spline are equal and so are the last
+///     control points    of each joint's spline, intervals - 1: the first three of a spline are equal and so are the
+///     last
 ///                       three, which is rest at both ends with free postures; with a parameterised free-flyer three
 ///                       more splines (x, y, angle of the base)
 ///     durations         one for each phase, or one for the motion
@@ -43,12 +44,12 @@ struct LocalParameters {
 
   int interval = 0, phase = 0;
   int splines = 0;
-  std::vector<int> controls;       ///< free control points, ascending; one to four
-  std::array<int, 4> control{};    ///< of the interval's four: index into controls
-  std::vector<int> durations;      ///< variables, ascending
-  int own_duration = 0;            ///< index into durations of the interval's phase
-  std::array<int, 5> knot_duration{};   ///< of the five spacings about the interval: index into durations
-  std::array<double, 5> knot_share{};   ///< spacing = share * duration
+  std::vector<int> controls;           ///< free control points, ascending; one to four
+  std::array<int, 4> control{};        ///< of the interval's four: index into controls
+  std::vector<int> durations;          ///< variables, ascending
+  int own_duration = 0;                ///< index into durations of the interval's phase
+  std::array<int, 5> knot_duration{};  ///< of the five spacings about the interval: index into durations
+  std::array<double, 5> knot_share{};  ///< spacing = share * duration
   int weights = 0, forces = 0;
   std::vector<int> variables;  ///< in the program, column by column
 

@@ -22,9 +22,9 @@ enum class Curvature {
 /// weights.
 class Program {
  public:
-  /// With `cost` off, or where the options have none, the objective is a weak pull to `anchor`
-  /// (kProximity / 2 |P - anchor|^2), which makes the solution unique where constraints leave room.
-  Program(const PlanarMotion& motion, const Options& options, Curvature curvature, bool cost,
+  /// The objective is cost_scale times the cost; with a scale of zero it is a weak pull to `anchor`,
+  /// kProximity / 2 |P - anchor|^2, which makes the solution unique where constraints leave room.
+  Program(const PlanarMotion& motion, const Options& options, Curvature curvature, double cost_scale,
           const Eigen::VectorXd& anchor);
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -36,10 +36,10 @@ class Program {
   int intervals() const { return static_cast<int>(models_.size()); }
   IntervalModel& model(int interval) { return *models_[interval]; }
 
-  double cost(const Eigen::VectorXd& x);              ///< weighted sum, whatever the objective is
-  double torque_cost(const Eigen::VectorXd& x);       ///< integral of squared torques [N^2 m^2 s]
-  double jerk_cost(const Eigen::VectorXd& x);         ///< integral of squared joint jerks [rad^2/s^5]
-  double duration(const Eigen::VectorXd& x) const;    ///< [s]
+  double cost(const Eigen::VectorXd& x);            ///< weighted sum, whatever the objective is
+  double torque_cost(const Eigen::VectorXd& x);     ///< integral of squared torques [N^2 m^2 s]
+  double jerk_cost(const Eigen::VectorXd& x);       ///< integral of squared joint jerks [rad^2/s^5]
+  double duration(const Eigen::VectorXd& x) const;  ///< [s]
 
  private:
   PlanarMotion motion_;

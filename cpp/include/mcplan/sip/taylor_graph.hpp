@@ -10,7 +10,8 @@ namespace mcplan::sip {
 /// parameters, as a graph of operations that is built once and evaluated many times.
 ///
 /// A node is a polynomial a_0 + a_1 s + ... + a_n s^n, s = -1..1. Operations keep coefficients up to the order asked
-/// for; those that they keep are exact (a coefficient of a product, a sine or a derivative depends on lower ones alone).
+/// for; those that they keep are exact (a coefficient of a product, a sine or a derivative depends on lower ones
+/// alone).
 ///
 /// Derivatives: forward mode gives the tangents da_k/dx of every coefficient (evaluate, `tangents`). Second derivatives
 /// of a weighted sum of coefficients follow from one reverse sweep for the adjoints and from the tangents: for nodes
@@ -55,8 +56,8 @@ class TaylorGraph {
     RowMajor left, right;  ///< factors of the Hessian: H = left' right + right' left
   };
 
-  /// What an input is at the moment: its coefficients, their derivatives (in the order of columns(node), ascending) and,
-  /// for Hessians, second derivatives: a matrix for each coefficient, or none where they are zero.
+  /// What an input is at the moment: its coefficients, their derivatives (in the order of columns(node), ascending)
+  /// and, for Hessians, second derivatives: a matrix for each coefficient, or none where they are zero.
   struct Input {
     Eigen::VectorXd coefficients;
     RowMajor tangents;
@@ -92,13 +93,13 @@ class TaylorGraph {
   struct Data {
     Operation operation = Operation::input;
     int order = 0, support = 0;
-    int value = 0;                 ///< place of its coefficients
-    int tangent = 0, stride = 0;   ///< place of its tangents, row by row, padded to whole vectors
-    Node a = -1, b = -1;           ///< operands; of a sine its cosine is b and the other way round
-    int times = 0;                 ///< of a derivative
-    double constant = 0.0;         ///< of a linear combination
+    int value = 0;                ///< place of its coefficients
+    int tangent = 0, stride = 0;  ///< place of its tangents, row by row, padded to whole vectors
+    Node a = -1, b = -1;          ///< operands; of a sine its cosine is b and the other way round
+    int times = 0;                ///< of a derivative
+    double constant = 0.0;        ///< of a linear combination
     int first_term = 0, end_term = 0;
-    int left = -1;                 ///< first row of its tangents in the Hessian's left factor, where it is a product's a
+    int left = -1;  ///< first row of its tangents in the Hessian's left factor, where it is a product's a
     int input = -1;
   };
   Node add(Data node, std::vector<int> columns);

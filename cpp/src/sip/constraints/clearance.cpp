@@ -2,8 +2,8 @@
 
 namespace mcplan::sip {
 
-// n . (x - origin) >= clearance_m for the points x of a swinging end-effector, over the intervals that the motion names,
-// and >= middle_height at the begin of the middle interval.
+// n . (x - origin) >= clearance_m for the points x of a swinging end-effector, over the intervals that the motion
+// names, and >= middle_height at the begin of the middle interval.
 void keep_clear(IntervalMotion& motion, std::vector<Limited>& out) {
   const PlanarMotion& task = motion.motion;
   const PlanarPhase& phase = task.phases[motion.local.phase];

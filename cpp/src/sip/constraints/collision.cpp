@@ -19,7 +19,8 @@ void cover(int body, const Capsule& capsule, std::vector<Disc>& out) {
   const int gaps = std::max(1, static_cast<int>(std::ceil(along.norm() / (2.0 * capsule.radius))));
   const double spacing = along.norm() / gaps;
   const double radius = std::hypot(capsule.radius, 0.5 * spacing);
-  for (int i = 0; i <= gaps; ++i) out.push_back({body, capsule.from_B + along * (i / static_cast<double>(gaps)), radius});
+  for (int i = 0; i <= gaps; ++i)
+    out.push_back({body, capsule.from_B + along * (i / static_cast<double>(gaps)), radius});
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ void limit_positions(IntervalMotion& motion, std::vector<Limited>& out) {
     const double range = body.position_max - body.position_min;
     const double margin = std::isfinite(range) ? motion.options.margin * range : 0.0;
     if (std::isinf(body.position_min) && std::isinf(body.position_max)) continue;
-    out.push_back({"position of " + body.name, motion.joints[j], body.position_min + margin, body.position_max - margin});
+    out.push_back(
+        {"position of " + body.name, motion.joints[j], body.position_min + margin, body.position_max - margin});
   }
 }
 

@@ -1,0 +1,107 @@
+"""Pages of whole-body plans of planar robots."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .colours import COM
+from .overlay import caption, entry, timeline
+from .page import Page
+from .plan_drawing import WEIGHT_ARROW
+from .planar_drawing import (
+    contact_intervals,
+    draw_body,
+    draw_cones,
+    draw_forces,
+    draw_ground,
+    draw_paths,
+    ground_solid,
+    into_space,
+    side_direction,
+)
+from .planar_figure import end_colours, shapes_of, size_of
+from .planar_ground import slabs_of
+from .planar_samples import frame_times, sample_whole_body, turned
+from .stage import Stage
+
+if TYPE_CHECKING:
+    from mcplan import Report
+    from mcplan._core import WholeBodyPlan
+
+Array = NDArray[np.float64]
+
+#: [1/s] frames of the animation: whole-body motions are faster than walks.
+FRAME_RATE = 60.0
+
+
+def show_whole_body(plan: WholeBodyPlan, report: Report | None = None) -> Page:
+    """Draw a whole-body plan for the browser, from the side: robot, ground, CoM, forces at their points, their cones.
+
+    Args:
+        plan: The plan.
+        report: Named in the caption.
+
+    Raises:
+        MissingExtra: meshcat is not installed.
+        InvalidPlan: The plan's arrays do not fit together.
+    """
+    plan.validate()
+    stage = Stage()
+    motion = plan.motion
+    robot = motion.robot
+    size = size_of(robot)
+    weight = float(robot.mass()) * float(robot.gravity)
+    colours = end_colours(robot)
+    shapes = shapes_of(robot)
+    duration = float(plan.duration())
+    samples = sample_whole_body(plan, frame_times(duration, FRAME_RATE))
+    reached = np.vstack(
+        [
+            samples.positions_W[:, s.body] + turned(samples.angles[:, s.body], disc[:2]) + edge
+            for s in shapes
+            for disc in s.discs
+            for edge in disc[2] * np.array([[-1.0, -1.0], [1.0, 1.0]])
+        ]
+    )
+    slabs = slabs_of(motion, reached, 0.12 * size, 0.09 * size)
+    intervals = contact_intervals(plan)
+    draw_ground(stage, slabs, size)
+    draw_body(stage, samples, robot, shapes, size)
+    draw_paths(stage, samples, robot, colours, size)
+    draw_cones(stage, plan, intervals, colours, size)
+    draw_forces(stage, samples, robot, weight, size)
+
+    phases = len(motion.phases)
+    lines = [f"{robot.name}: {phases} phase{'' if phases == 1 else 's'}, {duration:.2f} s"]
+    if report is not None:
+        lines.append(f"{report.status}: {report.iterations} iterations, {report.time_s:.2f} s of planning")
+        lines.append(f"cost {report.cost:.4g}")
+    legend = [entry("com paths/com", "ball", COM, "centre of mass")]
+    for end, colour in zip(robot.end_effectors, colours, strict=True):
+        legend.append(entry(f"paths/{end.name}", "line", colour, end.name.replace("_", " ")))
+    per_metre = weight / (WEIGHT_ARROW * size)
+    legend.append(entry("forces", "arrow", "", f"contact forces ({0.1 * per_metre:.0f} N: 10 cm)"))
+    legend.append(entry("cones", "", "#c3cad2", "friction cones"))
+    legend.append(entry("robot", "", "#98a2ae", "robot"))
+    # All of the ground that is drawn, all of the motion, and room for the caption at the left.
+    ground = [ground_solid(slab, size).vertices for slab in slabs]
+    seen = np.vstack([into_space(reached), *ground])
+    left = [seen[:, 0].min() - 0.22 * float(np.ptp(seen[:, 2])), 0.0, float(np.median(seen[:, 2]))]
+    return Page(
+        title=f"{motion.name}, {robot.name}",
+        payload=stage.payload(),
+        overlay=caption(motion.name, lines, legend) + timeline(motion, robot, intervals, colours, duration),
+        points_W=np.vstack([*ground, into_space(_corners(reached)), left]),
+        direction_W=side_direction(),
+        sun_W=np.array([0.5, -0.8, 1.5]),
+        duration_s=duration,
+    )
+
+
+def _corners(points: Array) -> Array:
+    """Corners (4, 2) of the box around points (n, 2)."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    return np.array([[x, y] for x in (low[0], high[0]) for y in (low[1], high[1])])
