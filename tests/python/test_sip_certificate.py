@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mcplan
-from mcplan._core import WholeBodyTolerances, check, sip
+from mcplan import WholeBodyTolerances, check, sip
 from reference_solutions import reference_names, reference_plan
 
 # One solution leaves its 5 mrad tube by 1.1e-8 rad, within what its solver was asked for.
