@@ -46,6 +46,7 @@ from mcplan._core import (
     __version__,
     check,
     rhp,
+    sip,
 )
 from mcplan.errors import (
     InvalidInput,
@@ -112,6 +113,7 @@ __all__ = [
     "replan",
     "rhp",
     "show",
+    "sip",
     "walk",
 ]
 
