@@ -66,8 +66,9 @@ class Ledger {
   void close(const Row& row, int phase, double time_s, const Amount& amount) {
     Entry& entry = entries_[index(row.kind)];
     const double upper = std::isnan(amount.upper()) ? kInfinity : amount.upper();
-    const double share = amount.rounding / kinds_[index(row.kind)].tolerance;
-    if (row.kind != Kind::balance && share > rounding_) rounding_ = share;  // a balance's bound is nothing else
+    const double limit = tolerance(row.kind);
+    // Not of balance: under the least-norm law its bound is nothing but rounding.
+    if (row.kind != Kind::balance && limit > 0.0) rounding_ = std::max(rounding_, amount.rounding / limit);
     if (upper <= entry.bound) return;
     entry.bound = upper;
     entry.bound_at = {phase, row.where, time_s};
