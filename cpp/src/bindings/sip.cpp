@@ -110,6 +110,7 @@ void bind_sip(py::module_& parent) {
   py::module_ m = parent.def_submodule("sip", "Whole-body semi-infinite planning of planar robots.");
   bind_taylor_model(m);
   bind_certificate(m);
+  bind_sip_planner(m);
 }
 
 }  // namespace mcplan::bindings
