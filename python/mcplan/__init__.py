@@ -46,6 +46,7 @@ from mcplan._core import (
     __version__,
     check,
     rhp,
+    sip,
 )
 from mcplan.errors import (
     InvalidInput,
@@ -112,7 +113,9 @@ __all__ = [
     "replan",
     "rhp",
     "show",
+    "sip",
     "walk",
+    "whole_body",
 ]
 
 
@@ -333,6 +336,65 @@ def receding_horizon(
     from mcplan.walking import receding_horizon as make
 
     return make(scene, robot, sequence, options)
+
+
+def whole_body(
+    motion: PlanarMotion | str | Path,
+    *,
+    forces: str | sip.Forces = "per_point",
+    minimise: str | None = None,
+    contact: str | sip.ContactMode = "tube",
+    order: int = 8,
+    neq: int = 2,
+    free_flyer: str | sip.FreeFlyer = "computed",
+    free_durations: bool | None = None,
+    time_limit: float | None = None,
+    warm_start: WholeBodyPlan | str | Path | None = None,
+    certify: bool = False,
+    **options: Any,
+) -> sip.Result:
+    """Plan the whole body of a planar robot through a sequence of contact stances.
+
+        result = mp.whole_body("climbing")
+        result.plan.at(0.5).torque  # any instant: joints, base, torques, contact forces
+
+    Joint trajectories are splines, and constraints hold at every instant between knots, not only at samples. Ctrl-C
+    ends the search; the result then has status ``interrupted`` and the best motion so far.
+
+    Args:
+        motion: A motion, or what load_motion takes: its robot, surfaces and the stance of each phase.
+        forces: Where contact forces come from: "uniform", "per_body" or "per_point" weights of the least norm (the
+            paper's cases 1, 2 and 3), or "parameters" (polynomials of time).
+        minimise: "torque" (integral of the squared torques), "time" or "none" (any motion within the constraints).
+            None: "torque", or "none" with ``dynamics=False``. Weights in `options` replace what it sets.
+        contact: How contacts are held: "tube" (within ``tube_m`` and ``tube_rad`` at every instant), "band" or
+            "strict" (polynomial coefficients 0 to `neq`).
+        order: Of the Taylor polynomials, 3 to 12.
+        neq: Highest coefficient that "band" and "strict" hold.
+        free_flyer: The base: "computed" from the joints, or "parameterised" by splines of its own.
+        free_durations: A duration for each phase, or one for all intervals. None: each phase its own, except that
+            "none" has nothing to choose them by.
+        time_limit: Wall clock of the whole search [s]; None: none.
+        warm_start: A plan of the same robot and phases, or the path of one, to start from.
+        certify: Prove the constraints of what was found, at every instant: ``result.certificate``.
+        **options: Other fields of ``sip.Options``, such as ``tube_m=1e-4`` or ``self_collision=True``.
+
+    Returns:
+        The motion: ``plan``, ``report``, ``parameters`` and ``constraints`` (size of the program), ``drift_m``,
+        ``drift_rad``, ``certificate``. The report's status is ``solved`` only if the checker accepts the plan.
+
+    Raises:
+        InvalidOptions: No such option, its value is out of range, or it does not go with another one.
+        InvalidMotion: The motion is malformed.
+        InvalidRobot: Its robot is malformed.
+        InvalidPlan: The warm start has other phases or joints, or is malformed.
+        UnknownMotion, UnknownRobot: No such name and no such file.
+    """
+    from mcplan.whole_body_planning import whole_body as solve
+
+    given: dict[str, Any] = {"forces": forces, "contact": contact, "order": order, "neq": neq, "free_flyer": free_flyer}
+    given |= {"free_durations": free_durations, "time_limit": time_limit}
+    return solve(motion, warm_start, certify, minimise, {**given, **options})
 
 
 def show(

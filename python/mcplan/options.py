@@ -15,7 +15,8 @@ def fill(options: Any, values: Mapping[str, Any]) -> Any:
 
     Args:
         options: An instance of a bound options class.
-        values: By name; enumerations by the names of their members, groups of fields (`weights`) as mappings.
+        values: By name; enumerations by the names of their members, where dashes may stand for underscores; groups of
+            fields (`weights`) as mappings.
 
     Returns:
         The same object.
@@ -45,9 +46,9 @@ def _set(target: Any, name: str, value: Any, prefix: str = "") -> None:
         raise InvalidOptions(prefix + name, f"no such option. {did_you_mean(name, legal)}Options: {', '.join(legal)}")
     if isinstance(value, str) and hasattr(type(getattr(target, name)), "__members__"):
         members = type(getattr(target, name)).__members__
-        if value not in members:
+        if value.replace("-", "_") not in members:
             raise InvalidOptions(prefix + name, f"must be one of {', '.join(members)}", repr(value))
-        value = members[value]
+        value = members[value.replace("-", "_")]
     try:
         setattr(target, name, value)
     except TypeError:

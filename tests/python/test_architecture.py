@@ -39,12 +39,13 @@ PYTHON_ROOMS = {
     "files": _GROUND,
     "solve": _GROUND | {"files"},
     "walking": _GROUND | {"files", "solve"},
+    "whole_body_planning": _GROUND | {"files"},
     "view": _GROUND | {"files"},
     "tracking": _GROUND | {"files"},
     "bench": _GROUND | {"files", "solve", ""},
-    "reproduce": _GROUND | {"files", "solve", "walking", "view", "tracking", "bench", ""},
-    "cli": _GROUND | {"files", "solve", "walking", "view", "tracking", "bench", "reproduce", ""},
-    "": _GROUND | {"files", "solve", "walking", "view", "tracking"},
+    "reproduce": _GROUND | {"files", "solve", "walking", "whole_body_planning", "view", "tracking", "bench", ""},
+    "cli": _GROUND | {"files", "solve", "walking", "whole_body_planning", "view", "tracking", "bench", "reproduce", ""},
+    "": _GROUND | {"files", "solve", "walking", "whole_body_planning", "view", "tracking"},
 }
 HEAVY = {"crocoddyl", "example_robot_data", "imageio", "matplotlib", "meshcat", "mink", "mujoco"}
 HEAVY |= {"PIL", "pink", "pinocchio", "proxsuite", "scipy"}

@@ -10,6 +10,7 @@ import typing
 from . import ddp
 from . import nlp
 from . import rhp
+from . import sip
 
 __all__: list[str] = [
     "Capsule",
@@ -75,6 +76,7 @@ __all__: list[str] = [
     "rhp",
     "rotation_derivative",
     "rotation_from_rpy",
+    "sip",
 ]
 
 class Status:

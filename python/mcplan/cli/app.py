@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from mcplan.cli import bench, check, demo, motions, plan, reproduce, rhp, robots, scenes, version
+from mcplan.cli import bench, check, demo, motions, plan, reproduce, rhp, robots, scenes, sip, version
 
 app = typer.Typer(
     help="Multi-contact motion planning: which limb touches what, when and where.",
@@ -17,6 +17,7 @@ verbs = (
     demo.demo,
     plan.plan,
     rhp.rhp,
+    sip.sip,
     check.check,
     scenes.scenes,
     robots.robots,

@@ -1,0 +1,664 @@
+"""
+Whole-body semi-infinite planning of planar robots.
+"""
+
+from __future__ import annotations
+import collections.abc
+import mcplan._core
+import numpy
+import numpy.typing
+import typing
+
+__all__: list[str] = [
+    "Certificate",
+    "ContactMode",
+    "Continuous",
+    "Forces",
+    "FreeFlyer",
+    "HessianChoice",
+    "Options",
+    "Planner",
+    "Proof",
+    "ProvedConstraint",
+    "Result",
+    "TaylorModel",
+    "certify",
+]
+
+class TaylorModel:
+    """
+    A function of s in [-1, 1] as a polynomial and a bound of what is left over:
+    |f(s) - sum_k coefficients[k] s^k| <= remainder. Arithmetic keeps the bound true, also for floating-point rounding.
+    """
+    def __add__(self, arg0: TaylorModel) -> TaylorModel: ...
+    def __init__(
+        self,
+        coefficients: typing.Any,
+        order: typing.SupportsInt | typing.SupportsIndex = 8,
+        error: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None:
+        """
+        From a polynomial (of s^0, s^1, ...). Powers beyond `order` (0 to 12) go into the remainder, and `error`, an amount that the function may differ by. Raises InvalidInput, InvalidOptions.
+        """
+    def __mul__(self, arg0: TaylorModel) -> TaylorModel: ...
+    def __neg__(self) -> TaylorModel: ...
+    def __repr__(self) -> str: ...
+    def __sub__(self, arg0: TaylorModel) -> TaylorModel: ...
+    def at(self, s: typing.SupportsFloat | typing.SupportsIndex) -> tuple[float, float]:
+        """
+        Bounds at one place.
+        """
+    def cosine(self) -> TaylorModel: ...
+    def integral(self) -> TaylorModel:
+        """
+        From 0 to s.
+        """
+    def range(self) -> tuple[float, float]:
+        """
+        Bounds over [-1, 1].
+        """
+    def scaled(
+        self,
+        factor: typing.SupportsFloat | typing.SupportsIndex,
+        factor_error: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> TaylorModel:
+        """
+        Times a constant that is within factor_error of factor.
+        """
+    def sine(self) -> TaylorModel: ...
+    @property
+    def coefficients(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def order(self) -> int: ...
+    @property
+    def remainder(self) -> float: ...
+    @property
+    def rounding(self) -> float:
+        """
+        Part of the remainder: floating-point arithmetic.
+        """
+    @property
+    def truncation(self) -> float:
+        """
+        Part of the remainder: powers beyond the order.
+        """
+
+class Proof:
+    """
+    What is known of a constraint.
+
+    Members:
+
+      proved : Holds at every instant.
+
+      not_proved : Neither proved nor violated at any point looked at.
+
+      violated : Does not hold at the instant named.
+    """
+
+    __members__: typing.ClassVar[dict[str, Proof]]
+    not_proved: typing.ClassVar[Proof]
+    proved: typing.ClassVar[Proof]
+    violated: typing.ClassVar[Proof]
+    @typing.overload
+    def __eq__(self, other: Proof) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Proof) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class ProvedConstraint:
+    """
+    What certify() found out about one kind of constraint.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def bound(self) -> float:
+        """
+        Proved upper bound of the amount beyond the limit, over the whole motion, in `unit`.
+        """
+    @property
+    def name(self) -> str:
+        """
+        As in the checker of whole-body plans.
+        """
+    @property
+    def phase(self) -> int:
+        """
+        -1: nothing to prove.
+        """
+    @property
+    def proof(self) -> Proof: ...
+    @property
+    def reached(self) -> float:
+        """
+        Proved lower bound of its maximum; above the tolerance: violated.
+        """
+    @property
+    def time_s(self) -> float:
+        """
+        Where the bound is largest; of a violated constraint, where `reached` is.
+        """
+    @property
+    def tolerance(self) -> float:
+        """
+        What was to be proved: bound <= tolerance.
+        """
+    @property
+    def unit(self) -> str: ...
+    @property
+    def where(self) -> str:
+        """
+        Joint, end-effector or point.
+        """
+
+class Certificate:
+    """
+    What is proved of a whole-body plan at every instant.
+    """
+    def __repr__(self) -> str: ...
+    def __str__(self) -> str: ...
+    def proved(self) -> bool:
+        """
+        Whether every constraint is.
+        """
+    @property
+    def constraints(self) -> list[ProvedConstraint]: ...
+    @property
+    def rounding(self) -> float:
+        """
+        Largest allowance for floating-point arithmetic in a bound, in shares of its tolerance.
+        """
+    @property
+    def subdivisions(self) -> int:
+        """
+        Pieces of time looked at.
+        """
+    @property
+    def time_s(self) -> float:
+        """
+        Wall clock [s].
+        """
+
+class Forces:
+    """
+    Where contact forces come from (Lengagne et al., secs. III-C and IV-D).
+
+    Members:
+
+      uniform : Weighted least norm, all weights 1: case 1.
+
+      per_body : One weight for each contact of a phase: case 2.
+
+      per_point : One weight for each point of a contact: case 3.
+
+      parameters : Cubic polynomials of time over each interval, balance as constraints.
+    """
+
+    __members__: typing.ClassVar[dict[str, Forces]]
+    parameters: typing.ClassVar[Forces]
+    per_body: typing.ClassVar[Forces]
+    per_point: typing.ClassVar[Forces]
+    uniform: typing.ClassVar[Forces]
+    @typing.overload
+    def __eq__(self, other: Forces) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Forces) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class ContactMode:
+    """
+    How an end-effector in contact is held where it should be.
+
+    Members:
+
+      tube : Position and angle stay within a tube at every instant.
+
+      band : Polynomial coefficients 0..neq of position and angle within a band.
+
+      strict : The same coefficients zero; one contact of a phase is left out.
+    """
+
+    __members__: typing.ClassVar[dict[str, ContactMode]]
+    band: typing.ClassVar[ContactMode]
+    strict: typing.ClassVar[ContactMode]
+    tube: typing.ClassVar[ContactMode]
+    @typing.overload
+    def __eq__(self, other: ContactMode) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: ContactMode) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class Continuous:
+    """
+    How an inequality is kept at every instant of an interval.
+
+    Members:
+
+      hull : Every Bernstein coefficient within the limits.
+
+      extremum : The polynomial's extrema within the limits: exact, not smooth.
+
+      grid : At grid_points instants: nothing is said about the time between.
+    """
+
+    __members__: typing.ClassVar[dict[str, Continuous]]
+    extremum: typing.ClassVar[Continuous]
+    grid: typing.ClassVar[Continuous]
+    hull: typing.ClassVar[Continuous]
+    @typing.overload
+    def __eq__(self, other: Continuous) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Continuous) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class FreeFlyer:
+    """
+    The trajectory of the base.
+
+    Members:
+
+      computed : From the joints (eqs. 9-12).
+
+      parameterised : Three more splines (Table I).
+    """
+
+    __members__: typing.ClassVar[dict[str, FreeFlyer]]
+    computed: typing.ClassVar[FreeFlyer]
+    parameterised: typing.ClassVar[FreeFlyer]
+    @typing.overload
+    def __eq__(self, other: FreeFlyer) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: FreeFlyer) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class HessianChoice:
+    """
+    Where second derivatives come from.
+
+    Members:
+
+      automatic : As suits the problem, and another one where that fails.
+
+      exact : Of cost and constraints.
+
+      gauss_newton : Of the cost alone, without its curvature.
+
+      limited_memory : L-BFGS.
+    """
+
+    __members__: typing.ClassVar[dict[str, HessianChoice]]
+    automatic: typing.ClassVar[HessianChoice]
+    exact: typing.ClassVar[HessianChoice]
+    gauss_newton: typing.ClassVar[HessianChoice]
+    limited_memory: typing.ClassVar[HessianChoice]
+    @typing.overload
+    def __eq__(self, other: HessianChoice) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: HessianChoice) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class Options:
+    """
+    Options of the semi-infinite planner.
+    """
+
+    contact: ContactMode
+    continuous: Continuous
+    forces: Forces
+    free_flyer: FreeFlyer
+    hessian: HessianChoice
+    torque_limits: bool
+    def __init__(self) -> None: ...
+    def has_cost(self) -> bool:
+        """
+        Whether any weight is positive.
+        """
+    def validate(self) -> None:
+        """
+        Raises InvalidOptions naming the first field out of its range.
+        """
+    @property
+    def clearance(self) -> bool:
+        """
+        Swinging end-effectors outside solids, as the motion says.
+        """
+    @clearance.setter
+    def clearance(self, arg0: bool) -> None: ...
+    @property
+    def clearance_m(self) -> float:
+        """
+        Least height of swinging points [m]: at lift-off they are at zero to the tube.
+        """
+    @clearance_m.setter
+    def clearance_m(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def constraint_tolerance(self) -> float: ...
+    @constraint_tolerance.setter
+    def constraint_tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def duration_weight(self) -> float:
+        """
+        Cost: duration [1/s].
+        """
+    @duration_weight.setter
+    def duration_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def dynamics(self) -> bool:
+        """
+        Contact forces in their cones; off: kinematics alone.
+        """
+    @dynamics.setter
+    def dynamics(self, arg0: bool) -> None: ...
+    @property
+    def feasible_first(self) -> bool:
+        """
+        With a cost: solve without it first, and start from that.
+        """
+    @feasible_first.setter
+    def feasible_first(self, arg0: bool) -> None: ...
+    @property
+    def free_durations(self) -> bool:
+        """
+        A duration for each phase; else one for the motion, shared by intervals.
+        """
+    @free_durations.setter
+    def free_durations(self, arg0: bool) -> None: ...
+    @property
+    def grid_points(self) -> int:
+        """
+        Per interval, both ends included.
+        """
+    @grid_points.setter
+    def grid_points(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def jerk_weight(self) -> float:
+        """
+        Cost: integral of the squared joint jerks [s^5].
+        """
+    @jerk_weight.setter
+    def jerk_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def log_weight_max(self) -> float:
+        """
+        Bound of the logarithms of weights.
+        """
+    @log_weight_max.setter
+    def log_weight_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def logger(self) -> collections.abc.Callable[[mcplan._core.LogLevel, str], None]:
+        """
+        Called with (LogLevel, line), a line an iteration; None: silent.
+        """
+    @logger.setter
+    def logger(self, arg0: collections.abc.Callable[[mcplan._core.LogLevel, str], None]) -> None: ...
+    @property
+    def margin(self) -> float:
+        """
+        Kept to joint, torque and force limits, relative.
+        """
+    @margin.setter
+    def margin(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def max_iterations(self) -> int:
+        """
+        Of each run of the solver.
+        """
+    @max_iterations.setter
+    def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def min_normal_force(self) -> float:
+        """
+        At every point [N].
+        """
+    @min_normal_force.setter
+    def min_normal_force(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def neq(self) -> int:
+        """
+        Highest coefficient of band and strict, 0 to order.
+        """
+    @neq.setter
+    def neq(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def order(self) -> int:
+        """
+        Of the Taylor polynomials, 3 to 12.
+        """
+    @order.setter
+    def order(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def phase_duration_s(self) -> tuple[float, float]:
+        """
+        Where free_durations is on: min, max [s]; the motion's own limits hold as well.
+        """
+    @phase_duration_s.setter
+    def phase_duration_s(
+        self, arg1: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]
+    ) -> None: ...
+    @property
+    def self_collision(self) -> bool:
+        """
+        Of the robot's collision pairs.
+        """
+    @self_collision.setter
+    def self_collision(self, arg0: bool) -> None: ...
+    @property
+    def time_limit_s(self) -> float:
+        """
+        Wall clock of the whole solve [s].
+        """
+    @time_limit_s.setter
+    def time_limit_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def tolerance(self) -> float:
+        """
+        Optimality tolerance of the solver.
+        """
+    @tolerance.setter
+    def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def torque_weight(self) -> float:
+        """
+        Cost: integral of the squared torques [1/(N m)^2 s].
+        """
+    @torque_weight.setter
+    def torque_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def total_duration_s(self) -> tuple[float, float]:
+        """
+        Where free_durations is off: min, max [s].
+        """
+    @total_duration_s.setter
+    def total_duration_s(
+        self, arg1: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]
+    ) -> None: ...
+    @property
+    def tube_m(self) -> float:
+        """
+        Half width of the tube or of the band [m].
+        """
+    @tube_m.setter
+    def tube_m(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def tube_rad(self) -> float:
+        """
+        [rad]
+        """
+    @tube_rad.setter
+    def tube_rad(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class Result:
+    """
+    A whole-body motion and how it was found.
+    """
+    def __repr__(self) -> str: ...
+    @property
+    def certificate(self) -> Certificate | None:
+        """
+        What is proved of the plan; None: not asked for.
+        """
+    @certificate.setter
+    def certificate(self, arg0: Certificate | None) -> None: ...
+    @property
+    def constraints(self) -> int:
+        """
+        Rows of the program.
+        """
+    @property
+    def drift_m(self) -> float:
+        """
+        Largest of a contact, at 1 kHz, from exact kinematics [m].
+        """
+    @property
+    def drift_rad(self) -> float:
+        """
+        [rad]
+        """
+    @property
+    def parameters(self) -> int:
+        """
+        Variables of the program.
+        """
+    @property
+    def plan(self) -> mcplan._core.WholeBodyPlan:
+        """
+        The motion: a WholeBodyPlan.
+        """
+    @plan.setter
+    def plan(self, arg1: mcplan._core.WholeBodyPlan) -> None: ...
+    @property
+    def report(self) -> mcplan._core.Report:
+        """
+        Status solved only if the checker accepts the plan; time_s is split in timing_s: "evaluation", "linear_solver", "check"; cost_terms by name.
+        """
+    @report.setter
+    def report(self, arg1: mcplan._core.Report) -> None: ...
+
+class Planner:
+    """
+    Whole-body planning of a planar robot through a sequence of contact stances by semi-infinite programming (Lengagne et al., 2010). Solves release the GIL; Ctrl-C ends them with Status.interrupted and the best plan so far.
+    """
+    def __init__(self, motion: mcplan._core.PlanarMotion, options: Options = ...) -> None:
+        """
+        Raises InvalidMotion, InvalidRobot, InvalidOptions.
+        """
+    @typing.overload
+    def solve(self) -> Result:
+        """
+        From the robot's zero posture throughout, weights of 1, and one second.
+        """
+    @typing.overload
+    def solve(self, warm_start: mcplan._core.WholeBodyPlan) -> Result:
+        """
+        From a plan of the same robot and phases; forces, order, tube and durations may differ. Raises InvalidPlan where its phases or joints do not fit.
+        """
+    @property
+    def constraints(self) -> int:
+        """
+        Rows of the program.
+        """
+    @property
+    def parameters(self) -> int:
+        """
+        Variables of the program.
+        """
+
+def certify(
+    plan: mcplan._core.WholeBodyPlan,
+    tolerances: mcplan._core.WholeBodyTolerances = ...,
+    order: typing.SupportsInt | typing.SupportsIndex = 8,
+    max_depth: typing.SupportsInt | typing.SupportsIndex = 12,
+) -> Certificate:
+    """
+    Prove every inequality of a whole-body plan at every instant, with Taylor models of `order` (2 to 12) on intervals that are halved up to `max_depth` (0 to 40) times. Raises InvalidPlan, InvalidMotion, InvalidRobot, InvalidOptions.
+    """

@@ -1,0 +1,142 @@
+"""mcplan sip"""
+
+from __future__ import annotations
+
+import json as json_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from mcplan import sip as engine
+
+
+def sip(
+    motion: Annotated[str, typer.Argument(metavar="MOTION", help="Built-in motion or TOML file.")],
+    forces: Annotated[
+        str, typer.Option("--forces", metavar="F", help="uniform, per-body, per-point or parameters.")
+    ] = "per-point",
+    minimise: Annotated[
+        str | None,
+        typer.Option("--minimise", metavar="C", help="torque (default), time, or none: any motion that is possible."),
+    ] = None,
+    contact: Annotated[
+        str, typer.Option("--contact", metavar="M", help="How contacts are held: tube, band or strict.")
+    ] = "tube",
+    tube: Annotated[
+        float | None,
+        typer.Option("--tube", metavar="M", help="Half width of tube or band [m] (0.001), and 5 rad/m times it."),
+    ] = None,
+    order: Annotated[int, typer.Option("--order", metavar="N", help="Of the Taylor polynomials, 3 to 12.")] = 8,
+    neq: Annotated[int, typer.Option("--neq", metavar="N", help="Highest coefficient that band and strict hold.")] = 2,
+    free_flyer: Annotated[
+        str, typer.Option("--free-flyer", metavar="F", help="The base: computed (from the joints) or parameterised.")
+    ] = "computed",
+    free_durations: Annotated[
+        bool | None,
+        typer.Option(
+            "--free-durations/--one-duration",
+            help="A duration for each phase, or one for all. Default: free if something is minimised.",
+        ),
+    ] = None,
+    continuous: Annotated[
+        str, typer.Option("--continuous", metavar="C", help="Constraints between knots: hull, extremum or grid.")
+    ] = "hull",
+    kinematics: Annotated[
+        bool, typer.Option("--kinematics", help="Without dynamics: joints and contacts alone.")
+    ] = False,
+    self_collision: Annotated[
+        bool, typer.Option("--self-collision", help="Keep limbs apart, as the robot says.")
+    ] = False,
+    warm_start: Annotated[
+        Path | None, typer.Option("--warm-start", metavar="PLAN", help="Start from an earlier plan (.npz).")
+    ] = None,
+    hessian: Annotated[
+        str, typer.Option("--hessian", metavar="H", help="automatic, exact, gauss-newton or limited-memory.")
+    ] = "automatic",
+    max_iterations: Annotated[
+        int | None, typer.Option("--max-iterations", metavar="N", help="Of each run of the solver (1000).")
+    ] = None,
+    certify: Annotated[
+        bool, typer.Option("--certify", help="Prove the constraints at every instant; exit code 0 then needs that too.")
+    ] = False,
+    time_limit: Annotated[
+        float | None, typer.Option("--time-limit", metavar="S", help="Return the best motion after so many seconds.")
+    ] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")] = None,
+    html: Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the motion on a page.")] = None,
+    plots: Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")] = None,
+    strip: Annotated[
+        Path | None, typer.Option("--strip", metavar="FILE", help="Draw a film strip (.png, .pdf or .svg).")
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+    verbose: Annotated[
+        bool, typer.Option("-v", "--verbose", help="Print the iteration table on the way (to stderr).")
+    ] = False,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Nothing on stderr on the way.")] = False,
+) -> int:
+    """Find a planar robot's whole-body motion through a sequence of contacts, within its limits at every instant.
+
+    Exit code 0 if the motion is solved (and, with --certify, proved), 1 otherwise; what was found is saved either way.
+
+    Example: mcplan sip walking --forces per-point --minimise torque -o walk.npz --strip walk.png
+    """
+    from mcplan import sip as engine
+    from mcplan import whole_body_planning as planning
+    from mcplan.cli.outputs import require_outputs, write_outputs
+    from mcplan.cli.sip_text import Progress, summary_text
+
+    files = [output, html, plots, strip]
+    require_outputs("sip", output, html, plots, strip)
+    given = {"forces": forces, "contact": contact, "tube_m": tube, "tube_rad": None if tube is None else 5.0 * tube}
+    given |= {"order": order, "neq": neq, "free_flyer": free_flyer, "free_durations": free_durations}
+    given |= {"continuous": continuous, "dynamics": not kinematics, "self_collision": self_collision}
+    given |= {"hessian": hessian, "max_iterations": max_iterations, "time_limit": time_limit}
+    options = planning.make_options(minimise, given)
+    if certify:
+        planning.require_provable(options)
+    model = planning.motion_of(motion)
+    progress = None if quiet or (json and not verbose) else Progress(model.name, verbose)
+    if progress is not None:
+        options.logger = progress
+    result = planning.solve(engine.Planner(model, options), warm_start)
+    if progress is not None:
+        progress.end()
+    if certify:
+        result.certificate = engine.certify(result.plan)
+    write_outputs(result.plan, result.report, output, html, plots, strip)
+    if json:
+        print(json_module.dumps(summary(result), allow_nan=False))
+    else:
+        print(summary_text(result, options, files))
+    proved = result.certificate is None or result.certificate.proved()
+    return 0 if str(result.report.status) == "solved" and proved else 1
+
+
+def summary(result: engine.Result) -> dict[str, Any]:
+    """What ``--json`` prints."""
+    from mcplan.cli.check import finite, violation_dict
+
+    plan, report, certificate = result.plan, result.report, result.certificate
+    worst = violation_dict(report.worst_violation)
+    return {
+        "motion": plan.motion.name,
+        "robot": plan.motion.robot.name,
+        "status": str(report.status),
+        "message": report.message,
+        "iterations": report.iterations,
+        "time_s": report.time_s,
+        "evaluation_s": report.timing_s.get("evaluation", 0.0),
+        "linear_solver_s": report.timing_s.get("linear_solver", 0.0),
+        "parameters": result.parameters,
+        "constraints": result.constraints,
+        "cost": finite(report.cost),
+        "cost_terms": {name: finite(value) for name, value in report.cost_terms.items()},
+        "durations_s": list(plan.durations),
+        "drift_m": finite(result.drift_m),
+        "drift_rad": finite(result.drift_rad),
+        "worst_violation": worst,
+        "certified": None if certificate is None else certificate.proved(),
+        "version": report.version,
+    }

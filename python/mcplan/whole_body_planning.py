@@ -1,0 +1,82 @@
+"""mp.whole_body: options by name, motion and warm start by name or object, then the semi-infinite planner."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from mcplan._core import PlanarMotion, WholeBodyPlan, sip
+from mcplan.errors import InvalidOptions
+from mcplan.options import fill
+
+#: What each choice of `minimise` sets; options given besides come after it.
+CRITERIA: dict[str, dict[str, Any]] = {
+    "torque": {"torque_weight": 1.0, "duration_weight": 0.0},
+    "time": {"torque_weight": 0.0, "duration_weight": 1.0},
+    # Without a cost nothing tells durations apart: one for the whole motion, as in the paper's Table III.
+    "none": {"torque_weight": 0.0, "duration_weight": 0.0, "jerk_weight": 0.0, "free_durations": False},
+}
+#: Options that a certificate needs, since it proves everything that the checker looks at.
+_PROVED = ("dynamics", "torque_limits", "clearance")
+
+
+def whole_body(
+    motion: PlanarMotion | str | Path,
+    warm_start: WholeBodyPlan | str | Path | None,
+    certify: bool,
+    minimise: str | None,
+    options: Mapping[str, Any],
+) -> sip.Result:
+    """See mcplan.whole_body."""
+    chosen = make_options(minimise, options)  # before files are read: what is said first is what was typed
+    if certify:
+        require_provable(chosen)
+    result = solve(sip.Planner(motion_of(motion), chosen), warm_start)
+    if certify:
+        result.certificate = sip.certify(result.plan)
+    return result
+
+
+def solve(planner: sip.Planner, warm_start: WholeBodyPlan | str | Path | None) -> sip.Result:
+    """Run the planner from nothing, or from a plan or the path of one."""
+    if warm_start is None:
+        return planner.solve()
+    if not isinstance(warm_start, WholeBodyPlan):
+        from mcplan.files.whole_body_plans import load_whole_body_plan
+
+        warm_start = load_whole_body_plan(warm_start)
+    return planner.solve(warm_start)
+
+
+def make_options(minimise: str | None, values: Mapping[str, Any]) -> sip.Options:
+    """Options of the planner from a criterion, and from names and values; None stands for the default.
+
+    Raises:
+        InvalidOptions: No such criterion or option (the message lists those that exist), a wrong type, or out of range.
+    """
+    given = {name: value for name, value in values.items() if value is not None}
+    if minimise is None:
+        minimise = "torque" if given.get("dynamics", True) else "none"
+    if minimise not in CRITERIA:
+        raise InvalidOptions("minimise", f"must be one of {', '.join(CRITERIA)}", repr(minimise))
+    options: sip.Options = fill(sip.Options(), {**CRITERIA[minimise], **given})
+    if not options.dynamics and options.torque_weight > 0.0:
+        raise InvalidOptions("minimise", "must be time or none without dynamics: there are no torques then", minimise)
+    return options
+
+
+def require_provable(options: sip.Options) -> None:
+    """Raises InvalidOptions where a certificate would be about constraints that the planner leaves out."""
+    for name in _PROVED:
+        if not getattr(options, name):
+            raise InvalidOptions("certify", f"needs {name}, since a certificate is about all constraints", "True")
+
+
+def motion_of(motion: PlanarMotion | str | Path) -> PlanarMotion:
+    """The motion, or what load_motion makes of its name."""
+    if isinstance(motion, PlanarMotion):
+        return motion
+    from mcplan.files.motions import load_motion
+
+    return load_motion(motion)
