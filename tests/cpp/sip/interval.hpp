@@ -33,8 +33,9 @@ struct IntervalAt {
     return Eigen::Vector2d(at(point.x, s), at(point.y, s)) + motion.origin_W;
   }
 
-  /// The plan's state at s = -1..1.
+  /// The plan's state at s = -1..1; at the ends inside the interval, whatever rounding says, since forces may jump.
   mcplan::WholeBodyState exact(double s) const {
+    s *= 1.0 - 1e-12;
     const int phase = motion.local.phase;
     const double length = plan.durations[phase] / task.phases[phase].intervals;
     return plan.at_phase(phase, (motion.local.interval - task.first_interval(phase) + 0.5 * (s + 1.0)) * length);
