@@ -43,6 +43,38 @@ bool ends_all(Status status) {
   return status == Status::solved || status == Status::time_limit || status == Status::interrupted;
 }
 
+/// What a valid motion may lack for this planner, by the first field that does.
+void require_plannable(const PlanarMotion& motion, const Options& options) {
+  if (motion.robot.joint_count() < 1) throw InvalidRobot("bodies", "needs at least one joint to plan", "the base alone");
+  if (motion.interval_count() < 2)
+    throw InvalidMotion("phases[0].intervals", "must be at least 2 in a motion of one phase, to be at rest at both ends",
+                        text(motion.interval_count()));
+  if (options.dynamics && options.forces == Forces::parameters) return;
+  for (std::size_t k = 0; k < motion.phases.size(); ++k) {
+    Eigen::Index points = 0;
+    for (const PlanarContact& contact : motion.phases[k].contacts)
+      points += static_cast<Eigen::Index>(motion.robot.end_effectors[contact.end_effector].points.size());
+    try {
+      least_norm_gain(motion, static_cast<int>(k), Eigen::VectorXd::Ones(points));
+    } catch (const InvalidPlan& error) {
+      throw InvalidMotion("phases[" + std::to_string(k) + "].contacts", error.rule(), error.value());
+    }
+  }
+}
+
+/// The motion's and the options' bounds of durations must leave something between them.
+void require_durations(const nlp::Problem& problem, const Layout& layout, const Options& options) {
+  for (int i = 0; i < layout.durations; ++i) {
+    const int variable = layout.first_duration + i;
+    const double lower = problem.variable_lower()[variable], upper = problem.variable_upper()[variable];
+    if (lower > upper)
+      throw InvalidOptions(options.free_durations ? "phase_duration_s" : "total_duration_s",
+                           "must overlap with what the motion allows" +
+                               (options.free_durations ? " phase " + std::to_string(i) : std::string()),
+                           "at least " + text(lower) + " and at most " + text(upper) + " s");
+  }
+}
+
 /// Constraints of the checker that the options leave out.
 bool asked_for(const std::string& name, const Options& options) {
   if (!options.dynamics)
@@ -64,14 +96,15 @@ struct Planner::Impl {
   Report report;
 
   Impl(const PlanarMotion& of, const Options& with) : motion(of), options(with), layout(checked(of, with), with) {
-    rows = Program(motion, options, Curvature::gauss_newton, 0.0, Eigen::VectorXd::Zero(layout.parameters))
-               .problem()
-               .row_count();
+    const Program program(motion, options, Curvature::gauss_newton, 0.0, Eigen::VectorXd::Zero(layout.parameters));
+    require_durations(program.problem(), layout, options);
+    rows = program.problem().row_count();
   }
 
   static const PlanarMotion& checked(const PlanarMotion& motion, const Options& options) {
     motion.validate();
     options.validate();
+    require_plannable(motion, options);
     return motion;
   }
 
