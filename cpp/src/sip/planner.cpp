@@ -120,7 +120,12 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
   std::optional<nlp::Solution> best;
   for (const Attempt& attempt : attempts_for(with, cost)) {
     const double left = with.time_limit_s - seconds_since(begin);
-    if (best && left <= 0.0) break;
+    if (best && left <= 0.0) {
+      if (best->status == Status::acceptable) break;
+      best->status = Status::time_limit;
+      best->message = "reached time_limit_s";
+      break;
+    }
     const bool exact = attempt.hessian == HessianChoice::exact;
     Program program(motion, with, exact ? Curvature::exact : Curvature::gauss_newton, cost_scale, x);
     nlp::SolverOptions how;
@@ -143,9 +148,11 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
     const bool better = !best || (kept && !best_kept) || (kept && best_kept && solution.cost < best->cost) ||
                         (!kept && !best_kept && solution.worst.value < best->worst.value);
     const Status status = solution.status;
+    const std::string message = solution.message;
     if (better || status == Status::solved) best = std::move(solution);
     if (ends_all(status)) {
       best->status = status;
+      best->message = message;
       break;
     }
   }
