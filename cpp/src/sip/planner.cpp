@@ -198,7 +198,10 @@ Result Planner::Impl::solve(Eigen::VectorXd x) {
   if (cost && (solution.status == Status::solved || !options.feasible_first)) {
     constexpr double kStartCost = 100.0;  // the objective at the start: its gradients are then of the size of the rows'
     solution = run(options, kStartCost / std::max(measure.cost(x), 1e-9), x);
-    x = solution.x;
+    // A solver that is stopped early has moved its start into the interior, and may have nothing as good yet.
+    const auto value = [&](const Eigen::VectorXd& at) { return measure.problem().worst_violation(at).value; };
+    const bool worse = value(solution.x) > options.constraint_tolerance || measure.cost(solution.x) > measure.cost(x);
+    if (solution.status == Status::solved || !kept() || !worse) x = solution.x;
   }
   solution.x = x;
   result.plan = plan_of(motion, options, layout, x);
