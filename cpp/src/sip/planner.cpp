@@ -45,9 +45,11 @@ bool ends_all(Status status) {
 
 /// What a valid motion may lack for this planner, by the first field that does.
 void require_plannable(const PlanarMotion& motion, const Options& options) {
-  if (motion.robot.joint_count() < 1) throw InvalidRobot("bodies", "needs at least one joint to plan", "the base alone");
+  if (motion.robot.joint_count() < 1)
+    throw InvalidRobot("bodies", "needs at least one joint to plan", "the base alone");
   if (motion.interval_count() < 2)
-    throw InvalidMotion("phases[0].intervals", "must be at least 2 in a motion of one phase, to be at rest at both ends",
+    throw InvalidMotion("phases[0].intervals",
+                        "must be at least 2 in a motion of one phase, to be at rest at both ends",
                         text(motion.interval_count()));
   if (options.dynamics && options.forces == Forces::parameters) return;
   for (std::size_t k = 0; k < motion.phases.size(); ++k) {
