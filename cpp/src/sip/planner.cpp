@@ -46,6 +46,40 @@ bool ends_all(Status status) {
   return status == Status::solved || status == Status::time_limit || status == Status::interrupted;
 }
 
+/// What a valid motion may lack for this planner, by the first field that does.
+void require_plannable(const PlanarMotion& motion, const Options& options) {
+  if (motion.robot.joint_count() < 1)
+    throw InvalidRobot("bodies", "needs at least one joint to plan", "the base alone");
+  if (motion.interval_count() < 2)
+    throw InvalidMotion("phases[0].intervals",
+                        "must be at least 2 in a motion of one phase, to be at rest at both ends",
+                        text(motion.interval_count()));
+  if (options.dynamics && options.forces == Forces::parameters) return;
+  for (std::size_t k = 0; k < motion.phases.size(); ++k) {
+    Eigen::Index points = 0;
+    for (const PlanarContact& contact : motion.phases[k].contacts)
+      points += static_cast<Eigen::Index>(motion.robot.end_effectors[contact.end_effector].points.size());
+    try {
+      least_norm_gain(motion, static_cast<int>(k), Eigen::VectorXd::Ones(points));
+    } catch (const InvalidPlan& error) {
+      throw InvalidMotion("phases[" + std::to_string(k) + "].contacts", error.rule(), error.value());
+    }
+  }
+}
+
+/// The motion's and the options' bounds of durations must leave something between them.
+void require_durations(const nlp::Problem& problem, const Layout& layout, const Options& options) {
+  for (int i = 0; i < layout.durations; ++i) {
+    const int variable = layout.first_duration + i;
+    const double lower = problem.variable_lower()[variable], upper = problem.variable_upper()[variable];
+    if (lower > upper)
+      throw InvalidOptions(options.free_durations ? "phase_duration_s" : "total_duration_s",
+                           "must overlap with what the motion allows" +
+                               (options.free_durations ? " phase " + std::to_string(i) : std::string()),
+                           "at least " + text(lower) + " and at most " + text(upper) + " s");
+  }
+}
+
 /// Constraints of the checker that the options leave out.
 bool asked_for(const std::string& name, const Options& options) {
   if (!options.dynamics)
@@ -67,14 +101,15 @@ struct Planner::Impl {
   Report report;
 
   Impl(const PlanarMotion& of, const Options& with) : motion(of), options(with), layout(checked(of, with), with) {
-    rows = Program(motion, options, Curvature::gauss_newton, 0.0, Eigen::VectorXd::Zero(layout.parameters))
-               .problem()
-               .row_count();
+    const Program program(motion, options, Curvature::gauss_newton, 0.0, Eigen::VectorXd::Zero(layout.parameters));
+    require_durations(program.problem(), layout, options);
+    rows = program.problem().row_count();
   }
 
   static const PlanarMotion& checked(const PlanarMotion& motion, const Options& options) {
     motion.validate();
     options.validate();
+    require_plannable(motion, options);
     return motion;
   }
 
@@ -97,7 +132,12 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
   std::optional<nlp::Solution> best;
   for (const Attempt& attempt : attempts_for(with, cost)) {
     const double left = with.time_limit_s - seconds_since(begin);
-    if (best && left <= 0.0) break;
+    if (best && left <= 0.0) {
+      if (best->status == Status::acceptable) break;
+      best->status = Status::time_limit;
+      best->message = "reached time_limit_s";
+      break;
+    }
     const bool exact = attempt.hessian == HessianChoice::exact;
     Program program(motion, with, exact ? Curvature::exact : Curvature::gauss_newton, cost_scale, x);
     nlp::SolverOptions how;
@@ -120,9 +160,11 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
     const bool better = !best || (kept && !best_kept) || (kept && best_kept && solution.cost < best->cost) ||
                         (!kept && !best_kept && solution.worst.value < best->worst.value);
     const Status status = solution.status;
+    const std::string message = solution.message;
     if (better || status == Status::solved) best = std::move(solution);
     if (ends_all(status)) {
       best->status = status;
+      best->message = message;
       break;
     }
   }
@@ -136,7 +178,8 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
 /// spaced, and motions found so are not driven to their shortest phases.
 nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {
   Options with = options;
-  const bool convert = options.free_durations && options.has_cost();
+  const Range together = total_range(motion, options);
+  const bool convert = options.free_durations && options.has_cost() && together.min <= together.max;
   if (convert) with.free_durations = false;
   Eigen::VectorXd start = convert ? moved(x, options, with) : x;
   if (options.dynamics && options.kinematics_first && options.forces != Forces::parameters) {
@@ -196,8 +239,15 @@ Result Planner::Impl::solve(const Eigen::VectorXd& start) {
   double cost_scale = 0.0;
   if (cost && solution.status == Status::solved) {
     constexpr double kStartCost = 100.0;  // the objective at the start: its gradients are then of the size of the rows'
-    cost_scale = kStartCost / std::max(measure.cost(solution.x), 1e-9);
-    solution = run(options, cost_scale, solution.x);
+    const Eigen::VectorXd feasible_x = solution.x;
+    cost_scale = kStartCost / std::max(measure.cost(feasible_x), 1e-9);
+    solution = run(options, cost_scale, feasible_x);
+    // A solver that is stopped early has moved its start into the interior, and may have nothing as good yet.
+    const auto value = [&](const Eigen::VectorXd& at) { return measure.problem().worst_violation(at).value; };
+    const bool worse =
+        value(solution.x) > options.constraint_tolerance || measure.cost(solution.x) > measure.cost(feasible_x);
+    if (solution.status != Status::solved && value(feasible_x) <= options.constraint_tolerance && worse)
+      solution.x = feasible_x;
   }
   if (options.dynamics) tighten(solution, cost_scale);
   const Eigen::VectorXd& x = solution.x;

@@ -70,24 +70,13 @@ Range duration_range(const PlanarMotion& motion, const Options& options, int pha
           std::min(options.phase_duration_s.max, own.max_duration)};
 }
 
-/// Of the whole motion when it has one duration, which intervals share equally.
-Range total_range(const PlanarMotion& motion, const Options& options) {
-  Range out = options.total_duration_s;
-  const double intervals = motion.interval_count();
-  for (const PlanarPhase& phase : motion.phases) {
-    out.min = std::max(out.min, phase.min_duration * intervals / phase.intervals);
-    out.max = std::min(out.max, phase.max_duration * intervals / phase.intervals);
-  }
-  return out;
-}
-
 void add_parameters(nlp::Problem& problem, const PlanarMotion& motion, const Options& options, const Layout& layout) {
   const int last = layout.intervals - 1;
   for (int i = 0; i < layout.control_points(); ++i)
     problem.add_variables("control_point", layout.splines, -nlp::kInfinity, nlp::kInfinity,
                           {std::max(i - 1, 0), std::min(i + 2, last)});
   const int phases = static_cast<int>(motion.phases.size());
-  if (layout.durations == 1) {
+  if (!options.free_durations) {
     const Range range = total_range(motion, options);
     problem.add_variables("duration", 1, range.min, range.max, {0, last});
   } else {
@@ -109,6 +98,16 @@ void add_parameters(nlp::Problem& problem, const PlanarMotion& motion, const Opt
 }
 
 }  // namespace
+
+Range total_range(const PlanarMotion& motion, const Options& options) {
+  Range out = options.total_duration_s;
+  const double intervals = motion.interval_count();
+  for (const PlanarPhase& phase : motion.phases) {
+    out.min = std::max(out.min, phase.min_duration * intervals / phase.intervals);
+    out.max = std::min(out.max, phase.max_duration * intervals / phase.intervals);
+  }
+  return out;
+}
 
 Program::Program(const PlanarMotion& motion, const Options& options, Curvature curvature, double cost_scale,
                  const Eigen::VectorXd& anchor)
@@ -176,7 +175,7 @@ double Program::cost(const Eigen::VectorXd& x) {
 
 Eigen::VectorXd zero_start(const PlanarMotion& motion, const Options& options, const Layout& layout) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(layout.parameters);
-  if (layout.durations == 1) {
+  if (!options.free_durations) {
     const Range range = total_range(motion, options);
     x[layout.first_duration] = std::clamp(1.0, range.min, range.max);
     return x;
