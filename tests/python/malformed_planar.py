@@ -115,7 +115,7 @@ ROBOT_BREAKS: list[Break] = [
 MOTION_BREAKS: list[Break] = [
     (("robot",), DELETE, "robot", "is required"),
     (("robot",), 9, "robot", "must be a name, a path or a table"),
-    (("robot",), "", "robot", "must not be empty"),
+    (("robot",), "", "robot", "must be a name, a path or a table, got ''"),
     (("surfaces",), [], "surfaces", "needs at least 1 entry"),
     (("surfaces", 1, "name"), "floor", "surfaces[1].name", "must be unique"),
     (("surfaces", 0, "friction"), 0.0, "surfaces[0].friction", "must be a positive number"),
@@ -153,7 +153,7 @@ MOTION_BREAKS: list[Break] = [
     (("phases", 0, "contacts", 0, "at"), 1.98, "phases[0].contacts[0].at", "must keep all points within the extent"),
     (("phases", 0, "contacts", 1, "position"), [-0.1, 0.2], "phases[0].contacts[1].position", "must lie on"),
     (("phases", 0, "contacts", 1, "angle"), 0.3, "phases[0].contacts[1].angle", "must be that of"),
-    (("phases", 2, "place", 0, "at"), 1.5, "phases[2].place[0].at", "all that the limbs between them can stretch"),
+    (("phases", 2, "place", 0, "at"), 1.5, "phases[2].place", "right_foot must be within 1 m of 'left_foot'"),
     (("phases", 1, "intervals"), 0, "phases[1].intervals", "must be at least 1"),
     (("phases", 1, "intervals"), 2.5, "phases[1].intervals", "must be a whole number"),
     (("phases", 1, "max_duration"), 0.0, "phases[1].max_duration", "must be a positive number"),
@@ -168,8 +168,13 @@ MOTION_BREAKS: list[Break] = [
     ),
     (("phases", 1, "clearances", 0, "surface"), "roof", "phases[1].clearances[0].surface", "one of the surfaces"),
     (("phases", 1, "clearances", 1, "end_interval"), 5, "phases[1].clearances[1].end_interval", "must be -1 or lie in"),
-    (("phases", 1, "clearances", 1, "first_interval"), 4, "phases[1].clearances[1].first_interval", "must be an interval"),
+    (
+        ("phases", 1, "clearances", 1, "first_interval"),
+        4,
+        "phases[1].clearances[1].first_interval",
+        "must be an interval",
+    ),
     (("phases", 1, "poses", 0, "body"), "hips", "phases[1].poses[0].body", "Did you mean 'hip'?"),
     (("phases", 1, "poses", 0, "fraction"), 1.5, "phases[1].poses[0].fraction", "must be at most 1"),
-    (("phases", 1, "poses", 0, "x"), [0.3, 0.1], "phases[1].poses[0].x", "must not be below"),
-]  # fmt: skip
+    (("phases", 1, "poses", 0, "x"), [0.3, 0.1], "phases[1].poses[0].x", "from not above to, got [0.3, 0.1]"),
+]

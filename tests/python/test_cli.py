@@ -14,13 +14,15 @@ import pytest
 import malformed
 import mcplan as mp
 from mcplan.cli import main
+from mcplan.files.motions import list_motions, load_motion
+from mcplan.files.planar_robots import list_planar_robots, load_planar_robot
 from mcplan.files.robots import list_robots, load_robot
 from mcplan.files.scenes import list_scenes, load_scene, scene_to_dict
 from mcplan.files.terrains import random_patches
 from mcplan.files.toml import toml_text
 from standing import standing_plan
 
-VERBS = ("bench", "check", "demo", "plan", "reproduce", "rhp", "robots", "scenes", "version")
+VERBS = ("bench", "check", "demo", "motions", "plan", "reproduce", "rhp", "robots", "scenes", "version")
 
 
 def run(capsys, *words) -> tuple[int, str, str]:
@@ -63,7 +65,14 @@ def test_the_command_runs_as_a_process():
     )
 
 
-@pytest.mark.parametrize(("verb", "names"), [("scenes", list_scenes()), ("robots", list_robots())])
+@pytest.mark.parametrize(
+    ("verb", "names"),
+    [
+        ("scenes", list_scenes()),
+        ("robots", [*list_robots(), *list_planar_robots()]),
+        ("motions", list_motions()),
+    ],
+)
 def test_lists_have_a_described_line_each(verb, names, capsys):
     code, out, _ = run(capsys, verb)
     lines = out.splitlines()
@@ -124,6 +133,32 @@ def test_a_robot_is_printed_with_its_ends(name, capsys):
     assert all(end.name in out for end in load_robot(name).end_effectors)
 
 
+@pytest.mark.parametrize("name", list_planar_robots())
+def test_a_planar_robot_is_marked_and_printed_with_its_bodies(name, capsys):
+    code, out, _ = run(capsys, "robots", name)
+    robot = load_planar_robot(name)
+    assert code == 0 and out.startswith(f"{name} (planar): ")
+    first_words = {line.split()[0] for line in out.splitlines() if line}
+    assert {part.name for part in (*robot.bodies, *robot.end_effectors)} <= first_words
+
+
+@pytest.mark.parametrize("name", list_motions())
+def test_a_motion_is_printed_with_a_line_for_each_phase(name, capsys):
+    code, out, _ = run(capsys, "motions", name)
+    motion = load_motion(name)
+    assert code == 0 and out.startswith(f"{name}: ")
+    head, *lines = out.split("\n\n")[-1].splitlines()
+    assert head.split()[:2] == ["phase", "intervals"]
+    assert [line.split()[:2] for line in lines] == [[str(k), str(p.intervals)] for k, p in enumerate(motion.phases)]
+
+
+def test_a_motion_is_copied(capsys, tmp_path):
+    file = tmp_path / "mine.toml"
+    assert run(capsys, "motions", "stairs", "-o", file) == (0, f"Wrote {file}\n", "")
+    assert file.read_text().startswith(f"# Made by: mcplan motions stairs -o {file}\n")
+    assert repr(load_motion(file)) == repr(load_motion("stairs"))
+
+
 def test_a_plan_that_holds_is_ok(capsys, tmp_path):
     standing_plan().save(tmp_path / "plan.npz")
     code, out, _ = run(capsys, "check", tmp_path / "plan.npz")
@@ -161,6 +196,9 @@ BAD_WORDS = [
     ),
     (("scenes", "--html", "x.html"), "--html: needs the NAME of a scene"),
     (("robots", "humanoid4"), "no robot 'humanoid4' and no file of that name. Did you mean 'humanoid44'?"),
+    (("robots", "walker"), "no robot 'walker' and no file of that name. Did you mean 'walker9'? Built-in: anymal, "),
+    (("motions", "stare"), "no motion 'stare' and no file of that name. Did you mean 'stairs'? Built-in: cartwheel"),
+    (("motions", "-o", "x.toml"), "--output: needs the NAME of a motion"),
     (("check",), "Missing argument 'PLAN'"),
     (("check", "none.npz"), "none.npz: No such file or directory"),
     (("plan",), "Missing argument 'SCENE'"),

@@ -26,7 +26,7 @@ def test_import_loads_numpy_alone():
 def test_every_public_name_exists_and_is_documented():
     for name in mp.__all__:
         assert getattr(mp, name) is not None
-    for name in ("load_scene", "load_robot", "plan", "check", "show"):
+    for name in ("load_scene", "load_robot", "load_planar_robot", "load_motion", "plan", "check", "show"):
         assert len(getattr(mp, name).__doc__) > 100
 
 
@@ -41,6 +41,8 @@ def test_every_public_name_exists_and_is_documented():
         ("PlanViolated", RuntimeError),
         ("UnknownScene", ValueError),
         ("UnknownRobot", ValueError),
+        ("InvalidMotion", mp.InvalidInput),
+        ("UnknownMotion", ValueError),
     ],
 )
 def test_errors_are_what_their_callers_expect(name, base):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import mcplan
-from mcplan._core import sip
+from mcplan import sip
 
 DIGITS = 40
 

@@ -93,11 +93,12 @@ void bind_certificate(py::module_& m) {
 
   m.def(
       "certify",
-      [](const WholeBodyPlan& plan, const WholeBodyTolerances& tolerances, int order, int max_depth) {
-        return without_gil([&] { return sip::certify(plan, {tolerances, order, max_depth}); });
+      [](const WholeBodyPlan& plan, const WholeBodyTolerances& tolerances, int order, int max_depth,
+         bool self_collision) {
+        return without_gil([&] { return sip::certify(plan, {tolerances, order, max_depth, self_collision}); });
       },
       py::arg("plan"), py::arg("tolerances") = WholeBodyTolerances(), py::arg("order") = CertifyOptions().order,
-      py::arg("max_depth") = CertifyOptions().max_depth,
+      py::arg("max_depth") = CertifyOptions().max_depth, py::arg("self_collision") = false,
       "Prove every inequality of a whole-body plan at every instant, with Taylor models of `order` (2 to 12) on "
       "intervals that are halved up to `max_depth` (0 to 40) times. Raises InvalidPlan, InvalidMotion, InvalidRobot, "
       "InvalidOptions.");

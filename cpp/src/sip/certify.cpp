@@ -37,6 +37,7 @@ std::array<KindOf, kKinds> kinds(const WholeBodyTolerances& t) {
            {"friction", "m g", t.friction},
            {"pull", "m g", t.pull},
            {"clearance", "m", t.clearance},
+           {"collision", "m", t.clearance},
            {"pose", "m", t.pose}}};
 }
 
@@ -65,8 +66,9 @@ class Ledger {
   void close(const Row& row, int phase, double time_s, const Amount& amount) {
     Entry& entry = entries_[index(row.kind)];
     const double upper = std::isnan(amount.upper()) ? kInfinity : amount.upper();
-    const double share = amount.rounding / kinds_[index(row.kind)].tolerance;
-    if (row.kind != Kind::balance && share > rounding_) rounding_ = share;  // a balance's bound is nothing else
+    const double limit = tolerance(row.kind);
+    // Not of balance: under the least-norm law its bound is nothing but rounding.
+    if (row.kind != Kind::balance && limit > 0.0) rounding_ = std::max(rounding_, amount.rounding / limit);
     if (upper <= entry.bound) return;
     entry.bound = upper;
     entry.bound_at = {phase, row.where, time_s};
@@ -83,9 +85,10 @@ class Ledger {
 
   double rounding() const { return rounding_; }
 
-  std::vector<ProvedConstraint> constraints() const {
+  std::vector<ProvedConstraint> constraints(bool self_collision) const {
     std::vector<ProvedConstraint> out;
     for (int i = 0; i < kKinds; ++i) {
+      if (i == index(Kind::collision) && !self_collision) continue;
       const Entry& entry = entries_[i];
       ProvedConstraint c;
       c.name = kinds_[i].name;
@@ -180,7 +183,7 @@ Certificate certify(const WholeBodyPlan& plan, const CertifyOptions& options) {
     constants.push_back(phase_constants(plan, static_cast<int>(k)));
   std::vector<IntervalRows> intervals;
   for (int i = 0; i < plan.motion.interval_count(); ++i)
-    intervals.emplace_back(plan, constants[plan.motion.phase_of(i)], i, options.order);
+    intervals.emplace_back(plan, constants[plan.motion.phase_of(i)], i, options.order, options.self_collision);
 
   Ledger ledger(options.tolerances);
   for (const InstantRow& instant : instant_rows(plan, constants, intervals, options.order)) {
@@ -189,7 +192,7 @@ Certificate certify(const WholeBodyPlan& plan, const CertifyOptions& options) {
   }
   Certificate out;
   for (const IntervalRows& interval : intervals) out.subdivisions += prove(interval, options.max_depth, ledger);
-  out.constraints = ledger.constraints();
+  out.constraints = ledger.constraints(options.self_collision);
   out.rounding = ledger.rounding();
   out.time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;

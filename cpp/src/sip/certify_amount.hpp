@@ -19,16 +19,8 @@ struct Amount {
   std::array<Range, kPlaces> at;
   double rounding = 0.0;  ///< how much of the bounds' width is for floating-point arithmetic
 
-  static Amount of(const TaylorModel& f) {
-    Amount out{f.range(), {}, f.rounding()};
-    for (int i = 0; i < kPlaces; ++i) out.at[i] = f.at(place(i));
-    return out;
-  }
-  static Amount of(const UncertainPolynomial& p) {
-    Amount out{p.range(), {}, p.error};
-    for (int i = 0; i < kPlaces; ++i) out.at[i] = p.at(place(i));
-    return out;
-  }
+  static Amount of(const TaylorModel& f) { return of(f, f.rounding()); }
+  static Amount of(const UncertainPolynomial& p) { return of(p, p.error); }
 
   /// The same operation on all bounds.
   template <class Operation>
@@ -52,6 +44,19 @@ struct Amount {
     return worst;
   }
   double lower() const { return at[worst_place()].min; }
+
+ private:
+  /// Not a number, from an overflow, bounds nothing.
+  static Range known(const Range& r) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {std::isnan(r.min) ? -infinity : r.min, std::isnan(r.max) ? infinity : r.max};
+  }
+  template <class Function>
+  static Amount of(const Function& f, double rounding) {
+    Amount out{known(f.range()), {}, rounding};
+    for (int i = 0; i < kPlaces; ++i) out.at[i] = known(f.at(place(i)));
+    return out;
+  }
 };
 
 /// factor a + shift, rounded outward; factor and shift may themselves come from a few operations.
@@ -76,7 +81,7 @@ inline Amount absolute(const Amount& a) {
 inline Amount root(const Amount& a) {
   return a.map([](const Range& r) {
     constexpr double down = 1.0 - 1e-15, up = 1.0 + 1e-15;
-    return Range{std::sqrt(std::max(0.0, r.min)) * down, r.max > 0.0 ? std::sqrt(r.max) * up : 0.0 * r.max};
+    return Range{std::sqrt(std::max(0.0, r.min)) * down, std::sqrt(std::max(0.0, r.max)) * up};
   });
 }
 

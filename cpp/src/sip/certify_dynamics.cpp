@@ -101,12 +101,8 @@ Vector PieceModels::rotated_acceleration(int body, const Constant& v) const {
   return out;
 }
 
-Vector PieceModels::sole(const ContactFrame& contact) const {
-  return origin_[contact.body] + rotated(contact.body, contact.position_B);
-}
-
-Vector PieceModels::point_W(int body, const Constant& point_B) const {
-  return base_W_ + origin_[body] + rotated(body, point_B);
+Vector PieceModels::from_base(int body, const Constant& point_B) const {
+  return origin_[body] + rotated(body, point_B);
 }
 
 void PieceModels::kinematics() {
@@ -124,12 +120,13 @@ void PieceModels::kinematics() {
     base_W_ = {TaylorModel::of(order_, piece_.base[0].position), TaylorModel::of(order_, piece_.base[1].position)};
   } else {  // eq. 12
     Vector sum = zero_vector();
-    for (const ContactFrame& contact : constants_.contacts) sum += constant(contact.position_W) + -sole(contact);
+    for (const ContactFrame& contact : constants_.contacts)
+      sum += constant(contact.position_W) + -from_base(contact.body, contact.position_B);
     base_W_ = zero_vector().add_scaled(share, sum, kEpsilon * share);
   }
 
   for (const ContactFrame& contact : constants_.contacts) {
-    contact_errors.push_back(base_W_ + sole(contact) + -constant(contact.position_W));
+    contact_errors.push_back(base_W_ + from_base(contact.body, contact.position_B) + -constant(contact.position_W));
     UncertainPolynomial expected;
     expected.a[0] = contact.angle - contact.angle_B;
     expected.error = kEpsilon * std::abs(expected.a[0]);
@@ -269,7 +266,7 @@ void PieceModels::residuals() {
   for (std::size_t i = 0; i < constants_.contacts.size(); ++i) {
     const ContactFrame& contact = constants_.contacts[i];
     force_residual += -contact_forces_[i];
-    moment_residual -= cross(sole(contact), contact_forces_[i]);
+    moment_residual -= cross(from_base(contact.body, contact.position_B), contact_forces_[i]);
     moment_residual -= cross(rotated(contact.body, contact.along_B), contact_first_moments_[i]);
   }
 }

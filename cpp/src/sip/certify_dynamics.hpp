@@ -59,8 +59,9 @@ class PieceModels {
   void kinematics();  ///< once, before all that follows
   void dynamics();
 
-  /// A point of a body in the world.
-  Vector point_W(int body, const Constant& point_B) const;
+  /// A point of a body in the world, and from the base's origin.
+  Vector point_W(int body, const Constant& point_B) const { return base_W_ + from_base(body, point_B); }
+  Vector from_base(int body, const Constant& point_B) const;
 
   // After kinematics():
   std::vector<Vector> contact_errors;  ///< actual minus expected position [m]
@@ -78,7 +79,6 @@ class PieceModels {
   Vector constant(const Constant& c) const;
   Vector rotated(int body, const Constant& v_B) const;               ///< R v
   Vector rotated_acceleration(int body, const Constant& v_B) const;  ///< d2/dt2 (R v)
-  Vector sole(const ContactFrame& contact) const;                    ///< relative to the base
   void accelerations();
   void inertial_forces();
   void contact_forces();

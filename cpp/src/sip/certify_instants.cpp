@@ -13,15 +13,23 @@ Amount number(double low, double high) { return {{low, high}, {{{low, high}, {lo
 Range difference(const Range& a, const Range& b) { return {a.min - b.max, a.max - b.min}; }
 Range magnitude(const Range& a) { return {std::max({0.0, a.min, -a.max}), std::max(std::abs(a.min), std::abs(a.max))}; }
 
+void add_row(std::vector<InstantRow>& out, Kind kind, const std::string& where, int phase, double time_s,
+             const Amount& amount) {
+  InstantRow row;
+  row.row.kind = kind;
+  row.row.where = where;
+  row.phase = phase;
+  row.time_s = time_s;
+  row.amount = amount;
+  out.push_back(row);
+}
+
 /// d_k > 0, where a microsecond counts as nothing.
 void add_durations(const WholeBodyPlan& plan, std::vector<InstantRow>& out) {
   const std::vector<double> knots = plan.knot_times();
-  InstantRow row{{Kind::phase_duration, std::string()}, -1, 0.0, {}};
   for (std::size_t k = 0; k < plan.durations.size(); ++k) {
-    row.phase = static_cast<int>(k);
-    row.time_s = knots[k];
-    row.amount = number(1e-6 - plan.durations[k], 1e-6 - plan.durations[k]);
-    out.push_back(row);
+    const double missing = 1e-6 - plan.durations[k];
+    add_row(out, Kind::phase_duration, "", static_cast<int>(k), knots[k], number(missing, missing));
   }
 }
 
@@ -59,10 +67,8 @@ void add_continuity(const WholeBodyPlan& plan, const std::vector<IntervalRows>& 
       compare(a.position, b.position, 1.0);
       compare(a.velocity, b.velocity, h);
       compare(a.acceleration, b.acceleration, h * h);
-      out.push_back({{Kind::continuity, *before[j].name},
-                     right.phase,
-                     right.begin_s,
-                     number(jump.min / size.max, jump.max / size.min)});
+      add_row(out, Kind::continuity, *before[j].name, right.phase, right.begin_s,
+              number(jump.min / size.max, jump.max / size.min));
     }
   }
 }
@@ -75,10 +81,8 @@ void add_rest(const WholeBodyPlan& plan, const std::vector<IntervalRows>& interv
     for (const Named& spline : splines_of(plan, interval)) {
       const Range rate = magnitude(spline.trajectory->velocity.at(s));
       const Range bend = magnitude(spline.trajectory->acceleration.at(s));
-      out.push_back({{Kind::rest, *spline.name},
-                     interval.phase,
-                     rows.time_s(s),
-                     number(std::max(h * rate.min, h * h * bend.min), std::max(h * rate.max, h * h * bend.max))});
+      add_row(out, Kind::rest, *spline.name, interval.phase, rows.time_s(s),
+              number(std::max(h * rate.min, h * h * bend.min), std::max(h * rate.max, h * h * bend.max)));
     }
   };
   add(intervals.front(), -1.0);
@@ -98,15 +102,11 @@ void add_middle_heights(const WholeBodyPlan& plan, const std::vector<PhaseConsta
       PieceModels models(plan, constants[p], instant, order);
       models.kinematics();
       const PlanarEndEffector& end = motion.robot.end_effectors[clearance.end_effector];
-      for (std::size_t k = 0; k < end.points.size(); ++k) {
-        InstantRow row{{Kind::clearance, end.name + " point " + std::to_string(k) + " at mid-swing"},
-                       static_cast<int>(p),
-                       rows.time_s(-1.0),
-                       {}};
-        row.amount = scaled(Amount::of(over_surface(plan, models, clearance, static_cast<int>(k)).height), -1.0,
-                            clearance.middle_height);
-        out.push_back(std::move(row));
-      }
+      for (std::size_t k = 0; k < end.points.size(); ++k)
+        add_row(out, Kind::clearance, end.name + " point " + std::to_string(k) + " at mid-swing", static_cast<int>(p),
+                rows.time_s(-1.0),
+                scaled(Amount::of(over_surface(plan, models, clearance, static_cast<int>(k)).height), -1.0,
+                       clearance.middle_height));
     }
   }
 }
@@ -134,7 +134,7 @@ void add_poses(const WholeBodyPlan& plan, const std::vector<PhaseConstants>& con
         if (!std::isinf(pose.max[c])) beyond = larger(beyond, scaled(values[c], 1.0, -pose.max[c]));
       }
       if (std::isinf(beyond.upper()) && beyond.upper() < 0.0) continue;
-      out.push_back({{Kind::pose, motion.robot.bodies[pose.body].name}, static_cast<int>(p), rows.time_s(s), beyond});
+      add_row(out, Kind::pose, motion.robot.bodies[pose.body].name, static_cast<int>(p), rows.time_s(s), beyond);
     }
   }
 }

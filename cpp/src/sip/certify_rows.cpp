@@ -14,7 +14,8 @@ bool needs_dynamics(Kind kind) {
          kind == Kind::moment;
 }
 bool needs_kinematics(Kind kind) {
-  return needs_dynamics(kind) || kind == Kind::drift || kind == Kind::drift_angle || kind == Kind::clearance;
+  return needs_dynamics(kind) || kind == Kind::drift || kind == Kind::drift_angle || kind == Kind::clearance ||
+         kind == Kind::collision;
 }
 
 /// max(min - q, q - max), in shares of the range where there is one; a limit may be missing.
@@ -88,6 +89,18 @@ void IntervalRows::visit(const Trajectories& piece, const PieceModels* models, c
   });
   see(Kind::moment, nowhere, [&] { return absolute(Amount::of(models->moment_residual)); });
 
+  for (const auto& [first, second] : robot.collision_pairs) {
+    if (!self_collision_) break;
+    const PlanarBody &a = robot.bodies[first], &b = robot.bodies[second];
+    for (const Capsule& one : a.capsules)
+      for (const Capsule& other : b.capsules) {
+        const int of_a = first, of_b = second;
+        see(
+            Kind::collision, [&] { return a.name + " and " + b.name; },
+            [&, of_a, of_b] { return overlap(*models, of_a, one, of_b, other); });
+      }
+  }
+
   const PlanarPhase& phase = motion.phases[interval_.phase];
   const int index = interval_.interval - motion.first_interval(interval_.phase);
   for (const PlanarClearance& clearance : phase.clearances) {
@@ -108,8 +121,13 @@ void IntervalRows::visit(const Trajectories& piece, const PieceModels* models, c
   }
 }
 
-IntervalRows::IntervalRows(const WholeBodyPlan& plan, const PhaseConstants& constants, int interval, int order)
-    : plan_(plan), constants_(constants), order_(order), interval_(trajectories(plan, interval)) {
+IntervalRows::IntervalRows(const WholeBodyPlan& plan, const PhaseConstants& constants, int interval, int order,
+                           bool self_collision)
+    : plan_(plan),
+      constants_(constants),
+      order_(order),
+      self_collision_(self_collision),
+      interval_(trajectories(plan, interval)) {
   visit(interval_, nullptr, [&](Kind kind, const auto& name, const auto&) { rows_.push_back({kind, name()}); });
 }
 

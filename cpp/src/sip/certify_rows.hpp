@@ -23,6 +23,7 @@ enum class Kind {
   friction,
   pull,
   clearance,
+  collision,
   pose,
 };
 inline constexpr int kKinds = static_cast<int>(Kind::pose) + 1;
@@ -36,7 +37,8 @@ struct Row {
 /// What has to be proved over one interval, measured as the checker measures it.
 class IntervalRows {
  public:
-  IntervalRows(const WholeBodyPlan& plan, const PhaseConstants& constants, int interval, int order);
+  IntervalRows(const WholeBodyPlan& plan, const PhaseConstants& constants, int interval, int order,
+               bool self_collision);
 
   const std::vector<Row>& rows() const { return rows_; }
   const Trajectories& interval() const { return interval_; }
@@ -56,6 +58,7 @@ class IntervalRows {
   const WholeBodyPlan& plan_;
   const PhaseConstants& constants_;
   int order_;
+  bool self_collision_;
   Trajectories interval_;
   std::vector<Row> rows_;
 };
@@ -78,5 +81,8 @@ struct OverSurface {
 };
 OverSurface over_surface(const WholeBodyPlan& plan, const PieceModels& models, const PlanarClearance& clearance,
                          int point);
+
+/// How deep two capsules are in each other [m]; negative: apart.
+Amount overlap(const PieceModels& models, int body_a, const Capsule& a, int body_b, const Capsule& b);
 
 }  // namespace mcplan::sip::proof

@@ -14,15 +14,23 @@ if TYPE_CHECKING:
 
 
 def is_planar(source: str) -> bool:
-    """Whether a name or file is a planar robot's: files of those have bodies."""
-    from mcplan.errors import InvalidRobot
+    """Whether a name or file is a planar robot's: files of those have bodies.
+
+    Raises:
+        UnknownRobot: Neither a name of the two kinds nor a file.
+    """
+    from mcplan.errors import InvalidRobot, UnknownRobot
+    from mcplan.files.builtin import exists
     from mcplan.files.planar_robots import list_planar_robots
     from mcplan.files.robots import list_robots
     from mcplan.files.toml import read_toml
 
-    if source in list_robots() or source in list_planar_robots():
-        return source not in list_robots()
-    return Path(source).is_file() and "bodies" in read_toml(Path(source), InvalidRobot)
+    spatial, planar = list_robots(), list_planar_robots()
+    if source in spatial or source in planar:
+        return source in planar
+    if not exists(source):
+        raise UnknownRobot(source, [*spatial, *planar])
+    return "bodies" in read_toml(Path(source), InvalidRobot)
 
 
 def print_planar_robot(robot: PlanarRobot) -> None:

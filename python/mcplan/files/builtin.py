@@ -23,10 +23,14 @@ def find(source: str | Path, folder: str, unknown: type[UnknownName]) -> Path:
     legal = names(folder)
     if isinstance(source, str) and source in legal:
         return DATA / folder / f"{source}.toml"
-    path = Path(source)
-    try:
-        if str(source) and path.exists():
-            return path
-    except (OSError, ValueError):  # a name too long, or with a null byte
-        pass
+    if exists(source):
+        return Path(source)
     raise unknown(str(source), legal)
+
+
+def exists(source: str | Path) -> bool:
+    """Whether there is a file of that name."""
+    try:
+        return bool(str(source)) and Path(source).exists()
+    except (OSError, ValueError):  # a name too long, or with a null byte
+        return False

@@ -84,20 +84,17 @@ def motion_from_dict(data: Mapping[str, Any], source: str = "", folder: Path | N
     plain, robot = dict(data), None
     if isinstance(plain.get("robot"), Mapping):
         robot = planar_robot_from_dict({"name": "robot", **plain["robot"]}, source, "robot")
-    if robot is not None:
-        plain["robot"] = robot.name  # has been validated
-    elif not isinstance(plain.get("robot", ""), str):
+        plain["robot"] = robot.name
+    elif "robot" in plain and not (isinstance(plain["robot"], str) and plain["robot"]):
         raise InvalidMotion("robot", "must be a name, a path or a table", repr(plain["robot"]), source)
     plain = validated(MotionModel, plain, InvalidMotion, source).model_dump()
-    if robot is None:
-        robot = _load_robot(plain["robot"], folder)
-    stances = None
+    robot = robot or _load_robot(plain["robot"], folder)
     try:
         stances = Stances(robot, plain["surfaces"])
         motion = _motion_from_plain(plain, robot, stances)
-        motion.validate()
+        _validate(motion, stances)
     except InvalidMotion as found:
-        raise InvalidMotion(_field(found.field, stances), found.rule, found.value, source) from None
+        raise InvalidMotion(found.field, found.rule, found.value, source) from None
     return motion
 
 
@@ -106,11 +103,17 @@ def _load_robot(name: str, folder: Path | None) -> PlanarRobot:
     return load_planar_robot(path if name not in list_planar_robots() and path.is_file() else name)
 
 
-def _field(field: str, stances: Stances | None) -> str:
-    """Field of the C++ struct as the user wrote it."""
-    field = re.sub(r"^(surfaces\[\d+\])\.(from|to)$", r"\1.extent", field_in_file(field))
-    contact = re.fullmatch(r"phases\[(\d+)\]\.contacts\[(\d+)\]\.(\w+)", field)
-    return stances.field(int(contact[1]), int(contact[2]), contact[3]) if stances and contact else field
+def _validate(motion: PlanarMotion, stances: Stances) -> None:
+    """validate() of the C++ class; its errors name fields as the file does."""
+    try:
+        motion.validate()
+    except InvalidMotion as found:
+        field, rule = field_in_file(found.field), found.rule
+        field = re.sub(r"^(surfaces\[\d+\])\.(from|to)$", r"\1.extent", field)
+        contact = re.fullmatch(r"phases\[(\d+)\]\.contacts\[(\d+)\]\.(\w+)", field)
+        if contact:
+            field, rule = stances.locate(int(contact[1]), int(contact[2]), contact[3], rule)
+        raise InvalidMotion(field, rule, found.value) from None
 
 
 def _motion_from_plain(plain: Mapping[str, Any], robot: PlanarRobot, stances: Stances) -> PlanarMotion:
@@ -167,7 +170,12 @@ def _clearance_from_plain(entry: Mapping[str, Any], stances: Stances, field: str
 
 def _pose_from_plain(entry: Mapping[str, Any], robot: PlanarRobot, field: str) -> PlanarPose:
     names = [body.name for body in robot.bodies]
-    bounds = [entry[key] or (-math.inf, math.inf) for key in ("x", "y", "angle")]
+    bounds = []
+    for key in ("x", "y", "angle"):
+        low, high = entry[key] or (-math.inf, math.inf)
+        if not low <= high:
+            raise InvalidMotion(f"{field}.{key}", "must read [from, to], with from not above to", repr(entry[key]))
+        bounds.append((low, high))
     return PlanarPose(
         body=index_of(entry["body"], names, f"{field}.body", "a body of the robot", InvalidMotion),
         fraction=entry["fraction"],

@@ -149,13 +149,14 @@ def _robot_from_plain(plain: Mapping[str, Any]) -> PlanarRobot:
             for i, end in enumerate(plain["end_effectors"])
         ],
         collision_pairs=[
-            tuple(
-                index_of(name, names, f"collision_pairs[{i}][{j}]", "a body", InvalidRobot)
-                for j, name in enumerate(pair)
-            )
-            for i, pair in enumerate(plain["collision_pairs"])
+            _pair(pair, f"collision_pairs[{i}]", names) for i, pair in enumerate(plain["collision_pairs"])
         ],
     )
+
+
+def _pair(pair: Sequence[str], field: str, names: Sequence[str]) -> tuple[int, int]:
+    first, second = (index_of(name, names, f"{field}[{i}]", "a body", InvalidRobot) for i, name in enumerate(pair))
+    return first, second
 
 
 def _body_from_plain(body: Mapping[str, Any], i: int, names: Sequence[str]) -> PlanarBody:

@@ -21,6 +21,7 @@ from mcplan._core import Capsule, PlanarBody, PlanarEndEffector, PlanarRobot
 from mcplan.errors import InvalidRobot, did_you_mean
 from mcplan.extras import require
 
+_DIGITS = 12
 _PARALLEL = 1e-6  # sine of the largest angle between axes that count as one
 
 
@@ -48,7 +49,8 @@ class _Plane:
     normal: np.ndarray
 
     def project(self, vector: np.ndarray) -> np.ndarray:
-        return np.array([self.forward @ vector, self.up @ vector])
+        """Components forward and up, without the last digits' noise of frames multiplied with each other."""
+        return np.array([self.forward @ vector, self.up @ vector]).round(_DIGITS) + 0.0
 
 
 def planar_robot_from_urdf(
@@ -226,7 +228,7 @@ def _end_effector(model: Any, data: Any, end: PlanarEnd, plane: _Plane) -> Plana
         name=end.name,
         body=joint - 1,
         position_B=plane.project(placement.translation - data.oMi[joint].translation),
-        angle_B=float(np.arctan2(-along, above)),  # its x axis is 90 degrees clockwise of that
+        angle_B=round(float(np.arctan2(-along, above)), _DIGITS) + 0.0,  # its x axis is 90 degrees clockwise of that
         points=list(end.points),
     )
 

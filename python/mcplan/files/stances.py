@@ -27,7 +27,7 @@ class Stances:
         self._names = [surface["name"] for surface in surfaces]
         require_unique(self._names, "surfaces", InvalidMotion)
         self._current: dict[int, tuple[PlanarContact, str, bool]] = {}  # end-effector -> contact, its field, by `at`
-        self._fields: list[list[tuple[str, bool]]] = []
+        self._written: list[list[tuple[int, str, bool]]] = []  # of each phase: end-effector, field, by `at`
 
     def next(self, phase: Mapping[str, Any]) -> list[PlanarContact]:
         """Contacts of the next phase.
@@ -38,7 +38,7 @@ class Stances:
         Raises:
             InvalidMotion: Names that do not exist, end-effectors lifted that were not in contact, or the like.
         """
-        field = f"phases[{len(self._fields)}]"
+        field = f"phases[{len(self._written)}]"
         if phase["contacts"]:
             for key in ("lift", "place"):
                 if phase[key]:
@@ -46,24 +46,28 @@ class Stances:
             self._current = {}
             self._place(phase["contacts"], f"{field}.contacts")
         elif not phase["lift"] and not phase["place"]:
-            first = not self._fields
+            first = not self._written
             raise InvalidMotion(f"{field}.contacts", "is required" + ("" if first else ", or lift or place"))
         else:
-            if not self._fields:
+            if not self._written:
                 raise InvalidMotion(f"{field}.contacts", "is required of the first phase")
             for i, name in enumerate(phase["lift"]):
                 self._lift(name, f"{field}.lift[{i}]")
             self._place(phase["place"], f"{field}.place")
             if not self._current:
                 raise InvalidMotion(f"{field}.lift", "must leave one contact at least")
-        ordered = [self._current[end] for end in sorted(self._current)]
-        self._fields.append([(where, by_at) for _, where, by_at in ordered])
-        return [contact for contact, _, _ in ordered]
+        self._written.append([(end, *self._current[end][1:]) for end in sorted(self._current)])
+        return [self._current[end][0] for end in sorted(self._current)]
 
-    def field(self, phase: int, contact: int, attribute: str) -> str:
-        """Where an attribute of a contact that next() has returned stands in the file."""
-        where, by_at = self._fields[phase][contact]
-        return f"{where}.{'at' if by_at and attribute == 'position' else attribute}"
+    def locate(self, phase: int, contact: int, attribute: str, rule: str) -> tuple[str, str]:
+        """Field and rule of an error at a contact that next() has returned, for the file.
+
+        What is wrong with a contact that stood in the phase before already lies in what is new against that.
+        """
+        end, where, by_at = self._written[phase][contact]
+        if not where.startswith(f"phases[{phase}]."):
+            return f"phases[{phase}].place", f"{self._ends[end]} {rule}"
+        return f"{where}.{'at' if by_at and attribute == 'position' else attribute}", rule
 
     def end_effector(self, name: str, field: str) -> int:
         """Index of an end-effector by name, or InvalidMotion."""

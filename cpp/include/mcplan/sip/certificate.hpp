@@ -37,13 +37,14 @@ struct CertifyOptions {
   WholeBodyTolerances tolerances;  ///< what is to be proved
   int order = 8;                   ///< of the Taylor models
   int max_depth = 12;              ///< halvings of an interval
+  bool self_collision = false;     ///< prove that capsules of the robot's collision pairs stay apart
 };
 
 /// Prove every inequality of a whole-body plan at every instant, not only at samples: sines, cosines, forces and
 /// torques are Taylor models (polynomial and bound of what is left out), Bernstein coefficients bound the polynomials,
 /// and an interval is halved until its bound is below the tolerance, a point of it is above it, or max_depth is
-/// reached. Amounts are measured as the checker measures them. Not proved: `finite`, because plans with other numbers
-/// are malformed, and `collision`. Theory: docs/theory/sip_certificate.md.
+/// reached. Amounts are measured as the checker measures them, and named as there; `finite` is missing, because plans
+/// with other numbers are malformed. Theory: docs/theory/sip_certificate.md.
 ///
 /// Throws InvalidPlan, InvalidMotion or InvalidRobot where the plan is malformed, InvalidOptions for an order out of
 /// 2..12 or a max_depth out of 0..40.

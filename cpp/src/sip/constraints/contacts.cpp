@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "mcplan/sip/constraints.hpp"
 
 namespace mcplan::sip {
@@ -21,7 +23,9 @@ void hold_contacts(IntervalMotion& motion, std::vector<Limited>& out) {
     if (!contact.free) continue;
     const std::string& who = motion.motion.robot.end_effectors[contacts[i].end_effector].name;
     const auto hold = [&](const std::string& name, TaylorGraph::Node node, double tube) {
-      Limited row{name + " of " + who, node, -tube, tube, kWidth / tube};
+      // The solver's tolerance comes off, so that what it calls kept is inside the tube.
+      const double room = tube * (1.0 - std::min(0.1, options.constraint_tolerance / kWidth));
+      Limited row{name + " of " + who, node, -room, room, kWidth / tube};
       if (options.contact == ContactMode::strict) {
         row.lower = row.upper = 0.0;
         row.scale = 1.0;
