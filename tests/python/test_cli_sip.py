@@ -93,8 +93,8 @@ def test_the_summary_names_phases_contacts_and_what_is_closest_to_its_limit(caps
     assert (code, err) == (0, "")
     assert lines[0].startswith("cartwheel  climber9  solved in ") and lines[0].endswith("kinematics alone")
     assert "closest to its limit: " in out and "82 parameters, " in out
-    rows = [line.split(maxsplit=3) for line in lines if line.startswith("      ") and line[6:7].isdigit()]
-    rows = [line.split(maxsplit=3) for line in lines[lines.index(next(x for x in lines if "phase  start" in x)) + 1 :]]
+    head = lines.index("  phase  start [s]  lasts [s]  contacts")
+    rows = [line.split(maxsplit=3) for line in lines[head + 1 :]]
     assert [row[3] for row in rows] == ["A on ground, B on ground", "B on ground", "B on ground, C on ground"]
 
 

@@ -64,7 +64,9 @@ def test_without_a_cost_the_motion_has_one_duration_and_with_one_each_phase_its_
     some = mp.whole_body("cartwheel", forces="uniform", minimise="none")
     assert some.report.status == mp.Status.solved and some.parameters == 82
     np.testing.assert_allclose(np.array(some.plan.durations) / [3, 4, 3], some.plan.duration() / 10)
-    assert len({round(duration / count, 3) for duration, count in zip(uniform.plan.durations, [3, 4, 3])}) > 1
+    assert (
+        len({round(duration / count, 3) for duration, count in zip(uniform.plan.durations, [3, 4, 3], strict=True)}) > 1
+    )
     assert some.report.cost == 0.0 and some.certificate is None
 
 
@@ -215,4 +217,6 @@ def test_a_stance_that_joint_limits_forbid_is_not_solved_and_named():
     result = mp.whole_body(motion, dynamics=False, max_iterations=30, order=5)
     assert result.report.status not in (mp.Status.solved, mp.Status.acceptable)
     worst = result.report.worst_violation
-    assert worst.name in ("position", "drift", "drift_angle") and worst.phase == 2 and str(worst) in result.report.message
+    assert (
+        worst.name in ("position", "drift", "drift_angle") and worst.phase == 2 and str(worst) in result.report.message
+    )

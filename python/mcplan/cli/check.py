@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from mcplan import Plan, WholeBodyPlan
     from mcplan._core.sip import Certificate
 
 
@@ -18,6 +17,9 @@ def check(
     certify: Annotated[
         bool,
         typer.Option("--certify", help="Of a whole-body plan: prove its constraints at every instant, too."),
+    ] = False,
+    self_collision: Annotated[
+        bool, typer.Option("--self-collision", help="Of a whole-body plan: look at its robot's collision pairs, too.")
     ] = False,
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
 ) -> int:
@@ -29,14 +31,21 @@ def check(
     """
     from mcplan._core import WholeBodyPlan
     from mcplan._core import check as run
+    from mcplan._core.sip import certify as prove
     from mcplan.cli.table import print_table
+    from mcplan.errors import InvalidInput
     from mcplan.files.whole_body_plans import load_any_plan
 
     loaded = load_any_plan(plan)
-    certificate = certificate_of(loaded) if certify else None
+    certificate = None
     if isinstance(loaded, WholeBodyPlan):
-        result = run(loaded)
+        result = run(loaded, self_collision=self_collision)
+        if certify:
+            certificate = prove(loaded, self_collision=self_collision)
         carried = {"motion": loaded.motion.name, "robot": loaded.motion.robot.name}
+    elif certify or self_collision:
+        option = "--certify" if certify else "--self-collision"
+        raise InvalidInput(option, "needs a whole-body plan, as mcplan sip makes them")
     else:
         result = run(loaded)
         carried = {"scene": loaded.scene.name, "robot": loaded.robot.name}
@@ -59,21 +68,6 @@ def check(
     if certificate is not None and not json:
         print(str(certificate).rstrip())
     return 0 if result.ok() and (certificate is None or certificate.proved()) else 1
-
-
-def certificate_of(plan: Plan | WholeBodyPlan) -> Certificate:
-    """What is proved of a whole-body plan.
-
-    Raises:
-        InvalidInput: The plan is of another kind.
-    """
-    from mcplan._core import WholeBodyPlan
-    from mcplan._core.sip import certify
-    from mcplan.errors import InvalidInput
-
-    if not isinstance(plan, WholeBodyPlan):
-        raise InvalidInput("--certify", "needs a whole-body plan, as mcplan sip makes them")
-    return certify(plan)
 
 
 def certificate_dict(certificate: Certificate) -> dict[str, Any]:

@@ -92,7 +92,8 @@ def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Pat
     lines.append(f"{indent}{size}; time: {parts.replace('_', ' ')}")
     lines += phase_rows(motion, plan.durations)
     if result.certificate is not None:
-        lines.append(str(result.certificate).rstrip())
+        proofs = str(result.certificate).splitlines()
+        lines += proofs[:1] if result.certificate.proved() else proofs
     files = [str(path) for path in written if path is not None]
     if files:
         lines.append(f"Saved {', '.join(files)}" + ("" if solved else f", with status {report.status}"))
