@@ -22,8 +22,8 @@ inline mcplan::PlanarBody link(const std::string& name, int parent, double lengt
   return out;
 }
 
-/// Adds a limb of two links and a foot to the hub, which it leaves at `angle` [rad] from down; `bend` is the sign of its
-/// knee, which is bent by 0.7 rad in the zero posture.
+/// Adds a limb of two links and a foot to the hub, which it leaves at `angle` [rad] from down; `bend` is the sign of
+/// its knee, which is bent by 0.7 rad in the zero posture.
 inline void add_limb(mcplan::PlanarRobot& robot, const std::string& name, double angle, double bend) {
   const int first = static_cast<int>(robot.bodies.size());
   mcplan::PlanarBody upper = link(name + "_upper", 0, 0.4, 3.0, angle + 0.35 * bend);

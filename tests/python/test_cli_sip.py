@@ -106,11 +106,13 @@ def test_verbose_prints_the_table_of_iterations(capsys):
 
 def test_a_line_follows_the_search(capsys, monkeypatch):
     row = "  12r 1.234567e+02 3.21e-03 4.56e-05  -1.0 7.89e-01     - 1.00e+00 1.00e+00   1"
-    assert iteration_state(row) == ("3.21e-03", "4.56e-05")
+    assert iteration_state(row) == (12, "3.21e-03", "4.56e-05")
     assert iteration_state("iter      cost      inf_pr   inf_du") is None and iteration_state("") is None
     monkeypatch.setattr("mcplan.cli.sip_text._FILE_S", 0.0)
     progress = Progress("cartwheel", verbose=False)
     progress(mp._core.LogLevel.info, "iter      cost      inf_pr   inf_du")
+    progress(mp._core.LogLevel.info, row.replace("12r", " 0 "))
+    capsys.readouterr()
     progress(mp._core.LogLevel.info, row)
     progress.end()
     err = capsys.readouterr().err

@@ -36,12 +36,12 @@ class Progress:
         state = iteration_state(line)
         if state is None:
             return
-        self.iterations += 1
+        self.iterations += state[0] > 0  # the rows numbered 0 are starts
         now_s = time.monotonic()
         if now_s - self.shown_s < (_TERMINAL_S if self.terminal else _FILE_S):
             return
         self.shown_s = now_s
-        violation, optimality = state
+        _, violation, optimality = state
         lead = f"{self.motion}: iteration {self.iterations}, {now_s - self.begin_s:.1f} s"
         self._show(f"{lead}, constraints to {violation}, optimality to {optimality}")
 
@@ -59,12 +59,12 @@ class Progress:
         self.width = len(text)
 
 
-def iteration_state(line: str) -> tuple[str, str] | None:
-    """Violation of the constraints and of optimality, from a row of the solver's table; None for other lines."""
+def iteration_state(line: str) -> tuple[int, str, str] | None:
+    """Iteration, violation of the constraints and of optimality, from a row of the solver's table; None: no row."""
     cells = line.split()
     if len(cells) < 4 or not cells[0].rstrip("r").isdigit():
         return None
-    return cells[2], cells[3]
+    return int(cells[0].rstrip("r")), cells[2], cells[3]
 
 
 def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Path | None]) -> str:
