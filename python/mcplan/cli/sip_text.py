@@ -82,7 +82,7 @@ def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Pat
         lines.append(indent + (report.message or "no motion that the checker accepts"))
     worst = report.worst_violation
     if worst.name and (solved or str(worst) not in report.message):
-        lines.append(f"{indent}{'closest to its limit' if solved else 'worst'}: {worst}")
+        lines.append(f"{indent}{'closest to its limit' if worst.value <= worst.tolerance else 'worst'}: {worst}")
     terms = ", ".join(f"{name} {value:.4g}" for name, value in report.cost_terms.items())
     cost = f"cost {report.cost:.4g} ({terms})" if options.has_cost() else f"no cost ({terms})"
     lines.append(f"{indent}{cost}; drift of contacts {1e3 * result.drift_m:.2g} mm, {1e3 * result.drift_rad:.2g} mrad")
