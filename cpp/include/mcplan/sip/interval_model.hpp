@@ -14,7 +14,7 @@ namespace mcplan::sip {
 ///
 /// Cost of an interval of length h:  sum_w weight_w h/2 int_{-1}^{1} p_w(s)^2 ds,  p_w the torques and the jerks of
 /// joints (the integral of a polynomial's square, exact for the polynomials). Values and first derivatives of the last
-/// two points asked for are kept, because a solver asks for cost, gradient, rows and Jacobian one after the other.
+/// point asked for are kept, because a solver asks for cost, gradient, rows and Jacobian one after the other.
 class IntervalModel {
  public:
   IntervalModel(const PlanarMotion& motion, const Options& options, const Layout& layout, int interval,
