@@ -102,7 +102,9 @@ class Peer:
             )
 
         base_angle = np.mean([c["angle"] - e["angle_B"] - along(e["body"], q, True) for c, e, _ in contacts], axis=0)
-        base_rate, base_turn = (np.mean([-along(e["body"], x, False) for _, e, _ in contacts], axis=0) for x in (dq, ddq))
+        base_rate, base_turn = (
+            np.mean([-along(e["body"], x, False) for _, e, _ in contacts], axis=0) for x in (dq, ddq)
+        )
         count = len(self.bodies)
         angle = [base_angle + along(b, q, True) for b in range(count)]
         rate = [base_rate + along(b, dq, False) for b in range(count)]
@@ -111,7 +113,9 @@ class Peer:
         def arm(body: int, point: Any) -> np.ndarray:
             """From the body's joint to a point of it, with velocity and acceleration: (3, times, 2)."""
             r = turned(angle[body], np.asarray(point))
-            return np.stack([r, rate[body][:, None] * left(r), turn[body][:, None] * left(r) - rate[body][:, None] ** 2 * r])
+            return np.stack(
+                [r, rate[body][:, None] * left(r), turn[body][:, None] * left(r) - rate[body][:, None] ** 2 * r]
+            )
 
         relative = [np.zeros((3, len(t), 2))]  # joints of the bodies, from the base
         for body in self.bodies[1:]:
@@ -155,12 +159,17 @@ class Peer:
         force, moment = demand(list(range(count)), np.broadcast_to(middle, (len(t), 2)))
         forces = (np.column_stack([force, moment]) @ gain.T).reshape(len(t), len(places), 2)
         forces_W = np.stack(
-            [f[:, :1] * tangent + f[:, 1:] * left(tangent) for f, tangent in zip(forces.swapaxes(0, 1), tangents, strict=True)],
+            [
+                f[:, :1] * tangent + f[:, 1:] * left(tangent)
+                for f, tangent in zip(forces.swapaxes(0, 1), tangents, strict=True)
+            ],
             axis=1,
         )
         points = np.stack(
             [
-                base[0] + soles[i][0] + turned(angle[contacts[i][1]["body"]] + contacts[i][1]["angle_B"], np.array([d, 0.0]))
+                base[0]
+                + soles[i][0]
+                + turned(angle[contacts[i][1]["body"]] + contacts[i][1]["angle_B"], np.array([d, 0.0]))
                 for i, d in zip(owners, levers, strict=True)
             ],
             axis=1,

@@ -16,7 +16,10 @@ namespace {
 /// Three points on a slope and two on a wall; parameters weigh them as case 3 does.
 std::vector<ContactGain::Point> five_points() {
   const Eigen::Vector2d slope(std::cos(0.4), std::sin(0.4)), wall(0.0, -1.0);
-  return {{{-0.5, -0.3}, slope, -1}, {{-0.4, -0.25}, slope, 0}, {{0.6, 0.2}, slope, 1}, {{-0.9, 0.8}, wall, 2},
+  return {{{-0.5, -0.3}, slope, -1},
+          {{-0.4, -0.25}, slope, 0},
+          {{0.6, 0.2}, slope, 1},
+          {{-0.9, 0.8}, wall, 2},
           {{-0.9, 0.6}, wall, 3}};
 }
 

@@ -13,7 +13,11 @@
 /// One interval of a motion at parameters P, as Taylor polynomials and as the exact plan says.
 struct IntervalAt {
   IntervalAt(const mcplan::PlanarMotion& of, const mcplan::sip::Options& with, int k, const Eigen::VectorXd& P)
-      : task(of), options(with), layout(task, options), x(P), plan(plan_of(task, options, layout, x)),
+      : task(of),
+        options(with),
+        layout(task, options),
+        x(P),
+        plan(plan_of(task, options, layout, x)),
         motion(task, options, layout, k) {}
   IntervalAt(const IntervalAt&) = delete;
   IntervalAt& operator=(const IntervalAt&) = delete;

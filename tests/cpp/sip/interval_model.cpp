@@ -25,7 +25,8 @@ Options with(Forces forces, bool free_durations = true) {
 struct Model {
   Model(const PlanarMotion& of, const Options& with, int k, unsigned seed)
       : at(of, with, k, gentle(of, with, seed)),
-        model(at.task, at.options, at.layout, k, std::make_shared<TaylorGraph::Workspace>()), x(model.local().count()) {
+        model(at.task, at.options, at.layout, k, std::make_shared<TaylorGraph::Workspace>()),
+        x(model.local().count()) {
     for (int i = 0; i < x.size(); ++i) x[i] = at.x[model.local().variables[i]];
   }
 
@@ -113,7 +114,8 @@ TEST_CASE("what is remembered of a point is that point's, in whatever order it i
   const Options options = with(Forces::per_point);
   const auto shared = std::make_shared<TaylorGraph::Workspace>();
   Model m(sip_motions::cartwheel(), options, 5, 8);
-  IntervalModel other(m.at.task, m.at.options, m.at.layout, 1, shared), same(m.at.task, m.at.options, m.at.layout, 5, shared);
+  IntervalModel other(m.at.task, m.at.options, m.at.layout, 1, shared),
+      same(m.at.task, m.at.options, m.at.layout, 5, shared);
   const Eigen::VectorXd y = 1.1 * m.x, z = Eigen::VectorXd::Constant(other.local().count(), 0.3);
   const Eigen::VectorXd rows_x = m.model.row_values(m.x), rows_y = m.model.row_values(y);
   const Eigen::MatrixXd jacobian_x = m.model.row_jacobian(m.x);

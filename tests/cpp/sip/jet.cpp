@@ -87,8 +87,7 @@ TEST_CASE("a spline's basis changes with the lengths about it as its differences
         lengths[e] += by_e * step;
         return basis(lengths);
       };
-      const Eigen::Matrix4d mixed =
-          (moved(1, 1) - moved(1, -1) - moved(-1, 1) + moved(-1, -1)) / (4.0 * step * step);
+      const Eigen::Matrix4d mixed = (moved(1, 1) - moved(1, -1) - moved(-1, 1) + moved(-1, -1)) / (4.0 * step * step);
       const Eigen::Matrix4d slope = (moved(1, 0) - moved(-1, 0)) / (2.0 * step);
       for (int m = 0; m < 4; ++m)
         for (int i = 0; i < 4; ++i) {

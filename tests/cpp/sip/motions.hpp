@@ -59,8 +59,8 @@ inline PlanarRobot climber() {
     const int upper = static_cast<int>(robot.bodies.size());
     robot.bodies.push_back(link(name + "_upper", 0, {0.1 * std::sin(a), -0.1 * std::cos(a)}, a + sign * 0.35, 3.0,
                                 {0.0, -0.2}, 0.04, -1.7, 1.7, 150.0));
-    robot.bodies.push_back(link(name + "_lower", upper, {0.0, -0.4}, -sign * 0.7, 2.0, {0.0, -0.2},
-                                0.02666666666666667, -2.2, 2.2, 150.0));
+    robot.bodies.push_back(link(name + "_lower", upper, {0.0, -0.4}, -sign * 0.7, 2.0, {0.0, -0.2}, 0.02666666666666667,
+                                -2.2, 2.2, 150.0));
     robot.bodies.push_back(
         link(name + "_foot", upper + 1, {0.0, -0.4}, sign * 0.35, 0.5, {0.0, -0.03}, 0.002, -1.5, 1.5, 80.0));
     robot.bodies[upper + 1].capsules = {{{0.0, 0.0}, {0.0, -0.4}, 0.04}};
@@ -77,10 +77,8 @@ inline PlanarRobot walker() {
   robot.bodies = {base("pelvis", 8.0, {0.0, 0.05}, 0.06)};
   for (const std::string side : {"left", "right"}) {
     const int thigh = static_cast<int>(robot.bodies.size());
-    robot.bodies.push_back(
-        link(side + "_thigh", 0, {0.0, 0.0}, 0.3, 5.0, {0.0, -0.2}, 0.07, -1.2, 1.2, 200.0));
-    robot.bodies.push_back(
-        link(side + "_shin", thigh, {0.0, -0.4}, -0.6, 3.5, {0.0, -0.2}, 0.05, -1.8, 0.55, 200.0));
+    robot.bodies.push_back(link(side + "_thigh", 0, {0.0, 0.0}, 0.3, 5.0, {0.0, -0.2}, 0.07, -1.2, 1.2, 200.0));
+    robot.bodies.push_back(link(side + "_shin", thigh, {0.0, -0.4}, -0.6, 3.5, {0.0, -0.2}, 0.05, -1.8, 0.55, 200.0));
     robot.bodies.push_back(
         link(side + "_foot", thigh + 1, {0.0, -0.4}, 0.3, 1.2, {0.03, -0.04}, 0.005, -0.9, 0.9, 120.0));
     robot.end_effectors.push_back({side + "_foot", thigh + 2, {0.0, -0.08}, 0.0, {-0.08, 0.14}});
@@ -171,8 +169,7 @@ inline PlanarMotion paper_motion(int number) {
 
 /// Parameters of no particular motion: postures about zero, intervals of 0.1 to 0.3 s, weights and forces of ordinary
 /// size.
-inline Eigen::VectorXd random_parameters(const PlanarMotion& motion, const mcplan::sip::Layout& layout,
-                                         unsigned seed) {
+inline Eigen::VectorXd random_parameters(const PlanarMotion& motion, const mcplan::sip::Layout& layout, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   Eigen::VectorXd x(layout.parameters);

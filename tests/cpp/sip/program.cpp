@@ -125,8 +125,7 @@ TEST_CASE("a row's entries are among its interval's parameters: a band and an ar
   for (int number : {1, 2, 3}) {
     const PlanarMotion motion = sip_motions::paper_motion(number);
     const Options options;
-    Program program(motion, options, Curvature::exact, 1.0,
-                    Eigen::VectorXd::Zero(Layout(motion, options).parameters));
+    Program program(motion, options, Curvature::exact, 1.0, Eigen::VectorXd::Zero(Layout(motion, options).parameters));
     std::vector<int> interval_of;
     for (int k = 0; k < program.intervals(); ++k)
       interval_of.insert(interval_of.end(), program.model(k).rows().count(), k);
@@ -148,8 +147,8 @@ TEST_CASE("cost and duration are sums of their parts") {
   const Eigen::VectorXd x = sip_motions::random_parameters(motion, layout, 2);
   Program program(motion, options, Curvature::exact, 0.1, Eigen::VectorXd::Zero(layout.parameters));
   CHECK(program.duration(x) == doctest::Approx(plan_of(motion, options, layout, x).duration()));
-  CHECK(program.cost(x) == doctest::Approx(0.5 * program.torque_cost(x) + 1e-4 * program.jerk_cost(x) +
-                                           3.0 * program.duration(x)));
+  CHECK(program.cost(x) ==
+        doctest::Approx(0.5 * program.torque_cost(x) + 1e-4 * program.jerk_cost(x) + 3.0 * program.duration(x)));
   CHECK(program.problem().cost(x) == doctest::Approx(0.1 * program.cost(x)));
 }
 

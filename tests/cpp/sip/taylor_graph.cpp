@@ -205,7 +205,8 @@ TEST_CASE("linear combinations, derivatives and integrals") {
   const Series a = random_series(random, 6), b = random_series(random, 2);
   TaylorGraph graph(0);
   const Node p = input(graph, a), q = input(graph, b);
-  const Node sum = graph.linear({{2.0, p}, {-3.0, q}, {0.0, p}}, 0.5), cut = graph.linear({{2.0, p}, {-3.0, q}}, 0.5, 4);
+  const Node sum = graph.linear({{2.0, p}, {-3.0, q}, {0.0, p}}, 0.5),
+             cut = graph.linear({{2.0, p}, {-3.0, q}}, 0.5, 4);
   const Node constant = graph.constant(7.0), nothing = graph.linear({{0.0, p}});
   const Node first = graph.derivative(p), third = graph.derivative(p, 3), gone = graph.derivative(q, 3);
   const Node integral = graph.integral(p, 20), short_integral = graph.integral(p, 4);
@@ -268,8 +269,7 @@ TEST_CASE("derivatives of random graphs agree with central differences") {
       fuzz.set(at);
       graph.evaluate(work, false);
       double out = 0.0;
-      for (std::size_t i = 0; i < weights.size(); ++i)
-        out += weights[i].dot(graph.coefficients(work, fuzz.outputs[i]));
+      for (std::size_t i = 0; i < weights.size(); ++i) out += weights[i].dot(graph.coefficients(work, fuzz.outputs[i]));
       return out;
     };
 
@@ -286,8 +286,9 @@ TEST_CASE("derivatives of random graphs agree with central differences") {
       Eigen::VectorXd above = x, below = x;
       above[i] += step;
       below[i] -= step;
-      CHECK(slope[i] == doctest::Approx((sum(above) - sum(below)) / (2.0 * step)).epsilon(1e-6).scale(
-                            1.0 + slope.cwiseAbs().maxCoeff()));
+      CHECK(slope[i] == doctest::Approx((sum(above) - sum(below)) / (2.0 * step))
+                            .epsilon(1e-6)
+                            .scale(1.0 + slope.cwiseAbs().maxCoeff()));
       const Eigen::VectorXd bend = (gradient(above) - gradient(below)) / (2.0 * step);
       CHECK((H.col(i) - bend).cwiseAbs().maxCoeff() <= 1e-6 * (1.0 + H.cwiseAbs().maxCoeff()));
     }

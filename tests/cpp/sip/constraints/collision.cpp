@@ -57,8 +57,8 @@ TEST_CASE("where the rows hold, the capsules are apart") {
     const auto frames = interval.frames(s);
     double least = INFINITY;
     for (const auto& [a, b] : motion.robot.collision_pairs)
-      least = std::min(least, gap(frames[a], motion.robot.bodies[a].capsules[0], frames[b],
-                                  motion.robot.bodies[b].capsules[0]));
+      least = std::min(
+          least, gap(frames[a], motion.robot.bodies[a].capsules[0], frames[b], motion.robot.bodies[b].capsules[0]));
     CAPTURE(seed);
     if (room(interval, rows, s) >= 0.0) {
       CHECK(least >= -1e-4);  // the gap is that of points a hundredth of a metre apart

@@ -1,8 +1,9 @@
+#include "mcplan/sip/constraints.hpp"
+
 #include <doctest/doctest.h>
 
 #include <set>
 
-#include "mcplan/sip/constraints.hpp"
 #include "sip/interval.hpp"
 
 using namespace mcplan::sip;

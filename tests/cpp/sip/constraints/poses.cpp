@@ -48,8 +48,8 @@ TEST_CASE("poses are those of the exact plan at their instant, whichever interva
         const double origin = angle ? 0.0 : interval.motion.origin_W.x();
         CHECK(rows[i].name == "pose of " + motion.robot.bodies[i < 2 ? 0 : 6].name);
         CHECK(rows[i].when == Limited::When::instant);
-        CHECK(std::abs(interval.at(rows[i].node, rows[i].at) + origin -
-                       (angle ? frame.angle : frame.position_W.x())) < 1e-8);
+        CHECK(std::abs(interval.at(rows[i].node, rows[i].at) + origin - (angle ? frame.angle : frame.position_W.x())) <
+              1e-8);
         CHECK(rows[i].lower + origin == doctest::Approx(angle ? -0.2 : 0.1));
         if (angle)
           CHECK(rows[i].upper == INFINITY);
