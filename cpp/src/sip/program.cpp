@@ -87,7 +87,7 @@ void add_parameters(nlp::Problem& problem, const PlanarMotion& motion, const Opt
     problem.add_variables("control_point", layout.splines, -nlp::kInfinity, nlp::kInfinity,
                           {std::max(i - 1, 0), std::min(i + 2, last)});
   const int phases = static_cast<int>(motion.phases.size());
-  if (layout.durations == 1) {
+  if (!options.free_durations) {
     const Range range = total_range(motion, options);
     problem.add_variables("duration", 1, range.min, range.max, {0, last});
   } else {
@@ -176,7 +176,7 @@ double Program::cost(const Eigen::VectorXd& x) {
 
 Eigen::VectorXd zero_start(const PlanarMotion& motion, const Options& options, const Layout& layout) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(layout.parameters);
-  if (layout.durations == 1) {
+  if (!options.free_durations) {
     const Range range = total_range(motion, options);
     x[layout.first_duration] = std::clamp(1.0, range.min, range.max);
     return x;

@@ -25,6 +25,15 @@ void require_same_task(const WholeBodyPlan& plan, const PlanarMotion& motion) {
     if (theirs.contacts.size() != ours.contacts.size())
       fail(field + ".contacts", "needs " + std::to_string(ours.contacts.size()) + " contacts",
            static_cast<int>(theirs.contacts.size()));
+    for (std::size_t i = 0; i < ours.contacts.size(); ++i) {
+      const int end = ours.contacts[i].end_effector;
+      const std::string contact = field + ".contacts[" + std::to_string(i) + "]";
+      if (theirs.contacts[i].end_effector != end)
+        fail(contact, "must be of end-effector " + std::to_string(end), theirs.contacts[i].end_effector);
+      const std::size_t points = motion.robot.end_effectors[end].points.size();
+      const std::size_t other = plan.motion.robot.end_effectors[end].points.size();
+      if (other != points) fail(contact, "needs " + std::to_string(points) + " points", static_cast<int>(other));
+    }
   }
 }
 

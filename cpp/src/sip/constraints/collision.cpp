@@ -16,6 +16,10 @@ struct Disc {
 /// disc reaches the capsule's side if its radius is sqrt(r^2 + d^2 / 4).
 void cover(int body, const Capsule& capsule, std::vector<Disc>& out) {
   const Eigen::Vector2d along = capsule.to_B - capsule.from_B;
+  if (along.norm() == 0.0) {
+    out.push_back({body, capsule.from_B, capsule.radius});
+    return;
+  }
   const int gaps = std::max(1, static_cast<int>(std::ceil(along.norm() / (2.0 * capsule.radius))));
   const double spacing = along.norm() / gaps;
   const double radius = std::hypot(capsule.radius, 0.5 * spacing);
