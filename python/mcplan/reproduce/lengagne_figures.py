@@ -30,7 +30,7 @@ def strips(out: Path, motions: Sequence[str]) -> list[Path]:
         saved = out / f"{Config(4, motion, 'tube', forces='per_point').key}.npz"
         if motion in motions and saved.exists():
             path = out / f"figure_{number}.png"
-            film_strip(load_whole_body_plan(saved), frames=10).savefig(path, dpi=DPI, metadata={"Software": None})
+            film_strip(load_whole_body_plan(saved), frames=8).savefig(path, dpi=DPI, metadata={"Software": None})
             written.append(path)
     return written
 

@@ -132,7 +132,7 @@ class Run:
 
         The planner says `acceptable` where the checker disagrees, as it does about coarse contact constraints.
         """
-        return self.status == "solved" or self.message.startswith("converged")
+        return self.status == "solved" or (self.status == "acceptable" and self.message.startswith("converged, but"))
 
     @property
     def verdict(self) -> str:

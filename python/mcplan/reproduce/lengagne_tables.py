@@ -30,6 +30,11 @@ def _measured(kept: Run | None) -> Row:
     return out
 
 
+def figure(value: float) -> str:
+    """Two digits, without exponents of ten for large numbers."""
+    return f"{value:.0f}" if value >= 100.0 else f"{value:.2g}"
+
+
 def kinematic_rows(runs: list[Run], table: int) -> list[Row]:
     """Table I or II: a row per motion and N_eq, and one per motion for the tube."""
     out = []
@@ -76,7 +81,7 @@ def kinematic_table(rows: list[Row]) -> list[str]:
             f"| {TITLES[row['motion']]} | {row['neq']} | {row['paper_parameters']} | {row['parameters']} "
             f"| {row['paper_constraints']} | {row['constraints']} | {row['paper_iterations']} | {row['iterations']} "
             f"| {row['paper_time_s']} | {row['time_s']:.2f} | {row['cpu_s']:.2f} "
-            f"| {row['paper_status']} | {row['status']} | {row['drift_mm']:.2g} | {row['drift_mrad']:.2g} "
+            f"| {row['paper_status']} | {row['status']} | {figure(row['drift_mm'])} | {figure(row['drift_mrad'])} "
             f"| {row['strict_equalities']} | {row['strict_status']} | {row['strict_iterations']} |"
         )
     return lines
@@ -116,13 +121,13 @@ def grid_table(rows: list[Row]) -> list[str]:
         lines.append(
             f"| {'I' * row['table']} | {TITLES[row['motion']]} | {row['continuous']} | {HELD.get(held, held)} "
             f"| {row['constraints']} | {row['iterations']} | {row['time_s']:.2f} | {row['status']} "
-            f"| {row['drift_mm']:.2g} | {row['drift_mrad']:.2g} | {percent(row['position_beyond'])} "
+            f"| {figure(row['drift_mm'])} | {figure(row['drift_mrad'])} | {percent(row['position_beyond'])} "
             f"| {percent(row['velocity_beyond'])} |"
         )
     return lines
 
 
-HELD = {"tube": "tube, 1 mm, 5 mrad", "equal": "equal to 1 um, 1 urad"}
+HELD = {"tube": "tube, 1 mm, 5 mrad", "equal": "0.01 mm, 0.01 mrad"}
 
 
 def percent(share: float) -> str:
@@ -167,7 +172,7 @@ def dynamic_table(rows: list[Row]) -> list[str]:
             f"| {band['paper_time_s']} | {band['time_s']:.2f} | {tube['time_s']:.2f} "
             f"| {band['cpu_s']:.2f} | {tube['cpu_s']:.2f} "
             f"| {band['paper_status']} | {band['status']} | {tube['status']} "
-            f"| {band['drift_mm']:.2g} | {tube['drift_mm']:.2g} |"
+            f"| {figure(band['drift_mm'])} | {figure(tube['drift_mm'])} |"
         )
     return lines
 
@@ -213,7 +218,7 @@ def full_table(rows: list[Row]) -> list[str]:
             f"| {TITLES[row['motion']]} | {CASE_TITLES[row['forces']]} | {start} | {row['parameters']} "
             f"| {row['constraints']} | {row['paper_iterations']} | {row['iterations']} | {row['paper_time_s']} "
             f"| {row['time_s']:.2f} | {row['cpu_s']:.2f} | {row['paper_criterion']} | {cost} "
-            f"| {row['paper_status']} | {row['status']} | {row['checker']} | {proved} | {row['drift_mm']:.2g} "
+            f"| {row['paper_status']} | {row['status']} | {row['checker']} | {proved} | {figure(row['drift_mm'])} "
             f"| {row['duration_s']:.2f} |"
         )
     return lines
