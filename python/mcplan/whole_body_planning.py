@@ -34,7 +34,7 @@ def whole_body(
         require_provable(chosen)
     result = solve(sip.Planner(motion_of(motion), chosen), warm_start)
     if certify:
-        result.certificate = sip.certify(result.plan)
+        result.certificate = sip.certify(result.plan, self_collision=chosen.self_collision)
     return result
 
 

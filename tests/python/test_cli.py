@@ -22,7 +22,7 @@ from mcplan.files.terrains import random_patches
 from mcplan.files.toml import toml_text
 from standing import standing_plan
 
-VERBS = ("bench", "check", "demo", "motions", "plan", "reproduce", "rhp", "robots", "scenes", "version")
+VERBS = ("bench", "check", "demo", "motions", "plan", "reproduce", "rhp", "robots", "scenes", "sip", "version")
 
 
 def run(capsys, *words) -> tuple[int, str, str]:

@@ -16,6 +16,9 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
+constexpr int kKinematicOrder = 5;      // of angles and places, to a tenth of a millimetre
+constexpr double kCloseBarrier = 1e-4;  // the start is nearly the solution
+
 /// One way of solving a program.
 struct Attempt {
   HessianChoice hessian;
@@ -43,6 +46,40 @@ bool ends_all(Status status) {
   return status == Status::solved || status == Status::time_limit || status == Status::interrupted;
 }
 
+/// What a valid motion may lack for this planner, by the first field that does.
+void require_plannable(const PlanarMotion& motion, const Options& options) {
+  if (motion.robot.joint_count() < 1)
+    throw InvalidRobot("bodies", "needs at least one joint to plan", "the base alone");
+  if (motion.interval_count() < 2)
+    throw InvalidMotion("phases[0].intervals",
+                        "must be at least 2 in a motion of one phase, to be at rest at both ends",
+                        text(motion.interval_count()));
+  if (options.dynamics && options.forces == Forces::parameters) return;
+  for (std::size_t k = 0; k < motion.phases.size(); ++k) {
+    Eigen::Index points = 0;
+    for (const PlanarContact& contact : motion.phases[k].contacts)
+      points += static_cast<Eigen::Index>(motion.robot.end_effectors[contact.end_effector].points.size());
+    try {
+      least_norm_gain(motion, static_cast<int>(k), Eigen::VectorXd::Ones(points));
+    } catch (const InvalidPlan& error) {
+      throw InvalidMotion("phases[" + std::to_string(k) + "].contacts", error.rule(), error.value());
+    }
+  }
+}
+
+/// The motion's and the options' bounds of durations must leave something between them.
+void require_durations(const nlp::Problem& problem, const Layout& layout, const Options& options) {
+  for (int i = 0; i < layout.durations; ++i) {
+    const int variable = layout.first_duration + i;
+    const double lower = problem.variable_lower()[variable], upper = problem.variable_upper()[variable];
+    if (lower > upper)
+      throw InvalidOptions(options.free_durations ? "phase_duration_s" : "total_duration_s",
+                           "must overlap with what the motion allows" +
+                               (options.free_durations ? " phase " + std::to_string(i) : std::string()),
+                           "at least " + text(lower) + " and at most " + text(upper) + " s");
+  }
+}
+
 /// Constraints of the checker that the options leave out.
 bool asked_for(const std::string& name, const Options& options) {
   if (!options.dynamics)
@@ -64,30 +101,43 @@ struct Planner::Impl {
   Report report;
 
   Impl(const PlanarMotion& of, const Options& with) : motion(of), options(with), layout(checked(of, with), with) {
-    rows = Program(motion, options, Curvature::gauss_newton, 0.0, Eigen::VectorXd::Zero(layout.parameters))
-               .problem()
-               .row_count();
+    const Program program(motion, options, Curvature::gauss_newton, 0.0, Eigen::VectorXd::Zero(layout.parameters));
+    require_durations(program.problem(), layout, options);
+    rows = program.problem().row_count();
   }
 
   static const PlanarMotion& checked(const PlanarMotion& motion, const Options& options) {
     motion.validate();
     options.validate();
+    require_plannable(motion, options);
     return motion;
   }
 
-  nlp::Solution run(const Options& with, double cost_scale, const Eigen::VectorXd& x);
-  Eigen::VectorXd feasible(const Eigen::VectorXd& x, nlp::Solution& last);
-  Result solve(Eigen::VectorXd x);
+  nlp::Solution run(const Options& with, double cost_scale, const Eigen::VectorXd& x, bool close = false);
+  nlp::Solution feasible(const Eigen::VectorXd& x);
+  void tighten(nlp::Solution& solution, double cost_scale);
+  Result solve(const Eigen::VectorXd& start);
+  CheckResult judged(const WholeBodyPlan& plan) const;
   void judge(Result& result, const nlp::Solution& solution);
+
+  /// Parameters under other options.
+  Eigen::VectorXd moved(const Eigen::VectorXd& x, const Options& from, const Options& to) const {
+    return parameters_of(plan_of(motion, from, Layout(motion, from), x), motion, to, Layout(motion, to));
+  }
 };
 
-/// All attempts in turn, until one solves the program; the best of them otherwise.
-nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const Eigen::VectorXd& x) {
+/// All attempts in turn, until one solves the program; the best of them otherwise. `close`: x is nearly the solution.
+nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const Eigen::VectorXd& x, bool close) {
   const bool cost = cost_scale > 0.0;
   std::optional<nlp::Solution> best;
   for (const Attempt& attempt : attempts_for(with, cost)) {
     const double left = with.time_limit_s - seconds_since(begin);
-    if (best && left <= 0.0) break;
+    if (best && left <= 0.0) {
+      if (best->status == Status::acceptable) break;
+      best->status = Status::time_limit;
+      best->message = "reached time_limit_s";
+      break;
+    }
     const bool exact = attempt.hessian == HessianChoice::exact;
     Program program(motion, with, exact ? Curvature::exact : Curvature::gauss_newton, cost_scale, x);
     nlp::SolverOptions how;
@@ -96,7 +146,7 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
     how.max_iterations = attempt.max_iterations;
     how.time_limit_s = std::max(left, 1e-3);
     how.hessian = attempt.hessian == HessianChoice::limited_memory ? nlp::Hessian::limited_memory : nlp::Hessian::exact;
-    how.initial_barrier = attempt.initial_barrier;
+    how.initial_barrier = close ? kCloseBarrier : attempt.initial_barrier;
     how.adaptive_barrier = attempt.adaptive_barrier;
     how.gradient_scaling = false;
     how.logger = with.logger;
@@ -110,57 +160,97 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
     const bool better = !best || (kept && !best_kept) || (kept && best_kept && solution.cost < best->cost) ||
                         (!kept && !best_kept && solution.worst.value < best->worst.value);
     const Status status = solution.status;
+    const std::string message = solution.message;
     if (better || status == Status::solved) best = std::move(solution);
     if (ends_all(status)) {
       best->status = status;
+      best->message = message;
       break;
     }
   }
   return *best;
 }
 
-/// A point within all constraints. Where phases have durations of their own, one duration for all is searched first:
-/// the knots stay equally spaced, and motions found so are not driven to their shortest phases.
-Eigen::VectorXd Planner::Impl::feasible(const Eigen::VectorXd& x, nlp::Solution& last) {
-  if (!options.free_durations) {
-    last = run(options, 0.0, x);
-    return last.x;
+/// A point within all constraints.
+///
+/// Kinematics come first: a small program that brings the limbs to their contacts, after which forces need a third of
+/// the iterations. Where phases have durations of their own, one duration for all is searched: the knots stay equally
+/// spaced, and motions found so are not driven to their shortest phases.
+nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {
+  Options with = options;
+  const Range together = total_range(motion, options);
+  const bool convert = options.free_durations && options.has_cost() && together.min <= together.max;
+  if (convert) with.free_durations = false;
+  Eigen::VectorXd start = convert ? moved(x, options, with) : x;
+  if (options.dynamics && options.kinematics_first && options.forces != Forces::parameters) {
+    Options kinematics = with;
+    kinematics.dynamics = false;
+    kinematics.order = std::min(options.order, kKinematicOrder);
+    kinematics.neq = std::min(options.neq, kinematics.order);
+    nlp::Solution found = run(kinematics, 0.0, moved(start, with, kinematics));
+    const Layout layout_with(motion, with);
+    const int splines_and_durations = layout_with.first_duration + layout_with.durations;  // weights stay as they are
+    if (found.status == Status::solved || ends_all(found.status))
+      start.head(splines_and_durations) = moved(found.x, kinematics, with).head(splines_and_durations);
+    if (found.status != Status::solved && ends_all(found.status)) {
+      found.x = convert ? moved(start, with, options) : start;
+      return found;
+    }
   }
-  Options together = options;
-  together.free_durations = false;
-  const Layout other(motion, together);
-  const Eigen::VectorXd start = parameters_of(plan_of(motion, options, layout, x), motion, together, other);
-  last = run(together, 0.0, start);
-  Eigen::VectorXd out = parameters_of(plan_of(motion, together, other, last.x), motion, options, layout);
-  if (last.status == Status::solved || ends_all(last.status)) return out;
-  last = run(options, 0.0, x);
-  return last.x;
+  nlp::Solution solution = run(with, 0.0, start);
+  if (convert) {
+    solution.x = moved(solution.x, with, options);
+    if (!ends_all(solution.status)) solution = run(options, 0.0, x);
+  }
+  return solution;
 }
 
-Result Planner::Impl::solve(Eigen::VectorXd x) {
+/// What the Taylor polynomials leave out of forces and torques may exceed the checker's tolerances by some parts in ten
+/// thousand where intervals are long: then again from here with twice that as a margin.
+void Planner::Impl::tighten(nlp::Solution& solution, double cost_scale) {
+  constexpr int kRounds = 3;
+  constexpr double kMostMargin = 0.02;
+  Options with = options;
+  for (int round = 0; round < kRounds && solution.status == Status::solved; ++round) {
+    double excess = 0.0;
+    for (const Violation& v : judged(plan_of(motion, options, layout, solution.x)).violations()) {
+      if (v.name != "torque" && v.name != "friction" && v.name != "pull") return;
+      excess = std::max(excess, v.value);
+    }
+    with.margin += 2.0 * excess;
+    if (excess == 0.0 || with.margin > kMostMargin) return;
+    nlp::Solution next = run(with, cost_scale, solution.x, true);
+    if (next.status != Status::solved) return;
+    solution = std::move(next);
+  }
+}
+
+Result Planner::Impl::solve(const Eigen::VectorXd& start) {
   Result result;
   report = Report();
   const bool cost =
-      options.has_cost() && (options.dynamics || options.duration_weight > 0.0 || options.jerk_weight > 0.0);
-  Program measure(motion, options, Curvature::gauss_newton, 0.0, x);
-  const auto kept = [&] { return measure.problem().worst_violation(x).value <= options.constraint_tolerance; };
+      options.duration_weight > 0.0 || options.jerk_weight > 0.0 || (options.dynamics && options.torque_weight > 0.0);
   nlp::Solution solution;
+  solution.x = start;
   solution.status = Status::solved;
-  if (!cost || (options.feasible_first && !kept())) {
-    if (cost || options.free_durations == false)
-      x = feasible(x, solution);
-    else {
-      solution = run(options, 0.0, x);
-      x = solution.x;
-    }
-    if (options.logger) options.logger(LogLevel::info, "constraints: " + solution.message);
-  }
-  if (cost && (solution.status == Status::solved || !options.feasible_first)) {
+  Program measure(motion, options, Curvature::gauss_newton, 0.0, start);
+  const bool inside = measure.problem().worst_violation(start).value <= options.constraint_tolerance;
+  if (!cost || (options.feasible_first && !inside)) solution = feasible(start);
+  double cost_scale = 0.0;
+  if (cost && solution.status == Status::solved) {
     constexpr double kStartCost = 100.0;  // the objective at the start: its gradients are then of the size of the rows'
-    solution = run(options, kStartCost / std::max(measure.cost(x), 1e-9), x);
-    x = solution.x;
+    const Eigen::VectorXd feasible_x = solution.x;
+    cost_scale = kStartCost / std::max(measure.cost(feasible_x), 1e-9);
+    solution = run(options, cost_scale, feasible_x);
+    // A solver that is stopped early has moved its start into the interior, and may have nothing as good yet.
+    const auto value = [&](const Eigen::VectorXd& at) { return measure.problem().worst_violation(at).value; };
+    const bool worse =
+        value(solution.x) > options.constraint_tolerance || measure.cost(solution.x) > measure.cost(feasible_x);
+    if (solution.status != Status::solved && value(feasible_x) <= options.constraint_tolerance && worse)
+      solution.x = feasible_x;
   }
-  solution.x = x;
+  if (options.dynamics) tighten(solution, cost_scale);
+  const Eigen::VectorXd& x = solution.x;
   result.plan = plan_of(motion, options, layout, x);
   report.cost = measure.cost(x);
   report.cost_terms["duration"] = measure.duration(x);
@@ -172,16 +262,22 @@ Result Planner::Impl::solve(Eigen::VectorXd x) {
   return result;
 }
 
+/// The checker's findings on what the options ask for.
+CheckResult Planner::Impl::judged(const WholeBodyPlan& plan) const {
+  CheckResult found = check(plan, {}, options.self_collision);
+  auto& constraints = found.constraints;
+  constraints.erase(std::remove_if(constraints.begin(), constraints.end(),
+                                   [&](const Violation& v) { return !asked_for(v.name, options); }),
+                    constraints.end());
+  return found;
+}
+
 /// The checker's word, and what the solver said.
 void Planner::Impl::judge(Result& result, const nlp::Solution& solution) {
   const Clock::time_point start = Clock::now();
   report.status = solution.status;
   report.message = solution.message;
-  CheckResult found = check(result.plan, {}, options.self_collision);
-  auto& constraints = found.constraints;
-  constraints.erase(std::remove_if(constraints.begin(), constraints.end(),
-                                   [&](const Violation& v) { return !asked_for(v.name, options); }),
-                    constraints.end());
+  const CheckResult found = judged(result.plan);
   report.worst_violation = found.worst();
   if (report.status == Status::solved && !found.ok()) {
     report.status = Status::acceptable;

@@ -70,17 +70,6 @@ Range duration_range(const PlanarMotion& motion, const Options& options, int pha
           std::min(options.phase_duration_s.max, own.max_duration)};
 }
 
-/// Of the whole motion when it has one duration, which intervals share equally.
-Range total_range(const PlanarMotion& motion, const Options& options) {
-  Range out = options.total_duration_s;
-  const double intervals = motion.interval_count();
-  for (const PlanarPhase& phase : motion.phases) {
-    out.min = std::max(out.min, phase.min_duration * intervals / phase.intervals);
-    out.max = std::min(out.max, phase.max_duration * intervals / phase.intervals);
-  }
-  return out;
-}
-
 void add_parameters(nlp::Problem& problem, const PlanarMotion& motion, const Options& options, const Layout& layout) {
   const int last = layout.intervals - 1;
   for (int i = 0; i < layout.control_points(); ++i)
@@ -109,6 +98,16 @@ void add_parameters(nlp::Problem& problem, const PlanarMotion& motion, const Opt
 }
 
 }  // namespace
+
+Range total_range(const PlanarMotion& motion, const Options& options) {
+  Range out = options.total_duration_s;
+  const double intervals = motion.interval_count();
+  for (const PlanarPhase& phase : motion.phases) {
+    out.min = std::max(out.min, phase.min_duration * intervals / phase.intervals);
+    out.max = std::min(out.max, phase.max_duration * intervals / phase.intervals);
+  }
+  return out;
+}
 
 Program::Program(const PlanarMotion& motion, const Options& options, Curvature curvature, double cost_scale,
                  const Eigen::VectorXd& anchor)

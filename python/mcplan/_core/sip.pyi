@@ -658,6 +658,7 @@ def certify(
     tolerances: mcplan._core.WholeBodyTolerances = ...,
     order: typing.SupportsInt | typing.SupportsIndex = 8,
     max_depth: typing.SupportsInt | typing.SupportsIndex = 12,
+    self_collision: bool = False,
 ) -> Certificate:
     """
     Prove every inequality of a whole-body plan at every instant, with Taylor models of `order` (2 to 12) on intervals that are halved up to `max_depth` (0 to 40) times. Raises InvalidPlan, InvalidMotion, InvalidRobot, InvalidOptions.

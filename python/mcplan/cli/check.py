@@ -4,28 +4,48 @@ from __future__ import annotations
 
 import json as json_module
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+if TYPE_CHECKING:
+    from mcplan._core.sip import Certificate
+
 
 def check(
-    plan: Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan -o.")],
+    plan: Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")],
+    certify: Annotated[
+        bool,
+        typer.Option("--certify", help="Of a whole-body plan: prove its constraints at every instant, too."),
+    ] = False,
+    self_collision: Annotated[
+        bool, typer.Option("--self-collision", help="Of a whole-body plan: look at its robot's collision pairs, too.")
+    ] = False,
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
 ) -> int:
     """Check a plan against the scene and robot, or the motion, it carries; exit code 1 if it violates a constraint.
+
+    With --certify the exit code is 1, too, if a constraint is not proved.
 
     Example: mcplan check plan.npz
     """
     from mcplan._core import WholeBodyPlan
     from mcplan._core import check as run
+    from mcplan._core.sip import certify as prove
     from mcplan.cli.table import print_table
+    from mcplan.errors import InvalidInput
     from mcplan.files.whole_body_plans import load_any_plan
 
     loaded = load_any_plan(plan)
+    certificate = None
     if isinstance(loaded, WholeBodyPlan):
-        result = run(loaded)
+        result = run(loaded, self_collision=self_collision)
+        if certify:
+            certificate = prove(loaded, self_collision=self_collision)
         carried = {"motion": loaded.motion.name, "robot": loaded.motion.robot.name}
+    elif certify or self_collision:
+        option = "--certify" if certify else "--self-collision"
+        raise InvalidInput(option, "needs a whole-body plan, as mcplan sip makes them")
     else:
         result = run(loaded)
         carried = {"scene": loaded.scene.name, "robot": loaded.robot.name}
@@ -36,6 +56,8 @@ def check(
             "ok": result.ok(),
             "violations": [violation_dict(v) for v in result.violations()],
             "constraints": [violation_dict(v) for v in result.constraints],
+            "certified": None if certificate is None else certificate.proved(),
+            "certificate": None if certificate is None else certificate_dict(certificate),
         }
         print(json_module.dumps(report))
     elif result.ok():
@@ -43,7 +65,23 @@ def check(
     else:
         print(f"{plan}: {len(result.violations())} constraints violated")
         print_table([[str(violation)] for violation in result.violations()])
-    return 0 if result.ok() else 1
+    if certificate is not None and not json:
+        print(str(certificate).rstrip())
+    return 0 if result.ok() and (certificate is None or certificate.proved()) else 1
+
+
+def certificate_dict(certificate: Certificate) -> dict[str, Any]:
+    """A certificate as plain data; numbers that are not finite become null."""
+    keys = ("name", "bound", "reached", "tolerance", "unit", "phase", "where", "time_s")
+    return {
+        "constraints": [
+            {"proof": proved.proof.name, **{key: finite(getattr(proved, key)) for key in keys}}
+            for proved in certificate.constraints
+        ],
+        "subdivisions": certificate.subdivisions,
+        "rounding": certificate.rounding,
+        "time_s": certificate.time_s,
+    }
 
 
 def violation_dict(violation: object) -> dict[str, object]:

@@ -104,7 +104,7 @@ def sip(
     if progress is not None:
         progress.end()
     if certify:
-        result.certificate = engine.certify(result.plan)
+        result.certificate = engine.certify(result.plan, self_collision=self_collision)
     write_outputs(result.plan, result.report, output, html, plots, strip)
     if json:
         print(json_module.dumps(summary(result), allow_nan=False))

@@ -36,12 +36,12 @@ class Progress:
         state = iteration_state(line)
         if state is None:
             return
-        self.iterations += 1
+        self.iterations += state[0] > 0  # the rows numbered 0 are starts
         now_s = time.monotonic()
         if now_s - self.shown_s < (_TERMINAL_S if self.terminal else _FILE_S):
             return
         self.shown_s = now_s
-        violation, optimality = state
+        _, violation, optimality = state
         lead = f"{self.motion}: iteration {self.iterations}, {now_s - self.begin_s:.1f} s"
         self._show(f"{lead}, constraints to {violation}, optimality to {optimality}")
 
@@ -59,12 +59,12 @@ class Progress:
         self.width = len(text)
 
 
-def iteration_state(line: str) -> tuple[str, str] | None:
-    """Violation of the constraints and of optimality, from a row of the solver's table; None for other lines."""
+def iteration_state(line: str) -> tuple[int, str, str] | None:
+    """Iteration, violation of the constraints and of optimality, from a row of the solver's table; None: no row."""
     cells = line.split()
     if len(cells) < 4 or not cells[0].rstrip("r").isdigit():
         return None
-    return cells[2], cells[3]
+    return int(cells[0].rstrip("r")), cells[2], cells[3]
 
 
 def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Path | None]) -> str:
@@ -82,7 +82,7 @@ def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Pat
         lines.append(indent + (report.message or "no motion that the checker accepts"))
     worst = report.worst_violation
     if worst.name and (solved or str(worst) not in report.message):
-        lines.append(f"{indent}{'closest to its limit' if solved else 'worst'}: {worst}")
+        lines.append(f"{indent}{'closest to its limit' if worst.value <= worst.tolerance else 'worst'}: {worst}")
     terms = ", ".join(f"{name} {value:.4g}" for name, value in report.cost_terms.items())
     cost = f"cost {report.cost:.4g} ({terms})" if options.has_cost() else f"no cost ({terms})"
     lines.append(f"{indent}{cost}; drift of contacts {1e3 * result.drift_m:.2g} mm, {1e3 * result.drift_rad:.2g} mrad")
@@ -92,7 +92,8 @@ def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Pat
     lines.append(f"{indent}{size}; time: {parts.replace('_', ' ')}")
     lines += phase_rows(motion, plan.durations)
     if result.certificate is not None:
-        lines.append(str(result.certificate).rstrip())
+        proofs = str(result.certificate).splitlines()
+        lines += proofs[:1] if result.certificate.proved() else proofs
     files = [str(path) for path in written if path is not None]
     if files:
         lines.append(f"Saved {', '.join(files)}" + ("" if solved else f", with status {report.status}"))

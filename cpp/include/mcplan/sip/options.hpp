@@ -76,6 +76,7 @@ struct Options {
   double margin = 0.0;            ///< kept to joint, torque and force limits, relative
   double log_weight_max = 5.0;    ///< bound of the logarithms of weights
 
+  bool kinematics_first = true;  ///< with dynamics: find contacts and joints within limits first, forces from there
   bool feasible_first = true;  ///< with a cost: solve without it first, and start from that
   HessianChoice hessian = HessianChoice::automatic;
   double tolerance = 1e-4, constraint_tolerance = 1e-5;           ///< of the solver

@@ -49,6 +49,10 @@ class Program {
   nlp::Problem problem_;
 };
 
+/// Bounds of a motion's duration where it has one, which intervals share equally; empty (max < min) where the phases' own
+/// limits leave none.
+Range total_range(const PlanarMotion& motion, const Options& options);
+
 /// P = 0, durations that add to one second or to what their bounds allow.
 Eigen::VectorXd zero_start(const PlanarMotion& motion, const Options& options, const Layout& layout);
 
