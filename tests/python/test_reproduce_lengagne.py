@@ -119,7 +119,7 @@ def test_the_page_shows_what_the_csv_files_hold(quick):
     for row in read(quick / "table_4.csv"):
         assert f"| {row['paper_criterion']} | {float(row['cost']):.1f} |" in page
     figures = re.findall(r"\]\((.+?\.png)\)", page)
-    assert figures == ["costs.png", "figure_2.png"]
+    assert figures == ["lengagne_costs.png", "lengagne_figure_2.png"]
     for name in figures:
         assert (quick / name).read_bytes().startswith(b"\x89PNG")
     assert all(len(line) <= 130 or line.startswith("|") for line in page.splitlines())
@@ -147,11 +147,11 @@ def test_table_4_of_the_cartwheel_is_solved_proved_and_falls_from_case_to_case(q
 
 def test_resume_draws_again_without_solving(quick, monkeypatch):
     before = json.loads((quick / "runs.json").read_text())
-    (quick / "figure_2.png").unlink()
+    (quick / "lengagne_figure_2.png").unlink()
     monkeypatch.setattr(lengagne_runs, "run", lambda *_: pytest.fail("nothing is missing"))
     words = ["reproduce", "lengagne", "--quick", "--tables", "2,4", "--resume", "--out", str(quick)]
     assert main(words) == 0
-    assert (quick / "figure_2.png").exists()
+    assert (quick / "lengagne_figure_2.png").exists()
     assert json.loads((quick / "runs.json").read_text()) == before
 
 

@@ -95,12 +95,11 @@ def _page(
         if parts[name]:
             lines += ["", f"## {title}", "", *table(parts[name])]
             lines += ["", *text(parts)] if text else []
-    drawn = {path.name for path in pictures}
-    if "costs.png" in drawn:
-        lines += ["", "![criterion over the cases](costs.png)"]
-    for motion, number in lengagne_figures.FIGURES.items():
-        if f"figure_{number}.png" in drawn:
-            lines += ["", f"## Figure {number}: {motion}", "", f"![{motion}, case 3](figure_{number}.png)"]
-    if any(name.startswith("figure_") for name in drawn):
-        lines += ["", "Solutions of Table IV, case 3, at equal steps in time, with contact forces and friction cones."]
+    for path in pictures:
+        if "costs" in path.stem:
+            lines += ["", f"![criterion over the cases, paper and here]({path.name})"]
+            continue
+        (motion, number), *_ = (pair for pair in lengagne_figures.FIGURES.items() if path.stem.endswith(f"_{pair[1]}"))
+        lines += ["", f"## Figure {number}: {motion}", "", "Solution of Table IV, case 3, at equal steps in time."]
+        lines += ["", f"![{motion}, postures with contact forces and friction cones]({path.name})"]
     return lines

@@ -15,6 +15,9 @@ from .lengagne_runs import Config
 #: The paper's figures by motion.
 FIGURES = {"cartwheel": 2, "climbing": 3, "walking": 4}
 
+#: Of the pictures' names: the page stands in one folder with those of other papers.
+PREFIX = "lengagne_"
+
 GREY = "#B9C1CA"
 #: [1/inch] of pictures: small enough for a page.
 DPI = 90
@@ -29,7 +32,7 @@ def strips(out: Path, motions: Sequence[str]) -> list[Path]:
     for motion, number in FIGURES.items():
         saved = out / f"{Config(4, motion, 'tube', forces='per_point').key}.npz"
         if motion in motions and saved.exists():
-            path = out / f"figure_{number}.png"
+            path = out / f"{PREFIX}figure_{number}.png"
             film_strip(load_whole_body_plan(saved), frames=8).savefig(path, dpi=DPI, metadata={"Software": None})
             written.append(path)
     return written
@@ -50,9 +53,11 @@ def costs(out: Path, rows: list[dict[str, Any]]) -> list[Path]:
             shares = [values[case] / values[2] for case in values]
             bars = chart.bar([case + shift for case in values], shares, 0.36, color=colour, label=name)
             chart.bar_label(bars, [f"{value:.4g}" for value in values.values()], fontsize=8, color=TEXT, padding=2)
+        chart.set_xlim(0.5, 3.5)
         chart.set_xticks(list(paper.CASES), [f"{c}\n{name}" for c, name in paper.CASES.items()])
         label(chart, y="criterion over that of case 2" if column == 0 else "", title=motion)
+    axes[0, 0].set_ylim(top=1.08 * axes[0, 0].get_ylim()[1])
     legend(axes[0, 0], loc="upper right")
-    path = out / "costs.png"
+    path = out / f"{PREFIX}costs.png"
     figure.savefig(path, dpi=DPI, metadata={"Software": None})
     return [path]
