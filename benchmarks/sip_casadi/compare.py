@@ -1,6 +1,6 @@
 """Rows, Jacobian and Hessian of the whole-body planner beside CasADi: the walking motion, case 3, on one thread.
 
-    python benchmarks/sip_casadi/compare.py build/bench/benchmarks/sip_evaluation [--repeats 20] [--compile]
+    python benchmarks/sip_casadi/compare.py build/bench/benchmarks/sip_evaluation [--repeats 20]
 
 The first argument is the compiled sip_evaluation.cpp, which is run before and after CasADi. Needs CasADi (pip install
 mcplan[bench]). What may be compared and what not: benchmarks/README.md.
@@ -21,7 +21,7 @@ for _library in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 
 import casadi as ca  # noqa: E402
 import numpy as np  # noqa: E402
-from interval import Interval, interval, lobatto  # noqa: E402
+from interval import Interval, chained, interval, lobatto  # noqa: E402
 
 import mcplan  # noqa: E402
 
@@ -42,6 +42,7 @@ class Kind:
         self.jacobian = ca.Function("jacobian", inputs, [it.rows, ca.jacobian(it.rows, it.variables)])
         self.build_s = time.thread_time() - begin
         self.hessian: Any = None
+        self.chained = chained(robot, list(contacts), list(swinging), friction)
         self.columns: list[np.ndarray] = []
         self.places: list[np.ndarray] = []
 
@@ -125,28 +126,40 @@ def median_ms(calls: list[tuple[Any, list[Any]]], repeats: int) -> float:
 def compiled(function: Any, folder: Path, name: str) -> Any:
     """The function as C, by the system's compiler."""
     folder.mkdir(parents=True, exist_ok=True)
-    here = os.getcwd()
-    os.chdir(folder)
-    try:
-        function.generate(f"{name}.c")
-        subprocess.run(["gcc", "-O2", "-march=native", "-shared", "-fPIC", f"{name}.c", "-o", f"{name}.so"], check=True)
-        return ca.external(function.name(), f"./{name}.so")
-    finally:
-        os.chdir(here)
+    source, library = folder / f"{name}.c", folder / f"{name}.so"
+    generator = ca.CodeGenerator(source.name)
+    generator.add(function)
+    generator.generate(f"{folder}/")
+    subprocess.run(["gcc", "-O3", "-march=native", "-shared", "-fPIC", source, "-o", library], check=True)
+    return ca.external(function.name(), str(library))
 
 
-def measure(kinds: dict[Any, Kind], what: str, repeats: int, folder: Path | None) -> float:
+def measure(kinds: dict[Any, Kind], what: str, repeats: int) -> float:
     """One kind of function over all intervals [ms]."""
     todo = []
-    for number, kind in enumerate(kinds.values()):
+    for kind in kinds.values():
         function = getattr(kind, what)
-        if folder is not None:
-            function = compiled(function, folder, f"{what}_{number}")
         arguments = [ca.DM(argument) for argument in kind.arguments()]
-        count = len(kind.columns)
         if what == "hessian":
-            arguments.append(ca.DM.ones(function.size1_in(2), count))
-        todo.append((function.map(count), arguments))
+            arguments.append(ca.DM.ones(function.size1_in(2), len(kind.columns)))
+        todo.append((function.map(len(kind.columns)), arguments))
+    return median_ms(todo, repeats)
+
+
+def measure_chained(kinds: dict[Any, Kind], repeats: int, folder: Path) -> float:
+    """Rows and Jacobian instant by instant, as C [ms]."""
+    todo = []
+    for number, kind in enumerate(kinds.values()):
+        function = compiled(kind.chained, folder, f"chained_{number}")
+        variables, places = kind.arguments()
+        per = places.shape[1] // variables.shape[1]
+        repeated = np.repeat(places.reshape(3, -1, per), INSTANTS, axis=1).reshape(3, -1)
+        s = np.tile(lobatto(INSTANTS)[0], variables.shape[1])[None, :]
+        arguments = [ca.DM(np.repeat(variables, INSTANTS, axis=1)), ca.DM(repeated), ca.DM(s)]
+        todo.append((function.map(s.size), arguments))
+        largest = kind.jacobian(kind.columns[0], kind.places[0])[1]
+        mine = function(kind.columns[0], kind.places[0], -1.0)[1]
+        np.testing.assert_allclose(np.array(mine), np.array(largest)[: mine.shape[0]], rtol=1e-9, atol=1e-6)
     return median_ms(todo, repeats)
 
 
@@ -161,40 +174,29 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("binary", type=Path)
     parser.add_argument("--repeats", type=int, default=20)
-    parser.add_argument("--compile", action="store_true", help="CasADi's C code as well (minutes of gcc)")
-    parser.add_argument("--no-hessian", action="store_true")
-    parser.add_argument("--out", type=Path, default=Path("build/sip_casadi"))
+    parser.add_argument("--out", type=Path, default=Path("build/sip_casadi"), help="Folder for C code")
     chosen = parser.parse_args()
 
     plan = mcplan.whole_body("walking", minimise="none").plan
     kinds = kinds_of(plan)
     torque, force = largest_error(plan, kinds)
     print(f"CasADi {ca.__version__}; torques differ by at most {torque:.0e} N m, forces by {force:.0e} N")
-    if not chosen.no_hessian:
-        for kind in kinds.values():
-            kind.add_hessian()
+    for kind in kinds.values():
+        kind.add_hessian()
     rows = sum(kind.rows.numel_out(0) * len(kind.columns) for kind in kinds.values())
     print(
         f"{rows} rows, {len(kinds)} kinds of intervals, built in {sum(kind.build_s for kind in kinds.values()):.1f} s"
     )
     before = ours(chosen.binary, chosen.repeats)
-    parts = [("rows", "rows_ms"), ("jacobian", "jacobian_ms")] + (
-        [] if chosen.no_hessian else [("hessian", "hessian_ms")]
-    )
-    times: dict[str, list[float]] = {}
-    for what, _ in parts:
-        times[what] = [measure(kinds, what, chosen.repeats, None)]
-        if chosen.compile:
-            times[what].append(measure(kinds, what, chosen.repeats, chosen.out))
+    times = {what: measure(kinds, what, chosen.repeats) for what in ("rows", "jacobian", "hessian")}
+    chained_ms = measure_chained(kinds, chosen.repeats, chosen.out)
     after = ours(chosen.binary, chosen.repeats)
-    print(f"mcplan: {before['rows']:.0f} rows, {before['parameters']:.0f} parameters")
-    forms = ["CasADi", "CasADi, compiled"]
-    for what, key in parts:
-        mine = 0.5 * (before[key] + after[key])
-        cells = [
-            f"{form} {value:.2f} ms (x {value / mine:.1f})" for form, value in zip(forms, times[what], strict=False)
-        ]
-        print(f"{what:9} mcplan {mine:.2f} ms, {', '.join(cells)}")
+    print(f"mcplan: {before['rows']:.0f} rows, {before['parameters']:.0f} parameters; processor time, medians:")
+    for what, casadi_ms in times.items():
+        ours_ms = 0.5 * (before[f"{what}_ms"] + after[f"{what}_ms"])
+        print(f"  {what:9} mcplan {ours_ms:.2f} ms, CasADi {casadi_ms:.2f} ms (x {casadi_ms / ours_ms:.1f})")
+        if what == "jacobian":
+            print(f"            CasADi's C code, by joints first: {chained_ms:.2f} ms (x {chained_ms / ours_ms:.1f})")
 
 
 if __name__ == "__main__":

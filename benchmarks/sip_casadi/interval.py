@@ -149,6 +149,25 @@ def instant(robot: Any, contacts: list[int], swinging: list[int], friction: floa
     )
 
 
+def chained(robot: Any, contacts: list[int], swinging: list[int], friction: float) -> ca.Function:
+    """Rows of an instant and their Jacobian, by hand in two steps: joints by parameters, rows by joints."""
+    joints = len(robot.bodies) - 1
+    at = instant(robot, contacts, swinging, friction)
+    inputs = [ca.SX.sym(at.name_in(i), *at.size_in(i)) for i in range(5)]
+    rows = at(*inputs)[0]
+    by_joints = ca.Function("by_joints", inputs, [rows, ca.jacobian(rows, ca.vertcat(*inputs[:4]))])
+    control, spacing, logs = ca.SX.sym("control", 4, joints), ca.SX.sym("spacing", 5), inputs[3]
+    s, t = ca.SX.sym("s"), ca.SX.sym("t")
+    values = basis(spacing, t)
+    rates = ca.jacobian(values, t)
+    bases = ca.Function("bases", [spacing, t], [values, rates, ca.jacobian(rates, t)])
+    state = [(b.T @ control).T for b in bases(spacing, 0.5 * (s + 1.0) * spacing[2])]
+    variables = ca.vertcat(ca.vec(control), spacing, logs)
+    found, jacobian = by_joints(*state, logs, inputs[4])
+    by_parameters = ca.jacobian(ca.vertcat(*state, logs), variables)
+    return ca.Function("chained", [variables, inputs[4], s], [found, jacobian @ by_parameters])
+
+
 def lobatto(count: int) -> tuple[np.ndarray, np.ndarray]:
     """Places in [-1, 1], both ends among them, and weights of the quadrature that is exact to degree 2 count - 3."""
     legendre = np.polynomial.Legendre.basis(count - 1)
