@@ -24,9 +24,9 @@ const Eigen::MatrixXd& square_integral(int degree) {
 }  // namespace
 
 IntervalModel::IntervalModel(const PlanarMotion& motion, const Options& options, const Layout& layout, int interval,
-                             std::shared_ptr<TaylorGraph::Workspace> work)
+                             std::shared_ptr<TaylorGraph::Workspace> work, const CloseDiscs* close)
     : motion_(motion, options, layout, interval), work_(std::move(work)) {
-  std::vector<Limited> limited = constraints_of(motion_);
+  std::vector<Limited> limited = constraints_of(motion_, close);
   if (options.dynamics)
     for (TaylorGraph::Node torque : motion_.torques) squared_.push_back({torque, options.torque_weight, false});
   if (options.jerk_weight > 0.0)

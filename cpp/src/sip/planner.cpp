@@ -34,8 +34,8 @@ std::vector<Attempt> attempts_for(const Options& options, bool cost) {
   const int most = options.max_iterations, some = std::min(most, 200);
   if (options.hessian != HessianChoice::automatic) return {{options.hessian, !cost, cost ? 0.01 : 0.1, most}};
   if (cost)
-    return {{HessianChoice::exact, false, 0.01, most},
-            {HessianChoice::exact, true, 0.1, most},
+    return {{HessianChoice::exact, false, 0.01, std::min(most, 400)},
+            {HessianChoice::exact, true, 0.1, std::min(most, 400)},
             {HessianChoice::gauss_newton, true, 0.1, most}};
   return {{HessianChoice::limited_memory, true, 0.1, some},
           {HessianChoice::gauss_newton, true, 0.1, some},
@@ -101,7 +101,8 @@ struct Planner::Impl {
   Report report;
 
   Impl(const PlanarMotion& of, const Options& with) : motion(of), options(with), layout(checked(of, with), with) {
-    const Program program(motion, options, Curvature::gauss_newton, 0.0, Eigen::VectorXd::Zero(layout.parameters));
+    const Program program(motion, options, Curvature::gauss_newton, 0.0, Eigen::VectorXd::Zero(layout.parameters),
+                          &close_discs);
     require_durations(program.problem(), layout, options);
     rows = program.problem().row_count();
   }
@@ -113,7 +114,10 @@ struct Planner::Impl {
     return motion;
   }
 
+  CloseDiscs close_discs;  ///< kept apart; found on the way
+
   nlp::Solution run(const Options& with, double cost_scale, const Eigen::VectorXd& x, bool close = false);
+  void part(nlp::Solution& solution, double cost_scale, Eigen::VectorXd apart);
   nlp::Solution feasible(const Eigen::VectorXd& x);
   void tighten(nlp::Solution& solution, double cost_scale);
   Result solve(const Eigen::VectorXd& start);
@@ -139,7 +143,8 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
       break;
     }
     const bool exact = attempt.hessian == HessianChoice::exact;
-    Program program(motion, with, exact ? Curvature::exact : Curvature::gauss_newton, cost_scale, x);
+    Program program(motion, with, exact ? Curvature::exact : Curvature::gauss_newton, cost_scale, x, &close_discs);
+    if (with.dynamics == options.dynamics) rows = program.problem().row_count();
     nlp::SolverOptions how;
     how.tolerance = with.tolerance;
     how.constraint_tolerance = with.constraint_tolerance;
@@ -205,6 +210,21 @@ nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {
   return solution;
 }
 
+/// Rows for every pair of discs in every interval would be ten times all others, and nearly none of them matters: those
+/// that come close on the way are kept apart, and the program is solved again, from a point without collisions where
+/// there is one: from within a collision a way out is rarely found.
+void Planner::Impl::part(nlp::Solution& solution, double cost_scale, Eigen::VectorXd apart) {
+  constexpr int kRounds = 20;
+  for (int round = 0; round < kRounds && solution.status == Status::solved; ++round) {
+    const std::size_t known = close_discs.size();
+    add_close_discs(plan_of(motion, options, layout, solution.x), close_discs);
+    if (close_discs.size() == known) return;
+    solution = run(options, 0.0, apart);
+    apart = solution.x;
+    if (cost_scale > 0.0 && solution.status == Status::solved) solution = run(options, cost_scale, apart);
+  }
+}
+
 /// What the Taylor polynomials leave out of forces and torques may exceed the checker's tolerances by some parts in ten
 /// thousand where intervals are long: then again from here with twice that as a margin.
 void Planner::Impl::tighten(nlp::Solution& solution, double cost_scale) {
@@ -228,27 +248,28 @@ void Planner::Impl::tighten(nlp::Solution& solution, double cost_scale) {
 Result Planner::Impl::solve(const Eigen::VectorXd& start) {
   Result result;
   report = Report();
-  const bool cost =
-      options.duration_weight > 0.0 || options.jerk_weight > 0.0 || (options.dynamics && options.torque_weight > 0.0);
+  close_discs.clear();
+  const bool cost = options.has_cost();
   nlp::Solution solution;
   solution.x = start;
   solution.status = Status::solved;
-  Program measure(motion, options, Curvature::gauss_newton, 0.0, start);
+  Program measure(motion, options, Curvature::gauss_newton, 0.0, start, &close_discs);
   const bool inside = measure.problem().worst_violation(start).value <= options.constraint_tolerance;
   if (!cost || (options.feasible_first && !inside)) solution = feasible(start);
+  if (options.self_collision) part(solution, 0.0, solution.x);
+  const Eigen::VectorXd apart = solution.x;
   double cost_scale = 0.0;
   if (cost && solution.status == Status::solved) {
     constexpr double kStartCost = 100.0;  // the objective at the start: its gradients are then of the size of the rows'
-    const Eigen::VectorXd feasible_x = solution.x;
-    cost_scale = kStartCost / std::max(measure.cost(feasible_x), 1e-9);
-    solution = run(options, cost_scale, feasible_x);
+    cost_scale = kStartCost / std::max(measure.cost(apart), 1e-9);
+    solution = run(options, cost_scale, apart);
     // A solver that is stopped early has moved its start into the interior, and may have nothing as good yet.
     const auto value = [&](const Eigen::VectorXd& at) { return measure.problem().worst_violation(at).value; };
     const bool worse =
-        value(solution.x) > options.constraint_tolerance || measure.cost(solution.x) > measure.cost(feasible_x);
-    if (solution.status != Status::solved && value(feasible_x) <= options.constraint_tolerance && worse)
-      solution.x = feasible_x;
+        value(solution.x) > options.constraint_tolerance || measure.cost(solution.x) > measure.cost(apart);
+    if (solution.status != Status::solved && value(apart) <= options.constraint_tolerance && worse) solution.x = apart;
   }
+  if (options.self_collision && cost_scale > 0.0) part(solution, cost_scale, apart);
   if (options.dynamics) tighten(solution, cost_scale);
   const Eigen::VectorXd& x = solution.x;
   result.plan = plan_of(motion, options, layout, x);
@@ -284,6 +305,11 @@ void Planner::Impl::judge(Result& result, const nlp::Solution& solution) {
     report.message = "converged, but the checker finds " + found.worst().to_string();
   } else if (report.status != Status::solved && !found.ok()) {
     report.message += "; violated most: " + found.worst().to_string();
+  } else if (report.status != Status::solved && !options.has_cost()) {
+    report.message = "the checker accepts the plan, on which the search " + solution.message;
+    report.status = Status::solved;
+  } else if (report.status != Status::solved) {
+    report.message += "; the checker accepts the plan, which is not the cheapest";
   }
   const Drift drift = largest_drift(result.plan);
   result.drift_m = drift.position_m;

@@ -110,12 +110,12 @@ Range total_range(const PlanarMotion& motion, const Options& options) {
 }
 
 Program::Program(const PlanarMotion& motion, const Options& options, Curvature curvature, double cost_scale,
-                 const Eigen::VectorXd& anchor)
+                 const Eigen::VectorXd& anchor, const CloseDiscs* close)
     : motion_(motion), options_(options), layout_(motion_, options_) {
   add_parameters(problem_, motion_, options_, layout_);
   const auto work = std::make_shared<TaylorGraph::Workspace>();
   for (int k = 0; k < layout_.intervals; ++k)
-    models_.push_back(std::make_unique<IntervalModel>(motion_, options_, layout_, k, work));
+    models_.push_back(std::make_unique<IntervalModel>(motion_, options_, layout_, k, work, close));
   const bool weighted = cost_scale > 0.0;
   for (const auto& model : models_) {
     const Rows& rows = model->rows();

@@ -1,4 +1,4 @@
 """The papers' tables and figures, a file per paper."""
 
 #: Names that ``mcplan reproduce`` takes.
-PAPERS = ("tazaki", "wang")
+PAPERS = ("lengagne", "tazaki", "wang")

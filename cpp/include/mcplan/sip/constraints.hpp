@@ -1,11 +1,21 @@
 #pragma once
 
+#include <array>
+#include <set>
 #include <vector>
 
+#include "mcplan/plan/whole_body_plan.hpp"
 #include "mcplan/sip/interval_motion.hpp"
 #include "mcplan/sip/rows.hpp"
 
 namespace mcplan::sip {
+
+/// Pairs of discs that are kept apart: interval, index into collision_pairs, disc of the first and of the second body.
+using CloseDiscs = std::set<std::array<int, 4>>;
+
+/// Adds the pairs that a plan brings closer than a margin to each other, or into each other, at one of some instants of
+/// each interval.
+void add_close_discs(const WholeBodyPlan& plan, CloseDiscs& close);
 
 /// What is asked of one interval, a function for each constraint; each adds its polynomials to `out`. A constraint
 /// touches the parameters of its interval alone (IntervalMotion::local).
@@ -17,10 +27,11 @@ void keep_pushing(IntervalMotion& motion, std::vector<Limited>& out);           
 void hold_contacts(IntervalMotion& motion, std::vector<Limited>& out);          ///< tube, band or strict
 void balance_forces(IntervalMotion& motion, std::vector<Limited>& out);         ///< of forces that are parameters
 void keep_clear(IntervalMotion& motion, std::vector<Limited>& out);             ///< swinging end-effectors, of surfaces
-void keep_apart(IntervalMotion& motion, std::vector<Limited>& out);             ///< capsules of collision pairs
-void pass_poses(IntervalMotion& motion, std::vector<Limited>& out);             ///< at given instants
+void keep_apart(IntervalMotion& motion, const CloseDiscs* close,
+                std::vector<Limited>& out);                          ///< capsules of collision pairs
+void pass_poses(IntervalMotion& motion, std::vector<Limited>& out);  ///< at given instants
 
-/// All that the options ask for.
-std::vector<Limited> constraints_of(IntervalMotion& motion);
+/// All that the options ask for. `close`: what self-collision is about; null: every pair of discs.
+std::vector<Limited> constraints_of(IntervalMotion& motion, const CloseDiscs* close = nullptr);
 
 }  // namespace mcplan::sip

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mcplan/sip/constraints.hpp"
 #include "mcplan/sip/interval_motion.hpp"
 #include "mcplan/sip/rows.hpp"
 
@@ -18,7 +19,7 @@ namespace mcplan::sip {
 class IntervalModel {
  public:
   IntervalModel(const PlanarMotion& motion, const Options& options, const Layout& layout, int interval,
-                std::shared_ptr<TaylorGraph::Workspace> work);
+                std::shared_ptr<TaylorGraph::Workspace> work, const CloseDiscs* close = nullptr);
   IntervalModel(const IntervalModel&) = delete;
   IntervalModel& operator=(const IntervalModel&) = delete;
 

@@ -77,7 +77,7 @@ struct Options {
   double log_weight_max = 5.0;    ///< bound of the logarithms of weights
 
   bool kinematics_first = true;  ///< with dynamics: find contacts and joints within limits first, forces from there
-  bool feasible_first = true;  ///< with a cost: solve without it first, and start from that
+  bool feasible_first = true;    ///< with a cost: solve without it first, and start from that
   HessianChoice hessian = HessianChoice::automatic;
   double tolerance = 1e-4, constraint_tolerance = 1e-5;           ///< of the solver
   int max_iterations = 1000;                                      ///< of each of its runs
@@ -86,7 +86,8 @@ struct Options {
   Logger logger;     ///< a line an iteration; null: silent
   StopRequest stop;  ///< polled every iteration; null: never
 
-  bool has_cost() const { return torque_weight > 0.0 || duration_weight > 0.0 || jerk_weight > 0.0; }
+  /// Whether there is anything to minimise: torques are known with dynamics only.
+  bool has_cost() const { return (dynamics && torque_weight > 0.0) || duration_weight > 0.0 || jerk_weight > 0.0; }
 
   /// Throws InvalidOptions naming the first field out of its range.
   void validate() const;

@@ -23,9 +23,10 @@ enum class Curvature {
 class Program {
  public:
   /// The objective is cost_scale times the cost; with a scale of zero it is a weak pull to `anchor`,
-  /// kProximity / 2 |P - anchor|^2, which makes the solution unique where constraints leave room.
+  /// kProximity / 2 |P - anchor|^2, which makes the solution unique where constraints leave room. `close`: discs that
+  /// self-collision is about; null: all.
   Program(const PlanarMotion& motion, const Options& options, Curvature curvature, double cost_scale,
-          const Eigen::VectorXd& anchor);
+          const Eigen::VectorXd& anchor, const CloseDiscs* close = nullptr);
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
@@ -49,8 +50,8 @@ class Program {
   nlp::Problem problem_;
 };
 
-/// Bounds of a motion's duration where it has one, which intervals share equally; empty (max < min) where the phases' own
-/// limits leave none.
+/// Bounds of a motion's duration where it has one, which intervals share equally; empty (max < min) where the phases'
+/// own limits leave none.
 Range total_range(const PlanarMotion& motion, const Options& options);
 
 /// P = 0, durations that add to one second or to what their bounds allow.

@@ -2,7 +2,7 @@
 
 namespace mcplan::sip {
 
-std::vector<Limited> constraints_of(IntervalMotion& motion) {
+std::vector<Limited> constraints_of(IntervalMotion& motion, const CloseDiscs* close) {
   const Options& options = motion.options;
   std::vector<Limited> out;
   limit_positions(motion, out);
@@ -15,7 +15,7 @@ std::vector<Limited> constraints_of(IntervalMotion& motion) {
     if (options.torque_limits) limit_torques(motion, out);
   }
   if (options.clearance) keep_clear(motion, out);
-  if (options.self_collision) keep_apart(motion, out);
+  if (options.self_collision) keep_apart(motion, close, out);
   pass_poses(motion, out);
   return out;
 }
