@@ -32,10 +32,8 @@ void keep_in_friction_cone(IntervalMotion& motion, std::vector<Limited>& out) {
 
 // f_n >= min_normal_force; zero is implied by the cone
 void keep_pushing(IntervalMotion& motion, std::vector<Limited>& out) {
-  const auto& contacts = motion.motion.phases[motion.local.phase].contacts;
+  if (motion.options.min_normal_force == 0.0) return;
   for (std::size_t v = 0; v < motion.forces.size(); ++v) {
-    const bool slippery = motion.motion.surfaces[contacts[motion.forces[v].contact].surface].friction == 0.0;
-    if (motion.options.min_normal_force == 0.0 && !slippery) continue;
     out.push_back({"pull of " + place(motion, v), motion.forces[v].normal, motion.options.min_normal_force, INFINITY,
                    1.0 / weight(motion)});
   }

@@ -51,7 +51,7 @@ TEST_CASE("where the rows hold, the capsules are apart") {
     x.head(Layout(motion, options).first_duration) *= 6.0;  // limbs get into each other's way
     IntervalAt interval(motion, options, 5, x);
     std::vector<Limited> rows;
-    keep_apart(interval.motion, rows);
+    keep_apart(interval.motion, nullptr, rows);
     interval.evaluate();
     const double s = 0.0;  // there the polynomials are exact
     const auto frames = interval.frames(s);
@@ -86,7 +86,7 @@ TEST_CASE("rows are squared distances of the exact plan's discs") {
   x.head(Layout(motion, options).first_duration) *= 0.3;
   IntervalAt interval(motion, options, 6, x);
   std::vector<Limited> rows;
-  keep_apart(interval.motion, rows);
+  keep_apart(interval.motion, nullptr, rows);
   interval.evaluate();
   REQUIRE(rows.size() == 1);
   CHECK(rows[0].lower == doctest::Approx(0.08 * 0.08));
@@ -98,4 +98,35 @@ TEST_CASE("rows are squared distances of the exact plan's discs") {
     const Eigen::Vector2d q_W = planar_point(frames[planar::arm], {0.0, -0.2}).position_W;
     CHECK(interval.at(rows[0].node, s) == doctest::Approx((p_W - q_W).squaredNorm()).epsilon(1e-8));
   }
+}
+
+TEST_CASE("discs that come close are found, and rows are made for them alone") {
+  const PlanarMotion motion = sip_motions::cartwheel();
+  const Options options;
+  const Layout layout(motion, options);
+  int with_some = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    Eigen::VectorXd x = random_parameters(motion, options, seed);
+    x.head(layout.first_duration) *= 6.0;
+    CloseDiscs close;
+    add_close_discs(plan_of(motion, options, layout, x), close);
+    constexpr int kInterval = 5;
+    IntervalAt interval(motion, options, kInterval, x);
+    std::vector<Limited> all, some;
+    keep_apart(interval.motion, nullptr, all);
+    keep_apart(interval.motion, &close, some);
+    int expected = 0;
+    for (const auto& pair : close) expected += pair[0] == kInterval;
+    CAPTURE(seed);
+    CHECK(static_cast<int>(some.size()) == expected);
+    CHECK(some.size() < all.size());
+    interval.evaluate();
+    // At the interval's middle, one of the instants looked at, whatever was left out is apart.
+    if (room(interval, all, 0.0) < 0.0) {
+      REQUIRE(!some.empty());
+      CHECK(room(interval, some, 0.0) == room(interval, all, 0.0));
+      ++with_some;
+    }
+  }
+  CHECK(with_some > 0);
 }
