@@ -6,7 +6,8 @@ import textwrap
 from typing import Any
 
 from . import lengagne_paper as paper
-from .lengagne_runs import EQUAL_S, HOPELESS_S, STEEP, TIME_LIMIT_S, Run
+from .lengagne_runs import Run
+from .lengagne_settings import EQUAL_S, HOPELESS_S, STEEP, TIME_LIMIT_S
 from .lengagne_tables import paired, percent, unordered
 
 Row = dict[str, Any]
