@@ -27,7 +27,7 @@ ITERATIONS = {1: 200, 2: 200, 3: 1000, 4: 1000}
 #: Wall clock of a run [s]: none of the runs that converge comes near it.
 TIME_LIMIT_S = {1: 60.0, 2: 60.0, 3: 120.0, 4: 600.0}
 #: Wall clock of runs that mostly end without a result [s]: climbing_steep with uniform weights, and equal contacts.
-HOPELESS_S, EQUAL_S = 60.0, 20.0
+HOPELESS_S, EQUAL_S = 30.0, 20.0
 
 
 @dataclass(frozen=True)
