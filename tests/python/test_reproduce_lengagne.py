@@ -11,8 +11,9 @@ import pytest
 import mcplan
 from mcplan.cli import main
 from mcplan.reproduce import lengagne_paper as paper
-from mcplan.reproduce import lengagne_runs, lengagne_tables, lengagne_text
-from mcplan.reproduce.lengagne_runs import Config, Run
+from mcplan.reproduce import lengagne_runs, lengagne_settings, lengagne_tables, lengagne_text
+from mcplan.reproduce.lengagne_runs import Run
+from mcplan.reproduce.lengagne_settings import Config
 
 pytest.importorskip("matplotlib")
 
@@ -196,7 +197,7 @@ def test_ctrl_c_leaves_what_was_done_and_resume_goes_on(tmp_path, monkeypatch):
         return made_up(config), None
 
     monkeypatch.setattr(lengagne_runs, "run", run)
-    wanted = lengagne_runs.configs([1], ["cartwheel"])
+    wanted = lengagne_settings.configs([1], ["cartwheel"])
     runs, about = lengagne_runs.collect(wanted, tmp_path, 1, False, lambda text: None)
     assert about["interrupted"] and len(runs) == 2
     runs, about = lengagne_runs.collect(wanted, tmp_path, 1, True, lambda text: None)
@@ -204,7 +205,7 @@ def test_ctrl_c_leaves_what_was_done_and_resume_goes_on(tmp_path, monkeypatch):
 
 
 def test_every_row_of_the_paper_is_run():
-    wanted = set(lengagne_runs.configs([1, 2, 3, 4], lengagne_runs.chosen_motions(None)))
+    wanted = set(lengagne_settings.configs([1, 2, 3, 4], lengagne_settings.chosen_motions(None)))
     for table, published in ((1, paper.TABLE_1), (2, paper.TABLE_2)):
         assert {Config(table, motion, "band", neq) for motion, neq in published} <= wanted
     assert {Config(3, motion, "band", 2, paper.CASES[case]) for motion, case in paper.TABLE_3} <= wanted

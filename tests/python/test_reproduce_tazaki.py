@@ -35,4 +35,4 @@ def test_the_table_of_the_paper_is_typed_in_right():
 
 def test_an_unknown_paper_is_an_error_that_lists_the_known(capsys):
     assert main(["reproduce", "tazki"]) == 2
-    assert "must be one of tazaki" in capsys.readouterr().err
+    assert "must be one of lengagne, tazaki, wang" in capsys.readouterr().err

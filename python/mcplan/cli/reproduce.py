@@ -57,7 +57,7 @@ def reproduce(
     for name in options:
         if name not in _OWN[paper]:
             owners = " and ".join(other for other in PAPERS if name in _OWN[other])
-            raise InvalidInput(f"--{name.replace('_', '-')}", f"must be left out: only {owners} has it", paper)
+            raise InvalidInput(f"--{name.replace('_', '-')}", f"must be left out: it is for {owners}", paper)
     written: list[Path]
     if paper == "lengagne":
         from mcplan.reproduce import lengagne

@@ -13,7 +13,8 @@ from mcplan.errors import InvalidInput
 from mcplan.extras import require
 
 from . import lengagne_figures, lengagne_tables
-from .lengagne_runs import FILE, Run, chosen_motions, collect, configs
+from .lengagne_runs import FILE, Run, collect
+from .lengagne_settings import chosen_motions, configs
 from .lengagne_text import differences_3, differences_4, differences_grid, differences_kinematics, head
 
 TABLES = (1, 2, 3, 4)

@@ -10,7 +10,7 @@ from mcplan.view.colours import COOL, TEXT
 from mcplan.view.sheets import label, legend, sheet
 
 from . import lengagne_paper as paper
-from .lengagne_runs import Config
+from .lengagne_settings import Config
 
 #: The paper's figures by motion.
 FIGURES = {"cartwheel": 2, "climbing": 3, "walking": 4}

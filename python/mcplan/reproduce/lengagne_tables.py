@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from . import lengagne_paper as paper
-from .lengagne_runs import FREE_FLYER, NEQ, STEEP, Config, Run, best_of, find
+from .lengagne_runs import Run, best_of, find
+from .lengagne_settings import FREE_FLYER, NEQ, STEEP, Config
 
 Row = dict[str, Any]
 

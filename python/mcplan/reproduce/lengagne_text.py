@@ -6,7 +6,8 @@ import textwrap
 from typing import Any
 
 from . import lengagne_paper as paper
-from .lengagne_runs import EQUAL_S, HOPELESS_S, STEEP, TIME_LIMIT_S, Run
+from .lengagne_runs import Run
+from .lengagne_settings import EQUAL_S, HOPELESS_S, STEEP, TIME_LIMIT_S
 from .lengagne_tables import paired, percent, unordered
 
 Row = dict[str, Any]
@@ -171,8 +172,8 @@ def differences_3(parts: Parts) -> list[str]:
     lines.append("")
     lines += bullet(f"{converged(bands)} converge with the band, {converged(tubes)} with the tube.")
     lines += bullet(
-        f"Nothing keeps feet out of the ground: they go up to {largest(rows, 'depth_mm'):.0f} mm deep. The paper does not say "
-        "what its motions do there."
+        f"Nothing keeps swinging feet out of the ground: on level ground they go up to {largest(rows, 'depth_mm'):.0f} mm deep. "
+        "The paper does not say what its motions do there."
     )
     if any(row["motion"] == "climbing" for row in rows):
         lines += bullet(
