@@ -34,8 +34,8 @@ auto without_gil(Solve&& solve) {
   return solve();
 }
 
-/// StopRequest of every solve: Ctrl-C ends it with Status.interrupted and the best iterate. The KeyboardInterrupt itself is
-/// swallowed then, because the caller gets its result.
+/// StopRequest of every solve: Ctrl-C ends it with Status.interrupted and the best iterate. The KeyboardInterrupt
+/// itself is swallowed then, because the caller gets its result.
 inline bool stop_on_signal() {
   const py::gil_scoped_acquire acquire;
   if (PyErr_CheckSignals() == 0) return false;

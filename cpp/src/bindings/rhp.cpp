@@ -20,7 +20,9 @@ using rhp::Walk;
 void def_range(py::class_<Options>& c, const char* name, Range Options::*member, const char* doc) {
   c.def_property(
       name, [member](const Options& self) { return std::make_pair((self.*member).min, (self.*member).max); },
-      [member](Options& self, const std::pair<double, double>& value) { self.*member = {value.first, value.second}; },
+      [member](Options& self, const std::pair<double, double>& value) {
+        self.*member = {value.first, value.second};
+      },
       doc);
 }
 
@@ -73,9 +75,8 @@ void bind_state(py::module_& m) {
                     const Eigen::Vector3d& angular_momentum_W, const py::object& feet_W, std::vector<int> surfaces) {
           return State{com_W, com_velocity_W, angular_momentum_W, points_from(feet_W, "feet_W"), std::move(surfaces)};
         }),
-        py::kw_only(), py::arg("com_W") = zero, py::arg("com_velocity_W") = zero,
-        py::arg("angular_momentum_W") = zero, py::arg("feet_W") = py::tuple(),
-        py::arg("surfaces") = std::vector<int>());
+        py::kw_only(), py::arg("com_W") = zero, py::arg("com_velocity_W") = zero, py::arg("angular_momentum_W") = zero,
+        py::arg("feet_W") = py::tuple(), py::arg("surfaces") = std::vector<int>());
   def_vector(c, "com_W", &State::com_W, "[m]");
   def_vector(c, "com_velocity_W", &State::com_velocity_W, "[m/s]");
   def_vector(c, "angular_momentum_W", &State::angular_momentum_W, "About the CoM [kg m^2/s].");

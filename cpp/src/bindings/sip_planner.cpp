@@ -85,6 +85,8 @@ void bind_options(py::module_& m) {
   c.def_readwrite("min_normal_force", &Options::min_normal_force, "At every point [N].");
   c.def_readwrite("margin", &Options::margin, "Kept to joint, torque and force limits, relative.");
   c.def_readwrite("log_weight_max", &Options::log_weight_max, "Bound of the logarithms of weights.");
+  c.def_readwrite("kinematics_first", &Options::kinematics_first,
+                  "With dynamics: find contacts and joints within limits first, forces from there.");
   c.def_readwrite("feasible_first", &Options::feasible_first,
                   "With a cost: solve without it first, and start from that.");
   c.def_readwrite("hessian", &Options::hessian);

@@ -468,6 +468,13 @@ class Options:
     @jerk_weight.setter
     def jerk_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def kinematics_first(self) -> bool:
+        """
+        With dynamics: find contacts and joints within limits first, forces from there.
+        """
+    @kinematics_first.setter
+    def kinematics_first(self, arg0: bool) -> None: ...
+    @property
     def log_weight_max(self) -> float:
         """
         Bound of the logarithms of weights.

@@ -44,9 +44,7 @@ class Piece {
   virtual bool entries_come_and_go() const { return false; }
 
   /// What messages call a row: "name[2]", or "name" where there is one.
-  virtual std::string row_name(int row) const {
-    return rows_ == 1 ? name_ : name_ + "[" + std::to_string(row) + "]";
-  }
+  virtual std::string row_name(int row) const { return rows_ == 1 ? name_ : name_ + "[" + std::to_string(row) + "]"; }
 
  private:
   std::string name_;
