@@ -109,6 +109,17 @@ void def_vector(py::class_<T, Extra...>& c, const char* name, Vector T::*member,
       [member](T& self, const Vector& value) { self.*member = value; }, doc);
 }
 
+/// Member that is a closed range {min, max}: reads and writes as a pair.
+template <class T, class Range, class... Extra>
+void def_range(py::class_<T, Extra...>& c, const char* name, Range T::*member, const char* doc) {
+  c.def_property(
+      name, [member](const T& self) { return std::make_pair((self.*member).min, (self.*member).max); },
+      [member](T& self, const std::pair<double, double>& value) {
+        self.*member = {value.first, value.second};
+      },
+      doc);
+}
+
 /// Member struct: reads as a reference.
 template <class T, class Member, class... Extra>
 void def_member(py::class_<T, Extra...>& c, const char* name, Member T::*member, const char* doc) {

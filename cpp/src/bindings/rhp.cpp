@@ -10,21 +10,10 @@ namespace {
 using rhp::Cycle;
 using rhp::Fidelity;
 using rhp::Options;
-using rhp::Range;
 using rhp::RecedingHorizon;
 using rhp::State;
 using rhp::Transcription;
 using rhp::Walk;
-
-/// Member that is a closed interval: reads and writes as a pair.
-void def_range(py::class_<Options>& c, const char* name, Range Options::*member, const char* doc) {
-  c.def_property(
-      name, [member](const Options& self) { return std::make_pair((self.*member).min, (self.*member).max); },
-      [member](Options& self, const std::pair<double, double>& value) {
-        self.*member = {value.first, value.second};
-      },
-      doc);
-}
 
 void bind_options(py::module_& m) {
   py::enum_<Fidelity>(m, "Fidelity", "Model of the steps that are predicted but not executed (Wang et al., sec. IV).")

@@ -19,18 +19,7 @@ using sip::FreeFlyer;
 using sip::HessianChoice;
 using sip::Options;
 using sip::Planner;
-using sip::Range;
 using sip::Result;
-
-/// Member that is a closed range: reads and writes as a pair.
-void def_range(py::class_<Options>& c, const char* name, Range Options::*member, const char* doc) {
-  c.def_property(
-      name, [member](const Options& self) { return std::make_pair((self.*member).min, (self.*member).max); },
-      [member](Options& self, const std::pair<double, double>& value) {
-        self.*member = {value.first, value.second};
-      },
-      doc);
-}
 
 void bind_choices(py::module_& m) {
   py::enum_<Forces>(m, "Forces", "Where contact forces come from (Lengagne et al., secs. III-C and IV-D).")

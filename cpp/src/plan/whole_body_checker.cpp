@@ -7,17 +7,8 @@
 #include "whole_body_checks.hpp"
 
 namespace mcplan {
-namespace whole_body {
-namespace {
 
-struct Row {
-  const char* name;
-  const char* unit;
-  double tolerance;
-};
-
-/// In the order of the enumeration.
-std::array<Row, kConstraints> rows(const WholeBodyTolerances& t) {
+std::array<WholeBodyConstraintInfo, kWholeBodyConstraints> whole_body_constraints(const WholeBodyTolerances& t) {
   return {{{"finite", "numbers", 0.0},
            {"phase_duration", "s", 0.0},
            {"position", "", t.limit},
@@ -36,7 +27,7 @@ std::array<Row, kConstraints> rows(const WholeBodyTolerances& t) {
            {"pose", "m", t.pose}}};
 }
 
-}  // namespace
+namespace whole_body {
 
 Findings::Findings(const WholeBodyTolerances& tolerances) : tolerances_(tolerances) {}
 
@@ -48,7 +39,7 @@ void Findings::offer(Constraint constraint, double value, const Place& place) {
 }
 
 std::vector<Violation> Findings::violations(int count) const {
-  const auto table = rows(tolerances_);
+  const auto table = whole_body_constraints(tolerances_);
   std::vector<Violation> out;
   for (int i = 0; i < count; ++i) {
     const Place& place = worst_[i].place;
@@ -134,7 +125,7 @@ CheckResult check(const WholeBodyPlan& plan, const WholeBodyTolerances& toleranc
     check_clearance(sample, findings);
     if (self_collision) check_collision(sample, findings);
   });
-  return {findings.violations(kConstraints)};
+  return {findings.violations(kWholeBodyConstraints)};
 }
 
 Drift largest_drift(const WholeBodyPlan& plan, double sample_s) {

@@ -11,25 +11,7 @@
 /// it measures to WholeBodyFindings, which keep the worst of each.
 namespace mcplan::whole_body {
 
-enum class Constraint {
-  finite,
-  phase_duration,
-  position,
-  velocity,
-  torque,
-  continuity,
-  rest,
-  drift,
-  drift_angle,
-  balance,
-  moment,
-  friction,
-  pull,
-  clearance,
-  collision,
-  pose,
-};
-constexpr int kConstraints = static_cast<int>(Constraint::pose) + 1;
+using Constraint = WholeBodyConstraint;
 
 /// Where something was measured. Names are those of joints (their bodies) or end-effectors; a collision has two.
 struct Place {
@@ -55,7 +37,7 @@ class Findings {
     Place place;
     bool measured = false;
   };
-  std::array<Worst, kConstraints> worst_;
+  std::array<Worst, kWholeBodyConstraints> worst_;
   WholeBodyTolerances tolerances_;
 };
 

@@ -17,30 +17,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// they bound.
 constexpr int kLeastDepth = 2;
 
-/// Name, unit and tolerance of every kind, as plan/whole_body_checker.hpp has them.
-struct KindOf {
-  const char* name;
-  const char* unit;
-  double tolerance;
-};
-std::array<KindOf, kKinds> kinds(const WholeBodyTolerances& t) {
-  return {{{"phase_duration", "s", 0.0},
-           {"position", "", t.limit},
-           {"velocity", "", t.limit},
-           {"torque", "", t.limit},
-           {"continuity", "rad", t.continuity},
-           {"rest", "rad", t.continuity},
-           {"drift", "m", t.drift},
-           {"drift_angle", "rad", t.drift_angle},
-           {"balance", "N", t.balance},
-           {"moment", "N m", t.moment},
-           {"friction", "m g", t.friction},
-           {"pull", "m g", t.pull},
-           {"clearance", "m", t.clearance},
-           {"collision", "m", t.clearance},
-           {"pose", "m", t.pose}}};
-}
-
 struct Place {
   int phase = -1;
   std::string where;
@@ -50,7 +26,7 @@ struct Place {
 /// What is known of each kind so far.
 class Ledger {
  public:
-  explicit Ledger(const WholeBodyTolerances& tolerances) : kinds_(kinds(tolerances)) {}
+  explicit Ledger(const WholeBodyTolerances& tolerances) : kinds_(whole_body_constraints(tolerances)) {}
 
   double tolerance(Kind kind) const { return kinds_[index(kind)].tolerance; }
 
@@ -87,7 +63,8 @@ class Ledger {
 
   std::vector<ProvedConstraint> constraints(bool self_collision) const {
     std::vector<ProvedConstraint> out;
-    for (int i = 0; i < kKinds; ++i) {
+    for (int i = 0; i < kWholeBodyConstraints; ++i) {
+      if (i == index(Kind::finite)) continue;  // plans with other numbers are malformed
       if (i == index(Kind::collision) && !self_collision) continue;
       const Entry& entry = entries_[i];
       ProvedConstraint c;
@@ -117,8 +94,8 @@ class Ledger {
   };
   static int index(Kind kind) { return static_cast<int>(kind); }
 
-  std::array<KindOf, kKinds> kinds_;
-  std::array<Entry, kKinds> entries_;
+  std::array<WholeBodyConstraintInfo, kWholeBodyConstraints> kinds_;
+  std::array<Entry, kWholeBodyConstraints> entries_;
   double rounding_ = 0.0;
 };
 

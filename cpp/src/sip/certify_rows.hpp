@@ -5,28 +5,11 @@
 
 #include "certify_amount.hpp"
 #include "certify_dynamics.hpp"
+#include "mcplan/plan/whole_body_checker.hpp"
 
 namespace mcplan::sip::proof {
 
-/// Constraints in the order and by the names of plan/whole_body_checker.hpp.
-enum class Kind {
-  phase_duration,
-  position,
-  velocity,
-  torque,
-  continuity,
-  rest,
-  drift,
-  drift_angle,
-  balance,
-  moment,
-  friction,
-  pull,
-  clearance,
-  collision,
-  pose,
-};
-inline constexpr int kKinds = static_cast<int>(Kind::pose) + 1;
+using Kind = WholeBodyConstraint;
 
 /// One scalar that a constraint bounds over an interval: the amount beyond the limit.
 struct Row {

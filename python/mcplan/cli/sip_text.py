@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from mcplan import sip
-    from mcplan._core import LogLevel, PlanarMotion
+    from mcplan._core import LogLevel, PlanarMotion, Violation
 
 #: [s] between two states of the line: in a terminal, where it is written over, and in a file.
 _TERMINAL_S, _FILE_S = 0.1, 2.0
@@ -82,7 +82,7 @@ def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Pat
         lines.append(indent + (report.message or "no motion that the checker accepts"))
     worst = report.worst_violation
     if worst.name and (solved or str(worst) not in report.message):
-        lines.append(f"{indent}{'closest to its limit' if worst.value <= worst.tolerance else 'worst'}: {worst}")
+        lines.append(indent + (f"worst: {worst}" if worst.value > worst.tolerance else _closest(worst)))
     terms = ", ".join(f"{name} {value:.4g}" for name, value in report.cost_terms.items())
     cost = f"cost {report.cost:.4g} ({terms})" if options.has_cost() else f"no cost ({terms})"
     lines.append(f"{indent}{cost}; drift of contacts {1e3 * result.drift_m:.2g} mm, {1e3 * result.drift_rad:.2g} mrad")
@@ -111,6 +111,14 @@ def phase_rows(motion: PlanarMotion, durations: Sequence[float]) -> list[str]:
         rows.append(f"  {k:5d}  {start:9.3f}  {duration:9.3f}  {contacts}")
         start += duration
     return rows
+
+
+def _closest(worst: Violation) -> str:
+    """The constraint nearest to what the checker accepts, when all are within it."""
+    who = f" at {worst.end_effector}" if worst.end_effector else ""
+    unit = f" {worst.unit}" if worst.unit else ""
+    used = f"{worst.value:.3g} of the {worst.tolerance:.3g}{unit} that are accepted"
+    return f"closest to its tolerance: {worst.name}{who} at t = {worst.time_s:.3g} s, {used}"
 
 
 def _criterion(options: sip.Options) -> str:

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "mcplan/plan/checker.hpp"
 #include "mcplan/plan/whole_body_plan.hpp"
 
@@ -19,6 +21,36 @@ struct WholeBodyTolerances {
   double pose = 1e-3;         ///< [m], [rad]
   double sample_s = 1e-3;     ///< [s] sampling in time
 };
+
+/// What is checked, in this order; the names are those of violations.
+enum class WholeBodyConstraint {
+  finite,
+  phase_duration,
+  position,
+  velocity,
+  torque,
+  continuity,
+  rest,
+  drift,
+  drift_angle,
+  balance,
+  moment,
+  friction,
+  pull,
+  clearance,
+  collision,
+  pose,
+};
+inline constexpr int kWholeBodyConstraints = static_cast<int>(WholeBodyConstraint::pose) + 1;
+
+/// Name, unit and tolerance of a constraint.
+struct WholeBodyConstraintInfo {
+  const char* name;
+  const char* unit;
+  double tolerance;
+};
+std::array<WholeBodyConstraintInfo, kWholeBodyConstraints> whole_body_constraints(
+    const WholeBodyTolerances& tolerances);
 
 /// Check a whole-body plan from its splines with exact kinematics and dynamics: sines and cosines, Newton-Euler, no
 /// polynomials of those. The worst place of every constraint, violated or not, as for plans of contacts and CoM:
