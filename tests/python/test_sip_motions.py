@@ -116,6 +116,15 @@ def test_the_cheapest_walk_and_climb_are_at_least_as_cheap_as_the_reference(moti
     assert_kept(result.plan)
 
 
+@SLOW
+@pytest.mark.parametrize("motion", ["stairs", "chimney"])
+def test_motions_of_our_own_are_solved_and_proved(motion):
+    result = mp.whole_body(motion, certify=True)
+    assert result.report.status == mp.Status.solved, result.report
+    assert result.certificate is not None and result.certificate.proved(), result.certificate
+    assert_kept(result.plan)
+
+
 def test_the_fastest_cartwheel_has_the_shortest_phases():
     result = mp.whole_body("cartwheel", minimise="time")
     assert result.report.status == mp.Status.solved, result.report.message
