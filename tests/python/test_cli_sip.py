@@ -134,6 +134,7 @@ def test_out_of_time_gives_exit_code_1_and_says_what_is_violated_most(capsys, tm
     assert report["worst_violation"]["value"] > report["worst_violation"]["tolerance"]
 
 
+@pytest.mark.usefixtures("ctrl_c")
 def test_an_interrupt_keeps_what_was_found(capsys, monkeypatch, tmp_path):
     calls = []
 

@@ -97,6 +97,7 @@ def test_iterations_run_out():
     assert result.report.status == mp.Status.iteration_limit and "max_iterations" in result.report.message
 
 
+@pytest.mark.usefixtures("ctrl_c")
 def test_an_interrupt_in_the_logger_ends_the_search_and_not_the_program():
     lines = 0
 
@@ -111,6 +112,7 @@ def test_an_interrupt_in_the_logger_ends_the_search_and_not_the_program():
     result.plan.validate()
 
 
+@pytest.mark.usefixtures("ctrl_c")
 def test_an_interrupt_without_a_logger_ends_the_search():
     planner = mp.sip.Planner(mp.load_motion("climbing"))
     timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
