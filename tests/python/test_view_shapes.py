@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation, Slerp
 
-from mcplan.view import rotations, shapes
+from mcplan.kinematics import rotations
+from mcplan.view import shapes
 from mcplan.view.extent import Extent
 from mcplan.view.scene_drawing import grid_lines
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import plans_by_hand as by_hand
+from mcplan.kinematics.samples import sample
 from mcplan.view.colours import end_effector_colours
 from mcplan.view.robot_stick import limbs_of, stick_robot
-from mcplan.view.samples import sample
 
 
 @pytest.fixture(scope="module", params=["stairs", "jump"])

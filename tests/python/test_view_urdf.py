@@ -7,10 +7,11 @@ import pytest
 
 import mcplan as mp
 import plans_by_hand as by_hand
+from mcplan.kinematics.inverse_kinematics import follow
+from mcplan.kinematics.samples import sample
+from mcplan.kinematics.urdf_model import load_model
 from mcplan.view import show
-from mcplan.view.inverse_kinematics import follow
-from mcplan.view.robot_urdf import CannotFollow, load_urdf, urdf_robot
-from mcplan.view.samples import sample
+from mcplan.view.robot_urdf import CannotFollow, urdf_robot
 
 pin = pytest.importorskip("pinocchio")
 pytest.importorskip("example_robot_data")
@@ -26,8 +27,8 @@ def walking(talos):
     scene = by_hand.flat()
     plan = by_hand.walk(scene, talos)
     samples = sample(plan, scene, talos, 10.0)
-    model, _, neutral = load_urdf(talos)
-    return samples, model, follow(model, neutral, samples, talos)
+    loaded = load_model(talos)
+    return samples, loaded.model, follow(loaded, samples)
 
 
 def test_postures_meet_com_and_contacts(walking, talos):
@@ -93,7 +94,7 @@ def test_bad_urdf_robots_are_named(change, message):
     robot = by_hand.talos()
     change(robot)
     with pytest.raises(mp.InvalidRobot) as error:
-        load_urdf(robot)
+        load_model(robot)
     assert message in str(error.value)
 
 
@@ -102,8 +103,8 @@ def test_a_low_walk_over_tilted_patches_is_followed_with_its_soles_on_them():
     plan = mp.walk("rubbles", cycles=3).plan
     robot = plan.robot
     samples = sample(plan, plan.scene, robot, 10.0)
-    model, _, neutral = load_urdf(robot)
-    postures = follow(model, neutral, samples, robot)
+    loaded = load_model(robot)
+    model, postures = loaded.model, follow(loaded, samples)
     ankles = [model.idx_qs[model.getJointId(f"leg_{side}_5_joint")] for side in ("left", "right")]
     assert postures.configurations[:, ankles].min() < model.lowerPositionLimit[ankles[0]] + 1e-3  # it is such a walk
     assert postures.residual < 0.05, postures.where

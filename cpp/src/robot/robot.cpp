@@ -24,6 +24,7 @@ void require_finite(const std::string& field, const Vector3d& value) {
 void validate_end_effector(const EndEffector& e, const std::string& field) {
   if (e.name.empty()) throw InvalidRobot(field + ".name", "must not be empty", "''");
   if (e.kind.empty()) throw InvalidRobot(field + ".kind", "must not be empty", "''");
+  require_finite(field + ".frame_offset", e.frame_offset);
   if (!(e.half_size.allFinite() && e.half_size.minCoeff() >= 0.0))
     throw InvalidRobot(field + ".half_size", "must be two numbers >= 0", text(e.half_size));
   require_finite(field + ".nominal", e.nominal_B);

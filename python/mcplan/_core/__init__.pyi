@@ -474,6 +474,7 @@ class EndEffector:
         name: str = "",
         kind: str = "foot",
         frame: str = "",
+        frame_offset: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         half_size: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
         nominal_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         reach_min_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
@@ -498,6 +499,13 @@ class EndEffector:
         """
     @frame.setter
     def frame(self, arg0: str) -> None: ...
+    @property
+    def frame_offset(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        Contact point in the axes of the URDF frame [m].
+        """
+    @frame_offset.setter
+    def frame_offset(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def half_size(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """

@@ -86,6 +86,7 @@ class EndEffectorModel(Table):
     name: Name = Field(description="Unique name.")
     kind: Name = Field("foot", description="Group that scenes may address as a whole, e.g. foot, hand.")
     frame: str = Field("", description="URDF frame.")
+    frame_offset: Point = Field([0.0, 0.0, 0.0], description="[m] Contact point in the axes of the URDF frame.")
     half_size: Annotated[list[NotNegative], Field(min_length=2, max_length=2)] = Field(
         [0.0, 0.0], description="[m] Half length and half width of the sole; zero: point contact."
     )

@@ -102,6 +102,8 @@ def _end_effector_to_dict(end: EndEffector) -> dict[str, Any]:
     data: dict[str, Any] = {"name": end.name, "kind": end.kind}
     if end.frame:
         data["frame"] = end.frame
+    if end.frame_offset.any():
+        data["frame_offset"] = end.frame_offset.tolist()
     if end.half_size.any():
         data["half_size"] = end.half_size.tolist()
     data.update({key: getattr(end, attribute).tolist() for key, attribute in _POSITIONS.items()})

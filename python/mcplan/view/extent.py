@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from mcplan import Robot, Scene
-
-    from .samples import Samples
+    from mcplan.kinematics.samples import Samples
 
 Array = NDArray[np.float64]
 

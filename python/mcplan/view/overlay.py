@@ -5,8 +5,9 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
+from mcplan.kinematics.samples import Interval
+
 from .colours import COM, GRASP
-from .samples import Interval
 
 if TYPE_CHECKING:
     from mcplan import Robot, Scene

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan.extras import require
+from mcplan.kinematics.rotations import pose, with_axis_z
+from mcplan.kinematics.samples import Samples, sample
 
 from .canvas import Canvas
 from .colours import COM, FORCE, GRASP, OUTLINE, TEXT, end_effector_colours, mix
@@ -16,8 +18,6 @@ from .extent import extent_of
 from .figure import Figure
 from .plan_drawing import WEIGHT_ARROW, contact_plate
 from .robot_stick import stick_robot
-from .rotations import pose, with_axis_z
-from .samples import Samples, sample
 from .scene_drawing import SurfaceDrawing, edges, surface_drawings
 from .shapes import cone, ellipsoid
 from .viewpoint import camera_direction, sun_direction, view_points

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.kinematics.rotations import pose, with_axis_z
+from mcplan.kinematics.samples import Interval, Samples
+
 from .colours import COM, FORCE
 from .figure import Figure
-from .rotations import pose, with_axis_z
-from .samples import Interval, Samples
 from .shapes import Mesh, circle, cone, disc, ellipsoid, loft, plate, tube
 
 if TYPE_CHECKING:

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.kinematics.rotations import pose
+from mcplan.kinematics.samples import Interval
+
 from .colours import COM, GROUND, OUTLINE, WALL
 from .plan_drawing import draw_arrow
 from .planar_figure import Shape, limbs_of
 from .planar_ground import CONE, Slab, cone_outline
 from .planar_samples import PlanarSamples
-from .rotations import pose
-from .samples import Interval
 from .shapes import Mesh, capsule, ellipsoid, prism, tube
 
 if TYPE_CHECKING:

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.kinematics.rotations import polygon_normal
+from mcplan.kinematics.samples import Samples, contact_intervals, sample
+
 from .colours import COM, TEXT, end_effector_colours, surface_colours
-from .samples import Samples, contact_intervals, sample
-from .shapes import polygon_normal
 from .sheets import QUIET, label, legend, shade_support, sheet, support_patches
 
 if TYPE_CHECKING:

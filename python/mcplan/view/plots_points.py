@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from mcplan.kinematics.samples import sample
+
 from .colours import TEXT, end_effector_colours
 from .plots_plan import RATE
-from .samples import sample
 from .sheets import QUIET, label, legend, shade_support, sheet
 
 if TYPE_CHECKING:

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.kinematics.rotations import pose
+from mcplan.kinematics.samples import Samples
+
 from .colours import BODY, HEAD, LIMB, VISOR, mix
 from .figure import Figure, Part
-from .rotations import pose
-from .samples import Samples
 from .shapes import Mesh, capsule, ellipsoid, rounded_stack
 
 if TYPE_CHECKING:

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan.errors import InvalidRobot
 from mcplan.extras import require
+from mcplan.kinematics.inverse_kinematics import follow
+from mcplan.kinematics.samples import Samples
+from mcplan.kinematics.urdf_model import load_model
 
 from .figure import Figure, Part
-from .inverse_kinematics import follow
-from .samples import Samples
 from .shapes import Mesh, box, capsule, circle, ellipsoid, loft
 
 if TYPE_CHECKING:
@@ -23,7 +22,6 @@ Array = NDArray[np.float64]
 
 #: [m] by which CoM and contacts may miss the plan; beyond, a picture of the posture would mislead.
 LARGEST_MISS = 0.05
-PACKAGE = "example-robot-data:"
 
 
 class CannotFollow(RuntimeError):
@@ -41,8 +39,9 @@ def urdf_robot(samples: Samples, robot: Robot) -> Figure:
     require(f"drawing {robot.name} with its meshes", "view", "pinocchio")
     import pinocchio as pin  # type: ignore[import-untyped]
 
-    model, visual, neutral = load_urdf(robot)
-    postures = follow(model, neutral, samples, robot)
+    loaded = load_model(robot)
+    model = loaded.model
+    postures = follow(loaded, samples)
     if postures.residual > LARGEST_MISS:
         raise CannotFollow(
             f"inverse kinematics of {robot.name} misses {postures.where} by {100.0 * postures.residual:.1f} cm"
@@ -54,50 +53,13 @@ def urdf_robot(samples: Samples, robot: Robot) -> Figure:
         placements.append([joint.homogeneous for joint in data.oMi])
     poses = np.array(placements)
     parts = []
-    for item in visual.geometryObjects:
+    for item in loaded.visual.geometryObjects:
         mesh = _mesh(item)
         if mesh is not None:
             moved = mesh.moved(item.placement.homogeneous)
             name = f"{model.names[item.parentJoint]}/{item.name}"
             parts.append(Part(name, moved, _colour(item.meshColor), poses[:, item.parentJoint]))
     return Figure("urdf", parts)
-
-
-def load_urdf(robot: Robot) -> tuple[Any, Any, Array]:
-    """Model with a free-flyer, visual geometry, and the nominal configuration of a robot.
-
-    Raises:
-        MissingExtra: example-robot-data is not installed and the robot asks for it.
-        InvalidRobot: The URDF cannot be read, or lacks a frame or joint that the robot names.
-    """
-    import pinocchio as pin  # type: ignore[import-untyped]
-
-    source = robot.urdf
-    try:
-        if source.startswith(PACKAGE):
-            require(f"drawing {robot.name} with its meshes", "view", "example_robot_data")
-            import example_robot_data  # type: ignore[import-untyped]
-
-            wrapper = example_robot_data.load(source[len(PACKAGE) :])
-            model, visual, neutral = wrapper.model, wrapper.visual_model, wrapper.q0.copy()
-        else:
-            path = Path(source).resolve(strict=True)
-            folders = [str(folder) for folder in list(path.parents)[:5]]
-            model, _, visual = pin.buildModelsFromUrdf(str(path), folders, pin.JointModelFreeFlyer())
-            neutral = pin.neutral(model)
-    except (OSError, ValueError, RuntimeError) as error:
-        raise InvalidRobot("urdf", "must be a readable URDF", f"{source!r} ({error})") from error
-    if neutral.shape != (model.nq,) or not np.isfinite(neutral).all():
-        neutral = pin.neutral(model)
-    neutral[:7] = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
-    for joint, angle in robot.posture.items():
-        if not model.existJointName(joint):
-            raise InvalidRobot("posture", "must name joints of the URDF", repr(joint))
-        neutral[model.joints[model.getJointId(joint)].idx_q] = angle
-    for number, end in enumerate(robot.end_effectors):
-        if not model.existFrame(end.frame):
-            raise InvalidRobot(f"end_effectors[{number}].frame", "must name a frame of the URDF", repr(end.frame))
-    return model, visual, neutral
 
 
 def _mesh(item: Any) -> Mesh | None:

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.kinematics.rotations import polygon_normal
+
 from .colours import GRASP, GROUND, OUTLINE, WALL, mix
 from .extent import Extent
-from .shapes import Mesh, polygon_normal, prism
+from .shapes import Mesh, prism
 
 if TYPE_CHECKING:
     from mcplan import Scene

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .rotations import with_axis_z
+from mcplan.kinematics.rotations import with_axis_z
 
 Array = NDArray[np.float64]
 
@@ -147,10 +147,3 @@ def tube(path: Array, radius: float, sides: int = 8) -> Mesh:
             frame = with_axis_z(tangent, frame[:, 0])  # carried along, so that the tube does not twist
         rings.append(point + radius * ring @ frame[:, :2].T)
     return loft(np.array(rings))
-
-
-def polygon_normal(outline: Array) -> Array:
-    """Unit normal of a planar polygon (n, 3), counter-clockwise about it."""
-    outline = np.asarray(outline, float)
-    normal = np.cross(outline, np.roll(outline, -1, axis=0)).sum(axis=0)
-    return np.asarray(normal / np.linalg.norm(normal))

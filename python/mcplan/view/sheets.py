@@ -14,7 +14,7 @@ from .colours import TEXT
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from .samples import Samples
+    from mcplan.kinematics.samples import Samples
 
 Array = NDArray[np.float64]
 

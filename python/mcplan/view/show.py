@@ -9,6 +9,7 @@ import numpy as np
 
 from mcplan._core import WholeBodyPlan
 from mcplan.errors import InvalidInput
+from mcplan.kinematics.samples import Samples, sample, stance_samples
 
 from .colours import end_effector_colours
 from .extent import extent_of
@@ -17,7 +18,6 @@ from .overlay import caption, plan_legend, scene_legend, timeline
 from .page import Page
 from .plan_drawing import WEIGHT_ARROW, draw_plan, draw_standing
 from .robot_stick import stick_robot
-from .samples import Samples, sample, stance_samples
 from .scene_drawing import draw_surfaces, surface_drawings
 from .show_whole_body import show_whole_body
 from .stage import Stage

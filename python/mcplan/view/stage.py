@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan.extras import require
+from mcplan.kinematics.rotations import quat_xyzw
 
 from .colours import rgb
-from .rotations import quat_xyzw
 from .shapes import Mesh
 
 Array = NDArray[np.float64]

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.kinematics.samples import Samples
+
 from .extent import Extent
-from .samples import Samples
 from .scene_drawing import SurfaceDrawing
 
 if TYPE_CHECKING:

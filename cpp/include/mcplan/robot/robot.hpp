@@ -23,6 +23,7 @@ struct EndEffector {
   std::string name;           ///< e.g. "left_foot"
   std::string kind = "foot";  ///< group that scenes may address as a whole, e.g. "foot", "hand"
   std::string frame;          ///< URDF frame, empty for robots without a URDF
+  Eigen::Vector3d frame_offset = Eigen::Vector3d::Zero();  ///< [m] contact point in the axes of the URDF frame
   Eigen::Vector2d half_size =
       Eigen::Vector2d::Zero();  ///< [m] half length and half width of the sole; 0: point contact
   Eigen::Vector3d nominal_B = Eigen::Vector3d::Zero();    ///< [m] nominal position relative to the CoM

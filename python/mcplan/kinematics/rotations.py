@@ -1,4 +1,4 @@
-"""Rotations of the viewer: small, vectorised where frames are many."""
+"""Rotations and poses: small, vectorised where frames are many."""
 
 from __future__ import annotations
 
@@ -83,3 +83,10 @@ def pose(rotation: Array, position: Array) -> Array:
     result[..., :3, 3] = position
     result[..., 3, 3] = 1.0
     return result
+
+
+def polygon_normal(outline: Array) -> Array:
+    """Unit normal of a planar polygon (n, 3), counter-clockwise about it."""
+    outline = np.asarray(outline, float)
+    normal = np.cross(outline, np.roll(outline, -1, axis=0)).sum(axis=0)
+    return np.asarray(normal / np.linalg.norm(normal))

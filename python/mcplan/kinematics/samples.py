@@ -1,4 +1,4 @@
-"""A plan sampled for drawing: bodies at a frame rate, and the intervals in which contacts last."""
+"""A plan sampled: bodies at a frame rate, and the intervals in which contacts last."""
 
 from __future__ import annotations
 
@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .rotations import between, from_rpy, with_axis_z
-from .shapes import polygon_normal
+from .rotations import between, from_rpy, polygon_normal, with_axis_z
 
 if TYPE_CHECKING:
     from mcplan import Plan, Robot, Scene

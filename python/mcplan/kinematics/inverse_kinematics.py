@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .samples import Samples
-
 if TYPE_CHECKING:
-    from mcplan import Robot
+    from .samples import Samples
+    from .urdf_model import UrdfModel
 
 Array = NDArray[np.float64]
 
@@ -47,25 +46,18 @@ class Postures:
     where: str
 
 
-def follow(model: Any, neutral: Array, samples: Samples, robot: Robot) -> Postures:
-    """Find a posture for every sample.
+def follow(loaded: UrdfModel, samples: Samples) -> Postures:
+    """Find a posture for every sample, near to the robot's own.
 
     Args:
-        model: Pinocchio model with a free-flyer.
-        neutral: Configuration (nq,) to stay near: the nominal stance, feet flat, facing along x.
+        loaded: The robot's model.
         samples: The plan.
-        robot: End-effectors with frames of the model.
     """
     import pinocchio as pin  # type: ignore[import-untyped]
 
-    data = model.createData()
-    frames = [model.getFrameId(end.frame) for end in robot.end_effectors]
-    pin.framesForwardKinematics(model, data, neutral)
-    # How each frame is turned against its sole: in the nominal stance soles lie flat and point ahead.
-    local = [data.oMf[f].rotation.copy() for f in frames]
-    q = neutral.copy()
-    q[:3] += samples.com_W[0] - pin.centerOfMass(model, data, neutral)
-    solver = _Solver(pin, model, data, robot, frames, local, neutral)
+    q = loaded.neutral.copy()
+    q[:3] += samples.com_W[0] - pin.centerOfMass(loaded.model, loaded.model.createData(), q)
+    solver = _Solver(pin, loaded)
     configurations, worst, where = [], 0.0, ""
     for n in range(samples.count):
         q = solver.solve(q, samples, n, iterations=80 if n == 0 else 12)
@@ -77,18 +69,10 @@ def follow(model: Any, neutral: Array, samples: Samples, robot: Robot) -> Postur
 
 
 class _Solver:
-    def __init__(
-        self,
-        pin: Any,
-        model: Any,
-        data: Any,
-        robot: Robot,
-        frames: list[int],
-        local: list[Array],
-        neutral: Array,
-    ) -> None:
-        self.pin, self.model, self.data, self.robot = pin, model, data, robot
-        self.frames, self.local, self.neutral = frames, local, neutral
+    def __init__(self, pin: Any, loaded: UrdfModel) -> None:
+        self.pin, self.model, self.data = pin, loaded.model, loaded.model.createData()
+        self.robot, self.frames, self.neutral = loaded.robot, loaded.frames, loaded.neutral
+        model = loaded.model
         self.posture = np.full(model.nv, POSTURE**2)
         self.posture[:6] = 0.0
         low, high = model.lowerPositionLimit.copy(), model.upperPositionLimit.copy()
@@ -155,7 +139,7 @@ class _Solver:
             errors.append(weight * (samples.positions_W[n, end] - placement.translation))
             jacobians.append(weight * jacobian[:3])
             if foot and np.asarray(self.robot.end_effectors[end].half_size).all():
-                wanted = samples.rotations_W[n, end] @ self.local[end]
+                wanted = samples.rotations_W[n, end]
                 weight = FREE_SOLE if samples.has_points and samples.surfaces[n, end] < 0 else SOLE
                 errors.append(weight * pin.log3(wanted @ placement.rotation.T))
                 jacobians.append(weight * jacobian[3:])

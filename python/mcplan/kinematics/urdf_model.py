@@ -1,0 +1,100 @@
+"""The URDF of a robot as Pinocchio's model, with a frame for each end-effector's contact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.errors import InvalidRobot
+from mcplan.extras import require
+
+if TYPE_CHECKING:
+    from mcplan._core import Robot
+
+Array = NDArray[np.float64]
+
+PACKAGE = "example-robot-data:"
+
+
+@dataclass(frozen=True)
+class UrdfModel:
+    """A robot's URDF, read.
+
+    Attributes:
+        robot: What it was read for.
+        model: Pinocchio model with a free-flyer, and the contact frames among its frames.
+        visual: Its visual geometry.
+        neutral: (nq,) configuration: free-flyer at the origin, joints in the robot's posture.
+        frames: Index of the contact frame of each end-effector: at its contact point, axes those of the base when the
+            robot is in its posture. The z axis of a sole's frame is the normal of the ground on which it lies flat.
+        path: The URDF file.
+    """
+
+    robot: Robot
+    model: Any
+    visual: Any
+    neutral: Array
+    frames: list[int]
+    path: Path
+
+
+def load_model(robot: Robot) -> UrdfModel:
+    """Read the URDF of a robot.
+
+    Raises:
+        MissingExtra: Pinocchio, or example-robot-data that the robot asks for, is not installed.
+        InvalidRobot: The robot names no URDF, it cannot be read, or it lacks a frame or joint that the robot names.
+    """
+    if not robot.urdf:
+        raise InvalidRobot("urdf", "must name a URDF: this robot has no joints", "''")
+    require(f"the joints of {robot.name}", "view", "pinocchio")
+    import pinocchio as pin  # type: ignore[import-untyped]
+
+    source = robot.urdf
+    try:
+        if source.startswith(PACKAGE):
+            require(f"the joints of {robot.name}", "view", "example_robot_data")
+            import example_robot_data  # type: ignore[import-untyped]
+
+            wrapper = example_robot_data.load(source[len(PACKAGE) :])
+            model, visual, neutral = wrapper.model, wrapper.visual_model, wrapper.q0.copy()
+            path = Path(wrapper.urdf)
+        else:
+            path = Path(source).resolve(strict=True)
+            folders = [str(folder) for folder in list(path.parents)[:5]]
+            model, _, visual = pin.buildModelsFromUrdf(str(path), folders, pin.JointModelFreeFlyer())
+            neutral = pin.neutral(model)
+    except (OSError, ValueError, RuntimeError) as error:
+        raise InvalidRobot("urdf", "must be a readable URDF", f"{source!r} ({error})") from error
+    if neutral.shape != (model.nq,) or not np.isfinite(neutral).all():
+        neutral = pin.neutral(model)
+    neutral[:7] = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+    for joint, angle in robot.posture.items():
+        if not model.existJointName(joint):
+            raise InvalidRobot("posture", "must name joints of the URDF", repr(joint))
+        neutral[model.joints[model.getJointId(joint)].idx_q] = angle
+    return UrdfModel(robot, model, visual, neutral, _contact_frames(model, neutral, robot), path)
+
+
+def _contact_frames(model: Any, neutral: Array, robot: Robot) -> list[int]:
+    import pinocchio as pin
+
+    for number, end in enumerate(robot.end_effectors):
+        if not model.existFrame(end.frame):
+            raise InvalidRobot(f"end_effectors[{number}].frame", "must name a frame of the URDF", repr(end.frame))
+    data = model.createData()
+    pin.framesForwardKinematics(model, data, neutral)
+    frames = []
+    for end in robot.end_effectors:
+        # Links and joints may bear one name: the link's frame is meant where there is one.
+        link = model.getBodyId(end.frame) if model.existBodyName(end.frame) else model.getFrameId(end.frame)
+        joint = model.frames[link].parentJoint
+        placement_W = pin.SE3(np.eye(3), data.oMf[link].act(np.asarray(end.frame_offset, float)))
+        placement = data.oMi[joint].actInv(placement_W)
+        contact = pin.Frame(f"mcplan/{end.name}", joint, link, placement, pin.FrameType.OP_FRAME)
+        frames.append(model.addFrame(contact, False))
+    return frames

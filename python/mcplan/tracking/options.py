@@ -1,0 +1,117 @@
+"""What a run may be asked for: plain data with defaults."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+
+import numpy as np
+
+from mcplan.errors import InvalidOptions
+
+
+@dataclass(frozen=True)
+class Push:
+    """A force on the robot's base.
+
+    Attributes:
+        force_N: Its size.
+        duration_s: How long it acts.
+        at_s: When it begins.
+        direction_deg: Where it points, in the ground plane: 0 forward (x of the world), 90 to the left.
+    """
+
+    force_N: float
+    duration_s: float
+    at_s: float
+    direction_deg: float = 90.0
+
+    def force_W(self, time_s: float) -> np.ndarray:
+        """(3,) [N] at a time."""
+        angle = np.radians(self.direction_deg)
+        acts = self.at_s <= time_s < self.at_s + self.duration_s
+        return acts * self.force_N * np.array([np.cos(angle), np.sin(angle), 0.0])
+
+
+@dataclass(frozen=True)
+class Gains:
+    """Weights and gains of the controller's tasks: the same for every robot and plan.
+
+    Each task asks for the acceleration a_reference + kp (x_reference - x) + kd (v_reference - v), kd = 2 sqrt(kp).
+    """
+
+    com_kp: float = 40.0
+    com_weight: float = 10.0
+    base_kp: float = 80.0
+    base_weight: float = 1.0
+    momentum_kp: float = 5.0  # damping of the angular momentum about the CoM
+    momentum_weight: float = 0.01
+    swing_kp: float = 200.0
+    swing_weight: float = 20.0
+    contact_kp: float = 60.0
+    contact_weight: float = 1e3
+    hand_weight: float = 100.0
+    posture_kp: float = 20.0
+    posture_weight: float = 0.01
+    force_weight: float = 1e-6
+
+
+@dataclass(frozen=True)
+class Options:
+    """How a plan is tracked.
+
+    Attributes:
+        simulation_step_s: Of MuJoCo.
+        control_step_s: Of the controller; a multiple of the simulation's.
+        assist: Hold the base with a clipped wrench, as the assisted set-up of Tazaki's paper does with inertia.
+        pushes: Forces on the base.
+        mass_scale: Factor on the masses of the simulated robot that the controller does not know of.
+        friction_scale: Factor on the friction of the simulated surfaces that the controller does not know of.
+        ground_shift_m: Height by which the simulated surfaces lie above the planned ones.
+        seed: Of the disturbances drawn in addition (see ``disturbed``); 0: none are drawn.
+        hold_s: Time for which the last state of the plan is held at the end.
+        gains: Of the controller.
+    """
+
+    simulation_step_s: float = 0.001
+    control_step_s: float = 0.002
+    assist: bool = False
+    pushes: tuple[Push, ...] = ()
+    mass_scale: float = 1.0
+    friction_scale: float = 1.0
+    ground_shift_m: float = 0.0
+    seed: int = 0
+    hold_s: float = 1.0
+    gains: Gains = field(default_factory=Gains)
+
+    def validate(self) -> None:
+        """Raise InvalidOptions naming the first field out of its range."""
+        ratio = self.control_step_s / self.simulation_step_s if self.simulation_step_s > 0 else 0.0
+        _require(
+            "simulation_step_s",
+            "must be above 0 and at most 0.005 s",
+            self.simulation_step_s,
+            0 < self.simulation_step_s <= 0.005,
+        )
+        _require(
+            "control_step_s",
+            "must be a multiple of simulation_step_s",
+            self.control_step_s,
+            ratio >= 1 and abs(ratio - round(ratio)) < 1e-9,
+        )
+        _require("mass_scale", "must lie in 0.2 to 5", self.mass_scale, 0.2 <= self.mass_scale <= 5)
+        _require(
+            "friction_scale", "must lie above 0 and at most 10", self.friction_scale, 0 < self.friction_scale <= 10
+        )
+        _require("ground_shift_m", "must lie in -0.2 to 0.2", self.ground_shift_m, abs(self.ground_shift_m) <= 0.2)
+        _require("hold_s", "must lie in 0 to 60", self.hold_s, 0 <= self.hold_s <= 60)
+        _require("seed", "must not be negative", self.seed, self.seed >= 0)
+        for i, push in enumerate(self.pushes):
+            for item in fields(push):
+                value = getattr(push, item.name)
+                _require(f"pushes[{i}].{item.name}", "must be finite", value, bool(np.isfinite(value)))
+            _require(f"pushes[{i}].duration_s", "must not be negative", push.duration_s, push.duration_s >= 0)
+
+
+def _require(field_name: str, rule: str, value: object, holds: bool) -> None:
+    if not holds:
+        raise InvalidOptions(field_name, rule, value)

@@ -1,0 +1,63 @@
+"""What a robot did in a run, sampled: all that pictures, plots and measures are made from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from mcplan._core import Plan
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Recording:
+    """A run: n instants, one a control step; nv velocities, nj joints, e end-effectors in the order of the robot's.
+
+    World frame W, z up, SI units. `_plan` says what the plan asks for at that instant.
+
+    Attributes:
+        plan: What was tracked; it carries scene and robot.
+        joints: Names of the nj joints, in the order of configuration[7:].
+        times_s: (n,) from 0.
+        configurations: (n, 7 + nj) base position [m], base quaternion xyzw, joint positions [rad]: Pinocchio's order.
+        velocities: (n, 6 + nj) as Pinocchio has them: base linear and angular in the base's axes, joints [rad/s].
+        torques: (n, nj) applied [N m].
+        torque_limits: (nj,) [N m].
+        com_W, com_plan_W: (n, 3) [m].
+        angular_momentum_W, angular_momentum_plan_W: (n, 3) about the CoM [kg m^2/s].
+        base_quat_xyzw_plan: (n, 4).
+        ends_W, ends_plan_W: (n, e, 3) contact points [m].
+        forces_W, forces_plan_W: (n, e, 3) contact forces on the robot [N]: the simulator's, and the plan's.
+        contacts: (n, e) whether the simulator's contact force exceeds a few newtons.
+        contacts_plan: (n, e) surface index, -1: free.
+        assist: (n, 6) wrench of the assistance on the base: force, moment [N, N m].
+        pushes_W: (n, 3) [N].
+        fell_at_s: Time at which the robot fell; infinite: it did not.
+    """
+
+    plan: Plan
+    joints: tuple[str, ...]
+    times_s: Array
+    configurations: Array
+    velocities: Array
+    torques: Array
+    torque_limits: Array
+    com_W: Array
+    com_plan_W: Array
+    angular_momentum_W: Array
+    angular_momentum_plan_W: Array
+    base_quat_xyzw_plan: Array
+    ends_W: Array
+    ends_plan_W: Array
+    forces_W: Array
+    forces_plan_W: Array
+    contacts: NDArray[np.bool_]
+    contacts_plan: NDArray[np.int64]
+    assist: Array
+    pushes_W: Array
+    fell_at_s: float
