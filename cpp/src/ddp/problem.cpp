@@ -120,6 +120,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
   const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
   base_rpy = Vector3d(0.0, 0.0, from.yaw);
+  make_foothold_margins(from.yaw);
   const auto state_of = [&](const ResolvedStance& stance) {
     VectorXd x = VectorXd::Zero(layout.nx());
     x.segment<3>(layout.com()) = stance.com_W / units.length;
@@ -136,6 +137,29 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     goal_contacts.push_back(to.contacts[e]);
   }
   make_reference(state_of(to));
+}
+
+void Problem::make_foothold_margins(double yaw) {
+  const Vector3d heading(std::cos(yaw), std::sin(yaw), 0.0);
+  for (int e : active) {
+    const Eigen::Vector2d half = robot.end_effectors[e].half_size / units.length;
+    std::vector<std::vector<double>>& of_end = foothold_margins_.emplace_back();
+    for (const Polygon& polygon : polygons) {
+      // On a wall that is faced the two are parallel: its width is taken to lie level then.
+      Vector3d across = polygon.normal_W().cross(heading);
+      if (across.norm() < 1e-6) across = Vector3d::UnitZ().cross(heading);
+      across.normalize();
+      const Vector3d along = across.cross(polygon.normal_W());
+      std::vector<double>& of_surface = of_end.emplace_back();
+      for (int i = 0; i < polygon.edge_count(); ++i) {
+        const Vector3d& outward = polygon.edge_outward_W(i);
+        const double extent = half[0] * std::abs(along.dot(outward)) + half[1] * std::abs(across.dot(outward));
+        double width = 0.0;
+        for (const Vector3d& vertex : polygon.vertices_W()) width = std::max(width, -polygon.overshoot(i, vertex));
+        of_surface.push_back(std::min(options.sole_inside * extent, 0.5 * width));
+      }
+    }
+  }
 }
 
 /// As many steps as the end-effectors that stand need to cover the way one after the other, a swing and a phase of full
