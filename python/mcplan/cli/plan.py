@@ -57,7 +57,7 @@ def plan(
     import mcplan
     from mcplan.files.scenes import scaled
 
-    result = mcplan.plan(scaled(mcplan.load_scene(scene), scale), robot, **options)
+    result = mcplan.plan(scene if scale == 1.0 else scaled(mcplan.load_scene(scene), scale), robot, **options)
     write_outputs(result.plan, result.report, output, html, plots)
     print(json_module.dumps(summary(result)) if json else report_text(result, [output, html, plots]))
     return 0 if str(result.report.status) == "solved" else 1

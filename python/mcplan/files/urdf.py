@@ -165,8 +165,8 @@ def robot_from_urdf(
     import pinocchio as pin
 
     setup = SETUPS.get(source)
-    ends = ends_of(source, ends)
     model, nominal, urdf = load_model(source, ends, srdf, posture)
+    ends = ends_of(source, ends)
     if not any(end.kind == "foot" for end in ends):
         raise InvalidInput("ends", "needs one of kind foot at least, whose height is the ground's")
 
@@ -279,21 +279,21 @@ def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...]) ->
 
 
 def load_model(
-    source: str, ends: tuple[End, ...], srdf: str | None = None, posture: Mapping[str, float] | None = None
+    source: str, ends: tuple[End, ...] = (), srdf: str | None = None, posture: Mapping[str, float] | None = None
 ) -> tuple[Any, np.ndarray, str]:
     """Pinocchio model with a free base, nominal posture, and what to write as `urdf` of the robot.
 
     Args:
         source: A name of example-robot-data, or the path of a URDF file.
-        ends: Whose links must exist.
+        ends: Whose links must exist; may be empty for the names in SETUPS.
         srdf: With the nominal posture, for a URDF file.
         posture: Angles [rad] by joint, set on top of that; None: those in SETUPS.
 
     Raises:
-        InvalidInput: No such file and no such name in example-robot-data, or no such link or joint.
+        InvalidInput: No such file and no such name in example-robot-data, no such link or joint, or no ends.
     """
     model, nominal, urdf = _read(source, srdf)
-    for end in ends:
+    for end in ends_of(source, ends):
         if not model.existBodyName(end.frame):
             raise InvalidInput(f"ends.{end.name}", "must name a link of the URDF", repr(end.frame))
     if posture is None:
