@@ -46,13 +46,12 @@ struct Options {
   StiffnessInput stiffness_input = StiffnessInput::mu;
   Weights weights;
 
-  double duration_min_s = 0.15, duration_max_s = 0.50;  ///< soft box of the phase durations
+  double duration_min_s = 0.0, duration_max_s = 0.0;  ///< soft box of the phase durations; 0: the robot's
   double flight_duration_min_s = 0.40;  ///< lower bound of phases without any contact (the paper's for all)
   double duration_initial_s = 0.45;
   double proximal_weight = 30.0;     ///< first weight on the change of the inputs; adapts
   int interior_points = 4;           ///< instants inside each phase at which reach, force and friction are held
   double reach_margin_m = 0.003;     ///< the reach box is planned smaller by this
-  double sole_inside = 0.0;          ///< share of a sole's half size by which footholds keep from edges; 1: all of it on
   bool friction = true;              ///< hold the friction cones
   bool whole_sequence_moves = true;  ///< dynamic programming over (step, contact state) where it pays
   bool one_switch_per_step = true;   ///< Tazaki's eq. (32)
