@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.kinematics.rotations import rotations_of
 from mcplan.kinematics.samples import sample_at
 
 if TYPE_CHECKING:
@@ -60,6 +61,11 @@ class References:
     @property
     def count(self) -> int:
         return len(self.com_W)
+
+    def with_base(self, quats_xyzw: Array) -> References:
+        """The same with other orientations of the base, (n, 4)."""
+        base_WB = rotations_of(quats_xyzw)
+        return replace(self, base_WB=base_WB, base_velocity_W=_angular_velocity(base_WB, self.dt_s))
 
 
 def references(plan: Plan, robot: Robot, dt_s: float, hold_s: float) -> References:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan._core import Plan, Robot
+from mcplan._core import ForceLaw, Plan, Robot
 from mcplan.errors import InvalidInput
 from mcplan.extras import require
 from mcplan.kinematics.inverse_kinematics import follow
@@ -21,6 +21,7 @@ from mcplan.kinematics.urdf_model import UrdfModel
 from .assist import assistance
 from .measures import measure
 from .options import Options
+from .postures import postures_along
 from .recorder import Recorder
 from .references import References, references
 from .result import TrackingResult
@@ -72,11 +73,17 @@ def track(
 
     model = mujoco_model.build(body, plan.scene, options)
     loaded = model.loaded
-    simulation = Simulation(model, options)
+    simulation = Simulation(model)
     wanted = references(plan, body, options.control_step_s, options.hold_s)
     start, end = _posture_at(loaded, plan, 0.0), _posture_at(loaded, plan, wanted.duration_s)
     simulation.reset(start, np.zeros(loaded.model.nv))
-    return _run(plan, loaded, simulation, wanted, start, end, options, progress)
+    posture = start
+    if any(phase.law != ForceLaw.pendulum for phase in plan.phases):
+        # Such plans know nothing of the base: how it is turned has to suit the legs.
+        posture = postures_along(loaded, plan, wanted.count, options.control_step_s)
+        wanted = wanted.with_base(posture[:, 3:7])
+        end = posture[-1]
+    return _run(plan, loaded, simulation, wanted, posture, end, options, progress)
 
 
 def robot_for(plan: Plan, robot: Robot | str | Path | None) -> Robot:
@@ -129,14 +136,14 @@ def _run(
     loaded: UrdfModel,
     simulation: Simulation,
     wanted: References,
-    start: Array,
+    posture: Array,
     end: Array,
     options: Options,
     progress: Callable[[float, float], None] | None,
 ) -> TrackingResult:
     from .controller import Controller
 
-    controller = Controller(loaded, plan.scene, wanted, start, options.gains)
+    controller = Controller(loaded, plan.scene, wanted, posture, options.gains)
     recorder = Recorder(plan, loaded, simulation.model.joints, wanted)
     touch_N = TOUCH * controller.body.mass * plan.scene.gravity
     steps = round(options.control_step_s / options.simulation_step_s)
