@@ -18,6 +18,11 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 PACKAGE = "example-robot-data:"
+#: Inertia of the rotor, seen at the joint, of joints for which URDF and SRDF give none [kg m^2]. Geared joints have some,
+#: and without it light distal links turn too easily to be simulated.
+ARMATURE = 0.01
+#: Of links that move [kg] and of their principal inertias [kg m^2]: some URDFs have links without any.
+LEAST_MASS, LEAST_INERTIA = 1e-6, 1e-9
 
 
 @dataclass(frozen=True)
@@ -26,7 +31,8 @@ class UrdfModel:
 
     Attributes:
         robot: What it was read for.
-        model: Pinocchio model with a free-flyer, and the contact frames among its frames.
+        model: Pinocchio model with a free-flyer, and the contact frames among its frames. Every joint has the inertia of a
+            rotor, `model.armature`, and every link one that a body can have.
         visual: Its visual geometry.
         neutral: (nq,) configuration: free-flyer at the origin, joints in the robot's posture.
         frames: Index of the contact frame of each end-effector: at its contact point, axes those of the base when the
@@ -77,7 +83,25 @@ def load_model(robot: Robot) -> UrdfModel:
         if not model.existJointName(joint):
             raise InvalidRobot("posture", "must name joints of the URDF", repr(joint))
         neutral[model.joints[model.getJointId(joint)].idx_q] = angle
+    armature = model.armature.copy()
+    armature[6:] = np.where(armature[6:] > 0.0, armature[6:], ARMATURE)
+    model.armature = armature
+    for joint in range(1, model.njoints):
+        _make_physical(model, joint)
     return UrdfModel(robot, model, visual, neutral, _contact_frames(model, neutral, robot), path)
+
+
+def _make_physical(model: Any, joint: int) -> None:
+    """Mend a mass or an inertia that no body has: zero, or one principal moment above the sum of the others."""
+    import pinocchio as pin
+
+    inertia = model.inertias[joint]
+    moments, axes = np.linalg.eigh(inertia.inertia)
+    mended = np.maximum(moments, LEAST_INERTIA)
+    mended[2] = min(mended[2], mended[0] + mended[1])
+    mass = max(inertia.mass, LEAST_MASS)
+    if mass != inertia.mass or not np.allclose(mended, moments, rtol=0.0, atol=1e-12):
+        model.inertias[joint] = pin.Inertia(mass, inertia.lever, axes @ np.diag(mended) @ axes.T)
 
 
 def _contact_frames(model: Any, neutral: Array, robot: Robot) -> list[int]:
