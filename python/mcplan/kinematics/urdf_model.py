@@ -61,9 +61,10 @@ def load_model(robot: Robot) -> UrdfModel:
     import pinocchio as pin  # type: ignore[import-untyped]
 
     source = robot.urdf
+    if source.startswith(PACKAGE):
+        require(f"the joints of {robot.name}", "view", "example_robot_data")
     try:
         if source.startswith(PACKAGE):
-            require(f"the joints of {robot.name}", "view", "example_robot_data")
             import example_robot_data  # type: ignore[import-untyped]
 
             wrapper = example_robot_data.load(source[len(PACKAGE) :])
@@ -74,7 +75,7 @@ def load_model(robot: Robot) -> UrdfModel:
             folders = [str(folder) for folder in list(path.parents)[:5]]
             model, _, visual = pin.buildModelsFromUrdf(str(path), folders, pin.JointModelFreeFlyer())
             neutral = pin.neutral(model)
-    except (OSError, ValueError, RuntimeError) as error:
+    except Exception as error:  # loaders of robots raise what the file system or the parser happen to raise
         raise InvalidRobot("urdf", "must be a readable URDF", f"{source!r} ({error})") from error
     if neutral.shape != (model.nq,) or not np.isfinite(neutral).all():
         neutral = pin.neutral(model)
