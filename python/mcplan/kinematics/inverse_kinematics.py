@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
+    from mcplan import EndEffector
+
     from .samples import Samples
     from .urdf_model import UrdfModel
 
@@ -39,11 +41,17 @@ class Postures:
         configurations: (n, nq), Pinocchio's order, free-flyer first.
         residual: Largest distance by which CoM or an end-effector in contact misses the plan [m].
         where: Sample and name of that residual, for messages.
+        com_misses: (n,) distance of the CoM from the plan's [m].
+        end_misses: (n, e) distances of the end-effectors, free ones too [m].
+        tilts: (n, e) angle between a sole and the plan's [rad]; 0 for end-effectors without a sole.
     """
 
     configurations: Array
     residual: float
     where: str
+    com_misses: Array
+    end_misses: Array
+    tilts: Array
 
 
 def follow(loaded: UrdfModel, samples: Samples) -> Postures:
@@ -58,14 +66,23 @@ def follow(loaded: UrdfModel, samples: Samples) -> Postures:
     q = loaded.neutral.copy()
     q[:3] += samples.com_W[0] - pin.centerOfMass(loaded.model, loaded.model.createData(), q)
     solver = _Solver(pin, loaded)
-    configurations, worst, where = [], 0.0, ""
+    ends = loaded.robot.end_effectors
+    configurations, com_misses = [], np.zeros(samples.count)
+    end_misses, tilts = np.zeros((samples.count, len(ends))), np.zeros((samples.count, len(ends)))
     for n in range(samples.count):
         q = solver.solve(q, samples, n, iterations=80 if n == 0 else 12)
         configurations.append(q.copy())
-        for name, miss in solver.misses(q, samples, n):
-            if miss > worst:
-                worst, where = miss, f"{name} at {samples.times_s[n]:.2f} s"
-    return Postures(np.array(configurations), worst, where)
+        com_misses[n], end_misses[n], tilts[n] = solver.misses(q, samples, n)
+    counted = np.column_stack([com_misses, np.where(samples.surfaces >= 0, end_misses, 0.0)])
+    at, which = np.unravel_index(np.argmax(counted), counted.shape)
+    name = "the CoM" if which == 0 else ends[which - 1].name
+    where = f"{name} at {samples.times_s[at]:.2f} s"
+    return Postures(np.array(configurations), float(counted.max()), where, com_misses, end_misses, tilts)
+
+
+def has_sole(end: EndEffector) -> bool:
+    """Whether an end-effector is turned to lie flat on the ground."""
+    return bool(end.kind == "foot" and np.asarray(end.half_size).all())
 
 
 class _Solver:
@@ -109,14 +126,17 @@ class _Solver:
             free &= ~out
         return step
 
-    def misses(self, q: Array, samples: Samples, n: int) -> list[tuple[str, float]]:
-        self.pin.framesForwardKinematics(self.model, self.data, q)
-        found = [("the CoM", samples.com_W[n] - self.pin.centerOfMass(self.model, self.data, q))]
+    def misses(self, q: Array, samples: Samples, n: int) -> tuple[float, Array, Array]:
+        """Of the CoM, of the end-effectors [m], and the tilts of soles [rad]."""
+        pin, data = self.pin, self.data
+        pin.framesForwardKinematics(self.model, data, q)
+        com = float(np.linalg.norm(samples.com_W[n] - pin.centerOfMass(self.model, data, q)))
+        ends, tilts = np.zeros(len(self.frames)), np.zeros(len(self.frames))
         for end, frame in enumerate(self.frames):
-            if samples.surfaces[n, end] >= 0:
-                name = self.robot.end_effectors[end].name
-                found.append((name, samples.positions_W[n, end] - self.data.oMf[frame].translation))
-        return [(name, float(np.linalg.norm(miss))) for name, miss in found]
+            ends[end] = np.linalg.norm(samples.positions_W[n, end] - data.oMf[frame].translation)
+            if has_sole(self.robot.end_effectors[end]):
+                tilts[end] = np.linalg.norm(pin.log3(samples.rotations_W[n, end] @ data.oMf[frame].rotation.T))
+        return com, ends, tilts
 
     def _tasks(self, q: Array, samples: Samples, n: int) -> tuple[list[Array], list[Array]]:
         """Weighted errors and Jacobians, in the world's axes."""
@@ -138,7 +158,7 @@ class _Solver:
             weight = CONTACT if samples.surfaces[n, end] >= 0 else SWING if foot else HAND
             errors.append(weight * (samples.positions_W[n, end] - placement.translation))
             jacobians.append(weight * jacobian[:3])
-            if foot and np.asarray(self.robot.end_effectors[end].half_size).all():
+            if has_sole(self.robot.end_effectors[end]):
                 wanted = samples.rotations_W[n, end]
                 weight = FREE_SOLE if samples.has_points and samples.surfaces[n, end] < 0 else SOLE
                 errors.append(weight * pin.log3(wanted @ placement.rotation.T))
