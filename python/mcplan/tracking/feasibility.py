@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mcplan.errors import InvalidInput, InvalidRobot
 from mcplan.extras import require
-from mcplan.kinematics.inverse_kinematics import Postures, follow, has_sole
+from mcplan.kinematics.inverse_kinematics import Postures, follow, has_sole, nearest, smoothed
 from mcplan.kinematics.samples import Samples, knots_and_between, sample_at
 
 from .arm_strength import largest_force_N
@@ -77,9 +77,11 @@ def assess(plan: Plan, robot: Robot | None = None, payload_kg: float = 0.0) -> F
     times = knots_and_between(plan, RATE)
     loaded, samples = _matched(plan, loaded, sample_at(plan, plan.scene, plan.robot, times))
     postures = follow(loaded, samples)
+    moving = smoothed(loaded, samples, postures)
     acceleration = np.array([plan.at(float(t)).com_acceleration_W for t in times])
     mass = sum(inertia.mass for inertia in loaded.model.inertias)
-    torques = posture_torques(loaded, plan.scene, samples, postures, acceleration, mass / plan.robot.mass)
+    torques = posture_torques(loaded, plan.scene, samples, moving, acceleration, mass / plan.robot.mass)
+    postures = nearest(loaded, samples, postures, moving)
     case = _Case(plan, loaded, samples, postures, torques)
     findings = [
         *_reach(case),
@@ -164,7 +166,7 @@ def _velocities(case: _Case) -> list[Finding]:
 
 
 def _per_joint(case: _Case, name: str, values: Array, limits: Array, unit: str) -> list[Finding]:
-    """Joints that a limb with an end-effector moves; the others only keep their posture."""
+    """The largest value of each joint that has a limit."""
     findings, model = [], case.loaded.model
     for joint in range(2, model.njoints):
         v = model.joints[joint].idx_v - 6

@@ -31,6 +31,7 @@ class PostureTorques:
 
     Attributes:
         velocities, accelerations: (n, 6 + nj) Pinocchio's order and axes.
+        planned: (n, nj) whether a joint carries a contact or moves a foot, so that its motion is the plan's.
         torques: (n, nj) [N m].
         residuals: (n, 6) what the contacts cannot bear, in the base's axes: force [N], moment [N m].
         forces_W: (n, e, 3) contact forces that balance the postures [N].
@@ -38,6 +39,7 @@ class PostureTorques:
 
     velocities: Array
     accelerations: Array
+    planned: NDArray[np.bool_]
     torques: Array
     residuals: Array
     forces_W: Array
@@ -54,7 +56,8 @@ def posture_torques(
     """Torques by inverse dynamics, tau = rnea(q, v, a) - sum J^T w, with contact wrenches w near to the plan's.
 
     Velocities and accelerations come from parabolas through neighbouring postures. The acceleration of the CoM is the
-    plan's: it jumps where contacts change, and a parabola would smear that.
+    plan's: it jumps where contacts change, and a parabola would smear that. Joints that neither carry a contact nor swing
+    a foot are not the plan's: their torques are those that hold them at rest.
 
     Args:
         loaded: The robot's model; its end-effectors are those of the samples.
@@ -71,6 +74,7 @@ def posture_torques(
     result = PostureTorques(
         velocities=np.zeros((count, model.nv)),
         accelerations=np.zeros((count, model.nv)),
+        planned=np.zeros((count, model.nv - 6), dtype=bool),
         torques=np.zeros((count, model.nv - 6)),
         residuals=np.zeros((count, 6)),
         forces_W=np.zeros((count, len(loaded.frames), 3)),
@@ -80,6 +84,10 @@ def posture_torques(
         v, a = motion(pin, model, samples.times_s, postures.configurations, n)
         a[:3] += _base_correction(pin, model, data, q, v, a, com_acceleration_W[n])
         needed = pin.rnea(model, data, q, v, a)
+        planned = result.planned[n] = _planned(loaded, samples, n)
+        at_rest = np.zeros(model.nv)
+        at_rest[:3] = data.oMi[1].rotation.T @ com_acceleration_W[n]
+        needed[6:][~planned] = pin.rnea(model, data, q, np.zeros(model.nv), at_rest)[6:][~planned]
         ends = [end for end in range(len(loaded.frames)) if samples.surfaces[n, end] >= 0]
         contacts = [_contact(pin, loaded, data, scene, samples, n, end, force_scale, q) for end in ends]
         wrenches, residual = balanced_wrenches(contacts, needed[:6], height)
@@ -103,6 +111,17 @@ def motion(pin: Any, model: Any, times: Array, configurations: Array, n: int) ->
     away = np.array([pin.difference(model, configurations[n], configurations[k]) for k in near])
     fit = np.linalg.lstsq(np.column_stack([np.ones_like(since), since, 0.5 * since**2]), away, rcond=None)[0]
     return fit[1], fit[2]
+
+
+def _planned(loaded: UrdfModel, samples: Samples, n: int) -> NDArray[np.bool_]:
+    """Joints between the base and every foot, and every end-effector in contact."""
+    model = loaded.model
+    result = np.zeros(model.nv - 6, dtype=bool)
+    for end, frame in enumerate(loaded.frames):
+        if loaded.robot.end_effectors[end].kind == "foot" or samples.surfaces[n, end] >= 0:
+            joints = [joint for joint in model.supports[model.frames[frame].parentJoint] if joint > 1]
+            result[[model.joints[joint].idx_v - 6 for joint in joints]] = True
+    return result
 
 
 def _base_correction(pin: Any, model: Any, data: Any, q: Array, v: Array, a: Array, wanted_W: Array) -> Array:
