@@ -68,9 +68,10 @@ def robots(
         planar_robots.print_planar_robot(load_planar_robot(name))
     else:
         robot = load_robot(name)
+        strengths = robots_strength.strengths(robot, seed) if strength else []
         _print_robot(robot)
         if strength:
-            robots_strength.print_strength(robot, seed)
+            robots_strength.print_strengths(strengths)
 
 
 def _print_list() -> None:

@@ -80,7 +80,7 @@ def follow(loaded: UrdfModel, samples: Samples, near: Array | None = None) -> Po
     for n in range(samples.count):
         if near is not None:
             q = solver.home = near[n]
-        q = solver.solve(q, samples, n, iterations=80 if n == 0 else 12 if near is None else 30)
+        q = solver.solve(q, samples, n, iterations=80 if n == 0 else 12)
         configurations.append(q.copy())
         com_misses[n], end_misses[n], tilts[n] = solver.misses(q, samples, n)
     return _postures(loaded, samples, np.array(configurations), com_misses, end_misses, tilts)

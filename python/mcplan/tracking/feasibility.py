@@ -68,10 +68,7 @@ def assess(plan: Plan, robot: Robot | None = None, payload_kg: float = 0.0) -> F
         raise InvalidInput("payload_kg", "must be 0 or more", str(payload_kg))
     robot = plan.robot if robot is None else robot
     require("telling whether a robot can follow a plan", "view", "pinocchio", "scipy")
-    try:
-        loaded = load_model(robot)
-    except InvalidRobot as error:
-        raise InvalidRobot(error.field, error.rule, error.value, error.source or robot.name) from None
+    loaded = load_model(robot)
     if payload_kg:
         loaded.model.inertias[1].mass += payload_kg
     times = knots_and_between(plan, RATE)

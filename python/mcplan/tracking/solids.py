@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+#: Points so little below the underside are still inside [m]: a step stands on the floor, as the sole beside it does.
+UNDERSIDE = 0.01
+
 
 class Solids:
     """Prisms: a surface is the top of one, its thickness goes down along the surface's normal."""
@@ -35,13 +38,15 @@ class Solids:
             points_W: (k, 3) [m].
 
         Returns:
-            (k, s) [m], s solids: negative inside, by the way out to the nearest side; outside, the distance to the plane
-            of the side that is farthest, which is at most the distance to the solid.
+            (k, s) [m], s solids: negative inside, by the way out through the top or the nearest side; outside, the
+            distance to the plane of the side that is farthest, which is at most the distance to the solid.
         """
         points_W = np.asarray(points_W, float)
         result = np.empty((len(points_W), len(self._solids)))
         for i, (outline, normal, outward, thickness) in enumerate(self._solids):
             height = (points_W - outline[0]) @ normal
             beyond = (np.einsum("kej,ej->ke", points_W[:, None] - outline, outward)).max(axis=1)
-            result[:, i] = np.maximum.reduce([height, beyond, -height - thickness])
+            below = -height - thickness
+            inside = np.maximum(height, beyond)
+            result[:, i] = np.where(below > UNDERSIDE, np.maximum(inside, below), inside)
         return result
