@@ -27,7 +27,7 @@ SOLE = 3.0
 FREE_BASE, FREE_SOLE = 0.2, 0.2
 POSTURE = 0.05
 #: Against a given motion: of joints of legs, and of all that the plan leaves open (turning of the base, torso, arms).
-NEAR_LEG, NEAR = 0.15, 1.0
+NEAR_LEG, NEAR = 0.3, 2.0
 #: How the motion that the postures of a plan are smoothed to is made: standard deviation of the mean [s], repetitions.
 SPREAD, PASSES = 0.15, 3
 DAMPING = 1e-6
@@ -140,7 +140,7 @@ def running_means(loaded: UrdfModel, times_s: Array, configurations: Array) -> A
 
     result = np.empty_like(configurations)
     for n, q in enumerate(configurations):
-        near = np.flatnonzero(np.abs(times_s - times_s[n]) <= 3.0 * SPREAD)
+        near = np.flatnonzero(np.abs(times_s - times_s[n]) <= 3.0 * SPREAD + 1e-9)
         weights = np.exp(-0.5 * ((times_s[near] - times_s[n]) / SPREAD) ** 2)
         away = np.array([pin.difference(loaded.model, q, configurations[k]) for k in near])
         result[n] = pin.integrate(loaded.model, q, weights @ away / weights.sum())

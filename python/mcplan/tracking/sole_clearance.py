@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Depth in a solid that is accepted [m], as the checker of plans does.
-DEPTH = 0.005
+#: Depth in a solid that is accepted [m]: 5 mm as in the check of plans, and what postures may add to it.
+DEPTH = 0.006
 #: Between two postures, to see edges that a sole passes.
 CUTS = 5
 #: Part of a swing at its begin and end in which a sole is near to what it leaves and reaches.
