@@ -83,12 +83,12 @@ def timeline(
     )
     step = next(s for s in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 1e9) if duration_s / s <= 12)
     ticks = [i * step for i in range(1, int(duration_s / step) + 1)]
-    marks = "".join(
+    labels = "".join(
         f'<span style="left: {100.0 * t / duration_s:.3f}%">{t:g} s</span>' for t in ticks if t < 0.99 * duration_s
     )
     return (
         f'<div class="panel" id="timeline"><div id="names">{"".join(names)}<button id="play"></button></div>'
-        f'<div id="tracks">{"".join(tracks)}{events}<div id="axis">{marks}</div><div id="cursor"></div></div></div>'
+        f'<div id="tracks">{"".join(tracks)}{events}<div id="axis">{labels}</div><div id="cursor"></div></div></div>'
     )
 
 

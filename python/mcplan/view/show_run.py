@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,7 +21,7 @@ from .plan_drawing import WEIGHT_ARROW, contact_plate, draw_arrow, draw_contact,
 from .robot_urdf import mesh_figure
 from .run_samples import RunFrames, frames_of, stretches_of
 from .run_text import run_lines
-from .scene_drawing import SurfaceDrawing, draw_surfaces, surface_drawings
+from .scene_drawing import draw_surfaces, raised, surface_drawings
 from .shapes import ellipsoid, tube
 from .stage import Stage
 from .viewpoint import camera_direction, sun_direction, view_points
@@ -61,7 +60,7 @@ def show_run(run: Recording | TrackingResult) -> Page:
     frames = frames_of(recording, loaded, FRAME_RATE)
     samples = frames.samples
     extent = extent_of(scene, robot, samples, length=0.6, width=0.6)
-    drawings = [_raised(drawing, shift) for drawing in surface_drawings(scene, extent)]
+    drawings = [raised(drawing, shift) for drawing in surface_drawings(scene, extent)]
     stage = Stage()
     draw_surfaces(stage, drawings)
     draw_figure(stage, samples, mesh_figure(loaded, frames.configurations, colours))
@@ -102,12 +101,6 @@ def _beside(points_W: Array, forward: Array) -> Array:
     middle = points_W.mean(axis=0)
     middle[:2] += (back - middle[:2] @ forward) * forward
     return np.asarray(middle[None])
-
-
-def _raised(drawing: SurfaceDrawing, by_m: float) -> SurfaceDrawing:
-    up = np.array([0.0, 0.0, by_m])
-    mesh = replace(drawing.mesh, vertices=drawing.mesh.vertices + up)
-    return replace(drawing, outline=drawing.outline + up, mesh=mesh, grid=drawing.grid + up)
 
 
 def _draw_com(stage: Stage, recording: Recording, frames: RunFrames, robot: Robot) -> None:
@@ -156,7 +149,7 @@ def _draw_helpers(stage: Stage, frames: RunFrames, robot: Robot) -> list[str]:
         # Far smaller than the weight: an arrow of the largest is as long as one of the weight.
         away = force_W * (WEIGHT_ARROW * height + 0.1 * height * (path == "pushes")) / largest
         at = frames.base_W - away if path == "pushes" else frames.base_W
-        draw_arrow(stage, path, frames.samples.times_s, at, force_W, largest, height, colour)
+        draw_arrow(stage, path, frames.samples.times_s, at, force_W, largest, height, colour, on_top=True)
         legend.append(entry(path, "line", colour, f"{text} (up to {largest:.0f} N)"))
     return legend
 
