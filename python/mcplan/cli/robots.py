@@ -17,20 +17,24 @@ def robots(
     name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Built-in name or TOML file.")] = None,
     from_urdf: Annotated[
         str | None,
-        typer.Option("--from-urdf", metavar="URDF", help="Work out a robot: a URDF file, or talos or anymal."),
+        typer.Option("--from-urdf", metavar="URDF", help="Work out a robot: a URDF file, or talos, anymal or g1."),
     ] = None,
     end: Annotated[
         list[str] | None,
         typer.Option(
             "--end",
-            metavar="NAME=FRAME[:KIND[:LxW]]",
-            help="End-effector, its URDF frame, kind and half size; with --planar NAME=FRAME[:POINT,...].",
+            metavar="NAME=FRAME[:KIND[:LxW[:X,Y,Z]]]",
+            help="End-effector: URDF link, kind, half size, contact point; with --planar NAME=FRAME[:POINT,...].",
         ),
     ] = None,
     planar: Annotated[
         bool, typer.Option("--planar", help="With --from-urdf: a planar robot, of joints about one axis, for sip.")
     ] = False,
     srdf: Annotated[Path | None, typer.Option("--srdf", metavar="FILE", help="Nominal posture: its first one.")] = None,
+    posture: Annotated[
+        list[str] | None,
+        typer.Option("--posture", metavar="JOINT=ANGLE", help="Angle of a joint [rad] in the nominal posture."),
+    ] = None,
     reach_polytopes: Annotated[
         bool, typer.Option("--reach-polytopes", help="With --from-urdf: the reach of feet as polytopes too, for rhp.")
     ] = False,
@@ -47,16 +51,20 @@ def robots(
     from mcplan.files.planar_robots import load_planar_robot
     from mcplan.files.robots import load_robot
 
-    for option, given in (("--reach-polytopes", reach_polytopes), ("--planar", planar)):
+    for option, given in (("--reach-polytopes", reach_polytopes), ("--planar", planar), ("--posture", bool(posture))):
         if given and from_urdf is None:
             raise InvalidInput(option, "needs --from-urdf")
-    for option, given in (("--reach-polytopes", reach_polytopes), ("--srdf", srdf is not None)):
+    for option, given in (
+        ("--reach-polytopes", reach_polytopes),
+        ("--srdf", srdf is not None),
+        ("--posture", bool(posture)),
+    ):
         if given and planar:
             raise InvalidInput(option, "may not stand beside --planar")
     if from_urdf is not None and planar:
         planar_robots.planar_robot_from_urdf(from_urdf, end or [], output)
     elif from_urdf is not None:
-        _from_urdf(from_urdf, end or [], srdf, output, faces if reach_polytopes else None, seed)
+        _from_urdf(from_urdf, end or [], srdf, posture or [], output, faces if reach_polytopes else None, seed)
     elif name is None:
         _print_list()
     elif planar_robots.is_planar(name):
@@ -76,26 +84,44 @@ def _print_list() -> None:
 
 
 def _from_urdf(
-    source: str, ends: list[str], srdf: Path | None, output: Path | None, faces: int | None, seed: int
+    source: str,
+    ends: list[str],
+    srdf: Path | None,
+    posture: list[str],
+    output: Path | None,
+    faces: int | None,
+    seed: int,
 ) -> None:
     """faces: of the reach polytopes; None: without them."""
     from mcplan.files import reach_polytopes
     from mcplan.files.robots import robot_to_dict, save_robot
     from mcplan.files.toml import toml_text
-    from mcplan.files.urdf import header, robot_from_urdf
+    from mcplan.files.urdf import SETUPS, header, robot_from_urdf
 
     parsed, srdf_path = tuple(_parse_end(text) for text in ends), str(srdf) if srdf else None
-    robot = robot_from_urdf(source, parsed, srdf=srdf_path, seed=seed)
+    angles = dict(_parse_angle(text) for text in posture) if posture else None
+    robot = robot_from_urdf(source, parsed, srdf=srdf_path, posture=angles, seed=seed)
     words = ["mcplan robots --from-urdf", source, *(f"--end {text}" for text in ends)]
     words += [f"--srdf {srdf}"] if srdf else []
+    words += [f"--posture {text}" for text in posture]
     if faces is not None:
         words += ["--reach-polytopes", *([f"--faces {faces}"] if faces != reach_polytopes.FACES else [])]
     words += [f"--seed {seed}"] if seed else []
     words += [f"-o {output}"] if output else []
-    comment = header(" ".join(words))
+    own_posture = bool(
+        posture or (source in SETUPS and SETUPS[source].posture) or (Path(source).is_file() and not srdf)
+    )
+    comment = header(" ".join(words), own_posture=own_posture)
     if faces is not None:
         reach_polytopes.add_reach_polytopes(
-            robot, source, parsed, srdf_path, faces, seed=seed, progress=lambda line: print(line, file=sys.stderr)
+            robot,
+            source,
+            parsed,
+            srdf_path,
+            angles,
+            faces,
+            seed=seed,
+            progress=lambda line: print(line, file=sys.stderr),
         )
         comment += "\n" + reach_polytopes.header(faces, seed)
     if output is None:
@@ -112,11 +138,23 @@ def _parse_end(text: str) -> End:
 
     try:
         name, rest = text.split("=", 1)
-        frame, kind, size = [*rest.split(":"), "foot", "0x0"][:3] if ":" not in rest else [*rest.split(":"), "0x0"][:3]
+        parts = rest.split(":")
+        frame, kind, size, point = [*parts, *["", "foot", "0x0", "0,0,0"][len(parts) :]]
         length, width = (float(part) for part in size.split("x"))
+        x, y, z = (float(part) for part in point.split(","))
     except ValueError:
-        raise InvalidInput("--end", "must read NAME=FRAME[:KIND[:LENGTHxWIDTH]]", repr(text)) from None
-    return End(name, frame, kind, (length, width))
+        raise InvalidInput("--end", "must read NAME=FRAME[:KIND[:LENGTHxWIDTH[:X,Y,Z]]]", repr(text)) from None
+    return End(name, frame, kind, (length, width), frame_offset=(x, y, z))
+
+
+def _parse_angle(text: str) -> tuple[str, float]:
+    from mcplan.errors import InvalidInput
+
+    try:
+        joint, angle = text.split("=", 1)
+        return joint, float(angle)
+    except ValueError:
+        raise InvalidInput("--posture", "must read JOINT=ANGLE", repr(text)) from None
 
 
 def _print_robot(robot: Robot) -> None:

@@ -18,7 +18,7 @@ reach is not quite convex, it may still hold points that are not reached. What l
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -55,6 +55,7 @@ def add_reach_polytopes(
     source: str,
     ends: Sequence[End] = (),
     srdf: str | None = None,
+    posture: Mapping[str, float] | None = None,
     faces: int = FACES,
     samples: int = SAMPLES,
     seed: int = 0,
@@ -66,7 +67,7 @@ def add_reach_polytopes(
         robot: As worked out by robot_from_urdf from the same source.
         source: A name of example-robot-data, or the path of a URDF file.
         ends: End-effectors; may be empty for the names in SETUPS.
-        srdf: As given to robot_from_urdf.
+        srdf, posture: As given to robot_from_urdf.
         faces: Largest number of faces of a polytope, 6 at least.
         samples: Postures drawn for each leg, 1000 at least.
         seed: Of the draws; the same seed gives the same polytopes.
@@ -82,13 +83,13 @@ def add_reach_polytopes(
         raise InvalidInput("--faces", "must be at least 6", str(faces))
     if samples < 1000:
         raise InvalidInput("samples", "must be at least 1000", str(samples))
-    model, posture, _ = load_model(source, srdf)
     ends = ends_of(source, tuple(ends))
+    model, nominal, _ = load_model(source, ends, srdf, posture)
     feet = [end for end in ends if end.kind == "foot"]
     made = {end.name: end for end in robot.end_effectors}
     clouds = {}
     for number, foot in enumerate(feet):
-        limb = limb_of(model, posture, foot, tuple(ends))
+        limb = limb_of(model, nominal, foot, tuple(ends))
         clouds[foot.name] = leg_samples(limb, samples, np.random.default_rng([seed, number]))
         if len(clouds[foot.name]) < 100:
             raise InvalidInput(

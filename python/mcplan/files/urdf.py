@@ -2,6 +2,7 @@
 
     mcplan robots --from-urdf talos -o talos.toml
     mcplan robots --from-urdf anymal -o anymal.toml
+    mcplan robots --from-urdf g1 -o g1.toml
 
 How each number comes about is written in the file's header; see also ``mcplan.files.reach``.
 """
@@ -9,7 +10,8 @@ How each number comes about is written in the file's header; see also ``mcplan.f
 from __future__ import annotations
 
 import textwrap
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +31,7 @@ _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
 
 HEADER = (
-    "Mass, inertia (its diagonal, about the CoM) and com_height are those of the URDF in the SRDF's posture. Reach "
+    "Mass, inertia (its diagonal, about the CoM) and com_height are those of the URDF in {posture}. Reach "
     "boxes: the largest box around the nominal position whose every grid point ({step} m apart) is reached by inverse "
     "kinematics within the joint limits: base upright, other limbs nominal, soles level, feet on their own side of the "
     "body. Left and right are given the same box. max_force of feet: {foot} times the weight; of hands: the upward "
@@ -49,6 +51,7 @@ class End:
         kind: "foot" or "hand".
         half_size: Of the sole [m]; zeros: point contact.
         twin: Name of the end-effector on the other side.
+        frame_offset: Contact point in the axes of the link [m].
     """
 
     name: str
@@ -56,42 +59,74 @@ class End:
     kind: str = "foot"
     half_size: tuple[float, float] = (0.0, 0.0)
     twin: str = ""
+    frame_offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
 class Setup:
-    """End-effectors, swing height [m] and description of a robot of example-robot-data."""
+    """End-effectors, swing height [m], description and nominal posture of a robot of example-robot-data.
+
+    `posture` [rad] by joint is set on top of that of the package, which for some robots has straight legs.
+    """
 
     ends: tuple[End, ...]
     swing_height: float
     description: str
+    posture: Mapping[str, float] = field(default_factory=dict)
 
 
-def _biped_ends() -> tuple[End, ...]:
-    ends = []
-    for kind, frame, size in (
-        ("foot", "{}_sole_link", (0.10, 0.06)),
-        ("hand", "gripper_{}_base_link", (0.0, 0.0)),
-    ):
-        for side, other in (("right", "left"), ("left", "right")):
-            ends.append(End(f"{side}_{kind}", frame.format(side), kind, size, f"{other}_{kind}"))
-    return tuple(ends)
+def _pairs(*makers: Callable[[str], End]) -> tuple[End, ...]:
+    """Ends of both sides, right before left, each made by a function that is given the side."""
+    return tuple(make(side) for make in makers for side in ("right", "left"))
+
+
+def _other(side: str) -> str:
+    return "left" if side == "right" else "right"
+
+
+def _talos_foot(side: str) -> End:
+    return End(f"{side}_foot", f"{side}_sole_link", "foot", (0.10, 0.06), f"{_other(side)}_foot")
+
+
+def _talos_hand(side: str) -> End:
+    return End(f"{side}_hand", f"gripper_{side}_base_link", "hand", twin=f"{_other(side)}_hand")
+
+
+def _g1_foot(side: str) -> End:
+    """The rectangle among the four balls that the URDF gives the sole to touch with."""
+    return End(
+        f"{side}_foot", f"{side}_ankle_roll_link", "foot", (0.085, 0.025), f"{_other(side)}_foot", (0.035, 0.0, -0.035)
+    )
+
+
+def _g1_hand(side: str) -> End:
+    """The middle of the rubber hand."""
+    return End(
+        f"{side}_hand", f"{side}_rubber_hand", "hand", twin=f"{_other(side)}_hand", frame_offset=(0.09, 0.0, 0.0)
+    )
+
+
+def _g1_posture() -> dict[str, float]:
+    """Knees bent, soles level and below the upright base, their middle below the CoM; arms bent and off the body."""
+    posture = {}
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        legs = {"hip_pitch": -0.3122, "knee": 0.7, "ankle_pitch": -0.3878}
+        arms = {"shoulder_pitch": 0.25, "shoulder_roll": sign * 0.25, "elbow": 0.9}
+        posture |= {f"{side}_{name}_joint": angle for name, angle in (legs | arms).items()}
+    return posture
+
+
+def _anymal_foot(leg: str) -> End:
+    twin = {"RF": "lf", "LF": "rf", "RH": "lh", "LH": "rh"}[leg]
+    return End(f"{leg.lower()}_foot", f"{leg}_FOOT", twin=f"{twin}_foot")
 
 
 SETUPS = {
-    "talos": Setup(_biped_ends(), 0.10, "PAL Robotics TALOS: two feet, two hands"),
+    "talos": Setup(_pairs(_talos_foot, _talos_hand), 0.10, "PAL Robotics TALOS: two feet, two hands"),
     "anymal": Setup(
-        tuple(
-            End(
-                f"{leg.lower()}_foot",
-                f"{leg}_FOOT",
-                twin=f"{'r' if leg[0] == 'L' else 'l'}{leg[1].lower()}_foot",
-            )
-            for leg in ("RF", "LF", "RH", "LH")
-        ),
-        0.07,
-        "ANYbotics ANYmal B: four point feet",
+        tuple(_anymal_foot(leg) for leg in ("RF", "LF", "RH", "LH")), 0.07, "ANYbotics ANYmal B: four point feet"
     ),
+    "g1": Setup(_pairs(_g1_foot, _g1_hand), 0.08, "Unitree G1: two feet, two hands", _g1_posture()),
 }
 
 
@@ -99,6 +134,7 @@ def robot_from_urdf(
     source: str,
     ends: tuple[End, ...] = (),
     srdf: str | None = None,
+    posture: Mapping[str, float] | None = None,
     swing_height: float = 0.10,
     step: float = 0.02,
     seed: int = 0,
@@ -109,42 +145,41 @@ def robot_from_urdf(
         source: A name of example-robot-data ("talos", "anymal"), or the path of a URDF file.
         ends: End-effectors; may be empty for the names in SETUPS.
         srdf: SRDF file with the nominal posture (its first one), for a URDF file; None: the neutral one.
+        posture: Angles [rad] by joint, set on top of that.
         swing_height: For a URDF file [m].
         step: Grid of the reach boxes [m].
         seed: Of the random starts of inverse kinematics.
 
     Raises:
         MissingExtra: Pinocchio is not installed.
-        InvalidInput: No such URDF, frame or setup.
+        InvalidInput: No such URDF, frame, joint or setup.
     """
     require("mcplan robots --from-urdf", "view", "pinocchio", "example_robot_data")
     import pinocchio as pin
 
     setup = SETUPS.get(source)
-    model, posture, urdf = load_model(source, srdf)
     ends = ends_of(source, ends)
-    for end in ends:
-        if not model.existBodyName(end.frame):
-            raise InvalidInput(f"ends.{end.name}", "must name a link of the URDF", repr(end.frame))
+    model, nominal, urdf = load_model(source, ends, srdf, posture)
     if not any(end.kind == "foot" for end in ends):
         raise InvalidInput("ends", "needs one of kind foot at least, whose height is the ground's")
 
+    frames = [contact_frame(model, end) for end in ends]
     data = model.createData()
-    pin.ccrba(model, data, posture, np.zeros(model.nv))
+    pin.ccrba(model, data, nominal, np.zeros(model.nv))
     mass, com = float(pin.computeTotalMass(model)), data.com[0].copy()
-    pin.framesForwardKinematics(model, data, posture)
-    soles = [data.oMf[frame_id(model, end.frame)].translation[2] for end in ends if end.kind == "foot"]
+    pin.framesForwardKinematics(model, data, nominal)
+    soles = [data.oMf[f].translation[2] for f, end in zip(frames, ends, strict=True) if end.kind == "foot"]
     com_height = float(com[2] - np.mean(soles))
 
     made = {}
     for end in ends:
-        limb = limb_of(model, posture, end, ends)
-        nominal = limb.position(limb.nominal)
+        limb = limb_of(model, nominal, end, ends)
+        position = limb.position(limb.nominal)
         if end.kind == "foot":
             # Forces point at the CoM: a stance wider than the friction cone cannot stand, so it is drawn in.
-            nominal[:2] *= min(1.0, STANCE_TANGENT * com_height / np.hypot(*nominal[:2]))
-        low, high = _search_box(nominal, end, com_height)
-        made[end.name] = (nominal, *largest_box(explore(limb, low, high, step, seed)))
+            position[:2] *= min(1.0, STANCE_TANGENT * com_height / np.hypot(*position[:2]))
+        low, high = _search_box(position, end, com_height)
+        made[end.name] = (position, *largest_box(explore(limb, low, high, step, seed)))
     weight = mass * GRAVITY
     return Robot(
         name=Path(source).stem,
@@ -154,20 +189,33 @@ def robot_from_urdf(
         com_height=round(com_height, 3),
         swing_height=setup.swing_height if setup else swing_height,
         end_effectors=[
-            _end_effector(end, *_both_sides(made, end, com_height), weight, com_height, model, posture) for end in ends
+            _end_effector(end, *_both_sides(made, end, com_height), weight, com_height, model, nominal) for end in ends
         ],
         urdf=urdf,
         posture={
-            model.names[j]: round(float(posture[model.idx_qs[j]]), 4)
+            model.names[j]: round(float(nominal[model.idx_qs[j]]), 4)
             for j in range(2, model.njoints)
             if model.nqs[j] == 1
         },
     )
 
 
-def header(command: str, step: float = 0.02) -> str:
-    """Comment on top of a file made from a URDF: the command, and where each number comes from."""
-    text = HEADER.format(tangent=STANCE_TANGENT, step=step, foot=FOOT_FORCE, inset=HAND_INSET_M, moment=SOLE_MOMENT)
+def header(command: str, step: float = 0.02, own_posture: bool = False) -> str:
+    """Comment on top of a file made from a URDF: the command, and where each number comes from.
+
+    Args:
+        command: That made it.
+        step: Grid of the reach boxes [m].
+        own_posture: The nominal posture is not the SRDF's.
+    """
+    text = HEADER.format(
+        posture="the posture below" if own_posture else "the SRDF's posture",
+        tangent=STANCE_TANGENT,
+        step=step,
+        foot=FOOT_FORCE,
+        inset=HAND_INSET_M,
+        moment=SOLE_MOMENT,
+    )
     return f"Made by: {command}\n{textwrap.fill(text, 116)}"
 
 
@@ -182,9 +230,19 @@ def ends_of(source: str, ends: tuple[End, ...] = ()) -> tuple[End, ...]:
     return ends or SETUPS[source].ends
 
 
-def frame_id(model: Any, link: str) -> int:
-    """Index of a link's frame; joints, which have frames too, may bear the same name."""
-    return model.getBodyId(link)
+def contact_frame(model: Any, end: End) -> int:
+    """Index of the frame at an end-effector's contact point, with the axes of its link; added if it is not the link's."""
+    import pinocchio as pin
+
+    link = model.getBodyId(end.frame)  # joints, which have frames too, may bear the same name
+    if not any(end.frame_offset):
+        return link
+    name = f"mcplan/{end.name}"
+    if not model.existFrame(name):
+        joint, placement = model.frames[link].parentJoint, model.frames[link].placement
+        placement = placement * pin.SE3(np.eye(3), np.asarray(end.frame_offset, float))
+        model.addFrame(pin.Frame(name, joint, link, placement, pin.FrameType.OP_FRAME), False)
+    return model.getFrameId(name)
 
 
 def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...]) -> Limb:
@@ -192,7 +250,7 @@ def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...]) ->
     import pinocchio as pin
 
     def carriers(frame: str) -> list[int]:
-        return [j for j in model.supports[model.frames[frame_id(model, frame)].parentJoint] if j > 1]
+        return [j for j in model.supports[model.frames[model.getBodyId(frame)].parentJoint] if j > 1]
 
     shared = {j for other in ends if other.name != end.name for j in carriers(other.frame)}
     own = [j for j in carriers(end.frame) if j not in shared]
@@ -205,7 +263,7 @@ def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...]) ->
     return Limb(
         reduced,
         posture[:7].copy(),
-        frame_id(reduced, end.frame),
+        contact_frame(reduced, end),
         nominal,
         lower,
         upper,
@@ -213,12 +271,34 @@ def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...]) ->
     )
 
 
-def load_model(source: str, srdf: str | None) -> tuple[Any, np.ndarray, str]:
+def load_model(
+    source: str, ends: tuple[End, ...], srdf: str | None = None, posture: Mapping[str, float] | None = None
+) -> tuple[Any, np.ndarray, str]:
     """Pinocchio model with a free base, nominal posture, and what to write as `urdf` of the robot.
 
+    Args:
+        source: A name of example-robot-data, or the path of a URDF file.
+        ends: Whose links must exist.
+        srdf: With the nominal posture, for a URDF file.
+        posture: Angles [rad] by joint, set on top of that; None: those in SETUPS.
+
     Raises:
-        InvalidInput: No such file, and no such name in example-robot-data.
+        InvalidInput: No such file and no such name in example-robot-data, or no such link or joint.
     """
+    model, nominal, urdf = _read(source, srdf)
+    for end in ends:
+        if not model.existBodyName(end.frame):
+            raise InvalidInput(f"ends.{end.name}", "must name a link of the URDF", repr(end.frame))
+    if posture is None:
+        posture = SETUPS[source].posture if source in SETUPS else {}
+    for joint, angle in posture.items():
+        if not model.existJointName(joint) or model.nqs[model.getJointId(joint)] != 1:
+            raise InvalidInput(f"posture.{joint}", "must name a joint of the URDF that has one angle")
+        nominal[model.idx_qs[model.getJointId(joint)]] = angle
+    return model, nominal, urdf
+
+
+def _read(source: str, srdf: str | None) -> tuple[Any, np.ndarray, str]:
     import pinocchio as pin
 
     if Path(source).is_file():
@@ -284,6 +364,7 @@ def _end_effector(
         name=end.name,
         kind=end.kind,
         frame=end.frame,
+        frame_offset=end.frame_offset,
         half_size=end.half_size,
         nominal_B=nominal,
         reach_min_B=low,
@@ -297,8 +378,8 @@ def _arm_force(model: Any, posture: np.ndarray, end: End) -> float:
     """Largest upward contact force [N] that the joints' torque limits bear in the nominal posture."""
     import pinocchio as pin
 
+    frame = contact_frame(model, end)
     data = model.createData()
-    frame = frame_id(model, end.frame)
     per_newton = pin.computeFrameJacobian(model, data, posture, frame, pin.LOCAL_WORLD_ALIGNED)[2, 6:]
     gravity = pin.computeGeneralizedGravity(model, data, posture)[6:]
     limits = model.effortLimit[6:]

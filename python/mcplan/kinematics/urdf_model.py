@@ -18,6 +18,11 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 PACKAGE = "example-robot-data:"
+#: Inertia of the rotor, seen at the joint, of joints for which URDF and SRDF give none [kg m^2]. Geared joints have some,
+#: and without it light distal links turn too easily to be simulated.
+ARMATURE = 0.01
+#: Of links that move [kg] and of their principal inertias [kg m^2]: some URDFs have links without any.
+LEAST_MASS, LEAST_INERTIA = 1e-6, 1e-9
 
 
 @dataclass(frozen=True)
@@ -26,7 +31,8 @@ class UrdfModel:
 
     Attributes:
         robot: What it was read for.
-        model: Pinocchio model with a free-flyer, and the contact frames among its frames.
+        model: Pinocchio model with a free-flyer, and the contact frames among its frames. Every joint has the inertia of a
+            rotor, `model.armature`, and every link one that a body can have.
         visual: Its visual geometry.
         neutral: (nq,) configuration: free-flyer at the origin, joints in the robot's posture.
         frames: Index of the contact frame of each end-effector: at its contact point, axes those of the base when the
@@ -55,9 +61,10 @@ def load_model(robot: Robot) -> UrdfModel:
     import pinocchio as pin  # type: ignore[import-untyped]
 
     source = robot.urdf
+    if source.startswith(PACKAGE):
+        require(f"the joints of {robot.name}", "view", "example_robot_data")
     try:
         if source.startswith(PACKAGE):
-            require(f"the joints of {robot.name}", "view", "example_robot_data")
             import example_robot_data  # type: ignore[import-untyped]
 
             wrapper = example_robot_data.load(source[len(PACKAGE) :])
@@ -68,7 +75,7 @@ def load_model(robot: Robot) -> UrdfModel:
             folders = [str(folder) for folder in list(path.parents)[:5]]
             model, _, visual = pin.buildModelsFromUrdf(str(path), folders, pin.JointModelFreeFlyer())
             neutral = pin.neutral(model)
-    except (OSError, ValueError, RuntimeError) as error:
+    except Exception as error:  # loaders of robots raise what the file system or the parser happen to raise
         raise InvalidRobot("urdf", "must be a readable URDF", f"{source!r} ({error})") from error
     if neutral.shape != (model.nq,) or not np.isfinite(neutral).all():
         neutral = pin.neutral(model)
@@ -77,7 +84,25 @@ def load_model(robot: Robot) -> UrdfModel:
         if not model.existJointName(joint):
             raise InvalidRobot("posture", "must name joints of the URDF", repr(joint))
         neutral[model.joints[model.getJointId(joint)].idx_q] = angle
+    armature = model.armature.copy()
+    armature[6:] = np.where(armature[6:] > 0.0, armature[6:], ARMATURE)
+    model.armature = armature
+    for joint in range(1, model.njoints):
+        _make_physical(model, joint)
     return UrdfModel(robot, model, visual, neutral, _contact_frames(model, neutral, robot), path)
+
+
+def _make_physical(model: Any, joint: int) -> None:
+    """Mend a mass or an inertia that no body has: zero, or one principal moment above the sum of the others."""
+    import pinocchio as pin
+
+    inertia = model.inertias[joint]
+    moments, axes = np.linalg.eigh(inertia.inertia)
+    mended = np.maximum(moments, LEAST_INERTIA)
+    mended[2] = min(mended[2], mended[0] + mended[1])
+    mass = max(inertia.mass, LEAST_MASS)
+    if mass != inertia.mass or not np.allclose(mended, moments, rtol=0.0, atol=1e-12):
+        model.inertias[joint] = pin.Inertia(mass, inertia.lever, axes @ np.diag(mended) @ axes.T)
 
 
 def _contact_frames(model: Any, neutral: Array, robot: Robot) -> list[int]:

@@ -1,0 +1,188 @@
+"""A robot and a scene as a MuJoCo model that agrees with Pinocchio's of the same URDF."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.errors import InvalidRobot
+from mcplan.extras import require
+from mcplan.kinematics.urdf_model import UrdfModel, load_model
+
+from .options import Options
+from .terrain import ROBOT_BIT, TERRAIN_BIT, add_terrain
+from .urdf_text import rewrite
+
+if TYPE_CHECKING:
+    from mcplan._core import EndEffector, Robot, Scene
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+#: Half height of the box that a sole is [m]; its bottom is the sole.
+SOLE_HALF_HEIGHT_M = 0.01
+#: Radius of the ball that touches where an end-effector has no sole [m].
+BALL_RADIUS_M = 0.02
+#: Time constant [s] and damping ratio of contacts: stiffer than MuJoCo's default of 0.02 s, with which soles sink in by
+#: millimetres.
+CONTACT_SOLREF = (0.005, 1.0)
+
+
+@dataclass(frozen=True)
+class SimulationModel:
+    """A robot on a scene's terrain; e end-effectors, s surfaces, nj joints in Pinocchio's order.
+
+    Attributes:
+        loaded: Pinocchio's model, with the scene's gravity.
+        mj: mujoco.MjModel; qpos and qvel begin with those of the base.
+        joints: Their names.
+        qpos_index, dof_index, actuator_index: (nj,) where each joint is in qpos, qvel and ctrl.
+        torque_limits: (nj,) [N m].
+        base_body: Body of the base.
+        end_geoms: Geoms of each end-effector.
+        surface_geoms: Geom of each surface.
+    """
+
+    loaded: UrdfModel
+    mj: Any
+    joints: tuple[str, ...]
+    qpos_index: Indices
+    dof_index: Indices
+    actuator_index: Indices
+    torque_limits: Array
+    base_body: int
+    end_geoms: tuple[tuple[int, ...], ...]
+    surface_geoms: tuple[int, ...]
+
+
+def build(robot: Robot, scene: Scene, options: Options | None = None, visual: bool = False) -> SimulationModel:
+    """Make the MuJoCo model of a robot on a scene's terrain.
+
+    Joints have no damping and no dry friction, but the inertia of their rotors; motors give torques up to the URDF's limits.
+    Of the robot only end-effectors touch the terrain: a sole is a box whose bottom is the sole, any other end a ball that
+    touches at the contact point (above it for feet, on the way to the wrist for hands).
+
+    Args:
+        robot: With a URDF.
+        scene: Surfaces and gravity.
+        options: Step, and factors of mass, friction and height; None: the defaults.
+        visual: Keep the robot's visual meshes, for pictures; they touch nothing.
+
+    Raises:
+        MissingExtra: mujoco or Pinocchio is not installed.
+        InvalidRobot: The URDF cannot be simulated; the message says why.
+        InvalidOptions: An option is out of its range.
+    """
+    require(f"the simulation of {robot.name}", "sim", "mujoco", "pinocchio")
+    import mujoco
+
+    options = options or Options()
+    options.validate()
+    loaded = load_model(robot)
+    model = loaded.model
+    model.gravity.linear = np.array([0.0, 0.0, -scene.gravity])
+    text, root = rewrite(loaded, visual)
+    joints = tuple(list(model.names)[2:])
+    limits = np.asarray(model.effortLimit[6:], float)
+    try:
+        spec = mujoco.MjSpec.from_string(text)
+        _only_look(spec)
+        base = spec.body(root)
+        base.add_freejoint()
+        _add_ends(spec, loaded, base)
+        add_terrain(spec, scene, options.friction_scale, options.ground_shift_m)
+        for name, limit in zip(joints, limits, strict=True):
+            _add_motor(spec, name, limit)
+        spec.compiler.fusestatic = True
+        _settings(spec, scene, options)
+        mj = spec.compile()
+    except ValueError as error:
+        raise InvalidRobot("urdf", "must be a URDF that MuJoCo can simulate", f"{robot.urdf!r} ({error})") from error
+
+    dofs = np.array([mj.joint(name).dofadr[0] for name in joints], dtype=np.int64)
+    mj.geom_solref[:] = CONTACT_SOLREF
+    mj.dof_damping[:] = 0.0
+    mj.dof_frictionloss[:] = 0.0
+    mj.dof_armature[:6] = 0.0
+    mj.dof_armature[dofs] = model.armature[6:]
+    mj.body_mass[:] *= options.mass_scale
+    mj.body_inertia[:] *= options.mass_scale
+    mujoco.mj_setConst(mj, mujoco.MjData(mj))
+    return SimulationModel(
+        loaded=loaded,
+        mj=mj,
+        joints=joints,
+        qpos_index=np.array([mj.joint(name).qposadr[0] for name in joints], dtype=np.int64),
+        dof_index=dofs,
+        actuator_index=np.array([mj.actuator(name).id for name in joints], dtype=np.int64),
+        torque_limits=limits,
+        base_body=mj.body(root).id,
+        end_geoms=tuple((mj.geom(f"end/{end.name}").id,) for end in robot.end_effectors),
+        surface_geoms=tuple(mj.geom(f"surface/{i}").id for i in range(len(scene.surfaces))),
+    )
+
+
+def _only_look(spec: Any) -> None:
+    """The robot's visual shapes touch nothing and weigh nothing."""
+    for geom in spec.geoms:
+        geom.contype = geom.conaffinity = 0
+        geom.density, geom.group = 0.0, 1
+
+
+def _add_ends(spec: Any, loaded: UrdfModel, base: Any) -> None:
+    import mujoco
+    import pinocchio as pin  # type: ignore[import-untyped]
+
+    for end, frame in zip(loaded.robot.end_effectors, loaded.frames, strict=True):
+        joint, placement = loaded.model.frames[frame].parentJoint, loaded.model.frames[frame].placement
+        body = base if joint == 1 else spec.joint(loaded.model.names[joint]).parent
+        x, y, z, w = pin.Quaternion(placement.rotation).coeffs()
+        geom = body.add_geom(name=f"end/{end.name}", quat=[w, x, y, z])
+        if np.asarray(end.half_size).all():
+            geom.type = mujoco.mjtGeom.mjGEOM_BOX
+            geom.size = [*end.half_size, SOLE_HALF_HEIGHT_M]
+            geom.pos = placement.act(np.array([0.0, 0.0, SOLE_HALF_HEIGHT_M]))
+        else:
+            geom.type = mujoco.mjtGeom.mjGEOM_SPHERE
+            geom.size = [BALL_RADIUS_M, 0.0, 0.0]
+            geom.pos = placement.translation + BALL_RADIUS_M * _inwards(end, placement)
+        geom.contype, geom.conaffinity = ROBOT_BIT, TERRAIN_BIT
+        geom.density, geom.group = 0.0, 3
+
+
+def _inwards(end: EndEffector, placement: Any) -> Array:
+    """Direction from a contact point to the centre of its ball, in the axes of the joint that carries it.
+
+    Feet touch what is below them. Hands touch in many postures, mostly with what is farthest from the wrist.
+    """
+    distance = np.linalg.norm(placement.translation)
+    if end.kind == "foot" or distance < BALL_RADIUS_M:
+        return np.asarray(placement.rotation[:, 2])
+    return np.asarray(-placement.translation / distance)
+
+
+def _add_motor(spec: Any, joint: str, limit: float) -> None:
+    import mujoco
+
+    motor = spec.add_actuator(name=joint, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+    if np.isfinite(limit):
+        motor.ctrllimited = True
+        motor.ctrlrange = [-max(limit, 1e-9), max(limit, 1e-9)]  # MuJoCo takes no empty range
+
+
+def _settings(spec: Any, scene: Scene, options: Options) -> None:
+    import mujoco
+
+    spec.option.timestep = options.simulation_step_s
+    spec.option.gravity = [0.0, 0.0, -scene.gravity]
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.solver = mujoco.mjtSolver.mjSOL_NEWTON
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    # A run that blows up must be seen as such, not start again at the origin.
+    spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
+    # MuJoCo has it always on from 4.0: several contacts of a box on a mesh, without which soles rock.
+    several = getattr(mujoco.mjtEnableBit, "mjENBL_MULTICCD", 0)
+    spec.option.enableflags |= int(several)

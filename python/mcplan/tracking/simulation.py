@@ -1,0 +1,125 @@
+"""A robot in MuJoCo: torques in, states and contact forces out, all in Pinocchio's conventions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .states import to_mujoco, to_pinocchio
+
+if TYPE_CHECKING:
+    from .mujoco_model import SimulationModel
+
+Array = NDArray[np.float64]
+
+#: A speed that no robot has [m/s, rad/s]: the simulation has blown up.
+FASTEST = 1e4
+
+
+class Simulation:
+    """A run of MuJoCo.
+
+    e end-effectors, nj joints in Pinocchio's order. Contact forces are those of the last step taken; zero before the first.
+
+    Attributes:
+        model: What is simulated.
+        data: mujoco.MjData.
+        broke: The state is not finite or beyond reason; the run is worth nothing from there on.
+    """
+
+    def __init__(self, model: SimulationModel) -> None:
+        import mujoco
+
+        self.model, self._mj = model, model.mj
+        self.data = mujoco.MjData(model.mj)
+        self._step = mujoco.mj_step
+        self.broke = False
+        self._end_of_geom = np.full(model.mj.ngeom, -1)
+        for number, geoms in enumerate(model.end_geoms):
+            self._end_of_geom[list(geoms)] = number
+
+    @property
+    def time_s(self) -> float:
+        """Since the last reset."""
+        return float(self.data.time)
+
+    @property
+    def warnings(self) -> int:
+        """Warnings of MuJoCo since the last reset, all kinds together."""
+        return int(sum(warning.number for warning in self.data.warning))
+
+    def reset(self, configuration: Array, velocity: Array | None = None) -> None:
+        """Put the robot into a state at time 0.
+
+        Args:
+            configuration: (7 + nj,) as Pinocchio has it.
+            velocity: (6 + nj,) as Pinocchio has it; None: at rest.
+        """
+        import mujoco
+
+        velocity = np.zeros(self._mj.nv) if velocity is None else velocity
+        mujoco.mj_resetData(self._mj, self.data)
+        self.data.qpos[:], self.data.qvel[:] = to_mujoco(self.model, configuration, velocity)
+        self.broke = False
+        mujoco.mj_forward(self._mj, self.data)
+        self.data.efc_force[:] = 0.0
+
+    def state(self) -> tuple[Array, Array]:
+        """Configuration (7 + nj,) and velocity (6 + nj,) as Pinocchio has them."""
+        return to_pinocchio(self.model, self.data.qpos, self.data.qvel)
+
+    def advance(self, torques: Array, base_wrench_W: Array | None = None, steps: int = 1) -> None:
+        """Hold torques and a wrench on the base for some steps.
+
+        Args:
+            torques: (nj,) [N m]; MuJoCo clips them to the limits.
+            base_wrench_W: (6,) force [N] through the base link's centre of mass, and moment [N m]; None: none.
+            steps: Of MuJoCo.
+        """
+        if self.broke:
+            return
+        self.data.ctrl[self.model.actuator_index] = torques
+        self.data.xfrc_applied[self.model.base_body] = 0.0 if base_wrench_W is None else base_wrench_W
+        self._step(self._mj, self.data, steps)
+        fastest = np.abs(self.data.qvel).max()
+        self.broke = not fastest < FASTEST  # also of NaN
+
+    def contact_forces_W(self) -> Array:
+        """(e, 3) force [N] of the terrain on each end-effector."""
+        ends, forces, _, _ = self._contacts()
+        out = np.zeros((len(self.model.end_geoms), 3))
+        np.add.at(out, ends, forces)
+        return out
+
+    def contact_wrenches_W(self) -> Array:
+        """(e, 6) force [N] of the terrain on each end-effector, and its moment [N m] about the world's origin."""
+        ends, forces, _, points = self._contacts()
+        out = np.zeros((len(self.model.end_geoms), 6))
+        np.add.at(out, ends, np.hstack([forces, np.cross(points, forces)]))
+        return out
+
+    def centres_of_pressure_W(self) -> Array:
+        """(e, 3) mean of the contact points weighted by their normal forces [m]; NaN without contact."""
+        ends, _, normals, points = self._contacts()
+        out, total = np.zeros((len(self.model.end_geoms), 3)), np.zeros(len(self.model.end_geoms))
+        np.add.at(out, ends, normals[:, None] * points)
+        np.add.at(total, ends, normals)
+        with np.errstate(invalid="ignore"):
+            return out / np.where(total > 0.0, total, np.nan)[:, None]
+
+    def _contacts(self) -> tuple[NDArray[np.int64], Array, Array, Array]:
+        """Of every contact: end-effector, force on it (n, 3), normal force (n,), point (n, 3), world frame."""
+        contact = self.data.contact
+        address = contact.efc_address
+        used = address >= 0
+        address = address[used]
+        # With elliptic cones the constraint forces are the components along normal and tangents.
+        local = self.data.efc_force[address[:, None] + np.arange(3)]
+        axes = contact.frame[used].reshape(-1, 3, 3)  # rows; the normal points from the first geom to the second
+        forces = np.einsum("ni,nij->nj", local, axes)
+        ends = self._end_of_geom[contact.geom[used]]
+        first = ends[:, 0] >= 0
+        forces[first] *= -1.0
+        return np.where(first, ends[:, 0], ends[:, 1]), forces, local[:, 0], contact.pos[used]
