@@ -176,9 +176,7 @@ class Renderer:
                 )
             else:
                 option.geomgroup[TERRAIN] = False
-                mj.mjv_addGeoms(
-                    self.model, self.data, option, perturbation, mj.mjtCatBit.mjCAT_ALL.value, scene
-                )
+                mj.mjv_addGeoms(self.model, self.data, option, perturbation, mj.mjtCatBit.mjCAT_ALL.value, scene)
             self._fade(first, fades[number] if fades else 0.0)
         for pair, colour in self._lines:
             self._connect(mj.mjtGeom.mjGEOM_LINE, LINE_WIDTH, pair[0], pair[1], colour)
@@ -263,7 +261,7 @@ def _model(mj: Any, figure: Figure, drawings: list[SurfaceDrawing], size: tuple[
     spec.visual.headlight.diffuse = [0.22, 0.22, 0.22]
     spec.visual.headlight.specular = [0.05, 0.05, 0.05]
     spec.visual.map.znear = 0.01
-    spec.visual.map.zfar = 15.0
+    spec.visual.map.zfar = 300.0  # far: it also scales the bias that keeps surfaces from shading themselves
     spec.stat.extent = 2.0
     spec.add_texture(
         name="sky",

@@ -77,12 +77,15 @@ def frames_of(recording: Recording, loaded: UrdfModel, rate_hz: float) -> RunFra
     for interval in intervals:
         lasts = (times >= interval.start_s) & (times <= interval.end_s)
         surfaces[lasts, interval.end_effector] = interval.surface
+    com_velocity_W = np.gradient(recording.com_W, recording.times_s, axis=0)
     samples = Samples(
         times_s=times,
         com_W=recording.com_W[chosen],
-        com_velocity_W=np.gradient(recording.com_W, recording.times_s, axis=0)[chosen],
+        com_velocity_W=com_velocity_W[chosen],
+        com_acceleration_W=np.gradient(com_velocity_W, recording.times_s, axis=0)[chosen],
         rotation_WB=rotation_WB,
         positions_W=positions,
+        velocities_W=np.gradient(recording.ends_W, recording.times_s, axis=0)[chosen],
         rotations_W=soles_W,
         forces_W=recording.forces_W[chosen],
         pressure_W=positions,

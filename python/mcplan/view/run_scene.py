@@ -91,7 +91,7 @@ def scene_of(run: Recording | TrackingResult, rate_hz: float) -> RunScene:
     recording = run.recording if isinstance(run, TrackingResult) else run
     shift = run.options.ground_shift_m if isinstance(run, TrackingResult) else 0.0
     plan = recording.plan
-    scene, robot = plan.scene, plan.robot
+    scene, robot = plan.scene, recording.body
     colours = end_effector_colours(robot)
     loaded = load_model(robot)
     frames = frames_of(recording, loaded, rate_hz)

@@ -10,7 +10,7 @@ from mcplan.tracking import Recording, TrackingResult
 def run_lines(run: Recording | TrackingResult) -> list[str]:
     """What came of a run, in two to four lines."""
     recording = run.recording if isinstance(run, TrackingResult) else run
-    robot = recording.plan.robot
+    robot = recording.body
     last = float(recording.times_s[-1])
     end = f"fell at {recording.fell_at_s:.2f} s" if np.isfinite(recording.fell_at_s) else f"{last:.2f} s without a fall"
     lines = [f"{robot.name}: {end}"]

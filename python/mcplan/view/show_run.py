@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +14,7 @@ from mcplan.kinematics.samples import contact_intervals
 from mcplan.kinematics.urdf_model import load_model
 from mcplan.tracking import Recording, TrackingResult
 
-from .colours import ASSIST, COM, PLANNED, PUSH, end_effector_colours
+from .colours import ASSIST, COM, PLANNED, PUSH, TEXT, end_effector_colours
 from .extent import extent_of
 from .overlay import caption, entry, plan_legend, timeline
 from .page import Page
@@ -54,7 +55,7 @@ def show_run(run: Recording | TrackingResult) -> Page:
     recording = run.recording if isinstance(run, TrackingResult) else run
     shift = run.options.ground_shift_m if isinstance(run, TrackingResult) else 0.0
     plan = recording.plan
-    scene, robot = plan.scene, plan.robot
+    scene, robot = plan.scene, recording.body
     colours = end_effector_colours(robot)
     loaded = load_model(robot)
     frames = frames_of(recording, loaded, FRAME_RATE)
@@ -78,7 +79,11 @@ def show_run(run: Recording | TrackingResult) -> Page:
         samples.intervals,
         colours,
         duration,
-        planned=contact_intervals(plan, scene, robot),
+        planned=[
+            replace(i, end_s=min(i.end_s, duration))
+            for i in contact_intervals(plan, scene, robot)
+            if i.start_s < duration
+        ],
         marks=_events(recording),
     )
     points = view_points(drawings, samples, robot)
@@ -163,5 +168,5 @@ def _events(recording: Recording) -> list[tuple[float, float, str, str]]:
         until = float(times[min(stop, len(times) - 1)])
         events.append((float(times[start]), until, PUSH, f"push of {pushed[start:stop].max():.0f} N"))
     if recording.fell_at_s <= times[-1]:
-        events.append((float(recording.fell_at_s), float(times[-1]), "#22262B", "fell"))
+        events.append((0.995 * float(times[-1]), float(times[-1]), TEXT, f"fell at {recording.fell_at_s:.2f} s"))
     return events
