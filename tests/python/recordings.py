@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
-import pinocchio as pin
 
 import mcplan as mp
+import plans_by_hand as by_hand
 from mcplan.kinematics.inverse_kinematics import follow
 from mcplan.kinematics.samples import sample
 from mcplan.kinematics.urdf_model import load_model
@@ -21,6 +23,8 @@ PUSH, PUSH_AT, PUSH_FOR = 40.0, 0.8, 0.2
 
 def recorded(plan: mp.Plan, rate_hz: float = 100.0, until_s: float = np.inf) -> Recording:
     """A run in which the robot follows the plan's postures, moved by OFFSET_W; torques are those of rest."""
+    import pinocchio as pin
+
     robot = plan.robot
     loaded = load_model(robot)
     model, data = loaded.model, loaded.model.createData()
@@ -78,7 +82,7 @@ def recorded(plan: mp.Plan, rate_hz: float = 100.0, until_s: float = np.inf) -> 
         contacts_plan=fine.surfaces[:n],
         assist=np.zeros((n, 6)),
         pushes_W=pushes_W,
-        fell_at_s=float(until_s),
+        fell_at_s=np.inf,
     )
 
 
@@ -102,3 +106,9 @@ def measures(**changes: float) -> Measures:
         "control_ms": 0.55,
     }
     return Measures(**(values | changes))
+
+
+@functools.cache
+def walking() -> Recording:
+    """Talos walks on flat ground for three seconds."""
+    return recorded(by_hand.walk(by_hand.flat(), by_hand.talos()), until_s=3.0)

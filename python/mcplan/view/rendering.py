@@ -255,7 +255,7 @@ def _model(mj: Any, figure: Figure, drawings: list[SurfaceDrawing], size: tuple[
     spec = mj.MjSpec()
     spec.visual.global_.offwidth, spec.visual.global_.offheight = size
     spec.visual.global_.fovy = FIELD
-    spec.visual.quality.shadowsize = 4096
+    spec.visual.quality.shadowsize = 4096 if max(size) > 800 else 2048
     spec.visual.quality.offsamples = 4
     spec.visual.headlight.ambient = [0.42, 0.42, 0.42]
     spec.visual.headlight.diffuse = [0.22, 0.22, 0.22]

@@ -127,7 +127,7 @@ def stretches_of(active: NDArray[np.bool_]) -> list[tuple[int, int]]:
 def _stretches(active: NDArray[np.bool_], times_s: Array) -> list[tuple[int, int]]:
     joined: list[tuple[int, int]] = []
     for start, stop in stretches_of(active):
-        if joined and times_s[start] - times_s[joined[-1][1] - 1] <= SHORT:
+        if joined and times_s[start] - times_s[joined[-1][1]] <= SHORT + 1e-9:
             joined[-1] = (joined[-1][0], stop)
         else:
             joined.append((start, stop))

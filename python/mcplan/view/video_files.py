@@ -24,7 +24,7 @@ def find_ffmpeg() -> str | None:
     """Path of an ffmpeg: the one on the path, else that of the package imageio-ffmpeg; None: there is neither."""
     found = shutil.which("ffmpeg")
     if found is None and importlib.util.find_spec("imageio_ffmpeg") is not None:
-        import imageio_ffmpeg  # type: ignore[import-not-found,unused-ignore]
+        import imageio_ffmpeg
 
         try:
             found = str(imageio_ffmpeg.get_ffmpeg_exe())
