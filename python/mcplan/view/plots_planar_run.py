@@ -153,7 +153,7 @@ def plot_planar_run_torques(recording: PlanarRecording) -> Figure:
 
     handles = [
         Line2D([], [], color=PLANNED, linewidth=3.0, alpha=0.75, label="feed-forward (planned)"),
-        Line2D([], [], color=mix(BODY, TEXT, 0.45), linewidth=1.2, label="applied"),
+        Line2D([], [], color=colour_of[0], linewidth=1.2, label="applied"),
         Line2D([], [], color=TEXT, linewidth=0.8, label="feedback"),
         Line2D([], [], color=LIMIT, linewidth=1.0, label="limit, where it is near"),
     ]

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from mcplan.errors import InvalidInput
 from mcplan.extras import require
-from mcplan.tracking import Recording, TrackingResult
+from mcplan.tracking import TrackingResult
 
 from .colours import COM
 from .rendering import FIELD, Eye, Renderer
 from .rendering import Path as Line
-from .run_scene import RunScene, scene_of
+from .run_scene import Run, RunScene, scene_of
 
 Array = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
@@ -29,7 +29,7 @@ INK = (34, 38, 43)
 
 
 def save_run_strip(
-    run: Recording | TrackingResult,
+    run: Run,
     path: str | Path,
     frames: int | Sequence[float] = 8,
     columns: int | None = None,
@@ -38,7 +38,7 @@ def save_run_strip(
     """Write a PNG of the robot at several instants, side by side, with the time under each.
 
     Args:
-        run: A recording, or the result of tracking.
+        run: A recording, also of a planar robot, or the result of tracking.
         path: File to write.
         frames: Number of instants, equally spaced from start to end, or the instants [s].
         columns: Frames in a row; None: up to eight.
@@ -66,23 +66,22 @@ def save_run_strip(
     rows = -(-len(chosen) // columns)
     sheet = Image.new("RGB", (width, rows * (height + line)), "white")
     font, draw = ImageFont.load_default(ink), ImageDraw.Draw(sheet)
-    samples = scene.frames.samples
     # A tall frame is as wide as the robot is: the view from top to bottom is what it leaves.
-    distance = DISTANCE * float(scene.robot.com_height) * max(1.0, 0.7 * height / cell)
+    distance = DISTANCE * scene.height_m * max(1.0, 0.7 * height / cell)
     with Renderer(scene.figure, scene.drawings, (cell, height), scene.sun_W, scene.footholds) as renderer:
         for number, n in enumerate(chosen):
             row, column = divmod(number, columns)
-            pixels = renderer.picture([n], scene.eye(samples.com_W[n], distance), scene.arrows(n))
+            pixels = renderer.picture([n], scene.eye(scene.com_W[n], distance), scene.arrows[n])
             x, y = column * (cell + gap), row * (height + line)
             sheet.paste(Image.fromarray(pixels), (x, y))
             place = (x + cell // 2, y + height + line // 2)
-            draw.text(place, f"{samples.times_s[n]:.2f} s", fill=INK, font=font, anchor="mm")
+            draw.text(place, f"{scene.times_s[n]:.2f} s", fill=INK, font=font, anchor="mm")
     sheet.save(path)
     return path
 
 
 def save_run_postures(
-    run: Recording | TrackingResult,
+    run: Run,
     path: str | Path,
     postures: int | Sequence[float] = 6,
     size: tuple[int, int] = (1920, 860),
@@ -90,7 +89,7 @@ def save_run_postures(
     """Write a PNG of several postures in one scene: earlier ones paler; with the paths of the CoM and of its plan.
 
     Args:
-        run: A recording, or the result of tracking.
+        run: A recording, also of a planar robot, or the result of tracking.
         path: File to write.
         postures: Number of instants, equally spaced from start to end, or the instants [s].
         size: Width and height in pixels.
@@ -102,16 +101,14 @@ def save_run_postures(
     scene, chosen = _laid_out(run, "postures", postures)
     from PIL import Image
 
-    samples = scene.frames.samples
-    height = float(scene.robot.com_height)
-    head = np.array([0.0, 0.0, height])
-    points = np.vstack([samples.com_W[chosen] + head, samples.positions_W[chosen].reshape(-1, 3)])
+    height = scene.height_m
+    points = scene.reach_W[chosen].reshape(-1, 3)
     eye = fitted(points, scene.eye(np.zeros(3), 1.0, ahead=0.25), size, margin=0.35 * height)
     last = max(len(chosen) - 1, 1)
     fades = [0.0 if i == last else 0.6 - 0.3 * i / last for i in range(len(chosen))]
-    path_W = Line(samples.com_W, COM, 0.008 * height)
+    path_W = Line(scene.com_W, COM, 0.008 * height)
     with Renderer(scene.figure, scene.drawings, size, scene.sun_W, scene.footholds) as renderer:
-        pixels = renderer.picture(chosen, eye, scene.arrows(chosen[-1]), [path_W], fades)
+        pixels = renderer.picture(chosen, eye, scene.arrows[chosen[-1]], [path_W], fades)
     Image.fromarray(pixels).save(path)
     return path
 
@@ -142,7 +139,7 @@ def _png(path: str | Path) -> Path:
     return Path(path)
 
 
-def _laid_out(run: Recording | TrackingResult, name: str, chosen: Any) -> tuple[RunScene, list[int]]:
+def _laid_out(run: Run, name: str, chosen: Any) -> tuple[RunScene, list[int]]:
     """The run, and the indices of the instants asked for."""
     require("rendering a run", "sim", "mujoco", "pinocchio", "PIL")
     recording = run.recording if isinstance(run, TrackingResult) else run
@@ -159,4 +156,4 @@ def _laid_out(run: Recording | TrackingResult, name: str, chosen: Any) -> tuple[
             if not 0.0 <= t <= last + 1e-9:
                 raise InvalidInput(f"{name}[{i}]", f"must lie in the run, from 0 to {last:.6g} s", f"{t:g}")
     scene = scene_of(run, RATE)
-    return scene, [scene.frames.samples.nearest(float(t)) for t in times]
+    return scene, [scene.nearest(float(t)) for t in times]

@@ -125,7 +125,8 @@ def _lines(recording: PlanarRecording) -> list[str]:
     return [
         f"{plan.motion.robot.name}: {end}",
         f"contact forces off by {force:.0f} N rms ({100.0 * share:.1f} %)",
-        f"joints off by {np.sqrt(np.mean(joint_error_deg(recording) ** 2)):.2f}° rms; contacts by {drift:.1f} mm at most",
+        f"joints off by {np.sqrt(np.mean(joint_error_deg(recording) ** 2)):.2f}° rms",
+        f"contact points off by {drift:.1f} mm at most",
     ]
 
 

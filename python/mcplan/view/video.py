@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 
 from mcplan.errors import InvalidInput
 from mcplan.extras import require
-from mcplan.tracking import Recording, TrackingResult
 
 from .rendering import Renderer
-from .run_scene import RunScene, scene_of
+from .run_scene import Run, RunScene, scene_of
 from .video_files import check_target, write_video
 
 Array = NDArray[np.float64]
@@ -26,7 +25,7 @@ DISTANCE = 5.6
 
 
 def save_video(
-    run: Recording | TrackingResult,
+    run: Run,
     path: str | Path,
     size: tuple[int, int] = (960, 540),
     rate_hz: float = 25.0,
@@ -39,7 +38,7 @@ def save_video(
     the ground are the planned footholds.
 
     Args:
-        run: A recording, or the result of tracking.
+        run: A recording, also of a planar robot, or the result of tracking.
         path: File to write: .mp4 (needs ffmpeg), .webp or .gif.
         size: Width and height in pixels, even.
         rate_hz: Pictures in a second.
@@ -69,14 +68,13 @@ def save_video(
 def _pictures(
     scene: RunScene, renderer: Renderer, rate_hz: float, progress: Callable[[int, int], None] | None
 ) -> Iterator[Pixels]:
-    samples = scene.frames.samples
-    way = smoothed(samples.com_W, SMOOTHING * rate_hz)
-    distance = DISTANCE * float(scene.robot.com_height)
-    for n in range(samples.count):
-        pixels = renderer.picture([n], scene.eye(way[n], distance), scene.arrows(n))
-        yield stamped(pixels, f"{samples.times_s[n]:.2f} s")
+    way = smoothed(scene.com_W, SMOOTHING * rate_hz)
+    count = len(scene.times_s)
+    for n in range(count):
+        pixels = renderer.picture([n], scene.eye(way[n], DISTANCE * scene.height_m), scene.arrows[n])
+        yield stamped(pixels, f"{scene.times_s[n]:.2f} s")
         if progress is not None:
-            progress(n + 1, samples.count)
+            progress(n + 1, count)
 
 
 def smoothed(points: Array, width: float) -> Array:

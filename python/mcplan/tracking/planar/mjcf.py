@@ -129,7 +129,9 @@ def build(
     def geom(name: str) -> int:
         return int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, name))
 
-    hinges = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, f"joint {b}") for b in range(len(motion.robot.bodies))]
+    hinges = [
+        mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, f"joint {b}") for b in range(len(motion.robot.bodies))
+    ]
 
     ends = motion.robot.end_effectors
     return PlanarModel(

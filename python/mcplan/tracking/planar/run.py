@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mcplan.errors import InvalidOptions
-
 from ..options import Options
 from .measures import PlanarMeasures, measure
 from .mjcf import Array, ContactSettings, Feedback, build
