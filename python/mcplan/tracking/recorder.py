@@ -71,4 +71,5 @@ class Recorder:
             assist=self.assist[:n],
             pushes_W=self.pushes_W[:n],
             fell_at_s=fell_at_s,
+            robot=self.loaded.robot,
         )
