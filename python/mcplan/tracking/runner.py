@@ -19,6 +19,7 @@ from mcplan.kinematics.samples import sample_at
 from mcplan.kinematics.urdf_model import UrdfModel
 
 from .assist import assistance
+from .disturbances import disturbed
 from .measures import measure
 from .options import Options
 from .postures import postures_along
@@ -68,6 +69,8 @@ def track(
     options.validate()
     plan = _as_plan(plan)
     body = robot_for(plan, robot)
+    if options.seed:
+        options = disturbed(options, options.seed, plan.duration(), body.mass)
     from . import mujoco_model
     from .simulation import Simulation
 
