@@ -79,7 +79,9 @@ def track(
     simulation = Simulation(model)
     wanted = references(plan, body, options.control_step_s, options.hold_s)
     start, end = _posture_at(loaded, plan, 0.0), _posture_at(loaded, plan, wanted.duration_s)
-    simulation.reset(start, np.zeros(loaded.model.nv))
+    on_ground = start.copy()
+    on_ground[2] += options.ground_shift_m
+    simulation.reset(on_ground, np.zeros(loaded.model.nv))
     posture = start
     if any(phase.law != ForceLaw.pendulum for phase in plan.phases):
         # Such plans know nothing of the base: how it is turned has to suit the legs.
