@@ -75,6 +75,17 @@ def quat_xyzw(rotations: Array) -> Array:
     return quats
 
 
+def rotations_of(quats_xyzw: Array) -> Array:
+    """Rotations (n, 3, 3) of unit quaternions (x, y, z, w), shape (n, 4)."""
+    x, y, z, w = np.asarray(quats_xyzw, float).T
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), 2, 0)
+
+
 def pose(rotation: Array, position: Array) -> Array:
     """Homogeneous transforms (..., 4, 4) of rotations (..., 3, 3) and positions (..., 3)."""
     position = np.asarray(position, float)

@@ -31,7 +31,7 @@ class Interval:
 
 @dataclass(frozen=True)
 class Samples:
-    """States of a plan at equally spaced times.
+    """States of a plan at ascending times.
 
     n times, e end-effectors, p points of a contact at most (0 without forces at points); lengths in [m], forces in [N],
     world frame W.
@@ -40,8 +40,10 @@ class Samples:
     times_s: Array  # (n,)
     com_W: Array  # (n, 3)
     com_velocity_W: Array  # (n, 3)
+    com_acceleration_W: Array  # (n, 3)
     rotation_WB: Array  # (n, 3, 3)
     positions_W: Array  # (n, e, 3)
+    velocities_W: Array  # (n, e, 3)
     rotations_W: Array  # (n, e, 3, 3) soles and palms
     forces_W: Array  # (n, e, 3)
     pressure_W: Array  # (n, e, 3) where they act: centre of pressure of the points, else the end-effector itself
@@ -67,8 +69,20 @@ class Samples:
 def sample(plan: Plan, scene: Scene, robot: Robot, rate_hz: float = 30.0) -> Samples:
     """Sample a plan at about `rate_hz`, both ends included."""
     duration = float(plan.duration())
-    n = max(2, round(duration * rate_hz) + 1)
-    times = np.linspace(0.0, duration, n)
+    return sample_at(plan, scene, robot, np.linspace(0.0, duration, max(2, round(duration * rate_hz) + 1)))
+
+
+def knots_and_between(plan: Plan, rate_hz: float) -> Array:
+    """Times of a plan's knots [s], and equally spaced ones between them at `rate_hz` or more."""
+    times = [np.zeros(1)]
+    for start, end in zip(plan.knot_times()[:-1], plan.knot_times()[1:], strict=True):
+        times.append(np.linspace(start, end, max(1, int(np.ceil((end - start) * rate_hz))) + 1)[1:])
+    # The sum of the durations may be larger than the last knot's time by a rounding.
+    return np.minimum(np.concatenate(times), plan.duration())
+
+
+def sample_at(plan: Plan, scene: Scene, robot: Robot, times: Array) -> Samples:
+    """Sample a plan at ascending times [s] within its duration; at a knot the phase that begins there is meant."""
     states = [plan.at(float(t)) for t in times]
     rotation_WB = from_rpy(np.array([s.base_rpy for s in states]))
     ends = [s.end_effectors for s in states]
@@ -80,8 +94,10 @@ def sample(plan: Plan, scene: Scene, robot: Robot, rate_hz: float = 30.0) -> Sam
         times_s=times,
         com_W=np.array([s.com_W for s in states], float),
         com_velocity_W=np.array([s.com_velocity_W for s in states], float),
+        com_acceleration_W=np.array([s.com_acceleration_W for s in states], float),
         rotation_WB=rotation_WB,
         positions_W=positions_W,
+        velocities_W=np.array([[e.velocity_W for e in row] for row in ends], float),
         rotations_W=_sole_rotations(times, rotation_WB, intervals, len(robot.end_effectors)),
         forces_W=np.array([[e.force_W for e in row] for row in ends], float),
         pressure_W=_centres_of_pressure(scene, positions_W, surfaces, points_W, point_forces_W),
@@ -107,8 +123,10 @@ def stance_samples(scene: Scene, robot: Robot, stance: ResolvedStance) -> Sample
         times_s=np.zeros(1),
         com_W=np.array([stance.com_W], float),
         com_velocity_W=np.zeros((1, 3)),
+        com_acceleration_W=np.zeros((1, 3)),
         rotation_WB=rotation[None],
         positions_W=np.array([stance.end_effectors_W], float),
+        velocities_W=np.zeros((1, ends, 3)),
         rotations_W=np.array([rotations]),
         forces_W=np.zeros((1, ends, 3)),
         pressure_W=np.array([stance.end_effectors_W], float),

@@ -5,6 +5,15 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.kinematics.rotations import polygon_normal
+
+from .recording import Recording
+
+Array = NDArray[np.float64]
+
 
 @dataclass(frozen=True)
 class Measures:
@@ -45,3 +54,67 @@ class Measures:
     def as_dict(self) -> dict[str, Any]:
         """By name, for JSON."""
         return asdict(self)
+
+
+#: After touching down a foot settles for this long [s] before slip is measured.
+SETTLE_S = 0.02
+
+
+def measure(recording: Recording, final_configuration: Array) -> Measures:
+    """Measures of a recording; those of the run's cost (failures, warnings, times) are left at zero.
+
+    Args:
+        recording: What the robot did.
+        final_configuration: (nq,) where the plan ends.
+    """
+    r = recording
+    fell = bool(np.isfinite(r.fell_at_s))
+    com_error = np.linalg.norm(r.com_W - r.com_plan_W, axis=1)
+    final = r.configurations[-1, :2] - final_configuration[:2]
+    return Measures(
+        fell=fell,
+        completed_s=float(r.times_s[-1]),
+        com_rms_m=_rms(com_error),
+        com_max_m=float(com_error.max()),
+        orientation_rms_deg=float(np.degrees(_rms(_angles(r.configurations[:, 3:7], r.base_quat_xyzw_plan)))),
+        swing_rms_m=_rms(np.linalg.norm(r.ends_W - r.ends_plan_W, axis=2)[swinging(r.contacts_plan)]),
+        slip_m=_slip(r),
+        torque_use=float((np.abs(r.torques) / r.torque_limits).max()),
+        assist_force_rms_N=_rms(np.linalg.norm(r.assist[:, :3], axis=1)),
+        assist_moment_rms_Nm=_rms(np.linalg.norm(r.assist[:, 3:], axis=1)),
+        final_base_error_m=float(np.linalg.norm(final)),
+        qp_failures=0,
+        simulator_warnings=0,
+        realtime_factor=0.0,
+        control_ms=0.0,
+    )
+
+
+def swinging(contacts_plan: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """(n, e) whether an end-effector is free now and in contact later."""
+    later = np.flip(np.logical_or.accumulate(np.flip(contacts_plan >= 0, axis=0), axis=0), axis=0)
+    return (contacts_plan < 0) & later
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(np.square(values)))) if values.size else 0.0
+
+
+def _angles(a_xyzw: Array, b_xyzw: Array) -> Array:
+    """Angles between rotations [rad]."""
+    return np.asarray(2.0 * np.arccos(np.clip(np.abs(np.sum(a_xyzw * b_xyzw, axis=1)), 0.0, 1.0)))
+
+
+def _slip(r: Recording) -> float:
+    normals = [polygon_normal(np.asarray(s.vertices_W)) for s in r.plan.scene.surfaces]
+    settle = round(SETTLE_S / (r.times_s[1] - r.times_s[0])) if len(r.times_s) > 1 else 0
+    worst = 0.0
+    for end in range(r.contacts.shape[1]):
+        bears = np.where(r.contacts[:, end], r.contacts_plan[:, end], -1)
+        for run in np.split(np.arange(len(bears)), np.flatnonzero(np.diff(bears)) + 1):
+            if bears[run[0]] < 0 or len(run) <= settle + 1:
+                continue
+            way = r.ends_W[run[settle:], end] - r.ends_W[run[settle], end]
+            way = way - np.outer(way @ normals[bears[run[0]]], normals[bears[run[0]]])
+            worst = max(worst, float(np.linalg.norm(way, axis=1).max()))
+    return worst

@@ -39,8 +39,8 @@ class Gains:
     Each task asks for the acceleration a_reference + kp (x_reference - x) + kd (v_reference - v), kd = 2 sqrt(kp).
     """
 
-    com_kp: float = 40.0
-    com_weight: float = 10.0
+    com_kp: float = 60.0
+    com_weight: float = 100.0
     base_kp: float = 80.0
     base_weight: float = 1.0
     momentum_kp: float = 5.0  # damping of the angular momentum about the CoM
@@ -67,7 +67,7 @@ class Options:
         mass_scale: Factor on the masses of the simulated robot that the controller does not know of.
         friction_scale: Factor on the friction of the simulated surfaces that the controller does not know of.
         ground_shift_m: Height by which the simulated surfaces lie above the planned ones.
-        seed: Of the disturbances drawn in addition (see ``disturbed``); 0: none are drawn.
+        seed: Of disturbances of mass, friction, ground and a push, drawn on top (see ``disturbances``); 0: none.
         hold_s: Time for which the last state of the plan is held at the end.
         gains: Of the controller.
     """

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from mcplan._core import Plan
+    from mcplan._core import Plan, Robot
 
 Array = NDArray[np.float64]
 
@@ -38,6 +38,7 @@ class Recording:
         assist: (n, 6) wrench of the assistance on the base: force, moment [N, N m].
         pushes_W: (n, 3) [N].
         fell_at_s: Time at which the robot fell; infinite: it did not.
+        robot: What was simulated, with the plan's end-effectors in the plan's order; None: the plan's own.
     """
 
     plan: Plan
@@ -61,3 +62,9 @@ class Recording:
     assist: Array
     pushes_W: Array
     fell_at_s: float
+    robot: Robot | None = None
+
+    @property
+    def body(self) -> Robot:
+        """The robot that was simulated."""
+        return self.robot if self.robot is not None else self.plan.robot

@@ -1,4 +1,7 @@
-"""Pages for the browser and plots of plans. Needs ``pip install 'mcplan[view]'``, imported when used."""
+"""Pages for the browser, plots, videos and snapshots of plans and runs.
+
+Needs ``pip install 'mcplan[view]'``, and for rendering runs ``mcplan[sim]``; both are imported when used.
+"""
 
 from __future__ import annotations
 
@@ -25,9 +28,22 @@ from .plots import (
     save_plots,
     stroboscope,
 )
+from .plots_run import (
+    plot_run_assist,
+    plot_run_com,
+    plot_run_errors,
+    plot_run_momentum,
+    save_run_plots,
+)
+from .plots_run_forces import plot_run_forces, plot_run_torques
+from .rendering import NoGraphics
+from .run_strip import save_run_postures, save_run_strip
 from .show import show, show_scene
+from .show_run import show_run
+from .video import save_video
 
 __all__ = [
+    "NoGraphics",
     "Page",
     "film_strip",
     "picture",
@@ -46,9 +62,20 @@ __all__ = [
     "plot_point_forces",
     "plot_pressure",
     "plot_timing",
+    "plot_run_assist",
+    "plot_run_com",
+    "plot_run_errors",
+    "plot_run_forces",
+    "plot_run_momentum",
+    "plot_run_torques",
     "plot_torques",
     "save_plots",
+    "save_run_plots",
+    "save_run_postures",
+    "save_run_strip",
+    "save_video",
     "show",
+    "show_run",
     "show_scene",
     "stroboscope",
 ]

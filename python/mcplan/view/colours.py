@@ -26,6 +26,12 @@ HEAD = "#B9C1CA"
 VISOR = "#333A43"
 FORCE = "#2B2F36"
 TEXT = "#22262B"
+#: What the plan asks for, beside what a run did; a push; the assistance's wrench.
+PLANNED = "#8A919C"
+PUSH = "#C8102E"
+#: Contact forces over a rendered robot, whose legs may be black.
+FORCE_BRIGHT = "#17A55B"
+ASSIST = "#6E40C9"
 
 
 def end_effector_colours(robot: Robot) -> list[str]:

@@ -42,8 +42,20 @@ def timeline(
     intervals: list[Interval],
     colours: list[str],
     duration_s: float,
+    planned: list[Interval] | None = None,
+    marks: list[tuple[float, float, str, str]] | None = None,
 ) -> str:
-    """Panel at the bottom: contacts of every end-effector over time, and a cursor."""
+    """Panel at the bottom: contacts of every end-effector over time, and a cursor.
+
+    Args:
+        scene: Names the surfaces.
+        robot: Names the end-effectors.
+        intervals: The contacts.
+        colours: Of the end-effectors.
+        duration_s: Length of the axis.
+        planned: Contacts as they were planned: thin lines below the others.
+        marks: Events across all rows: start [s], end [s], colour, text.
+    """
     names, tracks = [], []
     for end, colour in zip(range(len(colours)), colours, strict=True):
         names.append(f'<div style="color: {colour}">{escape(robot.end_effectors[end].name.replace("_", " "))}</div>')
@@ -58,15 +70,25 @@ def timeline(
                 f'<div class="bar" style="left: {left:.3f}%; width: {width:.3f}%; background: {colour}" '
                 f'title="{name}, {interval.start_s:.2f} to {interval.end_s:.2f} s">{name}</div>'
             )
+        for interval in planned or []:
+            if interval.end_effector == end:
+                left = 100.0 * interval.start_s / duration_s
+                width = 100.0 * (interval.end_s - interval.start_s) / duration_s
+                bars.append(f'<div class="planned" style="left: {left:.3f}%; width: {width:.3f}%"></div>')
         tracks.append(f'<div class="track">{"".join(bars)}</div>')
+    events = "".join(
+        f'<div class="event" style="left: {100.0 * start / duration_s:.3f}%; '
+        f'width: {100.0 * (end_s - start) / duration_s:.3f}%; background: {colour}" title="{escape(text)}"></div>'
+        for start, end_s, colour, text in marks or []
+    )
     step = next(s for s in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 1e9) if duration_s / s <= 12)
     ticks = [i * step for i in range(1, int(duration_s / step) + 1)]
-    marks = "".join(
+    labels = "".join(
         f'<span style="left: {100.0 * t / duration_s:.3f}%">{t:g} s</span>' for t in ticks if t < 0.99 * duration_s
     )
     return (
         f'<div class="panel" id="timeline"><div id="names">{"".join(names)}<button id="play"></button></div>'
-        f'<div id="tracks">{"".join(tracks)}<div id="axis">{marks}</div><div id="cursor"></div></div></div>'
+        f'<div id="tracks">{"".join(tracks)}{events}<div id="axis">{labels}</div><div id="cursor"></div></div></div>'
     )
 
 

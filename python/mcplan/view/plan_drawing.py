@@ -39,10 +39,16 @@ def draw_plan(stage: Stage, samples: Samples, scene: Scene, robot: Robot, figure
         name = robot.end_effectors[end].name
         stage.mesh(f"paths/{name}", tube(samples.positions_W[:, end], 0.005 * scale, sides=6), colour, glow=0.25)
     for number, interval in enumerate(samples.intervals):
-        _draw_contact(stage, number, interval, samples, robot, colours[interval.end_effector])
-    weight = float(robot.mass) * float(scene.gravity)
-    for end in range(len(colours)):
-        _draw_force(stage, end, samples, robot, weight)
+        draw_contact(stage, number, interval, samples, robot, colours[interval.end_effector])
+    draw_forces(stage, samples, scene, robot)
+
+
+def draw_forces(stage: Stage, samples: Samples, scene: Scene, robot: Robot, on_top: bool = False) -> None:
+    """Put the contact forces onto a page, an arrow for each end-effector; `on_top`: legs do not hide them."""
+    weight, height = float(robot.mass) * float(scene.gravity), float(robot.com_height)
+    for number, end in enumerate(robot.end_effectors):
+        at, force = samples.pressure_W[:, number], samples.forces_W[:, number]
+        draw_arrow(stage, f"forces/{end.name}", samples.times_s, at, force, weight, height, on_top=on_top)
 
 
 def draw_figure(stage: Stage, samples: Samples, figure: Figure) -> None:
@@ -67,12 +73,22 @@ def contact_plate(robot: Robot, end: int, margin: float = 0.0) -> Mesh:
     return disc(0.035 * scale + margin, thickness)
 
 
-def _draw_contact(stage: Stage, number: int, interval: Interval, samples: Samples, robot: Robot, colour: str) -> None:
+def draw_contact(
+    stage: Stage,
+    number: int,
+    interval: Interval,
+    samples: Samples,
+    robot: Robot,
+    colour: str,
+    footprint: bool = True,
+) -> None:
+    """Put a contact onto a page: a plate that lights up while it lasts, and a footprint that stays."""
     end = interval.end_effector
     at = pose(interval.rotation_W, interval.position_W)
     path = f"contacts/{robot.end_effectors[end].name}/{number}"
-    stage.mesh(f"{path}/print", contact_plate(robot, end), colour, 0.45)
-    stage.place(f"{path}/print", at)
+    if footprint:
+        stage.mesh(f"{path}/print", contact_plate(robot, end), colour, 0.45)
+        stage.place(f"{path}/print", at)
     stage.mesh(f"{path}/active", contact_plate(robot, end, margin=0.02), colour, 0.85, glow=0.6)
     stage.place(f"{path}/active", at)
     # Flash from one and a half times its size; the first contacts of a plan are there from the start.
@@ -89,14 +105,16 @@ def _draw_contact(stage: Stage, number: int, interval: Interval, samples: Sample
     stage.move(f"{path}/active", switches, visible=on)
 
 
-def _draw_force(stage: Stage, end: int, samples: Samples, robot: Robot, weight: float) -> None:
-    height = float(robot.com_height)
-    path = f"forces/{robot.end_effectors[end].name}"
-    draw_arrow(stage, path, samples.times_s, samples.pressure_W[:, end], samples.forces_W[:, end], weight, height)
-
-
 def draw_arrow(
-    stage: Stage, path: str, times_s: Array, start_W: Array, force_W: Array, weight: float, height: float
+    stage: Stage,
+    path: str,
+    times_s: Array,
+    start_W: Array,
+    force_W: Array,
+    weight: float,
+    height: float,
+    colour: str = FORCE,
+    on_top: bool = False,
 ) -> None:
     """Put a force arrow onto a page, unless it is never seen.
 
@@ -108,6 +126,8 @@ def draw_arrow(
         force_W: The force, (n, 3) [N].
         weight: Of the robot [N]; an arrow of this size is WEIGHT_ARROW times the height long.
         height: Of the robot [m].
+        colour: "#rrggbb".
+        on_top: Seen through whatever lies in front.
     """
     size = np.linalg.norm(force_W, axis=1)
     if size.max() < 1e-3 * weight:
@@ -126,9 +146,9 @@ def draw_arrow(
     seen = length > 0.02 * height
     ring = 0.011 * height * circle(10)
     bar = loft(np.array([np.column_stack([ring, np.full(10, z)]) for z in (0.0, 1.0)]))
-    stage.mesh(f"{path}/shaft", bar, FORCE, glow=0.15)
+    stage.mesh(f"{path}/shaft", bar, colour, glow=0.15, on_top=on_top)
     stage.move(f"{path}/shaft", times_s, pose(rotation, start_W), np.column_stack([shrink, shrink, shaft]), seen)
-    stage.mesh(f"{path}/head", cone(0.032 * height, head), FORCE, glow=0.15)
+    stage.mesh(f"{path}/head", cone(0.032 * height, head), colour, glow=0.15, on_top=on_top)
     tip = start_W + rotation[:, :, 2] * shaft[:, None]
     stage.move(f"{path}/head", times_s, pose(rotation, tip), shrink[:, None].repeat(3, axis=1), seen)
 

@@ -76,7 +76,7 @@ def draw_body(stage: Stage, samples: PlanarSamples, robot: PlanarRobot, shapes: 
     for i, body in enumerate(robot.bodies):
         own = [shape for shape in shapes if shape.body == i]
         for number, shape in enumerate(own):
-            stage.mesh(f"robot/{body.name}/{number}", _solid(shape, size), shape.colour)
+            stage.mesh(f"robot/{body.name}/{number}", limb_solid(shape, size), shape.colour)
         if own:
             stage.move(
                 f"robot/{body.name}",
@@ -158,12 +158,8 @@ def extruded(outline: Array, half_width: float, lateral: float = 0.0) -> Mesh:
     return prism(into_space(outline, lateral - half_width), 2.0 * half_width)
 
 
-def side_direction() -> Array:
-    """From the drawing towards the camera: from the right, a little ahead and above."""
-    return np.array([0.10, -1.0, 0.16])
-
-
-def _solid(shape: Shape, size: float) -> Mesh:
+def limb_solid(shape: Shape, size: float) -> Mesh:
+    """What a piece of a body is in space, in the body's frame."""
     lateral = LANE * size * shape.lane
     if len(shape.discs) == 2:
         (x0, y0, r0), (x1, y1, r1) = shape.discs
@@ -173,6 +169,11 @@ def _solid(shape: Shape, size: float) -> Mesh:
         turn = np.column_stack([x, np.cross(z, x), z])
         return capsule(length, r0, r1).moved(pose(turn, np.array([x0, lateral, y0])))
     return extruded(shape.outline_B(), (0.075 if shape.lane == 0.0 else 0.045) * size, lateral)
+
+
+def side_direction() -> Array:
+    """From the drawing towards the camera: from the right, a little ahead and above."""
+    return np.array([0.10, -1.0, 0.16])
 
 
 def _interval(end: int, contact: PlanarContact, start_s: float, end_s: float) -> Interval:

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from mcplan.extras import require
 from mcplan.kinematics.inverse_kinematics import follow
 from mcplan.kinematics.samples import Samples
-from mcplan.kinematics.urdf_model import load_model
+from mcplan.kinematics.urdf_model import UrdfModel, load_model
 
+from .colours import mix
 from .figure import Figure, Part
 from .shapes import Mesh, box, capsule, circle, ellipsoid, loft
 
@@ -22,6 +23,8 @@ Array = NDArray[np.float64]
 
 #: [m] by which CoM and contacts may miss the plan; beyond, a picture of the posture would mislead.
 LARGEST_MISS = 0.05
+#: Share of its end-effector's colour that a tinted link takes.
+TINT = 0.65
 
 
 class CannotFollow(RuntimeError):
@@ -37,28 +40,43 @@ def urdf_robot(samples: Samples, robot: Robot) -> Figure:
         CannotFollow: Some posture misses the plan by more than 5 cm.
     """
     require(f"drawing {robot.name} with its meshes", "view", "pinocchio")
-    import pinocchio as pin  # type: ignore[import-untyped]
-
     loaded = load_model(robot)
-    model = loaded.model
     postures = follow(loaded, samples)
     if postures.residual > LARGEST_MISS:
         raise CannotFollow(
             f"inverse kinematics of {robot.name} misses {postures.where} by {100.0 * postures.residual:.1f} cm"
         )
+    return mesh_figure(loaded, postures.configurations)
+
+
+def mesh_figure(loaded: UrdfModel, configurations: Array, tints: list[str] | None = None) -> Figure:
+    """The visual meshes of a URDF at given configurations.
+
+    Args:
+        loaded: The robot's model.
+        configurations: (n, nq) in Pinocchio's order, free-flyer first.
+        tints: A colour for each end-effector's link, "#rrggbb"; None: links keep their own colours.
+    """
+    import pinocchio as pin  # type: ignore[import-untyped]
+
+    model = loaded.model
     data = model.createData()
     placements = []
-    for q in postures.configurations:
+    for q in configurations:
         pin.forwardKinematics(model, data, q)
         placements.append([joint.homogeneous for joint in data.oMi])
     poses = np.array(placements)
+    tint_of = {model.frames[f].parentJoint: c for f, c in zip(loaded.frames, tints or [], strict=False)}
     parts = []
     for item in loaded.visual.geometryObjects:
         mesh = _mesh(item)
         if mesh is not None:
             moved = mesh.moved(item.placement.homogeneous)
             name = f"{model.names[item.parentJoint]}/{item.name}"
-            parts.append(Part(name, moved, _colour(item.meshColor), poses[:, item.parentJoint]))
+            colour = _colour(item.meshColor)
+            if item.parentJoint in tint_of:
+                colour = mix(colour, tint_of[item.parentJoint], TINT)
+            parts.append(Part(name, moved, colour, poses[:, item.parentJoint]))
     return Figure("urdf", parts)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -52,6 +52,13 @@ def surface_drawings(scene: Scene, extent: Extent) -> list[SurfaceDrawing]:
         mesh = prism(outline, float(surface.thickness))
         drawings.append(SurfaceDrawing(surface.name, outline, normal, mesh, colour, 0.35 if wall else 1.0, grid))
     return drawings
+
+
+def raised(drawing: SurfaceDrawing, by_m: float) -> SurfaceDrawing:
+    """A drawing moved upwards."""
+    up = np.array([0.0, 0.0, by_m])
+    mesh = replace(drawing.mesh, vertices=drawing.mesh.vertices + up)
+    return replace(drawing, outline=drawing.outline + up, mesh=mesh, grid=drawing.grid + up)
 
 
 def grid_lines(outline: Array, spacing: float) -> Array:

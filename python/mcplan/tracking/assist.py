@@ -1,0 +1,38 @@
+"""The assisted set-up: a clipped wrench on the base, for what a plan's model leaves out.
+
+Tazaki's paper makes the base's inertia very large instead. That holds the base's orientation, which the controller holds
+anyway, and not the CoM, which is what diverges; a wrench does both, and says how much help it was.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .references import References
+from .rigid_body import RigidBody
+
+Array = NDArray[np.float64]
+
+#: Stiffness and damping: [N/m], [N s/m]; [N m/rad], [N m s/rad]; for a robot of 90 kg.
+FORCE_KP, FORCE_KD, MOMENT_KP, MOMENT_KD = 3000.0, 600.0, 2000.0, 200.0
+#: Largest force and moment, as shares of the weight and of weight x 1 m.
+LARGEST_FORCE, LARGEST_MOMENT = 0.35, 0.17
+_MASS = 90.0
+
+
+def assistance(body: RigidBody, wanted: References, n: int) -> Array:
+    """(6,) force [N] and moment [N m] on the base at control step n, world axes."""
+    scale, weight = body.mass / _MASS, body.mass * 9.81
+    force = FORCE_KP * (wanted.com_W[n] - body.com_W) + FORCE_KD * (wanted.com_velocity_W[n] - body.com_velocity_W)
+    turn = wanted.base_WB[n] @ body.base_WB.T
+    vee = 0.5 * np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    moment = MOMENT_KP * vee + MOMENT_KD * (wanted.base_velocity_W[n] - body.base_velocity_W)
+    return np.concatenate(
+        [_clipped(scale * force, LARGEST_FORCE * weight), _clipped(scale * moment, LARGEST_MOMENT * weight)]
+    )
+
+
+def _clipped(vector: Array, largest: float) -> Array:
+    size = float(np.linalg.norm(vector))
+    return vector * min(1.0, largest / max(size, 1e-12))

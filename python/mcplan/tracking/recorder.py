@@ -1,0 +1,75 @@
+"""Collects a recording step by step."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.kinematics.rotations import quat_xyzw
+from mcplan.kinematics.urdf_model import UrdfModel
+
+from .recording import Recording
+from .references import References
+from .rigid_body import RigidBody
+
+if TYPE_CHECKING:
+    from mcplan._core import Plan
+
+Array = NDArray[np.float64]
+
+
+class Recorder:
+    """Room for a whole run, filled one control step after the other."""
+
+    def __init__(self, plan: Plan, loaded: UrdfModel, joints: tuple[str, ...], wanted: References) -> None:
+        n, e, nj = wanted.count, len(loaded.robot.end_effectors), len(joints)
+        self.plan, self.loaded, self.joints, self.wanted = plan, loaded, joints, wanted
+        self.count = 0
+        self.configurations, self.velocities = np.zeros((n, 7 + nj)), np.zeros((n, 6 + nj))
+        self.torques, self.com_W, self.momentum_W = np.zeros((n, nj)), np.zeros((n, 3)), np.zeros((n, 3))
+        self.ends_W, self.forces_W = np.zeros((n, e, 3)), np.zeros((n, e, 3))
+        self.contacts = np.zeros((n, e), dtype=bool)
+        self.assist, self.pushes_W = np.zeros((n, 6)), np.zeros((n, 3))
+
+    def add(
+        self, body: RigidBody, torques: Array, forces_W: Array, touches: NDArray[np.bool_], assist: Array, push: Array
+    ) -> None:
+        """Append a step: state of the robot, torques, what acts on it."""
+        n = self.count
+        self.configurations[n], self.velocities[n] = body.configuration, body.velocity
+        self.torques[n], self.com_W[n], self.momentum_W[n] = torques, body.com_W, body.momentum_W
+        for end in range(self.ends_W.shape[1]):
+            self.ends_W[n, end] = body.end_position_W(end)
+        self.forces_W[n], self.contacts[n] = forces_W, touches
+        self.assist[n], self.pushes_W[n] = assist, push
+        self.count = n + 1
+
+    def finish(self, fell_at_s: float) -> Recording:
+        """The recording of the steps added."""
+        n, wanted = self.count, self.wanted
+        return Recording(
+            plan=self.plan,
+            joints=self.joints,
+            times_s=np.arange(n) * wanted.dt_s,
+            configurations=self.configurations[:n],
+            velocities=self.velocities[:n],
+            torques=self.torques[:n],
+            torque_limits=np.asarray(self.loaded.model.effortLimit[6:], float),
+            com_W=self.com_W[:n],
+            com_plan_W=wanted.com_W[:n],
+            angular_momentum_W=self.momentum_W[:n],
+            angular_momentum_plan_W=wanted.momentum_W[:n],
+            base_quat_xyzw_plan=quat_xyzw(wanted.base_WB[:n]),
+            ends_W=self.ends_W[:n],
+            ends_plan_W=wanted.ends_W[:n],
+            forces_W=self.forces_W[:n],
+            forces_plan_W=wanted.forces_W[:n],
+            contacts=self.contacts[:n],
+            contacts_plan=wanted.surfaces[:n],
+            assist=self.assist[:n],
+            pushes_W=self.pushes_W[:n],
+            fell_at_s=fell_at_s,
+            robot=self.loaded.robot,
+        )

@@ -1,0 +1,147 @@
+"""A plan as a tracker wants it: at every control step, with accelerations, and with the soles' directions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.kinematics.rotations import rotations_of
+from mcplan.kinematics.samples import sample_at
+
+if TYPE_CHECKING:
+    from mcplan._core import Plan, Robot
+
+Array = NDArray[np.float64]
+
+#: Swings have kinks where they are held at a limit of reach: differences of their velocity are cut off here [m/s^2].
+LARGEST_SWING_ACCELERATION = 60.0
+
+
+@dataclass(frozen=True)
+class References:
+    """What is asked for at n instants, dt apart, world frame W, SI; e end-effectors.
+
+    Attributes:
+        dt_s: Between instants.
+        duration_s: Of the plan; later instants hold its last state.
+        com_W, com_velocity_W, com_acceleration_W: (n, 3).
+        momentum_W, momentum_rate_W: (n, 3) angular, about the CoM.
+        base_WB: (n, 3, 3); base_velocity_W: (n, 3) angular.
+        ends_W, end_velocities_W, end_accelerations_W: (n, e, 3).
+        soles_W: (n, e, 3, 3): z the normal of the ground, x ahead; sole_velocities_W: (n, e, 3) angular.
+        forces_W: (n, e, 3), and pressure_W (n, e, 3): where they act.
+        surfaces: (n, e) surface in contact or -1.
+        swing_share: (n, e) how much of the swing has passed, 0 to 1; 1 in contact.
+        returns: (n, e) whether a free end-effector will be in contact later.
+    """
+
+    dt_s: float
+    duration_s: float
+    com_W: Array
+    com_velocity_W: Array
+    com_acceleration_W: Array
+    momentum_W: Array
+    momentum_rate_W: Array
+    base_WB: Array
+    base_velocity_W: Array
+    ends_W: Array
+    end_velocities_W: Array
+    end_accelerations_W: Array
+    soles_W: Array
+    sole_velocities_W: Array
+    forces_W: Array
+    pressure_W: Array
+    surfaces: NDArray[np.int64]
+    swing_share: Array
+    returns: NDArray[np.bool_]
+
+    @property
+    def count(self) -> int:
+        return len(self.com_W)
+
+    def with_base(self, quats_xyzw: Array) -> References:
+        """The same with other orientations of the base, (n, 4)."""
+        base_WB = rotations_of(quats_xyzw)
+        return replace(self, base_WB=base_WB, base_velocity_W=_angular_velocity(base_WB, self.dt_s))
+
+
+def references(plan: Plan, robot: Robot, dt_s: float, hold_s: float) -> References:
+    """Sample a plan at control steps.
+
+    Args:
+        plan: The plan; its end-effectors are those of `robot`, in the same order.
+        robot: Whose mass scales the plan's forces.
+        dt_s: Control step [s].
+        hold_s: How long the last state is held [s].
+    """
+    duration = float(plan.duration())
+    count = int(np.ceil((duration + hold_s) / dt_s)) + 1
+    times = np.minimum(np.arange(count) * dt_s, duration)
+    samples = sample_at(plan, plan.scene, plan.robot, times)
+    over = np.arange(count) * dt_s > duration
+    surfaces = samples.surfaces.copy()
+    surfaces[over] = list(plan.final_contacts)
+    com_velocity, velocities = samples.com_velocity_W.copy(), samples.velocities_W.copy()
+    com_velocity[over], velocities[over] = 0.0, 0.0
+    acceleration = samples.com_acceleration_W.copy()
+    acceleration[over] = 0.0
+    momentum = samples.angular_momentum_W.copy()
+    momentum[over] = 0.0
+    forces = samples.forces_W * (robot.mass / plan.robot.mass)
+    forces[over] = _standing(plan, robot)
+    end_acceleration = np.gradient(velocities, dt_s, axis=0)
+    size = np.linalg.norm(end_acceleration, axis=2, keepdims=True)
+    end_acceleration *= np.minimum(1.0, LARGEST_SWING_ACCELERATION / np.maximum(size, 1e-9))
+    end_acceleration[surfaces >= 0] = 0.0
+    share, returns = _swings(surfaces)
+    return References(
+        dt_s=dt_s,
+        duration_s=duration,
+        com_W=samples.com_W,
+        com_velocity_W=com_velocity,
+        com_acceleration_W=acceleration,
+        momentum_W=momentum,
+        momentum_rate_W=np.gradient(momentum, dt_s, axis=0),
+        base_WB=samples.rotation_WB,
+        base_velocity_W=_angular_velocity(samples.rotation_WB, dt_s),
+        ends_W=samples.positions_W,
+        end_velocities_W=velocities,
+        end_accelerations_W=end_acceleration,
+        soles_W=samples.rotations_W,
+        sole_velocities_W=_angular_velocity(samples.rotations_W, dt_s),
+        forces_W=forces,
+        pressure_W=samples.pressure_W,
+        surfaces=surfaces,
+        swing_share=share,
+        returns=returns,
+    )
+
+
+def _standing(plan: Plan, robot: Robot) -> Array:
+    """(e, 3) the weight shared by the end-effectors that stand at the end [N]."""
+    down = [surface >= 0 for surface in plan.final_contacts]
+    forces = np.zeros((len(down), 3))
+    forces[down, 2] = robot.mass * plan.scene.gravity / max(sum(down), 1)
+    return forces
+
+
+def _angular_velocity(rotations: Array, dt_s: float) -> Array:
+    """World-frame rates (n, ..., 3) of rotations (n, ..., 3, 3), by central differences: vee(dR R^T)."""
+    rate = np.gradient(rotations, dt_s, axis=0) @ np.swapaxes(rotations, -1, -2)
+    skew = 0.5 * (rate - np.swapaxes(rate, -1, -2))
+    return np.stack([skew[..., 2, 1], skew[..., 0, 2], skew[..., 1, 0]], axis=-1)
+
+
+def _swings(surfaces: NDArray[np.int64]) -> tuple[Array, NDArray[np.bool_]]:
+    share = np.ones(surfaces.shape)
+    returns = np.zeros(surfaces.shape, dtype=bool)
+    for end in range(surfaces.shape[1]):
+        free = np.flatnonzero(surfaces[:, end] < 0)
+        for run in np.split(free, np.flatnonzero(np.diff(free) > 1) + 1):
+            if len(run):
+                share[run, end] = np.linspace(0.0, 1.0, len(run))
+                returns[run, end] = run[-1] + 1 < len(surfaces)
+    return share, returns

@@ -1,0 +1,86 @@
+"""Pinocchio's terms at one state, computed once a control step and shared by all tasks."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.kinematics.urdf_model import UrdfModel
+
+Array = NDArray[np.float64]
+
+
+class RigidBody:
+    """Dynamics of the robot at a state; nv velocities, base first. All motions and Jacobians in the world's axes.
+
+    Attributes:
+        inertia: M (nv, nv), rotor inertias included. bias: h (nv,) = Coriolis, centrifugal and gravity forces.
+        com_W, com_velocity_W: (3,). com_jacobian: (3, nv). com_drift: (3,) = d(com_jacobian)/dt v.
+        momentum_W: (3,) angular, about the CoM. momentum_map: (3, nv). momentum_drift: (3,).
+        base_WB: (3, 3). base_velocity_W: (3,) angular. base_jacobian: (3, nv). base_drift: (3,).
+    """
+
+    def __init__(self, loaded: UrdfModel) -> None:
+        import pinocchio as pin  # type: ignore[import-untyped]
+
+        self._pin = pin
+        self.loaded, self.model = loaded, loaded.model
+        self._data: Any = self.model.createData()
+        self.base_drift = np.zeros(3)
+        self.mass = float(pin.computeTotalMass(self.model))
+
+    def update(self, configuration: Array, velocity: Array) -> None:
+        """Move to a state, given as Pinocchio has it."""
+        pin, model, data = self._pin, self.model, self._data
+        self.configuration, self.velocity = configuration, velocity
+        # Computes Jacobians, their rates' effect and centroidal terms in one sweep each.
+        pin.computeCentroidalMapTimeVariation(model, data, configuration, velocity)
+        self.inertia = pin.crba(model, data, configuration)
+        self.inertia = np.triu(self.inertia) + np.triu(self.inertia, 1).T
+        self.bias = pin.nonLinearEffects(model, data, configuration, velocity)
+        # A second pass with zero acceleration leaves each frame's drift in the data.
+        pin.forwardKinematics(model, data, configuration, velocity, np.zeros(model.nv))
+        pin.updateFramePlacements(model, data)
+        momentum_map = data.Ag
+        momentum_drift = data.dAg @ velocity
+        self.com_W = data.com[0].copy()
+        self.com_jacobian = momentum_map[:3] / self.mass
+        self.com_velocity_W = self.com_jacobian @ velocity
+        self.com_drift = momentum_drift[:3] / self.mass
+        self.momentum_map = momentum_map[3:].copy()
+        self.momentum_W = self.momentum_map @ velocity
+        self.momentum_drift = momentum_drift[3:]
+        self.base_WB = data.oMi[1].rotation.copy()
+        self.base_velocity_W = self.base_WB @ velocity[3:6]
+        self.base_jacobian = np.zeros((3, model.nv))
+        self.base_jacobian[:, 3:6] = self.base_WB
+
+    def end_position_W(self, index: int) -> Array:
+        """(3,) contact point of an end-effector [m]."""
+        return np.asarray(self._data.oMf[self.loaded.frames[index]].translation)
+
+    def end(self, index: int) -> EndMotion:
+        """Motion of an end-effector's contact frame."""
+        pin, data, frame = self._pin, self._data, self.loaded.frames[index]
+        axes = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+        placement = data.oMf[frame]
+        drift = pin.getFrameClassicalAcceleration(self.model, data, frame, axes)
+        return EndMotion(
+            placement.translation.copy(),
+            placement.rotation.copy(),
+            pin.getFrameVelocity(self.model, data, frame, axes).vector.copy(),
+            pin.getFrameJacobian(self.model, data, frame, axes),
+            drift.vector.copy(),
+        )
+
+
+class EndMotion:
+    """Of a contact frame: position (3,), rotation (3, 3), velocity (6,) linear then angular, Jacobian (6, nv), drift (6,)."""
+
+    __slots__ = ("drift", "jacobian", "position_W", "rotation_W", "velocity_W")
+
+    def __init__(self, position_W: Array, rotation_W: Array, velocity_W: Array, jacobian: Array, drift: Array) -> None:
+        self.position_W, self.rotation_W, self.velocity_W = position_W, rotation_W, velocity_W
+        self.jacobian, self.drift = jacobian, drift

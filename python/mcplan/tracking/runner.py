@@ -1,0 +1,191 @@
+"""The loop: plan, controller, simulation, recording."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan._core import ForceLaw, Plan, Robot
+from mcplan.errors import InvalidInput
+from mcplan.extras import require
+from mcplan.kinematics.inverse_kinematics import follow
+from mcplan.kinematics.samples import sample_at
+from mcplan.kinematics.urdf_model import UrdfModel
+
+from .assist import assistance
+from .disturbances import disturbed
+from .measures import measure
+from .options import Options
+from .postures import postures_along
+from .recorder import Recorder
+from .references import References, references
+from .result import TrackingResult
+
+if TYPE_CHECKING:
+    from .simulation import Simulation
+
+Array = NDArray[np.float64]
+
+#: An end-effector with less than this share of the weight on it is not felt to touch.
+TOUCH = 0.01
+#: Fallen: so far from the plan, as a share of the CoM's height, or the base tilted so far from the plan's.
+FALLEN_SHARE, FALLEN_RAD = 0.35, 1.0
+#: [m] by which the first posture may miss the plan.
+START_MISS = 0.03
+
+
+def track(
+    plan: Plan | str | Path,
+    robot: Robot | str | Path | None = None,
+    options: Options | None = None,
+    progress: Callable[[float, float], None] | None = None,
+) -> TrackingResult:
+    """Track a plan with a simulated robot: torques alone move it, within their limits.
+
+    Args:
+        plan: A plan of `ddp` or `rhp`, or the path of one.
+        robot: With a URDF, and with the plan's end-effectors by name; None: the plan's own.
+        options: Of the run.
+        progress: Called now and then with the time simulated and the time to simulate [s].
+
+    Returns:
+        What the robot did, and how well. A fall ends the run and is a result, not an exception.
+
+    Raises:
+        MissingExtra: The packages of ``pip install 'mcplan[sim]'`` are not installed.
+        InvalidOptions: An option is out of range.
+        InvalidPlan: The file is no plan.
+        InvalidRobot: The robot has no URDF, or it cannot be read.
+        InvalidInput: The robot lacks an end-effector of the plan, or cannot take up the plan's first posture.
+    """
+    require("mcplan.tracking", "sim", "mujoco", "pinocchio", "proxsuite")
+    options = options or Options()
+    options.validate()
+    plan = _as_plan(plan)
+    body = robot_for(plan, robot)
+    if options.seed:
+        options = disturbed(options, options.seed, plan.duration(), body.mass)
+    from . import mujoco_model
+    from .simulation import Simulation
+
+    model = mujoco_model.build(body, plan.scene, options)
+    loaded = model.loaded
+    simulation = Simulation(model)
+    wanted = references(plan, body, options.control_step_s, options.hold_s)
+    start, end = _posture_at(loaded, plan, 0.0), _posture_at(loaded, plan, wanted.duration_s)
+    on_ground = start.copy()
+    on_ground[2] += options.ground_shift_m
+    simulation.reset(on_ground, np.zeros(loaded.model.nv))
+    posture = start
+    if any(phase.law != ForceLaw.pendulum for phase in plan.phases):
+        # Such plans know nothing of the base: how it is turned has to suit the legs.
+        posture = postures_along(loaded, plan, wanted.count, options.control_step_s)
+        wanted = wanted.with_base(posture[:, 3:7])
+        end = posture[-1]
+    return _run(plan, loaded, simulation, wanted, posture, end, options, progress)
+
+
+def robot_for(plan: Plan, robot: Robot | str | Path | None) -> Robot:
+    """The robot with the plan's end-effectors, in the plan's order.
+
+    Raises:
+        InvalidInput: It lacks one.
+        InvalidRobot, UnknownRobot: As load_robot.
+    """
+    if robot is None:
+        return plan.robot
+    if not isinstance(robot, Robot):
+        from mcplan.files.robots import load_robot
+
+        robot = load_robot(robot)
+    own = {end.name: end for end in robot.end_effectors}
+    for end in plan.robot.end_effectors:
+        if end.name not in own:
+            raise InvalidInput("robot", f"must have the plan's end-effectors; {robot.name} has", repr(sorted(own)))
+    body = Robot(**{key: getattr(robot, key) for key in ("name", "mass", "inertia", "com_height", "swing_height")})
+    body.urdf, body.posture = robot.urdf, dict(robot.posture)
+    body.end_effectors = [own[end.name] for end in plan.robot.end_effectors]
+    return body
+
+
+def _as_plan(plan: Plan | str | Path) -> Plan:
+    if isinstance(plan, Plan):
+        return plan
+    from mcplan.files.whole_body_plans import load_any_plan
+
+    loaded = load_any_plan(Path(plan))
+    if not isinstance(loaded, Plan):
+        raise InvalidInput("plan", "must be a plan of ddp or rhp", f"{plan}, a whole-body plan")
+    return loaded
+
+
+def _posture_at(loaded: UrdfModel, plan: Plan, time_s: float) -> Array:
+    postures = follow(loaded, sample_at(plan, plan.scene, plan.robot, np.array([time_s])))
+    if postures.residual > START_MISS:
+        raise InvalidInput(
+            "plan",
+            f"must be in reach of {loaded.robot.name}",
+            f"{postures.where} is missed by {postures.residual:.3f} m",
+        )
+    return postures.configurations[0]
+
+
+def _run(
+    plan: Plan,
+    loaded: UrdfModel,
+    simulation: Simulation,
+    wanted: References,
+    posture: Array,
+    end: Array,
+    options: Options,
+    progress: Callable[[float, float], None] | None,
+) -> TrackingResult:
+    from .controller import Controller
+
+    controller = Controller(loaded, plan.scene, wanted, posture, options.gains)
+    recorder = Recorder(plan, loaded, simulation.model.joints, wanted)
+    touch_N = TOUCH * controller.body.mass * plan.scene.gravity
+    steps = round(options.control_step_s / options.simulation_step_s)
+    fell_at, failures, control_s, began = np.inf, 0, 0.0, time.perf_counter()
+    n = 0
+    for n in range(wanted.count):
+        now = n * wanted.dt_s
+        configuration, velocity = simulation.state()
+        forces = simulation.contact_forces_W()
+        tick = time.perf_counter()
+        touches = np.linalg.norm(forces, axis=1) > touch_N
+        command = controller.step(n, configuration, velocity, touches)
+        control_s += time.perf_counter() - tick
+        failures += not command.solved
+        push = sum((p.force_W(now) for p in options.pushes), np.zeros(3))
+        held = assistance(controller.body, wanted, n) if options.assist else np.zeros(6)
+        recorder.add(controller.body, command.torques, forces, touches, held, push)
+        simulation.advance(command.torques, held + np.concatenate([push, np.zeros(3)]), steps)
+        if simulation.broke or _fallen(controller.body.com_W, controller.body.base_WB, wanted, n, loaded.robot):
+            fell_at = now
+            break
+        if progress is not None and n % 50 == 0:
+            progress(now, wanted.count * wanted.dt_s)
+    wall = time.perf_counter() - began
+    recording = recorder.finish(fell_at)
+    measures = measure(recording, end)
+    measures = replace(
+        measures,
+        qp_failures=failures,
+        simulator_warnings=simulation.warnings,
+        realtime_factor=(n + 1) * wanted.dt_s / wall,
+        control_ms=1e3 * control_s / (n + 1),
+    )
+    return TrackingResult(recording, measures, options)
+
+
+def _fallen(com_W: Array, base_WB: Array, wanted: References, n: int, robot: Robot) -> bool:
+    far = float(np.linalg.norm(com_W - wanted.com_W[n])) > FALLEN_SHARE * robot.com_height
+    cosine = 0.5 * (np.trace(wanted.base_WB[n].T @ base_WB) - 1.0)
+    return far or bool(np.arccos(np.clip(cosine, -1.0, 1.0)) > FALLEN_RAD)

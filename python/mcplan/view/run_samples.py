@@ -1,0 +1,156 @@
+"""A run at a frame rate, in the form in which plans are drawn: what the simulator did, not what was planned."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.kinematics.rotations import polygon_normal, with_axis_z
+from mcplan.kinematics.samples import Interval, Samples
+
+if TYPE_CHECKING:
+    from mcplan import Scene
+    from mcplan.kinematics.urdf_model import UrdfModel
+    from mcplan.tracking import Recording
+
+Array = NDArray[np.float64]
+
+#: [s] contacts that are lost for no longer are drawn as kept: a foot that rocks is not a step.
+SHORT = 0.04
+
+
+@dataclass(frozen=True)
+class RunFrames:
+    """Instants of a run that are drawn.
+
+    Attributes:
+        samples: What the robot did there; contacts are the simulator's, and last as long as they did.
+        configurations: (n, nq) in Pinocchio's order.
+        base_W: (n, 3) [m] origin of the base.
+        pushes_W: (n, 3) [N].
+        assist_W: (n, 3) [N] force of the assistance on the base.
+    """
+
+    samples: Samples
+    configurations: Array
+    base_W: Array
+    pushes_W: Array
+    assist_W: Array
+
+
+def frame_indices(times_s: Array, rate_hz: float) -> NDArray[np.int64]:
+    """Instants of a recording nearest to equally spaced ones, first and last included, each once."""
+    count = max(2, round(float(times_s[-1] - times_s[0]) * rate_hz) + 1)
+    wanted = np.linspace(times_s[0], times_s[-1], count)
+    after = np.clip(np.searchsorted(times_s, wanted), 1, len(times_s) - 1)
+    nearer = wanted - times_s[after - 1] < times_s[after] - wanted
+    return np.unique(after - nearer)
+
+
+def frames_of(recording: Recording, loaded: UrdfModel, rate_hz: float) -> RunFrames:
+    """Pick the frames of a recording.
+
+    Args:
+        recording: The run.
+        loaded: Model of its robot; soles are turned as its configurations say.
+        rate_hz: Frames in a second.
+    """
+    scene = recording.plan.scene
+    chosen = frame_indices(recording.times_s, rate_hz)
+    configurations = recording.configurations[chosen]
+    rotation_WB, soles_W = _rotations(loaded, configurations)
+    times = recording.times_s[chosen]
+    positions = recording.ends_W[chosen]
+    count, ends = positions.shape[:2]
+    intervals = simulated_intervals(recording, scene)
+    for n, interval in enumerate(intervals):
+        middle = int(np.argmin(np.abs(times - 0.5 * (interval.start_s + interval.end_s))))
+        normal = polygon_normal(np.asarray(scene.surfaces[interval.surface].vertices_W))
+        turned = with_axis_z(normal, soles_W[middle, interval.end_effector][:, 0])
+        intervals[n] = Interval(
+            interval.end_effector, interval.surface, interval.start_s, interval.end_s, interval.position_W, turned
+        )
+    surfaces = np.full((count, ends), -1)
+    for interval in intervals:
+        lasts = (times >= interval.start_s) & (times <= interval.end_s)
+        surfaces[lasts, interval.end_effector] = interval.surface
+    com_velocity_W = np.gradient(recording.com_W, recording.times_s, axis=0)
+    samples = Samples(
+        times_s=times,
+        com_W=recording.com_W[chosen],
+        com_velocity_W=com_velocity_W[chosen],
+        com_acceleration_W=np.gradient(com_velocity_W, recording.times_s, axis=0)[chosen],
+        rotation_WB=rotation_WB,
+        positions_W=positions,
+        velocities_W=np.gradient(recording.ends_W, recording.times_s, axis=0)[chosen],
+        rotations_W=soles_W,
+        forces_W=recording.forces_W[chosen],
+        pressure_W=positions,
+        points_W=np.zeros((count, ends, 0, 3)),
+        point_forces_W=np.zeros((count, ends, 0, 3)),
+        angular_momentum_W=recording.angular_momentum_W[chosen],
+        surfaces=surfaces,
+        intervals=intervals,
+    )
+    return RunFrames(
+        samples, configurations, configurations[:, :3], recording.pushes_W[chosen], recording.assist[chosen, :3]
+    )
+
+
+def simulated_intervals(recording: Recording, scene: Scene) -> list[Interval]:
+    """Contacts as they were in the simulation, by end-effector and time; gaps of up to 40 ms are closed.
+
+    Their soles are level; where they lie is the mean over the contact.
+    """
+    times = recording.times_s
+    intervals = []
+    for end in range(recording.contacts.shape[1]):
+        for start, stop in _stretches(recording.contacts[:, end], times):
+            position = recording.ends_W[start:stop, end].mean(axis=0)
+            planned = recording.contacts_plan[start:stop, end]
+            planned = planned[planned >= 0]
+            surface = int(np.bincount(planned).argmax()) if len(planned) else _nearest_surface(scene, position)
+            until = float(times[min(stop, len(times) - 1)])
+            intervals.append(Interval(end, surface, float(times[start]), until, position, np.eye(3)))
+    return intervals
+
+
+def stretches_of(active: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """First index and the one past the last of every stretch of True."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], active.astype(int), [0]])))
+    return [(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _stretches(active: NDArray[np.bool_], times_s: Array) -> list[tuple[int, int]]:
+    joined: list[tuple[int, int]] = []
+    for start, stop in stretches_of(active):
+        if joined and times_s[start] - times_s[joined[-1][1]] <= SHORT + 1e-9:
+            joined[-1] = (joined[-1][0], stop)
+        else:
+            joined.append((start, stop))
+    return joined
+
+
+def _nearest_surface(scene: Scene, position_W: Array) -> int:
+    """Of contacts that nobody planned: the surface whose plane is nearest."""
+    away = []
+    for surface in scene.surfaces:
+        outline = np.asarray(surface.vertices_W, float)
+        away.append(abs(float((position_W - outline[0]) @ polygon_normal(outline))))
+    return int(np.argmin(away))
+
+
+def _rotations(loaded: UrdfModel, configurations: Array) -> tuple[Array, Array]:
+    """Of the base (n, 3, 3) and of the contact frames (n, e, 3, 3)."""
+    import pinocchio as pin  # type: ignore[import-untyped]
+
+    data = loaded.model.createData()
+    base, soles = [], []
+    for q in configurations:
+        pin.framesForwardKinematics(loaded.model, data, q)
+        base.append(data.oMi[1].rotation.copy())
+        soles.append([data.oMf[frame].rotation.copy() for frame in loaded.frames])
+    return np.array(base), np.array(soles)

@@ -1,0 +1,146 @@
+"""Pages of runs of planar robots: what the robot did in simulation, beside its whole-body plan."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.kinematics.samples import Interval
+
+from .colours import COM, PLANNED, TEXT
+from .overlay import caption, entry, timeline
+from .page import Page
+from .plan_drawing import WEIGHT_ARROW
+from .planar_drawing import (
+    contact_intervals,
+    draw_body,
+    draw_cones,
+    draw_forces,
+    draw_ground,
+    draw_paths,
+    ground_solid,
+    into_space,
+    lanes_of,
+    side_direction,
+)
+from .planar_figure import end_colours, shapes_of, size_of
+from .planar_ground import slabs_of
+from .planar_run_samples import sample_planar_run
+from .planar_samples import frame_times, sample_whole_body, turned
+from .plots_planar_run import force_error, joint_error_deg, point_drift
+from .run_samples import stretches_of
+from .shapes import tube
+from .stage import Stage
+
+if TYPE_CHECKING:
+    from mcplan.tracking.planar import PlanarRecording
+
+Array = NDArray[np.float64]
+
+FRAME_RATE = 60.0
+
+
+def show_planar_run(recording: PlanarRecording) -> Page:
+    """Draw a run of a planar robot for the browser, from the side.
+
+    Robot, CoM, paths and force arrows are the simulation's; grey, wider tubes are the planned paths. Bars of the timeline
+    are the simulated contacts, thin lines below them the planned ones.
+
+    Args:
+        recording: The run.
+
+    Raises:
+        MissingExtra: meshcat is not installed.
+    """
+    plan = recording.plan
+    motion = plan.motion
+    robot = motion.robot
+    stage = Stage()
+    size = size_of(robot)
+    weight = float(robot.mass()) * float(robot.gravity)
+    colours, shapes = end_colours(robot), shapes_of(robot)
+    samples = sample_planar_run(recording, FRAME_RATE)
+    planned = sample_whole_body(plan, frame_times(float(plan.duration()), FRAME_RATE))
+    duration = float(samples.times_s[-1])
+    reached = np.vstack(
+        [
+            run.positions_W[:, s.body] + turned(run.angles[:, s.body], disc[:2]) + edge
+            for run in (samples, planned)
+            for s in shapes
+            for disc in s.discs
+            for edge in disc[2] * np.array([[-1.0, -1.0], [1.0, 1.0]])
+        ]
+    )
+    slabs = slabs_of(motion, reached, 0.12 * size, 0.09 * size)
+    expected = contact_intervals(plan)
+    draw_ground(stage, slabs, size)
+    draw_body(stage, samples, robot, shapes, size)
+    draw_paths(stage, samples, robot, colours, size)
+    stage.mesh("planned/com", tube(into_space(planned.com_W), 0.02 * size), PLANNED, 0.4, glow=0.2)
+    for end, lane in enumerate(lanes_of(robot, size)):
+        path = tube(into_space(planned.soles_W[:, end], lane), 0.011 * size, sides=6)
+        stage.mesh(f"planned/paths/{robot.end_effectors[end].name}", path, PLANNED, 0.35, glow=0.2)
+    draw_cones(stage, plan, expected, colours, size)
+    draw_forces(stage, samples, robot, weight, size)
+
+    legend = [
+        entry("com paths/com", "ball", COM, "centre of mass"),
+        entry("planned", "line", PLANNED, "as planned: paths"),
+    ]
+    for end, colour in zip(robot.end_effectors, colours, strict=True):
+        legend.append(entry(f"paths/{end.name}", "line", colour, end.name.replace("_", " ")))
+    per_metre = weight / (WEIGHT_ARROW * size)
+    legend.append(entry("forces", "arrow", "", f"contact forces ({0.1 * per_metre:.0f} N: 10 cm)"))
+    legend.append(entry("cones", "", "#c3cad2", "friction cones"))
+    legend.append(entry("robot", "", "#98a2ae", "robot"))
+    ground = [ground_solid(slab, size).vertices for slab in slabs if len(slab.outline_W)]
+    seen = np.vstack([into_space(reached), *ground])
+    left = [seen[:, 0].min() - 0.22 * float(np.ptp(seen[:, 2])), 0.0, float(np.median(seen[:, 2]))]
+    marks = []
+    if recording.left_plan_at_s <= duration:
+        marks.append(
+            (float(recording.left_plan_at_s), duration, TEXT, f"off its plan at {recording.left_plan_at_s:.2f} s")
+        )
+    bars = timeline(motion, robot, _touching(recording), colours, duration, planned=expected, marks=marks)
+    return Page(
+        title=f"{motion.name}, {robot.name}, simulated",
+        payload=stage.payload(),
+        overlay=caption(f"{motion.name}, simulated", _lines(recording), legend) + bars,
+        points_W=np.vstack([*ground, into_space(np.array([reached.min(axis=0), reached.max(axis=0)])), left]),
+        direction_W=side_direction(),
+        sun_W=np.array([0.5, -0.8, 1.5]),
+        duration_s=duration,
+    )
+
+
+def _lines(recording: PlanarRecording) -> list[str]:
+    plan = recording.plan
+    end = f"{recording.times_s[-1]:.2f} s, all of the plan"
+    if np.isfinite(recording.left_plan_at_s):
+        end = f"off its plan at {recording.left_plan_at_s:.2f} s of {plan.duration():.2f} s"
+    force, share = force_error(recording)
+    drift = 1e3 * float(np.nanmax(point_drift(recording), initial=0.0))
+    return [
+        f"{plan.motion.robot.name}: {end}",
+        f"contact forces off by {force:.0f} N rms ({100.0 * share:.1f} %)",
+        f"joints off by {np.sqrt(np.mean(joint_error_deg(recording) ** 2)):.2f}° rms",
+        f"contact points off by {drift:.1f} mm at most",
+    ]
+
+
+def _touching(recording: PlanarRecording) -> list[Interval]:
+    """Contacts as the simulator had them."""
+    robot, times = recording.plan.motion.robot, recording.times_s
+    weight = float(robot.mass()) * float(robot.gravity)
+    pressed = np.linalg.norm(np.nansum(recording.forces_W, axis=2), axis=2) > 0.005 * weight
+    intervals = []
+    for end in range(len(robot.end_effectors)):
+        for start, stop in stretches_of(pressed[:, end]):
+            planned = recording.surfaces_plan[start:stop, end]
+            planned = planned[planned >= 0]
+            surface = int(np.bincount(planned).argmax()) if len(planned) else 0
+            until = float(times[min(stop, len(times) - 1)])
+            intervals.append(Interval(end, surface, float(times[start]), until, np.zeros(3), np.eye(3)))
+    return intervals

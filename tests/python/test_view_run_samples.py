@@ -1,0 +1,65 @@
+"""Frames of a run: evenly chosen, contacts as the simulator had them."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import recordings
+from mcplan.kinematics.urdf_model import load_model
+from mcplan.view.run_samples import SHORT, frame_indices, frames_of, simulated_intervals, stretches_of
+
+pytest.importorskip("pinocchio")
+
+
+@pytest.mark.parametrize(("step", "rate"), [(0.002, 30.0), (0.002, 25.0), (0.004, 60.0), (0.05, 30.0)])
+def test_frames_are_the_instants_nearest_to_even_ones(step, rate):
+    times = np.arange(0.0, 3.0 + 1e-9, step)
+    chosen = frame_indices(times, rate)
+    assert chosen[0] == 0 and chosen[-1] == len(times) - 1
+    assert (np.diff(chosen) > 0).all()
+    assert len(chosen) == min(round(3.0 * rate) + 1, len(times))
+    if len(chosen) < len(times):
+        wanted = np.linspace(0.0, 3.0, len(chosen))
+        assert np.abs(times[chosen] - wanted).max() <= 0.5 * step + 1e-9
+
+
+def test_stretches_are_all_of_the_true_and_nothing_else():
+    active = np.random.default_rng(3).random(200) < 0.6
+    again = np.zeros_like(active)
+    for start, stop in stretches_of(active):
+        assert not again[start:stop].any()
+        again[start:stop] = True
+        assert start == 0 or not active[start - 1]
+    assert (again == active).all()
+
+
+def test_a_contact_lost_for_an_instant_is_one_contact_and_a_longer_loss_is_a_step():
+    recording = recordings.walking()
+    count = sum(i.end_effector == 0 for i in simulated_intervals(recording, recording.plan.scene))
+    for lost, more in ((SHORT - 0.015, 0), (SHORT + 0.03, 1)):
+        contacts = recording.contacts.copy()
+        contacts[(recording.times_s >= 0.2) & (recording.times_s < 0.2 + lost), 0] = False
+        changed = dataclasses.replace(recording, contacts=contacts)
+        found = simulated_intervals(changed, recording.plan.scene)
+        assert sum(i.end_effector == 0 for i in found) == count + more
+
+
+def test_a_hand_that_touches_unplanned_is_given_the_nearest_surface():
+    recording = recordings.walking()
+    contacts = recording.contacts.copy()
+    contacts[50:100, 2] = True
+    intervals = simulated_intervals(dataclasses.replace(recording, contacts=contacts), recording.plan.scene)
+    (hand,) = [i for i in intervals if i.end_effector == 2]
+    assert hand.surface == 0
+    assert (hand.start_s, hand.end_s) == pytest.approx((0.5, 1.0))
+    assert hand.position_W == pytest.approx(recording.ends_W[50:100, 2].mean(axis=0))
+
+
+def test_frames_keep_the_recordings_numbers():
+    recording = recordings.walking()
+    frames = frames_of(recording, load_model(recording.body), 25.0)
+    chosen = frame_indices(recording.times_s, 25.0)
+    assert (frames.samples.forces_W == recording.forces_W[chosen]).all()
+    assert (frames.base_W == recording.configurations[chosen, :3]).all()
+    assert frames.samples.rotations_W[:, :2, 2, 2].min() > 0.85  # soles: flat, or on their way
