@@ -210,8 +210,12 @@ BAD_WORDS = [
     (("robots", "--from-urdf", "nobody"), "--from-urdf: must be a URDF file or a name of example-robot-data"),
     (
         ("robots", "--from-urdf", "talos", "--end", "foot"),
-        "--end: must read NAME=FRAME[:KIND[:LENGTHxWIDTH]]",
+        "--end: must read NAME=FRAME[:KIND[:LENGTHxWIDTH[:X,Y,Z]]]",
     ),
+    (("robots", "--from-urdf", "g1", "--posture", "knee"), "--posture: must read JOINT=ANGLE"),
+    (("robots", "--posture", "knee=1"), "--posture: needs --from-urdf"),
+    (("plan", "flat", "--scale", "0"), "scale: must be a positive number, got 0.0"),
+    (("plan", "flat", "--sole-inside", "3"), "sole_inside: must be 2 at most, got 3"),
     (("robots", "--from-urdf", "talos", "--end", "foot=nowhere"), "ends.foot: must name a link of the URDF"),
     (("robots", "--from-urdf", "solo12"), "ends: must be given for a robot other than talos, anymal"),
 ]
@@ -244,6 +248,15 @@ def solve_result(status: str = "solved") -> types.SimpleNamespace:
         worst_violation=mp.Violation(name="reach", phase=1, end_effector="left_foot", time_s=0.5, value=-0.01, unit="m"),
     )  # fmt: skip
     return types.SimpleNamespace(plan=standing_plan(), report=report)
+
+
+def test_plan_scales_the_scene_and_keeps_soles_inside(capsys, monkeypatch):
+    given = []
+    monkeypatch.setattr(mp, "plan", lambda *args, **options: given.append((args, options)) or solve_result())
+    assert run(capsys, "plan", "slope", "--robot", "g1", "--scale", 0.5, "--sole-inside", 1)[0] == 0
+    ((scene, robot), options), whole = given[0], load_scene("slope")
+    assert (robot, options) == ("g1", {"sole_inside": 1.0})
+    assert (scene.surfaces[1].vertices_W == 0.5 * whole.surfaces[1].vertices_W).all()
 
 
 def test_plan_hands_its_options_on_and_prints_json(capsys, tmp_path, monkeypatch):

@@ -17,7 +17,7 @@ import malformed
 import mcplan as mp
 from mcplan._core import Polygon, resolve_stance
 from mcplan.files.builtin import DATA
-from mcplan.files.scenes import list_scenes, load_scene, save_scene, scene_from_dict, scene_to_dict
+from mcplan.files.scenes import list_scenes, load_scene, save_scene, scaled, scene_from_dict, scene_to_dict
 from mcplan.files.toml import toml_text, tomllib
 
 
@@ -214,3 +214,27 @@ def test_the_scene_of_the_documentation_is_valid():
     page = (Path(__file__).parents[2] / "docs" / "scenes_and_robots.md").read_text()
     scene = scene_from_dict(tomllib.loads(page.split("```toml\n")[1].split("```")[0]))
     assert [surface.name for surface in scene.surfaces] == ["ground", "ledge"]
+
+
+@pytest.mark.parametrize("name", list_scenes())
+def test_a_scaled_scene_has_all_its_lengths_scaled_and_nothing_else(name):
+    scene = load_scene(name)
+    half = scaled(scene, 0.5)
+    half.validate()
+    for whole, part in zip(scene.surfaces, half.surfaces, strict=True):
+        np.testing.assert_allclose(part.vertices_W, 0.5 * whole.vertices_W)
+        assert part.thickness == pytest.approx(0.5 * whole.thickness)
+        assert (part.name, part.friction, part.grasp) == (whole.name, whole.friction, whole.grasp)
+        assert tuple(part.end_effectors) == tuple(whole.end_effectors)
+    for whole, part in ((scene.start, half.start), (scene.goal, half.goal)):
+        np.testing.assert_allclose(part.position_W, 0.5 * whole.position_W)
+        assert (part.yaw, dict(part.contacts)) == (whole.yaw, dict(whole.contacts))
+    assert half.gravity == scene.gravity
+    assert scene_to_dict(scaled(half, 2.0)) == scene_to_dict(scene)
+    assert [step.surface for step in half.steps] == [step.surface for step in scene.steps]
+
+
+@pytest.mark.parametrize("factor", [0.0, -1.0, float("nan"), float("inf")])
+def test_a_scene_is_scaled_by_positive_numbers_only(factor):
+    with pytest.raises(mp.InvalidOptions, match="scale: must be a positive number"):
+        scaled(load_scene("flat"), factor)

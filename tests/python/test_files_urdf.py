@@ -7,7 +7,7 @@ import pytest
 
 import mcplan as mp
 from mcplan.files.reach import share_reached
-from mcplan.files.urdf import SETUPS, limb_of
+from mcplan.files.urdf import SETUPS, End, contact_frame, limb_of, load_model, robot_from_urdf
 
 pin = pytest.importorskip("pinocchio")
 example_robot_data = pytest.importorskip("example_robot_data")
@@ -15,17 +15,19 @@ example_robot_data = pytest.importorskip("example_robot_data")
 
 @pytest.fixture(scope="module", params=sorted(SETUPS))
 def loaded(request):
-    source = example_robot_data.load(request.param)
-    return mp.load_robot(request.param), SETUPS[request.param], source.model, source.q0.copy()
+    setup = SETUPS[request.param]
+    model, posture, _ = load_model(request.param, setup.ends)
+    return mp.load_robot(request.param), setup, model, posture
 
 
 def test_mass_height_and_inertia_are_those_of_the_urdf(loaded):
-    robot, _, model, posture = loaded
+    robot, setup, model, posture = loaded
+    frames = [contact_frame(model, end) for end in setup.ends if end.kind == "foot"]
     data = model.createData()
     assert robot.mass == pytest.approx(pin.computeTotalMass(model), abs=1e-3)
     com_W = pin.centerOfMass(model, data, posture)
     pin.framesForwardKinematics(model, data, posture)
-    soles = [data.oMf[model.getFrameId(e.frame)].translation[2] for e in robot.end_effectors if e.kind == "foot"]
+    soles = [data.oMf[frame].translation[2] for frame in frames]
     assert robot.com_height == pytest.approx(com_W[2] - np.mean(soles), abs=2e-3)
     # Steiner's sum over the bodies, independent of Pinocchio's centroidal algorithm
     inertia = np.zeros((3, 3))
@@ -78,3 +80,62 @@ def test_legs_stay_on_their_own_side(loaded):
         assert end.reach_min_B[1] * end.reach_max_B[1] > 0.0
         if end.kind == "foot":
             assert min(abs(end.reach_min_B[1]), abs(end.reach_max_B[1])) >= end.half_size[1]
+
+
+def test_g1_stands_upright_on_level_soles_below_its_com():
+    """The package has no posture for it but the one with straight legs."""
+    model, posture, _ = load_model("g1")
+    feet = [end for end in SETUPS["g1"].ends if end.kind == "foot"]
+    frames = [contact_frame(model, end) for end in feet]
+    data = model.createData()
+    com_W = pin.centerOfMass(model, data, posture)
+    pin.framesForwardKinematics(model, data, posture)
+    for frame in frames:
+        np.testing.assert_allclose(data.oMf[frame].rotation, np.eye(3), atol=1e-6)
+    middle = np.mean([data.oMf[frame].translation for frame in frames], axis=0)
+    np.testing.assert_allclose(com_W[:2], middle[:2], atol=1e-3)
+    assert (
+        (posture[7:] > model.lowerPositionLimit[7:] + 0.05) & (posture[7:] < model.upperPositionLimit[7:] - 0.05)
+    ).all()
+    knee = posture[model.idx_qs[model.getJointId("left_knee_joint")]]
+    assert 0.5 < knee < 1.2
+
+
+ONE_LEG = """<robot name="hopper">
+  <link name="body"><inertial><mass value="4"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="thigh"><inertial><origin xyz="0 0 -0.2"/><mass value="1"/>
+    <inertia ixx="0.01" iyy="0.01" izz="0.001" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="shank"><inertial><origin xyz="0 0 -0.2"/><mass value="1"/>
+    <inertia ixx="0.01" iyy="0.01" izz="0.001" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="hip" type="revolute"><parent link="body"/><child link="thigh"/><axis xyz="0 1 0"/>
+    <limit lower="-2" upper="2" effort="50" velocity="10"/></joint>
+  <joint name="knee" type="revolute"><parent link="thigh"/><child link="shank"/><origin xyz="0 0 -0.4"/><axis xyz="0 1 0"/>
+    <limit lower="-0.1" upper="2.5" effort="50" velocity="10"/></joint>
+</robot>"""
+
+
+def test_a_contact_point_off_the_link_and_a_posture_are_taken(tmp_path):
+    path = tmp_path / "hopper.urdf"
+    path.write_text(ONE_LEG)
+    foot = End("foot", "shank", frame_offset=(0.0, 0.0, -0.4))
+    robot = robot_from_urdf(str(path), (foot,), posture={"hip": -0.5, "knee": 1.0}, step=0.05)
+    bent = 0.4 * np.cos(0.5)  # each link's height
+    com = -(0.5 * bent + 1.5 * bent) / 6.0  # of the whole, below the hip
+    assert robot.com_height == pytest.approx(com + 2.0 * bent, abs=1e-3)
+    assert robot.posture == {"hip": -0.5, "knee": 1.0}
+    np.testing.assert_allclose(robot.end_effectors[0].frame_offset, [0, 0, -0.4])
+
+
+@pytest.mark.parametrize(
+    ("ends", "posture", "message"),
+    [
+        ((End("foot", "ankle"),), {}, "ends.foot: must name a link of the URDF, got 'ankle'"),
+        ((End("foot", "shank"),), {"toe": 0.1}, "posture.toe: must name a joint of the URDF"),
+    ],
+)
+def test_links_and_joints_that_do_not_exist_are_named(tmp_path, ends, posture, message):
+    path = tmp_path / "hopper.urdf"
+    path.write_text(ONE_LEG)
+    with pytest.raises(mp.InvalidInput) as error:
+        robot_from_urdf(str(path), ends, posture=posture)
+    assert message in str(error.value)

@@ -16,6 +16,11 @@ if TYPE_CHECKING:
 def plan(
     scene: Annotated[str, typer.Argument(metavar="SCENE", help="Built-in name or TOML file.")],
     robot: Annotated[str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")] = "humanoid44",
+    scale: Annotated[float, typer.Option("--scale", metavar="X", help="Factor on all lengths of the scene.")] = 1.0,
+    sole_inside: Annotated[
+        float | None,
+        typer.Option("--sole-inside", metavar="X", help="Share of soles kept on their surface; 0 centre, 1 all."),
+    ] = None,
     phases: Annotated[int | None, typer.Option("--phases", metavar="N", help="Phases of the plan.")] = None,
     method: Annotated[str | None, typer.Option("--method", metavar="M", help="standard or paper.")] = None,
     time_limit: Annotated[
@@ -36,12 +41,13 @@ def plan(
 ) -> int:
     """Find a contact sequence and a motion; exit code 0 only if the plan is solved, 1 otherwise.
 
-    Example: mcplan plan stairs --robot talos -o plan.npz --html plan.html
+    Example: mcplan plan stepping_stones --robot g1 --scale 0.8 -o plan.npz --html plan.html
     """
     from mcplan.cli.outputs import require_outputs, write_outputs
 
     require_outputs("plan", output, html, plots)
     given = {"phases": phases, "method": method, "time_limit": time_limit, "threads": threads, "seed": seed}
+    given["sole_inside"] = sole_inside
     options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if plots is not None:
         options["record_history"] = True
@@ -49,8 +55,9 @@ def plan(
         options["logger"] = lambda level, line: print(line, file=sys.stderr)
 
     import mcplan
+    from mcplan.files.scenes import scaled
 
-    result = mcplan.plan(scene, robot, **options)
+    result = mcplan.plan(scene if scale == 1.0 else scaled(mcplan.load_scene(scene), scale), robot, **options)
     write_outputs(result.plan, result.report, output, html, plots)
     print(json_module.dumps(summary(result)) if json else report_text(result, [output, html, plots]))
     return 0 if str(result.report.status) == "solved" else 1

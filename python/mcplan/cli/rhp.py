@@ -26,6 +26,7 @@ def rhp(
     lookahead: Annotated[
         int, typer.Option("--lookahead", metavar="N", help="Steps in a horizon, the executed one included.")
     ] = 3,
+    scale: Annotated[float, typer.Option("--scale", metavar="X", help="Factor on all lengths of the terrain.")] = 1.0,
     cycles: Annotated[int, typer.Option("--cycles", metavar="N", help="Steps to execute.")] = 14,
     transcription: Annotated[
         str, typer.Option("--transcription", metavar="T", help="trapezoidal or euler.")
@@ -57,11 +58,13 @@ def rhp(
     from mcplan import walking
     from mcplan.cli.outputs import require_outputs, write_outputs
     from mcplan.cli.rhp_text import Progress, summary_text
+    from mcplan.files.scenes import scaled
 
     require_outputs("rhp", output, html, plots)
     given = {"fidelity": fidelity, "lookahead": lookahead, "cycles": cycles, "transcription": transcription}
     options = walking.make_options({**given, "paper": paper, "lifted_psi": lifted_psi, "time_limit": time_limit})
     scene, model, steps = walking.parts_of(terrain, robot, sequence)
+    scene = scaled(scene, scale)
     planner = _planner(terrain, scene, model, steps, options)
     progress = None if json or quiet else Progress(verbose)
     for cycle in walking.cycles_of(planner, cycles):

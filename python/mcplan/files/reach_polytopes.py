@@ -83,8 +83,8 @@ def add_reach_polytopes(
         raise InvalidInput("--faces", "must be at least 6", str(faces))
     if samples < 1000:
         raise InvalidInput("samples", "must be at least 1000", str(samples))
+    model, nominal, _ = load_model(source, tuple(ends), srdf, posture)
     ends = ends_of(source, tuple(ends))
-    model, nominal, _ = load_model(source, ends, srdf, posture)
     feet = [end for end in ends if end.kind == "foot"]
     made = {end.name: end for end in robot.end_effectors}
     clouds = {}

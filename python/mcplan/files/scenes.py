@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from mcplan._core import ContactRule, Scene, Stance, Step, Surface
-from mcplan.errors import InvalidScene, UnknownScene
+from mcplan.errors import InvalidOptions, InvalidScene, UnknownScene
 from mcplan.files import builtin
 from mcplan.files.toml import read_toml, toml_text
 
@@ -90,6 +91,29 @@ def rebuild_scene(data: Mapping[str, Any]) -> Scene:
         rules=[ContactRule(**rule) for rule in data.get("rules", [])],
         steps=[Step(**step) for step in data.get("steps", [])],
     )
+
+
+def scaled(scene: Scene, factor: float) -> Scene:
+    """The scene with all its lengths times a factor, for robots of another size.
+
+    Corners, thicknesses, start and goal are scaled about the world's origin; angles, friction and gravity stay.
+
+    Args:
+        scene: Stays as it is.
+        factor: E.g. the ratio of two robots' CoM heights.
+
+    Raises:
+        InvalidOptions: The factor is not a positive number.
+    """
+    if not (math.isfinite(factor) and factor > 0.0):
+        raise InvalidOptions("scale", "must be a positive number", str(factor))
+    data = scene_to_dict(scene)
+    for surface, plain in zip(scene.surfaces, data["surfaces"], strict=True):
+        plain["vertices"] = (factor * surface.vertices_W).tolist()
+        plain["thickness"] = factor * surface.thickness
+    for stance in (data["start"], data["goal"]):
+        stance["position"] = [factor * x for x in stance["position"]]
+    return rebuild_scene(data)
 
 
 def _surface_to_dict(surface: Surface) -> dict[str, Any]:

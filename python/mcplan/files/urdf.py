@@ -66,15 +66,22 @@ class End:
 
 @dataclass(frozen=True)
 class Setup:
-    """End-effectors, swing height [m], description and nominal posture of a robot of example-robot-data.
+    """What to make of a robot of example-robot-data.
 
-    `posture` [rad] by joint is set on top of that of the package, which for some robots has straight legs.
+    Attributes:
+        ends: End-effectors.
+        swing_height: [m]
+        description: One line.
+        posture: Angles [rad] by joint, set on top of those of the package, which for some robots has straight legs.
+        lift: Highest top of the feet's reach boxes above the ground, in CoM heights. The box of largest volume may be
+            high and short: where ankles cannot bend far, a lifted sole stays level only ahead.
     """
 
     ends: tuple[End, ...]
     swing_height: float
     description: str
     posture: Mapping[str, float] = field(default_factory=dict)
+    lift: float = 0.4
 
 
 def _pairs(*makers: Callable[[str], End]) -> tuple[End, ...]:
@@ -110,9 +117,9 @@ def _g1_hand(side: str) -> End:
 
 def _g1_posture() -> dict[str, float]:
     """Knees bent, soles level and below the upright base, their middle below the CoM; arms bent and off the body."""
-    posture = {}
+    posture: dict[str, float] = {}
     for side, sign in (("left", 1.0), ("right", -1.0)):
-        legs = {"hip_pitch": -0.3122, "knee": 0.7, "ankle_pitch": -0.3878}
+        legs = {"hip_pitch": -0.4167, "knee": 0.9, "ankle_pitch": -0.4833}
         arms = {"shoulder_pitch": 0.25, "shoulder_roll": sign * 0.25, "elbow": 0.9}
         posture |= {f"{side}_{name}_joint": angle for name, angle in (legs | arms).items()}
     return posture
@@ -128,7 +135,7 @@ SETUPS = {
     "anymal": Setup(
         tuple(_anymal_foot(leg) for leg in ("RF", "LF", "RH", "LH")), 0.07, "ANYbotics ANYmal B: four point feet"
     ),
-    "g1": Setup(_pairs(_g1_foot, _g1_hand), 0.08, "Unitree G1: two feet, two hands", _g1_posture()),
+    "g1": Setup(_pairs(_g1_foot, _g1_hand), 0.08, "Unitree G1: two feet, two hands", _g1_posture(), lift=0.12),
 }
 
 
@@ -160,8 +167,8 @@ def robot_from_urdf(
     import pinocchio as pin
 
     setup = SETUPS.get(source)
-    ends = ends_of(source, ends)
     model, nominal, urdf = load_model(source, ends, srdf, posture)
+    ends = ends_of(source, ends)
     if not any(end.kind == "foot" for end in ends):
         raise InvalidInput("ends", "needs one of kind foot at least, whose height is the ground's")
 
@@ -180,7 +187,7 @@ def robot_from_urdf(
         if end.kind == "foot":
             # Forces point at the CoM: a stance wider than the friction cone cannot stand, so it is drawn in.
             position[:2] *= min(1.0, STANCE_TANGENT * com_height / np.hypot(*position[:2]))
-        low, high = _search_box(position, end, com_height)
+        low, high = _search_box(position, end, com_height, setup.lift if setup else Setup.lift)
         made[end.name] = (position, *largest_box(explore(limb, low, high, step, seed)))
     weight = mass * GRAVITY
     return Robot(
@@ -276,21 +283,21 @@ def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...]) ->
 
 
 def load_model(
-    source: str, ends: tuple[End, ...], srdf: str | None = None, posture: Mapping[str, float] | None = None
+    source: str, ends: tuple[End, ...] = (), srdf: str | None = None, posture: Mapping[str, float] | None = None
 ) -> tuple[Any, np.ndarray, str]:
     """Pinocchio model with a free base, nominal posture, and what to write as `urdf` of the robot.
 
     Args:
         source: A name of example-robot-data, or the path of a URDF file.
-        ends: Whose links must exist.
+        ends: Whose links must exist; may be empty for the names in SETUPS.
         srdf: With the nominal posture, for a URDF file.
         posture: Angles [rad] by joint, set on top of that; None: those in SETUPS.
 
     Raises:
-        InvalidInput: No such file and no such name in example-robot-data, or no such link or joint.
+        InvalidInput: No such file and no such name in example-robot-data, no such link or joint, or no ends.
     """
     model, nominal, urdf = _read(source, srdf)
-    for end in ends:
+    for end in ends_of(source, ends):
         if not model.existBodyName(end.frame):
             raise InvalidInput(f"ends.{end.name}", "must name a link of the URDF", repr(end.frame))
     if posture is None:
@@ -322,14 +329,14 @@ def _read(source: str, srdf: str | None) -> tuple[Any, np.ndarray, str]:
     return loaded.model, loaded.q0.copy(), f"example-robot-data:{source}"
 
 
-def _search_box(nominal: np.ndarray, end: End, com_height: float) -> tuple[np.ndarray, np.ndarray]:
+def _search_box(nominal: np.ndarray, end: End, com_height: float, lift: float) -> tuple[np.ndarray, np.ndarray]:
     """Where to look for reachable positions [m]: feet stay on their side and below, hands on their side."""
     side = np.sign(nominal[1])
     if end.kind == "foot":
         inner = min(max(end.half_size[1], 0.25 * abs(nominal[1])), abs(nominal[1]))
         outer = abs(nominal[1]) + 0.15 * com_height
         ahead = 0.5 * com_height
-        low, high = nominal[2] - 0.15 * com_height, nominal[2] + 0.4 * com_height
+        low, high = nominal[2] - 0.15 * com_height, nominal[2] + lift * com_height
     else:
         inner, outer, ahead, low, high = 0.15, 1.0, 0.6, -0.5, 0.9
     y = sorted((side * inner, side * outer))
@@ -349,7 +356,7 @@ def _both_sides(made: dict[str, Any], end: End, com_height: float) -> tuple[np.n
         nominal[2] = -round(com_height, 3)  # all soles on the ground
     inset = 0.0 if end.kind == "foot" else HAND_INSET_M
     low, high = low.round(3), high.round(3)
-    return np.clip(nominal, low + inset, high - inset).round(3), low, high
+    return np.clip(nominal, low + inset, high - inset).round(3) + 0.0, low, high  # no -0.0
 
 
 def _end_effector(

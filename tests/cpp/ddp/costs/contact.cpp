@@ -49,6 +49,44 @@ TEST_CASE("contact: height off the plane, way beyond every edge, and motion") {
   }
 }
 
+TEST_CASE("contact: soles that are to lie inside are priced by their corner that hangs over") {
+  ddp::Options options = phases(6);
+  options.weights.overshoot_factor = 1.0;
+  for (double share : {0.5, 1.0}) {
+    options.sole_inside = share;
+    const ddp::Problem problem = workshop(options);
+    const ddp::Layout& at = problem.layout;
+    const Eigen::Vector2d half = share * problem.robot.end_effectors[0].half_size;
+    double ahead = 0.0;  // of the share of the sole, turned as at the start
+    for (double side : {-1.0, 1.0}) ahead = std::max(ahead, std::cos(0.4) * half[0] + side * std::sin(0.4) * half[1]);
+    const double edge = problem.scene.surfaces[before].vertices_W[1].x();
+    const auto price = [&](double x_m) {
+      VectorXd x = VectorXd::Zero(at.nx());
+      x.segment<3>(at.end(0)) = Vector3d(x_m, 0.0, 0.0) / 0.7;
+      return cost(problem, contact_of(problem, 0, before), x, VectorXd()) / (0.5 * 3.0 * 3.0);
+    };
+    CHECK(price(edge - ahead - 0.003) == 0.0);
+    CHECK(price(edge - ahead + 0.01) == doctest::Approx(std::pow(0.012 / 0.7, 2)));
+    CHECK(price(edge) == doctest::Approx(std::pow((ahead + 0.002) / 0.7, 2)));
+    check_rows(problem, contact_of(problem, 1, slope), 48, 0.8, 40);
+  }
+}
+
+TEST_CASE("contact: on a surface too small for the sole its middle is the best place") {
+  ddp::Options options = phases(6);
+  options.sole_inside = 2.0;
+  const ddp::Problem problem = workshop(options);
+  const ddp::Layout& at = problem.layout;
+  const Vector3d middle = problem.polygons[right_pad].centroid_W();
+  const auto price = [&](const Vector3d& offset) {
+    VectorXd x = VectorXd::Zero(at.nx());
+    x.segment<3>(at.end(0)) = middle + offset;
+    return cost(problem, contact_of(problem, 0, right_pad), x, VectorXd());
+  };
+  for (const Vector3d& aside : {Vector3d(0.01, 0, 0), Vector3d(-0.01, 0, 0), Vector3d(0, 0.01, 0), Vector3d(0, -0.01, 0)})
+    CHECK(price(aside) > price(Vector3d::Zero()));
+}
+
 TEST_CASE("free: no stiffness and no moment of this end-effector, whatever the others do") {
   const ddp::Problem problem = workshop();
   const ddp::Layout& at = problem.layout;

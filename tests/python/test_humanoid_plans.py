@@ -1,0 +1,40 @@
+"""Plans of TALOS and G1 over scenes of their size: solved, without flight, soles where they find room."""
+
+import numpy as np
+import pytest
+
+import mcplan as mp
+from mcplan.files.scenes import scaled
+
+
+def sole_beyond_its_surface(plan):
+    """Farthest that a corner of a sole, headed along x, is beyond the edge of the surface that it stands on [m]."""
+    worst, start = -np.inf, 0.0
+    for phase, row in zip(plan.phases, plan.contact_sequence(), strict=True):
+        states = plan.at(start + 1e-6).end_effectors
+        for end, surface, state in zip(plan.robot.end_effectors, row, states, strict=True):
+            if surface >= 0 and end.kind == "foot":
+                outline = np.asarray(plan.scene.surfaces[surface].vertices_W)[:, :2]
+                edges = np.roll(outline, -1, axis=0) - outline
+                outward = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
+                corners = np.asarray(state.position_W)[:2] + end.half_size * [[1, 1], [1, -1], [-1, 1], [-1, -1]]
+                worst = max(worst, np.einsum("ek,cek->ce", outward, corners[:, None] - outline).max())
+        start += phase.duration
+    return worst
+
+
+@pytest.mark.parametrize(("robot", "scale"), [("talos", 1.0), ("g1", 0.74)])
+@pytest.mark.parametrize(
+    ("scene", "inside", "beyond"),
+    [("flat", 1.0, 0.0), ("ramp", 1.0, 0.003), ("stairs_broad", 1.0, 0.0), ("stepping_stones", 0.5, 0.06)],
+)
+def test_humanoids_walk_with_their_soles_on_the_surfaces(scene, inside, beyond, robot, scale):
+    """On stones smaller than TALOS' sole, its middle half is."""
+    result = mp.plan(scaled(mp.load_scene(scene), scale), robot, sole_inside=inside)
+    assert str(result.report.status) == "solved", result.report.message
+    assert all(any(surface >= 0 for surface in row) for row in result.plan.contact_sequence())  # no flight
+    assert sole_beyond_its_surface(result.plan) < beyond + 1e-3
+
+
+def test_soles_hang_over_edges_unless_asked_to_stay_inside():
+    assert sole_beyond_its_surface(mp.plan("stairs", "talos").plan) > 0.08
