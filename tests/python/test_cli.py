@@ -215,6 +215,7 @@ BAD_WORDS = [
     (("robots", "--from-urdf", "g1", "--posture", "knee"), "--posture: must read JOINT=ANGLE"),
     (("robots", "--posture", "knee=1"), "--posture: needs --from-urdf"),
     (("plan", "flat", "--scale", "0"), "scale: must be a positive number, got 0.0"),
+    (("plan", "flat", "--sole-inside", "3"), "sole_inside: must be 2 at most, got 3"),
     (("robots", "--from-urdf", "talos", "--end", "foot=nowhere"), "ends.foot: must name a link of the URDF"),
     (("robots", "--from-urdf", "solo12"), "ends: must be given for a robot other than talos, anymal"),
 ]
@@ -249,12 +250,12 @@ def solve_result(status: str = "solved") -> types.SimpleNamespace:
     return types.SimpleNamespace(plan=standing_plan(), report=report)
 
 
-def test_plan_scales_the_scene(capsys, monkeypatch):
+def test_plan_scales_the_scene_and_keeps_soles_inside(capsys, monkeypatch):
     given = []
     monkeypatch.setattr(mp, "plan", lambda *args, **options: given.append((args, options)) or solve_result())
-    assert run(capsys, "plan", "slope", "--robot", "g1", "--scale", 0.5)[0] == 0
+    assert run(capsys, "plan", "slope", "--robot", "g1", "--scale", 0.5, "--sole-inside", 1)[0] == 0
     ((scene, robot), options), whole = given[0], load_scene("slope")
-    assert (robot, options) == ("g1", {})
+    assert (robot, options) == ("g1", {"sole_inside": 1.0})
     assert (scene.surfaces[1].vertices_W == 0.5 * whole.surfaces[1].vertices_W).all()
 
 

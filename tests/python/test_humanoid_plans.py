@@ -30,15 +30,11 @@ def sole_beyond_its_surface(plan):
 )
 def test_humanoids_walk_with_their_soles_on_the_surfaces(scene, inside, beyond, robot, scale):
     """On stones smaller than TALOS' sole, its middle half is."""
-    robot = mp.load_robot(robot)
-    robot.sole_support = inside
-    result = mp.plan(scaled(mp.load_scene(scene), scale), robot)
+    result = mp.plan(scaled(mp.load_scene(scene), scale), robot, sole_inside=inside)
     assert str(result.report.status) == "solved", result.report.message
     assert all(any(surface >= 0 for surface in row) for row in result.plan.contact_sequence())  # no flight
     assert sole_beyond_its_surface(result.plan) < beyond + 1e-3
 
 
 def test_soles_hang_over_edges_unless_asked_to_stay_inside():
-    robot = mp.load_robot("talos")
-    robot.sole_support = 0.0
-    assert sole_beyond_its_surface(mp.plan("stairs", robot).plan) > 0.08
+    assert sole_beyond_its_surface(mp.plan("stairs", "talos").plan) > 0.08

@@ -61,6 +61,9 @@ void bind_options(py::module_& m) {
   c.def_readwrite("proximal_weight", &Options::proximal_weight, "First weight on the change of the inputs.");
   c.def_readwrite("interior_points", &Options::interior_points, "Instants inside a phase where limits are held.");
   c.def_readwrite("reach_margin_m", &Options::reach_margin_m, "The reach box is planned smaller by this [m].");
+  c.def_readwrite("sole_inside", &Options::sole_inside,
+                  "Share of a sole's half size by which footholds keep from the edges of their surface; 1: the whole "
+                  "sole is on it, where it is large enough; negative: the robot's sole_support.");
   c.def_readwrite("friction", &Options::friction, "Hold the friction cones.");
   c.def_readwrite("whole_sequence_moves", &Options::whole_sequence_moves);
   c.def_readwrite("one_switch_per_step", &Options::one_switch_per_step);

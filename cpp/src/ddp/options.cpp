@@ -36,6 +36,7 @@ void Options::validate() const {
   require_at_least("interior_points", interior_points, 0);
   if (interior_points > 20) throw InvalidOptions("interior_points", "must be 20 at most", text(interior_points));
   require_weight("reach_margin_m", reach_margin_m);
+  if (!(sole_inside <= 2.0)) throw InvalidOptions("sole_inside", "must be 2 at most", text(sole_inside));
   require_at_least("restarts", restarts, 0);
   require_at_least("max_iterations", max_iterations, 1);
   if (!(time_limit_s > 0.0)) throw InvalidOptions("time_limit_s", "must be a positive number", text(time_limit_s));

@@ -44,27 +44,6 @@ Layout make_layout(const Robot& robot, const std::vector<int>& active, bool all_
   return Layout(static_cast<int>(active.size()), axes, moments);
 }
 
-/// Distance to each edge that keeps a rectangle of this half size inside, headed one way or the other.
-VectorXd sole_margins(const Polygon& polygon, const Eigen::Vector2d& half, double yaw, double other_yaw) {
-  constexpr double kMostOfWidth = 0.45;
-  VectorXd margins = VectorXd::Zero(polygon.edge_count());
-  for (int i = 0; i < polygon.edge_count(); ++i) {
-    const Vector3d& outward = polygon.edge_outward_W(i);
-    for (double heading : {yaw, other_yaw}) {
-      const Vector3d ahead(std::cos(heading), std::sin(heading), 0.0);
-      Vector3d x = ahead - polygon.normal_W() * polygon.normal_W().dot(ahead);
-      if (x.norm() < 1e-6) continue;  // a wall ahead: how the sole is turned on it is open
-      x.normalize();
-      const Vector3d y = polygon.normal_W().cross(x);
-      margins[i] = std::max(margins[i], half[0] * std::abs(outward.dot(x)) + half[1] * std::abs(outward.dot(y)));
-    }
-    double width = 0.0;
-    for (const Vector3d& vertex : polygon.vertices_W()) width = std::max(width, -polygon.overshoot(i, vertex));
-    margins[i] = std::min(margins[i], kMostOfWidth * width);
-  }
-  return margins;
-}
-
 }  // namespace
 
 Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& options_in)
@@ -145,12 +124,8 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
 
   const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
   const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
-  for (int e : active) {
-    const Eigen::Vector2d half = robot.sole_support * robot.end_effectors[e].half_size / units.length;
-    sole_margin.emplace_back();
-    for (const Polygon& polygon : polygons) sole_margin.back().push_back(sole_margins(polygon, half, from.yaw, to.yaw));
-  }
   base_rpy = Vector3d(0.0, 0.0, from.yaw);
+  make_foothold_margins(from.yaw);
   const auto state_of = [&](const ResolvedStance& stance) {
     VectorXd x = VectorXd::Zero(layout.nx());
     x.segment<3>(layout.com()) = stance.com_W / units.length;
@@ -167,6 +142,30 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     goal_contacts.push_back(to.contacts[e]);
   }
   make_reference(state_of(to));
+}
+
+void Problem::make_foothold_margins(double yaw) {
+  const Vector3d heading(std::cos(yaw), std::sin(yaw), 0.0);
+  const double share = options.sole_inside < 0.0 ? robot.sole_support : options.sole_inside;
+  for (int e : active) {
+    const Eigen::Vector2d half = robot.end_effectors[e].half_size / units.length;
+    std::vector<std::vector<double>>& of_end = foothold_margins_.emplace_back();
+    for (const Polygon& polygon : polygons) {
+      // On a wall that is faced the two are parallel: its width is taken to lie level then.
+      Vector3d across = polygon.normal_W().cross(heading);
+      if (across.norm() < 1e-6) across = Vector3d::UnitZ().cross(heading);
+      across.normalize();
+      const Vector3d along = across.cross(polygon.normal_W());
+      std::vector<double>& of_surface = of_end.emplace_back();
+      for (int i = 0; i < polygon.edge_count(); ++i) {
+        const Vector3d& outward = polygon.edge_outward_W(i);
+        const double extent = half[0] * std::abs(along.dot(outward)) + half[1] * std::abs(across.dot(outward));
+        double width = 0.0;
+        for (const Vector3d& vertex : polygon.vertices_W()) width = std::max(width, -polygon.overshoot(i, vertex));
+        of_surface.push_back(std::min(share * extent, 0.5 * width));
+      }
+    }
+  }
 }
 
 /// As many steps as the end-effectors that stand need to cover the way one after the other, a swing and a phase of full

@@ -311,6 +311,13 @@ class Options:
     @seed.setter
     def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
+    def sole_inside(self) -> float:
+        """
+        Share of a sole's half size by which footholds keep from the edges of their surface; 1: the whole sole is on it, where it is large enough.
+        """
+    @sole_inside.setter
+    def sole_inside(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def threads(self) -> int:
         """
         For pricing; the result does not depend on it.

@@ -17,6 +17,10 @@ def plan(
     scene: Annotated[str, typer.Argument(metavar="SCENE", help="Built-in name or TOML file.")],
     robot: Annotated[str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")] = "humanoid44",
     scale: Annotated[float, typer.Option("--scale", metavar="X", help="Factor on all lengths of the scene.")] = 1.0,
+    sole_inside: Annotated[
+        float | None,
+        typer.Option("--sole-inside", metavar="X", help="Share of soles kept on their surface; 0 centre, 1 all."),
+    ] = None,
     phases: Annotated[int | None, typer.Option("--phases", metavar="N", help="Phases of the plan.")] = None,
     method: Annotated[str | None, typer.Option("--method", metavar="M", help="standard or paper.")] = None,
     time_limit: Annotated[
@@ -43,6 +47,7 @@ def plan(
 
     require_outputs("plan", output, html, plots)
     given = {"phases": phases, "method": method, "time_limit": time_limit, "threads": threads, "seed": seed}
+    given["sole_inside"] = sole_inside
     options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if plots is not None:
         options["record_history"] = True

@@ -52,6 +52,7 @@ struct Options {
   double proximal_weight = 30.0;     ///< first weight on the change of the inputs; adapts
   int interior_points = 4;           ///< instants inside each phase at which reach, force and friction are held
   double reach_margin_m = 0.003;     ///< the reach box is planned smaller by this
+  double sole_inside = -1.0;         ///< share of a sole that footholds keep on their surface; negative: the robot's
   bool friction = true;              ///< hold the friction cones
   bool whole_sequence_moves = true;  ///< dynamic programming over (step, contact state) where it pays
   bool one_switch_per_step = true;   ///< Tazaki's eq. (32)

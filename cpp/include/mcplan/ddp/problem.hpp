@@ -51,14 +51,11 @@ class Problem {
   Options options;
   Units units;
   Layout layout;
-  int steps = 0;                  ///< N
-  std::vector<int> active;        ///< end-effector of the robot behind each of the problem's
-  std::vector<Polygon> polygons;  ///< by scene surface
-  std::vector<double> friction;   ///< by scene surface; infinite where it may be held (grasp)
-  double edge_margin = 0.0;       ///< footholds are planned this much inside their polygon
-  /// And by this much more, by end-effector, surface and edge: what Robot::sole_support asks for, turned as at start
-  /// or goal, whichever is more; a surface too small for it has the foothold in its middle.
-  std::vector<std::vector<Eigen::VectorXd>> sole_margin;
+  int steps = 0;                       ///< N
+  std::vector<int> active;             ///< end-effector of the robot behind each of the problem's
+  std::vector<Polygon> polygons;       ///< by scene surface
+  std::vector<double> friction;        ///< by scene surface; infinite where it may be held (grasp)
+  double edge_margin = 0.0;            ///< footholds are planned this much inside their polygon
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<EndLimits> limits;       ///< by active end-effector
   Eigen::Vector3d inertia;             ///< in units of mass length^2
@@ -70,6 +67,13 @@ class Problem {
   ContactState start_contacts, goal_contacts;
   Trajectory reference;   ///< x_ref by knot (u empty)
   Eigen::VectorXd start;  ///< x_0 as demanded
+
+  /// How far inside edge i of a surface an end-effector's footholds are planned: edge_margin, and the share
+  /// Options::sole_inside of how far its sole, headed as at the start, extends towards that edge. Never past the middle
+  /// of a surface that is too narrow.
+  double foothold_margin(int l, int surface, int edge) const {
+    return foothold_margins_[l][surface][edge] + edge_margin;
+  }
 
   /// Roll, pitch, yaw of a state.
   Eigen::Vector3d rpy(const Eigen::VectorXd& x) const;
@@ -87,6 +91,9 @@ class Problem {
   void set_start(const Knot& measured, const ContactState& contacts);
 
  private:
+  std::vector<std::vector<std::vector<double>>> foothold_margins_;  // by active end-effector, surface, edge
+
+  void make_foothold_margins(double yaw);
   int automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const;
   void make_reference(const Eigen::VectorXd& goal);
   void place_footholds(const ContactSequence& sequence, Trajectory& guess) const;
