@@ -97,7 +97,7 @@ TEST_CASE("numbers with a range of their own") {
     CHECK(refused([&](Options& o) { o.weights.overshoot_factor = bad; }) == "weights.overshoot_factor");
   for (double bad : {-0.001, kNan, kInf})
     CHECK(refused([&](Options& o) { o.reach_margin_m = bad; }) == "reach_margin_m");
-  for (double bad : {-0.001, 2.001, kNan, kInf})
+  for (double bad : {2.001, kNan, kInf})
     CHECK(refused([&](Options& o) { o.sole_inside = bad; }) == "sole_inside");
   for (double bad : {0.0, -1.0, kNan}) CHECK(refused([&](Options& o) { o.time_limit_s = bad; }) == "time_limit_s");
   CHECK(refused([](Options& o) { o.time_limit_s = kInf; }) == "accepted");

@@ -83,7 +83,8 @@ TEST_CASE("contact: on a surface too small for the sole its middle is the best p
     x.segment<3>(at.end(0)) = middle + offset;
     return cost(problem, contact_of(problem, 0, right_pad), x, VectorXd());
   };
-  for (const Vector3d& aside : {Vector3d(0.01, 0, 0), Vector3d(-0.01, 0, 0), Vector3d(0, 0.01, 0), Vector3d(0, -0.01, 0)})
+  for (const Vector3d& aside :
+       {Vector3d(0.01, 0, 0), Vector3d(-0.01, 0, 0), Vector3d(0, 0.01, 0), Vector3d(0, -0.01, 0)})
     CHECK(price(aside) > price(Vector3d::Zero()));
 }
 
