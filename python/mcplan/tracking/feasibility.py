@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from mcplan.errors import InvalidInput, InvalidRobot
 from mcplan.extras import require
-from mcplan.kinematics.inverse_kinematics import Postures, follow, has_sole, nearest, smoothed
+from mcplan.kinematics.inverse_kinematics import Postures, follow, has_sole
 from mcplan.kinematics.samples import Samples, knots_and_between, sample_at
+from mcplan.kinematics.smooth_postures import nearest, smoothed
 
 from .arm_strength import largest_force_N
 from .findings import Feasibility, Finding
@@ -86,7 +87,7 @@ def assess(plan: Plan, robot: Robot | None = None, payload_kg: float = 0.0) -> F
         *_torques(case),
         *_velocities(case),
         *_hands(case),
-        *clearance_findings(plan.scene, loaded, samples, postures),
+        *clearance_findings(plan.scene, loaded, samples, postures, _final_contacts(plan, loaded)),
         _mass(case, mass),
     ]
     return Feasibility(robot.name, tuple(findings))
@@ -113,6 +114,12 @@ def _matched(plan: Plan, loaded: UrdfModel, samples: Samples) -> tuple[UrdfModel
         replace(loaded, robot=shared, frames=[loaded.frames[i] for i in kept]),
         replace(samples, intervals=intervals, **chosen),
     )
+
+
+def _final_contacts(plan: Plan, loaded: UrdfModel) -> list[int]:
+    """Surface under each of the model's end-effectors after the last phase, -1: none."""
+    ends = loaded.robot.end_effectors
+    return [plan.final_contacts[plan.robot.end_effector_index(end.name)] for end in ends]
 
 
 def _reach(case: _Case) -> list[Finding]:
