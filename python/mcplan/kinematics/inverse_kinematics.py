@@ -28,7 +28,8 @@ FREE_BASE, FREE_SOLE = 0.2, 0.2
 POSTURE = 0.05
 #: Against a given motion: of joints of legs, and of all that the plan leaves open (turning of the base, torso, arms).
 NEAR_LEG, NEAR = 0.3, 2.0
-DAMPING = 1e-6
+#: Of a step, and the least of one that has to be shortened.
+DAMPING, LEAST_DAMPING = 1e-6, 1e-2
 #: Largest change of a joint in one iteration [rad].
 STEP = 0.4
 #: A joint so near to its limit is at it [rad].
@@ -121,18 +122,31 @@ class _Solver:
 
     def solve(self, q: Array, samples: Samples, n: int, iterations: int) -> Array:
         pin, model = self.pin, self.model
+        damping = DAMPING
+        error, jacobian, home = self._problem(q, samples, n)
         for _ in range(iterations):
-            errors, jacobians = self._tasks(q, samples, n)
-            error, jacobian = np.concatenate(errors), np.vstack(jacobians)
-            hessian = jacobian.T @ jacobian + np.diag(self.posture + DAMPING)
-            home = pin.difference(model, q, self.home)
+            hessian = jacobian.T @ jacobian + np.diag(self.posture + damping)
             step = self._within_limits(q, hessian, jacobian.T @ error + self.posture * home)
             step *= min(1.0, STEP / max(float(np.abs(step).max()), 1e-12))
-            q = pin.integrate(model, q, step)
-            q[7:] = np.clip(q[7:], self.low[7:], self.high[7:])
+            moved = pin.integrate(model, q, step)
+            moved[7:] = np.clip(moved[7:], self.low[7:], self.high[7:])
+            problem = self._problem(moved, samples, n)
+            # Beside a stretched knee the step is far too long.
+            if self._cost(problem[0], problem[2]) > self._cost(error, home):
+                damping = max(10.0 * damping, LEAST_DAMPING)
+                continue
+            q, (error, jacobian, home), damping = moved, problem, max(0.1 * damping, DAMPING)
             if np.abs(step).max() < 1e-5:
                 break
         return np.asarray(q)
+
+    def _problem(self, q: Array, samples: Samples, n: int) -> tuple[Array, Array, Array]:
+        """Weighted errors, their Jacobian, and the way home in the tangent space."""
+        errors, jacobians = self._tasks(q, samples, n)
+        return np.concatenate(errors), np.vstack(jacobians), self.pin.difference(self.model, q, self.home)
+
+    def _cost(self, error: Array, home: Array) -> float:
+        return float(error @ error + self.posture @ home**2)
 
     def _within_limits(self, q: Array, hessian: Array, gradient: Array) -> Array:
         """Newton step in which joints that would leave their range stay, so that the others do the work."""

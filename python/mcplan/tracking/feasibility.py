@@ -35,7 +35,7 @@ BALANCE = 0.10
 #: Difference of the plan's mass from the model's, in parts of it.
 MASS = 0.10
 #: A joint so near to its limit is named [rad].
-NEAR = 0.01
+NEAR = 0.05
 
 
 @dataclass(frozen=True)
