@@ -147,9 +147,10 @@ def _reach(case: _Case) -> list[Finding]:
 
 
 def _at_limits(case: _Case, n: int, end: int | None = None) -> str:
-    """Joints at their limits in a posture: of the limb of an end-effector, or of all."""
+    """Joints at their limits in a posture: of the limb of an end-effector, or of all limbs in contact."""
     model, q = case.loaded.model, case.postures.configurations[n]
-    frames = case.loaded.frames if end is None else [case.loaded.frames[end]]
+    ends = np.flatnonzero(case.samples.surfaces[n] >= 0) if end is None else [end]
+    frames = [case.loaded.frames[i] for i in ends]
     chain = {joint for frame in frames for joint in model.supports[model.frames[frame].parentJoint]}
     names = []
     for joint in sorted(joint for joint in chain if joint > 1):
