@@ -14,9 +14,9 @@ def standing_scene() -> mp.Scene:
     return scene
 
 
-def standing_plan(phases: int = 3, duration_s: float = 0.4) -> mp.Plan:
+def standing_plan(phases: int = 3, duration_s: float = 0.4, robot: mp.Robot | None = None) -> mp.Plan:
     """The CoM rests where the two feet's stiffness balances gravity: sum mu_l (p - s_l) = g."""
-    scene, robot = standing_scene(), mp.load_robot("humanoid44")
+    scene, robot = standing_scene(), robot or mp.load_robot("humanoid44")
     feet = [end.kind == "foot" for end in robot.end_effectors]
     com_W = np.array([0.0, 0.0, robot.com_height])
     ends_W = [com_W + end.nominal_B for end in robot.end_effectors]

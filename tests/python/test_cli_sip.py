@@ -199,6 +199,11 @@ def test_check_refuses_a_plan_with_a_control_point_moved(capsys, plan_file, tmp_
     assert "violated" in {entry["proof"] for entry in report["certificate"]["constraints"]}
 
 
+def test_whole_body_plans_are_held_against_no_other_robot(capsys, plan_file):
+    message = one_line_error(run(capsys, plan_file, "--robot", "talos", verb="check"))
+    assert message.startswith("--robot: needs a plan of mcplan plan or mcplan rhp")
+
+
 def test_only_whole_body_plans_are_certified(capsys, tmp_path):
     mp.plan("flat").plan.save(tmp_path / "plan.npz")
     message = one_line_error(run(capsys, tmp_path / "plan.npz", "--certify", verb="check"))

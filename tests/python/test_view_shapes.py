@@ -1,10 +1,9 @@
-"""Shapes are closed and have the right size; rotations and clipping agree with independent truth."""
+"""Shapes are closed and have the right size; clipping agrees with independent truth."""
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation, Slerp
+from scipy.spatial.transform import Rotation
 
-from mcplan.kinematics import rotations
 from mcplan.view import shapes
 from mcplan.view.extent import Extent
 from mcplan.view.scene_drawing import grid_lines
@@ -60,25 +59,6 @@ def test_prism_lies_below_its_outline_whatever_the_orientation():
     heights = mesh.vertices @ turn[:, 2]
     assert heights.max() == pytest.approx(0.0, abs=1e-12)
     assert heights.min() == pytest.approx(-0.4)
-
-
-def test_rotations_agree_with_scipy():
-    rng = np.random.default_rng(7)
-    rpy = rng.uniform(-3.0, 3.0, (50, 3)) * [1.0, 0.5, 1.0]
-    matrices = rotations.from_rpy(rpy)
-    assert np.allclose(matrices, Rotation.from_euler("ZYX", rpy[:, ::-1]).as_matrix())
-    quats = rotations.quat_xyzw(matrices)
-    assert np.allclose(Rotation.from_quat(quats).as_matrix(), matrices)
-    assert (np.sum(quats[1:] * quats[:-1], axis=1) >= 0.0).all()
-    for a, b in zip(matrices[:20], matrices[20:40], strict=True):
-        arc = Slerp([0.0, 1.0], Rotation.from_matrix([a, b]))
-        assert np.allclose(rotations.between(a, b, 0.3), arc(0.3).as_matrix(), atol=1e-9)
-
-
-def test_half_a_turn_is_blended_by_a_quarter():
-    half = rotations.about(np.array([0.0, 0.0, 1.0]), np.pi)
-    quarter = rotations.between(np.eye(3), half, 0.5)
-    assert np.abs(np.arccos((np.trace(quarter) - 1.0) / 2.0)) == pytest.approx(np.pi / 2.0, abs=1e-6)
 
 
 def test_clipping_keeps_exactly_the_part_inside():

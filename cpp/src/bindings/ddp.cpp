@@ -53,8 +53,8 @@ void bind_options(py::module_& m) {
   c.def_readwrite("method", &Options::method);
   c.def_readwrite("stiffness_input", &Options::stiffness_input);
   c.def_readwrite("weights", &Options::weights);
-  c.def_readwrite("duration_min_s", &Options::duration_min_s, "Soft box of the phase durations [s].");
-  c.def_readwrite("duration_max_s", &Options::duration_max_s, "[s]");
+  c.def_readwrite("duration_min_s", &Options::duration_min_s, "Soft box of the phase durations [s]; 0: the robot's.");
+  c.def_readwrite("duration_max_s", &Options::duration_max_s, "[s]; 0: the robot's.");
   c.def_readwrite("flight_duration_min_s", &Options::flight_duration_min_s,
                   "Lower bound of phases without any contact [s].");
   c.def_readwrite("duration_initial_s", &Options::duration_initial_s, "[s]");

@@ -24,11 +24,13 @@ void require_weight(const char* field, double value) {
 void Options::validate() const {
   require_at_least("phases", phases, 0);
   if (phases > 2000) throw InvalidOptions("phases", "must be 2000 at most", text(phases));
-  require_positive("duration_min_s", duration_min_s);
+  if (!(std::isfinite(duration_min_s) && duration_min_s >= 0.0))
+    throw InvalidOptions("duration_min_s", "must be at least 0 (0: the robot's)", text(duration_min_s));
   require_positive("flight_duration_min_s", flight_duration_min_s);
   require_positive("duration_initial_s", duration_initial_s);
-  if (!(std::isfinite(duration_max_s) && duration_max_s >= duration_min_s))
-    throw InvalidOptions("duration_max_s", "must be at least duration_min_s (" + text(duration_min_s) + ")",
+  if (!(std::isfinite(duration_max_s) && (duration_max_s == 0.0 || duration_max_s >= duration_min_s)))
+    throw InvalidOptions("duration_max_s",
+                         "must be 0 (the robot's) or at least duration_min_s (" + text(duration_min_s) + ")",
                          text(duration_max_s));
   require_positive("proximal_weight", proximal_weight);
   require_at_least("interior_points", interior_points, 0);

@@ -44,6 +44,27 @@ Layout make_layout(const Robot& robot, const std::vector<int>& active, bool all_
   return Layout(static_cast<int>(active.size()), axes, moments);
 }
 
+/// Distance to each edge that keeps a rectangle of this half size inside, headed one way or the other.
+VectorXd sole_margins(const Polygon& polygon, const Eigen::Vector2d& half, double yaw, double other_yaw) {
+  constexpr double kMostOfWidth = 0.45;
+  VectorXd margins = VectorXd::Zero(polygon.edge_count());
+  for (int i = 0; i < polygon.edge_count(); ++i) {
+    const Vector3d& outward = polygon.edge_outward_W(i);
+    for (double heading : {yaw, other_yaw}) {
+      const Vector3d ahead(std::cos(heading), std::sin(heading), 0.0);
+      Vector3d x = ahead - polygon.normal_W() * polygon.normal_W().dot(ahead);
+      if (x.norm() < 1e-6) continue;  // a wall ahead: how the sole is turned on it is open
+      x.normalize();
+      const Vector3d y = polygon.normal_W().cross(x);
+      margins[i] = std::max(margins[i], half[0] * std::abs(outward.dot(x)) + half[1] * std::abs(outward.dot(y)));
+    }
+    double width = 0.0;
+    for (const Vector3d& vertex : polygon.vertices_W()) width = std::max(width, -polygon.overshoot(i, vertex));
+    margins[i] = std::min(margins[i], kMostOfWidth * width);
+  }
+  return margins;
+}
+
 }  // namespace
 
 Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& options_in)
@@ -56,9 +77,14 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   units.mass = robot.mass;
   inertia = robot.inertia / (units.mass * units.length * units.length);
   edge_margin = kEdgeMargin / units.length;
-  duration_min = options.duration_min_s / units.time;
-  duration_max = options.duration_max_s / units.time;
-  flight_duration_min = std::min(options.flight_duration_min_s, options.duration_max_s) / units.time;
+  const double shortest_s = options.duration_min_s > 0.0 ? options.duration_min_s : robot.phase_duration[0];
+  const double longest_s = options.duration_max_s > 0.0 ? options.duration_max_s : robot.phase_duration[1];
+  if (longest_s < shortest_s)
+    throw InvalidOptions("duration_max_s", "must be at least the robot's shortest phase, " + text(shortest_s),
+                         text(longest_s));
+  duration_min = shortest_s / units.time;
+  duration_max = longest_s / units.time;
+  flight_duration_min = std::min(options.flight_duration_min_s, longest_s) / units.time;
   duration_initial = options.duration_initial_s / units.time;
 
   const int robot_ends = static_cast<int>(robot.end_effectors.size());
@@ -119,6 +145,11 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
 
   const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
   const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
+  for (int e : active) {
+    const Eigen::Vector2d half = robot.sole_support * robot.end_effectors[e].half_size / units.length;
+    sole_margin.emplace_back();
+    for (const Polygon& polygon : polygons) sole_margin.back().push_back(sole_margins(polygon, half, from.yaw, to.yaw));
+  }
   base_rpy = Vector3d(0.0, 0.0, from.yaw);
   const auto state_of = [&](const ResolvedStance& stance) {
     VectorXd x = VectorXd::Zero(layout.nx());

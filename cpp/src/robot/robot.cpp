@@ -65,6 +65,11 @@ void validate_polytope(const Polytope& set, const Vector3d& nominal, const std::
   }
 }
 
+void require_durations(const Eigen::Vector2d& range) {
+  if (!(range.allFinite() && range[0] > 0.0 && range[1] >= range[0]))
+    throw InvalidRobot("phase_duration", "must be two positive numbers, the shorter first", text(range));
+}
+
 void validate_reach(const Robot& robot, const EndEffector& e, const std::string& field) {
   validate_polytope(e.com_reach, -e.nominal_B, field + ".com_reach");
   for (const auto& [partner, reach] : e.partner_reach) {
@@ -88,6 +93,9 @@ void Robot::validate() const {
   for (int i = 0; i < 3; ++i) require_positive("inertia[" + std::to_string(i) + "]", inertia[i]);
   require_positive("com_height", com_height);
   require_positive("swing_height", swing_height);
+  require_durations(phase_duration);
+  if (!(sole_support >= 0.0 && sole_support <= 1.0))
+    throw InvalidRobot("sole_support", "must lie in [0, 1]", text(sole_support));
   if (end_effectors.empty()) throw InvalidRobot("end_effectors", "needs at least one end-effector", "none");
   if (end_effectors.size() > 8)
     throw InvalidRobot("end_effectors", "may be 8 at most", text(static_cast<int>(end_effectors.size())));

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
+    from mcplan._core import Plan
     from mcplan._core.sip import Certificate
+    from mcplan.tracking.findings import Feasibility, Finding
 
 
 def check(
@@ -21,13 +23,17 @@ def check(
     self_collision: Annotated[
         bool, typer.Option("--self-collision", help="Of a whole-body plan: look at its robot's collision pairs, too.")
     ] = False,
+    robot: Annotated[
+        str | None,
+        typer.Option("--robot", metavar="ROBOT", help="Tell whether a robot with a URDF can follow the plan, too."),
+    ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
 ) -> int:
     """Check a plan against the scene and robot, or the motion, it carries; exit code 1 if it violates a constraint.
 
-    With --certify the exit code is 1, too, if a constraint is not proved.
+    With --certify the exit code is 1, too, if a constraint is not proved, with --robot if the robot cannot follow.
 
-    Example: mcplan check plan.npz
+    Example: mcplan check plan.npz --robot talos
     """
     from mcplan._core import WholeBodyPlan
     from mcplan._core import check as run
@@ -37,8 +43,12 @@ def check(
     from mcplan.files.whole_body_plans import load_any_plan
 
     loaded = load_any_plan(plan)
-    certificate = None
+    certificate, feasibility = None, None
     if isinstance(loaded, WholeBodyPlan):
+        if robot is not None:
+            raise InvalidInput(
+                "--robot", "needs a plan of mcplan plan or mcplan rhp; a whole-body plan has its own joints"
+            )
         result = run(loaded, self_collision=self_collision)
         if certify:
             certificate = prove(loaded, self_collision=self_collision)
@@ -47,6 +57,8 @@ def check(
         option = "--certify" if certify else "--self-collision"
         raise InvalidInput(option, "needs a whole-body plan, as mcplan sip makes them")
     else:
+        if robot is not None:
+            feasibility = _feasibility(loaded, robot)
         result = run(loaded)
         carried = {"scene": loaded.scene.name, "robot": loaded.robot.name}
     if json:
@@ -58,6 +70,7 @@ def check(
             "constraints": [violation_dict(v) for v in result.constraints],
             "certified": None if certificate is None else certificate.proved(),
             "certificate": None if certificate is None else certificate_dict(certificate),
+            "feasibility": None if feasibility is None else feasibility_dict(feasibility),
         }
         print(json_module.dumps(report))
     elif result.ok():
@@ -67,7 +80,51 @@ def check(
         print_table([[str(violation)] for violation in result.violations()])
     if certificate is not None and not json:
         print(str(certificate).rstrip())
-    return 0 if result.ok() and (certificate is None or certificate.proved()) else 1
+    if feasibility is not None and not json:
+        _print_feasibility(feasibility)
+    proved, followed = certificate is None or certificate.proved(), feasibility is None or feasibility.ok()
+    return 0 if result.ok() and proved and followed else 1
+
+
+def _feasibility(plan: Plan, robot: str) -> Feasibility:
+    from mcplan.files.robots import load_robot
+    from mcplan.tracking.feasibility import assess
+
+    return assess(plan, load_robot(robot))
+
+
+def _print_feasibility(feasibility: Feasibility) -> None:
+    """The largest of each kind, and all beyond their limit."""
+    from mcplan.cli.table import print_table
+
+    print(feasibility.verdict)
+    shown = [f for worst in feasibility.worst_of_each() for f in [worst, *_others_beyond(feasibility, worst)]]
+    rows = [
+        [
+            "" if f.value <= f.limit else "!",
+            f.name,
+            f.where,
+            f"{f.time_s:.2f}",
+            f"{f.value:.3g}",
+            f"{f.limit:.3g}",
+            f.unit,
+            f.note,
+        ]
+        for f in shown
+    ]
+    print_table(rows, ["", "limit of", "where", "t [s]", "asked", "limit", "unit", ""])
+
+
+def _others_beyond(feasibility: Feasibility, worst: Finding) -> list[Finding]:
+    return [f for f in feasibility.violations() if f.name == worst.name and f is not worst]
+
+
+def feasibility_dict(feasibility: Feasibility) -> dict[str, Any]:
+    """A feasibility as plain data; numbers that are not finite become null."""
+    data = feasibility.as_dict()
+    for key in ("violations", "constraints"):
+        data[key] = [{name: finite(value) for name, value in found.items()} for found in data[key]]
+    return data
 
 
 def certificate_dict(certificate: Certificate) -> dict[str, Any]:

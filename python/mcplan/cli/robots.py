@@ -39,6 +39,9 @@ def robots(
         bool, typer.Option("--reach-polytopes", help="With --from-urdf: the reach of feet as polytopes too, for rhp.")
     ] = False,
     faces: Annotated[int, typer.Option("--faces", metavar="N", help="Largest number of faces of a polytope.")] = 30,
+    strength: Annotated[
+        bool, typer.Option("--strength", help="With NAME: what its arms can push, over random postures.")
+    ] = False,
     seed: Annotated[int, typer.Option("--seed", metavar="SEED", help="Of the random postures.")] = 0,
     output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file to write.")] = None,
 ) -> None:
@@ -46,7 +49,7 @@ def robots(
 
     Example: mcplan robots --from-urdf my.urdf --end left_foot=l_sole:foot:0.10x0.05 --end right_foot=r_sole -o my.toml
     """
-    from mcplan.cli import planar_robots
+    from mcplan.cli import planar_robots, robots_strength
     from mcplan.errors import InvalidInput
     from mcplan.files.planar_robots import load_planar_robot
     from mcplan.files.robots import load_robot
@@ -61,6 +64,8 @@ def robots(
     ):
         if given and planar:
             raise InvalidInput(option, "may not stand beside --planar")
+    if strength and (name is None or from_urdf is not None or planar_robots.is_planar(name)):
+        raise InvalidInput("--strength", "needs the NAME of a robot with a URDF")
     if from_urdf is not None and planar:
         planar_robots.planar_robot_from_urdf(from_urdf, end or [], output)
     elif from_urdf is not None:
@@ -70,7 +75,11 @@ def robots(
     elif planar_robots.is_planar(name):
         planar_robots.print_planar_robot(load_planar_robot(name))
     else:
-        _print_robot(load_robot(name))
+        robot = load_robot(name)
+        strengths = robots_strength.strengths(robot, seed) if strength else []
+        _print_robot(robot)
+        if strength:
+            robots_strength.print_strengths(strengths)
 
 
 def _print_list() -> None:

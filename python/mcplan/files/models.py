@@ -120,6 +120,12 @@ class RobotModel(Table):
     )
     com_height: Positive = Field(description="[m] Of the CoM above the ground in the nominal stance.")
     swing_height: Positive = Field(0.10, description="[m] Clearance of a swinging end-effector.")
+    phase_duration: Annotated[list[Positive], Field(min_length=2, max_length=2)] = Field(
+        [0.15, 0.5], description="[s] Shortest and longest phase of a contact sequence."
+    )
+    sole_support: Annotated[float, Field(ge=0, le=1)] = Field(
+        0.0, description="[-] Share of a sole that a contact sequence keeps on its surface; 0: its centre."
+    )
     urdf: str = Field("", description='Path, or "example-robot-data:NAME".')
     posture: dict[Name, Number] = Field({}, description="[rad] Nominal joint positions by URDF joint name.")
     end_effectors: list[EndEffectorModel] = Field(min_length=1, max_length=8)

@@ -53,6 +53,10 @@ def robot_to_dict(robot: Robot) -> dict[str, Any]:
     data["inertia"] = robot.inertia.tolist()
     data["com_height"] = robot.com_height
     data["swing_height"] = robot.swing_height
+    if robot.phase_duration.tolist() != Robot().phase_duration.tolist():
+        data["phase_duration"] = robot.phase_duration.tolist()
+    if robot.sole_support:
+        data["sole_support"] = robot.sole_support
     if robot.urdf:
         data["urdf"] = robot.urdf
     data["end_effectors"] = [_end_effector_to_dict(end) for end in robot.end_effectors]

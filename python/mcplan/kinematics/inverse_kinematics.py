@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
+    from mcplan import EndEffector
+
     from .samples import Samples
     from .urdf_model import UrdfModel
 
@@ -24,6 +26,10 @@ SOLE = 3.0
 #: CoM so low that ankles come to their limits.
 FREE_BASE, FREE_SOLE = 0.2, 0.2
 POSTURE = 0.05
+#: Against a given motion: of joints of legs, and of all that the plan leaves open (turning of the base, torso, arms).
+NEAR_LEG, NEAR = 0.3, 2.0
+#: How the motion that the postures of a plan are smoothed to is made: standard deviation of the mean [s], repetitions.
+SPREAD, PASSES = 0.15, 3
 DAMPING = 1e-6
 #: Largest change of a joint in one iteration [rad].
 STEP = 0.4
@@ -39,39 +45,117 @@ class Postures:
         configurations: (n, nq), Pinocchio's order, free-flyer first.
         residual: Largest distance by which CoM or an end-effector in contact misses the plan [m].
         where: Sample and name of that residual, for messages.
+        com_misses: (n,) distance of the CoM from the plan's [m].
+        end_misses: (n, e) distances of the end-effectors, free ones too [m].
+        tilts: (n, e) angle between a sole and the plan's [rad]; 0 for end-effectors without a sole.
     """
 
     configurations: Array
     residual: float
     where: str
+    com_misses: Array
+    end_misses: Array
+    tilts: Array
 
 
-def follow(loaded: UrdfModel, samples: Samples) -> Postures:
-    """Find a posture for every sample, near to the robot's own.
+def follow(loaded: UrdfModel, samples: Samples, near: Array | None = None) -> Postures:
+    """Find a posture for every sample, near to the robot's own or to given ones.
 
     Args:
         loaded: The robot's model.
         samples: The plan.
+        near: (n, nq) configurations to stay near to in whatever the plan leaves open; None: the robot's posture.
     """
     import pinocchio as pin  # type: ignore[import-untyped]
 
     q = loaded.neutral.copy()
     q[:3] += samples.com_W[0] - pin.centerOfMass(loaded.model, loaded.model.createData(), q)
     solver = _Solver(pin, loaded)
-    configurations, worst, where = [], 0.0, ""
+    if near is not None:
+        solver.posture[3:] = NEAR**2
+        solver.posture[_legs(loaded)] = NEAR_LEG**2
+    ends = loaded.robot.end_effectors
+    configurations, com_misses = [], np.zeros(samples.count)
+    end_misses, tilts = np.zeros((samples.count, len(ends))), np.zeros((samples.count, len(ends)))
     for n in range(samples.count):
+        if near is not None:
+            q = solver.home = near[n]
         q = solver.solve(q, samples, n, iterations=80 if n == 0 else 12)
         configurations.append(q.copy())
-        for name, miss in solver.misses(q, samples, n):
-            if miss > worst:
-                worst, where = miss, f"{name} at {samples.times_s[n]:.2f} s"
-    return Postures(np.array(configurations), worst, where)
+        com_misses[n], end_misses[n], tilts[n] = solver.misses(q, samples, n)
+    return _postures(loaded, samples, np.array(configurations), com_misses, end_misses, tilts)
+
+
+def _postures(
+    loaded: UrdfModel, samples: Samples, configurations: Array, com_misses: Array, end_misses: Array, tilts: Array
+) -> Postures:
+    """With the largest miss of what must be met named."""
+    counted = _misses_that_count(samples, com_misses, end_misses)
+    at, which = np.unravel_index(np.argmax(counted), counted.shape)
+    name = "the CoM" if which == 0 else loaded.robot.end_effectors[which - 1].name
+    where = f"{name} at {samples.times_s[at]:.2f} s"
+    return Postures(configurations, float(counted.max()), where, com_misses, end_misses, tilts)
+
+
+def _misses_that_count(samples: Samples, com_misses: Array, end_misses: Array) -> Array:
+    return np.column_stack([com_misses, np.where(samples.surfaces >= 0, end_misses, 0.0)])
+
+
+def nearest(loaded: UrdfModel, samples: Samples, one: Postures, other: Postures) -> Postures:
+    """At every sample the posture that misses the plan less: a search from one side may end where another does not."""
+    misses = [_misses_that_count(samples, p.com_misses, p.end_misses).max(axis=1) for p in (one, other)]
+    first = (misses[0] <= misses[1])[:, None]
+    return _postures(
+        loaded,
+        samples,
+        np.where(first, one.configurations, other.configurations),
+        np.where(first[:, 0], one.com_misses, other.com_misses),
+        np.where(first, one.end_misses, other.end_misses),
+        np.where(first, one.tilts, other.tilts),
+    )
+
+
+def smoothed(loaded: UrdfModel, samples: Samples, postures: Postures) -> Postures:
+    """Postures that follow the plan almost as well, without the jumps of those that `follow` finds.
+
+    Where a foot leaves the ground and need no longer lie flat, torso and base go back to the robot's posture at once. Here
+    whatever the plan leaves open goes through running means of the postures before and after.
+    """
+    for _ in range(PASSES):
+        postures = follow(loaded, samples, running_means(loaded, samples.times_s, postures.configurations))
+    return postures
+
+
+def _legs(loaded: UrdfModel) -> list[int]:
+    """Indices of velocity of the joints between base and feet."""
+    model = loaded.model
+    feet = [f for end, f in zip(loaded.robot.end_effectors, loaded.frames, strict=True) if end.kind == "foot"]
+    joints = {joint for frame in feet for joint in model.supports[model.frames[frame].parentJoint]}
+    return sorted(model.joints[joint].idx_v for joint in joints if joint > 1)
+
+
+def running_means(loaded: UrdfModel, times_s: Array, configurations: Array) -> Array:
+    """Running means (n, nq) of configurations: weights of a bell curve with the standard deviation SPREAD."""
+    import pinocchio as pin
+
+    result = np.empty_like(configurations)
+    for n, q in enumerate(configurations):
+        near = np.flatnonzero(np.abs(times_s - times_s[n]) <= 3.0 * SPREAD + 1e-9)
+        weights = np.exp(-0.5 * ((times_s[near] - times_s[n]) / SPREAD) ** 2)
+        away = np.array([pin.difference(loaded.model, q, configurations[k]) for k in near])
+        result[n] = pin.integrate(loaded.model, q, weights @ away / weights.sum())
+    return result
+
+
+def has_sole(end: EndEffector) -> bool:
+    """Whether an end-effector is turned to lie flat on the ground."""
+    return bool(end.kind == "foot" and np.asarray(end.half_size).all())
 
 
 class _Solver:
     def __init__(self, pin: Any, loaded: UrdfModel) -> None:
         self.pin, self.model, self.data = pin, loaded.model, loaded.model.createData()
-        self.robot, self.frames, self.neutral = loaded.robot, loaded.frames, loaded.neutral
+        self.robot, self.frames, self.home = loaded.robot, loaded.frames, loaded.neutral
         model = loaded.model
         self.posture = np.full(model.nv, POSTURE**2)
         self.posture[:6] = 0.0
@@ -85,7 +169,7 @@ class _Solver:
             errors, jacobians = self._tasks(q, samples, n)
             error, jacobian = np.concatenate(errors), np.vstack(jacobians)
             hessian = jacobian.T @ jacobian + np.diag(self.posture + DAMPING)
-            home = pin.difference(model, q, self.neutral)
+            home = pin.difference(model, q, self.home)
             step = self._within_limits(q, hessian, jacobian.T @ error + self.posture * home)
             step *= min(1.0, STEP / max(float(np.abs(step).max()), 1e-12))
             q = pin.integrate(model, q, step)
@@ -109,14 +193,17 @@ class _Solver:
             free &= ~out
         return step
 
-    def misses(self, q: Array, samples: Samples, n: int) -> list[tuple[str, float]]:
-        self.pin.framesForwardKinematics(self.model, self.data, q)
-        found = [("the CoM", samples.com_W[n] - self.pin.centerOfMass(self.model, self.data, q))]
+    def misses(self, q: Array, samples: Samples, n: int) -> tuple[float, Array, Array]:
+        """Of the CoM, of the end-effectors [m], and the tilts of soles [rad]."""
+        pin, data = self.pin, self.data
+        pin.framesForwardKinematics(self.model, data, q)
+        com = float(np.linalg.norm(samples.com_W[n] - pin.centerOfMass(self.model, data, q)))
+        ends, tilts = np.zeros(len(self.frames)), np.zeros(len(self.frames))
         for end, frame in enumerate(self.frames):
-            if samples.surfaces[n, end] >= 0:
-                name = self.robot.end_effectors[end].name
-                found.append((name, samples.positions_W[n, end] - self.data.oMf[frame].translation))
-        return [(name, float(np.linalg.norm(miss))) for name, miss in found]
+            ends[end] = np.linalg.norm(samples.positions_W[n, end] - data.oMf[frame].translation)
+            if has_sole(self.robot.end_effectors[end]):
+                tilts[end] = np.linalg.norm(pin.log3(samples.rotations_W[n, end] @ data.oMf[frame].rotation.T))
+        return com, ends, tilts
 
     def _tasks(self, q: Array, samples: Samples, n: int) -> tuple[list[Array], list[Array]]:
         """Weighted errors and Jacobians, in the world's axes."""
@@ -138,7 +225,7 @@ class _Solver:
             weight = CONTACT if samples.surfaces[n, end] >= 0 else SWING if foot else HAND
             errors.append(weight * (samples.positions_W[n, end] - placement.translation))
             jacobians.append(weight * jacobian[:3])
-            if foot and np.asarray(self.robot.end_effectors[end].half_size).all():
+            if has_sole(self.robot.end_effectors[end]):
                 wanted = samples.rotations_W[n, end]
                 weight = FREE_SOLE if samples.has_points and samples.surfaces[n, end] < 0 else SOLE
                 errors.append(weight * pin.log3(wanted @ placement.rotation.T))

@@ -31,7 +31,7 @@ class Interval:
 
 @dataclass(frozen=True)
 class Samples:
-    """States of a plan at equally spaced times.
+    """States of a plan at ascending times.
 
     n times, e end-effectors, p points of a contact at most (0 without forces at points); lengths in [m], forces in [N],
     world frame W.
@@ -69,12 +69,20 @@ class Samples:
 def sample(plan: Plan, scene: Scene, robot: Robot, rate_hz: float = 30.0) -> Samples:
     """Sample a plan at about `rate_hz`, both ends included."""
     duration = float(plan.duration())
-    n = max(2, round(duration * rate_hz) + 1)
-    return sample_at(plan, scene, robot, np.linspace(0.0, duration, n))
+    return sample_at(plan, scene, robot, np.linspace(0.0, duration, max(2, round(duration * rate_hz) + 1)))
+
+
+def knots_and_between(plan: Plan, rate_hz: float) -> Array:
+    """Times of a plan's knots [s], and equally spaced ones between them at `rate_hz` or more."""
+    times = [np.zeros(1)]
+    for start, end in zip(plan.knot_times()[:-1], plan.knot_times()[1:], strict=True):
+        times.append(np.linspace(start, end, max(1, int(np.ceil((end - start) * rate_hz))) + 1)[1:])
+    # The sum of the durations may be larger than the last knot's time by a rounding.
+    return np.minimum(np.concatenate(times), plan.duration())
 
 
 def sample_at(plan: Plan, scene: Scene, robot: Robot, times: Array) -> Samples:
-    """Sample a plan at given times [s], (n,), in its duration and not falling."""
+    """Sample a plan at ascending times [s] within its duration; at a knot the phase that begins there is meant."""
     states = [plan.at(float(t)) for t in times]
     rotation_WB = from_rpy(np.array([s.base_rpy for s in states]))
     ends = [s.end_effectors for s in states]

@@ -56,7 +56,7 @@ def load_model(robot: Robot) -> UrdfModel:
         InvalidRobot: The robot names no URDF, it cannot be read, or it lacks a frame or joint that the robot names.
     """
     if not robot.urdf:
-        raise InvalidRobot("urdf", "must name a URDF: this robot has no joints", "''")
+        raise InvalidRobot("urdf", "must name a URDF: this robot has no joints", "''", robot.name)
     require(f"the joints of {robot.name}", "view", "pinocchio")
     import pinocchio as pin  # type: ignore[import-untyped]
 
@@ -76,13 +76,13 @@ def load_model(robot: Robot) -> UrdfModel:
             model, _, visual = pin.buildModelsFromUrdf(str(path), folders, pin.JointModelFreeFlyer())
             neutral = pin.neutral(model)
     except Exception as error:  # loaders of robots raise what the file system or the parser happen to raise
-        raise InvalidRobot("urdf", "must be a readable URDF", f"{source!r} ({error})") from error
+        raise InvalidRobot("urdf", "must be a readable URDF", f"{source!r} ({error})", robot.name) from error
     if neutral.shape != (model.nq,) or not np.isfinite(neutral).all():
         neutral = pin.neutral(model)
     neutral[:7] = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
     for joint, angle in robot.posture.items():
         if not model.existJointName(joint):
-            raise InvalidRobot("posture", "must name joints of the URDF", repr(joint))
+            raise InvalidRobot("posture", "must name joints of the URDF", repr(joint), robot.name)
         neutral[model.joints[model.getJointId(joint)].idx_q] = angle
     armature = model.armature.copy()
     armature[6:] = np.where(armature[6:] > 0.0, armature[6:], ARMATURE)
@@ -110,7 +110,8 @@ def _contact_frames(model: Any, neutral: Array, robot: Robot) -> list[int]:
 
     for number, end in enumerate(robot.end_effectors):
         if not model.existFrame(end.frame):
-            raise InvalidRobot(f"end_effectors[{number}].frame", "must name a frame of the URDF", repr(end.frame))
+            field = f"end_effectors[{number}].frame"
+            raise InvalidRobot(field, "must name a frame of the URDF", repr(end.frame), robot.name)
     data = model.createData()
     pin.framesForwardKinematics(model, data, neutral)
     frames = []

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from mcplan.kinematics.rotations import polygon_normal
 from mcplan.kinematics.urdf_model import UrdfModel
 
-from .contact_forces import ForcePoints, pyramid
+from .contact_forces import SIDES, ForcePoints, pyramid
 from .contacts import Contact, Mode
 from .options import Gains
 from .quadratic_program import Problem, QuadraticProgram
@@ -71,9 +71,8 @@ class Controller:
         self.posture = np.atleast_2d(posture)[:, 7:]
         self.normals = [polygon_normal(np.asarray(s.vertices_W)) for s in scene.surfaces]
         self.pyramids = [pyramid(n, s.friction) for n, s in zip(self.normals, scene.surfaces, strict=True)]
-        weight = self.body.mass * scene.gravity
         ends = loaded.robot.end_effectors
-        self.points = [ForcePoints.of(e.half_size, 2.5 * weight) for e in ends]
+        self.points = [ForcePoints.of(e.half_size) for e in ends]
         self.flat = [p.count > 1 for p in self.points]
         self.contacts = [Contact() for _ in ends]
         self.qp = QuadraticProgram()
@@ -140,8 +139,7 @@ class Controller:
         gradient[6:nv] -= gains.posture_weight * self._posture_acceleration(n)
 
         force_map = np.zeros((nv, nf))
-        friction = np.zeros((5 * nf // 3, size))
-        caps = np.full(len(friction), np.inf)
+        friction = np.zeros((SIDES * nf // 3, size))
         at = row = 0
         for i, width in zip(bearing, sizes, strict=True):
             points, motion = self.points[i], ends[i]
@@ -150,9 +148,8 @@ class Controller:
             gradient[nv + at : nv + at + width] = -gains.force_weight * wanted
             cone = self.pyramids[max(self._surface(n, i), 0)]
             for p in range(points.count):
-                friction[row : row + 5, nv + at + 3 * p : nv + at + 3 * p + 3] = cone
-                caps[row + 4] = points.max_force_N
-                row += 5
+                friction[row : row + SIDES, nv + at + 3 * p : nv + at + 3 * p + 3] = cone
+                row += SIDES
             at += width
         inertia, bias, nj = self.body.inertia, self.body.bias, nv - 6
         equality = np.zeros((6, size))
@@ -171,7 +168,7 @@ class Controller:
             -bias[:6],
             np.vstack([torque, friction, limits]),
             np.concatenate([-self.limits - bias[6:], np.zeros(len(friction)), low, -far]),
-            np.concatenate([self.limits - bias[6:], caps, far, high]),
+            np.concatenate([self.limits - bias[6:], np.full(len(friction), np.inf), far, high]),
         )
         return problem, bearing, force_map
 
@@ -219,6 +216,10 @@ class Controller:
                 feed = np.concatenate([ref.end_accelerations_W[n, i], np.zeros(3)])
                 wanted = _follow(gains.swing_kp, error, rate, feed)
                 weight = gains.swing_weight
+                if self.flat[i]:
+                    turning = weight * (_sole_matters(ref.swing_share[n, i]) if contact.mode is Mode.FREE else 1.0)
+                    add(turning, motion.jacobian[3:], motion.drift[3:], wanted[3:])
+                rows = slice(0, 3)
             else:
                 continue  # it never touches anything again: the posture has it
             add(weight, motion.jacobian[rows], motion.drift[rows], wanted[rows])
@@ -242,6 +243,14 @@ class Controller:
         low = LIMIT_KP * (self.lower - position) - LIMIT_KD * velocity
         high = LIMIT_KP * (self.upper - position) - LIMIT_KD * velocity
         return np.minimum(low, LIMIT_ROOM), np.maximum(high, -LIMIT_ROOM)
+
+
+def _sole_matters(swing_share: float) -> float:
+    """How much the direction of a sole counts on its way through the air: little, until it is about to land.
+
+    A foot kept level while it is high asks more of the ankle than it has, and the controller would lift the body instead.
+    """
+    return float(max(0.02, (2.0 * swing_share - 1.0) ** 4))
 
 
 def _follow(kp: float, error: Array, rate: Array, feed: Array | float) -> Array:

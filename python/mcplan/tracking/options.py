@@ -39,8 +39,8 @@ class Gains:
     Each task asks for the acceleration a_reference + kp (x_reference - x) + kd (v_reference - v), kd = 2 sqrt(kp).
     """
 
-    com_kp: float = 40.0
-    com_weight: float = 10.0
+    com_kp: float = 60.0
+    com_weight: float = 100.0
     base_kp: float = 80.0
     base_weight: float = 1.0
     momentum_kp: float = 5.0  # damping of the angular momentum about the CoM

@@ -32,6 +32,9 @@ class Simulation:
     def __init__(self, model: SimulationModel) -> None:
         import mujoco
 
+        if mujoco.get_mju_user_warning() is None:
+            # They are counted; without this MuJoCo writes them to a file in the working folder.
+            mujoco.set_mju_user_warning(lambda text: None)
         self.model, self._mj = model, model.mj
         self.data = mujoco.MjData(model.mj)
         self._step = mujoco.mj_step

@@ -46,7 +46,7 @@ struct Options {
   StiffnessInput stiffness_input = StiffnessInput::mu;
   Weights weights;
 
-  double duration_min_s = 0.15, duration_max_s = 0.50;  ///< soft box of the phase durations
+  double duration_min_s = 0.0, duration_max_s = 0.0;  ///< soft box of the phase durations; 0: the robot's
   double flight_duration_min_s = 0.40;  ///< lower bound of phases without any contact (the paper's for all)
   double duration_initial_s = 0.45;
   double proximal_weight = 30.0;     ///< first weight on the change of the inputs; adapts

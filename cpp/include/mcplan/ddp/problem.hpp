@@ -51,11 +51,14 @@ class Problem {
   Options options;
   Units units;
   Layout layout;
-  int steps = 0;                       ///< N
-  std::vector<int> active;             ///< end-effector of the robot behind each of the problem's
-  std::vector<Polygon> polygons;       ///< by scene surface
-  std::vector<double> friction;        ///< by scene surface; infinite where it may be held (grasp)
-  double edge_margin = 0.0;            ///< footholds are planned this much inside their polygon
+  int steps = 0;                  ///< N
+  std::vector<int> active;        ///< end-effector of the robot behind each of the problem's
+  std::vector<Polygon> polygons;  ///< by scene surface
+  std::vector<double> friction;   ///< by scene surface; infinite where it may be held (grasp)
+  double edge_margin = 0.0;       ///< footholds are planned this much inside their polygon
+  /// And by this much more, by end-effector, surface and edge: what Robot::sole_support asks for, turned as at start
+  /// or goal, whichever is more; a surface too small for it has the foothold in its middle.
+  std::vector<std::vector<Eigen::VectorXd>> sole_margin;
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<EndLimits> limits;       ///< by active end-effector
   Eigen::Vector3d inertia;             ///< in units of mass length^2

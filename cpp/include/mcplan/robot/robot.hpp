@@ -45,6 +45,8 @@ struct Robot {
   Eigen::Vector3d inertia = Eigen::Vector3d::Ones();  ///< [kg m^2] diagonal, about the CoM, nominal posture
   double com_height = 0.0;                            ///< [m] of the CoM above the ground in the nominal stance
   double swing_height = 0.10;                         ///< [m] clearance of a swinging end-effector
+  Eigen::Vector2d phase_duration{0.15, 0.50};         ///< [s] shortest and longest phase of a contact sequence
+  double sole_support = 0.0;                          ///< share of a sole that a contact sequence keeps on its surface
   std::vector<EndEffector> end_effectors;
   std::string urdf;                       ///< path, or "example-robot-data:NAME"; empty: none
   std::map<std::string, double> posture;  ///< nominal joint positions [rad] by URDF joint name

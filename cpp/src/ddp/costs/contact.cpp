@@ -26,7 +26,7 @@ void contact_cost(const Problem& problem, const VectorXd& x, const VectorXd* u, 
   const double edge_weight = weight * (paper ? 1.0 : problem.options.weights.overshoot_factor);
   const double margin = paper ? 0.0 : problem.edge_margin;
   for (int i = 0; i < polygon.edge_count(); ++i) {
-    const double beyond = polygon.overshoot(i, p) + margin;
+    const double beyond = polygon.overshoot(i, p) + margin + (paper ? 0.0 : problem.sole_margin[l][surface][i]);
     if (beyond > 0.0) along(edge_weight, beyond, polygon.edge_outward_W(i));
   }
   if (!u) return;

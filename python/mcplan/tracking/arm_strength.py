@@ -1,0 +1,133 @@
+"""What an arm can push: the largest force at an end-effector that its joints' torque limits allow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.errors import InvalidOptions
+
+if TYPE_CHECKING:
+    from mcplan.kinematics.urdf_model import UrdfModel
+
+Array = NDArray[np.float64]
+
+#: Of the force that the robot exerts on its surroundings; base upright, x forward.
+DIRECTIONS = {
+    "down": (0.0, 0.0, -1.0),
+    "up": (0.0, 0.0, 1.0),
+    "forward": (1.0, 0.0, 0.0),
+    "backward": (-1.0, 0.0, 0.0),
+    "left": (0.0, 1.0, 0.0),
+    "right": (0.0, -1.0, 0.0),
+}
+
+
+@dataclass(frozen=True)
+class Strength:
+    """Forces that an end-effector can exert in one direction, over many postures.
+
+    Attributes:
+        end_effector: Its name.
+        direction: Key of DIRECTIONS.
+        forces_N: (n,) ascending.
+    """
+
+    end_effector: str
+    direction: str
+    forces_N: Array
+
+    def quantile_N(self, share: float) -> float:
+        """Force that this share of the postures does not exceed [N]."""
+        return float(np.quantile(self.forces_N, share))
+
+
+def largest_force_N(loaded: UrdfModel, end: int, configuration: Array, direction_W: Array) -> tuple[float, str]:
+    """Largest force that an end-effector can exert in a direction with the robot at rest.
+
+    The joints between base and end-effector bear it: tau = g(q) + J^T F d, |tau| <= limit. The base is held by the rest
+    of the robot.
+
+    Args:
+        loaded: The robot's model.
+        end: Index of the end-effector.
+        configuration: (nq,) Pinocchio's order.
+        direction_W: (3,) of the force on the surroundings, of any length but 0.
+
+    Returns:
+        Force [N], 0 if there is none with which the arm bears itself, infinite if no joint bears it; and the joint that
+        gives way first.
+    """
+    import pinocchio as pin  # type: ignore[import-untyped]
+
+    data = loaded.model.createData()
+    return _largest(pin, loaded, data, end, np.asarray(configuration, float), np.asarray(direction_W, float))
+
+
+def random_strengths(loaded: UrdfModel, end: int, samples: int = 2000, seed: int = 0) -> list[Strength]:
+    """Strength over postures drawn evenly within the limits of the joints that move the end-effector but not the other ones.
+
+    Torso joints keep the robot's posture, since they carry the other arm, too; their torque limits count.
+
+    Args:
+        loaded: The robot's model.
+        end: Index of the end-effector.
+        samples: Number of postures.
+        seed: Of their choice.
+
+    Returns:
+        One Strength for each of DIRECTIONS.
+
+    Raises:
+        InvalidOptions: samples is below 1.
+    """
+    import pinocchio as pin
+
+    if samples < 1:
+        raise InvalidOptions("samples", "must be at least 1", str(samples))
+    model, rng = loaded.model, np.random.default_rng(seed)
+    own = own_joints(loaded, end)
+    index = [model.joints[j].idx_q for j in own]
+    low, high = model.lowerPositionLimit[index], model.upperPositionLimit[index]
+    data, forces = model.createData(), np.empty((samples, len(DIRECTIONS)))
+    for n in range(samples):
+        q = loaded.neutral.copy()
+        q[index] = rng.uniform(low, high)
+        for k, direction in enumerate(DIRECTIONS.values()):
+            forces[n, k], _ = _largest(pin, loaded, data, end, q, np.array(direction), update=k == 0)
+    name = loaded.robot.end_effectors[end].name
+    return [Strength(name, direction, np.sort(forces[:, k])) for k, direction in enumerate(DIRECTIONS)]
+
+
+def own_joints(loaded: UrdfModel, end: int) -> list[int]:
+    """Joints between the base and one end-effector that move no other end-effector, from the base outwards."""
+    supports = [list(loaded.model.supports[loaded.model.frames[f].parentJoint]) for f in loaded.frames]
+    others = {joint for i, chain in enumerate(supports) if i != end for joint in chain}
+    return [joint for joint in supports[end] if joint > 1 and joint not in others]
+
+
+def _largest(
+    pin: Any, loaded: UrdfModel, data: Any, end: int, q: Array, direction_W: Array, update: bool = True
+) -> tuple[float, str]:
+    model, frame = loaded.model, loaded.frames[end]
+    if update:
+        pin.computeGeneralizedGravity(model, data, q)
+        pin.computeJointJacobians(model, data, q)
+        pin.updateFramePlacements(model, data)
+    jacobian = pin.getFrameJacobian(model, data, frame, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED)[:3, 6:]
+    per_newton = jacobian.T @ (direction_W / np.linalg.norm(direction_W))
+    least, most, gives_way = 0.0, np.inf, ""
+    for joint in range(2, model.njoints):
+        v = model.joints[joint].idx_v
+        slope, gravity, limit = per_newton[v - 6], data.g[v], model.effortLimit[v]
+        if abs(slope) < 1e-9:
+            continue
+        ends = sorted([(-limit - gravity) / slope, (limit - gravity) / slope])
+        least = max(least, ends[0])
+        if ends[1] < most:
+            most, gives_way = ends[1], model.names[joint]
+    # Where gravity alone is too much for a joint, a force may hold the arm up: then it must not be too small either.
+    return (float(most), gives_way) if most >= least else (0.0, gives_way)

@@ -1,0 +1,212 @@
+"""Whether a robot can follow a plan, told before any simulation: reach, torques, velocities, swing clearance."""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.errors import InvalidInput, InvalidRobot
+from mcplan.extras import require
+from mcplan.kinematics.inverse_kinematics import Postures, follow, has_sole, nearest, smoothed
+from mcplan.kinematics.samples import Samples, knots_and_between, sample_at
+
+from .arm_strength import largest_force_N
+from .findings import Feasibility, Finding
+from .posture_torques import PostureTorques, posture_torques
+from .sole_clearance import clearance_findings
+
+if TYPE_CHECKING:
+    from mcplan._core import Plan, Robot
+    from mcplan.kinematics.urdf_model import UrdfModel
+
+Array = NDArray[np.float64]
+
+#: Postures are sought at the knots and at least so often between them [Hz].
+RATE = 40.0
+#: What postures may miss the plan by: CoM and end-effectors [m], soles on the ground [deg].
+REACH, TILT = 0.01, 3.0
+#: Wrench on the base that contacts do not bear, in parts of the weight (moments over the height of the CoM).
+BALANCE = 0.10
+#: Difference of the plan's mass from the model's, in parts of it.
+MASS = 0.10
+#: A joint so near to its limit is named [rad].
+NEAR = 0.01
+
+
+@dataclass(frozen=True)
+class _Case:
+    plan: Plan
+    loaded: UrdfModel
+    samples: Samples
+    postures: Postures
+    torques: PostureTorques
+
+
+def assess(plan: Plan, robot: Robot | None = None, payload_kg: float = 0.0) -> Feasibility:
+    """Hold a plan against the joints of a robot, without simulating it.
+
+    Postures by inverse kinematics at the knots and every 25 ms between say what is out of reach; inverse dynamics of
+    these postures, with contact forces as near to the plan's as balance allows, what torques it takes.
+
+    Args:
+        plan: Of the contact-sequence search or the receding horizon.
+        robot: With a URDF; None: the plan's own. End-effectors are matched by name.
+        payload_kg: Mass that the base carries in addition, at the base's own centre of mass.
+
+    Raises:
+        MissingExtra: Pinocchio or SciPy is not installed.
+        InvalidRobot: The robot has no URDF, or not an end-effector that the plan has in contact.
+        InvalidInput: payload_kg is negative or not finite.
+    """
+    from mcplan.kinematics.urdf_model import load_model
+
+    if not (np.isfinite(payload_kg) and payload_kg >= 0.0):
+        raise InvalidInput("payload_kg", "must be 0 or more", str(payload_kg))
+    robot = plan.robot if robot is None else robot
+    require("telling whether a robot can follow a plan", "view", "pinocchio", "scipy")
+    loaded = load_model(robot)
+    if payload_kg:
+        loaded.model.inertias[1].mass += payload_kg
+    times = knots_and_between(plan, RATE)
+    loaded, samples = _matched(plan, loaded, sample_at(plan, plan.scene, plan.robot, times))
+    postures = follow(loaded, samples)
+    moving = smoothed(loaded, samples, postures)
+    acceleration = np.array([plan.at(float(t)).com_acceleration_W for t in times])
+    mass = sum(inertia.mass for inertia in loaded.model.inertias)
+    torques = posture_torques(loaded, plan.scene, samples, moving, acceleration, mass / plan.robot.mass)
+    postures = nearest(loaded, samples, postures, moving)
+    case = _Case(plan, loaded, samples, postures, torques)
+    findings = [
+        *_reach(case),
+        *_balance(case, mass),
+        *_torques(case),
+        *_velocities(case),
+        *_hands(case),
+        *clearance_findings(plan.scene, loaded, samples, postures),
+        _mass(case, mass),
+    ]
+    return Feasibility(robot.name, tuple(findings))
+
+
+def _matched(plan: Plan, loaded: UrdfModel, samples: Samples) -> tuple[UrdfModel, Samples]:
+    """The model with the end-effectors that plan and robot share, and the plan's samples in that order."""
+    names = [end.name for end in plan.robot.end_effectors]
+    robot = loaded.robot
+    kept = [i for i, end in enumerate(robot.end_effectors) if end.name in names]
+    mine = [robot.end_effectors[i].name for i in kept]
+    for i, name in enumerate(names):
+        if name not in mine and (samples.surfaces[:, i] >= 0).any():
+            raise InvalidRobot("end_effectors", f"must have {name!r}, which the plan puts down", repr(mine), robot.name)
+    order = [names.index(name) for name in mine]
+    shared = copy.copy(robot)
+    shared.end_effectors = [robot.end_effectors[i] for i in kept]
+    per_end = ("positions_W", "rotations_W", "forces_W", "pressure_W", "points_W", "point_forces_W", "surfaces")
+    chosen = {field: getattr(samples, field)[:, order] for field in per_end}
+    intervals = [
+        replace(i, end_effector=order.index(i.end_effector)) for i in samples.intervals if i.end_effector in order
+    ]
+    return (
+        replace(loaded, robot=shared, frames=[loaded.frames[i] for i in kept]),
+        replace(samples, intervals=intervals, **chosen),
+    )
+
+
+def _reach(case: _Case) -> list[Finding]:
+    """Misses of the CoM, of end-effectors in contact and of feet in the air; tilts of soles on the ground."""
+    samples, postures = case.samples, case.postures
+    n = int(np.argmax(postures.com_misses))
+    misses = postures.com_misses
+    findings = [Finding("reach", float(misses[n]), REACH, "m", "com", float(samples.times_s[n]), _at_limits(case, n))]
+    for end, body in enumerate(case.loaded.robot.end_effectors):
+        touches = samples.surfaces[:, end] >= 0
+        counts = np.ones_like(touches) if body.kind == "foot" else touches
+        if counts.any():
+            misses = np.where(counts, postures.end_misses[:, end], -1.0)
+            n = int(np.argmax(misses))
+            time = float(samples.times_s[n])
+            findings.append(Finding("reach", float(misses[n]), REACH, "m", body.name, time, _at_limits(case, n, end)))
+    for end, body in enumerate(case.loaded.robot.end_effectors):
+        touches = samples.surfaces[:, end] >= 0
+        if has_sole(body) and touches.any():
+            tilts = np.degrees(np.where(touches, postures.tilts[:, end], 0.0))
+            n = int(np.argmax(tilts))
+            time = float(samples.times_s[n])
+            findings.append(Finding("sole", float(tilts[n]), TILT, "deg", body.name, time, _at_limits(case, n, end)))
+    return findings
+
+
+def _at_limits(case: _Case, n: int, end: int | None = None) -> str:
+    """Joints at their limits in a posture: of the limb of an end-effector, or of all."""
+    model, q = case.loaded.model, case.postures.configurations[n]
+    frames = case.loaded.frames if end is None else [case.loaded.frames[end]]
+    chain = {joint for frame in frames for joint in model.supports[model.frames[frame].parentJoint]}
+    names = []
+    for joint in sorted(joint for joint in chain if joint > 1):
+        i = model.joints[joint].idx_q
+        if q[i] < model.lowerPositionLimit[i] + NEAR or q[i] > model.upperPositionLimit[i] - NEAR:
+            names.append(model.names[joint])
+    return f"at their limits: {', '.join(names)}" if names else ""
+
+
+def _torques(case: _Case) -> list[Finding]:
+    return _per_joint(case, "torque", case.torques.torques, case.loaded.model.effortLimit[6:], "N m")
+
+
+def _velocities(case: _Case) -> list[Finding]:
+    return _per_joint(
+        case, "joint_velocity", case.torques.velocities[:, 6:], case.loaded.model.velocityLimit[6:], "rad/s"
+    )
+
+
+def _per_joint(case: _Case, name: str, values: Array, limits: Array, unit: str) -> list[Finding]:
+    """The largest value of each joint that has a limit."""
+    findings, model = [], case.loaded.model
+    for joint in range(2, model.njoints):
+        v = model.joints[joint].idx_v - 6
+        if limits[v] > 0.0 and np.isfinite(limits[v]):  # URDFs write 0 where they know none
+            n = int(np.argmax(np.abs(values[:, v])))
+            value, time = float(abs(values[n, v])), float(case.samples.times_s[n])
+            findings.append(Finding(name, value, float(limits[v]), unit, model.names[joint], time))
+    return findings
+
+
+def _balance(case: _Case, mass: float) -> list[Finding]:
+    """What of the base's wrench no contact bears."""
+    weight = mass * float(case.plan.scene.gravity)
+    height = float(case.loaded.robot.com_height)
+    residual = case.torques.residuals
+    parts = np.hypot(np.linalg.norm(residual[:, :3], axis=1), np.linalg.norm(residual[:, 3:], axis=1) / height) / weight
+    n = int(np.argmax(parts))
+    return [Finding("balance", float(parts[n]), BALANCE, "", "", float(case.samples.times_s[n]))]
+
+
+def _hands(case: _Case) -> list[Finding]:
+    """The plan's force on a hand against what its arm bears in that posture and direction."""
+    findings, samples = [], case.samples
+    for end, body in enumerate(case.loaded.robot.end_effectors):
+        forces = np.linalg.norm(samples.forces_W[:, end], axis=1)
+        best: Finding | None = None
+        for n in np.flatnonzero((samples.surfaces[:, end] >= 0) & (forces > 1.0) & (body.kind != "foot")):
+            push = -samples.forces_W[n, end]
+            bears, joint = largest_force_N(case.loaded, end, case.postures.configurations[n], push)
+            found = Finding(
+                "hand_force",
+                float(forces[n]),
+                bears,
+                "N",
+                body.name,
+                float(samples.times_s[n]),
+                f"{joint} gives way first",
+            )
+            best = found if best is None or found.use > best.use else best
+        findings += [best] if best else []
+    return findings
+
+
+def _mass(case: _Case, mass: float) -> Finding:
+    difference = abs(case.plan.robot.mass / mass - 1.0)
+    return Finding("mass", difference, MASS, "", note=f"plan {case.plan.robot.mass:.1f} kg, model {mass:.1f} kg")

@@ -1,0 +1,91 @@
+"""Soles and hands of postures against the solids below a scene's surfaces."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .findings import Finding
+from .solids import Solids
+
+if TYPE_CHECKING:
+    from mcplan._core import Scene
+    from mcplan.kinematics.inverse_kinematics import Postures
+    from mcplan.kinematics.samples import Interval, Samples
+    from mcplan.kinematics.urdf_model import UrdfModel
+
+Array = NDArray[np.float64]
+
+#: Depth in a solid that is accepted [m]: 5 mm as in the check of plans, and what postures may add to it.
+DEPTH = 0.006
+#: Between two postures, to see edges that a sole passes.
+CUTS = 5
+#: Part of a swing at its begin and end in which a sole is near to what it leaves and reaches.
+NEAR_GROUND = 0.1
+#: Points of a sole along each side: an edge may come up between its corners.
+GRID = (7, 3)
+
+
+def clearance_findings(scene: Scene, loaded: UrdfModel, samples: Samples, postures: Postures) -> list[Finding]:
+    """How deep each end-effector enters a solid, in the air ("clearance") and at rest ("foothold"); negative: above.
+
+    In the air, what a foot leaves and reaches counts between 10 % and 90 % of the swing, other solids always. At rest,
+    the surface touched does not count.
+    """
+    import pinocchio as pin  # type: ignore[import-untyped]
+
+    solids, findings = Solids(scene), []
+    data = loaded.model.createData()
+    times, placements = _placements(pin, loaded, data, samples, postures)
+    for end, body in enumerate(loaded.robot.end_effectors):
+        half = np.asarray(body.half_size, float)
+        sole = np.array(
+            [[x, y, 0.0] for x in half[0] * np.linspace(-1, 1, GRID[0]) for y in half[1] * np.linspace(-1, 1, GRID[1])]
+        )
+        own = [i for i in samples.intervals if i.end_effector == end]
+        deepest: dict[str, tuple[float, float, str]] = {}
+        for time, row in zip(times, placements, strict=True):
+            name, ignored = _ignored(own, float(time), float(times[-1]))
+            rotation, position = row[end]
+            clearances = solids.clearances(position + sole @ rotation.T).min(axis=0)
+            clearances[ignored] = np.inf
+            nearest = int(np.argmin(clearances))
+            depth = -float(clearances[nearest])
+            if name not in deepest or depth > deepest[name][0]:
+                deepest[name] = (depth, float(time), solids.names[nearest])
+        for name, (depth, time, surface) in deepest.items():
+            if body.kind == "foot" or name == "clearance":
+                if np.isfinite(depth):
+                    findings.append(Finding(name, depth, DEPTH, "m", body.name, time, f"surface {surface}"))
+    return findings
+
+
+def _placements(
+    pin: Any, loaded: UrdfModel, data: Any, samples: Samples, postures: Postures
+) -> tuple[Array, list[Any]]:
+    """Rotation and position of every end-effector, at the postures and between them."""
+    times, placements = [], []
+    for n, q in enumerate(postures.configurations):
+        last = n + 1 == samples.count
+        for cut in range(1 if last else CUTS):
+            share = cut / CUTS
+            between = q if cut == 0 else pin.interpolate(loaded.model, q, postures.configurations[n + 1], share)
+            pin.framesForwardKinematics(loaded.model, data, between)
+            placements.append([(data.oMf[f].rotation.copy(), data.oMf[f].translation.copy()) for f in loaded.frames])
+            times.append(samples.times_s[n] + (0.0 if last else share * (samples.times_s[n + 1] - samples.times_s[n])))
+    return np.array(times), placements
+
+
+def _ignored(own: list[Interval], time: float, end: float) -> tuple[str, list[int]]:
+    """ "foothold" or "clearance" at a time, and the surfaces that do not count then."""
+    for interval in own:
+        if interval.start_s - 1e-9 <= time <= interval.end_s + 1e-9:
+            return "foothold", [interval.surface]
+    before = [i for i in own if i.end_s < time]
+    after = [i for i in own if i.start_s > time]
+    start, until = before[-1].end_s if before else 0.0, after[0].start_s if after else end
+    margin = NEAR_GROUND * (until - start)
+    ignored = [before[-1].surface] if before and time < start + margin else []
+    return "clearance", ignored + ([after[0].surface] if after and time > until - margin else [])

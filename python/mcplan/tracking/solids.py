@@ -1,0 +1,52 @@
+"""The solids below a scene's surfaces, and how far points are from them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.kinematics.rotations import polygon_normal
+
+if TYPE_CHECKING:
+    from mcplan._core import Scene
+
+Array = NDArray[np.float64]
+
+#: Points so little below the underside are still inside [m]: a step stands on the floor, as the sole beside it does.
+UNDERSIDE = 0.01
+
+
+class Solids:
+    """Prisms: a surface is the top of one, its thickness goes down along the surface's normal."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.names = [surface.name for surface in scene.surfaces]
+        self._solids = []
+        for surface in scene.surfaces:
+            outline = np.asarray(surface.vertices_W, float)
+            normal = polygon_normal(outline)
+            outward = np.cross(np.roll(outline, -1, axis=0) - outline, normal)
+            outward /= np.linalg.norm(outward, axis=1, keepdims=True)
+            self._solids.append((outline, normal, outward, float(surface.thickness)))
+
+    def clearances(self, points_W: Array) -> Array:
+        """Distance of points from every solid.
+
+        Args:
+            points_W: (k, 3) [m].
+
+        Returns:
+            (k, s) [m], s solids: negative inside, by the way out through the top or the nearest side; outside, the
+            distance to the plane of the side that is farthest, which is at most the distance to the solid.
+        """
+        points_W = np.asarray(points_W, float)
+        result = np.empty((len(points_W), len(self._solids)))
+        for i, (outline, normal, outward, thickness) in enumerate(self._solids):
+            height = (points_W - outline[0]) @ normal
+            beyond = (np.einsum("kej,ej->ke", points_W[:, None] - outline, outward)).max(axis=1)
+            below = -height - thickness
+            inside = np.maximum(height, beyond)
+            result[:, i] = np.where(below > UNDERSIDE, np.maximum(inside, below), inside)
+        return result

@@ -1,0 +1,123 @@
+"""mcplan check --robot: table, JSON, exit codes, one-line errors; mcplan robots --strength."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+import mcplan as mp
+from mcplan.cli import main
+from standing import standing_plan
+
+pytest.importorskip("pinocchio")
+pytest.importorskip("example_robot_data")
+
+
+def run(capsys, *words) -> tuple[int, str, str]:
+    code = main([str(word) for word in words])
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+def one_line_error(result: tuple[int, str, str]) -> str:
+    code, out, err = result
+    assert code == 2 and out == ""
+    assert err.startswith("error: ") and err.count("\n") == 1 and "Traceback" not in err
+    return err[len("error: ") : -1]
+
+
+def strict(text: str) -> dict:
+    return json.loads(text, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
+
+
+@pytest.fixture
+def file(tmp_path):
+    """The feet are right below the CoM: at rest for good."""
+    robot = mp.load_robot("talos")
+    for end in robot.end_effectors:
+        if end.kind == "foot":
+            end.nominal_B[0] = 0.0
+    path = tmp_path / "plan.npz"
+    standing_plan(robot=robot).save(path)
+    return path
+
+
+def test_a_plan_that_can_be_followed_has_a_table_and_code_0(capsys, file):
+    code, out, err = run(capsys, "check", file, "--robot", "talos")
+    lines = out.splitlines()
+    assert code == 0 and err == ""
+    assert lines[0].startswith(f"{file}: ok. Closest to its limit: ")
+    assert lines[1].startswith("talos can follow the plan; nearest to its limit: ")
+    assert lines[2].split() == ["limit", "of", "where", "t", "[s]", "asked", "limit", "unit"]
+    first_words = [line.split()[0] for line in lines[3:]]
+    assert first_words[:4] == ["reach", "sole", "balance", "torque"] and first_words[-1] == "mass"
+
+
+def test_a_plan_that_is_too_high_is_said_to_be_so_with_code_1(capsys, tmp_path):
+    tall = mp.load_robot("talos")
+    tall.com_height += 0.2
+    for end in tall.end_effectors:
+        if end.kind == "foot":
+            end.nominal_B[2] -= 0.2
+            end.reach_min_B[2] -= 0.2
+            end.reach_max_B[2] -= 0.2
+    standing_plan(robot=tall).save(tmp_path / "tall.npz")
+    code, out, _ = run(capsys, "check", tmp_path / "tall.npz", "--robot", "talos")
+    assert code == 1
+    assert "talos cannot follow the plan: reach of " in out
+    marked = [line.split() for line in out.splitlines() if line.startswith("!")]
+    assert any(words[1] == "reach" and "leg_left_4_joint," in words for words in marked)
+    code, out, _ = run(capsys, "check", tmp_path / "tall.npz", "--robot", "talos", "--json")
+    report = strict(out)
+    assert code == 1 and report["feasibility"]["ok"] is False and report["robot"] == "talos"
+    names = {found["name"] for found in report["feasibility"]["violations"]}
+    assert "reach" in names
+    keys = {"name", "value", "limit", "unit", "where", "time_s", "note"}
+    assert all(set(found) == keys for found in report["feasibility"]["constraints"])
+
+
+def test_json_without_a_robot_has_no_feasibility(capsys, file):
+    code, out, _ = run(capsys, "check", file, "--json")
+    assert code == 0 and strict(out)["feasibility"] is None
+
+
+def test_robots_that_cannot_be_asked_are_one_line(capsys, file, tmp_path):
+    assert one_line_error(run(capsys, "check", file, "--robot", "humanoid44")) == (
+        "humanoid44: urdf: must name a URDF: this robot has no joints, got ''"
+    )
+    assert "no robot 'tallos' and no file of that name. Did you mean 'talos'?" in one_line_error(
+        run(capsys, "check", file, "--robot", "tallos")
+    )
+    message = one_line_error(run(capsys, "check", file, "--robot", "anymal"))
+    assert message.startswith("anymal: end_effectors: must have 'right_foot', which the plan puts down")
+
+
+def test_strength_is_told_per_hand_and_direction(capsys):
+    code, out, _ = run(capsys, "robots", "talos", "--strength")
+    assert code == 0
+    assert "half the weight is 443 N" in out
+    rows = [
+        line.split() for line in out.splitlines() if line.startswith(("right_hand", "left_hand")) and "hand " in line
+    ]
+    pushes = {(row[0], row[1]): [float(x) for x in row[2:6]] for row in rows if row[1] != "hand"}
+    assert len(pushes) == 12
+    for median, most, part, most_part in pushes.values():
+        assert median < most and part == pytest.approx(median / 443.0, abs=0.01)
+        assert most_part == pytest.approx(most / 443.0, abs=0.01)
+    assert run(capsys, "robots", "talos", "--strength")[1] == out
+    assert run(capsys, "robots", "talos", "--strength", "--seed", 1)[1] != out
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--strength",), "--strength: needs the NAME of a robot with a URDF"),
+        (("walker9", "--strength"), "--strength: needs the NAME of a robot with a URDF"),
+        (("--from-urdf", "talos", "--strength"), "--strength: needs the NAME of a robot with a URDF"),
+        (("humanoid44", "--strength"), "humanoid44: urdf: must name a URDF"),
+        (("talos_wang", "--strength"), "talos_wang: end_effectors: must have one of kind 'hand'"),
+    ],
+)
+def test_robots_without_arms_are_one_line(capsys, words, message):
+    assert one_line_error(run(capsys, "robots", *words)).startswith(message)
