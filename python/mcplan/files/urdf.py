@@ -27,6 +27,7 @@ FOOT_FORCE = 2.5  # of the robot's weight
 STANCE_TANGENT = 0.6  # largest horizontal over vertical distance of a foot to the CoM in the nominal stance
 HAND_INSET_M = 0.03  # of a hand's nominal position in its box: an arm hanging down is at the edge of what it reaches
 SOLE_MOMENT = 0.0033  # of weight x CoM height: 1 N m on humanoid44
+PHASE_DURATION = (0.3, 0.6)  # [s] of robots with soles: legs of such a weight follow no shorter swing
 _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
 
@@ -37,7 +38,8 @@ HEADER = (
     "body. Left and right are given the same box. max_force of feet: {foot} times the weight; of hands: the upward "
     "force that the arm's torque limits bear in the nominal posture (tau = J^T f plus gravity). Feet stand at most "
     "{tangent} x com_height off the CoM, since forces point at it. A hand's nominal position is moved {inset} m into "
-    "its box. max_moment of soles: {moment} x weight x com_height, vertical."
+    "its box. max_moment of soles: {moment} x weight x com_height, vertical. phase_duration and sole_support: "
+    "what legs can follow and whole soles stand on."
 )
 
 
@@ -188,6 +190,8 @@ def robot_from_urdf(
         inertia=np.diag(data.Ig.inertia).round(3),
         com_height=round(com_height, 3),
         swing_height=setup.swing_height if setup else swing_height,
+        phase_duration=PHASE_DURATION if any(any(end.half_size) for end in ends) else Robot().phase_duration,
+        sole_support=1.0,
         end_effectors=[
             _end_effector(end, *_both_sides(made, end, com_height), weight, com_height, model, nominal) for end in ends
         ],

@@ -19,6 +19,7 @@ from mcplan.kinematics.samples import sample_at
 from mcplan.kinematics.urdf_model import UrdfModel
 
 from .assist import assistance
+from .disturbances import disturbed
 from .measures import measure
 from .options import Options
 from .postures import postures_along
@@ -68,6 +69,8 @@ def track(
     options.validate()
     plan = _as_plan(plan)
     body = robot_for(plan, robot)
+    if options.seed:
+        options = disturbed(options, options.seed, plan.duration(), body.mass)
     from . import mujoco_model
     from .simulation import Simulation
 
@@ -76,7 +79,9 @@ def track(
     simulation = Simulation(model)
     wanted = references(plan, body, options.control_step_s, options.hold_s)
     start, end = _posture_at(loaded, plan, 0.0), _posture_at(loaded, plan, wanted.duration_s)
-    simulation.reset(start, np.zeros(loaded.model.nv))
+    on_ground = start.copy()
+    on_ground[2] += options.ground_shift_m
+    simulation.reset(on_ground, np.zeros(loaded.model.nv))
     posture = start
     if any(phase.law != ForceLaw.pendulum for phase in plan.phases):
         # Such plans know nothing of the base: how it is turned has to suit the legs.
