@@ -29,11 +29,11 @@ def sole_beyond_its_surface(plan):
         ("talos", "flat", 1.0, 0.0),
         ("talos", "ramp", 1.0, 0.002),
         ("talos", "stairs_broad", 1.0, 0.0),
-        ("talos", "stepping_stones", 1.0, 0.05),  # its sole is larger than the stones
+        ("talos", "stepping_stones", 1.0, 0.07),  # its sole is larger than the stones
         ("g1", "flat", 0.74, 0.0),
         ("g1", "ramp", 0.74, 0.002),
         ("g1", "stairs_broad", 0.65, 0.0),
-        ("g1", "stepping_stones", 0.74, 0.035),
+        ("g1", "stepping_stones", 0.74, 0.05),
     ],
 )
 def test_humanoids_walk_with_their_soles_on_the_surfaces(robot, scene, scale, beyond):

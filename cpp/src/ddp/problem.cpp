@@ -144,8 +144,8 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   make_reference(state_of(to));
 }
 
-/// A sole that finds no room is kept to the middle of its surface, this share of the width from either edge: less would
-/// leave it on its toes, half would leave no choice.
+/// A sole that finds no room is kept to the middle of its surface, down to this share of the width from either edge,
+/// the less the wider it is: less would leave it on its toes, half would leave no choice.
 constexpr double kNarrow = 0.35;
 
 void Problem::make_foothold_margins(double start_yaw, double goal_yaw) {
@@ -168,7 +168,7 @@ void Problem::make_foothold_margins(double start_yaw, double goal_yaw) {
           extent = std::max(extent, half[0] * std::abs(along.dot(outward)) + half[1] * std::abs(across.dot(outward)));
         }
         for (const Vector3d& vertex : polygon.vertices_W()) width = std::max(width, -polygon.overshoot(i, vertex));
-        of_surface.push_back(std::min(share * extent, kNarrow * width));
+        of_surface.push_back(std::min(share * extent, std::max(kNarrow * width, width - share * extent)));
       }
     }
   }

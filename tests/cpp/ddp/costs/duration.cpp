@@ -1,4 +1,5 @@
 #include "check_rows.hpp"
+#include "mcplan/base/error.hpp"
 
 namespace {
 
