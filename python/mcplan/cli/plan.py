@@ -19,7 +19,9 @@ def plan(
     scale: Annotated[float, typer.Option("--scale", metavar="X", help="Factor on all lengths of the scene.")] = 1.0,
     sole_inside: Annotated[
         float | None,
-        typer.Option("--sole-inside", metavar="X", help="Share of soles kept on their surface, 0 to 1; default: the robot's."),
+        typer.Option(
+            "--sole-inside", metavar="X", help="Share of soles kept on their surface, 0 to 1; default: the robot's."
+        ),
     ] = None,
     phases: Annotated[int | None, typer.Option("--phases", metavar="N", help="Phases of the plan.")] = None,
     method: Annotated[str | None, typer.Option("--method", metavar="M", help="standard or paper.")] = None,
