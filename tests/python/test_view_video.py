@@ -1,6 +1,7 @@
 """Videos of runs: as many pictures as asked for, not black, and the robot moves in them."""
 
 import dataclasses
+import importlib.util
 import stat
 
 import numpy as np
@@ -124,3 +125,12 @@ def test_the_camera_keeps_a_steady_pace_and_loses_the_sway():
     assert calm[inner, 0] == pytest.approx(way[inner, 0], abs=1e-6)
     assert np.abs(calm[inner, 1]).max() < 1e-3
     assert calm[:, 2] == pytest.approx(0.9)
+
+
+@pytest.mark.parametrize("hidden", ["mujoco", "OpenGL"])
+def test_what_is_not_installed_is_named(recording, tmp_path, monkeypatch, hidden):
+    find = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name, *rest: None if name == hidden else find(name, *rest))
+    with pytest.raises(MissingExtra) as error:
+        save_video(recording, tmp_path / "run.webp")
+    assert str(error.value) == f"rendering a run needs {hidden}: pip install 'mcplan[sim]'"

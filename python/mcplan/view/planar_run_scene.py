@@ -16,14 +16,20 @@ from .planar_ground import slabs_of
 from .planar_run_samples import sample_planar_run
 from .planar_samples import turned
 from .run_scene import RunScene, force_arrow
-from .scene_drawing import SurfaceDrawing
+from .scene_drawing import SurfaceDrawing, raised
 
 if TYPE_CHECKING:
     from mcplan.tracking.planar import PlanarRecording
 
 
-def planar_scene_of(recording: PlanarRecording, rate_hz: float) -> RunScene:
-    """Lay out a run at a frame rate; the plane becomes x forward and z up."""
+def planar_scene_of(recording: PlanarRecording, rate_hz: float, shift_m: float = 0.0) -> RunScene:
+    """Lay out a run at a frame rate; the plane becomes x forward and z up.
+
+    Args:
+        recording: The run.
+        rate_hz: Frames in a second.
+        shift_m: Height by which the simulated ground lay above the planned one.
+    """
     motion = recording.plan.motion
     robot = motion.robot
     size, shapes = size_of(robot), shapes_of(robot)
@@ -76,7 +82,7 @@ def planar_scene_of(recording: PlanarRecording, rate_hz: float) -> RunScene:
         reach_W=into_space(reached),
         figure=Figure("planar", parts),
         arrows=arrows,
-        drawings=drawings,
+        drawings=[raised(drawing, shift_m) for drawing in drawings],
         footholds=[],
         forward=np.array([1.0, 0.0]),
         sun_W=np.array([0.5, -0.8, 1.5]),

@@ -9,10 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan.tracking import Recording
+from mcplan.tracking.planar import PlanarRecording
 
 from .colours import COM, PLANNED, PUSH, TEXT, end_effector_colours
+from .plots_planar_run import save_planar_run_plots
 from .plots_run_axes import finish, rms, shade_run
 from .plots_run_forces import plot_run_forces, plot_run_torques
+from .runs import Run, recording_of
 from .sheets import QUIET, label, legend, sheet
 
 if TYPE_CHECKING:
@@ -24,12 +27,12 @@ Array = NDArray[np.float64]
 PLATE = {"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 1.5}
 
 
-def save_run_plots(recording: Recording, folder: str | Path) -> list[Path]:
+def save_run_plots(run: Run, folder: str | Path) -> list[Path]:
     """Write the plots of a run: com.png, errors.png, forces.png, torques.png, momentum.png, and assist.png if there was
-    any assistance.
+    any assistance; of a planar robot forces.png, joints.png, torques.png and drift.png.
 
     Args:
-        recording: The run.
+        run: A recording, or the result of tracking; also of a planar robot.
         folder: Made if it does not exist.
 
     Returns:
@@ -39,6 +42,9 @@ def save_run_plots(recording: Recording, folder: str | Path) -> list[Path]:
         MissingExtra: matplotlib is not installed.
         OSError: The folder cannot be written to.
     """
+    recording = recording_of(run)
+    if isinstance(recording, PlanarRecording):
+        return save_planar_run_plots(recording, folder)
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     figures = {

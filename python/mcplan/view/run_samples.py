@@ -108,7 +108,7 @@ def simulated_intervals(recording: Recording, scene: Scene) -> list[Interval]:
     times = recording.times_s
     intervals = []
     for end in range(recording.contacts.shape[1]):
-        for start, stop in _stretches(recording.contacts[:, end], times):
+        for start, stop in joined_stretches(recording.contacts[:, end], times):
             position = recording.ends_W[start:stop, end].mean(axis=0)
             planned = recording.contacts_plan[start:stop, end]
             planned = planned[planned >= 0]
@@ -124,7 +124,8 @@ def stretches_of(active: NDArray[np.bool_]) -> list[tuple[int, int]]:
     return [(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
 
 
-def _stretches(active: NDArray[np.bool_], times_s: Array) -> list[tuple[int, int]]:
+def joined_stretches(active: NDArray[np.bool_], times_s: Array) -> list[tuple[int, int]]:
+    """As stretches_of, with gaps of up to SHORT closed."""
     joined: list[tuple[int, int]] = []
     for start, stop in stretches_of(active):
         if joined and times_s[start] - times_s[joined[-1][1]] <= SHORT + 1e-9:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mcplan.kinematics.samples import contact_intervals
 from mcplan.kinematics.urdf_model import load_model
-from mcplan.tracking import Recording, TrackingResult
+from mcplan.tracking import Recording
 from mcplan.tracking.planar import PlanarRecording
 
 from .colours import FORCE_BRIGHT, PUSH, end_effector_colours
@@ -20,6 +20,7 @@ from .plan_drawing import WEIGHT_ARROW
 from .rendering import Arrow, Eye
 from .robot_urdf import mesh_figure
 from .run_samples import RunFrames, frames_of
+from .runs import Run, ground_shift_of, recording_of
 from .scene_drawing import SurfaceDrawing, raised, surface_drawings
 from .viewpoint import sun_direction
 
@@ -27,9 +28,6 @@ if TYPE_CHECKING:
     from mcplan import Robot
 
 Array = NDArray[np.float64]
-
-#: What can be rendered.
-Run = Recording | TrackingResult | PlanarRecording
 
 #: [m] of ground around the motion.
 MARGIN = 4.0
@@ -82,12 +80,11 @@ def scene_of(run: Run, rate_hz: float) -> RunScene:
         MissingExtra: Pinocchio is not installed.
         InvalidRobot: The robot's URDF cannot be read.
     """
-    if isinstance(run, PlanarRecording):
+    recording, shift = recording_of(run), ground_shift_of(run)
+    if isinstance(recording, PlanarRecording):
         from .planar_run_scene import planar_scene_of
 
-        return planar_scene_of(run, rate_hz)
-    recording = run.recording if isinstance(run, TrackingResult) else run
-    shift = run.options.ground_shift_m if isinstance(run, TrackingResult) else 0.0
+        return planar_scene_of(recording, rate_hz, shift)
     scene, robot = recording.plan.scene, recording.body
     colours = end_effector_colours(robot)
     loaded = load_model(robot)

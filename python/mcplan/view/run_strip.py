@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from mcplan.errors import InvalidInput
 from mcplan.extras import require
-from mcplan.tracking import TrackingResult
 
 from .colours import COM
 from .rendering import FIELD, Eye, Renderer
 from .rendering import Path as Line
-from .run_scene import Run, RunScene, scene_of
+from .run_scene import RunScene, scene_of
+from .runs import Run, recording_of
 
 Array = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
@@ -38,7 +38,7 @@ def save_run_strip(
     """Write a PNG of the robot at several instants, side by side, with the time under each.
 
     Args:
-        run: A recording, also of a planar robot, or the result of tracking.
+        run: A recording, or the result of tracking; also of a planar robot.
         path: File to write.
         frames: Number of instants, equally spaced from start to end, or the instants [s].
         columns: Frames in a row; None: up to eight.
@@ -89,7 +89,7 @@ def save_run_postures(
     """Write a PNG of several postures in one scene: earlier ones paler; with the paths of the CoM and of its plan.
 
     Args:
-        run: A recording, also of a planar robot, or the result of tracking.
+        run: A recording, or the result of tracking; also of a planar robot.
         path: File to write.
         postures: Number of instants, equally spaced from start to end, or the instants [s].
         size: Width and height in pixels.
@@ -142,8 +142,7 @@ def _png(path: str | Path) -> Path:
 def _laid_out(run: Run, name: str, chosen: Any) -> tuple[RunScene, list[int]]:
     """The run, and the indices of the instants asked for."""
     require("rendering a run", "sim", "mujoco", "pinocchio", "PIL")
-    recording = run.recording if isinstance(run, TrackingResult) else run
-    last = float(recording.times_s[-1])
+    last = float(recording_of(run).times_s[-1])
     if isinstance(chosen, int):
         if chosen < 1:
             raise InvalidInput(name, "must be at least 1", str(chosen))

@@ -4,23 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from mcplan.tracking import Recording, TrackingResult
+from mcplan.tracking import Measures, Recording
 
 
-def run_lines(run: Recording | TrackingResult) -> list[str]:
-    """What came of a run, in two to four lines."""
-    recording = run.recording if isinstance(run, TrackingResult) else run
+def run_lines(recording: Recording, measures: Measures | None) -> list[str]:
+    """What came of a run, in a few lines; without measures, what the recording tells by itself."""
     robot = recording.body
     last = float(recording.times_s[-1])
     end = f"fell at {recording.fell_at_s:.2f} s" if np.isfinite(recording.fell_at_s) else f"{last:.2f} s without a fall"
     lines = [f"{robot.name}: {end}"]
     miss = np.linalg.norm(recording.com_W - recording.com_plan_W, axis=1)
     rms, largest = float(np.sqrt(np.mean(miss**2))), float(miss.max())
-    if isinstance(run, TrackingResult):
-        rms, largest = run.measures.com_rms_m, run.measures.com_max_m
+    if measures is not None:
+        rms, largest = measures.com_rms_m, measures.com_max_m
     lines.append(f"CoM off by {1e3 * rms:.1f} mm rms, {1e3 * largest:.1f} mm at most")
-    if isinstance(run, TrackingResult):
-        m = run.measures
+    if measures is not None:
+        m = measures
         lines.append(f"base off by {m.orientation_rms_deg:.1f}°, swings by {1e3 * m.swing_rms_m:.1f} mm rms")
         lines.append(f"slip {1e3 * m.slip_m:.1f} mm; torques up to {100.0 * m.torque_use:.0f} % of limits")
     else:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,7 +31,7 @@ from .planar_ground import slabs_of
 from .planar_run_samples import sample_planar_run
 from .planar_samples import frame_times, sample_whole_body, turned
 from .plots_planar_run import force_error, joint_error_deg, point_drift
-from .run_samples import stretches_of
+from .run_samples import joined_stretches
 from .shapes import tube
 from .stage import Stage
 
@@ -42,7 +43,7 @@ Array = NDArray[np.float64]
 FRAME_RATE = 60.0
 
 
-def show_planar_run(recording: PlanarRecording) -> Page:
+def show_planar_run(recording: PlanarRecording, shift_m: float = 0.0) -> Page:
     """Draw a run of a planar robot for the browser, from the side.
 
     Robot, CoM, paths and force arrows are the simulation's; grey, wider tubes are the planned paths. Bars of the timeline
@@ -50,6 +51,7 @@ def show_planar_run(recording: PlanarRecording) -> Page:
 
     Args:
         recording: The run.
+        shift_m: Height by which the simulated ground lay above the planned one.
 
     Raises:
         MissingExtra: meshcat is not installed.
@@ -74,6 +76,7 @@ def show_planar_run(recording: PlanarRecording) -> Page:
         ]
     )
     slabs = slabs_of(motion, reached, 0.12 * size, 0.09 * size)
+    slabs = [replace(slab, outline_W=slab.outline_W + [0.0, shift_m]) for slab in slabs]
     expected = contact_intervals(plan)
     draw_ground(stage, slabs, size)
     draw_body(stage, samples, robot, shapes, size)
@@ -103,7 +106,8 @@ def show_planar_run(recording: PlanarRecording) -> Page:
         marks.append(
             (float(recording.left_plan_at_s), duration, TEXT, f"off its plan at {recording.left_plan_at_s:.2f} s")
         )
-    bars = timeline(motion, robot, _touching(recording), colours, duration, planned=expected, marks=marks)
+    within = [replace(i, end_s=min(i.end_s, duration)) for i in expected if i.start_s < duration]
+    bars = timeline(motion, robot, _touching(recording), colours, duration, planned=within, marks=marks)
     return Page(
         title=f"{motion.name}, {robot.name}, simulated",
         payload=stage.payload(),
@@ -137,7 +141,7 @@ def _touching(recording: PlanarRecording) -> list[Interval]:
     pressed = np.linalg.norm(np.nansum(recording.forces_W, axis=2), axis=2) > 0.005 * weight
     intervals = []
     for end in range(len(robot.end_effectors)):
-        for start, stop in stretches_of(pressed[:, end]):
+        for start, stop in joined_stretches(pressed[:, end], times):
             planned = recording.surfaces_plan[start:stop, end]
             planned = planned[planned >= 0]
             surface = int(np.bincount(planned).argmax()) if len(planned) else 0

@@ -13,6 +13,7 @@ from mcplan.kinematics.rotations import pose
 from mcplan.kinematics.samples import contact_intervals
 from mcplan.kinematics.urdf_model import load_model
 from mcplan.tracking import Recording, TrackingResult
+from mcplan.tracking.planar import PlanarRecording
 
 from .colours import ASSIST, COM, PLANNED, PUSH, TEXT, end_effector_colours
 from .extent import extent_of
@@ -22,8 +23,10 @@ from .plan_drawing import WEIGHT_ARROW, contact_plate, draw_arrow, draw_contact,
 from .robot_urdf import mesh_figure
 from .run_samples import RunFrames, frames_of, stretches_of
 from .run_text import run_lines
+from .runs import Run, ground_shift_of, recording_of
 from .scene_drawing import draw_surfaces, raised, surface_drawings
 from .shapes import ellipsoid, tube
+from .show_planar_run import show_planar_run
 from .stage import Stage
 from .viewpoint import camera_direction, sun_direction, view_points
 
@@ -36,7 +39,7 @@ Array = NDArray[np.float64]
 FRAME_RATE = 30.0
 
 
-def show_run(run: Recording | TrackingResult) -> Page:
+def show_run(run: Run) -> Page:
     """Draw a run for the browser: the robot's meshes as simulated, the simulator's contacts and forces, and what was
     planned.
 
@@ -45,15 +48,17 @@ def show_run(run: Recording | TrackingResult) -> Page:
     planned contacts.
 
     Args:
-        run: A recording; or the result of tracking, whose measures the caption names.
+        run: A recording; or the result of tracking, whose measures the caption names; also of a planar robot.
 
     Raises:
         MissingExtra: meshcat or Pinocchio is not installed.
         InvalidRobot: The robot's URDF cannot be read.
     """
+    recording, shift = recording_of(run), ground_shift_of(run)
+    if isinstance(recording, PlanarRecording):
+        return show_planar_run(recording, shift)
     require("mcplan.view.show_run", "view", "meshcat", "pinocchio")
-    recording = run.recording if isinstance(run, TrackingResult) else run
-    shift = run.options.ground_shift_m if isinstance(run, TrackingResult) else 0.0
+    measures = run.measures if isinstance(run, TrackingResult) else None
     plan = recording.plan
     scene, robot = plan.scene, recording.body
     colours = end_effector_colours(robot)
@@ -90,7 +95,7 @@ def show_run(run: Recording | TrackingResult) -> Page:
     return Page(
         title=f"{scene.name}, {robot.name}, simulated",
         payload=stage.payload(),
-        overlay=caption(f"{scene.name}, simulated", run_lines(run), legend) + bars,
+        overlay=caption(f"{scene.name}, simulated", run_lines(recording, measures), legend) + bars,
         points_W=np.vstack([points, _beside(points, extent.forward)]),
         direction_W=camera_direction(extent),
         sun_W=sun_direction(extent),

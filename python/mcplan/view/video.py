@@ -12,7 +12,8 @@ from mcplan.errors import InvalidInput
 from mcplan.extras import require
 
 from .rendering import Renderer
-from .run_scene import Run, RunScene, scene_of
+from .run_scene import RunScene, scene_of
+from .runs import Run
 from .video_files import check_target, write_video
 
 Array = NDArray[np.float64]
@@ -38,7 +39,7 @@ def save_video(
     the ground are the planned footholds.
 
     Args:
-        run: A recording, also of a planar robot, or the result of tracking.
+        run: A recording, or the result of tracking; also of a planar robot.
         path: File to write: .mp4 (needs ffmpeg), .webp or .gif.
         size: Width and height in pixels, even.
         rate_hz: Pictures in a second.

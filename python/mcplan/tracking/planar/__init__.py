@@ -1,4 +1,4 @@
-"""Whole-body plans of planar robots in MuJoCo: feed-forward torques, and whether the contact forces come out as planned.
+"""Whole-body plans of planar robots in MuJoCo: feed-forward torques, and whether contact forces come out as planned.
 
     from mcplan.tracking.planar import track_whole_body
 
@@ -10,6 +10,20 @@ Needs the extra `sim` (mujoco).
 
 from __future__ import annotations
 
+from .measures import PlanarMeasures
+from .prepare import PLANNING, with_clearances
 from .recording import PlanarRecording
+from .run import DEFAULT_OPTIONS, PlanarResult, track_whole_body
+from .settings import ContactSettings, Feedback
 
-__all__ = ["PlanarRecording"]
+__all__ = [
+    "DEFAULT_OPTIONS",
+    "PLANNING",
+    "ContactSettings",
+    "Feedback",
+    "PlanarMeasures",
+    "PlanarRecording",
+    "PlanarResult",
+    "track_whole_body",
+    "with_clearances",
+]

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 
 from mcplan.extras import require
 
+from .settings import ContactSettings, Feedback
+
 if TYPE_CHECKING:
     import mujoco
 
@@ -35,44 +37,13 @@ _ROBOT, _GROUND = 1, 2  # collision bits: robots touch the ground and not themse
 
 
 @dataclass(frozen=True)
-class ContactSettings:
-    """How hard MuJoCo's contacts are.
-
-    Attributes:
-        time_constant_s: Of a contact's return to its surface, critically damped; at least two simulation steps.
-        impedance: Share of the constraint's force at which a contact holds, near 1: hard.
-        friction_impedance: Stiffness of friction over that of normal contact (MuJoCo's impratio).
-    """
-
-    time_constant_s: float = 0.002
-    impedance: float = 0.999
-    friction_impedance: float = 10.0
-
-
-@dataclass(frozen=True)
-class Feedback:
-    """Of the joints: torque = planned + stiffness (q_plan - q) + damping (velocity_plan - velocity), within the limits.
-
-    It is part of the model's motors, so that MuJoCo integrates the damping implicitly: feet are so light (0.003 kg m^2) that
-    10 N m s/rad computed once a millisecond would make them swing up.
-
-    Attributes:
-        stiffness: [N m/rad].
-        damping: [N m s/rad].
-    """
-
-    stiffness: float = 300.0
-    damping: float = 10.0
-
-
-@dataclass(frozen=True)
 class PlanarModel:
     """A planar robot in MuJoCo.
 
     Attributes:
         motion: Robot and ground that it was made from.
         mj: The model.
-        feedback: In its motors.
+        stiffness, damping: In its motors [N m/rad, N m s/rad].
         dofs: (3 + j,) where base x, y, angle and the joints are in MuJoCo's qpos and qvel.
         point_geoms: For each end-effector the geoms of its points.
         surface_geoms: The geom of each surface of the motion.
@@ -80,7 +51,8 @@ class PlanarModel:
 
     motion: PlanarMotion
     mj: mujoco.MjModel
-    feedback: Feedback
+    stiffness: float
+    damping: float
     dofs: NDArray[np.int64]
     point_geoms: tuple[tuple[int, ...], ...]
     surface_geoms: tuple[int, ...]
@@ -102,17 +74,23 @@ def build(
         motion: Robot and surfaces; it must be valid.
         step_s: Of the simulation.
         contacts: How hard they are; default: ContactSettings().
+        feedback: Of the joints, as part of their motors; default: Feedback().
         mass_scale: Factor on masses and inertias.
         friction_scale: Factor on the friction of all surfaces.
         ground_shift_m: By which all surfaces lie higher than the motion's.
 
     Raises:
+        InvalidOptions: Contacts or feedback out of their range.
         MissingExtra: MuJoCo is not installed.
     """
     require("tracking of planar robots", "sim", "mujoco")
     import mujoco
 
     contacts = contacts or ContactSettings()
+    contacts.validate()
+    feedback = feedback or Feedback()
+    feedback.validate()
+    gains = feedback.gains(motion.robot)
     spec = mujoco.MjSpec()
     spec.modelname = motion.robot.name or "planar"
     spec.option.gravity = [0.0, 0.0, -motion.robot.gravity]
@@ -123,7 +101,7 @@ def build(
     spec.option.tolerance = 1e-12
     spec.option.iterations = 200
     _add_ground(spec, motion, contacts, friction_scale, ground_shift_m)
-    _add_bodies(spec, motion.robot, feedback or Feedback(), mass_scale)
+    _add_bodies(spec, motion.robot, gains, mass_scale)
     model = spec.compile()
 
     def geom(name: str) -> int:
@@ -137,7 +115,8 @@ def build(
     return PlanarModel(
         motion=motion,
         mj=model,
-        feedback=feedback or Feedback(),
+        stiffness=gains[0],
+        damping=gains[1],
         dofs=np.array([0, 1, *(model.jnt_dofadr[hinge] for hinge in hinges)]),
         point_geoms=tuple(tuple(geom(f"point {e} {i}") for i in range(len(end.points))) for e, end in enumerate(ends)),
         surface_geoms=tuple(geom(f"surface {i}") for i in range(len(motion.surfaces))),
@@ -157,13 +136,13 @@ def _add_ground(
     import mujoco
 
     for i, surface in enumerate(motion.surfaces):
-        shape = _endless(surface) if np.isinf([surface.from_, surface.to]).all() else _slab(surface)
-        kind = mujoco.mjtGeom.mjGEOM_PLANE if len(shape["size"]) == 3 and shape["size"][0] == 0 else None
+        endless = bool(np.isinf([surface.from_, surface.to]).all())
+        middle, size = _half_space(surface) if endless else _slab(surface)
         spec.worldbody.add_geom(
             name=f"surface {i}",
-            type=kind if kind is not None else mujoco.mjtGeom.mjGEOM_BOX,
-            size=shape["size"],
-            pos=np.asarray(shape["pos"]) + [0.0, 0.0, shift_m],
+            type=mujoco.mjtGeom.mjGEOM_PLANE if endless else mujoco.mjtGeom.mjGEOM_BOX,
+            size=size,
+            pos=[middle[0], 0.0, middle[1] + shift_m],
             quat=_turn(surface.angle),
             friction=[friction_scale * surface.friction, 0.0, 0.0],
             condim=3,
@@ -175,21 +154,19 @@ def _add_ground(
         )
 
 
-def _endless(surface: PlanarSurface) -> dict[str, Any]:
-    return {"size": [0.0, 0.0, 1.0], "pos": [surface.origin_W[0], 0.0, surface.origin_W[1]]}
+def _half_space(surface: PlanarSurface) -> tuple[Array, list[float]]:
+    """Middle and MuJoCo's size of the plane that is a surface without ends."""
+    return surface.origin_W, [0.0, 0.0, 1.0]
 
 
-def _slab(surface: PlanarSurface) -> dict[str, Any]:
-    """The box whose top is a surface that ends."""
+def _slab(surface: PlanarSurface) -> tuple[Array, list[float]]:
+    """Middle and half lengths of the box whose top is a surface that ends."""
     ends = np.clip([surface.from_, surface.to], -ENDLESS_M, ENDLESS_M)
     middle = surface.origin_W + ends.mean() * surface.tangent_W - SOLID_DEPTH_M / 2 * surface.normal_W
-    return {
-        "size": [(ends[1] - ends[0]) / 2, SOLID_HALF_WIDTH_M, SOLID_DEPTH_M / 2],
-        "pos": [middle[0], 0.0, middle[1]],
-    }
+    return middle, [float(ends[1] - ends[0]) / 2, SOLID_HALF_WIDTH_M, SOLID_DEPTH_M / 2]
 
 
-def _add_bodies(spec: mujoco.MjSpec, robot: PlanarRobot, feedback: Feedback, mass_scale: float) -> None:
+def _add_bodies(spec: mujoco.MjSpec, robot: PlanarRobot, gains: tuple[float, float], mass_scale: float) -> None:
     import mujoco
 
     bodies: list[Any] = []
@@ -210,7 +187,7 @@ def _add_bodies(spec: mujoco.MjSpec, robot: PlanarRobot, feedback: Feedback, mas
             made.add_joint(name="base y", type=slide, axis=[0.0, 0.0, 1.0])
         hinge = made.add_joint(name=f"joint {number}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=_AXIS)
         if number:
-            _add_motor(spec, hinge.name, body.torque_max, feedback)
+            _add_motor(spec, hinge.name, body.torque_max, gains)
         bodies.append(made)
     for e, end in enumerate(robot.end_effectors):
         along, into = _axes(end.angle_B)
@@ -226,12 +203,12 @@ def _add_bodies(spec: mujoco.MjSpec, robot: PlanarRobot, feedback: Feedback, mas
             )
 
 
-def _add_motor(spec: mujoco.MjSpec, joint: str, torque_max: float, feedback: Feedback) -> None:
+def _add_motor(spec: mujoco.MjSpec, joint: str, torque_max: float, gains: tuple[float, float]) -> None:
     import mujoco
 
     motor = spec.add_actuator(name=f"motor of {joint}", target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
     motor.biastype = mujoco.mjtBias.mjBIAS_AFFINE
-    motor.biasprm[:3] = [0.0, -feedback.stiffness, -feedback.damping]
+    motor.biasprm[:3] = [0.0, -gains[0], -gains[1]]
     if np.isfinite(torque_max):
         motor.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
         motor.forcerange = [-torque_max, torque_max]

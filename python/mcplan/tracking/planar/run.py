@@ -10,16 +10,20 @@ import numpy as np
 
 from ..options import Options
 from .measures import PlanarMeasures, measure
-from .mjcf import Array, ContactSettings, Feedback, build
-from .recording import PlanarRecording
+from .mjcf import build
+from .recording import Array, PlanarRecording
+from .settings import ContactSettings, Feedback
 from .simulation import PlanarSimulation
 
 if TYPE_CHECKING:
     from mcplan._core import WholeBodyPlan, WholeBodyState
 
-#: A robot that is further than this from its plan has left it: base [m], [rad].
+#: A robot that is further than this from its plan has left it: base [m], base and joints [rad].
 LEFT_PLAN_M = 0.1
 LEFT_PLAN_RAD = 0.3
+
+#: Steps at which smaller ones change the measures by less than a tenth.
+DEFAULT_OPTIONS = Options(simulation_step_s=2e-4, control_step_s=4e-4)
 
 
 @dataclass(frozen=True)
@@ -43,7 +47,26 @@ def track_whole_body(
     feedback: Feedback | None = None,
     contacts: ContactSettings | None = None,
 ) -> PlanarResult:
-    options = options or Options()
+    """Let MuJoCo's robot follow a whole-body plan, unassisted.
+
+    The robot starts in the plan's state. From then on its motors get the torques of the plan at each control step, to which
+    a weak feedback on the joints is added. A run ends `hold_s` after the plan, or where the robot has left it: its base by
+    0.1 m or 0.3 rad, or a joint by 0.3 rad.
+
+    Args:
+        plan: Of a planar robot. How to plan so that a robot can follow: ``prepare``.
+        options: Steps, `hold_s` and the deviations that the plan does not know of: `mass_scale`, `friction_scale`,
+            `ground_shift_m` (a start in the ground then throws the robot). Default: DEFAULT_OPTIONS.
+        feedback: On the joints; default: Feedback().
+        contacts: Their hardness; default: ContactSettings().
+
+    Raises:
+        InvalidOptions: Out of range, or asking for what planar robots have not: pushes, assistance, random disturbances.
+        InvalidPlan, InvalidMotion, InvalidRobot: The plan is malformed.
+        MissingExtra: MuJoCo is not installed.
+    """
+    options = options or DEFAULT_OPTIONS
+    _require_supported(options)
     plan.validate()
     model = build(
         plan.motion,
@@ -56,23 +79,34 @@ def track_whole_body(
     )
     simulation = PlanarSimulation(model)
     simulation.reset(plan.at(0.0).configuration)
-    steps = round(options.control_step_s / options.simulation_step_s)
-    rows = []
-    left = float("inf")
     start = time.perf_counter()
-    count = round((plan.duration() + options.hold_s) / options.control_step_s)
-    for k in range(count + 1):
-        now = k * options.control_step_s
-        state = plan.at(min(now, plan.duration()))
-        row = _control(simulation, state)
-        rows.append(row | {"times_s": now, "phases": state.phase})
-        if _has_left(row):
-            left = now
-            break
-        simulation.advance(steps)
-    wall = time.perf_counter() - start
+    rows, left = _run(simulation, plan, options)
+    wall_clock_s = time.perf_counter() - start
     recording = _recording(plan, rows, left)
-    return PlanarResult(recording, measure(recording, simulation.warnings, wall), options)
+    return PlanarResult(recording, measure(recording, simulation.warnings, wall_clock_s), options)
+
+
+def _require_supported(options: Options) -> None:
+    options.validate()
+    for name, empty in (("pushes", ()), ("assist", False), ("seed", 0)):
+        value = getattr(options, name)
+        if value != empty:
+            raise InvalidOptions(name, f"must be {empty} for planar robots", str(value))
+
+
+def _run(simulation: PlanarSimulation, plan: WholeBodyPlan, options: Options) -> tuple[list[dict[str, Any]], float]:
+    """What is recorded of each control step, and when the robot left the plan (infinite: never)."""
+    duration = plan.duration()
+    steps = round(options.control_step_s / options.simulation_step_s)
+    rows: list[dict[str, Any]] = []
+    for k in range(round((duration + options.hold_s) / options.control_step_s) + 1):
+        now = k * options.control_step_s
+        state = plan.at(min(now, duration))
+        rows.append({"times_s": now, "phases": state.phase, **_control(simulation, state)})
+        if _has_left(rows[-1]):
+            return rows, now
+        simulation.advance(steps)
+    return rows, float("inf")
 
 
 def _control(simulation: PlanarSimulation, state: WholeBodyState) -> dict[str, Any]:

@@ -6,7 +6,8 @@ import numpy as np
 
 from mcplan._core import PlanarConfiguration
 
-from .mjcf import Array, PlanarModel, set_state
+from .mjcf import PlanarModel, set_state
+from .recording import Array
 
 
 class PlanarSimulation:
@@ -51,11 +52,11 @@ class PlanarSimulation:
         Returns:
             (j,) what the feedback adds at this instant, before motors clip the sum [N m].
         """
-        feedback = self.model.feedback
-        wanted = feedback.stiffness * q + feedback.damping * velocity
+        stiffness, damping = self.model.stiffness, self.model.damping
+        wanted = stiffness * q + damping * velocity
         self._data.ctrl[:] = torques + wanted
         self._mujoco.mj_forward(self.model.mj, self._data)  # forces read next are those under these torques
-        return wanted - feedback.stiffness * self.positions[3:] - feedback.damping * self.velocities[3:]
+        return wanted - stiffness * self.positions[3:] - damping * self.velocities[3:]
 
     def advance(self, steps: int) -> None:
         """Go on by so many steps."""
