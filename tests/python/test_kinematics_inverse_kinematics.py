@@ -1,13 +1,11 @@
-"""Postures follow the plan: contacts are met, feet lie flat, knees bend forward, nothing jumps when smoothed."""
-
-from types import SimpleNamespace
+"""Postures follow the plan: contacts are met, feet lie flat, knees bend forward."""
 
 import numpy as np
 import pytest
 
 import mcplan as mp
 import plans_by_hand as by_hand
-from mcplan.kinematics.inverse_kinematics import follow, has_sole, nearest, running_means, smoothed
+from mcplan.kinematics.inverse_kinematics import follow, has_sole
 from mcplan.kinematics.samples import sample
 from mcplan.kinematics.urdf_model import load_model
 
@@ -83,37 +81,6 @@ def test_a_low_walk_over_tilted_patches_is_followed_with_its_soles_on_them():
             assert frame.rotation[:, 2] @ normal > np.cos(0.03)
 
 
-def largest_rates(model, times, configurations) -> np.ndarray:
-    """Of each joint [rad/s]."""
-    steps = [pin.difference(model, a, b)[6:] for a, b in zip(configurations[:-1], configurations[1:], strict=True)]
-    return np.abs(np.array(steps) / np.diff(times)[:, None]).max(axis=0)
-
-
-def test_smoothed_postures_meet_the_plan_and_leave_out_jumps_of_the_torso():
-    plan = mp.walk("rubbles", cycles=2).plan
-    loaded = load_model(plan.robot)
-    samples = sample(plan, plan.scene, plan.robot, 40.0)
-    postures = follow(loaded, samples)
-    calm = smoothed(loaded, samples, postures)
-    torso = loaded.model.joints[loaded.model.getJointId("torso_2_joint")].idx_v - 6
-    before, after = (largest_rates(loaded.model, samples.times_s, p.configurations)[torso] for p in (postures, calm))
-    assert after < 0.5 * before
-    assert calm.residual < 0.02, calm.where
-    best = nearest(loaded, samples, postures, calm)
-    assert best.residual <= min(postures.residual, calm.residual)
-
-
-def test_running_means_leave_steady_motion_alone(walking):
-    _, model, postures = walking
-    times = np.linspace(0.0, 2.0, 41)
-    start, rate = postures.configurations[0], np.linspace(-0.1, 0.1, model.nv)
-    rate[3:6] = 0.0
-    steady = np.array([pin.integrate(model, start, t * rate) for t in times])
-    means = running_means(SimpleNamespace(model=model), times, steady)
-    inside = (times > 0.5) & (times < 1.5)  # at the ends there are neighbours on one side only
-    assert means[inside] == pytest.approx(steady[inside], abs=1e-9)
-
-
 def test_misses_and_tilts_are_those_of_the_frames(walking, talos):
     samples, model, postures = walking
     data = model.createData()
@@ -127,3 +94,16 @@ def test_misses_and_tilts_are_those_of_the_frames(walking, talos):
         assert postures.end_misses[n, end] == pytest.approx(away, abs=1e-9)
         angle = np.arccos(np.clip((np.trace(frame.rotation.T @ samples.rotations_W[n, end]) - 1) / 2, -1, 1))
         assert postures.tilts[n, end] == pytest.approx(angle if has_sole(body) else 0.0, abs=1e-6)
+
+
+def test_out_of_reach_more_iterations_change_little(talos):
+    """Beside a stretched knee plain Gauss-Newton swings to and fro: misses would depend on where it is stopped."""
+    plan = by_hand.walk(by_hand.stairs(), talos)  # treads half a metre apart
+    loaded = load_model(talos)
+    samples = sample(plan, plan.scene, talos, 40.0)
+    once = follow(loaded, samples)
+    again = follow(loaded, samples, once.configurations)
+    assert 0.01 < once.residual < 0.05, once.where
+    assert again.residual == pytest.approx(once.residual, abs=0.01)
+    feet = once.end_misses[:, :2]
+    assert feet.max() < 0.03

@@ -25,7 +25,9 @@ def box_scene() -> mp.Scene:
     )
 
 
-def sole_that_moves(path: np.ndarray, surfaces: list[int], scene: mp.Scene | None = None) -> dict[str, object]:
+def sole_that_moves(
+    path: np.ndarray, surfaces: list[int], scene: mp.Scene | None = None, final: int = -1
+) -> dict[str, object]:
     """Findings by name, for a body that is nothing but a sole: poses (n, 3) a tenth of a second apart."""
     model = pin.Model()
     joint = model.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), "base")
@@ -41,7 +43,7 @@ def sole_that_moves(path: np.ndarray, surfaces: list[int], scene: mp.Scene | Non
             start = n
     samples = SimpleNamespace(times_s=times, count=len(path), intervals=intervals)
     postures = SimpleNamespace(configurations=np.hstack([path, np.tile([0, 0, 0, 1.0], (len(path), 1))]))
-    return {found.name: found for found in clearance_findings(scene or box_scene(), loaded, samples, postures)}
+    return {found.name: found for found in clearance_findings(scene or box_scene(), loaded, samples, postures, [final])}
 
 
 def test_a_sole_that_goes_through_an_edge_is_told_where_and_when():
@@ -90,3 +92,11 @@ def test_what_a_foot_leaves_counts_only_in_the_middle_of_the_swing():
     assert sole_that_moves(path, [0, *[-1] * 10, 0])["clearance"].value <= 0.0
     path[5, 2] = -0.01
     assert sole_that_moves(path, [0, *[-1] * 10, 0])["clearance"].value == pytest.approx(0.01)
+
+
+def test_what_a_foot_reaches_at_the_very_end_is_known_from_the_final_contacts():
+    path = np.tile([0.0, 0.0, 0.05], (12, 1))
+    path[-1, 2] = -0.01
+    surfaces = [*[-1] * 12]
+    assert sole_that_moves(path, surfaces)["clearance"].value == pytest.approx(0.01)
+    assert sole_that_moves(path, surfaces, final=0)["clearance"].value < 0.0

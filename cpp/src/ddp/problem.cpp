@@ -144,6 +144,10 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   make_reference(state_of(to));
 }
 
+/// A sole that finds no room is kept to the middle of its surface, this share of the width from either edge: less would
+/// leave it on its toes, half would leave no choice.
+constexpr double kNarrow = 0.35;
+
 void Problem::make_foothold_margins(double yaw) {
   const Vector3d heading(std::cos(yaw), std::sin(yaw), 0.0);
   const double share = options.sole_inside < 0.0 ? robot.sole_support : options.sole_inside;
@@ -162,7 +166,7 @@ void Problem::make_foothold_margins(double yaw) {
         const double extent = half[0] * std::abs(along.dot(outward)) + half[1] * std::abs(across.dot(outward));
         double width = 0.0;
         for (const Vector3d& vertex : polygon.vertices_W()) width = std::max(width, -polygon.overshoot(i, vertex));
-        of_surface.push_back(std::min(share * extent, 0.5 * width));
+        of_surface.push_back(std::min(share * extent, kNarrow * width));
       }
     }
   }

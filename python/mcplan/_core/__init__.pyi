@@ -581,6 +581,8 @@ class Robot:
         inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         com_height: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         swing_height: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        phase_duration: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
+        sole_support: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         end_effectors: collections.abc.Sequence[EndEffector] = [],
         urdf: str = "",
         posture: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {},
@@ -624,12 +626,26 @@ class Robot:
     @mass.setter
     def mass(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def phase_duration(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        Shortest and longest phase of a contact sequence [s].
+        """
+    @phase_duration.setter
+    def phase_duration(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
+    @property
     def posture(self) -> typing.Any:
         """
         Nominal joint positions [rad] by URDF joint name. Assign a dict to change it.
         """
     @posture.setter
     def posture(self, arg1: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
+    @property
+    def sole_support(self) -> float:
+        """
+        Share of a sole that a contact sequence keeps on its surface; 0: its centre.
+        """
+    @sole_support.setter
+    def sole_support(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def swing_height(self) -> float:
         """

@@ -216,14 +216,14 @@ class Options:
     @property
     def duration_max_s(self) -> float:
         """
-        [s]
+        [s]; 0: the robot's.
         """
     @duration_max_s.setter
     def duration_max_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def duration_min_s(self) -> float:
         """
-        Soft box of the phase durations [s].
+        Soft box of the phase durations [s]; 0: the robot's.
         """
     @duration_min_s.setter
     def duration_min_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -313,7 +313,7 @@ class Options:
     @property
     def sole_inside(self) -> float:
         """
-        Share of a sole's half size by which footholds keep from the edges of their surface; 1: the whole sole is on it, where it is large enough.
+        Share of a sole's half size by which footholds keep from the edges of their surface; 1: the whole sole is on it, where it is large enough; negative: the robot's sole_support.
         """
     @sole_inside.setter
     def sole_inside(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...

@@ -264,6 +264,13 @@ class Options:
         self, arg1: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]
     ) -> None: ...
     @property
+    def sole_share(self) -> float:
+        """
+        Of the sole that forces make use of; paper: all.
+        """
+    @sole_share.setter
+    def sole_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def time_limit_s(self) -> float:
         """
         Wall clock of a cycle [s].

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from mcplan._core.sip import Certificate
     from mcplan.tracking.findings import Feasibility, Finding
 
+#: Of one kind, beside the largest, in the table of --robot; --json has all.
+OTHERS = 3
+
 
 def check(
     plan: Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")],
@@ -94,7 +97,7 @@ def _feasibility(plan: Plan, robot: str) -> Feasibility:
 
 
 def _print_feasibility(feasibility: Feasibility) -> None:
-    """The largest of each kind, and all beyond their limit."""
+    """The largest of each kind, and the worst that are beyond their limit."""
     from mcplan.cli.table import print_table
 
     print(feasibility.verdict)
@@ -116,7 +119,7 @@ def _print_feasibility(feasibility: Feasibility) -> None:
 
 
 def _others_beyond(feasibility: Feasibility, worst: Finding) -> list[Finding]:
-    return [f for f in feasibility.violations() if f.name == worst.name and f is not worst]
+    return [f for f in feasibility.violations() if f.name == worst.name and f is not worst][:OTHERS]
 
 
 def feasibility_dict(feasibility: Feasibility) -> dict[str, Any]:

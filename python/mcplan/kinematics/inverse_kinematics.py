@@ -28,9 +28,8 @@ FREE_BASE, FREE_SOLE = 0.2, 0.2
 POSTURE = 0.05
 #: Against a given motion: of joints of legs, and of all that the plan leaves open (turning of the base, torso, arms).
 NEAR_LEG, NEAR = 0.3, 2.0
-#: How the motion that the postures of a plan are smoothed to is made: standard deviation of the mean [s], repetitions.
-SPREAD, PASSES = 0.15, 3
-DAMPING = 1e-6
+#: Of a step, and the least of one that has to be shortened.
+DAMPING, LEAST_DAMPING = 1e-6, 1e-2
 #: Largest change of a joint in one iteration [rad].
 STEP = 0.4
 #: A joint so near to its limit is at it [rad].
@@ -56,6 +55,17 @@ class Postures:
     com_misses: Array
     end_misses: Array
     tilts: Array
+
+    @staticmethod
+    def of(
+        loaded: UrdfModel, samples: Samples, configurations: Array, com_misses: Array, end_misses: Array, tilts: Array
+    ) -> Postures:
+        """With the largest miss of what must be met named."""
+        counted = np.column_stack([com_misses, np.where(samples.surfaces >= 0, end_misses, 0.0)])
+        at, which = np.unravel_index(np.argmax(counted), counted.shape)
+        name = "the CoM" if which == 0 else loaded.robot.end_effectors[which - 1].name
+        where = f"{name} at {samples.times_s[at]:.2f} s"
+        return Postures(configurations, float(counted.max()), where, com_misses, end_misses, tilts)
 
 
 def follow(loaded: UrdfModel, samples: Samples, near: Array | None = None) -> Postures:
@@ -83,47 +93,7 @@ def follow(loaded: UrdfModel, samples: Samples, near: Array | None = None) -> Po
         q = solver.solve(q, samples, n, iterations=80 if n == 0 else 12)
         configurations.append(q.copy())
         com_misses[n], end_misses[n], tilts[n] = solver.misses(q, samples, n)
-    return _postures(loaded, samples, np.array(configurations), com_misses, end_misses, tilts)
-
-
-def _postures(
-    loaded: UrdfModel, samples: Samples, configurations: Array, com_misses: Array, end_misses: Array, tilts: Array
-) -> Postures:
-    """With the largest miss of what must be met named."""
-    counted = _misses_that_count(samples, com_misses, end_misses)
-    at, which = np.unravel_index(np.argmax(counted), counted.shape)
-    name = "the CoM" if which == 0 else loaded.robot.end_effectors[which - 1].name
-    where = f"{name} at {samples.times_s[at]:.2f} s"
-    return Postures(configurations, float(counted.max()), where, com_misses, end_misses, tilts)
-
-
-def _misses_that_count(samples: Samples, com_misses: Array, end_misses: Array) -> Array:
-    return np.column_stack([com_misses, np.where(samples.surfaces >= 0, end_misses, 0.0)])
-
-
-def nearest(loaded: UrdfModel, samples: Samples, one: Postures, other: Postures) -> Postures:
-    """At every sample the posture that misses the plan less: a search from one side may end where another does not."""
-    misses = [_misses_that_count(samples, p.com_misses, p.end_misses).max(axis=1) for p in (one, other)]
-    first = (misses[0] <= misses[1])[:, None]
-    return _postures(
-        loaded,
-        samples,
-        np.where(first, one.configurations, other.configurations),
-        np.where(first[:, 0], one.com_misses, other.com_misses),
-        np.where(first, one.end_misses, other.end_misses),
-        np.where(first, one.tilts, other.tilts),
-    )
-
-
-def smoothed(loaded: UrdfModel, samples: Samples, postures: Postures) -> Postures:
-    """Postures that follow the plan almost as well, without the jumps of those that `follow` finds.
-
-    Where a foot leaves the ground and need no longer lie flat, torso and base go back to the robot's posture at once. Here
-    whatever the plan leaves open goes through running means of the postures before and after.
-    """
-    for _ in range(PASSES):
-        postures = follow(loaded, samples, running_means(loaded, samples.times_s, postures.configurations))
-    return postures
+    return Postures.of(loaded, samples, np.array(configurations), com_misses, end_misses, tilts)
 
 
 def _legs(loaded: UrdfModel) -> list[int]:
@@ -132,19 +102,6 @@ def _legs(loaded: UrdfModel) -> list[int]:
     feet = [f for end, f in zip(loaded.robot.end_effectors, loaded.frames, strict=True) if end.kind == "foot"]
     joints = {joint for frame in feet for joint in model.supports[model.frames[frame].parentJoint]}
     return sorted(model.joints[joint].idx_v for joint in joints if joint > 1)
-
-
-def running_means(loaded: UrdfModel, times_s: Array, configurations: Array) -> Array:
-    """Running means (n, nq) of configurations: weights of a bell curve with the standard deviation SPREAD."""
-    import pinocchio as pin
-
-    result = np.empty_like(configurations)
-    for n, q in enumerate(configurations):
-        near = np.flatnonzero(np.abs(times_s - times_s[n]) <= 3.0 * SPREAD + 1e-9)
-        weights = np.exp(-0.5 * ((times_s[near] - times_s[n]) / SPREAD) ** 2)
-        away = np.array([pin.difference(loaded.model, q, configurations[k]) for k in near])
-        result[n] = pin.integrate(loaded.model, q, weights @ away / weights.sum())
-    return result
 
 
 def has_sole(end: EndEffector) -> bool:
@@ -165,18 +122,31 @@ class _Solver:
 
     def solve(self, q: Array, samples: Samples, n: int, iterations: int) -> Array:
         pin, model = self.pin, self.model
+        damping = DAMPING
+        error, jacobian, home = self._problem(q, samples, n)
         for _ in range(iterations):
-            errors, jacobians = self._tasks(q, samples, n)
-            error, jacobian = np.concatenate(errors), np.vstack(jacobians)
-            hessian = jacobian.T @ jacobian + np.diag(self.posture + DAMPING)
-            home = pin.difference(model, q, self.home)
+            hessian = jacobian.T @ jacobian + np.diag(self.posture + damping)
             step = self._within_limits(q, hessian, jacobian.T @ error + self.posture * home)
             step *= min(1.0, STEP / max(float(np.abs(step).max()), 1e-12))
-            q = pin.integrate(model, q, step)
-            q[7:] = np.clip(q[7:], self.low[7:], self.high[7:])
+            moved = pin.integrate(model, q, step)
+            moved[7:] = np.clip(moved[7:], self.low[7:], self.high[7:])
+            problem = self._problem(moved, samples, n)
+            # Beside a stretched knee the step is far too long.
+            if self._cost(problem[0], problem[2]) > self._cost(error, home):
+                damping = max(10.0 * damping, LEAST_DAMPING)
+                continue
+            q, (error, jacobian, home), damping = moved, problem, max(0.1 * damping, DAMPING)
             if np.abs(step).max() < 1e-5:
                 break
         return np.asarray(q)
+
+    def _problem(self, q: Array, samples: Samples, n: int) -> tuple[Array, Array, Array]:
+        """Weighted errors, their Jacobian, and the way home in the tangent space."""
+        errors, jacobians = self._tasks(q, samples, n)
+        return np.concatenate(errors), np.vstack(jacobians), self.pin.difference(self.model, q, self.home)
+
+    def _cost(self, error: Array, home: Array) -> float:
+        return float(error @ error + self.posture @ home**2)
 
     def _within_limits(self, q: Array, hessian: Array, gradient: Array) -> Array:
         """Newton step in which joints that would leave their range stay, so that the others do the work."""

@@ -19,22 +19,38 @@ SOLE_SHARE, FRICTION_SHARE = 0.9, 0.98
 
 @dataclass(frozen=True)
 class ForcePoints:
-    """Of one end-effector: p points, 1 or the 4 corners of its sole.
+    """Of one end-effector: p points, 1 or 4.
 
     Attributes:
         offsets: (p, 3) in the contact frame [m].
+        weights: (p, 3) shares of a force at (x, y) in the contact frame, weights @ [1, x, y]: they have that centre of
+            pressure, and the least norm of all that do.
     """
 
     offsets: Array
+    weights: Array
 
     @classmethod
-    def of(cls, half_size: Array) -> ForcePoints:
-        """Points of an end-effector; half length and half width of its sole [m], zeros: a point."""
+    def of(cls, half_size: Array, outline_F: Array | None = None) -> ForcePoints:
+        """Points of an end-effector.
+
+        Args:
+            half_size: Half length and half width of its sole [m]; zeros: a point.
+            outline_F: (m, 2) convex outline of the surface below it, counter-clockwise in the contact frame [m]: only
+                what of the sole is on it bears force. None: all of it.
+        """
         length, width = SOLE_SHARE * np.asarray(half_size, float)
         if length <= 0.0 or width <= 0.0:
-            return cls(np.zeros((1, 3)))
-        corners = np.array([[x * length, y * width, 0.0] for x in (1, -1) for y in (1, -1)])
-        return cls(corners)
+            return cls(np.zeros((1, 3)), np.array([[1.0, 0.0, 0.0]]))
+        corners = np.array([[length, width], [-length, width], [-length, -width], [length, -width]])
+        if outline_F is not None:
+            on_surface = clipped(corners, outline_F)
+            if len(on_surface) >= 3:
+                # What lies farthest towards the corners: at most 4 points of the polygon, near to all of it.
+                towards = on_surface @ (np.sign(corners) / [length, width]).T
+                corners = on_surface[np.argmax(towards, axis=0)]
+        moments = np.vstack([np.ones(4), corners.T])
+        return cls(np.column_stack([corners, np.zeros(4)]), np.linalg.pinv(moments))
 
     @property
     def count(self) -> int:
@@ -49,18 +65,27 @@ class ForcePoints:
         return result
 
     def share(self, force_W: Array, pressure_F: Array) -> Array:
-        """(3 p,) forces at the points with the given sum and, as near as the sole allows, centre of pressure.
+        """(3 p,) forces at the points that add up to a force (3,) [N] acting at (2,) in the contact frame [m]."""
+        return np.outer(self.weights @ np.array([1.0, *pressure_F]), force_W).ravel()
 
-        Args:
-            force_W: (3,) [N].
-            pressure_F: (2,) where it acts, in the contact frame [m]: bilinear weights of the corners.
-        """
-        if self.count == 1:
-            return force_W
-        length, width = self.offsets[0, :2]
-        u, v = np.clip([pressure_F[0] / length, pressure_F[1] / width], -1.0, 1.0)
-        weights = [0.25 * (1 + x * u) * (1 + y * v) for x in (1, -1) for y in (1, -1)]
-        return np.outer(weights, force_W).ravel()
+
+def clipped(polygon: Array, outline: Array) -> Array:
+    """(k, 2) the part of a convex polygon (n, 2) inside another one (m, 2), both counter-clockwise."""
+    result = np.asarray(polygon, float)
+    for start, end in zip(outline, np.roll(outline, -1, axis=0), strict=True):
+        edge = end - start
+        inside = edge[0] * (result[:, 1] - start[1]) - edge[1] * (result[:, 0] - start[0])
+        kept = []
+        for k in range(len(result)):
+            here, there = inside[k], inside[(k + 1) % len(result)]
+            if here >= 0.0:
+                kept.append(result[k])
+            if here * there < 0.0:
+                kept.append(result[k] + here / (here - there) * (result[(k + 1) % len(result)] - result[k]))
+        result = np.array(kept).reshape(-1, 2)
+        if len(result) == 0:
+            break
+    return result
 
 
 def pyramid(normal_W: Array, friction: float) -> Array:

@@ -78,11 +78,11 @@ class Controller:
         self.qp = QuadraticProgram()
         self.torques = np.zeros(self.nv - 6)
         self.forces = np.zeros((len(ends), 3))
+        self.surfaces = [np.asarray(s.vertices_W, float) for s in scene.surfaces]
         for end, contact in enumerate(self.contacts):
             if references.surfaces[0, end] >= 0:
                 contact.mode = Mode.CONTACT
-                contact.position_W = references.ends_W[0, end]
-                contact.rotation_W = references.soles_W[0, end]
+                self._stand(0, end, references.ends_W[0, end], references.soles_W[0, end])
 
     def step(self, n: int, configuration: Array, velocity: Array, touches: NDArray[np.bool_]) -> Command:
         """Torques for control step n.
@@ -98,7 +98,7 @@ class Controller:
             planned = bool(self.references.surfaces[n, i] >= 0)
             share = float(self.references.swing_share[n, i])
             if contact.update(planned, bool(touches[i]), share, self.references.dt_s):
-                contact.position_W, contact.rotation_W = ends[i].position_W, self._landed(n, i, ends[i])
+                self._stand(n, i, ends[i].position_W, self._landed(n, i, ends[i]))
         problem, bearing, force_map = self._problem(n, ends)
         found = self.qp.solve(problem, tuple(bearing))
         if found is not None:
@@ -106,6 +106,14 @@ class Controller:
             tau = self.body.inertia[6:] @ acceleration + self.body.bias[6:] - force_map[6:] @ forces
             self.torques = np.clip(tau, -self.limits, self.limits)
         return Command(self.torques, found is not None)
+
+    def _stand(self, n: int, end: int, position_W: Array, rotation_W: Array) -> None:
+        """Take an end-effector's contact to be here, and work out where it bears force."""
+        contact, surface = self.contacts[end], self._surface(n, end)
+        contact.position_W, contact.rotation_W = position_W, rotation_W
+        if self.flat[end] and surface >= 0:
+            outline_F = (self.surfaces[surface] - position_W) @ rotation_W
+            self.points[end] = ForcePoints.of(self.loaded.robot.end_effectors[end].half_size, outline_F[:, :2])
 
     def _landed(self, n: int, end: int, motion: EndMotion) -> Array:
         """Orientation to hold after touching down: flat on the surface, in the direction that the foot has."""

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from mcplan.errors import InvalidInput, InvalidRobot
 from mcplan.extras import require
-from mcplan.kinematics.inverse_kinematics import Postures, follow, has_sole, nearest, smoothed
+from mcplan.kinematics.inverse_kinematics import Postures, follow, has_sole
 from mcplan.kinematics.samples import Samples, knots_and_between, sample_at
+from mcplan.kinematics.smooth_postures import nearest, smoothed
 
 from .arm_strength import largest_force_N
 from .findings import Feasibility, Finding
@@ -34,7 +35,7 @@ BALANCE = 0.10
 #: Difference of the plan's mass from the model's, in parts of it.
 MASS = 0.10
 #: A joint so near to its limit is named [rad].
-NEAR = 0.01
+NEAR = 0.05
 
 
 @dataclass(frozen=True)
@@ -86,7 +87,7 @@ def assess(plan: Plan, robot: Robot | None = None, payload_kg: float = 0.0) -> F
         *_torques(case),
         *_velocities(case),
         *_hands(case),
-        *clearance_findings(plan.scene, loaded, samples, postures),
+        *clearance_findings(plan.scene, loaded, samples, postures, _final_contacts(plan, loaded)),
         _mass(case, mass),
     ]
     return Feasibility(robot.name, tuple(findings))
@@ -115,6 +116,12 @@ def _matched(plan: Plan, loaded: UrdfModel, samples: Samples) -> tuple[UrdfModel
     )
 
 
+def _final_contacts(plan: Plan, loaded: UrdfModel) -> list[int]:
+    """Surface under each of the model's end-effectors after the last phase, -1: none."""
+    ends = loaded.robot.end_effectors
+    return [plan.final_contacts[plan.robot.end_effector_index(end.name)] for end in ends]
+
+
 def _reach(case: _Case) -> list[Finding]:
     """Misses of the CoM, of end-effectors in contact and of feet in the air; tilts of soles on the ground."""
     samples, postures = case.samples, case.postures
@@ -140,9 +147,10 @@ def _reach(case: _Case) -> list[Finding]:
 
 
 def _at_limits(case: _Case, n: int, end: int | None = None) -> str:
-    """Joints at their limits in a posture: of the limb of an end-effector, or of all."""
+    """Joints at their limits in a posture: of the limb of an end-effector, or of all limbs in contact."""
     model, q = case.loaded.model, case.postures.configurations[n]
-    frames = case.loaded.frames if end is None else [case.loaded.frames[end]]
+    ends = np.flatnonzero(case.samples.surfaces[n] >= 0) if end is None else [end]
+    frames = [case.loaded.frames[i] for i in ends]
     chain = {joint for frame in frames for joint in model.supports[model.frames[frame].parentJoint]}
     names = []
     for joint in sorted(joint for joint in chain if joint > 1):

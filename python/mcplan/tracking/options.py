@@ -114,4 +114,4 @@ class Options:
 
 def _require(field_name: str, rule: str, value: object, holds: bool) -> None:
     if not holds:
-        raise InvalidOptions(field_name, rule, value)
+        raise InvalidOptions(field_name, rule, str(value))

@@ -28,11 +28,20 @@ NEAR_GROUND = 0.1
 GRID = (7, 3)
 
 
-def clearance_findings(scene: Scene, loaded: UrdfModel, samples: Samples, postures: Postures) -> list[Finding]:
+def clearance_findings(
+    scene: Scene, loaded: UrdfModel, samples: Samples, postures: Postures, final_contacts: list[int]
+) -> list[Finding]:
     """How deep each end-effector enters a solid, in the air ("clearance") and at rest ("foothold"); negative: above.
 
     In the air, what a foot leaves and reaches counts between 10 % and 90 % of the swing, other solids always. At rest,
     the surface touched does not count.
+
+    Args:
+        scene: Its surfaces are the tops of the solids.
+        loaded: The robot's model; its end-effectors are those of the samples.
+        samples: The plan.
+        postures: That follow it.
+        final_contacts: Surface that each end-effector touches after the last sample, -1: none.
     """
     import pinocchio as pin  # type: ignore[import-untyped]
 
@@ -47,7 +56,7 @@ def clearance_findings(scene: Scene, loaded: UrdfModel, samples: Samples, postur
         own = [i for i in samples.intervals if i.end_effector == end]
         deepest: dict[str, tuple[float, float, str]] = {}
         for time, row in zip(times, placements, strict=True):
-            name, ignored = _ignored(own, float(time), float(times[-1]))
+            name, ignored = _ignored(own, float(time), float(times[-1]), final_contacts[end])
             rotation, position = row[end]
             clearances = solids.clearances(position + sole @ rotation.T).min(axis=0)
             clearances[ignored] = np.inf
@@ -78,7 +87,7 @@ def _placements(
     return np.array(times), placements
 
 
-def _ignored(own: list[Interval], time: float, end: float) -> tuple[str, list[int]]:
+def _ignored(own: list[Interval], time: float, end: float, final: int) -> tuple[str, list[int]]:
     """ "foothold" or "clearance" at a time, and the surfaces that do not count then."""
     for interval in own:
         if interval.start_s - 1e-9 <= time <= interval.end_s + 1e-9:
@@ -88,4 +97,5 @@ def _ignored(own: list[Interval], time: float, end: float) -> tuple[str, list[in
     start, until = before[-1].end_s if before else 0.0, after[0].start_s if after else end
     margin = NEAR_GROUND * (until - start)
     ignored = [before[-1].surface] if before and time < start + margin else []
-    return "clearance", ignored + ([after[0].surface] if after and time > until - margin else [])
+    reached = after[0].surface if after else final
+    return "clearance", ignored + ([reached] if reached >= 0 and time > until - margin else [])
