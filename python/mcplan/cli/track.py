@@ -27,7 +27,7 @@ def track(
         list[str] | None,
         typer.Option(
             "--push",
-            metavar="N,s,AT,DEG",
+            metavar="N,seconds,at,direction",
             help="Push the base: newtons, how long [s], when [s], direction [deg] (0 forward, 90 left). May be repeated.",
         ),
     ] = None,
@@ -95,7 +95,7 @@ def track(
 
         body = load_robot(robot)
     feasibility = _feasibility(loaded, body) if check else None
-    if feasibility is not None and not feasibility.ok() and not quiet:
+    if feasibility is not None and not feasibility.ok() and not (quiet or json):
         print(f"warning: {feasibility.verdict}", file=sys.stderr)
     progress = Progress(quiet or json)
     result = track_any(loaded, body, values, progress.simulated)

@@ -105,8 +105,8 @@ def _require_file(option: str, path: Path | None) -> None:
 
 
 def _require_writable(option: str, path: Path | None) -> None:
-    """Raises InvalidInput if the nearest folder that exists cannot be written to."""
-    import os
+    """Raises InvalidInput if no file can be made in the folder, or in the nearest one above that exists."""
+    import tempfile
 
     from mcplan.errors import InvalidInput
 
@@ -115,8 +115,11 @@ def _require_writable(option: str, path: Path | None) -> None:
     folder = path if path.is_dir() else path.absolute().parent
     while not folder.exists():
         folder = folder.parent
-    if not os.access(folder, os.W_OK | os.X_OK):
-        raise InvalidInput(option, "must lie in a folder that may be written to", str(path))
+    try:
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as found:
+        rule = "must lie in a folder that can be written to"
+        raise InvalidInput(option, rule, f"{path} ({found.strerror})") from None
 
 
 def _require_graphics(option: str) -> None:

@@ -47,7 +47,11 @@ def rows_of(result: TrackingResult) -> list[tuple[str, str]]:
         ("base turned off the plan", f"{m.orientation_rms_deg:.2g} deg rms"),
         ("swinging end-effectors", f"{length(m.swing_rms_m)} rms off the plan"),
         ("slip in contact", f"{length(m.slip_m)} at most"),
-        ("base at the end", f"{length(m.final_base_error_m)} from where the plan ends"),
+        *(
+            [("base at the end", f"{length(m.final_base_error_m)} from where the plan ends")]
+            if result.completed
+            else []
+        ),
         ("largest torque", f"{100.0 * m.torque_use:.0f} % of the limit of {joint}, at {time_s:.2f} s"),
         ("assistance", assistance_text(result)),
     ]

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from .planar import PlanarResult
 
 FORMAT = 1
-RUN, PLANAR_RUN = "run", "planar_run"
+RUN, PLANAR_RUN = whole_body_plans.RUN_KINDS
 #: How a run ended, by kind: the time of it, infinite in most.
 _ENDS = {RUN: "fell_at_s", PLANAR_RUN: "left_plan_at_s"}
 _NAMES = {RUN: ("joints",), PLANAR_RUN: ("joints", "ends")}
@@ -48,9 +48,9 @@ def save_run(result: TrackingResult | PlanarResult, path: str | Path) -> None:
         "format": FORMAT,
         "mcplan": __version__,
         "options": asdict(result.options),
-        "measures": _finite(result.measures.as_dict()),
+        "measures": _plain(result.measures.as_dict()),
         "interrupted": result.interrupted,
-        "ended_at_s": _finite(getattr(recording, _ENDS[kind])),
+        "ended_at_s": _plain(getattr(recording, _ENDS[kind])),
     }
     header |= {name: list(getattr(recording, name)) for name in _NAMES[kind]}
     if isinstance(recording, Recording):
@@ -97,9 +97,9 @@ def _result(header: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> Trac
     robot = None if header["robot"] is None else robot_from_dict(header["robot"])
     columns = _columns(Recording, arrays)
     recording = Recording(
-        plan=plan, joints=tuple(header["joints"]), fell_at_s=_number(header["ended_at_s"]), robot=robot, **columns
+        plan=plan, joints=tuple(header["joints"]), fell_at_s=float(header["ended_at_s"]), robot=robot, **columns
     )
-    measures = Measures(**header["measures"])
+    measures = Measures(**_measures(header["measures"]))
     return TrackingResult(recording, measures, _options(header["options"]), bool(header["interrupted"]))
 
 
@@ -111,11 +111,11 @@ def _planar_result(header: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) 
         plan=whole_body_plans.plan_from_bytes(arrays["plan"].tobytes()),
         joints=tuple(header["joints"]),
         ends=tuple(header["ends"]),
-        left_plan_at_s=_number(header["ended_at_s"]),
+        left_plan_at_s=float(header["ended_at_s"]),
         **columns,
     )
-    measures = {key: _number(value) if value is None else value for key, value in header["measures"].items()}
-    return PlanarResult(recording, PlanarMeasures(**measures), _options(header["options"]), bool(header["interrupted"]))
+    measures = PlanarMeasures(**_measures(header["measures"]))
+    return PlanarResult(recording, measures, _options(header["options"]), bool(header["interrupted"]))
 
 
 def _array_names(recording: type) -> list[str]:
@@ -145,12 +145,12 @@ def _options(data: Mapping[str, Any]) -> Options:
     return Options(**{**data, "pushes": pushes, "gains": Gains(**data["gains"])})
 
 
-def _finite(value: Any) -> Any:
-    """With null for numbers that JSON cannot hold."""
+def _plain(value: Any) -> Any:
+    """With "nan" and "inf" for numbers that JSON cannot hold."""
     if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    return None if isinstance(value, float) and not np.isfinite(value) else value
+        return {key: _plain(item) for key, item in value.items()}
+    return str(value) if isinstance(value, float) and not np.isfinite(value) else value
 
 
-def _number(value: float | None) -> float:
-    return float("inf") if value is None else float(value)
+def _measures(data: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: float(value) if isinstance(value, str) else value for key, value in data.items()}
