@@ -9,7 +9,7 @@ import mcplan as mp
 from mcplan.tracking.options import Options
 from mcplan.tracking.planar import DEFAULT_OPTIONS, PLANNING, PlanarResult, track_whole_body
 
-#: A second and a half of simulation a second instead of half a one; the last posture is held for a moment.
+#: Longer control steps than the default, for speed; the last posture is held for a moment.
 QUICK: Options = replace(DEFAULT_OPTIONS, control_step_s=1e-3, hold_s=0.1)
 
 

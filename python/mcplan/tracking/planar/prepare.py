@@ -21,7 +21,7 @@ from mcplan.errors import InvalidMotion, InvalidOptions
 if TYPE_CHECKING:
     from mcplan._core import PlanarMotion, PlanarPhase
 
-#: Options of mp.whole_body for plans that are to be tracked.
+#: Options of mp.whole_body for plans that are to be tracked. For motions of many steps add phase_duration_s=(0.3, 5.0).
 PLANNING: MappingProxyType[str, Any] = MappingProxyType(
     {
         "tube_m": 2e-5,
