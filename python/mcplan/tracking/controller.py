@@ -77,7 +77,6 @@ class Controller:
         self.contacts = [Contact() for _ in ends]
         self.qp = QuadraticProgram()
         self.torques = np.zeros(self.nv - 6)
-        self.forces = np.zeros((len(ends), 3))
         self.surfaces = [np.asarray(s.vertices_W, float) for s in scene.surfaces]
         for end, contact in enumerate(self.contacts):
             if references.surfaces[0, end] >= 0:
