@@ -48,6 +48,14 @@ class QuadraticProgram:
             problem: The program.
             structure: Those with equal structure have the same sizes and warm-start each other.
         """
+        warm = structure in self._solvers
+        found = self._attempt(problem, structure)
+        if found is None and warm:  # a start from afar can be worse than none
+            found = self._attempt(problem, structure)
+        self.failures += found is None
+        return found
+
+    def _attempt(self, problem: Problem, structure: object) -> Array | None:
         qp = self._solvers.get(structure)
         args = (
             problem.hessian,
@@ -72,7 +80,6 @@ class QuadraticProgram:
         info = qp.results.info
         self.iterations += int(info.iter)
         if info.status != self._proxqp.QPSolverOutput.PROXQP_SOLVED or not np.isfinite(qp.results.x).all():
-            self.failures += 1
             del self._solvers[structure]  # a failed solve is no start for the next one
             return None
-        return np.asarray(qp.results.x)
+        return np.array(qp.results.x)  # a copy: the solver writes its next solution to the same place

@@ -1,0 +1,66 @@
+"""Early, timely and late touchdown, as a table of what the plan says, what is felt, and what follows."""
+
+import numpy as np
+import pytest
+
+from mcplan.tracking.contacts import EARLY_SHARE, SEARCH_DEPTH, SEARCH_SPEED, Contact, Mode
+
+FREE, CONTACT, SEARCH = Mode.FREE, Mode.CONTACT, Mode.SEARCH
+SOON, LATER = EARLY_SHARE + 0.05, EARLY_SHARE - 0.05
+
+# mode before, planned, touches, share of the swing; mode after, came into contact just now
+TABLE = [
+    (FREE, False, False, 0.0, FREE, False),
+    (FREE, False, False, SOON, FREE, False),
+    (FREE, False, True, LATER, FREE, False),  # has not left yet, or touches in passing
+    (FREE, False, True, SOON, CONTACT, True),  # early
+    (FREE, True, True, 1.0, CONTACT, True),  # in time
+    (FREE, True, False, 1.0, SEARCH, False),  # late
+    (SEARCH, True, False, 1.0, SEARCH, False),
+    (SEARCH, True, True, 1.0, CONTACT, True),
+    (SEARCH, False, False, 0.0, FREE, False),  # given up: the plan lifts it again
+    (SEARCH, False, True, 0.0, FREE, False),
+    (CONTACT, True, True, 1.0, CONTACT, False),
+    (CONTACT, True, False, 1.0, CONTACT, False),  # a force of nothing is no take-off
+    (CONTACT, False, True, 0.0, FREE, False),  # lifts
+    (CONTACT, False, False, LATER, FREE, False),
+    (CONTACT, False, True, SOON, CONTACT, False),  # landed early before, stands
+    (CONTACT, False, False, SOON, CONTACT, False),
+]
+
+
+@pytest.mark.parametrize(("before", "planned", "touches", "share", "after", "landed"), TABLE)
+def test_a_step_of_the_contact(before, planned, touches, share, after, landed):
+    contact = Contact(mode=before)
+    assert contact.update(planned, touches, share, 0.002) is landed
+    assert contact.mode is after
+
+
+def test_a_foot_that_finds_no_ground_is_lowered_so_far_and_no_farther():
+    contact, dt = Contact(), 0.002
+    depths = []
+    for _ in range(500):
+        contact.update(True, False, 1.0, dt)
+        depths.append(contact.search_depth_m)
+    expected = np.minimum(SEARCH_SPEED * dt * np.arange(1, 501), SEARCH_DEPTH)
+    np.testing.assert_allclose(depths, expected, atol=1e-12)
+    assert contact.update(True, True, 1.0, dt) and contact.search_depth_m == 0.0
+    # The next time it begins anew.
+    contact.update(False, False, 0.0, dt)
+    contact.update(True, False, 1.0, dt)
+    assert contact.search_depth_m == pytest.approx(SEARCH_SPEED * dt)
+
+
+def test_a_search_that_the_plan_ends_is_forgotten():
+    contact = Contact()
+    for _ in range(50):
+        contact.update(True, False, 1.0, 0.002)
+    contact.update(False, False, 0.0, 0.002)
+    assert contact.search_depth_m == 0.0 and contact.mode is FREE
+
+
+def test_early_landing_lands_once():
+    contact = Contact()
+    landed = [contact.update(False, touches, SOON, 0.002) for touches in (False, True, False, True)]
+    landed.append(contact.update(True, True, 1.0, 0.002))
+    assert landed == [False, True, False, False, False]
