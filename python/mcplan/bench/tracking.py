@@ -210,8 +210,9 @@ def track_plan(case: Case, plan: Any, options: Options | None = None) -> Trackin
         InvalidInput: The robot cannot take up the plan's first posture.
         KeyboardInterrupt: Ctrl-C was pressed meanwhile.
     """
-    from mcplan.tracking import Options, track
+    from mcplan.tracking.options import Options
     from mcplan.tracking.planar import track_whole_body
+    from mcplan.tracking.runner import track
 
     if case.planner == "sip":
         return track_whole_body(plan, options)
@@ -226,7 +227,8 @@ def measured(run: TrackingResult | PlanarResult) -> dict[str, Any]:
     from mcplan.tracking import TrackingResult
 
     own = {item.name for item in fields(Row)}
-    values = {name: value for name, value in run.measures.as_dict().items() if name in own}
+    measures: Any = run.measures
+    values = {name: value for name, value in measures.as_dict().items() if name in own}
     if not isinstance(run, TrackingResult):
         use = np.abs(run.recording.torques).max(axis=0) / run.recording.torque_limits
         values["torque_joint"] = run.recording.joints[int(use.argmax())]
@@ -277,7 +279,7 @@ _LIMITED = (
 def shortfalls(row: Row, demand: Demand) -> list[str]:
     """What a row does not hold, in words; empty: it holds all that is demanded."""
     if row.planned not in TRACKED:
-        return [] if demand.refusable else [f"not planned: {row.planned}"]
+        return [] if demand.refusable else [f"not planned: {row.planned}, {row.message}".rstrip(", ")]
     if row.fell is None:
         return [f"not tracked: {row.message}"]
     found = []

@@ -23,7 +23,7 @@ FLAT_STEPS = 6
 #: Factors on the built-in scenes, which have the size of a grown human, for Unitree's G1 and for the jumps.
 G1_SCALE = 0.8
 GAP_SCALE, RAIL_SCALE = 0.3, 0.5
-GAP_ROBOT, RAIL_ROBOT = "g1", "talos"
+GAP_ROBOT, RAIL_ROBOT = "talos", "talos"
 
 CYCLES = 14
 
