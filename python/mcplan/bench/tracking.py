@@ -214,10 +214,12 @@ def track_plan(case: Case, plan: Any, options: Options | None = None) -> Trackin
     from mcplan.tracking.planar import track_whole_body
     from mcplan.tracking.runner import track
 
+    result: TrackingResult | PlanarResult
     if case.planner == "sip":
-        return track_whole_body(plan, options)
-    result = track(plan, case.robot, options or Options(assist=case.assist))
-    if getattr(result, "interrupted", False):
+        result = track_whole_body(plan, options)
+    else:
+        result = track(plan, case.robot, options or Options(assist=case.assist))
+    if result.interrupted:
         raise KeyboardInterrupt
     return result
 

@@ -11,6 +11,9 @@ from mcplan.bench.tracking_cases import CONTROL_MS, REALTIME_FACTOR
 
 ABSENT = "-"
 
+#: Between these lines of a page the tables are put.
+BEGIN, END = "<!-- begin: mcplan bench tracking -->", "<!-- end: mcplan bench tracking -->"
+
 
 @dataclass(frozen=True)
 class Section:
@@ -43,24 +46,31 @@ def sections(result: dict[str, Any]) -> list[Section]:
     return out
 
 
-def markdown(result: dict[str, Any]) -> str:
+def markdown(result: dict[str, Any], page: str = "") -> str:
     """A page with the tables of a result.
 
     Args:
         result: As for ``sections``; and `machine`, `packages`, `jobs`, `command`: what it was measured on, with and by.
+        page: Text that the tables go into, where BEGIN and END stand in it; without them the tables are a page of their own.
     """
+    before, begin, rest = page.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if begin and end:
+        return f"{before}{BEGIN}\n\n{_body(result, '###')}\n{END}{after}"
+    return f"# Plans tracked in simulation: results\n\n{_body(result, '##')}"
+
+
+def _body(result: dict[str, Any], heading: str) -> str:
     machine, packages = result["machine"], result["packages"]
     with_what = ", ".join(f"{name} {version}" for name, version in packages.items())
     lines = [
-        "# Plans tracked in simulation: results",
-        "",
         f"Written by `{result['command']}`. Rows that do not hold what is demanded say why below their table.",
         "",
         f"{machine['cpu']}, {machine['cores']} cores; mcplan {machine['version']}, Python {machine['python']},",
-        f"{with_what}. Runs at a time: {result['jobs']}; control steps under *Speed* are timed alone.",
+        f"{with_what}. Runs at a time: {result['jobs']}.",
     ]
     for section in sections(result):
-        lines += ["", f"## {section.title}", "", *_table(section.head, section.rows)]
+        lines += ["", f"{heading} {section.title}", "", *_table(section.head, section.rows)]
         lines += [""] * bool(section.notes) + [f"- {note}" for note in section.notes]
     return "\n".join(lines) + "\n"
 

@@ -41,7 +41,8 @@ def tracking(
     html: Annotated[Path | None, typer.Option("--html", metavar="DIR", help="Draw each run on a page.")] = None,
     strips: Annotated[Path | None, typer.Option("--strips", metavar="DIR", help="Snapshots of each run.")] = None,
     markdown: Annotated[
-        Path | None, typer.Option("--markdown", metavar="FILE", help="Write the tables as a page.")
+        Path | None,
+        typer.Option("--markdown", metavar="FILE", help="Write the tables as a page, or between the marks for them."),
     ] = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written.")] = Path(
         "out/tracking"
@@ -58,7 +59,7 @@ def tracking(
 
     Example: mcplan bench tracking --case 'flat/*' --no-speed --strips strips
 
-    Example: mcplan bench tracking --robustness --jobs 2 --markdown docs/tracking_results.md
+    Example: mcplan bench tracking --robustness --jobs 2 --markdown docs/tracking.md
     """
     from mcplan.extras import require
 
@@ -145,7 +146,8 @@ def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Pat
         written.append(records.write_csv(out / "robustness.csv", plain["robustness"]["outcomes"]))
     if markdown is not None:
         markdown.parent.mkdir(parents=True, exist_ok=True)
-        markdown.write_text(page(result), encoding="utf-8")
+        before = markdown.read_text(encoding="utf-8") if markdown.exists() else ""
+        markdown.write_text(page(result, before), encoding="utf-8")
         written.append(markdown)
     return written
 
