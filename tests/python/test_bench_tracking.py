@@ -44,9 +44,9 @@ def test_the_table_has_what_is_demanded():
         assert (demand.force_rms, demand.drift_m) == (0.10, 0.01)
     assert named("flat/talos").demand.steps == 6
     assert named("slope/talos").demand is None
-    assert sum(case.scene == "gap" and case.assist for case in CASES) == 1
-    assert sum(case.scene == "gap" and not case.assist and case.demand.flights == 1 for case in CASES) == 1
-    assert all(case.assist for case in CASES if case.scene == "gap_with_rail")
+    assert sum(case.scene == "short_gap" and case.assist for case in CASES) == 1
+    assert sum(case.scene == "short_gap" and case.demand is not None and not case.assist and case.demand.flights == 1 for case in CASES) == 1
+    assert any(case.assist and case.demand is not None for case in CASES if case.scene == "short_gap_with_rail")
     assert [case.name for case in SHORT] == ["flat/talos", "rubbles/point", "walking"]
     assert [case.demand for case in SHORT] == [named(case.name).demand for case in SHORT]
     assert [case.name for case in DISTURBED] == ["flat/talos", "stairs_broad/talos", "rubbles/point"]

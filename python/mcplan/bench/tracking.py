@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, fields
@@ -15,7 +16,7 @@ from mcplan.bench.tracking_cases import Case, Demand
 from mcplan.errors import InvalidInput
 
 if TYPE_CHECKING:
-    from mcplan import Plan, WholeBodyPlan
+    from mcplan import EndEffector, Plan, Scene, WholeBodyPlan
     from mcplan.tracking import Options, Recording, TrackingResult
     from mcplan.tracking.planar import PlanarResult
 
@@ -176,8 +177,13 @@ def plan_of(case: Case) -> Planned:
         found = mcplan.whole_body(with_clearances(motion) if case.clearances else motion, **case.planning)
     else:
         scene = scaled(mcplan.load_scene(case.scene), case.scale)
+        if case.gap_m:
+            scene = with_gap(scene, case.gap_m)
+        robot = mcplan.load_robot(case.planned_for or case.robot)
+        if case.strong_hands:
+            robot.end_effectors = [_strong(end) for end in robot.end_effectors]
         solver: Any = mcplan.walk if case.planner == "rhp" else mcplan.plan
-        found = solver(scene, case.planned_for or case.robot, **case.planning)
+        found = solver(scene, robot, **case.planning)
     status = str(found.report.status)
     if status == "interrupted":
         raise KeyboardInterrupt
@@ -186,6 +192,27 @@ def plan_of(case: Case) -> Planned:
         "" if status in TRACKED else "; ".join(filter(None, [found.report.message, str(worst) if worst.name else ""]))
     )
     return Planned(found.plan, status, message, time.perf_counter() - began)
+
+
+def with_gap(scene: Scene, width_m: float) -> Scene:
+    """A scene whose surfaces `before` and `after` are so far apart along x, the goal moved with the latter."""
+    wider = copy.deepcopy(scene)
+    surfaces = list(wider.surfaces)
+    before, after = (surfaces[wider.surface_index(name)] for name in ("before", "after"))
+    edge = np.asarray(after.vertices_W)[:, 0].min()
+    shift = np.array([np.asarray(before.vertices_W)[:, 0].max() + width_m - edge, 0.0, 0.0])
+    after.vertices_W = np.asarray(after.vertices_W) + shift
+    wider.surfaces = surfaces
+    goal = wider.goal
+    goal.position_W = goal.position_W + shift
+    wider.goal = goal
+    return wider
+
+
+def _strong(end: EndEffector) -> EndEffector:
+    if end.kind == "hand":
+        end.max_force = np.inf
+    return end
 
 
 def described(plan: Plan | WholeBodyPlan) -> dict[str, Any]:
