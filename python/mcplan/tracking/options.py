@@ -96,7 +96,7 @@ class Options:
             "control_step_s",
             "must be a multiple of simulation_step_s",
             self.control_step_s,
-            ratio >= 1 and abs(ratio - round(ratio)) < 1e-9,
+            bool(1 <= ratio < np.inf) and abs(ratio - round(ratio)) < 1e-9,
         )
         _require("mass_scale", "must lie in 0.2 to 5", self.mass_scale, 0.2 <= self.mass_scale <= 5)
         _require(
