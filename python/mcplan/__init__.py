@@ -64,6 +64,8 @@ from mcplan.errors import (
 Walk = rhp.Walk
 
 if TYPE_CHECKING:
+    from mcplan.tracking import TrackingResult
+    from mcplan.tracking.planar import PlanarResult
     from mcplan.view import Page
 
 __all__ = [
@@ -114,6 +116,7 @@ __all__ = [
     "rhp",
     "show",
     "sip",
+    "track",
     "walk",
     "whole_body",
 ]
@@ -395,6 +398,47 @@ def whole_body(
     given: dict[str, Any] = {"forces": forces, "contact": contact, "order": order, "neq": neq, "free_flyer": free_flyer}
     given |= {"free_durations": free_durations, "time_limit": time_limit}
     return solve(motion, warm_start, certify, minimise, {**given, **options})
+
+
+def track(
+    plan: Plan | WholeBodyPlan | str | Path,
+    robot: Robot | str | Path | None = None,
+    **options: Any,
+) -> TrackingResult | PlanarResult:
+    """Track a plan with a simulated robot: torques alone move it, within their limits.
+
+        result = mp.track("plan.npz", "talos", mass_scale=1.1, pushes=[(40.0, 0.2, 3.0, 90.0)])
+        print(result)  # a report; result.measures has the numbers, result.recording what the robot did
+        result.save("run.npz")
+
+    A fall ends the run and is a result, not an exception. Ctrl-C ends it too; the result then is ``interrupted``.
+
+    Args:
+        plan: A plan of any planner, or the path of one.
+        robot: A robot with a URDF and the plan's end-effectors by name, or what load_robot takes. None: the plan's own.
+            A whole-body plan has its planar robot and takes no other.
+        **options: Fields of ``mcplan.tracking.Options``: ``assist``, ``mass_scale``, ``friction_scale``,
+            ``ground_shift_m``, ``seed``, ``hold_s``; ``pushes``, each as ``mcplan.tracking.Push`` or as size [N],
+            duration [s], time [s] and direction [deg] (0 forward, 90 to the left).
+
+    Returns:
+        A ``TrackingResult`` with ``recording``, ``measures`` and the ``options`` as they were used; of a whole-body plan a
+        ``PlanarResult`` with the same three.
+
+    Raises:
+        InvalidOptions: No such option, or its value is out of range; a planar robot has no pushes, assistance or seed.
+        InvalidPlan: The file is no plan.
+        InvalidRobot: The robot has no URDF, or it cannot be read, or it lacks an end-effector of the plan.
+        InvalidInput: The robot cannot take up the plan's first or last posture; or a robot for a whole-body plan.
+        UnknownRobot: No such name and no such file.
+        MissingExtra: The packages of ``pip install 'mcplan[sim]'`` are not installed.
+    """
+    from mcplan.extras import require
+
+    require("mcplan.track", "sim", "mujoco", "pinocchio", "proxsuite")
+    from mcplan.tracking.choice import track_any
+
+    return track_any(plan, robot, options)
 
 
 def show(

@@ -23,14 +23,21 @@ def sole_beyond_its_surface(plan):
     return worst
 
 
-@pytest.mark.parametrize(("robot", "scale"), [("talos", 1.0), ("g1", 0.74)])
 @pytest.mark.parametrize(
-    ("scene", "inside", "beyond"),
-    [("flat", 1.0, 0.0), ("ramp", 1.0, 0.003), ("stairs_broad", 1.0, 0.0), ("stepping_stones", 0.5, 0.06)],
+    ("robot", "scene", "scale", "beyond"),
+    [
+        ("talos", "flat", 1.0, 0.0),
+        ("talos", "ramp", 1.0, 0.002),
+        ("talos", "stairs_broad", 1.0, 0.0),
+        ("talos", "stepping_stones", 1.0, 0.07),  # its sole is larger than the stones
+        ("g1", "flat", 0.74, 0.0),
+        ("g1", "ramp", 0.74, 0.002),
+        ("g1", "stairs_broad", 0.65, 0.0),
+        ("g1", "stepping_stones", 0.74, 0.05),
+    ],
 )
-def test_humanoids_walk_with_their_soles_on_the_surfaces(scene, inside, beyond, robot, scale):
-    """On stones smaller than TALOS' sole, its middle half is."""
-    result = mp.plan(scaled(mp.load_scene(scene), scale), robot, sole_inside=inside)
+def test_humanoids_walk_with_their_soles_on_the_surfaces(robot, scene, scale, beyond):
+    result = mp.plan(scaled(mp.load_scene(scene), scale), robot)
     assert str(result.report.status) == "solved", result.report.message
     assert all(any(surface >= 0 for surface in row) for row in result.plan.contact_sequence())  # no flight
     assert sole_beyond_its_surface(result.plan) < beyond + 1e-3

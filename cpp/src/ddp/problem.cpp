@@ -125,7 +125,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
   const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
   base_rpy = Vector3d(0.0, 0.0, from.yaw);
-  make_foothold_margins(from.yaw);
+  make_foothold_margins(from.yaw, to.yaw);
   const auto state_of = [&](const ResolvedStance& stance) {
     VectorXd x = VectorXd::Zero(layout.nx());
     x.segment<3>(layout.com()) = stance.com_W / units.length;
@@ -144,29 +144,31 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   make_reference(state_of(to));
 }
 
-/// A sole that finds no room is kept to the middle of its surface, this share of the width from either edge: less would
-/// leave it on its toes, half would leave no choice.
+/// A sole that finds no room is kept to the middle of its surface, down to this share of the width from either edge,
+/// the less the wider it is: less would leave it on its toes, half would leave no choice.
 constexpr double kNarrow = 0.35;
 
-void Problem::make_foothold_margins(double yaw) {
-  const Vector3d heading(std::cos(yaw), std::sin(yaw), 0.0);
+void Problem::make_foothold_margins(double start_yaw, double goal_yaw) {
   const double share = options.sole_inside < 0.0 ? robot.sole_support : options.sole_inside;
   for (int e : active) {
     const Eigen::Vector2d half = robot.end_effectors[e].half_size / units.length;
     std::vector<std::vector<double>>& of_end = foothold_margins_.emplace_back();
     for (const Polygon& polygon : polygons) {
-      // On a wall that is faced the two are parallel: its width is taken to lie level then.
-      Vector3d across = polygon.normal_W().cross(heading);
-      if (across.norm() < 1e-6) across = Vector3d::UnitZ().cross(heading);
-      across.normalize();
-      const Vector3d along = across.cross(polygon.normal_W());
       std::vector<double>& of_surface = of_end.emplace_back();
       for (int i = 0; i < polygon.edge_count(); ++i) {
         const Vector3d& outward = polygon.edge_outward_W(i);
-        const double extent = half[0] * std::abs(along.dot(outward)) + half[1] * std::abs(across.dot(outward));
-        double width = 0.0;
+        double extent = 0.0, width = 0.0;
+        for (double yaw : {start_yaw, goal_yaw}) {
+          const Vector3d heading(std::cos(yaw), std::sin(yaw), 0.0);
+          Vector3d across = polygon.normal_W().cross(heading);
+          // On a wall that is faced the two are parallel: the sole's width is taken to lie level then.
+          if (across.norm() < 1e-6) across = Vector3d::UnitZ().cross(heading);
+          across.normalize();
+          const Vector3d along = across.cross(polygon.normal_W());
+          extent = std::max(extent, half[0] * std::abs(along.dot(outward)) + half[1] * std::abs(across.dot(outward)));
+        }
         for (const Vector3d& vertex : polygon.vertices_W()) width = std::max(width, -polygon.overshoot(i, vertex));
-        of_surface.push_back(std::min(share * extent, kNarrow * width));
+        of_surface.push_back(std::min(share * extent, std::max(kNarrow * width, width - share * extent)));
       }
     }
   }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from mcplan.cli import bench, check, demo, motions, plan, reproduce, rhp, robots, scenes, sip, version
+from mcplan.cli import bench, check, demo, motions, plan, reproduce, rhp, robots, scenes, sip, track, version
 
 app = typer.Typer(
     help="Multi-contact motion planning: which limb touches what, when and where.",
@@ -19,6 +19,7 @@ verbs = (
     rhp.rhp,
     sip.sip,
     check.check,
+    track.track,
     scenes.scenes,
     robots.robots,
     motions.motions,

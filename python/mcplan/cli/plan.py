@@ -19,7 +19,12 @@ def plan(
     scale: Annotated[float, typer.Option("--scale", metavar="X", help="Factor on all lengths of the scene.")] = 1.0,
     sole_inside: Annotated[
         float | None,
-        typer.Option("--sole-inside", metavar="X", help="Share of soles kept on their surface; 0 centre, 1 all."),
+        typer.Option(
+            "--sole-inside", metavar="X", help="Share of soles kept on their surface, 0 to 1; default: the robot's."
+        ),
+    ] = None,
+    min_flight: Annotated[
+        float | None, typer.Option("--min-flight", metavar="S", help="Shortest phase without any contact.")
     ] = None,
     phases: Annotated[int | None, typer.Option("--phases", metavar="N", help="Phases of the plan.")] = None,
     method: Annotated[str | None, typer.Option("--method", metavar="M", help="standard or paper.")] = None,
@@ -47,7 +52,7 @@ def plan(
 
     require_outputs("plan", output, html, plots)
     given = {"phases": phases, "method": method, "time_limit": time_limit, "threads": threads, "seed": seed}
-    given["sole_inside"] = sole_inside
+    given |= {"sole_inside": sole_inside, "flight_duration_min_s": min_flight}
     options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if plots is not None:
         options["record_history"] = True

@@ -25,6 +25,8 @@ from mcplan.files.planar_data import motion_from_plain, motion_to_plain
 from mcplan.files.plans import load_plan
 
 KIND = "whole_body"
+#: Of files of runs (tracking/run_files.py), which carry a plan and are none.
+RUN_KINDS = ("run", "planar_run")
 FORMAT = 1
 UNITS = "SI: m, kg, s, N, rad; _W: world frame, x forward, y up; _B: frame of a body; _P: frame of its parent"
 _LAWS = {"least_norm": PlanarForceLaw.least_norm, "polynomial": PlanarForceLaw.polynomial}
@@ -65,6 +67,8 @@ def load_any_plan(path: str | Path) -> Plan | WholeBodyPlan:
     """
     try:
         kind = read_header(read_arrays(Path(path).read_bytes())).get("kind")
+        if kind in RUN_KINDS:
+            raise InvalidPlan("", "must be a plan", "a run of one, which mcplan track saved")
     except InvalidPlan as found:
         raise InvalidPlan(found.field, found.rule, found.value, str(path)) from None
     return load_whole_body_plan(path) if kind == KIND else load_plan(path)

@@ -53,6 +53,25 @@ def about(axis: Array, angle: float) -> Array:
     return np.eye(3) + np.sin(angle) * k + (1.0 - np.cos(angle)) * (k @ k)
 
 
+def rotation_vector(rotation: Array) -> Array:
+    """Axis times angle of a rotation matrix by less than half a turn [rad]."""
+    vee = 0.5 * np.array(
+        [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
+    )
+    sine = float(np.sqrt(vee @ vee))
+    if sine < 1e-9:
+        return vee
+    return vee * (np.arctan2(sine, 0.5 * (np.trace(rotation) - 1.0)) / sine)
+
+
+def minimal_rotation(start: Array, goal: Array) -> Array:
+    """The smallest rotation that takes one unit vector to another."""
+    axis = np.cross(start, goal)
+    cosine = float(start @ goal)
+    skew = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
+    return np.eye(3) + skew + skew @ skew / max(1.0 + cosine, 1e-9)
+
+
 def quat_xyzw(rotations: Array) -> Array:
     """Unit quaternions (x, y, z, w), shape (n, 4), of rotations (n, 3, 3), without jumps of sign."""
     r = np.asarray(rotations, float)

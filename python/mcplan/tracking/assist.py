@@ -9,6 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.kinematics.rotations import rotation_vector
+
 from .references import References
 from .rigid_body import RigidBody
 
@@ -25,9 +27,8 @@ def assistance(body: RigidBody, wanted: References, n: int) -> Array:
     """(6,) force [N] and moment [N m] on the base at control step n, world axes."""
     scale, weight = body.mass / _MASS, body.mass * 9.81
     force = FORCE_KP * (wanted.com_W[n] - body.com_W) + FORCE_KD * (wanted.com_velocity_W[n] - body.com_velocity_W)
-    turn = wanted.base_WB[n] @ body.base_WB.T
-    vee = 0.5 * np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
-    moment = MOMENT_KP * vee + MOMENT_KD * (wanted.base_velocity_W[n] - body.base_velocity_W)
+    turn = rotation_vector(wanted.base_WB[n] @ body.base_WB.T)
+    moment = MOMENT_KP * turn + MOMENT_KD * (wanted.base_velocity_W[n] - body.base_velocity_W)
     return np.concatenate(
         [_clipped(scale * force, LARGEST_FORCE * weight), _clipped(scale * moment, LARGEST_MOMENT * weight)]
     )

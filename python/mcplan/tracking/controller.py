@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan.kinematics.rotations import polygon_normal
+from mcplan.kinematics.rotations import minimal_rotation, polygon_normal, rotation_vector
 from mcplan.kinematics.urdf_model import UrdfModel
 
 from .contact_forces import SIDES, ForcePoints, pyramid
@@ -77,7 +77,6 @@ class Controller:
         self.contacts = [Contact() for _ in ends]
         self.qp = QuadraticProgram()
         self.torques = np.zeros(self.nv - 6)
-        self.forces = np.zeros((len(ends), 3))
         self.surfaces = [np.asarray(s.vertices_W, float) for s in scene.surfaces]
         for end, contact in enumerate(self.contacts):
             if references.surfaces[0, end] >= 0:
@@ -120,7 +119,7 @@ class Controller:
         surface = self._surface(n, end)
         if not self.flat[end] or surface < 0:
             return motion.rotation_W
-        turn = _minimal_rotation(motion.rotation_W[:, 2], self.normals[surface])
+        turn = minimal_rotation(motion.rotation_W[:, 2], self.normals[surface])
         return turn @ motion.rotation_W
 
     def _surface(self, n: int, end: int) -> int:
@@ -197,7 +196,7 @@ class Controller:
             ref.com_acceleration_W[n],
         )
         add(gains.com_weight, body.com_jacobian, body.com_drift, wanted)
-        turn = _rotation_vector(ref.base_WB[n] @ body.base_WB.T)
+        turn = rotation_vector(ref.base_WB[n] @ body.base_WB.T)
         wanted = _follow(gains.base_kp, turn, ref.base_velocity_W[n] - body.base_velocity_W, 0.0)
         add(gains.base_weight, body.base_jacobian, body.base_drift, wanted)
         wanted = ref.momentum_rate_W[n] + gains.momentum_kp * (ref.momentum_W[n] - body.momentum_W)
@@ -208,7 +207,7 @@ class Controller:
                 error = np.concatenate(
                     [
                         contact.position_W - motion.position_W,
-                        _rotation_vector(contact.rotation_W @ motion.rotation_W.T),
+                        rotation_vector(contact.rotation_W @ motion.rotation_W.T),
                     ]
                 )
                 wanted = _follow(gains.contact_kp, error, -motion.velocity_W, 0.0)
@@ -218,7 +217,7 @@ class Controller:
                 if contact.mode is Mode.SEARCH:
                     target = target - contact.search_depth_m * self.normals[self._surface(n, i)]
                 error = np.concatenate(
-                    [target - motion.position_W, _rotation_vector(ref.soles_W[n, i] @ motion.rotation_W.T)]
+                    [target - motion.position_W, rotation_vector(ref.soles_W[n, i] @ motion.rotation_W.T)]
                 )
                 rate = np.concatenate([ref.end_velocities_W[n, i], ref.sole_velocities_W[n, i]]) - motion.velocity_W
                 feed = np.concatenate([ref.end_accelerations_W[n, i], np.zeros(3)])
@@ -264,22 +263,3 @@ def _sole_matters(swing_share: float) -> float:
 def _follow(kp: float, error: Array, rate: Array, feed: Array | float) -> Array:
     """Acceleration of a critically damped approach: a + kp e + 2 sqrt(kp) de/dt."""
     return np.asarray(feed + kp * error + 2.0 * np.sqrt(kp) * rate)
-
-
-def _rotation_vector(rotation: Array) -> Array:
-    """Axis times angle of a rotation matrix by less than half a turn [rad]."""
-    vee = 0.5 * np.array(
-        [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
-    )
-    sine = float(np.sqrt(vee @ vee))
-    if sine < 1e-9:
-        return vee
-    return vee * (np.arctan2(sine, 0.5 * (np.trace(rotation) - 1.0)) / sine)
-
-
-def _minimal_rotation(start: Array, goal: Array) -> Array:
-    """The smallest rotation that takes one unit vector to another."""
-    axis = np.cross(start, goal)
-    cosine = float(start @ goal)
-    skew = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
-    return np.eye(3) + skew + skew @ skew / max(1.0 + cosine, 1e-9)

@@ -52,7 +52,7 @@ class Recorder:
         return Recording(
             plan=self.plan,
             joints=self.joints,
-            times_s=np.arange(n) * wanted.dt_s,
+            times_s=np.asarray(np.arange(n) * wanted.dt_s, float),
             configurations=self.configurations[:n],
             velocities=self.velocities[:n],
             torques=self.torques[:n],

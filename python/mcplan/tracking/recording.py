@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -68,3 +69,15 @@ class Recording:
     def body(self) -> Robot:
         """The robot that was simulated."""
         return self.robot if self.robot is not None else self.plan.robot
+
+    @staticmethod
+    def load(path: str | Path) -> Recording:
+        """The recording of a run that ``TrackingResult.save`` or ``mcplan track --save`` wrote.
+
+        Raises:
+            InvalidInput: No such file; the message names file, field and rule.
+            FileNotFoundError: There is no such file.
+        """
+        from .result import TrackingResult
+
+        return TrackingResult.load(path).recording

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan._core import ForceLaw, Plan, Robot
-from mcplan.errors import InvalidInput
+from mcplan.errors import InvalidInput, InvalidRobot
 from mcplan.extras import require
 from mcplan.kinematics.inverse_kinematics import follow
 from mcplan.kinematics.samples import sample_at
@@ -20,6 +20,7 @@ from mcplan.kinematics.urdf_model import UrdfModel
 
 from .assist import assistance
 from .disturbances import disturbed
+from .interruption import Interruption
 from .measures import measure
 from .options import Options
 from .postures import postures_along
@@ -55,14 +56,14 @@ def track(
         progress: Called now and then with the time simulated and the time to simulate [s].
 
     Returns:
-        What the robot did, and how well. A fall ends the run and is a result, not an exception.
+        What the robot did, and how well. A fall ends the run and is a result, not an exception; so does Ctrl-C.
 
     Raises:
         MissingExtra: The packages of ``pip install 'mcplan[sim]'`` are not installed.
         InvalidOptions: An option is out of range.
         InvalidPlan: The file is no plan.
-        InvalidRobot: The robot has no URDF, or it cannot be read.
-        InvalidInput: The robot lacks an end-effector of the plan, or cannot take up the plan's first posture.
+        InvalidRobot: The robot has no URDF, or it cannot be read, or it lacks an end-effector of the plan.
+        InvalidInput: The robot cannot take up the plan's first or last posture.
     """
     require("mcplan.tracking", "sim", "mujoco", "pinocchio", "proxsuite")
     options = options or Options()
@@ -88,15 +89,16 @@ def track(
         posture = postures_along(loaded, plan, wanted.count, options.control_step_s)
         wanted = wanted.with_base(posture[:, 3:7])
         end = posture[-1]
-    return _run(plan, loaded, simulation, wanted, posture, end, options, progress)
+    with Interruption() as stop:
+        return _run(plan, loaded, simulation, wanted, posture, end, options, stop, progress)
 
 
 def robot_for(plan: Plan, robot: Robot | str | Path | None) -> Robot:
     """The robot with the plan's end-effectors, in the plan's order.
 
     Raises:
-        InvalidInput: It lacks one.
-        InvalidRobot, UnknownRobot: As load_robot.
+        InvalidRobot: It lacks one; or as load_robot.
+        UnknownRobot: As load_robot.
     """
     if robot is None:
         return plan.robot
@@ -107,7 +109,8 @@ def robot_for(plan: Plan, robot: Robot | str | Path | None) -> Robot:
     own = {end.name: end for end in robot.end_effectors}
     for end in plan.robot.end_effectors:
         if end.name not in own:
-            raise InvalidInput("robot", f"must have the plan's end-effectors; {robot.name} has", repr(sorted(own)))
+            rule = f"must have the plan's {end.name!r}"
+            raise InvalidRobot("end_effectors", rule, ", ".join(own) or "none", robot.name)
     body = Robot(**{key: getattr(robot, key) for key in ("name", "mass", "inertia", "com_height", "swing_height")})
     body.urdf, body.posture = robot.urdf, dict(robot.posture)
     body.end_effectors = [own[end.name] for end in plan.robot.end_effectors]
@@ -144,6 +147,7 @@ def _run(
     posture: Array,
     end: Array,
     options: Options,
+    stop: Interruption,
     progress: Callable[[float, float], None] | None,
 ) -> TrackingResult:
     from .controller import Controller
@@ -170,6 +174,8 @@ def _run(
         if simulation.broke or _fallen(controller.body.com_W, controller.body.base_WB, wanted, n, loaded.robot):
             fell_at = now
             break
+        if stop.asked:
+            break
         if progress is not None and n % 50 == 0:
             progress(now, wanted.count * wanted.dt_s)
     wall = time.perf_counter() - began
@@ -182,7 +188,7 @@ def _run(
         realtime_factor=(n + 1) * wanted.dt_s / wall,
         control_ms=1e3 * control_s / (n + 1),
     )
-    return TrackingResult(recording, measures, options)
+    return TrackingResult(recording, measures, options, stop.asked)
 
 
 def _fallen(com_W: Array, base_WB: Array, wanted: References, n: int, robot: Robot) -> bool:

@@ -233,6 +233,11 @@ class Renderer:
         self.scene.ngeom += 1
 
 
+def require_graphics() -> None:
+    """Raise NoGraphics if nothing can be rendered here."""
+    _graphics((16, 16)).free()
+
+
 def _graphics(size: tuple[int, int]) -> Any:
     """A current OpenGL context: EGL's, or that of the environment variable MUJOCO_GL.
 

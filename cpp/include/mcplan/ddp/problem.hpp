@@ -69,8 +69,8 @@ class Problem {
   Eigen::VectorXd start;  ///< x_0 as demanded
 
   /// How far inside edge i of a surface an end-effector's footholds are planned: edge_margin, and the share
-  /// Options::sole_inside of how far its sole, headed as at the start, extends towards that edge. Never past the middle
-  /// of a surface that is too narrow.
+  /// Options::sole_inside of how far its sole, headed as at start or goal, extends towards that edge. Never past the
+  /// middle of a surface that is too narrow.
   double foothold_margin(int l, int surface, int edge) const {
     return foothold_margins_[l][surface][edge] + edge_margin;
   }
@@ -93,7 +93,7 @@ class Problem {
  private:
   std::vector<std::vector<std::vector<double>>> foothold_margins_;  // by active end-effector, surface, edge
 
-  void make_foothold_margins(double yaw);
+  void make_foothold_margins(double start_yaw, double goal_yaw);
   int automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const;
   void make_reference(const Eigen::VectorXd& goal);
   void place_footholds(const ContactSequence& sequence, Trajectory& guess) const;

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mcplan.errors import InvalidInput, InvalidOptions
+
+from ..interruption import Interruption
 from ..options import Options
 from .measures import PlanarMeasures, measure
 from .mjcf import build
@@ -28,17 +33,50 @@ DEFAULT_OPTIONS = Options(simulation_step_s=2e-4, control_step_s=4e-4)
 
 @dataclass(frozen=True)
 class PlanarResult:
-    """What came of tracking a whole-body plan.
+    """What came of tracking a whole-body plan. As text: a report of some lines.
 
     Attributes:
         recording: What the robot did.
         measures: How well, and how near its contact forces were to the planned ones.
         options: What was asked for.
+        interrupted: Ctrl-C ended the run.
     """
 
     recording: PlanarRecording
     measures: PlanarMeasures
     options: Options
+    interrupted: bool = False
+
+    @property
+    def completed(self) -> bool:
+        """Whether the run went to its end and the robot was where the plan wants it."""
+        return self.measures.completed and not self.interrupted
+
+    def save(self, path: str | Path) -> None:
+        """Write everything, the plan included, to an .npz file, which is complete or not there at all."""
+        from ..run_files import save_run
+
+        save_run(self, path)
+
+    @staticmethod
+    def load(path: str | Path) -> PlanarResult:
+        """Read what save() wrote.
+
+        Raises:
+            InvalidInput: No such file of a planar robot; the message names file, field and rule.
+            FileNotFoundError: There is no such file.
+        """
+        from ..run_files import load_run
+
+        result = load_run(path)
+        if not isinstance(result, PlanarResult):
+            raise InvalidInput("header.kind", "must be that of a planar robot; see TrackingResult.load", "", str(path))
+        return result
+
+    def __str__(self) -> str:
+        from .report import report
+
+        return report(self)
 
 
 def track_whole_body(
@@ -46,6 +84,7 @@ def track_whole_body(
     options: Options | None = None,
     feedback: Feedback | None = None,
     contacts: ContactSettings | None = None,
+    progress: Callable[[float, float], None] | None = None,
 ) -> PlanarResult:
     """Let MuJoCo's robot follow a whole-body plan, unassisted.
 
@@ -59,6 +98,9 @@ def track_whole_body(
             `ground_shift_m` (a start in the ground then throws the robot). Default: DEFAULT_OPTIONS.
         feedback: On the joints; default: Feedback().
         contacts: Their hardness; default: ContactSettings().
+        progress: Called now and then with the time simulated and the time to simulate [s].
+
+    Ctrl-C ends the run; the result then is `interrupted`.
 
     Raises:
         InvalidOptions: Out of range, or asking for what planar robots have not: pushes, assistance, random disturbances.
@@ -80,10 +122,12 @@ def track_whole_body(
     simulation = PlanarSimulation(model)
     simulation.reset(plan.at(0.0).configuration)
     start = time.perf_counter()
-    rows, left = _run(simulation, plan, options)
+    with Interruption() as stop:
+        rows, left = _run(simulation, plan, options, stop, progress)
     wall_clock_s = time.perf_counter() - start
     recording = _recording(plan, rows, left)
-    return PlanarResult(recording, measure(recording, simulation.warnings, wall_clock_s), options)
+    measures = measure(recording, simulation.warnings, wall_clock_s)
+    return PlanarResult(recording, measures, options, stop.asked)
 
 
 def _require_supported(options: Options) -> None:
@@ -94,18 +138,29 @@ def _require_supported(options: Options) -> None:
             raise InvalidOptions(name, f"must be {empty} for planar robots", str(value))
 
 
-def _run(simulation: PlanarSimulation, plan: WholeBodyPlan, options: Options) -> tuple[list[dict[str, Any]], float]:
+def _run(
+    simulation: PlanarSimulation,
+    plan: WholeBodyPlan,
+    options: Options,
+    stop: Interruption,
+    progress: Callable[[float, float], None] | None,
+) -> tuple[list[dict[str, Any]], float]:
     """What is recorded of each control step, and when the robot left the plan (infinite: never)."""
     duration = plan.duration()
     steps = round(options.control_step_s / options.simulation_step_s)
     rows: list[dict[str, Any]] = []
-    for k in range(round((duration + options.hold_s) / options.control_step_s) + 1):
+    count = round((duration + options.hold_s) / options.control_step_s) + 1
+    for k in range(count):
         now = k * options.control_step_s
         state = plan.at(min(now, duration))
         rows.append({"times_s": now, "phases": state.phase, **_control(simulation, state)})
         if _has_left(rows[-1]):
             return rows, now
+        if stop.asked:
+            break
         simulation.advance(steps)
+        if progress is not None and k % 100 == 0:
+            progress(now, count * options.control_step_s)
     return rows, float("inf")
 
 

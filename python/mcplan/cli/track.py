@@ -1,0 +1,131 @@
+"""mcplan track"""
+
+from __future__ import annotations
+
+import json as json_module
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from mcplan._core import Plan, Robot, WholeBodyPlan
+    from mcplan.tracking.findings import Feasibility
+
+
+def track(
+    plan: Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")],
+    robot: Annotated[
+        str | None,
+        typer.Option("--robot", metavar="R", help="With a URDF. Default: the plan's own."),
+    ] = None,
+    assist: Annotated[
+        bool, typer.Option("--assist", help="Hold the base with a clipped wrench; it is reported.")
+    ] = False,
+    push: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--push",
+            metavar="N,seconds,at,direction",
+            help="Push the base: newtons, how long [s], when [s], direction [deg] (0 forward, 90 left). May be repeated.",
+        ),
+    ] = None,
+    mass_scale: Annotated[float, typer.Option("--mass-scale", metavar="X", help="Of all masses.")] = 1.0,
+    friction: Annotated[float, typer.Option("--friction", metavar="X", help="Factor on all friction.")] = 1.0,
+    ground_shift: Annotated[
+        float, typer.Option("--ground-shift", metavar="M", help="The ground lies higher than planned by so much.")
+    ] = 0.0,
+    seed: Annotated[
+        int, typer.Option("--seed", metavar="K", help="Draw mass, friction, ground and a push; 0: none.")
+    ] = 0,
+    check: Annotated[
+        bool,
+        typer.Option("--check/--no-check", help="Say beforehand if the robot cannot follow the plan."),
+    ] = True,
+    video: Annotated[
+        Path | None, typer.Option("--video", metavar="FILE", help="Film the run (.mp4, .webp, .gif).")
+    ] = None,
+    html: Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the run on a page.")] = None,
+    strip: Annotated[
+        Path | None, typer.Option("--strip", metavar="FILE", help="Snapshots side by side (.png).")
+    ] = None,
+    plots: Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")] = None,
+    save: Annotated[Path | None, typer.Option("--save", metavar="FILE", help="Save the run (.npz).")] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Nothing on stderr on the way.")] = False,
+) -> int:
+    """Let a simulated robot follow a plan with its torques alone, and measure how well it does.
+
+    What the options say of mass, friction, ground and pushes is not known to the controller. Whole-body plans are followed
+    by their planar robots, without pushes, assistance and seed. Exit code 0 if the robot came to the end of the plan, 1 if
+    it fell, left the plan or was interrupted; the run is drawn and saved either way.
+
+    Example: mcplan plan flat --robot talos --sole-inside 0.9 -o plan.npz
+
+    Example: mcplan track plan.npz --video run.mp4 --plots run
+
+    Example: mcplan track plan.npz --push 40,0.2,3,90 --mass-scale 1.1 --json
+    """
+    from mcplan.cli.pushes import parse_pushes, require_within
+    from mcplan.cli.track_outputs import RunOutputs
+    from mcplan.cli.track_text import Progress, summary
+    from mcplan.extras import require
+    from mcplan.tracking.options import Options
+
+    require("mcplan track", "sim", "mujoco", "pinocchio", "proxsuite")
+    outputs = RunOutputs(video, html, strip, plots, save)
+    outputs.require()
+    pushes = parse_pushes(push or [])
+    values: dict[str, Any] = {"assist": assist, "pushes": pushes, "seed": seed}
+    values |= {"mass_scale": mass_scale, "friction_scale": friction, "ground_shift_m": ground_shift}
+
+    from mcplan._core import WholeBodyPlan
+    from mcplan.files.whole_body_plans import load_any_plan
+    from mcplan.tracking.choice import make_options, track_any
+
+    options: Options = make_options(values)
+    loaded = load_any_plan(plan)
+    require_within(pushes, loaded.duration() + options.hold_s)
+    body: Robot | None = None
+    if isinstance(loaded, WholeBodyPlan):
+        _require_planar(robot, assist, pushes, seed)
+    elif robot is not None:
+        from mcplan.files.robots import load_robot
+
+        body = load_robot(robot)
+    feasibility = _feasibility(loaded, body) if check else None
+    if feasibility is not None and not feasibility.ok() and not (quiet or json):
+        print(f"warning: {feasibility.verdict}", file=sys.stderr)
+    progress = Progress(quiet or json)
+    result = track_any(loaded, body, values, progress.simulated)
+    progress.end()
+    if json:
+        print(json_module.dumps(summary(result, plan, feasibility), allow_nan=False), flush=True)
+    else:
+        print(result, flush=True)
+    written = outputs.write(result, progress)
+    if written and not json:
+        print(f"Saved {', '.join(written)}")
+    return 0 if result.completed else 1
+
+
+def _feasibility(plan: Plan | WholeBodyPlan, robot: Robot | None) -> Feasibility | None:
+    """What is known of a plan and a robot before simulating them; None: they are left to the simulation."""
+    from mcplan._core import Plan
+    from mcplan.tracking.feasibility import assess
+    from mcplan.tracking.runner import robot_for
+
+    return assess(plan, robot_for(plan, robot)) if isinstance(plan, Plan) else None
+
+
+def _require_planar(robot: str | None, assist: bool, pushes: list[Any], seed: int) -> None:
+    """Raises InvalidInput for what planar robots have not."""
+    from mcplan.errors import InvalidInput
+
+    given = {"--robot": robot is not None, "--assist": assist, "--push": bool(pushes), "--seed": seed != 0}
+    for option, present in given.items():
+        if present:
+            raise InvalidInput(
+                option, "needs a plan of mcplan plan or mcplan rhp; whole-body plans are tracked without"
+            )

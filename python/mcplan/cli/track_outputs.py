@@ -1,0 +1,132 @@
+"""The files that a run is written to: --video, --html, --strip, --plots, --save."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mcplan.cli.track_text import Progress
+    from mcplan.tracking import TrackingResult
+    from mcplan.tracking.planar import PlanarResult
+
+
+@dataclass(frozen=True)
+class RunOutputs:
+    """Where to write; None: not asked for."""
+
+    video: Path | None = None
+    html: Path | None = None
+    strip: Path | None = None
+    plots: Path | None = None
+    save: Path | None = None
+
+    def require(self) -> None:
+        """Say what cannot be written before simulating, not after.
+
+        Raises:
+            InvalidInput: A folder does not exist or cannot be written to, a file stands where a folder should be or the
+                other way round, or a name has the wrong ending.
+            MissingExtra: What draws is not installed.
+        """
+        from mcplan.cli.outputs import require_outputs
+        from mcplan.errors import InvalidInput
+        from mcplan.extras import require
+
+        for option, path in (("--save", self.save), ("--video", self.video), ("--strip", self.strip)):
+            _require_file(option, path)
+        require_outputs("track", None, self.html, self.plots)
+        for folder_of in (self.html, self.plots):
+            _require_writable("--html" if folder_of is self.html else "--plots", folder_of)
+        if self.strip is not None and self.strip.suffix.lower() != ".png":
+            raise InvalidInput("--strip", "must end in .png", str(self.strip))
+        if self.video is not None:
+            from mcplan.view.video_files import SUFFIXES, check_target
+
+            if self.video.suffix.lower() not in SUFFIXES:
+                raise InvalidInput("--video", f"must end in {', '.join(SUFFIXES)}", str(self.video))
+            check_target(self.video)
+        for option, path in (("--video", self.video), ("--strip", self.strip)):
+            if path is not None:
+                require(f"mcplan track {option}", "sim", "PIL")
+        if self.video is not None or self.strip is not None:
+            _require_graphics("--video" if self.video is not None else "--strip")
+
+    def write(self, result: TrackingResult | PlanarResult, progress: Progress) -> list[str]:
+        """Write what was asked for, the quick ones first.
+
+        Returns:
+            Names of what was written.
+        """
+        from mcplan.tracking import TrackingResult
+
+        if self.save is not None:
+            progress.working("saving the run")
+            result.save(self.save)
+        if self.plots is not None:
+            progress.working("plotting")
+            if isinstance(result, TrackingResult):
+                from mcplan.view.plots_run import save_run_plots
+
+                save_run_plots(result.recording, self.plots)
+            else:
+                from mcplan.view.plots_planar_run import save_planar_run_plots
+
+                save_planar_run_plots(result.recording, self.plots)
+        if self.html is not None:
+            from mcplan.view.show_run import show_run
+
+            progress.working("drawing the page")
+            show_run(result).save_html(self.html)
+        if self.strip is not None:
+            from mcplan.view.run_strip import save_run_strip
+
+            progress.working("taking snapshots")
+            save_run_strip(result, self.strip)
+        if self.video is not None:
+            from mcplan.view.video import save_video
+
+            save_video(result, self.video, progress=progress.drawn)
+        progress.end()
+        return [str(path) for path in (self.save, self.plots, self.html, self.strip, self.video) if path is not None]
+
+
+def _require_file(option: str, path: Path | None) -> None:
+    from mcplan.errors import InvalidInput
+
+    if path is None:
+        return
+    if not path.parent.is_dir():
+        raise InvalidInput(option, "must lie in a folder that exists", str(path))
+    if path.is_dir():
+        raise InvalidInput(option, "must be a file", str(path))
+    _require_writable(option, path)
+
+
+def _require_writable(option: str, path: Path | None) -> None:
+    """Raises InvalidInput if no file can be made in the folder, or in the nearest one above that exists."""
+    import tempfile
+
+    from mcplan.errors import InvalidInput
+
+    if path is None:
+        return
+    folder = path if path.is_dir() else path.absolute().parent
+    while not folder.exists():
+        folder = folder.parent
+    try:
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as found:
+        rule = "must lie in a folder that can be written to"
+        raise InvalidInput(option, rule, f"{path} ({found.strerror})") from None
+
+
+def _require_graphics(option: str) -> None:
+    from mcplan.errors import MissingExtra
+    from mcplan.view.rendering import NoGraphics, require_graphics
+
+    try:
+        require_graphics()
+    except NoGraphics as found:
+        raise MissingExtra(f"mcplan track {option}: {found}") from None

@@ -1,0 +1,107 @@
+"""mp.track: a plan of any planner, options by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mcplan._core import Plan, WholeBodyPlan
+from mcplan.errors import InvalidInput, InvalidOptions, did_you_mean
+
+from .options import Gains, Options, Push
+
+if TYPE_CHECKING:
+    from mcplan._core import Robot
+
+    from .planar import PlanarResult
+    from .result import TrackingResult
+
+
+def track_any(
+    plan: Plan | WholeBodyPlan | str | Path,
+    robot: Robot | str | Path | None,
+    values: Mapping[str, Any],
+    progress: Callable[[float, float], None] | None = None,
+) -> TrackingResult | PlanarResult:
+    """Track a plan of any planner; see mcplan.track.
+
+    Args:
+        plan: The plan, or the path of one.
+        robot: Of a plan of ddp or rhp; None: the plan's own.
+        values: Fields of Options by name.
+        progress: Called now and then with the time simulated and the time to simulate [s].
+    """
+    if not isinstance(plan, (Plan, WholeBodyPlan)):
+        from mcplan.files.whole_body_plans import load_any_plan
+
+        plan = load_any_plan(plan)
+    if isinstance(plan, Plan):
+        from .runner import track
+
+        return track(plan, robot, make_options(values), progress)
+    if robot is not None:
+        name = robot if isinstance(robot, (str, Path)) else robot.name
+        raise InvalidInput("robot", "must not be given with a whole-body plan, which has its own", repr(str(name)))
+    from .planar import DEFAULT_OPTIONS, track_whole_body
+
+    return track_whole_body(plan, make_options(values, DEFAULT_OPTIONS), progress=progress)
+
+
+def make_options(values: Mapping[str, Any], base: Options | None = None) -> Options:
+    """Options from names and values; `gains` as Gains or by name, `pushes` as Push or four numbers each.
+
+    Raises:
+        InvalidOptions: No such option (the message lists those that exist), a wrong type, or out of range.
+    """
+    base = base or Options()
+    given = dict(values)
+    _require_known(given, Options, "")
+    if isinstance(given.get("gains"), Mapping):
+        _require_known(given["gains"], Gains, "gains.")
+        for name, value in given["gains"].items():
+            _require_number(f"gains.{name}", value)
+        given["gains"] = replace(base.gains, **given["gains"])
+    if "pushes" in given:
+        given["pushes"] = tuple(_push(i, push) for i, push in enumerate(_listed("pushes", given["pushes"])))
+    for name, value in given.items():
+        kind = type(getattr(base, name))
+        if kind is float:
+            _require_number(name, value)
+        elif not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
+            raise InvalidOptions(name, f"must be of type {kind.__name__}", repr(value))
+    options = replace(base, **given)
+    options.validate()
+    return options
+
+
+def _require_known(values: Mapping[str, Any], kind: type, prefix: str) -> None:
+    legal = [item.name for item in fields(kind)]
+    for name in values:
+        if name not in legal:
+            rule = f"no such option. {did_you_mean(name, legal)}Options: {', '.join(legal)}"
+            raise InvalidOptions(prefix + name, rule)
+
+
+def _require_number(name: str, value: Any) -> None:
+    if isinstance(value, bool) or not hasattr(value, "__float__"):
+        raise InvalidOptions(name, "must be a number", repr(value))
+
+
+def _listed(name: str, value: Any) -> list[Any]:
+    if isinstance(value, Push) or not hasattr(value, "__iter__"):
+        raise InvalidOptions(name, "must be a list", repr(value))
+    return list(value)
+
+
+def _push(i: int, push: Any) -> Push:
+    if isinstance(push, Push):
+        return push
+    numbers = _listed(f"pushes[{i}]", push)
+    names = [item.name for item in fields(Push)]
+    if len(numbers) != len(names):
+        raise InvalidOptions(f"pushes[{i}]", f"must be {', '.join(names)}", f"{len(numbers)} values")
+    for name, value in zip(names, numbers, strict=True):
+        _require_number(f"pushes[{i}].{name}", value)
+    return Push(*(float(value) for value in numbers))

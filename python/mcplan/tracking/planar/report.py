@@ -1,0 +1,64 @@
+"""A run of a planar robot in words: what happened, and how near contact forces and motion are to the planned ones."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..report import disturbances_text, length
+
+if TYPE_CHECKING:
+    from .recording import PlanarRecording
+    from .run import PlanarResult
+
+
+def report(result: PlanarResult) -> str:
+    """The headline, and below it a line for each measure."""
+    rows = rows_of(result)
+    width = max(len(name) for name, _ in rows)
+    return "\n".join([headline(result), *(f"  {name:{width}}  {value}" for name, value in rows)])
+
+
+def headline(result: PlanarResult) -> str:
+    """Motion, robot, and how the run ended."""
+    motion, lasts = result.recording.plan.motion, result.recording.plan.duration()
+    return f"{motion.name}  {motion.robot.name}  {ending(result)} (plan of {lasts:.2f} s, unassisted)"
+
+
+def ending(result: PlanarResult) -> str:
+    """How the run ended."""
+    measures = result.measures
+    if not measures.completed:
+        return f"left its plan after {measures.completed_s:.2f} s"
+    if result.interrupted:
+        return f"interrupted after {measures.completed_s:.2f} s, until then on its plan"
+    return f"followed to the end: {measures.completed_s:.2f} s"
+
+
+def rows_of(result: PlanarResult) -> list[tuple[str, str]]:
+    """What was measured, and its value."""
+    m = result.measures
+    joint, time_s = nearest_to_torque_limit(result.recording)
+    each = ", ".join(f"{name} {100.0 * share:.1f} %" for name, share in m.force_rms_ends.items())
+    rows = [
+        ("contact forces off the plan", f"{100.0 * m.force_rms:.1f} % rms ({each})"),
+        ("their sum off the plan", f"{100.0 * m.force_rms_robot:.1f} % rms"),
+        ("drift of contacts", f"{length(m.drift_m)} at most, {length(m.slip_m)} of it along the surface"),
+        ("base off the plan", f"{length(m.base_rms_m)} rms"),
+        ("joints off the plan", f"{np.degrees(m.joint_rms_rad):.2g} deg rms"),
+        ("torque by feedback", f"{100.0 * m.torque_feedback_share:.1f} % of the plan's, rms"),
+        ("largest torque", f"{100.0 * m.torque_use:.0f} % of the limit of {joint}, at {time_s:.2f} s"),
+    ]
+    disturbed = disturbances_text(result.options)
+    if disturbed:
+        rows.append(("not known to the plan", disturbed))
+    warned = f"{m.simulator_warnings or 'no'} warning{'' if m.simulator_warnings == 1 else 's'}"
+    return [*rows, ("simulator", f"{warned}, {m.realtime_factor:.2f} times real time")]
+
+
+def nearest_to_torque_limit(recording: PlanarRecording) -> tuple[str, float]:
+    """The joint whose torque came nearest to its limit, and when [s]."""
+    use = np.abs(recording.torques) / recording.torque_limits
+    n, joint = np.unravel_index(int(np.argmax(use)), use.shape)
+    return recording.joints[joint], float(recording.times_s[n])

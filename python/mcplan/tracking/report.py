@@ -1,0 +1,115 @@
+"""A run in the words of those who build robots: what happened, how far off the plan, what the joints had to give."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .options import Options, Push
+
+if TYPE_CHECKING:
+    from .recording import Recording
+    from .result import TrackingResult
+
+
+def report(result: TrackingResult) -> str:
+    """The headline, and below it a line for each measure."""
+    rows = rows_of(result)
+    width = max(len(name) for name, _ in rows)
+    return "\n".join([headline(result), *(f"  {name:{width}}  {value}" for name, value in rows)])
+
+
+def headline(result: TrackingResult) -> str:
+    """Scene, robot, and how the run ended."""
+    recording = result.recording
+    plan, lasts = recording.plan, recording.plan.duration()
+    assisted = "assisted" if result.options.assist else "unassisted"
+    return f"{plan.scene.name}  {recording.body.name}  {ending(result)} (plan of {lasts:.2f} s, {assisted})"
+
+
+def ending(result: TrackingResult) -> str:
+    """How the run ended."""
+    measures = result.measures
+    if measures.fell:
+        return f"fell after {measures.completed_s:.2f} s"
+    if result.interrupted:
+        return f"interrupted after {measures.completed_s:.2f} s, until then without a fall"
+    return f"followed to the end: {measures.completed_s:.2f} s without a fall"
+
+
+def rows_of(result: TrackingResult) -> list[tuple[str, str]]:
+    """What was measured, and its value."""
+    m, options = result.measures, result.options
+    joint, time_s = nearest_to_torque_limit(result.recording)
+    rows = [
+        ("CoM off the plan", f"{length(m.com_rms_m)} rms, {length(m.com_max_m)} at most"),
+        ("base turned off the plan", f"{m.orientation_rms_deg:.2g} deg rms"),
+        ("swinging end-effectors", f"{length(m.swing_rms_m)} rms off the plan"),
+        ("slip in contact", f"{length(m.slip_m)} at most"),
+        *(
+            [("base at the end", f"{length(m.final_base_error_m)} from where the plan ends")]
+            if result.completed
+            else []
+        ),
+        ("largest torque", f"{100.0 * m.torque_use:.0f} % of the limit of {joint}, at {time_s:.2f} s"),
+        ("assistance", assistance_text(result)),
+    ]
+    disturbed = disturbances_text(options)
+    if disturbed:
+        rows.append(("not known to the controller", disturbed))
+    return [*rows, ("controller", controller_text(result)), ("simulator", simulator_text(result))]
+
+
+def nearest_to_torque_limit(recording: Recording) -> tuple[str, float]:
+    """The joint whose torque came nearest to its limit, and when [s]."""
+    use = np.abs(recording.torques) / recording.torque_limits
+    n, joint = np.unravel_index(int(np.argmax(use)), use.shape)
+    return recording.joints[joint], float(recording.times_s[n])
+
+
+def assistance_text(result: TrackingResult) -> str:
+    if not result.options.assist:
+        return "none"
+    m = result.measures
+    largest = float(np.linalg.norm(result.recording.assist[:, :3], axis=1).max())
+    return f"{m.assist_force_rms_N:.1f} N and {m.assist_moment_rms_Nm:.1f} N m rms on the base, {largest:.0f} N at most"
+
+
+def disturbances_text(options: Options) -> str:
+    """What differs from the plan's world, empty: nothing."""
+    parts = [
+        f"{name} {100.0 * (scale - 1.0):+.1f} %"
+        for name, scale in (("mass", options.mass_scale), ("friction", options.friction_scale))
+        if scale != 1.0
+    ]
+    if options.ground_shift_m:
+        parts.append(f"ground {1e3 * options.ground_shift_m:+.1f} mm")
+    parts += [push_text(push) for push in options.pushes]
+    return ", ".join(parts) + (f" (seed {options.seed})" if options.seed else "")
+
+
+def push_text(push: Push) -> str:
+    towards = {0.0: "forward", 90.0: "to the left", 180.0: "backward", 270.0: "to the right"}
+    where = towards.get(push.direction_deg % 360.0, f"towards {push.direction_deg:.0f} deg")
+    return f"push of {push.force_N:.0f} N for {push.duration_s:.2g} s at {push.at_s:.2f} s {where}"
+
+
+def controller_text(result: TrackingResult) -> str:
+    m = result.measures
+    solved = "every step solved" if m.qp_failures == 0 else f"{m.qp_failures} steps not solved"
+    return f"{solved}, {m.control_ms:.2f} ms a step"
+
+
+def simulator_text(result: TrackingResult) -> str:
+    m = result.measures
+    count = m.simulator_warnings
+    warned = "no warnings" if count == 0 else f"{count} warning{'' if count == 1 else 's'}"
+    return f"{warned}, {m.realtime_factor:.2f} times real time"
+
+
+def length(metres: float) -> str:
+    """In mm below 10 cm, in cm below 1 m, else in m."""
+    if metres < 0.0995:
+        return f"{1e3 * metres:.2g} mm"
+    return f"{100.0 * metres:.0f} cm" if metres < 0.995 else f"{metres:.2f} m"

@@ -1,0 +1,113 @@
+"""Files of runs: all comes back, and what is no such file is told apart."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+import mcplan as mp
+import recordings
+import tracked_cartwheel
+from mcplan.files.plans import plan_to_bytes
+from mcplan.files.whole_body_plans import plan_to_bytes as planar_bytes
+from mcplan.tracking import Options, Push, Recording, TrackingResult
+from mcplan.tracking.options import Gains
+from mcplan.tracking.planar import PlanarResult
+
+pytest.importorskip("pinocchio")
+pytest.importorskip("example_robot_data")
+
+
+@pytest.fixture(scope="module")
+def result() -> TrackingResult:
+    options = Options(pushes=(Push(40.0, 0.2, 0.8),), seed=3, mass_scale=1.07, gains=Gains(com_kp=50.0))
+    recording = dataclasses.replace(recordings.walking(), robot=mp.load_robot("talos"), fell_at_s=2.5)
+    return TrackingResult(recording, recordings.measures(fell=True, com_rms_m=float("nan")), options, True)
+
+
+def same_columns(a, b) -> int:
+    """Number of arrays of two recordings, all of which are equal."""
+    arrays = [f.name for f in dataclasses.fields(a) if isinstance(getattr(a, f.name), np.ndarray)]
+    for name in arrays:
+        np.testing.assert_array_equal(getattr(a, name), getattr(b, name), err_msg=name)
+        assert getattr(a, name).dtype == getattr(b, name).dtype, name
+    return len(arrays)
+
+
+def test_a_run_comes_back_as_it_was(result, tmp_path):
+    result.save(tmp_path / "run.npz")
+    back = TrackingResult.load(tmp_path / "run.npz")
+    assert same_columns(result.recording, back.recording) == 18
+    assert (back.recording.joints, back.recording.fell_at_s) == (result.recording.joints, 2.5)
+    assert plan_to_bytes(back.recording.plan) == plan_to_bytes(result.recording.plan)
+    assert repr(back.recording.robot) == repr(result.recording.robot)
+    assert (back.options, back.interrupted) == (result.options, True)
+    assert back.measures.fell and np.isnan(back.measures.com_rms_m)
+    assert back.measures.com_max_m == result.measures.com_max_m
+
+
+def test_one_that_did_not_fall_has_no_time_of_it(result, tmp_path):
+    stood = dataclasses.replace(result, recording=dataclasses.replace(result.recording, fell_at_s=np.inf, robot=None))
+    stood.save(tmp_path / "run.npz")
+    back = Recording.load(tmp_path / "run.npz")
+    assert back.fell_at_s == np.inf and back.robot is None and back.body.name == "talos"
+
+
+def test_a_planar_run_comes_back_as_it_was(tmp_path):
+    result = tracked_cartwheel.tracked()
+    result.save(tmp_path / "run.npz")
+    back = PlanarResult.load(tmp_path / "run.npz")
+    assert same_columns(result.recording, back.recording) > 15
+    assert planar_bytes(back.recording.plan) == planar_bytes(result.recording.plan)
+    assert (back.measures, back.options, back.interrupted) == (result.measures, result.options, False)
+    assert (back.recording.joints, back.recording.ends) == (result.recording.joints, result.recording.ends)
+    assert back.recording.left_plan_at_s == np.inf
+
+
+def test_kinds_are_told_apart(result, tmp_path):
+    planar, plan = tmp_path / "planar.npz", tmp_path / "plan.npz"
+    tracked_cartwheel.tracked().save(planar)
+    result.recording.plan.save(plan)
+    with pytest.raises(mp.InvalidInput, match=r"planar.npz: header.kind: must be that of a robot with a URDF"):
+        TrackingResult.load(planar)
+    with pytest.raises(mp.InvalidInput, match=r"plan.npz: header.kind: must be 'run' or 'planar_run'"):
+        Recording.load(plan)
+    result.save(plan)
+    with pytest.raises(mp.InvalidInput, match="header.kind: must be that of a planar robot"):
+        PlanarResult.load(plan)
+
+
+def changed(path, header=None, **arrays):
+    """The file with other values in its header, or other arrays; None: without."""
+    with np.load(path) as archive:
+        content = {name: archive[name] for name in archive.files}
+    data = {**json.loads(content["header"].tobytes()), **(header or {})}
+    content["header"] = np.frombuffer(json.dumps(data).encode(), np.uint8)
+    content = {name: value for name, value in {**content, **arrays}.items() if value is not None}
+    np.savez(path, **content)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"header": {"format": 2}}, "header.format: must be 1 for this version of mcplan, got 2"),
+        ({"header": {"measures": {"fell": True}}}, "header: must hold what mcplan track --save writes"),
+        ({"header": {"options": None}}, "header: must hold what mcplan track --save writes"),
+        ({"torques": None}, "torques: is required"),
+        ({"com_W": np.zeros((3, 3))}, "com_W: must have 301 rows, got 3"),
+        ({"plan": np.zeros(9, np.uint8)}, "must be an .npz file written by mcplan"),
+    ],
+)
+def test_damaged_files_are_told_by_their_field(result, tmp_path, change, message):
+    path = tmp_path / "run.npz"
+    result.save(path)
+    changed(path, **change)
+    with pytest.raises(mp.InvalidInput) as found:
+        TrackingResult.load(path)
+    assert str(found.value).startswith(f"{path}: ") and message in str(found.value)
+    path.write_bytes(path.read_bytes()[:1000])
+    with pytest.raises(mp.InvalidInput, match="must be an .npz file written by mcplan"):
+        TrackingResult.load(path)
