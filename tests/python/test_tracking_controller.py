@@ -269,6 +269,16 @@ def test_contact_that_is_not_felt_bears_nothing_and_the_foot_is_lowered():
     assert {end for end, _, _ in parts_of(controller)[1]} == {foot, 1 - foot}
 
 
+def test_a_hand_that_brushes_something_does_not_stay_there():
+    controller, start = controller_of()
+    wanted = controller.references
+    hands = ~wanted.returns.any(axis=0) & (wanted.surfaces < 0).all(axis=0)
+    late = int(np.flatnonzero((wanted.swing_share[:, hands] > 0.9).all(axis=1))[0])
+    controller.step(late, start, np.zeros(controller.nv), np.ones(len(hands), bool))
+    assert [contact.mode for contact in controller.contacts] == [Mode.FREE if h else Mode.CONTACT for h in hands]
+    assert {end for end, _, _ in parts_of(controller)[1]} == set(np.flatnonzero(~hands))
+
+
 def test_a_foot_that_lands_tilted_is_laid_flat_in_its_own_direction():
     controller, start = controller_of()
     tilted = start.copy()
