@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import json
 import math
 import os
 import platform
 from collections.abc import Sequence
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -51,6 +53,15 @@ def machine() -> Row:
         "cores": os.cpu_count(),
         "python": platform.python_version(),
     }
+
+
+def versions(*packages: str) -> Row:
+    """Versions of those of the packages that are installed, by name."""
+    found = {}
+    for name in packages:
+        with contextlib.suppress(metadata.PackageNotFoundError):
+            found[name] = metadata.version(name)
+    return found
 
 
 def cpu_name() -> str:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import multiprocessing
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from mcplan.bench import SCENES
 from mcplan.bench.criteria import shortcoming
+from mcplan.bench.processes import each
 
 if TYPE_CHECKING:
     from mcplan import PlanResult
@@ -86,28 +85,13 @@ def run(tasks: Sequence[Task], jobs: int = 1, progress: Callable[[str], None] | 
         KeyboardInterrupt: Ctrl-C was pressed during a solve.
     """
     outcomes: dict[int, Outcome] = {}
-    for index, outcome in _solve_all(tasks, jobs):
+    for index, outcome in each(solve, tasks, jobs):
         outcomes[index] = outcome
         if progress is not None:
             progress(f"[{len(outcomes)}/{len(tasks)}] {line(outcome)}")
         if outcome.status == "interrupted":
             raise KeyboardInterrupt
     return [outcomes[i] for i in range(len(tasks))]
-
-
-def _solve_all(tasks: Sequence[Task], jobs: int) -> Iterator[tuple[int, Outcome]]:
-    if jobs <= 1:
-        for index, task in enumerate(tasks):
-            yield index, solve(task)
-        return
-    # Spawned, not forked: a fork would copy the threads' locks of this process but not the threads.
-    with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
-        pending = {pool.submit(solve, task): index for index, task in enumerate(tasks)}
-        try:
-            for future in as_completed(pending):
-                yield pending[future], future.result()
-        finally:
-            pool.shutdown(cancel_futures=True)
 
 
 def solve(task: Task) -> Outcome:

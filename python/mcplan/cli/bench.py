@@ -9,10 +9,13 @@ from typing import Annotated, Any
 
 import typer
 
+from mcplan.cli.bench_tracking import tracking
+
 app = typer.Typer(
     invoke_without_command=True,
     rich_markup_mode=None,
 )
+app.command()(tracking)
 
 _OUT = typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written.")
 

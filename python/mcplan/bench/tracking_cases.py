@@ -1,0 +1,140 @@
+"""What is tracked by ``mcplan bench tracking``, and what each run has to hold."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from math import inf
+from typing import Any
+
+from mcplan.tracking.planar import PLANNING
+
+#: Limits that walks of humanoids are held to [m].
+COM_RMS_M, FINAL_BASE_M = 0.015, 0.05
+#: Limits of planar robots: rms of the contact forces' error over that of the forces; way of contact points [m].
+FORCE_RMS, DRIFT_M = 0.10, 0.01
+#: Limits on one core: time of a control step [ms], simulated time with control over wall clock.
+CONTROL_MS, REALTIME_FACTOR = 1.0, 1.5
+#: Share of disturbed runs that have to stay upright.
+SURVIVING = 0.9
+#: Steps of the walk on level ground, at least.
+FLAT_STEPS = 6
+
+#: Factors on the built-in scenes, which have the size of a grown human, for Unitree's G1 and for the jumps.
+G1_SCALE = 0.8
+GAP_SCALE, RAIL_SCALE = 0.3, 0.5
+GAP_ROBOT, RAIL_ROBOT = "talos", "talos"
+
+CYCLES = 14
+
+
+@dataclass(frozen=True)
+class Demand:
+    """What a run has to hold, besides that it is planned and comes to its end. Infinite limits: anything will do.
+
+    Attributes:
+        com_rms_m, final_base_error_m, qp_failures, simulator_warnings, force_rms, drift_m: Largest values.
+        steps, flights: Least numbers in the plan.
+        refusable: It is enough that the planner says that it finds no plan.
+    """
+
+    com_rms_m: float = inf
+    final_base_error_m: float = inf
+    qp_failures: float = inf
+    simulator_warnings: float = inf
+    force_rms: float = inf
+    drift_m: float = inf
+    steps: int = 0
+    flights: int = 0
+    refusable: bool = False
+
+
+WALKS = Demand(COM_RMS_M, FINAL_BASE_M, qp_failures=0, simulator_warnings=0)
+STAYS_UP = Demand()
+JUMPS = Demand(flights=1)
+FORCES_AS_PLANNED = Demand(force_rms=FORCE_RMS, drift_m=DRIFT_M, simulator_warnings=0)
+
+
+@dataclass(frozen=True)
+class Case:
+    """A plan to make and to track.
+
+    Attributes:
+        name: Of the row.
+        planner: ddp, rhp or sip.
+        scene: Built-in scene, or motion of a planar robot.
+        robot: That tracks the plan.
+        demand: None: the run is reported and nothing is demanded of it.
+        scale: Factor on the lengths of the scene.
+        assist: Hold the base with a clipped wrench.
+        planned_for: Robot that the plan is made for, if it is not the one that tracks it.
+        clearances: Keep the feet of a planar motion above the ground (``with_clearances``).
+        planning: Options of the planner.
+    """
+
+    name: str
+    planner: str
+    scene: str
+    robot: str
+    demand: Demand | None
+    scale: float = 1.0
+    assist: bool = False
+    planned_for: str = ""
+    clearances: bool = False
+    planning: Mapping[str, Any] = field(default_factory=dict)
+
+
+def _sequence(scene: str, robot: str, demand: Demand | None, scale: float = 1.0, assist: bool = False) -> Case:
+    name = f"{scene}/{robot}" + ("/assisted" if assist else "")
+    return Case(name, "ddp", scene, robot, demand, scale, assist)
+
+
+def _walk(scene: str, fidelity: str) -> Case:
+    demand = replace(WALKS, refusable=fidelity == "com")
+    planning = {"fidelity": fidelity, "cycles": CYCLES}
+    return Case(f"{scene}/{fidelity}", "rhp", scene, "talos", demand, planned_for="talos_wang", planning=planning)
+
+
+def _planar(motion: str, robot: str, clearances: bool = False, **planning: Any) -> Case:
+    options = {**PLANNING, **planning}
+    return Case(motion, "sip", motion, robot, FORCES_AS_PLANNED, clearances=clearances, planning=options)
+
+
+#: Shortest and longest phase of planar motions of many steps [s].
+PHASES_S = (0.3, 5.0)
+
+CASES: tuple[Case, ...] = (
+    *(
+        _sequence(scene, robot, replace(WALKS, steps=FLAT_STEPS if scene == "flat" else 0), scale)
+        for scene in ("flat", "ramp", "stairs_broad", "stepping_stones")
+        for robot, scale in (("talos", 1.0), ("g1", G1_SCALE))
+    ),
+    _sequence("slope", "talos", None),
+    *(
+        _walk(scene, fidelity)
+        for scene in ("up_and_down", "v_shape", "rubbles")
+        for fidelity in ("single", "point", "com")
+    ),
+    _sequence("gap", GAP_ROBOT, JUMPS, GAP_SCALE),
+    _sequence("gap", GAP_ROBOT, JUMPS, GAP_SCALE, assist=True),
+    _sequence("gap_with_rail", RAIL_ROBOT, STAYS_UP, RAIL_SCALE, assist=True),
+    _planar("cartwheel", "climber9"),
+    _planar("climbing", "climber9", clearances=True, phase_duration_s=PHASES_S),
+    _planar("walking", "walker9", phase_duration_s=PHASES_S),
+)
+
+
+def named(name: str) -> Case:
+    """The case of this name in the full table."""
+    return next(case for case in CASES if case.name == name)
+
+
+#: For continuous integration: a walk of fewer cycles, and a planar motion for which nothing is minimised, found in seconds.
+SHORT: tuple[Case, ...] = (
+    named("flat/talos"),
+    replace(named("rubbles/point"), planning={"fidelity": "point", "cycles": 5}),
+    replace(named("walking"), planning={**PLANNING, "minimise": "none"}),
+)
+
+#: Plans that are tracked under disturbances.
+DISTURBED: tuple[Case, ...] = (named("flat/talos"), named("stairs_broad/talos"), named("rubbles/point"))
