@@ -10,7 +10,7 @@ NAN, INF = float("nan"), float("inf")
 
 WRONG = [
     ("simulation_step_s", [0.0, -0.001, 0.0051, NAN, INF]),
-    ("control_step_s", [0.0005, 0.0015, 0.0, -0.002, NAN, INF]),
+    ("control_step_s", [0.0005, 0.0015, 0.0, -0.002, 0.051, 1.0, NAN, INF]),
     ("mass_scale", [0.19, 5.1, 0.0, -1.0, NAN, INF]),
     ("friction_scale", [0.0, -0.1, 10.1, NAN, INF]),
     ("ground_shift_m", [0.21, -0.21, NAN, INF]),
@@ -41,6 +41,7 @@ def test_a_number_out_of_range_is_named(field, value):
         ("simulation_step_s", 0.002),
         ("control_step_s", 0.001),
         ("control_step_s", 0.004),
+        ("control_step_s", 0.05),
         ("mass_scale", 0.2),
         ("mass_scale", 5.0),
         ("friction_scale", 10.0),
