@@ -33,7 +33,8 @@ def planner(terrain: str, robot: str, fidelity: str, lookahead: int, transcripti
     options = rhp.Options()
     options.fidelity, options.transcription = getattr(rhp.Fidelity, fidelity), getattr(rhp.Transcription, transcription)
     options.lookahead, options.paper = lookahead, paper
-    options.foothold_margin_m = 0.0  # as in the peers' program
+    # As in the peers' program.
+    options.foothold_margin_m, options.sole_share, options.com_height = 0.0, 1.0, (0.87, 1.07)
     return rhp.RecedingHorizon(mcplan.load_scene(terrain), mcplan.load_robot(robot), options)
 
 

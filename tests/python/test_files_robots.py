@@ -15,6 +15,7 @@ import mcplan as mp
 from mcplan.files.builtin import DATA
 from mcplan.files.robots import list_robots, load_robot, robot_from_dict, robot_to_dict, save_robot
 from mcplan.files.toml import toml_text, tomllib
+from standing import standing_plan
 
 
 def test_the_data_that_are_broken_below_are_valid(tmp_path):
@@ -94,3 +95,40 @@ def test_humanoid44_has_the_published_numbers():
     np.testing.assert_allclose(robot.end_effectors[0].reach_min_B, [-0.3, -0.15, -0.75])
     np.testing.assert_allclose(robot.end_effectors[0].reach_max_B, [0.3, -0.05, -0.55])
     assert robot.end_effectors[2].max_force == pytest.approx(4.06 * 44.0 * 9.8, rel=1e-3)
+
+
+def test_phase_durations_and_sole_support_are_written_where_they_are_not_the_defaults(tmp_path):
+    robot = load_robot("humanoid44")
+    assert not {"phase_duration", "sole_support"} & set(robot_to_dict(robot))
+    assert (robot.phase_duration.tolist(), robot.sole_support) == ([0.15, 0.5], 0.0)
+    robot.phase_duration, robot.sole_support = [0.25, 0.75], 0.6
+    save_robot(robot, tmp_path / "slow.toml")
+    again = load_robot(tmp_path / "slow.toml")
+    assert (again.phase_duration.tolist(), again.sole_support) == ([0.25, 0.75], 0.6)
+    assert tomllib.loads((tmp_path / "slow.toml").read_text())["phase_duration"] == [0.25, 0.75]
+
+
+def test_a_plan_keeps_phase_durations_and_sole_support_of_its_robot(tmp_path):
+    robot = load_robot("talos")
+    assert (robot.phase_duration.tolist(), robot.sole_support) == ([0.3, 0.6], 1.0)
+    robot.phase_duration, robot.sole_support = [0.35, 0.65], 0.4
+    standing_plan(robot=robot).save(tmp_path / "plan.npz")
+    again = mp.Plan.load(tmp_path / "plan.npz").robot
+    assert (again.phase_duration.tolist(), again.sole_support) == ([0.35, 0.65], 0.4)
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "rule"),
+    [
+        ("phase_duration", [0.5, 0.3], "must be two positive numbers, the shorter first"),
+        ("phase_duration", [0.0, 0.3], "must be two positive numbers"),
+        ("sole_support", 1.5, "must lie in"),
+        ("sole_support", -0.5, "must lie in"),
+    ],
+)
+def test_a_robot_made_in_python_is_held_to_the_same_ranges(field, value, rule):
+    robot = load_robot("humanoid44")
+    setattr(robot, field, value)
+    with pytest.raises(mp.InvalidRobot, match=rule) as found:
+        robot.validate()
+    assert found.value.field == field

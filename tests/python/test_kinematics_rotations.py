@@ -56,3 +56,32 @@ def test_pose_moves_points_as_rotation_and_translation_do():
     shift = np.arange(12.0).reshape(4, 3)
     point = np.array([0.3, -0.2, 0.5])
     assert (rotations.pose(turn, shift) @ [*point, 1.0])[:, :3] == pytest.approx(turn @ point + shift)
+
+
+def test_rotations_of_quaternions_are_those_of_scipy_and_back():
+    turns = Rotation.random(40, random_state=8)
+    matrices = rotations.rotations_of(turns.as_quat())
+    np.testing.assert_allclose(matrices, turns.as_matrix(), atol=1e-12)
+    np.testing.assert_allclose(rotations.rotations_of(-turns.as_quat()), matrices, atol=1e-15)
+    np.testing.assert_allclose(rotations.rotations_of(rotations.quat_xyzw(matrices)), matrices, atol=1e-12)
+
+
+def test_rotation_vectors_are_those_of_scipy():
+    rng = np.random.default_rng(4)
+    for _ in range(50):
+        vector = rng.normal(size=3)
+        vector *= rng.uniform(0.0, 3.1) / np.linalg.norm(vector)
+        found = rotations.rotation_vector(Rotation.from_rotvec(vector).as_matrix())
+        np.testing.assert_allclose(found, vector, atol=1e-9)
+    assert not rotations.rotation_vector(np.eye(3)).any()
+
+
+def test_the_smallest_rotation_leaves_what_is_normal_to_both():
+    rng = np.random.default_rng(5)
+    for _ in range(50):
+        a, b = rng.normal(size=(2, 3))
+        a, b = a / np.linalg.norm(a), b / np.linalg.norm(b)
+        turn = rotations.minimal_rotation(a, b)
+        np.testing.assert_allclose(turn @ a, b, atol=1e-9)
+        np.testing.assert_allclose(turn @ np.cross(a, b), np.cross(a, b), atol=1e-9)
+        np.testing.assert_allclose(turn.T @ turn, np.eye(3), atol=1e-9)

@@ -26,6 +26,8 @@ def first_cycle(row: dict[str, Any]) -> rhp.Cycle:
     # The recorded programs let soles stand on edges. Their pyramid inside the friction cone is that of the rows.
     options.foothold_margin_m = 0.0
     options.friction_rows = not row["paper"]
+    # Forces act at the soles' very corners there, and the CoM may be as low as the authors have it.
+    options.sole_share, options.com_height = 1.0, (0.87, 1.07)
     return rhp.RecedingHorizon(mp.load_scene(row["terrain"]), mp.load_robot("talos_wang"), options).step()
 
 

@@ -14,6 +14,8 @@ import mcplan as mp
 
 VELOCITY_MAX, MOMENTUM_MAX, RATE_MAX = 1.5, 2.5, 3.5  # m/s, kg m^2/s, N m, each component
 DURATIONS = {2: (0.1, 0.3), 1: (0.8, 1.2)}  # s, by the number of feet in contact
+COM_HEIGHT = (0.91, 1.15)  # of the CoM over a foot, as shares of the robot's
+SOLE_SHARE = 0.80  # of a sole, between the points of its forces
 GAUSS_X, GAUSS_W = np.polynomial.legendre.leggauss(3)  # exact to degree 5
 
 
@@ -83,8 +85,9 @@ def margins_of(plan: mp.Plan, *, paper: bool) -> Margins:
             out.note_defect("foothold", centre - np.array(plan.knots[k].end_effectors_W[e]))
             out.note_defect("plane", (corners - vertices[0]) @ frame[2])
             half = np.abs((corners - centre) @ frame.T)[:, :2]
-            out.note_defect("sole", half - np.array(end.half_size))
-            out.note("foothold", [inside_margin(vertices, corner) for corner in corners])
+            out.note_defect("sole", half - (1.0 if paper else SOLE_SHARE) * np.array(end.half_size))
+            whole = centre + (corners - centre) * (1.0 if paper else 1.0 / SOLE_SHARE)
+            out.note("foothold", [inside_margin(vertices, corner) for corner in whole])
             f_W = forces[:, at : at + len(corners)]
             f = f_W @ frame.T
             mu = scene.surfaces[contact.surface].friction
@@ -136,7 +139,7 @@ def margins_of(plan: mp.Plan, *, paper: bool) -> Margins:
                 out.note("com reach", reach.b - reach.A @ (c - p))
                 if not paper:
                     height = (c[2] - p[2]) / robot.com_height
-                    out.note("com height", [height - 0.87, 1.07 - height])
+                    out.note("com height", [height - COM_HEIGHT[0], COM_HEIGHT[1] - height])
         if len(feet) == 2 and k > 0:
             for e, other in ((0, 1), (1, 0)):
                 reach = robot.end_effectors[e].partner_reach[robot.end_effectors[other].name]

@@ -95,7 +95,8 @@ class Controller:
         ends = [self.body.end(i) for i in range(len(self.contacts))]
         for i, contact in enumerate(self.contacts):
             planned = bool(self.references.surfaces[n, i] >= 0)
-            share = float(self.references.swing_share[n, i])
+            # What never lands again does not land early either: a hand that brushes a wall goes on.
+            share = float(self.references.swing_share[n, i] * self.references.returns[n, i])
             if contact.update(planned, bool(touches[i]), share, self.references.dt_s):
                 self._stand(n, i, ends[i].position_W, self._landed(n, i, ends[i]))
         problem, bearing, force_map = self._problem(n, ends)

@@ -79,7 +79,8 @@ def measure(recording: Recording, final_configuration: Array) -> Measures:
         orientation_rms_deg=float(np.degrees(_rms(_angles(r.configurations[:, 3:7], r.base_quat_xyzw_plan)))),
         swing_rms_m=_rms(np.linalg.norm(r.ends_W - r.ends_plan_W, axis=2)[swinging(r.contacts_plan)]),
         slip_m=_slip(r),
-        torque_use=float((np.abs(r.torques) / r.torque_limits).max()),
+        # A joint whose URDF gives it no effort has no motor to use.
+        torque_use=float((np.abs(r.torques) / np.where(r.torque_limits > 0.0, r.torque_limits, np.inf)).max()),
         assist_force_rms_N=_rms(np.linalg.norm(r.assist[:, :3], axis=1)),
         assist_moment_rms_Nm=_rms(np.linalg.norm(r.assist[:, 3:], axis=1)),
         final_base_error_m=float(np.linalg.norm(final)),

@@ -94,9 +94,9 @@ class Options:
         )
         _require(
             "control_step_s",
-            "must be a multiple of simulation_step_s",
+            "must be a multiple of simulation_step_s, at most 0.05 s",  # falls are looked for once a control step
             self.control_step_s,
-            ratio >= 1 and abs(ratio - round(ratio)) < 1e-9,
+            self.control_step_s <= 0.05 and ratio >= 1 and abs(ratio - round(ratio)) < 1e-9,
         )
         _require("mass_scale", "must lie in 0.2 to 5", self.mass_scale, 0.2 <= self.mass_scale <= 5)
         _require(

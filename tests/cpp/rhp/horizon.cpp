@@ -170,6 +170,42 @@ TEST_CASE("horizons of the four fidelities have the models of the paper's table"
   }
 }
 
+TEST_CASE("forces act at the corners of a share of the sole, in the paper's form of all of it") {
+  for (bool paper : {false, true})
+    for (double share : {0.5, 1.0}) {
+      Options options = walkers::quick(Fidelity::rectangle, 2);
+      options.sole_share = share;
+      options.paper = paper;
+      const First first(options);
+      const Eigen::Vector2d half = (paper ? 1.0 : share) * walkers::robot().end_effectors[0].half_size;
+      for (const Horizon::Control& control : first.horizon.controls) {
+        std::map<int, std::set<std::pair<int, int>>> corners;  // by placement, as signs
+        for (const ContactPoint& point : control.points) {
+          const Vector3d offset = first.horizon.placements[point.placement].axes_W.transpose() * point.offset_W;
+          CHECK(std::abs(offset[0]) == doctest::Approx(half[0]));
+          CHECK(std::abs(offset[1]) == doctest::Approx(half[1]));
+          CHECK(std::abs(offset[2]) < 1e-12);
+          corners[point.placement].insert({offset[0] > 0.0, offset[1] > 0.0});
+        }
+        for (const auto& [placement, signs] : corners) CHECK(signs.size() == 4);
+      }
+    }
+}
+
+TEST_CASE("the share of a sole does not move where single forces act") {
+  Options options = walkers::quick(Fidelity::point, 2);
+  options.sole_share = 0.5;
+  const First first(options);
+  int single = 0;
+  for (const Horizon::Phase& phase : first.horizon.phases)
+    for (int k = 0; phase.single_force && k < phase.control_count; ++k)
+      for (const ContactPoint& point : first.horizon.controls[phase.first_control + k].points) {
+        CHECK(point.offset_W.norm() == 0.0);
+        ++single;
+      }
+  CHECK(single > 0);
+}
+
 TEST_CASE("reach and height bind both feet at every node where they stand, boundaries of phases included") {
   Options options = walkers::quick(Fidelity::single, 1);
   options.all_faces = true;

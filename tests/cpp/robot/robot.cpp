@@ -82,6 +82,23 @@ TEST_CASE("numbers of robots out of range are named") {
   all_bad("swing_height", [](Robot& r, double bad) { r.swing_height = bad; });
 }
 
+TEST_CASE("phase durations and what of a sole is supported are held to their ranges") {
+  const double nan = std::nan("");
+  const std::pair<double, double> bad[] = {{0.0, 0.5}, {-0.1, 0.5}, {0.5, 0.4},
+                                           {nan, 0.5}, {0.2, nan},  {0.2, INFINITY}};
+  for (const auto& [shortest, longest] : bad) {
+    CAPTURE(shortest);
+    CAPTURE(longest);
+    CHECK(field([&](Robot& r) { r.phase_duration = {shortest, longest}; }) == "phase_duration");
+  }
+  CHECK(field([](Robot& r) { r.phase_duration = {0.4, 0.4}; }) == "accepted");
+  for (double share : {-0.01, 1.01, nan, double(INFINITY)}) {
+    CAPTURE(share);
+    CHECK(field([&](Robot& r) { r.sole_support = share; }) == "sole_support");
+  }
+  for (double share : {0.0, 1.0}) CHECK(field([&](Robot& r) { r.sole_support = share; }) == "accepted");
+}
+
 TEST_CASE("end-effectors out of range are named") {
   const auto end = [](const std::function<void(mcplan::EndEffector&)>& mutate) {
     return field([&](Robot& r) { mutate(r.end_effectors[1]); });

@@ -1,0 +1,82 @@
+"""Options out of range are named; pushes act when and where they are to."""
+
+import numpy as np
+import pytest
+
+import mcplan as mp
+from mcplan.tracking import Options, Push
+
+NAN, INF = float("nan"), float("inf")
+
+WRONG = [
+    ("simulation_step_s", [0.0, -0.001, 0.0051, NAN, INF]),
+    ("control_step_s", [0.0005, 0.0015, 0.0, -0.002, 0.051, 1.0, NAN, INF]),
+    ("mass_scale", [0.19, 5.1, 0.0, -1.0, NAN, INF]),
+    ("friction_scale", [0.0, -0.1, 10.1, NAN, INF]),
+    ("ground_shift_m", [0.21, -0.21, NAN, INF]),
+    ("hold_s", [-0.1, 60.1, NAN, INF]),
+    ("seed", [-1]),
+]
+
+
+def refused(**values):
+    with pytest.raises(mp.InvalidOptions) as found:
+        Options(**values).validate()
+    return found.value
+
+
+def test_the_defaults_are_accepted():
+    Options().validate()
+
+
+@pytest.mark.parametrize(("field", "value"), [(field, value) for field, values in WRONG for value in values])
+def test_a_number_out_of_range_is_named(field, value):
+    error = refused(**{field: value})
+    assert error.field == field and error.rule and error.value == str(value)
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("simulation_step_s", 0.002),
+        ("control_step_s", 0.001),
+        ("control_step_s", 0.004),
+        ("control_step_s", 0.05),
+        ("mass_scale", 0.2),
+        ("mass_scale", 5.0),
+        ("friction_scale", 10.0),
+        ("ground_shift_m", -0.2),
+        ("hold_s", 0.0),
+        ("seed", 7),
+        ("pushes", (Push(-40.0, 0.0, -1.0),)),
+    ],
+)
+def test_the_ends_of_ranges_are_accepted(field, value):
+    Options(**{field: value}).validate()
+
+
+@pytest.mark.parametrize(
+    ("push", "field"),
+    [
+        (Push(NAN, 0.2, 1.0), "force_N"),
+        (Push(INF, 0.2, 1.0), "force_N"),
+        (Push(40.0, INF, 1.0), "duration_s"),
+        (Push(40.0, -0.1, 1.0), "duration_s"),
+        (Push(40.0, 0.2, NAN), "at_s"),
+        (Push(40.0, 0.2, 1.0, INF), "direction_deg"),
+    ],
+)
+def test_a_push_that_cannot_be_meant_is_named_with_its_place(push, field):
+    assert refused(pushes=(Push(40.0, 0.2, 1.0), push)).field == f"pushes[1].{field}"
+
+
+def test_a_push_acts_from_its_time_for_its_duration():
+    push = Push(40.0, 0.2, 1.0)
+    for time_s, acts in ((0.0, False), (0.999, False), (1.0, True), (1.1, True), (1.199, True), (1.21, False)):
+        assert bool(push.force_W(time_s).any()) is acts
+        assert np.linalg.norm(push.force_W(time_s)) == pytest.approx(40.0 * acts)
+
+
+@pytest.mark.parametrize(("angle", "towards"), [(0, [1, 0, 0]), (90, [0, 1, 0]), (180, [-1, 0, 0]), (-90, [0, -1, 0])])
+def test_a_push_points_where_its_angle_says(angle, towards):
+    np.testing.assert_allclose(Push(10.0, 1.0, 0.0, angle).force_W(0.5), 10.0 * np.array(towards), atol=1e-12)

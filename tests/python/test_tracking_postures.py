@@ -1,0 +1,60 @@
+"""Postures along a plan meet it, and pass through those of inverse kinematics."""
+
+import numpy as np
+import pytest
+
+import tracked
+
+pin = pytest.importorskip("pinocchio")
+pytest.importorskip("example_robot_data")
+
+from mcplan.kinematics.inverse_kinematics import follow  # noqa: E402
+from mcplan.kinematics.samples import sample  # noqa: E402
+from mcplan.tracking.postures import RATE, postures_along  # noqa: E402
+
+DT = 0.01
+
+
+@pytest.fixture(scope="module")
+def case():
+    plan, loaded = tracked.step_ahead(), tracked.loaded("talos")
+    count = round(plan.duration() / DT) + 31
+    return plan, loaded, postures_along(loaded, plan, count, DT)
+
+
+def test_com_and_feet_are_where_the_plan_has_them(case):
+    plan, loaded, found = case
+    data = loaded.model.createData()
+    for n in range(0, round(plan.duration() / DT), 7):
+        state = plan.at(n * DT)
+        pin.framesForwardKinematics(loaded.model, data, found[n])
+        com = pin.centerOfMass(loaded.model, data, found[n])
+        np.testing.assert_allclose(com, state.com_W, atol=0.01)
+        for frame, end in zip(loaded.frames, state.end_effectors, strict=True):
+            if end.surface >= 0:
+                np.testing.assert_allclose(data.oMf[frame].translation, end.position_W, atol=0.005)
+
+
+def test_they_pass_through_those_of_inverse_kinematics_at_its_rate(case):
+    plan, loaded, found = case
+    samples = sample(plan, plan.scene, plan.robot, RATE)
+    exact = follow(loaded, samples).configurations
+    step = samples.times_s[1] - samples.times_s[0]
+    for k in range(0, len(exact), 5):
+        n = round(k * step / DT)
+        if abs(n * DT - k * step) < 1e-9:
+            np.testing.assert_allclose(found[n], exact[k], atol=1e-9)
+
+
+def test_between_them_nothing_jumps_and_the_last_is_held(case):
+    plan, loaded, found = case
+    moves = np.array([pin.difference(loaded.model, a, b) for a, b in zip(found, found[1:], strict=False)])
+    assert np.abs(moves).max() < 0.15
+    held = found[int(np.ceil(plan.duration() / DT)) :]
+    np.testing.assert_allclose(held, [held[0]] * len(held), atol=1e-12)
+    np.testing.assert_allclose(np.linalg.norm(found[:, 3:7], axis=1), 1.0, atol=1e-9)
+
+
+def test_more_than_the_plan_lasts_can_be_asked_for_and_less(case):
+    plan, loaded, found = case
+    np.testing.assert_array_equal(postures_along(loaded, plan, 5, DT), found[:5])

@@ -1,0 +1,144 @@
+"""References against the plan itself, and against differences of what they are rates of."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import mcplan as mp
+import tracked
+from mcplan.kinematics.rotations import from_rpy
+from mcplan.tracking.references import LARGEST_SWING_ACCELERATION, _angular_velocity, references
+from stepping import stepping_plan
+
+DT, HOLD = 0.002, 0.3
+
+
+@pytest.fixture(scope="module")
+def robot():
+    return mp.load_robot("talos")
+
+
+@pytest.fixture(scope="module")
+def plan(robot):
+    return stepping_plan(steps=2, robot=robot)
+
+
+@pytest.fixture(scope="module")
+def wanted(plan, robot):
+    return references(plan, robot, DT, HOLD)
+
+
+def test_every_instant_is_the_plans(plan, wanted):
+    for n in range(0, wanted.count, 37):
+        if n * DT > plan.duration():
+            break
+        state = plan.at(n * DT)
+        np.testing.assert_array_equal(wanted.com_W[n], state.com_W)
+        np.testing.assert_array_equal(wanted.com_velocity_W[n], state.com_velocity_W)
+        np.testing.assert_array_equal(wanted.com_acceleration_W[n], state.com_acceleration_W)
+        np.testing.assert_array_equal(wanted.momentum_W[n], state.angular_momentum_W)
+        np.testing.assert_allclose(wanted.base_WB[n], from_rpy(np.asarray(state.base_rpy)), atol=1e-12)
+        for i, end in enumerate(state.end_effectors):
+            np.testing.assert_array_equal(wanted.ends_W[n, i], end.position_W)
+            np.testing.assert_array_equal(wanted.end_velocities_W[n, i], end.velocity_W)
+            np.testing.assert_array_equal(wanted.forces_W[n, i], end.force_W)
+            assert wanted.surfaces[n, i] == end.surface
+
+
+def test_the_last_state_is_held_at_rest(plan, robot, wanted):
+    assert (wanted.count - 1) * DT >= plan.duration() + HOLD - 1e-9
+    over = np.arange(wanted.count) * DT > plan.duration()
+    assert over.sum() == pytest.approx(HOLD / DT, abs=2)
+    np.testing.assert_allclose(wanted.com_W[over], [plan.at(plan.duration()).com_W] * over.sum())
+    for rate in (wanted.com_velocity_W, wanted.com_acceleration_W, wanted.momentum_W, wanted.end_velocities_W):
+        assert not rate[over].any()
+    assert (wanted.surfaces[over] == list(plan.final_contacts)).all()
+    np.testing.assert_allclose(
+        wanted.forces_W[over].sum(axis=1), [[0, 0, robot.mass * plan.scene.gravity]] * over.sum()
+    )
+
+
+def test_forces_are_scaled_to_the_robot_that_walks(plan, robot, wanted):
+    heavy = mp.load_robot("talos")
+    heavy.mass *= 1.5
+    np.testing.assert_allclose(references(plan, heavy, DT, HOLD).forces_W, 1.5 * wanted.forces_W)
+
+
+def test_forces_accelerate_the_com_as_the_plan_says(plan, robot, wanted):
+    now = np.arange(wanted.count) * DT <= plan.duration()
+    force = robot.mass * (wanted.com_acceleration_W[now] + [0, 0, plan.scene.gravity])
+    np.testing.assert_allclose(wanted.forces_W[now].sum(axis=1), force, atol=1e-6 * robot.mass * 9.81)
+
+
+def test_pressure_is_where_the_moment_of_the_planned_forces_vanishes(plan, wanted):
+    checked = 0
+    for n in range(0, round(plan.duration() / DT), 53):
+        for i, end in enumerate(plan.at(n * DT).end_effectors):
+            forces = np.asarray(end.point_forces_W).reshape(-1, 3)
+            if end.surface < 0 or forces[:, 2].sum() < 1.0:
+                continue
+            arms = np.asarray(end.points_W) - wanted.pressure_W[n, i]
+            np.testing.assert_allclose(np.cross(arms, forces).sum(axis=0)[:2], 0.0, atol=1e-6)
+            checked += 1
+    assert checked > 20
+
+
+def test_accelerations_of_swings_are_rates_of_their_velocities(wanted):
+    free = wanted.surfaces < 0
+    assert not wanted.end_accelerations_W[~free].any()
+    size = np.linalg.norm(wanted.end_accelerations_W, axis=2)
+    assert size.max() <= LARGEST_SWING_ACCELERATION * (1 + 1e-9)
+    rate = (wanted.end_velocities_W[2:] - wanted.end_velocities_W[:-2]) / (2 * DT)
+    inner = free[1:-1] & (np.linalg.norm(rate, axis=2) < LARGEST_SWING_ACCELERATION)
+    np.testing.assert_allclose(wanted.end_accelerations_W[1:-1][inner], rate[inner], atol=1e-9)
+
+
+def test_positions_of_swings_are_integrals_of_their_velocities(wanted):
+    foot = int(np.flatnonzero((wanted.surfaces < 0).any(axis=0) & (wanted.surfaces >= 0).any(axis=0))[0])
+    moved = wanted.ends_W[1:, foot] - wanted.ends_W[:-1, foot]
+    mean = 0.5 * DT * (wanted.end_velocities_W[1:, foot] + wanted.end_velocities_W[:-1, foot])
+    np.testing.assert_allclose(np.cumsum(mean, axis=0), np.cumsum(moved, axis=0), atol=1e-4)
+
+
+def test_momentum_rate_is_that_of_the_momentum(plan, wanted):
+    inner = np.arange(1, round(plan.duration() / DT) - 1)
+    difference = (wanted.momentum_W[inner + 1] - wanted.momentum_W[inner - 1]) / (2 * DT)
+    np.testing.assert_allclose(wanted.momentum_rate_W[inner], difference, atol=1e-9)
+
+
+def test_angular_velocities_are_those_of_a_known_turn():
+    axis = np.array([0.36, -0.48, 0.8])
+    times = np.arange(0, 1, DT)
+    angle = 0.8 * np.sin(3.0 * times)
+    start = Rotation.random(random_state=2)
+    turn = np.array([(Rotation.from_rotvec(a * axis) * start).as_matrix() for a in angle])
+    rate = (2.4 * np.cos(3.0 * times))[:, None] * axis
+    np.testing.assert_allclose(_angular_velocity(turn, DT)[1:-1], rate[1:-1], atol=2e-4)
+    stacked = _angular_velocity(np.stack([turn, turn], axis=1), DT)
+    np.testing.assert_allclose(stacked[:, 1], _angular_velocity(turn, DT), atol=1e-12)
+
+
+def test_another_base_brings_its_own_rate(wanted):
+    angle = 0.3 * np.arange(wanted.count) * DT
+    quats = Rotation.from_rotvec(np.outer(angle, [0.0, 0.0, 1.0])).as_quat()
+    turned = wanted.with_base(quats)
+    np.testing.assert_allclose(turned.base_velocity_W, [[0.0, 0.0, 0.3]] * wanted.count, atol=1e-5)
+    np.testing.assert_allclose(turned.base_WB, Rotation.from_quat(quats).as_matrix(), atol=1e-12)
+    assert turned.com_W is wanted.com_W
+
+
+def test_swings_run_from_nothing_to_all_and_say_whether_they_end(wanted):
+    for end in range(wanted.surfaces.shape[1]):
+        free = wanted.surfaces[:, end] < 0
+        assert (wanted.swing_share[~free, end] == 1.0).all() and not wanted.returns[~free, end].any()
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], free, [0]])))
+        for first, after in edges.reshape(-1, 2):
+            share = wanted.swing_share[first:after, end]
+            assert share[0] == 0.0 and share[-1] == 1.0 and (np.diff(share) > 0).all()
+            assert (wanted.returns[first:after, end] == (after < wanted.count)).all()
+
+
+def test_hands_that_touch_nothing_never_return():
+    _, wanted = tracked.still()
+    hands = (wanted.surfaces < 0).all(axis=0)
+    assert hands.any() and not wanted.returns[:, hands].any()
