@@ -45,6 +45,7 @@ void bind_options(py::module_& m) {
   c.def_readwrite("momentum_rate_max", &Options::momentum_rate_max, "Each component of L' [N m].");
   def_range(c, "com_height", &Options::com_height, "CoM over every foot in contact, over robot.com_height: min, max.");
   c.def_readwrite("sole_share", &Options::sole_share, "Of the sole that forces make use of; paper: all.");
+  c.def_readwrite("friction_share", &Options::friction_share, "Of the friction coefficient; paper: all.");
   c.def_readwrite("foothold_margin_m", &Options::foothold_margin_m, "Of the sole to the edges of a surface [m].");
   c.def_readwrite("psi_max", &Options::psi_max, "Bound of the relaxation [-].");
   c.def_readwrite("goal_weight", &Options::goal_weight, "On the squared distance of the end to the goal [1/m^2].");

@@ -38,6 +38,7 @@ void Options::validate() const {
   require(std::isfinite(foothold_margin_m) && foothold_margin_m >= 0.0, "foothold_margin_m", "must be at least 0",
           text(foothold_margin_m));
   require(sole_share > 0.0 && sole_share <= 1.0, "sole_share", "must lie in (0, 1]", text(sole_share));
+  require(friction_share > 0.0 && friction_share <= 1.0, "friction_share", "must lie in (0, 1]", text(friction_share));
   require_positive("psi_max", psi_max);
   require(std::isfinite(goal_weight) && goal_weight >= 0.0, "goal_weight", "must be at least 0", text(goal_weight));
   require(friction_sides >= 3 && friction_sides <= 64, "friction_sides", "must lie in [3, 64]", text(friction_sides));

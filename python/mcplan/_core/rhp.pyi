@@ -164,6 +164,13 @@ class Options:
     @friction_rows.setter
     def friction_rows(self, arg0: bool) -> None: ...
     @property
+    def friction_share(self) -> float:
+        """
+        Of the friction coefficient; paper: all.
+        """
+    @friction_share.setter
+    def friction_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def friction_sides(self) -> int:
         """
         Of the pyramid inside the friction cone.

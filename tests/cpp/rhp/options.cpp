@@ -41,6 +41,8 @@ TEST_CASE("options out of their range are refused by the name of their field") {
       {"sole_share", [](Options& o) { o.sole_share = 0.0; }},
       {"sole_share", [](Options& o) { o.sole_share = 1.01; }},
       {"sole_share", [&](Options& o) { o.sole_share = nan; }},
+      {"friction_share", [](Options& o) { o.friction_share = 0.0; }},
+      {"friction_share", [](Options& o) { o.friction_share = 1.01; }},
       {"psi_max", [](Options& o) { o.psi_max = 0.0; }},
       {"goal_weight", [](Options& o) { o.goal_weight = -1.0; }},
       {"friction_sides", [](Options& o) { o.friction_sides = 2; }},

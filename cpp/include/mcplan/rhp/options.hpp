@@ -55,7 +55,8 @@ struct Options {
   /// the limits of real ankles: from 0.87, as the authors have it, TALOS misses the CoM by 20 mm where it has no room
   /// to bend.
   Range com_height{0.91, 1.15};
-  double sole_share = 0.80;  ///< of the sole that forces make use of, `paper`: all; the rest is for those who track
+  double sole_share = 0.80;     ///< of the sole that forces make use of, `paper`: all; the rest is for those who track
+  double friction_share = 1.0;  ///< of the friction coefficient, likewise: less for ground that may be slippery
   double foothold_margin_m = 0.03;  ///< of the sole to the edges of a surface where it has room, for swings to clear
   double psi_max = 0.55;            ///< bound of the relaxation's |a +- d|^2 [-]
   double goal_weight = 10.0;        ///< on the squared distance of the horizon's end to the goal [1/m^2]
