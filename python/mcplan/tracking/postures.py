@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mcplan.kinematics.inverse_kinematics import follow
 from mcplan.kinematics.samples import sample
+from mcplan.kinematics.smooth_postures import running_means
 from mcplan.kinematics.urdf_model import UrdfModel
 
 if TYPE_CHECKING:
@@ -25,7 +26,8 @@ def postures_along(loaded: UrdfModel, plan: Plan, count: int, dt_s: float) -> Ar
     import pinocchio as pin  # type: ignore[import-untyped]
 
     samples = sample(plan, plan.scene, plan.robot, RATE)
-    found = follow(loaded, samples).configurations
+    # The postures' torso and base jump where feet leave the ground; a base that is asked to jump throws the robot.
+    found = running_means(loaded, samples.times_s, follow(loaded, samples).configurations)
     step = samples.times_s[1] - samples.times_s[0]
     result = np.empty((count, loaded.model.nq))
     for n in range(count):
