@@ -42,11 +42,11 @@ class Gains:
     com_kp: float = 60.0
     com_weight: float = 100.0
     base_kp: float = 80.0
-    base_weight: float = 1.0
+    base_weight: float = 10.0
     momentum_kp: float = 5.0  # damping of the angular momentum about the CoM
     momentum_weight: float = 0.01
     swing_kp: float = 200.0
-    swing_weight: float = 20.0
+    swing_weight: float = 10.0
     contact_kp: float = 60.0
     contact_weight: float = 1e3
     hand_weight: float = 100.0
