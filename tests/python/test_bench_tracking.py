@@ -45,7 +45,13 @@ def test_the_table_has_what_is_demanded():
     assert named("flat/talos").demand.steps == 6
     assert named("slope/talos").demand is None
     assert sum(case.scene == "short_gap" and case.assist for case in CASES) == 1
-    assert sum(case.scene == "short_gap" and case.demand is not None and not case.assist and case.demand.flights == 1 for case in CASES) == 1
+    assert (
+        sum(
+            case.scene == "short_gap" and case.demand is not None and not case.assist and case.demand.flights == 1
+            for case in CASES
+        )
+        == 1
+    )
     assert any(case.assist and case.demand is not None for case in CASES if case.scene == "short_gap_with_rail")
     assert [case.name for case in SHORT] == ["flat/talos", "rubbles/point", "walking"]
     assert [case.demand for case in SHORT] == [named(case.name).demand for case in SHORT]
