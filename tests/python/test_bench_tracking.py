@@ -50,7 +50,11 @@ def test_the_table_has_what_is_demanded():
     assert any(case.assist and case.demand is not None for case in CASES if case.scene == "short_gap_with_rail")
     assert [case.name for case in SHORT] == ["flat/talos", "rubbles/point", "walking"]
     assert [case.demand for case in SHORT] == [named(case.name).demand for case in SHORT]
-    assert [case.name for case in DISTURBED] == ["flat/talos", "stairs_broad/talos", "rubbles/single, 0.88 of the friction"]
+    assert [case.name for case in DISTURBED] == [
+        "flat/talos",
+        "stairs_broad/talos",
+        "rubbles/single, 0.88 of the friction",
+    ]
 
 
 def test_limits_themselves_are_held():

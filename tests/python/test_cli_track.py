@@ -64,7 +64,7 @@ def wheel(tmp_path_factory):
 
 
 def test_standing_is_told_in_words_and_code_0(capsys, file):
-    code, out, err = run(capsys, file)
+    code, out, err = run(capsys, file, "--quiet")  # a slow machine is told how far it is
     lines = out.splitlines()
     assert (code, err) == (0, "")
     assert lines[0] == "flat  talos  followed to the end: 1.60 s without a fall (plan of 0.60 s, unassisted)"
@@ -99,7 +99,7 @@ def test_json_holds_every_measure_and_what_was_drawn_from_the_seed(capsys, file)
 
 def test_a_hard_push_is_a_fall_with_code_1_and_a_run_to_look_at(capsys, file, tmp_path):
     saved = tmp_path / "run.npz"
-    code, out, err = run(capsys, file, "--push", "700,0.4,0.1,90", "--no-check", "--save", saved)
+    code, out, err = run(capsys, file, "--push", "700,0.4,0.1,90", "--no-check", "--quiet", "--save", saved)
     assert (code, err) == (1, "")
     lines = out.splitlines()
     assert lines[0].startswith("flat  talos  fell after ")
