@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from . import proxqp
+
 Array = NDArray[np.float64]
 
 
@@ -33,10 +35,8 @@ class QuadraticProgram:
     """
 
     def __init__(self, accuracy: float = 1e-5, max_iterations: int = 200) -> None:
-        import proxsuite  # type: ignore[import-untyped]
-
-        self._dense = proxsuite.proxqp.dense
-        self._proxqp = proxsuite.proxqp
+        self._proxqp = proxqp.load()
+        self._dense = self._proxqp.dense
         self._accuracy, self._max_iterations = accuracy, max_iterations
         self._solvers: dict[object, Any] = {}
         self.failures = self.iterations = 0
