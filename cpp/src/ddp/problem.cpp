@@ -58,9 +58,14 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   edge_margin = kEdgeMargin / units.length;
   const double shortest_s = options.duration_min_s > 0.0 ? options.duration_min_s : robot.phase_duration[0];
   const double longest_s = options.duration_max_s > 0.0 ? options.duration_max_s : robot.phase_duration[1];
-  if (longest_s < shortest_s)
+  if (longest_s < shortest_s) {
+    // Options that are both given were compared before: one of the two is the robot's.
+    if (options.duration_min_s > 0.0)
+      throw InvalidOptions("duration_min_s", "must be at most the robot's longest phase, " + text(longest_s),
+                           text(shortest_s));
     throw InvalidOptions("duration_max_s", "must be at least the robot's shortest phase, " + text(shortest_s),
                          text(longest_s));
+  }
   duration_min = shortest_s / units.time;
   duration_max = longest_s / units.time;
   flight_duration_min = std::min(options.flight_duration_min_s, longest_s) / units.time;

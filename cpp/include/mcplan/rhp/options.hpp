@@ -51,10 +51,7 @@ struct Options {
   double com_velocity_max = 1.5;   ///< [m/s] each component
   double momentum_max = 2.5;       ///< [kg m^2/s] each component of L
   double momentum_rate_max = 3.5;  ///< [N m] each component of L'
-  /// Of the CoM above every foot in contact, over robot.com_height [-]. Lower walks are cheaper for this model and at
-  /// the limits of real ankles: from 0.87, as the authors have it, TALOS misses the CoM by 20 mm where it has no room
-  /// to bend.
-  Range com_height{0.91, 1.15};
+  Range com_height{0.87, 1.15};    ///< of the CoM above every foot in contact, over robot.com_height [-]
   double sole_share = 0.80;     ///< of the sole that forces make use of, `paper`: all; the rest is for those who track
   double friction_share = 1.0;  ///< of the friction coefficient, likewise: less for ground that may be slippery
   double foothold_margin_m = 0.03;  ///< of the sole to the edges of a surface where it has room, for swings to clear
