@@ -1,6 +1,5 @@
 """Whole runs: what is tracked, what falls, what comes early and late, and that a run repeats itself."""
 
-from collections import defaultdict
 from dataclasses import fields, replace
 
 import numpy as np
@@ -79,28 +78,13 @@ def test_feet_leave_and_land_when_the_plan_says(step):
         assert (run.contacts[:, end] != planned).mean() < 0.03
 
 
-def assert_same(one, other):
-    """The same run, but for ProxQP: it sums in another order where its memory happens to lie off a multiple of 32 bytes,
-    and its answers, exact to 1e-5, then differ by 1e-9."""
-    for item in fields(one):
-        value = getattr(one, item.name)
-        if isinstance(value, np.ndarray):
-            np.testing.assert_allclose(value, getattr(other, item.name), rtol=0.0, atol=TIGHT[item.name[:6]])
-
-
-#: [N], [N m], [m], [m/s] by the beginnings of names: a thousandth of what a disturbance of a percent changes.
-TIGHT = defaultdict(lambda: 1e-6, torque=1e-2, forces=1e-1, veloci=1e-4, angula=1e-4)
-
-
 def test_a_run_repeats_itself(rest):
-    one, other = (track(rest, options=replace(SHORT, seed=3)).recording for _ in range(2))
-    for name in ("times_s", "com_plan_W", "ends_plan_W", "forces_plan_W", "contacts_plan", "pushes_W", "torque_limits"):
+    one, other, changed = (track(rest, options=replace(SHORT, seed=seed)).recording for seed in (3, 3, 4))
+    arrays = [item.name for item in fields(one) if isinstance(getattr(one, item.name), np.ndarray)]
+    assert len(arrays) > 15
+    for name in arrays:
         assert getattr(one, name).tobytes() == getattr(other, name).tobytes(), name
-    assert one.configurations[0].tobytes() == other.configurations[0].tobytes()
-    assert_same(one, other)
-    changed = track(rest, options=replace(SHORT, seed=4)).recording
-    with pytest.raises(AssertionError):
-        assert_same(one, changed)
+    assert one.configurations.tobytes() != changed.configurations.tobytes()
 
 
 def test_a_robot_too_weak_to_stand_falls_and_that_is_a_result(rest, tmp_path):

@@ -67,7 +67,8 @@ class Options:
         mass_scale: Factor on the masses of the simulated robot that the controller does not know of.
         friction_scale: Factor on the friction of the simulated surfaces that the controller does not know of.
         ground_shift_m: Height by which the simulated surfaces lie above the planned ones.
-        seed: Of disturbances of mass, friction, ground and a push, drawn on top (see ``disturbances``); 0: none.
+        seed: Of disturbances of mass, friction, ground and a push, drawn on top (see ``disturbances``); 0: none. Options of a
+            result hold what was drawn: they repeat the run with a seed of 0.
         hold_s: Time for which the last state of the plan is held at the end.
         gains: Of the controller.
     """
