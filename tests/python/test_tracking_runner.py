@@ -78,13 +78,17 @@ def test_feet_leave_and_land_when_the_plan_says(step):
         assert (run.contacts[:, end] != planned).mean() < 0.03
 
 
-def test_a_run_repeats_itself(rest):
-    one, other, changed = (track(rest, options=replace(SHORT, seed=seed)).recording for seed in (3, 3, 4))
+def differing(one, other):
+    """Names of the arrays of two recordings that are not the same bytes."""
     arrays = [item.name for item in fields(one) if isinstance(getattr(one, item.name), np.ndarray)]
     assert len(arrays) > 15
-    for name in arrays:
-        assert getattr(one, name).tobytes() == getattr(other, name).tobytes(), name
-    assert one.configurations.tobytes() != changed.configurations.tobytes()
+    return [name for name in arrays if getattr(one, name).tobytes() != getattr(other, name).tobytes()]
+
+
+def test_a_run_repeats_itself(rest):
+    one, other, changed = (track(rest, options=replace(SHORT, seed=seed)).recording for seed in (3, 3, 4))
+    assert differing(one, other) == []
+    assert "configurations" in differing(one, changed)
 
 
 def test_a_robot_too_weak_to_stand_falls_and_that_is_a_result(rest, tmp_path):
@@ -194,7 +198,7 @@ def test_progress_is_told(rest):
 def test_a_saved_plan_is_tracked_like_the_plan(rest, tmp_path):
     rest.save(tmp_path / "rest.npz")
     there, here = track(tmp_path / "rest.npz", options=SHORT), track(rest, options=SHORT)
-    assert_same(there.recording, here.recording)
+    assert differing(there.recording, here.recording) == []
 
 
 def test_the_robot_takes_the_plans_order_of_ends(rest):
