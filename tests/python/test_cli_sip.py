@@ -241,6 +241,9 @@ def test_switches_reach_the_planner(options_of):
     assert options_of("--minimise", "none", "--free-durations").free_durations
     assert options_of("--minimise", "time").duration_weight == 1.0
     assert options_of("--tube", 0.0002).tube_rad == pytest.approx(0.001)
+    asked = options_of("--trackable")
+    assert (asked.tube_m, asked.tube_rad, asked.min_normal_force) == (2e-5, 1e-4, 5.0)
+    assert options_of("--trackable", "--tube", 0.0002).tube_m == 0.0002
 
 
 WRONG = [

@@ -6,7 +6,7 @@ import pytest
 
 from mcplan import _core, load_motion
 from mcplan.errors import InvalidMotion, InvalidOptions
-from mcplan.tracking.planar.prepare import with_clearances
+from mcplan.tracking.planar.prepare import PLANNING, trackable, with_clearances
 
 
 def swings(motion: _core.PlanarMotion) -> list[tuple[int, int, int, float]]:
@@ -52,3 +52,11 @@ def test_a_swing_from_surface_to_surface_is_refused():
 def test_heights_must_be_above_the_surface():
     with pytest.raises(InvalidOptions, match="height_m: must be above 0, got 0.0"):
         with_clearances(load_motion("climbing"), 0.0)
+
+
+@pytest.mark.parametrize(("name", "limited"), [("cartwheel", False), ("climbing", True), ("walking", True)])
+def test_trackable_motions_have_clearances_and_long_ones_limits_of_their_phases(name, limited):
+    motion, options = trackable(load_motion(name))
+    assert swings(motion) == swings(with_clearances(load_motion(name)))
+    assert {key: options[key] for key in PLANNING} == dict(PLANNING)
+    assert ("phase_duration_s" in options) == limited

@@ -28,6 +28,9 @@ def sip(
         float | None,
         typer.Option("--tube", metavar="M", help="Half width of tube or band [m] (0.001), and 5 rad/m times it."),
     ] = None,
+    trackable: Annotated[
+        bool, typer.Option("--trackable", help="Feet at rest, loaded and off the ground in swings, for mcplan track.")
+    ] = False,
     order: Annotated[int, typer.Option("--order", metavar="N", help="Of the Taylor polynomials, 3 to 12.")] = 8,
     neq: Annotated[int, typer.Option("--neq", metavar="N", help="Highest coefficient that band and strict hold.")] = 2,
     free_flyer: Annotated[
@@ -81,6 +84,8 @@ def sip(
     Exit code 0 if the motion is solved (and, with --certify, proved), 1 otherwise; what was found is saved either way.
 
     Example: mcplan sip walking --forces per-point --minimise torque -o walk.npz --strip walk.png
+
+    Example: mcplan sip cartwheel --trackable -o wheel.npz && mcplan track wheel.npz
     """
     from mcplan import sip as engine
     from mcplan import whole_body_planning as planning
@@ -93,10 +98,15 @@ def sip(
     given |= {"order": order, "neq": neq, "free_flyer": free_flyer, "free_durations": free_durations}
     given |= {"continuous": continuous, "dynamics": not kinematics, "self_collision": self_collision}
     given |= {"hessian": hessian, "max_iterations": max_iterations, "time_limit": time_limit}
+    model = planning.motion_of(motion)
+    if trackable:
+        from mcplan.tracking.planar import trackable as ask_for
+
+        model, more = ask_for(model)
+        given = more | {name: value for name, value in given.items() if value is not None}
     options = planning.make_options(minimise, given)
     if certify:
         planning.require_provable(options)
-    model = planning.motion_of(motion)
     progress = None if quiet or (json and not verbose) else Progress(model.name, verbose)
     if progress is not None:
         options.logger = progress

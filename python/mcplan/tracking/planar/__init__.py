@@ -11,7 +11,7 @@ Needs the extra `sim` (mujoco).
 from __future__ import annotations
 
 from .measures import PlanarMeasures
-from .prepare import PLANNING, with_clearances
+from .prepare import PLANNING, trackable, with_clearances
 from .recording import PlanarRecording
 from .run import DEFAULT_OPTIONS, PlanarResult, track_whole_body
 from .settings import ContactSettings, Feedback
@@ -25,5 +25,6 @@ __all__ = [
     "PlanarRecording",
     "PlanarResult",
     "track_whole_body",
+    "trackable",
     "with_clearances",
 ]

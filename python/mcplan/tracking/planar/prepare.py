@@ -32,6 +32,29 @@ PLANNING: MappingProxyType[str, Any] = MappingProxyType(
 )
 
 
+#: Longer motions than this take no phase shorter or longer than PHASES_S [s]: durations of many free phases run away.
+SHORT_MOTION, PHASES_S = 5, (0.3, 5.0)
+
+
+def trackable(motion: PlanarMotion) -> tuple[PlanarMotion, dict[str, Any]]:
+    """What ``mcplan sip --trackable`` plans: a motion with clearances, and options of mp.whole_body.
+
+        motion, options = trackable(mp.load_motion("walking"))
+        plan = mp.whole_body(motion, **options).plan
+
+    Args:
+        motion: Any.
+
+    Returns:
+        The motion as of with_clearances, and PLANNING with limits of the phases of motions of many steps.
+
+    Raises:
+        InvalidMotion: As with_clearances.
+    """
+    more = {"phase_duration_s": PHASES_S} if len(motion.phases) > SHORT_MOTION else {}
+    return with_clearances(motion), {**PLANNING, **more}
+
+
 def with_clearances(motion: PlanarMotion, height_m: float = 0.02) -> PlanarMotion:
     """The motion with the points of every swing kept in front of the surface that it leaves and lands on.
 
