@@ -14,7 +14,7 @@ import mcplan as mp
 
 VELOCITY_MAX, MOMENTUM_MAX, RATE_MAX = 1.5, 2.5, 3.5  # m/s, kg m^2/s, N m, each component
 DURATIONS = {2: (0.1, 0.3), 1: (0.8, 1.2)}  # s, by the number of feet in contact
-COM_HEIGHT = (0.91, 1.15)  # of the CoM over a foot, as shares of the robot's
+COM_HEIGHT = (0.87, 1.15)  # of the CoM over a foot, as shares of the robot's
 SOLE_SHARE = 0.80  # of a sole, between the points of its forces
 GAUSS_X, GAUSS_W = np.polynomial.legendre.leggauss(3)  # exact to degree 5
 
