@@ -45,3 +45,23 @@ def test_humanoids_walk_with_their_soles_on_the_surfaces(robot, scene, scale, be
 
 def test_soles_hang_over_edges_unless_asked_to_stay_inside():
     assert sole_beyond_its_surface(mp.plan("stairs", "talos", sole_inside=0.0).plan) > 0.08
+
+
+@pytest.mark.parametrize("height", [0.08, 0.12])
+def test_a_kerb_is_climbed_with_room_for_the_toe(height):
+    """Its riser stands where the road ends: a sole that ends there, too, would catch it on the way up."""
+
+    def level(name, start, end, z):
+        return mp.Surface(
+            name=name, vertices_W=[[start, -1, z], [end, -1, z], [end, 1, z], [start, 1, z]], thickness=0.12
+        )
+
+    scene = mp.Scene(
+        name="kerb",
+        surfaces=[level("road", -1.0, 0.4, 0.0), level("kerb", 0.4, 2.0, height)],
+        start=mp.Stance(contacts={"foot": "road"}),
+        goal=mp.Stance(position_W=[1.0, 0.0, height], contacts={"foot": "kerb"}),
+    )
+    result = mp.plan(scene, "talos")
+    assert str(result.report.status) == "solved", result.report.message
+    assert sole_beyond_its_surface(result.plan) < 1e-3

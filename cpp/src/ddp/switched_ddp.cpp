@@ -29,6 +29,8 @@ constexpr double kSecondDiscovery = 4.0;
 /// How much further inside footholds go, each time a swing has caught an edge: a share of the longest half sole, so
 /// that the second time the whole sole stands clear of the next riser.
 constexpr double kClearanceShare = 0.6, kClearanceLeast_m = 0.04;
+// Where soles are kept on their surface anyway, a toe's room is enough.
+constexpr double kToeRoom_m = 0.03;
 /// A violation within this factor of its tolerance is called acceptable, beyond it infeasible.
 constexpr double kAcceptable = 10.0;
 /// Iterations of Method::paper: the paper counts about 50 to convergence and reports averages over 100.
@@ -202,10 +204,11 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
         std::vector<Guess> others{{again, proximal}};
         // A foot too close to the next step catches it with its toe: the same motion with footholds further inside.
         if (run.best && run.best->worst.name == "clearance" && !run.last.sequence.empty()) {
-          double sole_m = kClearanceLeast_m;
+          const double on_surface = options.sole_inside < 0.0 ? robot.sole_support : options.sole_inside;
+          double further_m = on_surface >= 1.0 ? kToeRoom_m : kClearanceLeast_m;
           for (const EndEffector& end : robot.end_effectors)
-            sole_m = std::max(sole_m, kClearanceShare * end.half_size.maxCoeff());
-          run.problem.edge_margin += sole_m / p.units.length;
+            if (on_surface < 1.0) further_m = std::max(further_m, kClearanceShare * end.half_size.maxCoeff());
+          run.problem.edge_margin += further_m / p.units.length;
           others.insert(others.begin(), Guess{run.last});
         }
         status = run.attempt(std::move(others));
