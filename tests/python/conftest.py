@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import importlib.util
 import signal
 from collections.abc import Iterator
 
 import pytest
+
+if importlib.util.find_spec("proxsuite") is not None:
+    # Who imports it first chooses its build for the whole process: mcplan, before a test asks if it is there.
+    from mcplan.tracking import proxqp
+
+    proxqp.load()
 
 
 @pytest.fixture
