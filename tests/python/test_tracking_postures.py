@@ -10,6 +10,7 @@ pytest.importorskip("example_robot_data")
 
 from mcplan.kinematics.inverse_kinematics import follow  # noqa: E402
 from mcplan.kinematics.samples import sample  # noqa: E402
+from mcplan.kinematics.smooth_postures import running_means  # noqa: E402
 from mcplan.tracking.postures import RATE, postures_along  # noqa: E402
 
 DT = 0.01
@@ -22,23 +23,24 @@ def case():
     return plan, loaded, postures_along(loaded, plan, count, DT)
 
 
-def test_com_and_feet_are_where_the_plan_has_them(case):
+def test_com_and_feet_are_about_where_the_plan_has_them(case):
+    """They are what to stay near to: running means that need not meet the plan."""
     plan, loaded, found = case
     data = loaded.model.createData()
     for n in range(0, round(plan.duration() / DT), 7):
         state = plan.at(n * DT)
         pin.framesForwardKinematics(loaded.model, data, found[n])
         com = pin.centerOfMass(loaded.model, data, found[n])
-        np.testing.assert_allclose(com, state.com_W, atol=0.01)
+        np.testing.assert_allclose(com, state.com_W, atol=0.05)
         for frame, end in zip(loaded.frames, state.end_effectors, strict=True):
             if end.surface >= 0:
-                np.testing.assert_allclose(data.oMf[frame].translation, end.position_W, atol=0.005)
+                np.testing.assert_allclose(data.oMf[frame].translation, end.position_W, atol=0.10)
 
 
-def test_they_pass_through_those_of_inverse_kinematics_at_its_rate(case):
+def test_they_are_running_means_of_those_of_inverse_kinematics(case):
     plan, loaded, found = case
     samples = sample(plan, plan.scene, plan.robot, RATE)
-    exact = follow(loaded, samples).configurations
+    exact = running_means(loaded, samples.times_s, follow(loaded, samples).configurations)
     step = samples.times_s[1] - samples.times_s[0]
     for k in range(0, len(exact), 5):
         n = round(k * step / DT)
