@@ -13,6 +13,7 @@ import pytest
 
 import malformed
 import mcplan as mp
+from command_line import one_line_error
 from mcplan.cli import main
 from mcplan.files.motions import list_motions, load_motion
 from mcplan.files.planar_robots import list_planar_robots, load_planar_robot
@@ -29,13 +30,6 @@ def run(capsys, *words) -> tuple[int, str, str]:
     code = main([str(word) for word in words])
     out, err = capsys.readouterr()
     return code, out, err
-
-
-def one_line_error(result: tuple[int, str, str]) -> str:
-    code, out, err = result
-    assert code == 2 and out == ""
-    assert err.startswith("error: ") and err.count("\n") == 1 and "Traceback" not in err
-    return err[len("error: ") : -1]
 
 
 @pytest.mark.parametrize("verb", VERBS)

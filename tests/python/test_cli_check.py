@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
-
 import pytest
 
 import mcplan as mp
+from command_line import one_line_error, strict
 from mcplan.cli import main
 from standing import standing_plan
 
@@ -18,17 +17,6 @@ def run(capsys, *words) -> tuple[int, str, str]:
     code = main([str(word) for word in words])
     out, err = capsys.readouterr()
     return code, out, err
-
-
-def one_line_error(result: tuple[int, str, str]) -> str:
-    code, out, err = result
-    assert code == 2 and out == ""
-    assert err.startswith("error: ") and err.count("\n") == 1 and "Traceback" not in err
-    return err[len("error: ") : -1]
-
-
-def strict(text: str) -> dict:
-    return json.loads(text, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
 
 
 @pytest.fixture

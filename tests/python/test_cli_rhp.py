@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
-
 import pytest
 
 import mcplan as mp
+from command_line import one_line_error, strict
 from mcplan.cli import main
 
 PER_CYCLE = {"status", "iterations", "time_s", "evaluation_s", "linear_solver_s", "variables", "constraints", "cost"}
@@ -21,17 +20,6 @@ def run(capsys, *words) -> tuple[int, str, str]:
     code = main(["rhp", *(str(word) for word in words)])
     out, err = capsys.readouterr()
     return code, out, err
-
-
-def one_line_error(result: tuple[int, str, str]) -> str:
-    code, out, err = result
-    assert code == 2 and out == ""
-    assert err.startswith("error: ") and err.count("\n") == 1 and "Traceback" not in err
-    return err[len("error: ") : -1]
-
-
-def strict(text: str) -> dict:
-    return json.loads(text, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
 
 
 def test_json_holds_every_figure_and_nothing_else_is_printed(capsys, tmp_path):

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import signal
 
 import pytest
 
 import mcplan as mp
+from command_line import one_line_error, strict
 from mcplan.cli import main
 from mcplan.cli.sip_text import Progress, iteration_state
 
@@ -22,17 +22,6 @@ def run(capsys, *words, verb: str = "sip") -> tuple[int, str, str]:
     code = main([verb, *(str(word) for word in words)])
     out, err = capsys.readouterr()
     return code, out, err
-
-
-def one_line_error(result: tuple[int, str, str]) -> str:
-    code, out, err = result
-    assert code == 2 and out == ""
-    assert err.startswith("error: ") and err.count("\n") == 1 and "Traceback" not in err
-    return err[len("error: ") : -1]
-
-
-def strict(text: str) -> dict:
-    return json.loads(text, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
 
 
 @pytest.fixture(scope="module")

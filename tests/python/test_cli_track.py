@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import signal
 from dataclasses import fields
 
@@ -10,6 +9,7 @@ import pytest
 
 import mcplan as mp
 import tracked_cartwheel
+from command_line import one_line_error, strict
 from mcplan.cli import main
 from mcplan.cli.track_text import Progress
 from mcplan.tracking import Measures, Recording, TrackingResult
@@ -27,17 +27,6 @@ def run(capsys, *words) -> tuple[int, str, str]:
     code = main(["track", *(str(word) for word in words)])
     out, err = capsys.readouterr()
     return code, out, err
-
-
-def one_line_error(result: tuple[int, str, str]) -> str:
-    code, out, err = result
-    assert code == 2 and out == ""
-    assert err.startswith("error: ") and err.count("\n") == 1 and "Traceback" not in err
-    return err[len("error: ") : -1]
-
-
-def strict(text: str) -> dict:
-    return json.loads(text, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
 
 
 def keys(measures: type) -> set[str]:
