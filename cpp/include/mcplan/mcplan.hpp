@@ -6,6 +6,7 @@
 #include "mcplan/base/logging.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "mcplan/base/status.hpp"
+#include "mcplan/base/turning.hpp"
 #include "mcplan/ddp/contact_sequence.hpp"
 #include "mcplan/ddp/costs/costs.hpp"
 #include "mcplan/ddp/edits.hpp"

@@ -17,12 +17,13 @@ double series(double z, int n) {
 }  // namespace
 
 EntireFunctions::EntireFunctions(double z) {
-  // F_4 by division loses digits like 1/z^2, so the series reaches as far as z = 0.7.
+  // F_4 and F_5 by division lose digits like 1/z^2, so the series reaches as far as z = 0.7.
   constexpr double kSeriesRange = 0.7;
   if (std::abs(z) < kSeriesRange) {
     // Downward recurrence F_n = 1/n! + z F_{n+2}: no cancellation for positive z, harmless for |z| < 1.
+    values_[5] = series(z, 5);
     values_[4] = series(z, 4);
-    values_[3] = series(z, 3);
+    values_[3] = 1.0 / 6.0 + z * values_[5];
     values_[2] = 0.5 + z * values_[4];
     values_[1] = 1.0 + z * values_[3];
     values_[0] = 1.0 + z * values_[2];
@@ -42,6 +43,7 @@ EntireFunctions::EntireFunctions(double z) {
   }
   values_[3] = (values_[1] - 1.0) / z;
   values_[4] = (values_[2] - 0.5) / z;
+  values_[5] = (values_[3] - 1.0 / 6.0) / z;
 }
 
 }  // namespace mcplan

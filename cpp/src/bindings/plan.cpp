@@ -14,6 +14,8 @@ void bind_force_law(py::module_& m) {
       .value("pendulum", ForceLaw::pendulum, "f(t) = mass stiffness (com(t) - anchor): the multi-contact pendulum.")
       .value("held", ForceLaw::held, "Forces at points, constant over each of `intervals` equal intervals.")
       .value("linear", ForceLaw::linear, "Forces at points, linear over each of `intervals` equal intervals.")
+      .value("wrench", ForceLaw::wrench,
+             "f(t) = mass stiffness (com(t) - anchor), acting at center_of_pressure, with a moment about the normal.")
       .def(
           "__repr__", [](ForceLaw law) { return "ForceLaw." + std::string(py::str(py::cast(law).attr("name"))); },
           py::prepend());
@@ -22,20 +24,23 @@ void bind_force_law(py::module_& m) {
 void bind_phases(py::module_& m) {
   py::class_<Contact> contact(
       m, "Contact",
-      "What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor), or "
-      "forces at points where the phase's law says so.");
-  contact.def(py::init([](int surface, double stiffness, const Vector3d& anchor_W, const Vector3d& moment_W,
-                          const py::object& points_W, const py::object& point_forces_W) {
-                return Contact{surface,
-                               stiffness,
-                               anchor_W,
-                               moment_W,
-                               points_from(points_W, "points_W"),
-                               points_from(point_forces_W, "point_forces_W")};
-              }),
-              py::kw_only(), py::arg("surface") = -1, py::arg("stiffness") = 0.0,
-              py::arg("anchor_W") = Vector3d(Vector3d::Zero()), py::arg("moment_W") = Vector3d(Vector3d::Zero()),
-              py::arg("points_W") = py::tuple(), py::arg("point_forces_W") = py::tuple());
+      "What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor), acting at the anchor or, "
+      "under ForceLaw.wrench, at center_of_pressure, or forces at points where the phase's law says so.");
+  contact.def(
+      py::init([](int surface, double stiffness, const Vector3d& anchor_W, const Vector3d& moment_W,
+                  const py::object& points_W, const py::object& point_forces_W, const Vector3d& center_of_pressure_W) {
+        return Contact{surface,
+                       stiffness,
+                       anchor_W,
+                       moment_W,
+                       points_from(points_W, "points_W"),
+                       points_from(point_forces_W, "point_forces_W"),
+                       center_of_pressure_W};
+      }),
+      py::kw_only(), py::arg("surface") = -1, py::arg("stiffness") = 0.0,
+      py::arg("anchor_W") = Vector3d(Vector3d::Zero()), py::arg("moment_W") = Vector3d(Vector3d::Zero()),
+      py::arg("points_W") = py::tuple(), py::arg("point_forces_W") = py::tuple(),
+      py::arg("center_of_pressure_W") = Vector3d(Vector3d::Zero()));
   contact.def_readwrite("surface", &Contact::surface, "Index into scene.surfaces, -1: free.");
   contact.def_readwrite("stiffness", &Contact::stiffness, "mu [1/s^2], 0 when free.");
   def_vector(contact, "anchor_W", &Contact::anchor_W, "Point through which the line of force passes [m].");
@@ -43,7 +48,10 @@ void bind_phases(py::module_& m) {
   def_points(contact, "points_W", &Contact::points_W, "N x 3 [m], where forces act, e.g. the corners of the sole.");
   def_points(contact, "point_forces_W", &Contact::point_forces_W,
              "[N] node by node, a row for each point: (Phase.node_count() N) x 3.");
-  def_value(contact, "Contact", {"surface", "stiffness", "anchor_W", "moment_W", "points_W", "point_forces_W"});
+  def_vector(contact, "center_of_pressure_W", &Contact::center_of_pressure_W,
+             "Where the force acts under ForceLaw.wrench [m].");
+  def_value(contact, "Contact",
+            {"surface", "stiffness", "anchor_W", "moment_W", "points_W", "point_forces_W", "center_of_pressure_W"});
 
   py::class_<Phase> phase(m, "Phase", "A stretch of time with constant contacts.");
   phase.def(py::init([](double duration, std::vector<Contact> contacts, ForceLaw law, int intervals) {
@@ -54,9 +62,9 @@ void bind_phases(py::module_& m) {
   phase.def_readwrite("duration", &Phase::duration, "[s]");
   def_items(phase, "contacts", &Phase::contacts, "One Contact per end-effector.");
   phase.def_readwrite("law", &Phase::law, "How forces depend on time.");
-  phase.def_readwrite("intervals", &Phase::intervals, "Of the forces at points, equally long; 0 for the pendulum.");
+  phase.def_readwrite("intervals", &Phase::intervals, "Of the forces at points, equally long; 0 where there are none.");
   phase.def("node_count", &Phase::node_count,
-            "Instants at which forces are given: `intervals` when held, one more when linear, 0 for the pendulum.");
+            "Instants at which forces are given: `intervals` when held, one more when linear, 0 without such.");
   def_value(phase, "Phase", {"duration", "contacts", "law", "intervals"});
 }
 
@@ -65,18 +73,20 @@ void bind_knot(py::module_& m) {
   const Vector3d zero = Vector3d::Zero();
   knot.def(py::init([](const Vector3d& com_W, const Vector3d& com_velocity_W, const Vector3d& base_rpy,
                        const Vector3d& base_rpy_rate, const py::object& end_effectors_W, const py::object& velocities_W,
-                       const Vector3d& angular_momentum_W) {
+                       const Vector3d& angular_momentum_W, std::vector<double> end_effector_yaw) {
              return Knot{com_W,
                          com_velocity_W,
                          base_rpy,
                          base_rpy_rate,
                          points_from(end_effectors_W, "end_effectors_W"),
                          points_from(velocities_W, "end_effector_velocities_W"),
-                         angular_momentum_W};
+                         angular_momentum_W,
+                         std::move(end_effector_yaw)};
            }),
            py::kw_only(), py::arg("com_W") = zero, py::arg("com_velocity_W") = zero, py::arg("base_rpy") = zero,
            py::arg("base_rpy_rate") = zero, py::arg("end_effectors_W") = py::tuple(),
-           py::arg("end_effector_velocities_W") = py::tuple(), py::arg("angular_momentum_W") = zero);
+           py::arg("end_effector_velocities_W") = py::tuple(), py::arg("angular_momentum_W") = zero,
+           py::arg("end_effector_yaw") = std::vector<double>());
   def_vector(knot, "com_W", &Knot::com_W, "[m]");
   def_vector(knot, "com_velocity_W", &Knot::com_velocity_W, "[m/s]");
   def_vector(knot, "base_rpy", &Knot::base_rpy, "Roll, pitch, yaw of the base [rad].");
@@ -85,9 +95,11 @@ void bind_knot(py::module_& m) {
   def_points(knot, "end_effector_velocities_W", &Knot::end_effector_velocities_W, "[m/s], zero at contacts.");
   def_vector(knot, "angular_momentum_W", &Knot::angular_momentum_W,
              "About the CoM [kg m^2/s]; not looked at under ForceLaw.pendulum, whose base carries it.");
+  knot.def_readwrite("end_effector_yaw", &Knot::end_effector_yaw,
+                     "Heading of each sole [rad]; empty: all head where the base does.");
   def_value(knot, "Knot",
             {"com_W", "com_velocity_W", "base_rpy", "base_rpy_rate", "end_effectors_W", "end_effector_velocities_W",
-             "angular_momentum_W"});
+             "angular_momentum_W", "end_effector_yaw"});
 }
 
 void bind_swing(py::module_& m) {
@@ -116,6 +128,9 @@ void bind_state(py::module_& m) {
   end.def_readonly("velocity_W", &EndEffectorState::velocity_W, "[m/s]");
   end.def_readonly("force_W", &EndEffectorState::force_W, "Contact force on the robot [N], zero when free.");
   end.def_readonly("moment_W", &EndEffectorState::moment_W, "Contact moment on the robot [N m], zero when free.");
+  end.def_readonly("center_of_pressure_W", &EndEffectorState::center_of_pressure_W,
+                   "Where the force acts [m]; position_W when free.");
+  end.def_readonly("yaw", &EndEffectorState::yaw, "Heading of the sole [rad].");
   const auto def_rows = [&end](const char* name, std::vector<Vector3d> EndEffectorState::*member, const char* doc) {
     end.def_property_readonly(
         name, [member](py::object self) { return points_view(self.cast<EndEffectorState&>().*member, self); }, doc);
@@ -123,7 +138,8 @@ void bind_state(py::module_& m) {
   def_rows("points_W", &EndEffectorState::points_W, "N x 3 [m], where the law has forces at points.");
   def_rows("point_forces_W", &EndEffectorState::point_forces_W, "N x 3, force on the robot at each point [N].");
   def_value(end, "EndEffectorState",
-            {"surface", "position_W", "velocity_W", "force_W", "moment_W", "points_W", "point_forces_W"});
+            {"surface", "position_W", "velocity_W", "force_W", "moment_W", "center_of_pressure_W", "yaw", "points_W",
+             "point_forces_W"});
 
   py::class_<PlanState> state(m, "PlanState", "The robot at an instant.");
   state.def_readonly("time", &PlanState::time, "[s]");

@@ -82,7 +82,7 @@ struct Problem {
   std::vector<std::vector<FreeStretch>> stretches;  ///< per end-effector
   std::vector<double> knot_times;
 
-  bool has_points(int k) const { return plan.phases[k].law != ForceLaw::pendulum; }
+  bool has_points(int k) const { return plan.phases[k].has_points(); }
   int phase_count() const { return static_cast<int>(plan.phases.size()); }
   int end_effector_count() const { return static_cast<int>(robot.end_effectors.size()); }
 

@@ -24,7 +24,7 @@ void require_surface(const std::string& field, int surface, const Scene& scene) 
 }
 
 void require_points(const Phase& phase, const std::string& field) {
-  const bool has_points = phase.law != ForceLaw::pendulum;
+  const bool has_points = phase.has_points();
   constexpr int kMost = 100000;
   if (has_points ? phase.intervals < 1 || phase.intervals > kMost : phase.intervals != 0)
     throw InvalidPlan(field + ".intervals",

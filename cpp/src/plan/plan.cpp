@@ -7,6 +7,7 @@
 #include "mcplan/base/entire_functions.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/base/rotation.hpp"
+#include "mcplan/base/turning.hpp"
 #include "mcplan/plan/point_forces.hpp"
 
 namespace mcplan {
@@ -28,6 +29,13 @@ struct Hermite {
     velocity = blend_rate / h * (p1 - p0) + in0_rate * v0 + in1_rate * v1;
   }
 };
+
+/// Heading of a sole at s in [0, 1] of a phase: smooth between the knots, at rest there.
+double sole_yaw(const Knot& from, const Knot& to, std::size_t l, double s, double base_yaw) {
+  if (from.end_effector_yaw.size() <= l || to.end_effector_yaw.size() <= l) return base_yaw;
+  const double blend = s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
+  return from.end_effector_yaw[l] + blend * (to.end_effector_yaw[l] - from.end_effector_yaw[l]);
+}
 
 double swing_duration(const Plan& plan, const Swing& swing, double* until_phase, int phase) {
   double total = 0.0;
@@ -116,6 +124,47 @@ void pendulum_motion(const Plan& plan, const Phase& phase, const Knot& from, dou
     const Contact& contact = phase.contacts[l];
     state.end_effectors[l].force_W = plan.robot.mass * contact.stiffness * (state.com_W - contact.anchor_W);
     state.end_effectors[l].moment_W = contact.moment_W;
+    if (contact.surface >= 0) state.end_effectors[l].center_of_pressure_W = contact.anchor_W;
+  }
+}
+
+/// The pendulum about s_l with forces that act at a_l. With P(t) the integral of the CoM's position and rho = sum mu_l
+/// r_l, r_l = s_l - a_l,
+///
+///     L(t) = L + m (P(t) x rho - t sum mu_l a_l x r_l) + t sum tau_l
+void wrench_motion(const Plan& plan, const Phase& phase, const Knot& from, double tau, PlanState& state) {
+  const double mass = plan.robot.mass;
+  double stiffness = 0.0;
+  Vector3d pull(0.0, 0.0, plan.scene.gravity), rho = Vector3d::Zero(), steady = Vector3d::Zero();
+  for (const Contact& contact : phase.contacts) {
+    const Vector3d line = contact.anchor_W - contact.center_of_pressure_W;
+    stiffness += contact.stiffness;
+    pull += contact.stiffness * contact.anchor_W;
+    rho += contact.stiffness * line;
+    steady += contact.moment_W / mass - contact.stiffness * contact.center_of_pressure_W.cross(line);
+  }
+  const Vector3d acceleration = stiffness * from.com_W - pull;
+  const auto momentum_at = [&](double t, const EntireFunctions& f) -> Vector3d {
+    const Vector3d travelled = t * from.com_W + t * t * (f(2) * from.com_velocity_W + t * f(3) * acceleration);
+    return from.angular_momentum_W + mass * (travelled.cross(rho) + t * steady);
+  };
+  const EntireFunctions f(stiffness * tau * tau), half(0.25 * stiffness * tau * tau);
+  state.com_W = from.com_W + tau * f(1) * from.com_velocity_W + tau * tau * f(2) * acceleration;
+  state.com_velocity_W = f(0) * from.com_velocity_W + tau * f(1) * acceleration;
+  state.com_acceleration_W = stiffness * state.com_W - pull;
+  state.angular_momentum_W = momentum_at(tau, f);
+  state.base_rpy = turned_rpy(from.base_rpy, from.angular_momentum_W, momentum_at(0.5 * tau, half),
+                              state.angular_momentum_W, plan.robot.inertia, tau);
+  state.base_rpy_rate = rpy_rate(state.base_rpy, state.angular_momentum_W, plan.robot.inertia);
+
+  for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
+    const Contact& contact = phase.contacts[l];
+    EndEffectorState& end = state.end_effectors[l];
+    end.force_W = mass * contact.stiffness * (state.com_W - contact.anchor_W);
+    end.moment_W = contact.moment_W;
+    if (contact.surface < 0) continue;
+    end.center_of_pressure_W = contact.center_of_pressure_W;
+    end.moment_W += (contact.center_of_pressure_W - from.end_effectors_W[l]).cross(end.force_W);
   }
 }
 
@@ -203,8 +252,12 @@ PlanState Plan::at_phase(int k, double since_start) const {
   state.time += tau;
 
   state.end_effectors.resize(phase.contacts.size());
+  for (std::size_t l = 0; l < phase.contacts.size(); ++l)
+    state.end_effectors[l].center_of_pressure_W = from.end_effectors_W[l];
   if (phase.law == ForceLaw::pendulum)
     pendulum_motion(*this, phase, from, tau, state);
+  else if (phase.law == ForceLaw::wrench)
+    wrench_motion(*this, phase, from, tau, state);
   else
     point_force_motion(*this, phase, from, to, tau, state);
   state.base_quat_wxyz = quat_wxyz_from_rpy(state.base_rpy);
@@ -216,6 +269,8 @@ PlanState Plan::at_phase(int k, double since_start) const {
                        to.end_effector_velocities_W[l], phase.duration, tau / phase.duration);
     end.position_W = path.position;
     end.velocity_W = path.velocity;
+    if (end.surface < 0) end.center_of_pressure_W = end.position_W;
+    end.yaw = sole_yaw(from, to, l, tau / phase.duration, state.base_rpy.z());
   }
   for (const Swing& swing : swings) {
     if (k < swing.first_phase || k >= swing.end_phase) continue;

@@ -33,7 +33,7 @@ void validate_contact(const Phase& phase, const Contact& contact, int surfaces, 
     throw InvalidPlan(field, "must be finite numbers", "nan or inf");
 
   const int points = static_cast<int>(contact.points_W.size());
-  if (points > 0 && phase.law == ForceLaw::pendulum)
+  if (points > 0 && !phase.has_points())
     throw InvalidPlan(field + ".points", "must be none under the pendulum's force law", text(points));
   if (points > 0 && contact.surface < 0)
     throw InvalidPlan(field + ".points", "must be none at a free end-effector", text(points));
@@ -41,7 +41,7 @@ void validate_contact(const Phase& phase, const Contact& contact, int surfaces, 
   if (static_cast<int>(contact.point_forces_W.size()) != wanted)
     throw InvalidPlan(field + ".point_forces", "must be one per node and point (" + text(wanted) + ")",
                       text(static_cast<int>(contact.point_forces_W.size())));
-  if (phase.law == ForceLaw::pendulum) return;
+  if (!phase.has_points()) return;
   if (contact.stiffness != 0.0)
     throw InvalidPlan(field + ".stiffness", "must be 0 where forces act at points", text(contact.stiffness));
   if (contact.anchor_W != Vector3d::Zero())
@@ -56,9 +56,9 @@ void validate_phase(const Phase& phase, int ends, int surfaces, const std::strin
   if (static_cast<int>(phase.contacts.size()) != ends)
     throw InvalidPlan(field + ".contacts", "must be one per end-effector (" + text(ends) + ")",
                       text(static_cast<int>(phase.contacts.size())));
-  if (phase.law == ForceLaw::pendulum && phase.intervals != 0)
+  if (!phase.has_points() && phase.intervals != 0)
     throw InvalidPlan(field + ".intervals", "must be 0 under the pendulum's force law", text(phase.intervals));
-  if (phase.law != ForceLaw::pendulum && phase.intervals < 1)
+  if (phase.has_points() && phase.intervals < 1)
     throw InvalidPlan(field + ".intervals", "must be at least 1 where forces act at points", text(phase.intervals));
   for (int l = 0; l < ends; ++l)
     validate_contact(phase, phase.contacts[l], surfaces, field + ".contacts[" + std::to_string(l) + "]");

@@ -14,18 +14,24 @@ enum class ForceLaw {
   pendulum,  ///< f_l(t) = m mu_l (p(t) - s_l): the multi-contact pendulum (Tazaki, sec. II, eq. 5, mu = lambda^2)
   held,      ///< forces at points, constant over each of `intervals` equal intervals
   linear,    ///< forces at points, linear over each of `intervals` equal intervals: the CoM is cubic, L of degree 4
+  wrench,    ///< f_l(t) = m mu_l (p(t) - s_l), acting at a_l, with a moment about the normal: a pendulum with contacts
+             ///< as they are, whose forces need not point at the CoM (docs/theory/ddp.md, "Contact wrenches")
 };
 
-/// What one end-effector does during one phase. Under ForceLaw::pendulum stiffness, anchor and moment say its force;
-/// otherwise the forces at its points do, and those three stay zero.
+/// What one end-effector does during one phase. Under ForceLaw::pendulum stiffness, anchor and moment say its force,
+/// under ForceLaw::wrench these and the centre of pressure; otherwise the forces at its points do, and those four stay
+/// zero.
 struct Contact {
   int surface = -1;                                    ///< index into scene.surfaces, -1: free
   double stiffness = 0.0;                              ///< mu_l [1/s^2], 0 when free
   Eigen::Vector3d anchor_W = Eigen::Vector3d::Zero();  ///< s_l [m], through which the line of force passes
-  Eigen::Vector3d moment_W = Eigen::Vector3d::Zero();  ///< contact moment [N m], constant over the phase
+  Eigen::Vector3d moment_W = Eigen::Vector3d::Zero();  ///< contact moment [N m], constant over the phase; along the
+                                                       ///< surface's normal under ForceLaw::wrench
   std::vector<Eigen::Vector3d> points_W;               ///< [m] where forces act, e.g. the corners of the sole
   std::vector<Eigen::Vector3d>
       point_forces_W;  ///< [N] node by node, a force for each point: Phase::node_count() x points
+  Eigen::Vector3d center_of_pressure_W =
+      Eigen::Vector3d::Zero();  ///< a_l [m], where the force acts under ForceLaw::wrench
 };
 
 /// A stretch of time with constant contacts.
@@ -33,10 +39,13 @@ struct Phase {
   double duration = 0.0;          ///< [s]
   std::vector<Contact> contacts;  ///< one per end-effector
   ForceLaw law = ForceLaw::pendulum;
-  int intervals = 0;  ///< of the forces at points, equally long; 0 under ForceLaw::pendulum
+  int intervals = 0;  ///< of the forces at points, equally long; 0 where there are none
+
+  /// Whether forces act at points, not as one force that follows the CoM.
+  bool has_points() const { return law == ForceLaw::held || law == ForceLaw::linear; }
 
   /// Instants at which forces are given: `intervals` when held (at the begin of each), one more when linear.
-  int node_count() const { return law == ForceLaw::pendulum ? 0 : intervals + (law == ForceLaw::linear ? 1 : 0); }
+  int node_count() const { return has_points() ? intervals + (law == ForceLaw::linear ? 1 : 0) : 0; }
 };
 
 /// State at the instant between two phases.
@@ -48,6 +57,7 @@ struct Knot {
   std::vector<Eigen::Vector3d> end_effectors_W;                  ///< [m]
   std::vector<Eigen::Vector3d> end_effector_velocities_W;        ///< [m/s], zero at contacts
   Eigen::Vector3d angular_momentum_W = Eigen::Vector3d::Zero();  ///< about the CoM [kg m^2/s]; see Plan
+  std::vector<double> end_effector_yaw;  ///< heading of each sole [rad]; empty: all head where the base does
 };
 
 /// A stretch of phases in which an end-effector is free. Its path is the C2 quintic spline through the knots (zero
@@ -63,11 +73,13 @@ struct Swing {
 
 /// An end-effector at an instant.
 struct EndEffectorState {
-  int surface = -1;            ///< index into scene.surfaces, -1: free
-  Eigen::Vector3d position_W;  ///< [m]
-  Eigen::Vector3d velocity_W;  ///< [m/s]
-  Eigen::Vector3d force_W;     ///< contact force on the robot [N], zero when free
-  Eigen::Vector3d moment_W;    ///< contact moment on the robot about position_W [N m], zero when free
+  int surface = -1;                      ///< index into scene.surfaces, -1: free
+  Eigen::Vector3d position_W;            ///< [m]
+  Eigen::Vector3d velocity_W;            ///< [m/s]
+  Eigen::Vector3d force_W;               ///< contact force on the robot [N], zero when free
+  Eigen::Vector3d moment_W;              ///< contact moment on the robot about position_W [N m], zero when free
+  Eigen::Vector3d center_of_pressure_W;  ///< where the force acts [m]; position_W when free
+  double yaw = 0.0;                      ///< heading of the sole [rad]
   std::vector<Eigen::Vector3d> points_W, point_forces_W;  ///< [m], [N] where the law has forces at points
 };
 
@@ -89,7 +101,10 @@ struct PlanState {
 ///
 ///     L' = sum_i (p_i - p) x f_i,
 ///
-/// and the base follows the quintic through its knots, since the limbs carry what the base does not.
+/// and the base follows the quintic through its knots, since the limbs carry what the base does not. Under
+/// ForceLaw::wrench the angular momentum is a state, too, and turns the base, as a rigid body, by any angle:
+///
+///     L' = sum_l ((a_l - p) x f_l + tau_l),   theta' = E(theta) R I^-1 R^T L.
 class Plan {
  public:
   Scene scene;
