@@ -153,8 +153,8 @@ void wrench_motion(const Plan& plan, const Phase& phase, const Knot& from, doubl
   state.com_velocity_W = f(0) * from.com_velocity_W + tau * f(1) * acceleration;
   state.com_acceleration_W = stiffness * state.com_W - pull;
   state.angular_momentum_W = momentum_at(tau, f);
-  state.base_rpy = turned_rpy(from.base_rpy, from.angular_momentum_W, momentum_at(0.5 * tau, half),
-                              state.angular_momentum_W, plan.robot.inertia, tau);
+  state.base_rpy = Turning(from.base_rpy, from.angular_momentum_W, plan.robot.inertia)
+                       .rpy(momentum_at(0.5 * tau, half), state.angular_momentum_W, tau);
   state.base_rpy_rate = rpy_rate(state.base_rpy, state.angular_momentum_W, plan.robot.inertia);
 
   for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
