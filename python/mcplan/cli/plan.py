@@ -74,6 +74,7 @@ def plan(
 def summary(result: PlanResult) -> dict[str, Any]:
     """What ``--json`` prints."""
     from mcplan.cli.check import finite, violation_dict
+    from mcplan.cli.loads_text import load_dict
 
     plan, report = result.plan, result.report
     names = [surface.name for surface in plan.scene.surfaces]
@@ -97,6 +98,7 @@ def summary(result: PlanResult) -> dict[str, Any]:
         "final_contacts": [names[i] if i >= 0 else None for i in plan.final_contacts],
         "flight_phases": flight_phases(sequence),
         "friction_use": {name: finite(value) for name, value in report.friction_use.items()},
+        **load_dict(plan),
         "worst_violation": {
             key: worst[key] for key in ("name", "phase", "end_effector", "time_s", "value", "tolerance", "unit")
         },
@@ -113,6 +115,8 @@ def flight_phases(sequence: list[list[int]]) -> int:
 
 def report_text(result: PlanResult, written: list[Path | None]) -> str:
     """What is printed without ``--json``: how it ended, the steps, what was saved."""
+    from mcplan.cli.loads_text import friction_text, load_lines
+
     plan, report = result.plan, result.report
     lead = f"{plan.scene.name}  {plan.robot.name}  "
     took = f"{report.time_s:.3f} s ({report.iterations} iterations)"
@@ -128,8 +132,8 @@ def report_text(result: PlanResult, written: list[Path | None]) -> str:
         lines.append(f"{' ' * len(lead)}{label}: {report.worst_violation}")
     lines += contact_rows(plan)
     if report.friction_use:
-        used = ", ".join(f"{name} {value:.2f}" for name, value in report.friction_use.items())
-        lines.append(f"  friction used (tangential / normal): {used}")
+        lines.append(friction_text(report.friction_use))
+    lines += load_lines(plan)
     files = [str(path) for path in written if path is not None]
     if files:
         lines.append(f"Saved {', '.join(files)}" + ("" if solved else f", with status {report.status}"))
