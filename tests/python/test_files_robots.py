@@ -24,6 +24,7 @@ def test_the_data_that_are_broken_below_are_valid(tmp_path):
     assert [end.kind for end in robot.end_effectors] == ["foot", "hand"]
     assert robot.end_effectors[1].max_force == float("inf")
     assert dict(robot.posture) == {"knee": 0.3}
+    assert [end.yaw_range.tolist() for end in robot.end_effectors] == [[-0.4, 0.6], [-np.inf, np.inf]]
 
 
 @pytest.mark.parametrize("case", malformed.ROBOT_BREAKS, ids=malformed.label)
@@ -106,6 +107,25 @@ def test_phase_durations_and_sole_support_are_written_where_they_are_not_the_def
     again = load_robot(tmp_path / "slow.toml")
     assert (again.phase_duration.tolist(), again.sole_support) == ([0.25, 0.75], 0.6)
     assert tomllib.loads((tmp_path / "slow.toml").read_text())["phase_duration"] == [0.25, 0.75]
+
+
+def test_the_range_of_a_soles_heading_survives_file_dict_pickle_and_repr_and_is_left_out_where_it_is_any(tmp_path):
+    robot = load_robot("humanoid44")
+    foot, hand = robot.end_effectors[0], robot.end_effectors[2]
+    foot.yaw_range = [-0.25, 0.5]
+    data = robot_to_dict(robot)
+    assert data["end_effectors"][0]["yaw_range"] == [-0.25, 0.5]
+    assert "yaw_range" not in data["end_effectors"][2] and hand.yaw_range.tolist() == [-np.inf, np.inf]
+    save_robot(robot, tmp_path / "turning.toml")
+    assert tomllib.loads((tmp_path / "turning.toml").read_text())["end_effectors"][0]["yaw_range"] == [-0.25, 0.5]
+    for other in (
+        load_robot(tmp_path / "turning.toml"),
+        robot_from_dict(json.loads(json.dumps(data))),
+        pickle.loads(pickle.dumps(robot)),
+        eval(repr(robot), vars(mp)),
+    ):
+        assert robot_to_dict(other) == data
+        assert other.end_effectors[2].yaw_range.tolist() == [-np.inf, np.inf]
 
 
 def test_a_plan_keeps_phase_durations_and_sole_support_of_its_robot(tmp_path):

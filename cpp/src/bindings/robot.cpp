@@ -38,20 +38,30 @@ void bind_end_effector(py::module_& m) {
   py::class_<EndEffector> c(m, "EndEffector",
                             "A contact link of the robot. Frame B sits at the CoM and turns with the base.");
   const EndEffector d;
-  c.def(py::init([](std::string name, std::string kind, std::string frame, const Vector3d& frame_offset,
-                    const Vector2d& half_size, const Vector3d& nominal_B, const Vector3d& reach_min_B,
-                    const Vector3d& reach_max_B, double max_force, const Vector3d& max_moment,
-                    const Polytope& com_reach, std::map<std::string, Polytope> partner_reach) {
-          return EndEffector{std::move(name), std::move(kind), std::move(frame), frame_offset,
-                             half_size,       nominal_B,       reach_min_B,      reach_max_B,
-                             max_force,       max_moment,      com_reach,        std::move(partner_reach)};
-        }),
-        py::kw_only(), py::arg("name") = d.name, py::arg("kind") = d.kind, py::arg("frame") = d.frame,
-        py::arg("frame_offset") = d.frame_offset, py::arg("half_size") = d.half_size,
-        py::arg("nominal_B") = d.nominal_B, py::arg("reach_min_B") = d.reach_min_B,
-        py::arg("reach_max_B") = d.reach_max_B, py::arg("max_force") = d.max_force,
-        py::arg("max_moment") = d.max_moment, py::arg("com_reach") = Polytope(),
-        py::arg("partner_reach") = std::map<std::string, Polytope>());
+  c.def(
+      py::init([](std::string name, std::string kind, std::string frame, const Vector3d& frame_offset,
+                  const Vector2d& half_size, const Vector3d& nominal_B, const Vector3d& reach_min_B,
+                  const Vector3d& reach_max_B, double max_force, const Vector3d& max_moment, const Vector2d& yaw_range,
+                  const Polytope& com_reach, std::map<std::string, Polytope> partner_reach) {
+        return EndEffector{std::move(name),
+                           std::move(kind),
+                           std::move(frame),
+                           frame_offset,
+                           half_size,
+                           nominal_B,
+                           reach_min_B,
+                           reach_max_B,
+                           max_force,
+                           max_moment,
+                           yaw_range,
+                           com_reach,
+                           std::move(partner_reach)};
+      }),
+      py::kw_only(), py::arg("name") = d.name, py::arg("kind") = d.kind, py::arg("frame") = d.frame,
+      py::arg("frame_offset") = d.frame_offset, py::arg("half_size") = d.half_size, py::arg("nominal_B") = d.nominal_B,
+      py::arg("reach_min_B") = d.reach_min_B, py::arg("reach_max_B") = d.reach_max_B,
+      py::arg("max_force") = d.max_force, py::arg("max_moment") = d.max_moment, py::arg("yaw_range") = d.yaw_range,
+      py::arg("com_reach") = Polytope(), py::arg("partner_reach") = std::map<std::string, Polytope>());
   c.def_readwrite("name", &EndEffector::name);
   c.def_readwrite("kind", &EndEffector::kind, "Group that scenes may address as a whole, e.g. 'foot', 'hand'.");
   c.def_readwrite("frame", &EndEffector::frame, "URDF frame, empty for robots without a URDF.");
@@ -61,7 +71,11 @@ void bind_end_effector(py::module_& m) {
   def_vector(c, "reach_min_B", &EndEffector::reach_min_B, "Box of reachable positions relative to the CoM [m].");
   def_vector(c, "reach_max_B", &EndEffector::reach_max_B, "Box of reachable positions relative to the CoM [m].");
   c.def_readwrite("max_force", &EndEffector::max_force, "Largest norm of the contact force [N].");
-  def_vector(c, "max_moment", &EndEffector::max_moment, "Largest contact moment about each world axis [N m].");
+  def_vector(c, "max_moment", &EndEffector::max_moment,
+             "Largest contact moment about each world axis [N m]; under ForceLaw.wrench the third about the surface's "
+             "normal.");
+  def_vector(c, "yaw_range", &EndEffector::yaw_range,
+             "How far the sole may be turned against the base about the vertical while in contact [rad].");
   def_member(
       c, "com_reach", &EndEffector::com_reach,
       "Where the CoM may be relative to this end-effector while it is in contact; axes level, x along the heading.");
@@ -69,7 +83,7 @@ void bind_end_effector(py::module_& m) {
             "Where other end-effectors may stand relative to it, by name; same axes. Assign a dict to change it.");
   def_value(c, "EndEffector",
             {"name", "kind", "frame", "frame_offset", "half_size", "nominal_B", "reach_min_B", "reach_max_B",
-             "max_force", "max_moment", "com_reach", "partner_reach"});
+             "max_force", "max_moment", "yaw_range", "com_reach", "partner_reach"});
 }
 
 void bind_resolved_stance(py::module_& m) {

@@ -43,6 +43,10 @@ void validate_end_effector(const EndEffector& e, const std::string& field) {
   if (!(e.max_force > 0.0)) throw InvalidRobot(field + ".max_force", "must be a positive number", text(e.max_force));
   if (!(e.max_moment.array() >= 0.0).all())
     throw InvalidRobot(field + ".max_moment", "must be three numbers >= 0", text(e.max_moment));
+  const bool both = std::isfinite(e.yaw_range[0]) == std::isfinite(e.yaw_range[1]);  // files know no infinity
+  if (!(e.yaw_range[0] <= 0.0 && e.yaw_range[1] >= 0.0 && both))
+    throw InvalidRobot(field + ".yaw_range", "must be two finite numbers, the first <= 0, the second >= 0, or +-inf",
+                       text(e.yaw_range));
 }
 
 /// `nominal`: the point of the nominal stance that the set must hold.

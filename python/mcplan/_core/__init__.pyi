@@ -481,6 +481,7 @@ class EndEffector:
         reach_max_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         max_force: typing.SupportsFloat | typing.SupportsIndex = ...,
         max_moment: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        yaw_range: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
         com_reach: Polytope = ...,
         partner_reach: collections.abc.Mapping[str, Polytope] = {},
     ) -> None: ...
@@ -530,7 +531,7 @@ class EndEffector:
     @property
     def max_moment(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Largest contact moment about each world axis [N m].
+        Largest contact moment about each world axis [N m]; under ForceLaw.wrench the third about the surface's normal.
         """
     @max_moment.setter
     def max_moment(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
@@ -562,6 +563,13 @@ class EndEffector:
         """
     @reach_min_B.setter
     def reach_min_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def yaw_range(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        How far the sole may be turned against the base about the vertical while in contact [rad].
+        """
+    @yaw_range.setter
+    def yaw_range(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
 
 class Robot:
     """
@@ -702,12 +710,15 @@ class ForceLaw:
       held : Forces at points, constant over each of `intervals` equal intervals.
 
       linear : Forces at points, linear over each of `intervals` equal intervals.
+
+      wrench : f(t) = mass stiffness (com(t) - anchor), acting at center_of_pressure, with a moment about the normal.
     """
 
     __members__: typing.ClassVar[dict[str, ForceLaw]]
     held: typing.ClassVar[ForceLaw]
     linear: typing.ClassVar[ForceLaw]
     pendulum: typing.ClassVar[ForceLaw]
+    wrench: typing.ClassVar[ForceLaw]
     @typing.overload
     def __eq__(self, other: ForceLaw) -> bool: ...
     @typing.overload
@@ -734,7 +745,7 @@ class ForceLaw:
 
 class Contact:
     """
-    What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor), or forces at points where the phase's law says so.
+    What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor), acting at the anchor or, under ForceLaw.wrench, at center_of_pressure, or forces at points where the phase's law says so.
     """
     def __copy__(self) -> Contact: ...
     def __deepcopy__(self, memo: dict) -> Contact: ...
@@ -747,6 +758,7 @@ class Contact:
         moment_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         points_W: typing.Any = (),
         point_forces_W: typing.Any = (),
+        center_of_pressure_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -756,6 +768,13 @@ class Contact:
         """
     @anchor_W.setter
     def anchor_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def center_of_pressure_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        Where the force acts under ForceLaw.wrench [m].
+        """
+    @center_of_pressure_W.setter
+    def center_of_pressure_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def moment_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
@@ -809,7 +828,7 @@ class Phase:
     def __repr__(self) -> str: ...
     def node_count(self) -> int:
         """
-        Instants at which forces are given: `intervals` when held, one more when linear, 0 for the pendulum.
+        Instants at which forces are given: `intervals` when held, one more when linear, 0 without such.
         """
     @property
     def contacts(self) -> tuple:
@@ -828,7 +847,7 @@ class Phase:
     @property
     def intervals(self) -> int:
         """
-        Of the forces at points, equally long; 0 for the pendulum.
+        Of the forces at points, equally long; 0 where there are none.
         """
     @intervals.setter
     def intervals(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
@@ -856,6 +875,7 @@ class Knot:
         end_effectors_W: typing.Any = (),
         end_effector_velocities_W: typing.Any = (),
         angular_momentum_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        end_effector_yaw: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -900,6 +920,13 @@ class Knot:
         """
     @end_effector_velocities_W.setter
     def end_effector_velocities_W(self, arg1: typing.Any) -> None: ...
+    @property
+    def end_effector_yaw(self) -> list[float]:
+        """
+        Heading of each sole [rad]; empty: all head where the base does.
+        """
+    @end_effector_yaw.setter
+    def end_effector_yaw(self, arg0: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
     @property
     def end_effectors_W(self) -> numpy.ndarray:
         """
@@ -967,6 +994,11 @@ class EndEffectorState:
     def __deepcopy__(self, memo: dict) -> EndEffectorState: ...
     def __repr__(self) -> str: ...
     @property
+    def center_of_pressure_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        Where the force acts [m]; position_W when free.
+        """
+    @property
     def force_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
         Contact force on the robot [N], zero when free.
@@ -1000,6 +1032,11 @@ class EndEffectorState:
     def velocity_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
         [m/s]
+        """
+    @property
+    def yaw(self) -> float:
+        """
+        Heading of the sole [rad].
         """
 
 class PlanState:

@@ -101,6 +101,9 @@ class EndEffectorModel(Table):
     max_moment: Annotated[list[NotNegative], Field(min_length=3, max_length=3)] = Field(
         [0.0, 0.0, 0.0], description="[N m] Largest contact moment about each world axis."
     )
+    yaw_range: Annotated[list[Number], Field(min_length=2, max_length=2)] | None = Field(
+        None, description="[rad] How far the sole may be turned against the base, right and left; left out: any way."
+    )
     com_reach: PolytopeModel | None = Field(
         None, description="[m] Where the CoM may be relative to the sole's centre. Axes: level, x along the heading."
     )

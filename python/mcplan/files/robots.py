@@ -115,6 +115,8 @@ def _end_effector_to_dict(end: EndEffector) -> dict[str, Any]:
         data["max_force"] = end.max_force
     if end.max_moment.any():
         data["max_moment"] = end.max_moment.tolist()
+    if end.yaw_range.tolist() != [-math.inf, math.inf]:
+        data["yaw_range"] = end.yaw_range.tolist()
     if end.com_reach.given:
         data["com_reach"] = polytope_to_dict(end.com_reach)
     if end.partner_reach:
@@ -124,5 +126,7 @@ def _end_effector_to_dict(end: EndEffector) -> dict[str, Any]:
 
 def _end_effector_from_dict(data: Mapping[str, Any]) -> EndEffector:
     rest = {_POSITIONS.get(key, key): value for key, value in data.items() if not key.endswith("_reach")}
+    if rest.get("yaw_range") is None:
+        rest.pop("yaw_range", None)
     partners = {name: polytope_from_dict(reach) for name, reach in data.get("partner_reach", {}).items()}
     return EndEffector(com_reach=polytope_from_dict(data.get("com_reach")), partner_reach=partners, **rest)

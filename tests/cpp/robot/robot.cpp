@@ -67,6 +67,7 @@ std::string stance_field(const Stance& stance) {
 TEST_CASE("a valid robot is accepted, without a force cap too") {
   CHECK(field([](Robot&) {}) == "accepted");
   CHECK(std::isinf(hopper().end_effectors[0].max_force));
+  CHECK(hopper().end_effectors[0].yaw_range == Eigen::Vector2d(-INFINITY, INFINITY));
 }
 
 TEST_CASE("numbers of robots out of range are named") {
@@ -116,6 +117,22 @@ TEST_CASE("end-effectors out of range are named") {
   for (double bad : {0.0, -5.0, nan}) CHECK(end([&](auto& e) { e.max_force = bad; }) == "end_effectors[1].max_force");
   for (double bad : {-1.0, nan})
     for (int axis : {0, 1, 2}) CHECK(end([&](auto& e) { e.max_moment[axis] = bad; }) == "end_effectors[1].max_moment");
+}
+
+TEST_CASE("a sole may be turned both ways, or any way") {
+  const auto turned = [](double right, double left) {
+    return field([&](Robot& r) { r.end_effectors[1].yaw_range = {right, left}; });
+  };
+  const double inf = INFINITY, nan = std::nan("");
+  const std::pair<double, double> good[] = {{-0.3, 0.5}, {0.0, 0.5}, {-0.3, 0.0}, {0.0, 0.0}, {-inf, inf}};
+  for (const auto& [right, left] : good) CHECK(turned(right, left) == "accepted");
+  const std::pair<double, double> bad[] = {{0.1, 0.5}, {-0.3, -0.1}, {nan, 0.5},  {-0.3, nan},
+                                           {inf, 0.5}, {-0.3, inf},  {-inf, 0.5}, {0.5, -0.3}};
+  for (const auto& [right, left] : bad) {
+    CAPTURE(right);
+    CAPTURE(left);
+    CHECK(turned(right, left) == "end_effectors[1].yaw_range");
+  }
 }
 
 TEST_CASE("a robot has one to eight end-effectors") {
