@@ -70,10 +70,11 @@ def load_plan(path: str | Path) -> Plan:
 def plan_to_bytes(plan: Plan) -> bytes:
     """The content of a plan file."""
     plan.validate()
+    version = _format(plan)
     count, ends = len(plan.phases), plan.end_effector_count()
     contacts = [contact for phase in plan.phases for contact in phase.contacts]
     header = {
-        "format": _format(plan),
+        "format": version,
         "units": UNITS,
         "mcplan": __version__,
         "planner": plan.planner,
@@ -104,9 +105,9 @@ def plan_to_bytes(plan: Plan) -> bytes:
         "end_effector_velocities_W",
     ):
         arrays[name] = np.array([getattr(knot, name) for knot in plan.knots])
-    if header["format"] >= 2:
+    if version >= 2:
         arrays.update(_point_arrays(plan))
-    if header["format"] >= 3:
+    if version >= 3:
         arrays["centers_of_pressure_W"] = np.array([c.center_of_pressure_W for c in contacts]).reshape(count, ends, 3)
         arrays["end_effector_yaw"] = np.array([knot.end_effector_yaw for knot in plan.knots], dtype=float)
     return archive_bytes(header, arrays)
