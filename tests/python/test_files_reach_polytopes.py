@@ -8,7 +8,8 @@ import pytest
 import mcplan as mp
 from mcplan.files.reach_polytopes import add_reach_polytopes, inner_polytope, volume
 from mcplan.files.robots import robot_to_dict
-from mcplan.files.urdf import SETUPS, limb_of
+from mcplan.files.urdf import limb_of
+from mcplan.files.urdf_setups import SETUPS
 
 
 def holds(polytope: mp.Polytope, points: np.ndarray, slack: float = 0.0) -> np.ndarray:

@@ -7,7 +7,9 @@ import pytest
 
 import mcplan as mp
 from mcplan.files.reach import share_reached
-from mcplan.files.urdf import SETUPS, End, contact_frame, limb_of, load_model, robot_from_urdf
+from mcplan.files.robots import robot_to_dict
+from mcplan.files.urdf import contact_frame, limb_of, load_model, robot_from_urdf
+from mcplan.files.urdf_setups import SETUPS, End
 
 pin = pytest.importorskip("pinocchio")
 example_robot_data = pytest.importorskip("example_robot_data")
@@ -51,6 +53,65 @@ def test_nine_in_ten_random_points_of_every_reach_box_are_reached(loaded):
         limb = limb_of(model, posture, setup.ends[number], setup.ends)
         share = share_reached(limb, end.reach_min_B, end.reach_max_B, count=60, seed=number)
         assert share >= 0.9, (robot.name, end.name, share)
+
+
+def test_nine_in_ten_soles_turned_at_random_are_reached(loaded):
+    robot, setup, model, posture = loaded
+    for number, end in enumerate(robot.end_effectors):
+        if end.half_size.any():
+            limb = limb_of(model, posture, setup.ends[number], setup.ends)
+            share = share_reached(limb, end.reach_min_B, end.reach_max_B, 60, number, tuple(end.yaw_range))
+            assert share >= 0.9, (robot.name, end.name, share)
+        else:
+            assert not np.isfinite(end.yaw_range).any()
+
+
+def test_soles_of_talos_turn_as_far_as_the_first_joint_of_its_hip():
+    """Yaw, roll, three pitches, roll: with rolls below 90 degrees Rz(heading) = Rz(q1) Rx Ry Rx asks for heading = q1."""
+    robot, setup = mp.load_robot("talos"), SETUPS["talos"]
+    model, posture, _ = load_model("talos", setup.ends)
+    for side, number in (("right", 0), ("left", 1)):
+        joint = model.idx_vs[model.getJointId(f"leg_{side}_1_joint")]
+        limits = np.array([model.lowerPositionLimit[1 + joint], model.upperPositionLimit[1 + joint]])
+        np.testing.assert_allclose(robot.end_effectors[number].yaw_range, np.clip(limits, -0.8, 0.8), atol=5e-3)
+        limb = limb_of(model, posture, setup.ends[number], setup.ends)
+        end = robot.end_effectors[number]
+        beyond = limits[np.argmin(np.abs(limits))] * 1.3
+        assert share_reached(limb, end.reach_min_B, end.reach_max_B, 5, 0, (beyond, beyond)) == 0.0
+
+
+def test_left_and_right_soles_turn_and_bear_alike(loaded):
+    robot, setup, *_ = loaded
+    for end, made in zip(robot.end_effectors, setup.ends, strict=True):
+        twin = robot.end_effectors[robot.end_effector_index(made.twin)]
+        np.testing.assert_array_equal(end.yaw_range, -twin.yaw_range[::-1])
+        assert end.yaw_range[0] <= 0.0 <= end.yaw_range[1]
+        assert end.max_force == twin.max_force
+
+
+def test_feet_stand_where_the_posture_has_them(loaded):
+    robot, setup, model, posture = loaded
+    data = model.createData()
+    com_W = pin.centerOfMass(model, data, posture)
+    pin.framesForwardKinematics(model, data, posture)
+    for end, made in zip(robot.end_effectors, setup.ends, strict=True):
+        if end.kind == "foot":
+            position_W = data.oMf[contact_frame(model, made)].translation
+            np.testing.assert_allclose(end.nominal_B, position_W - com_W, atol=4e-3)
+
+
+@pytest.mark.parametrize(
+    "name", ["anymal", pytest.param("g1", marks=pytest.mark.slow), pytest.param("talos", marks=pytest.mark.slow)]
+)
+def test_the_command_makes_the_robot_that_is_built_in(name):
+    made, built_in = robot_to_dict(robot_from_urdf(name)), robot_to_dict(mp.load_robot(name))
+    ends = zip(made.pop("end_effectors"), built_in.pop("end_effectors"), strict=True)
+    assert made == built_in
+    for one, other in ends:
+        assert one.pop("max_force") == pytest.approx(other.pop("max_force"), rel=0.03)  # a digit, where rounded down
+        for key in ("nominal", "reach_min", "reach_max"):
+            np.testing.assert_allclose(one.pop(key), other.pop(key), atol=1.1e-3)
+        assert one == other
 
 
 def test_points_a_leg_length_too_far_are_not_reached(loaded):

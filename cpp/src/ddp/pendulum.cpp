@@ -57,21 +57,22 @@ Pendulum::Drive Pendulum::drive(const VectorXd& x, const VectorXd& u) const {
   return d;
 }
 
-Vector3d Pendulum::com_at(const Drive& d, double t) const {
-  const EntireFunctions f(d.total * t * t);
-  return d.p + t * f(1) * d.v + t * t * f(2) * d.acceleration;
-}
-
-Vector3d Pendulum::momentum_at(const Drive& d, double t) const {
+Vector3d Pendulum::momentum_at(const Drive& d, const EntireFunctions& f, double t) const {
   if (model_ == Model::lipm) return d.momentum + t * d.kappa;
-  const EntireFunctions f(d.total * t * t);
   const Vector3d travelled = t * d.p + t * t * (f(2) * d.v + t * f(3) * d.acceleration);
   return d.momentum + travelled.cross(d.rho) + t * d.kappa;
 }
 
-Vector3d Pendulum::angle_at(const Drive& d, double t) const {
-  if (model_ == Model::lipm) return d.angle + (t * d.momentum + 0.5 * t * t * d.kappa).cwiseQuotient(inertia_);
-  return turned_rpy(d.angle, d.momentum, momentum_at(d, 0.5 * t), momentum_at(d, t), inertia_, t);
+void Pendulum::Course::at(double t, Vector3d& com, Vector3d& angle) const {
+  const Drive& d = drive_;
+  const EntireFunctions f(d.total * t * t);
+  com = d.p + t * f(1) * d.v + t * t * f(2) * d.acceleration;
+  if (pendulum_->model_ == Model::lipm) {
+    angle = d.angle + (t * d.momentum + 0.5 * t * t * d.kappa).cwiseQuotient(pendulum_->inertia_);
+    return;
+  }
+  const EntireFunctions half(0.25 * d.total * t * t);
+  angle = turning_.rpy(pendulum_->momentum_at(d, half, 0.5 * t), pendulum_->momentum_at(d, f, t), t);
 }
 
 /// dL(t)/dz at t = slope h.
@@ -133,11 +134,10 @@ void Pendulum::turn_rows(const Drive& d, const VectorXd& x, const VectorXd& u, c
     return;
   }
   const EntireFunctions half(0.25 * d.total * t * t);
-  const Vector3d middle = momentum_at(d, 0.5 * t), end = momentum_at(d, t);
-  Turned turned;
-  turn(d.angle, d.momentum, middle, end, inertia_, t, turned);
+  s.momentum = momentum_at(d, f, t);
+  Turning::Derivatives turned;
+  Turning(d.angle, d.momentum, inertia_).differentiate(momentum_at(d, half, 0.5 * t), s.momentum, t, turned);
   s.angle = turned.rpy;
-  s.momentum = end;
   s.angle_inverse = turned.d_rpy.inverse();
   auto angle = s.turn.topRows<3>();
   auto momentum = s.turn.bottomRows<3>();
@@ -188,9 +188,11 @@ void Pendulum::next(const VectorXd& x, const VectorXd& u, VectorXd& x_next) cons
   const Drive d = drive(x, u);
   const EntireFunctions f(d.total * h * h);
   x_next.resize(layout_.nx());
-  x_next.segment<3>(layout_.com()) = d.p + h * f(1) * d.v + h * h * f(2) * d.acceleration;
   x_next.segment<3>(layout_.velocity()) = f(0) * d.v + h * f(1) * d.acceleration;
-  const Vector3d angle = angle_at(d, h), momentum = momentum_at(d, h);
+  Vector3d com, angle;
+  Course(*this, d).at(h, com, angle);
+  const Vector3d momentum = momentum_at(d, f, h);
+  x_next.segment<3>(layout_.com()) = com;
   for (int a = 0; a < layout_.axis_count(); ++a) {
     x_next[layout_.angle(a)] = angle[layout_.axes()[a]];
     x_next[layout_.momentum(a)] = momentum[layout_.axes()[a]];
@@ -212,10 +214,11 @@ void Pendulum::previous(const VectorXd& x_next, const VectorXd& u, VectorXd& x) 
   if (model_ == Model::lipm) return;
   // A Runge-Kutta step backwards nearly undoes one forwards; Newton's method does the rest.
   const Drive d = drive(x, u);
-  const Vector3d middle = momentum_at(d, 0.5 * h), end = momentum_at(d, h);
-  Turned turned;
+  const EntireFunctions f(d.total * h * h), half(0.25 * d.total * h * h);
+  const Vector3d middle = momentum_at(d, half, 0.5 * h), end = momentum_at(d, f, h);
+  Turning::Derivatives turned;
   for (int i = 0; i < 4; ++i) {
-    turn(x.segment<3>(layout_.angle()), d.momentum, middle, end, inertia_, h, turned);
+    Turning(x.segment<3>(layout_.angle()), d.momentum, inertia_).differentiate(middle, end, h, turned);
     x.segment<3>(layout_.angle()) -= turned.d_rpy.inverse() * (turned.rpy - x_next.segment<3>(layout_.angle()));
   }
 }

@@ -27,6 +27,9 @@ def plan(
         float | None, typer.Option("--min-flight", metavar="S", help="Shortest phase without any contact.")
     ] = None,
     phases: Annotated[int | None, typer.Option("--phases", metavar="N", help="Phases of the plan.")] = None,
+    model: Annotated[
+        str | None, typer.Option("--model", metavar="M", help="Of the contacts: wrench (default) or lipm, the paper's.")
+    ] = None,
     method: Annotated[str | None, typer.Option("--method", metavar="M", help="standard or paper.")] = None,
     time_limit: Annotated[
         float | None,
@@ -52,7 +55,7 @@ def plan(
 
     require_outputs("plan", output, html, plots)
     given = {"phases": phases, "method": method, "time_limit": time_limit, "threads": threads, "seed": seed}
-    given |= {"sole_inside": sole_inside, "flight_duration_min_s": min_flight}
+    given |= {"model": model, "sole_inside": sole_inside, "flight_duration_min_s": min_flight}
     options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if plots is not None:
         options["record_history"] = True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -10,7 +11,7 @@ import typer
 
 if TYPE_CHECKING:
     from mcplan import Robot
-    from mcplan.files.urdf import End
+    from mcplan.files.urdf_setups import End
 
 
 def robots(
@@ -105,7 +106,8 @@ def _from_urdf(
     from mcplan.files import reach_polytopes
     from mcplan.files.robots import robot_to_dict, save_robot
     from mcplan.files.toml import toml_text
-    from mcplan.files.urdf import SETUPS, header, robot_from_urdf
+    from mcplan.files.urdf import header, robot_from_urdf
+    from mcplan.files.urdf_setups import SETUPS
 
     parsed, srdf_path = tuple(_parse_end(text) for text in ends), str(srdf) if srdf else None
     angles = dict(_parse_angle(text) for text in posture) if posture else None
@@ -143,7 +145,7 @@ def _from_urdf(
 
 def _parse_end(text: str) -> End:
     from mcplan.errors import InvalidInput
-    from mcplan.files.urdf import End
+    from mcplan.files.urdf_setups import End
 
     try:
         name, rest = text.split("=", 1)
@@ -186,10 +188,20 @@ def _print_robot(robot: Robot) -> None:
             _numbers(e.half_size) if e.half_size.any() else "point",
             f"{e.max_force:.0f}",
             _numbers(e.max_moment),
+            f"{e.yaw_range[0]:.2f} .. {e.yaw_range[1]:.2f}" if math.isfinite(e.yaw_range[0]) else "any",
         ]
         for e in robot.end_effectors
     ]
-    head = ["end-effector", "kind", "nominal [m]", "reach [m]", "half size [m]", "force [N]", "moment [N m]"]
+    head = [
+        "end-effector",
+        "kind",
+        "nominal [m]",
+        "reach [m]",
+        "half size [m]",
+        "force [N]",
+        "moment [N m]",
+        "turn [rad]",
+    ]
     print_table(rows, head)
     for e in robot.end_effectors:
         reaches = [("CoM", e.com_reach)] if e.com_reach.given else []

@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 
 TOLERANCE_M = 1e-3
+HEADING_STEP = 0.05  # [rad]
+HEADING_MOST = 0.8  # [rad] legs that touch each other are not looked at
 _TOLERANCE_RAD = 5e-3
 _ITERATIONS = 40
 _STEP_RAD = 0.4
@@ -70,17 +72,24 @@ class Limb:
         out[:3] -= com
         return out
 
-    def solve(self, target: np.ndarray, start: np.ndarray) -> np.ndarray | None:
-        """Joint positions [rad] within the limits that put the contact frame at `target` [m], or None."""
+    def solve(self, target: np.ndarray, start: np.ndarray, heading: float = 0.0) -> np.ndarray | None:
+        """Joint positions [rad] within the limits that put the contact frame at `target` [m], or None.
+
+        Args:
+            target: Position relative to the CoM.
+            start: Joint positions to start from.
+            heading: Turn of a flat frame about the vertical against the nominal posture [rad].
+        """
         import pinocchio as pin
 
         joints = start.copy()
+        orientation = pin.AngleAxis(heading, np.array([0.0, 0.0, 1.0])).matrix() @ self._orientation
         rows = 6 if self.flat else 3
         for _ in range(_ITERATIONS):
             error = np.zeros(6)
             error[:3] = target - self.position(joints)
             if self.flat:
-                error[3:] = pin.log3(self._orientation @ self._data.oMf[self.frame].rotation.T)
+                error[3:] = pin.log3(orientation @ self._data.oMf[self.frame].rotation.T)
             if np.linalg.norm(error[:3]) < TOLERANCE_M and np.linalg.norm(error[3:]) < _TOLERANCE_RAD:
                 return joints
             jacobian = self.jacobian(joints)[:rows]
@@ -179,12 +188,55 @@ def largest_box(grid: Grid) -> tuple[np.ndarray, np.ndarray]:
     return grid.point(corners[0]), grid.point(corners[1])
 
 
-def share_reached(limb: Limb, low: np.ndarray, high: np.ndarray, count: int, seed: int) -> float:
-    """Share of `count` random points of a box [m] that the limb reaches from its nominal or a random posture."""
+def headings_reached(
+    limb: Limb, nominal: np.ndarray, low: np.ndarray, high: np.ndarray, most: float = HEADING_MOST
+) -> tuple[float, float]:
+    """How far a sole may be turned about the vertical, to the right (<= 0) and to the left (>= 0) [rad].
+
+    Both at the nominal position and half way from there to each corner of the reach box, in steps of HEADING_STEP from
+    posture to posture.
+
+    Args:
+        limb: With a flat end.
+        nominal: Position of the sole relative to the CoM [m].
+        low: Corner of the reach box [m].
+        high: The opposite one [m].
+        most: Where to stop [rad].
+    """
+    corners = [np.array(corner) for corner in itertools.product(*zip(low, high, strict=True))]
+    points = [nominal, *(0.5 * (nominal + corner) for corner in corners)]
+    right = min(_turned(limb, point, -HEADING_STEP, most) for point in points)
+    left = min(_turned(limb, point, HEADING_STEP, most) for point in points)
+    return 0.0 - right, left
+
+
+def _turned(limb: Limb, point: np.ndarray, step: float, most: float) -> float:
+    """Angle [rad] up to which inverse kinematics follows the sole that turns on the spot by one step after the other."""
+    joints, angle = limb.solve(point, limb.nominal), 0.0
+    while joints is not None and abs(angle) + abs(step) < most + 1e-9:
+        joints = limb.solve(point, joints, angle + step)
+        if joints is not None:
+            angle += step
+    return round(abs(angle), 6)
+
+
+def share_reached(
+    limb: Limb, low: np.ndarray, high: np.ndarray, count: int, seed: int, headings: tuple[float, float] = (0.0, 0.0)
+) -> float:
+    """Share of random points of a box that the limb reaches from its nominal or a random posture.
+
+    Args:
+        limb: On its upright base.
+        low: Corner of the box, relative to the CoM [m].
+        high: The opposite one [m].
+        count: Of the points.
+        seed: Of the points and postures.
+        headings: Between which flat ends are turned at random [rad].
+    """
     rng = np.random.default_rng(seed)
     reached = 0
     for _ in range(count):
-        target = rng.uniform(low, high)
+        target, heading = rng.uniform(low, high), rng.uniform(*headings)
         starts = [limb.nominal, *(rng.uniform(limb.lower, limb.upper) for _ in range(4))]
-        reached += any(limb.solve(target, start) is not None for start in starts)
+        reached += any(limb.solve(target, start, heading) is not None for start in starts)
     return reached / count

@@ -27,7 +27,8 @@ from mcplan._core import Polytope, Robot
 from mcplan.errors import InvalidInput
 from mcplan.extras import require
 from mcplan.files.reach import Limb
-from mcplan.files.urdf import End, ends_of, limb_of, load_model
+from mcplan.files.urdf import ends_of, limb_of, load_model
+from mcplan.files.urdf_setups import End
 
 if TYPE_CHECKING:
     from scipy.spatial import ConvexHull

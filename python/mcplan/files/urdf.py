@@ -4,14 +4,15 @@
     mcplan robots --from-urdf anymal -o anymal.toml
     mcplan robots --from-urdf g1 -o g1.toml
 
-How each number comes about is written in the file's header; see also ``mcplan.files.reach``.
+How each number comes about is written in the file's header; see also ``mcplan.files.reach`` and
+``mcplan.files.strength``.
 """
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,13 +21,13 @@ import numpy as np
 from mcplan._core import EndEffector, Robot
 from mcplan.errors import InvalidInput
 from mcplan.extras import require
-from mcplan.files.reach import Limb, explore, largest_box
+from mcplan.files.reach import HEADING_MOST, Limb, explore, headings_reached, largest_box
+from mcplan.files.strength import POINTS, strengths_in_box
+from mcplan.files.urdf_setups import SETUPS, End, Setup
 
 GRAVITY = 9.81
-FOOT_FORCE = 2.5  # of the robot's weight
-STANCE_TANGENT = 0.6  # largest horizontal over vertical distance of a foot to the CoM in the nominal stance
 HAND_INSET_M = 0.03  # of a hand's nominal position in its box: an arm hanging down is at the edge of what it reaches
-SOLE_MOMENT = 0.0033  # of weight x CoM height: 1 N m on humanoid44
+SOLE_FRICTION = 0.7  # surfaces' default; half of it is left for forces along the ground
 PHASE_DURATION = (0.3, 0.6)  # [s] of robots with soles: legs of such a weight follow no shorter swing
 _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
@@ -35,108 +36,32 @@ HEADER = (
     "Mass, inertia (its diagonal, about the CoM) and com_height are those of the URDF in {posture}. Reach "
     "boxes: the largest box around the nominal position whose every grid point ({step} m apart) is reached by inverse "
     "kinematics within the joint limits: base upright, other limbs nominal, soles level, feet on their own side of the "
-    "body. Left and right are given the same box. max_force of feet: {foot} times the weight; of hands: the upward "
-    "force that the arm's torque limits bear in the nominal posture (tau = J^T f plus gravity). Feet stand at most "
-    "{tangent} x com_height off the CoM, since forces point at it. A hand's nominal position is moved {inset} m into "
-    "its box. max_moment of soles: {moment} x weight x com_height, vertical. phase_duration and sole_support: "
-    "what legs can follow and whole soles stand on."
+    "body. Left and right are given the same box, force and turn. max_force: the largest upward force that the limb's "
+    "torque limits bear beside its own weight (tau = g(q) - J^T f), the median over postures at {points} random points "
+    "of the box, rounded down. yaw_range: how far inverse kinematics turns the sole about the vertical, at the nominal "
+    "position and half way to every corner of the box, at most {heading}. A hand's nominal position is moved {inset} m "
+    "into its box. max_moment of soles: 2/3 x {friction} x half the weight x the shorter half side, the torsion of a "
+    "disc by half the friction of {full}. phase_duration and sole_support: what legs can follow and whole soles stand on."
 )
 
 
 @dataclass(frozen=True)
-class End:
-    """What to make an end-effector of.
+class _Reach:
+    """What a limb can do, relative to the CoM, axes of the base.
 
     Attributes:
-        name: Of the end-effector.
-        frame: URDF link.
-        kind: "foot" or "hand".
-        half_size: Of the sole [m]; zeros: point contact.
-        twin: Name of the end-effector on the other side.
-        frame_offset: Contact point in the axes of the link [m].
+        nominal: Position of the end [m].
+        low: Corner of the reach box [m].
+        high: The opposite one [m].
+        force: Largest one [N].
+        headings: How far the sole may be turned to the right (<= 0) and to the left [rad]; None: no sole.
     """
 
-    name: str
-    frame: str
-    kind: str = "foot"
-    half_size: tuple[float, float] = (0.0, 0.0)
-    twin: str = ""
-    frame_offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
-
-
-@dataclass(frozen=True)
-class Setup:
-    """What to make of a robot of example-robot-data.
-
-    Attributes:
-        ends: End-effectors.
-        swing_height: [m]
-        description: One line.
-        posture: Angles [rad] by joint, set on top of those of the package, which for some robots has straight legs.
-        lift: Highest top of the feet's reach boxes above the ground, in CoM heights. The box of largest volume may be
-            high and short: where ankles cannot bend far, a lifted sole stays level only ahead.
-    """
-
-    ends: tuple[End, ...]
-    swing_height: float
-    description: str
-    posture: Mapping[str, float] = field(default_factory=dict)
-    lift: float = 0.4
-
-
-def _pairs(*makers: Callable[[str], End]) -> tuple[End, ...]:
-    """Ends of both sides, right before left, each made by a function that is given the side."""
-    return tuple(make(side) for make in makers for side in ("right", "left"))
-
-
-def _other(side: str) -> str:
-    return "left" if side == "right" else "right"
-
-
-def _talos_foot(side: str) -> End:
-    return End(f"{side}_foot", f"{side}_sole_link", "foot", (0.10, 0.06), f"{_other(side)}_foot")
-
-
-def _talos_hand(side: str) -> End:
-    return End(f"{side}_hand", f"gripper_{side}_base_link", "hand", twin=f"{_other(side)}_hand")
-
-
-def _g1_foot(side: str) -> End:
-    """The rectangle among the four balls that the URDF gives the sole to touch with."""
-    return End(
-        f"{side}_foot", f"{side}_ankle_roll_link", "foot", (0.085, 0.025), f"{_other(side)}_foot", (0.035, 0.0, -0.035)
-    )
-
-
-def _g1_hand(side: str) -> End:
-    """The middle of the rubber hand."""
-    return End(
-        f"{side}_hand", f"{side}_rubber_hand", "hand", twin=f"{_other(side)}_hand", frame_offset=(0.09, 0.0, 0.0)
-    )
-
-
-def _g1_posture() -> dict[str, float]:
-    """Knees bent, soles level and below the upright base, their middle below the CoM; arms bent and off the body."""
-    posture: dict[str, float] = {}
-    for side, sign in (("left", 1.0), ("right", -1.0)):
-        legs = {"hip_pitch": -0.4167, "knee": 0.9, "ankle_pitch": -0.4833}
-        arms = {"shoulder_pitch": 0.25, "shoulder_roll": sign * 0.25, "elbow": 0.9}
-        posture |= {f"{side}_{name}_joint": angle for name, angle in (legs | arms).items()}
-    return posture
-
-
-def _anymal_foot(leg: str) -> End:
-    twin = {"RF": "lf", "LF": "rf", "RH": "lh", "LH": "rh"}[leg]
-    return End(f"{leg.lower()}_foot", f"{leg}_FOOT", twin=f"{twin}_foot")
-
-
-SETUPS = {
-    "talos": Setup(_pairs(_talos_foot, _talos_hand), 0.10, "PAL Robotics TALOS: two feet, two hands"),
-    "anymal": Setup(
-        tuple(_anymal_foot(leg) for leg in ("RF", "LF", "RH", "LH")), 0.07, "ANYbotics ANYmal B: four point feet"
-    ),
-    "g1": Setup(_pairs(_g1_foot, _g1_hand), 0.08, "Unitree G1: two feet, two hands", _g1_posture(), lift=0.12),
-}
+    nominal: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    force: float = np.inf
+    headings: tuple[float, float] | None = None
 
 
 def robot_from_urdf(
@@ -180,15 +105,15 @@ def robot_from_urdf(
     soles = [data.oMf[f].translation[2] for f, end in zip(frames, ends, strict=True) if end.kind == "foot"]
     com_height = float(com[2] - np.mean(soles))
 
-    made = {}
+    limbs = {end.name: limb_of(model, nominal, end, ends) for end in ends}
+    boxes = {}
     for end in ends:
-        limb = limb_of(model, nominal, end, ends)
+        limb = limbs[end.name]
         position = limb.position(limb.nominal)
-        if end.kind == "foot":
-            # Forces point at the CoM: a stance wider than the friction cone cannot stand, so it is drawn in.
-            position[:2] *= min(1.0, STANCE_TANGENT * com_height / np.hypot(*position[:2]))
         low, high = _search_box(position, end, com_height, setup.lift if setup else Setup.lift)
-        made[end.name] = (position, *largest_box(explore(limb, low, high, step, seed)))
+        boxes[end.name] = _Reach(position, *largest_box(explore(limb, low, high, step, seed)))
+    shared = {end.name: _same_box(boxes, end, com_height) for end in ends}
+    able = {name: _with_strength(limbs[name], reach, seed) for name, reach in shared.items()}
     weight = mass * GRAVITY
     return Robot(
         name=Path(source).stem,
@@ -198,10 +123,8 @@ def robot_from_urdf(
         com_height=round(com_height, 3),
         swing_height=setup.swing_height if setup else swing_height,
         phase_duration=PHASE_DURATION if any(any(end.half_size) for end in ends) else Robot().phase_duration,
-        sole_support=1.0,
-        end_effectors=[
-            _end_effector(end, *_both_sides(made, end, com_height), weight, com_height, model, nominal) for end in ends
-        ],
+        sole_support=1.0 if any(any(end.half_size) for end in ends) else 0.0,
+        end_effectors=[_end_effector(end, _same_strength(able, end), weight) for end in ends],
         urdf=urdf,
         posture={
             model.names[j]: round(float(nominal[model.idx_qs[j]]), 4)
@@ -221,11 +144,12 @@ def header(command: str, step: float = 0.02, own_posture: bool = False) -> str:
     """
     text = HEADER.format(
         posture="the posture below" if own_posture else "the SRDF's posture",
-        tangent=STANCE_TANGENT,
         step=step,
-        foot=FOOT_FORCE,
+        points=POINTS,
+        heading=HEADING_MOST,
         inset=HAND_INSET_M,
-        moment=SOLE_MOMENT,
+        friction=0.5 * SOLE_FRICTION,
+        full=SOLE_FRICTION,
     )
     return f"Made by: {command}\n{textwrap.fill(text, 116)}"
 
@@ -343,58 +267,73 @@ def _search_box(nominal: np.ndarray, end: End, com_height: float, lift: float) -
     return np.array([nominal[0] - ahead, y[0], low]), np.array([nominal[0] + ahead, y[1], high])
 
 
-def _both_sides(made: dict[str, Any], end: End, com_height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _same_box(boxes: Mapping[str, _Reach], end: End, com_height: float) -> _Reach:
     """Nominal position and box shared with the twin: the mean position, the intersection of the boxes."""
-    nominal, low, high = (value.copy() for value in made[end.name])
-    if end.twin in made:
-        flip = np.array([1.0, -1.0, 1.0])
-        other, other_low, other_high = (flip * value for value in made[end.twin])
+    own = boxes[end.name]
+    nominal, low, high = own.nominal.copy(), own.low.copy(), own.high.copy()
+    if end.twin in boxes:
+        flip, twin = np.array([1.0, -1.0, 1.0]), boxes[end.twin]
+        other_low, other_high = flip * twin.low, flip * twin.high
         other_low[1], other_high[1] = other_high[1], other_low[1]
-        nominal = 0.5 * (nominal + other)
+        nominal = 0.5 * (nominal + flip * twin.nominal)
         low, high = np.maximum(low, other_low), np.minimum(high, other_high)
     if end.kind == "foot":
         nominal[2] = -round(com_height, 3)  # all soles on the ground
     inset = 0.0 if end.kind == "foot" else HAND_INSET_M
     low, high = low.round(3), high.round(3)
-    return np.clip(nominal, low + inset, high - inset).round(3) + 0.0, low, high  # no -0.0
+    return _Reach(np.clip(nominal, low + inset, high - inset).round(3) + 0.0, low, high)  # no -0.0
 
 
-def _end_effector(
-    end: End,
-    nominal: np.ndarray,
-    low: np.ndarray,
-    high: np.ndarray,
-    weight: float,
-    com_height: float,
-    model: Any,
-    posture: np.ndarray,
-) -> EndEffector:
-    force = FOOT_FORCE * weight if end.kind == "foot" else _arm_force(model, posture, end)
-    moment = SOLE_MOMENT * weight * com_height if any(end.half_size) else 0.0
+def _with_strength(limb: Limb, reach: _Reach, seed: int) -> _Reach:
+    """With the median of the forces that the limb bears in its box, and how far its sole can be turned."""
+    forces = strengths_in_box(limb, reach.low, reach.high, seed=seed)
+    headings = headings_reached(limb, reach.nominal, reach.low, reach.high) if limb.flat else None
+    return replace(reach, force=float(np.median(forces)) if len(forces) else 0.0, headings=headings)
+
+
+def _same_strength(able: Mapping[str, _Reach], end: End) -> _Reach:
+    """Force and turn that both twins are capable of."""
+    own, twin = able[end.name], able.get(end.twin)
+    if twin is None:
+        return own
+    headings = own.headings
+    if headings is not None and twin.headings is not None:
+        headings = (max(headings[0], -twin.headings[1]), min(headings[1], -twin.headings[0]))
+    return replace(own, force=min(own.force, twin.force), headings=headings)
+
+
+def _end_effector(end: End, reach: _Reach, weight: float) -> EndEffector:
     return EndEffector(
         name=end.name,
         kind=end.kind,
         frame=end.frame,
         frame_offset=end.frame_offset,
         half_size=end.half_size,
-        nominal_B=nominal,
-        reach_min_B=low,
-        reach_max_B=high,
-        max_force=round(force, -1),
-        max_moment=[0, 0, round(moment, 2)],
+        nominal_B=reach.nominal,
+        reach_min_B=reach.low,
+        reach_max_B=reach.high,
+        max_force=_rounded_down(reach.force),
+        max_moment=[0, 0, round(sole_torsion(end.half_size, 0.5 * weight, 0.5 * SOLE_FRICTION), 2)],
+        yaw_range=EndEffector().yaw_range if reach.headings is None else reach.headings,
     )
 
 
-def _arm_force(model: Any, posture: np.ndarray, end: End) -> float:
-    """Largest upward contact force [N] that the joints' torque limits bear in the nominal posture."""
-    import pinocchio as pin
+def sole_torsion(half_size: tuple[float, float], force: float, friction: float) -> float:
+    """Moment about its normal [N m] that friction gives the largest disc in a sole, (2/3) friction force radius.
 
-    frame = contact_frame(model, end)
-    data = model.createData()
-    per_newton = pin.computeFrameJacobian(model, data, posture, frame, pin.LOCAL_WORLD_ALIGNED)[2, 6:]
-    gravity = pin.computeGeneralizedGravity(model, data, posture)[6:]
-    limits = model.effortLimit[6:]
-    moved = np.abs(per_newton) > 1e-9
-    # |gravity - force * per_newton| <= limit in every joint
-    bearable = (limits[moved] + np.sign(per_newton[moved]) * gravity[moved]) / np.abs(per_newton[moved])
-    return float(max(bearable.min(), 1.0))
+    A disc pressed down evenly: integral of friction x pressure x distance from the middle.
+
+    Args:
+        half_size: Of the sole [m].
+        force: Along the normal [N].
+        friction: Coefficient [-].
+    """
+    return 2.0 / 3.0 * friction * force * min(half_size)
+
+
+def _rounded_down(force: float) -> float:
+    """To two digits [N], 1 N at least: a cap is above 0."""
+    if not np.isfinite(force):
+        return force
+    digit = 10.0 ** max(0, np.floor(np.log10(max(force, 1.0))) - 1)
+    return float(max(1.0, digit * np.floor(force / digit)))

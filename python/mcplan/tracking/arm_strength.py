@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mcplan.errors import InvalidOptions
+from mcplan.files import strength
 
 if TYPE_CHECKING:
     from mcplan.kinematics.urdf_model import UrdfModel
@@ -46,10 +47,7 @@ class Strength:
 
 
 def largest_force_N(loaded: UrdfModel, end: int, configuration: Array, direction_W: Array) -> tuple[float, str]:
-    """Largest force that an end-effector can exert in a direction with the robot at rest.
-
-    The joints between base and end-effector bear it: tau = g(q) + J^T F d, |tau| <= limit. The base is held by the rest
-    of the robot.
+    """Largest force that an end-effector can exert in a direction with the robot at rest; see mcplan.files.strength.
 
     Args:
         loaded: The robot's model.
@@ -61,10 +59,9 @@ def largest_force_N(loaded: UrdfModel, end: int, configuration: Array, direction
         Force [N], 0 if there is none with which the arm bears itself, infinite if no joint bears it; and the joint that
         gives way first.
     """
-    import pinocchio as pin  # type: ignore[import-untyped]
-
-    data = loaded.model.createData()
-    return _largest(pin, loaded, data, end, np.asarray(configuration, float), np.asarray(direction_W, float))
+    return strength.largest_force_N(
+        loaded.model, loaded.model.createData(), loaded.frames[end], np.asarray(configuration, float), direction_W
+    )
 
 
 def random_strengths(loaded: UrdfModel, end: int, samples: int = 2000, seed: int = 0) -> list[Strength]:
@@ -84,8 +81,6 @@ def random_strengths(loaded: UrdfModel, end: int, samples: int = 2000, seed: int
     Raises:
         InvalidOptions: samples is below 1.
     """
-    import pinocchio as pin
-
     if samples < 1:
         raise InvalidOptions("samples", "must be at least 1", str(samples))
     model, rng = loaded.model, np.random.default_rng(seed)
@@ -97,7 +92,9 @@ def random_strengths(loaded: UrdfModel, end: int, samples: int = 2000, seed: int
         q = loaded.neutral.copy()
         q[index] = rng.uniform(low, high)
         for k, direction in enumerate(DIRECTIONS.values()):
-            forces[n, k], _ = _largest(pin, loaded, data, end, q, np.array(direction), update=k == 0)
+            forces[n, k], _ = strength.largest_force_N(
+                model, data, loaded.frames[end], q, np.array(direction), update=k == 0
+            )
     name = loaded.robot.end_effectors[end].name
     return [Strength(name, direction, np.sort(forces[:, k])) for k, direction in enumerate(DIRECTIONS)]
 
@@ -107,27 +104,3 @@ def own_joints(loaded: UrdfModel, end: int) -> list[int]:
     supports = [list(loaded.model.supports[loaded.model.frames[f].parentJoint]) for f in loaded.frames]
     others = {joint for i, chain in enumerate(supports) if i != end for joint in chain}
     return [joint for joint in supports[end] if joint > 1 and joint not in others]
-
-
-def _largest(
-    pin: Any, loaded: UrdfModel, data: Any, end: int, q: Array, direction_W: Array, update: bool = True
-) -> tuple[float, str]:
-    model, frame = loaded.model, loaded.frames[end]
-    if update:
-        pin.computeGeneralizedGravity(model, data, q)
-        pin.computeJointJacobians(model, data, q)
-        pin.updateFramePlacements(model, data)
-    jacobian = pin.getFrameJacobian(model, data, frame, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED)[:3, 6:]
-    per_newton = jacobian.T @ (direction_W / np.linalg.norm(direction_W))
-    least, most, gives_way = 0.0, np.inf, ""
-    for joint in range(2, model.njoints):
-        v = model.joints[joint].idx_v
-        slope, gravity, limit = per_newton[v - 6], data.g[v], model.effortLimit[v]
-        if abs(slope) < 1e-9:
-            continue
-        ends = sorted([(-limit - gravity) / slope, (limit - gravity) / slope])
-        least = max(least, ends[0])
-        if ends[1] < most:
-            most, gives_way = ends[1], model.names[joint]
-    # Where gravity alone is too much for a joint, a force may hold the arm up: then it must not be too small either.
-    return (float(most), gives_way) if most >= least else (0.0, gives_way)

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "mcplan/base/entire_functions.hpp"
+#include "mcplan/base/turning.hpp"
 #include "mcplan/ddp/layout.hpp"
 #include "mcplan/ddp/options.hpp"
 
@@ -57,10 +58,19 @@ class Pendulum {
   };
   Drive drive(const Eigen::VectorXd& x, const Eigen::VectorXd& u) const;
 
-  /// p(t), L(t) and theta(t) alone, for cost evaluations. Angles by axis: those not in the layout are 0.
-  Eigen::Vector3d com_at(const Drive& drive, double t) const;
-  Eigen::Vector3d momentum_at(const Drive& drive, double t) const;
-  Eigen::Vector3d angle_at(const Drive& drive, double t) const;
+  /// p(t) and theta(t) at several instants of a phase, for cost evaluations. Angles by axis: those not in the layout
+  /// are 0.
+  class Course {
+   public:
+    Course(const Pendulum& pendulum, const Drive& drive)
+        : pendulum_(&pendulum), drive_(drive), turning_(drive.angle, drive.momentum, pendulum.inertia_) {}
+    void at(double t, Eigen::Vector3d& com, Eigen::Vector3d& angle) const;
+
+   private:
+    const Pendulum* pendulum_;
+    Drive drive_;
+    Turning turning_;
+  };
 
   /// x+ = f(x, u).
   void next(const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_next) const;
@@ -88,6 +98,7 @@ class Pendulum {
   Eigen::MatrixXd dense_jacobian(const PendulumStep& s) const;
 
  private:
+  Eigen::Vector3d momentum_at(const Drive& drive, const EntireFunctions& f, double t) const;
   void momentum_jacobian(const Drive& drive, const Eigen::VectorXd& x, const Eigen::VectorXd& u,
                          const EntireFunctions& f, double t, double slope, Eigen::Ref<Eigen::Matrix3Xd> out) const;
   void turn_rows(const Drive& drive, const Eigen::VectorXd& x, const Eigen::VectorXd& u, const EntireFunctions& f,

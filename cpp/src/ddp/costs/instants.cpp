@@ -9,15 +9,14 @@ void make_instants(const Problem& problem, const Pendulum& pendulum, const Vecto
                    std::vector<Instant>& out) {
   const Layout& at = problem.layout;
   const int count = problem.options.interior_points + 2;
-  const Pendulum::Drive drive = pendulum.drive(x, u);
+  const Pendulum::Course course(pendulum, pendulum.drive(x, u));
   out.resize(count);
   for (int i = 0; i < count; ++i) {
     Instant& instant = out[i];
     instant.fraction = static_cast<double>(i) / (count - 1);
-    const double t = instant.fraction * u[at.duration()];
-    instant.com = pendulum.com_at(drive, t);
+    Vector3d angle;
+    course.at(instant.fraction * u[at.duration()], instant.com, angle);
     instant.rpy = problem.base_rpy;
-    const Vector3d angle = pendulum.angle_at(drive, t);
     for (int axis : at.axes()) instant.rpy[axis] = angle[axis];
     instant.pendulum = &pendulum;
     instant.x = &x;

@@ -1,0 +1,91 @@
+"""What a limb bears: the largest force at its end that the torque limits of its joints allow.
+
+Statics, with the robot at rest: tau = g(q) + J^T F d, |tau| <= limit in every joint, where F d is the force that the limb
+exerts on its surroundings and g(q) bears the limb's own weight.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.files.reach import Limb
+
+Array = NDArray[np.float64]
+
+#: Direction of a push on what lies below.
+DOWN = (0.0, 0.0, -1.0)
+POINTS = 300  # of a reach box that are drawn
+POSTURES = 5  # that are tried at each: an arm reaches a point with its elbow at many places
+_NO_ARM = 1e-9  # [m] joints with a shorter lever arm bear nothing of the force
+
+
+def largest_force_N(
+    model: Any, data: Any, frame: int, configuration: Array, push_W: Array, update: bool = True
+) -> tuple[float, str]:
+    """Largest force that a limb can exert in a direction with the robot at rest.
+
+    The joints between base and contact bear it. The base is held by the rest of the robot.
+
+    Args:
+        model: Pinocchio model with a free base.
+        data: Of the model.
+        frame: Index of the contact's frame.
+        configuration: (nq,) base upright, or as it is.
+        push_W: (3,) direction of the force on the surroundings, of any length but 0.
+        update: False if data already belong to this configuration.
+
+    Returns:
+        Force [N], 0 if there is none with which the limb bears itself, infinite if no joint bears it; and the joint that
+        gives way first.
+    """
+    import pinocchio as pin  # type: ignore[import-untyped]
+
+    if update:
+        pin.computeGeneralizedGravity(model, data, configuration)
+        pin.computeJointJacobians(model, data, configuration)
+        pin.updateFramePlacements(model, data)
+    jacobian = pin.getFrameJacobian(model, data, frame, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED)[:3, 6:]
+    per_newton = jacobian.T @ (np.asarray(push_W, float) / np.linalg.norm(push_W))
+    least, most, gives_way = 0.0, np.inf, ""
+    for joint in range(2, model.njoints):
+        v = model.joints[joint].idx_v
+        slope, gravity, limit = per_newton[v - 6], data.g[v], model.effortLimit[v]
+        if abs(slope) < _NO_ARM:
+            continue
+        ends = sorted([(-limit - gravity) / slope, (limit - gravity) / slope])
+        least = max(least, ends[0])
+        if ends[1] < most:
+            most, gives_way = ends[1], model.names[joint]
+    # Where gravity alone is too much for a joint, a force may hold the limb up: then it must not be too small either.
+    return (float(most), gives_way) if most >= least else (0.0, gives_way)
+
+
+def strengths_in_box(
+    limb: Limb, low: Array, high: Array, points: int = POINTS, seed: int = 0, push_B: Array | None = None
+) -> Array:
+    """Largest forces [N] of a limb at random points of a box, in every posture that is found there, ascending.
+
+    Args:
+        limb: On its upright base.
+        low: Corner of the box, relative to the CoM [m].
+        high: The opposite one.
+        points: How many are drawn.
+        seed: Of the points, and of the postures that inverse kinematics starts from.
+        push_B: (3,) direction of the force on the surroundings; None: down.
+
+    Returns:
+        One for each posture; empty if no point is reached.
+    """
+    rng, data, forces = np.random.default_rng(seed), limb.model.createData(), []
+    direction = np.asarray(DOWN if push_B is None else push_B, float)
+    for _ in range(points):
+        target = rng.uniform(low, high)
+        for start in [limb.nominal, *(rng.uniform(limb.lower, limb.upper) for _ in range(POSTURES - 1))]:
+            joints = limb.solve(target, start)
+            if joints is not None:
+                whole = np.concatenate([limb.base, joints])
+                forces.append(largest_force_N(limb.model, data, limb.frame, whole, direction)[0])
+    return np.sort(forces)

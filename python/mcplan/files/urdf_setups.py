@@ -1,0 +1,102 @@
+"""What to make of a URDF: its end-effectors, and the setups of robots of example-robot-data."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class End:
+    """What to make an end-effector of.
+
+    Attributes:
+        name: Of the end-effector.
+        frame: URDF link.
+        kind: "foot" or "hand".
+        half_size: Of the sole [m]; zeros: point contact.
+        twin: Name of the end-effector on the other side.
+        frame_offset: Contact point in the axes of the link [m].
+    """
+
+    name: str
+    frame: str
+    kind: str = "foot"
+    half_size: tuple[float, float] = (0.0, 0.0)
+    twin: str = ""
+    frame_offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Setup:
+    """What to make of a robot of example-robot-data.
+
+    Attributes:
+        ends: End-effectors.
+        swing_height: [m]
+        description: One line.
+        posture: Angles [rad] by joint, set on top of those of the package, which for some robots has straight legs.
+        lift: Highest top of the feet's reach boxes above the ground, in CoM heights. The box of largest volume may be
+            high and short: where ankles cannot bend far, a lifted sole stays level only ahead.
+    """
+
+    ends: tuple[End, ...]
+    swing_height: float
+    description: str
+    posture: Mapping[str, float] = field(default_factory=dict)
+    lift: float = 0.4
+
+
+def _pairs(*makers: Callable[[str], End]) -> tuple[End, ...]:
+    """Ends of both sides, right before left, each made by a function that is given the side."""
+    return tuple(make(side) for make in makers for side in ("right", "left"))
+
+
+def _other(side: str) -> str:
+    return "left" if side == "right" else "right"
+
+
+def _talos_foot(side: str) -> End:
+    return End(f"{side}_foot", f"{side}_sole_link", "foot", (0.10, 0.06), f"{_other(side)}_foot")
+
+
+def _talos_hand(side: str) -> End:
+    return End(f"{side}_hand", f"gripper_{side}_base_link", "hand", twin=f"{_other(side)}_hand")
+
+
+def _g1_foot(side: str) -> End:
+    """The rectangle among the four balls that the URDF gives the sole to touch with."""
+    return End(
+        f"{side}_foot", f"{side}_ankle_roll_link", "foot", (0.085, 0.025), f"{_other(side)}_foot", (0.035, 0.0, -0.035)
+    )
+
+
+def _g1_hand(side: str) -> End:
+    """The middle of the rubber hand."""
+    return End(
+        f"{side}_hand", f"{side}_rubber_hand", "hand", twin=f"{_other(side)}_hand", frame_offset=(0.09, 0.0, 0.0)
+    )
+
+
+def _g1_posture() -> dict[str, float]:
+    """Knees bent, soles level and below the upright base, their middle below the CoM; arms bent and off the body."""
+    posture: dict[str, float] = {}
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        legs = {"hip_pitch": -0.4167, "knee": 0.9, "ankle_pitch": -0.4833}
+        arms = {"shoulder_pitch": 0.25, "shoulder_roll": sign * 0.25, "elbow": 0.9}
+        posture |= {f"{side}_{name}_joint": angle for name, angle in (legs | arms).items()}
+    return posture
+
+
+def _anymal_foot(leg: str) -> End:
+    twin = {"RF": "lf", "LF": "rf", "RH": "lh", "LH": "rh"}[leg]
+    return End(f"{leg.lower()}_foot", f"{leg}_FOOT", twin=f"{twin}_foot")
+
+
+SETUPS = {
+    "talos": Setup(_pairs(_talos_foot, _talos_hand), 0.10, "PAL Robotics TALOS: two feet, two hands"),
+    "anymal": Setup(
+        tuple(_anymal_foot(leg) for leg in ("RF", "LF", "RH", "LH")), 0.07, "ANYbotics ANYmal B: four point feet"
+    ),
+    "g1": Setup(_pairs(_g1_foot, _g1_hand), 0.08, "Unitree G1: two feet, two hands", _g1_posture(), lift=0.12),
+}
