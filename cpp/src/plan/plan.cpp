@@ -286,7 +286,6 @@ PlanState Plan::at_phase(int k, double since_start) const {
                        to.end_effector_velocities_W[l], phase.duration, tau / phase.duration);
     end.position_W = path.position;
     end.velocity_W = path.velocity;
-    if (end.surface < 0) end.center_of_pressure_W = end.position_W;
     end.yaw = sole_yaw(from, to, l, tau / phase.duration, state.base_rpy.z());
   }
   for (const Swing& swing : swings) {
@@ -295,6 +294,8 @@ PlanState Plan::at_phase(int k, double since_start) const {
     add_clearance(*this, swing, k, tau, end);
     hold_in_reach(*this, swing, state, end);
   }
+  for (EndEffectorState& end : state.end_effectors)
+    if (end.surface < 0) end.center_of_pressure_W = end.position_W;
   return state;
 }
 
