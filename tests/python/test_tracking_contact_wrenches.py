@@ -62,7 +62,7 @@ def test_the_centre_of_pressure_that_balance_leaves_is_the_plans():
     other."""
     half_weight = 20.0 * G
     moments = [np.array([0.0, s * 0.05 * half_weight, s * 3.0]) for s in (1.0, -1.0)]
-    contacts = [contact(s * 0.2, [0, 0, half_weight], half=0.1, moment=moment) for s, moment in zip((-1, 1), moments)]
+    contacts = [contact(x, [0, 0, half_weight], half=0.1, moment=m) for x, m in zip((-0.2, 0.2), moments, strict=True)]
     wrenches, residual = balanced_wrenches(contacts, weight(40.0), 1.0)
     assert np.abs(residual).max() < 0.1
     for wrench, moment in zip(wrenches, moments, strict=True):

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .rotations import about_z, between, from_rpy, polygon_normal, sole_frame
-
 from mcplan._core import ForceLaw
+
+from .rotations import about_z, between, from_rpy, polygon_normal, sole_frame
 
 if TYPE_CHECKING:
     from mcplan import Plan, Robot, Scene

@@ -49,7 +49,8 @@ def save_plots(plan: Plan | WholeBodyPlan, report: Report | None, directory: str
     """Write all plots of a plan.
 
     Of a plan of contacts and CoM: picture.png, gait.png, com.png, momentum.png, forces.png, friction.png, for one with
-    forces at points pressure.png and timing.png, for one with contact wrenches pressure.png and turning.png, and from the report cost.png and contact_sequence.png as far as it holds
+    forces at points pressure.png and timing.png, for one with contact wrenches pressure.png and turning.png, and from the
+    report cost.png and contact_sequence.png as far as it holds
     their data. Of a whole-body plan: strip.png, postures.png, joints.png, velocities.png, torques.png, forces.png,
     cones.png, base.png and drift.png.
 
