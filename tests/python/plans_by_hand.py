@@ -136,6 +136,11 @@ def _foothold(robot: mp.Robot, place: np.ndarray, foot: int) -> np.ndarray:
     return place + np.array([0.0, robot.end_effectors[foot].nominal_B[1], 0.0])
 
 
+def balanced(scene, robot, steps, start=None, goal=None) -> mp.Plan:
+    """A plan that goes from rest to rest over steps: contacts of the feet, their places, duration [s] of each phase."""
+    return _solve(scene, robot, steps, yaw=0.0, start=start, goal=goal)
+
+
 def _solve(scene, robot, steps, yaw, start=None, goal=None) -> mp.Plan:
     """Stiffnesses and centres of pressure that take the pendulum from rest to rest, smoothly."""
     n, g, h = len(steps), float(scene.gravity), float(robot.com_height)

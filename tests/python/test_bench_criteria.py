@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import mcplan as mp
-from mcplan.bench.criteria import alternate, apex_m, flights, shortcoming, swings
+from mcplan.bench.criteria import alternate, apex_m, comparable_cost, flights, shortcoming, swings
 
 RIGHT, LEFT = 0, 1
 BOTH, ON_LEFT, ON_RIGHT, NONE = [0, 0], [-1, 0], [0, -1], [-1, -1]
@@ -81,3 +83,11 @@ def test_a_jump_must_rise_by_15_centimetres(rise_m_s, good):
     # A free CoM rises by v^2 / 2g: 0.1474 m and 0.1527 m here.
     assert apex_m(jump, 1, 2) == pytest.approx(rise_m_s**2 / (2 * 9.8), abs=2e-5)
     assert (shortcoming("gap", jump) == "") is good
+
+
+def test_comparable_cost_leaves_out_the_constants_of_the_sequence_alone():
+    terms = {"task": 0.05, "reach": 0.001, "duration": 0.02, "flight": 0.5, "contact_change": 0.08}
+    assert comparable_cost(SimpleNamespace(cost_terms=terms)) == pytest.approx(0.071)
+    report = mp.plan("gap", "humanoid44", max_iterations=60).report
+    own = sum(report.cost_terms.get(name, 0.0) for name in ("flight", "contact_change"))
+    assert own > 0.0 and comparable_cost(report) == pytest.approx(report.cost - own)

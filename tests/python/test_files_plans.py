@@ -16,6 +16,7 @@ import mcplan as mp
 from mcplan.files.plans import load_plan, plan_from_bytes, plan_to_bytes
 from standing import standing_plan
 from stepping import stepping_plan
+from turning import turning_plan
 
 
 @pytest.fixture
@@ -131,11 +132,12 @@ DAMAGE = {
         put("header", lambda a: np.frombuffer(b"[]", np.uint8)),
         "header: must be a JSON object",
     ),
-    "future format": (header(format=3), r"header.format: must be 1 or 2 for this version of mcplan, got 3"),
+    "future format": (header(format=4), r"header.format: must be 1, 2 or 3 for this version of mcplan, got 4"),
     "no format": (header(format=None), "header.format: must be 1"),
     "format a list": (header(format=[1]), "header.format: must be 1"),
-    "format true": (header(format=True), "header.format: must be 1 or 2"),
+    "format true": (header(format=True), "header.format: must be 1, 2 or 3"),
     "points promised": (header(format=2), "laws: is required"),
+    "wrenches promised": (header(format=3), "laws: is required"),
     "planner a number": (header(planner=1), "header.planner: must be a str, got int"),
     "scene a list": (header(scene=[]), "header.scene: must be a dict"),
     "scene broken": (header(scene={"name": "x"}), "header.scene.surfaces: is required"),
@@ -208,6 +210,79 @@ def test_forces_at_points_come_back_exactly(tmp_path):
         assert repr(other.phases) == repr(plan.phases) and repr(other.knots) == repr(plan.knots)
         assert other.open_end and plan_to_bytes(other) == plan_to_bytes(plan)
     assert json.loads(arrays_of(plan_to_bytes(plan))["header"].tobytes())["format"] == 2
+
+
+WRENCH_DAMAGE = {
+    "no centres": (without("centers_of_pressure_W"), "centers_of_pressure_W: is required"),
+    "no headings": (without("end_effector_yaw"), "end_effector_yaw: is required"),
+    "no momentum": (without("angular_momentum_W"), "angular_momentum_W: is required"),
+    "unknown law": (put("laws", lambda a: a + 1), r"laws: must lie in \[0, 3\], got 4"),
+    "law of a later format": (header(format=2), r"laws: must lie in \[0, 2\], got 3"),
+    "centres of two": (put("centers_of_pressure_W", lambda a: a[..., :2]), "centers_of_pressure_W: must have shape"),
+    "too few headings": (
+        put("end_effector_yaw", lambda a: a[:, :2]),
+        r"end_effector_yaw: must have shape \(5, 4\), got \(5, 2\)",
+    ),
+    "headings of some": (put("end_effector_yaw", lambda a: a[:-1]), "end_effector_yaw: must have shape"),
+    "whole headings": (put("end_effector_yaw", lambda a: a.astype(int)), "end_effector_yaw: must hold floating-point"),
+    "infinite centre": (
+        put("centers_of_pressure_W", lambda a: a + np.inf),
+        r"phases\[0\].contacts\[0\]: must be finite",
+    ),
+    "infinite heading": (put("end_effector_yaw", lambda a: a + np.inf), r"knots\[0\]: must be finite numbers"),
+    "intervals": (put("intervals", lambda a: a + 1), r"phases\[0\].intervals: must be 0"),
+    "centres of points": (put("laws", lambda a: a - 3 + 2 * (a == 3)), "intervals: must be at least 1"),
+}
+
+
+@pytest.mark.parametrize("damage", WRENCH_DAMAGE)
+def test_damaged_contact_wrenches_are_named(damage, tmp_path):
+    change, message = WRENCH_DAMAGE[damage]
+    arrays = arrays_of(plan_to_bytes(turning_plan()))
+    change(arrays)
+    (tmp_path / "bad.npz").write_bytes(bytes_of(arrays))
+    with pytest.raises(mp.InvalidPlan, match=message) as found:
+        load_plan(tmp_path / "bad.npz")
+    assert str(found.value).startswith(str(tmp_path / "bad.npz"))
+
+
+def format_of(plan: mp.Plan) -> int:
+    return json.loads(arrays_of(plan_to_bytes(plan))["header"].tobytes())["format"]
+
+
+@pytest.mark.parametrize("headings", [True, False])
+def test_contact_wrenches_come_back_exactly(headings, tmp_path):
+    plan = turning_plan()
+    plan.phases[1].contacts[0].center_of_pressure_W[1] = 1 / 3
+    for k, knot in enumerate(plan.knots):
+        knot.end_effector_yaw = [0.1, 0.2, 0.3 * k, 1 / 3] if headings else []
+    plan.robot.end_effectors[0].yaw_range = [-0.5, 0.25]
+    plan.save(tmp_path / "plan.npz")
+    for other in (mp.Plan.load(tmp_path / "plan.npz"), pickle.loads(pickle.dumps(plan)), copy.deepcopy(plan)):
+        assert states(other) == states(plan)
+        assert repr(other.phases) == repr(plan.phases) and repr(other.knots) == repr(plan.knots)
+        assert repr(other.robot) == repr(plan.robot) and plan_to_bytes(other) == plan_to_bytes(plan)
+    assert format_of(plan) == 3
+
+
+def test_a_plan_is_written_in_the_least_format_that_holds_it(plan):
+    assert [format_of(plan), format_of(stepping_plan()), format_of(turning_plan())] == [1, 2, 3]
+    headed, pressed, spinning = (copy.deepcopy(plan) for _ in range(3))
+    for knot in headed.knots:
+        knot.end_effector_yaw = [0.0] * 4
+    pressed.phases[0].contacts[0].center_of_pressure_W = [0.0, -0.1, 0.0]
+    spinning.knots[1].angular_momentum_W = [0.0, 0.0, 1.0]
+    assert [format_of(headed), format_of(pressed), format_of(spinning)] == [3, 3, 2]
+    again = plan_from_bytes(plan_to_bytes(headed))
+    assert again.knots[2].end_effector_yaw == (0.0, 0.0, 0.0, 0.0) and again.phases[0].law == mp.ForceLaw.pendulum
+    assert plan_from_bytes(plan_to_bytes(pressed)).phases[0].contacts[0].center_of_pressure_W.tolist() == [0, -0.1, 0]
+
+
+def test_a_plan_with_a_heading_for_some_soles_alone_is_not_saved(tmp_path):
+    plan = turning_plan()
+    plan.knots[2].end_effector_yaw = [0.0, 0.0]
+    with pytest.raises(mp.InvalidPlan, match=r"knots\[2\].end_effector_yaw: must be one per end-effector"):
+        plan.save(tmp_path / "plan.npz")
 
 
 def test_files_from_before_there_were_points_still_load(plan):

@@ -5,8 +5,9 @@ import pytest
 
 import mcplan as mp
 import plans_by_hand as by_hand
+import wrenches
 from mcplan.kinematics.inverse_kinematics import follow, has_sole
-from mcplan.kinematics.samples import sample
+from mcplan.kinematics.samples import sample, sample_at
 from mcplan.kinematics.urdf_model import load_model
 
 pin = pytest.importorskip("pinocchio")
@@ -107,3 +108,17 @@ def test_out_of_reach_more_iterations_change_little(talos):
     assert again.residual == pytest.approx(once.residual, abs=0.01)
     feet = once.end_misses[:, :2]
     assert feet.max() < 0.03
+
+
+def test_postures_turn_with_the_base_and_the_soles_of_a_plan():
+    """A turn of 180 degrees: nothing is missed, wherever the robot heads, and legs are twisted by half a step at most."""
+    robot = mp.load_robot("talos")
+    plan = wrenches.turning(robot, angle=np.pi, pairs=3)
+    loaded = load_model(robot)
+    found = follow(loaded, sample(plan, plan.scene, robot, 10.0))
+    assert found.residual < 2e-3, found.where
+    assert np.degrees(found.tilts.max()) < 1.0
+    last = found.configurations[-1]
+    assert np.degrees(2.0 * np.arctan2(np.linalg.norm(last[3:6]), abs(last[6]))) == pytest.approx(180.0, abs=1.5)
+    backwards = sample_at(plan, plan.scene, robot, np.array([plan.duration()]))  # alone: from the robot's own posture
+    assert follow(loaded, backwards).residual < 2e-3

@@ -85,3 +85,27 @@ def test_the_smallest_rotation_leaves_what_is_normal_to_both():
         np.testing.assert_allclose(turn @ a, b, atol=1e-9)
         np.testing.assert_allclose(turn @ np.cross(a, b), np.cross(a, b), atol=1e-9)
         np.testing.assert_allclose(turn.T @ turn, np.eye(3), atol=1e-9)
+
+
+def test_soles_lie_flat_and_head_where_they_are_told_to():
+    """On what is not a wall ahead, the heading seen from above is the one asked for."""
+    rng = np.random.default_rng(12)
+    for _ in range(50):
+        normal = np.array([*rng.uniform(-0.4, 0.4, 2), 1.0])
+        normal /= np.linalg.norm(normal)
+        yaw = rng.uniform(-3.1, 3.1)
+        frame = rotations.sole_frame(normal, yaw)
+        assert np.allclose(frame.T @ frame, np.eye(3)) and np.linalg.det(frame) > 0.0
+        assert np.allclose(frame[:, 2], normal)
+        heading = np.array([np.cos(yaw), np.sin(yaw), 0.0])
+        # As near to the heading as anything in the surface can be.
+        assert frame[:, 0] @ heading == pytest.approx(np.sqrt(1.0 - (normal @ heading) ** 2))
+    level = rotations.sole_frame(np.array([0.0, 0.0, 1.0]), 2.0)
+    assert np.allclose(level, rotations.about_z(np.array(2.0)))
+
+
+def test_a_sole_on_a_wall_ahead_points_up():
+    frame = rotations.sole_frame(np.array([-1.0, 0.0, 0.0]), 0.05)
+    assert np.allclose(frame[:, 0], [0.0, 0.0, 1.0]) and np.allclose(frame[:, 2], [-1.0, 0.0, 0.0])
+    beside = rotations.sole_frame(np.array([0.0, -1.0, 0.0]), 0.0)
+    assert np.allclose(beside[:, 0], [1.0, 0.0, 0.0])

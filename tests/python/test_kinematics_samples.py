@@ -5,6 +5,7 @@ import pytest
 
 import mcplan as mp
 import plans_by_hand as by_hand
+import wrenches
 from mcplan.kinematics.samples import contact_intervals, knots_and_between, sample, sample_at, stance_samples
 from standing import standing_plan
 from stepping import stepping_plan
@@ -92,3 +93,54 @@ def test_a_stance_is_one_sample_with_soles_on_the_ground():
     assert samples.count == 1 and not samples.forces_W.any()
     feet = [i for i, end in enumerate(robot.end_effectors) if end.kind == "foot"]
     assert samples.rotations_W[0, feet, :, 2] == pytest.approx(np.tile([0.0, 0.0, 1.0], (len(feet), 1)))
+
+
+@pytest.fixture(scope="module")
+def turn():
+    return wrenches.turning(by_hand.humanoid())
+
+
+def test_planned_centres_of_pressure_are_where_forces_act():
+    plan = wrenches.standing_wrenches()
+    samples = sample(plan, plan.scene, plan.robot, 10.0)
+    assert samples.has_wrenches and not samples.has_points
+    for n in range(samples.count):
+        for end, contact in enumerate(plan.phases[0].contacts):
+            if contact.surface < 0:
+                assert (samples.pressure_W[n, end] == samples.positions_W[n, end]).all()
+                assert not samples.moments_W[n, end].any()
+                continue
+            assert samples.pressure_W[n, end] == pytest.approx(contact.center_of_pressure_W, abs=1e-12)
+            assert samples.moments_W[n, end] == pytest.approx(contact.moment_W, abs=1e-9)
+            assert np.abs(samples.pressure_W[n, end] - samples.positions_W[n, end]).max() > 0.02
+
+
+def test_a_pendulum_has_no_planned_centre_of_pressure():
+    plan = standing_plan()
+    assert not sample(plan, plan.scene, plan.robot).has_wrenches
+
+
+def test_soles_head_as_the_plan_says_and_not_as_the_base_does(turn):
+    samples = sample(turn, turn.scene, turn.robot, 60.0)
+    apart = 0.0
+    for n, t in enumerate(samples.times_s):
+        state = turn.at(float(t))
+        for end in range(2):
+            x = samples.rotations_W[n, end, :, 0]
+            assert np.arctan2(x[1], x[0]) == pytest.approx(state.end_effectors[end].yaw, abs=1e-9)
+            assert samples.rotations_W[n, end, :, 2] == pytest.approx([0.0, 0.0, 1.0], abs=1e-12)
+            apart = max(apart, abs(state.end_effectors[end].yaw - state.base_rpy[2]))
+    assert np.degrees(apart) > 15.0  # base and feet take turns
+    for interval in samples.intervals:
+        times = (samples.times_s >= interval.start_s) & (samples.times_s <= interval.end_s)
+        rotations = samples.rotations_W[times, interval.end_effector]
+        assert (rotations == interval.rotation_W).all()
+    cosines = (np.einsum("neij,neij->ne", samples.rotations_W[:-1, :2], samples.rotations_W[1:, :2]) - 1.0) / 2.0
+    angles = np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))
+    assert angles.max() < 30.0 * 1.875 / (0.6 * 60.0) + 0.1  # the quintic's largest slope
+
+
+def test_hands_that_touch_nothing_turn_with_the_base(turn):
+    samples = sample(turn, turn.scene, turn.robot, 20.0)
+    for hand in (2, 3):
+        assert (samples.rotations_W[:, hand] == samples.rotation_WB).all()

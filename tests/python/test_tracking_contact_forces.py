@@ -139,3 +139,15 @@ def test_a_pyramid_is_inside_the_cone_and_fills_most_of_it(friction):
         well_inside = across < np.cos(np.pi / SIDES) * FRICTION_SHARE * friction * along - 1e-9
         assert allowed[well_inside].all() and well_inside.any()
         assert (rows @ normal > 0.0).all()
+
+
+def test_a_twist_is_a_moment_about_the_normal_and_nothing_else():
+    for outline in (None, np.array([[-1.0, -1], [0.03, -1], [0.0, 1], [-1, 1]])):
+        points = ForcePoints.of(HALF, outline)
+        turn = Rotation.random(random_state=3).as_matrix()
+        forces = points.twist(7.0, turn)
+        np.testing.assert_allclose(points.map(turn) @ forces, [0.0, 0.0, 0.0, *(7.0 * turn[:, 2])], atol=1e-9)
+        # The least of all such forces: a least-squares solution has no part that the wrench does not see.
+        least = np.linalg.lstsq(points.map(turn), points.map(turn) @ forces, rcond=None)[0]
+        np.testing.assert_allclose(forces, least, atol=1e-9)
+    assert not ForcePoints.of(np.zeros(2)).twist(7.0, np.eye(3)).any()

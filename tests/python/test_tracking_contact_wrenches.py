@@ -10,13 +10,14 @@ UP = np.array([0.0, 0.0, 1.0])
 G = 9.81
 
 
-def contact(x: float, force, friction: float = 0.5, half: float = 0.0, normal=UP) -> Contact:
+def contact(x: float, force, friction: float = 0.5, half: float = 0.0, normal=UP, moment=None) -> Contact:
     """At (x, 0, -1) below a base whose axes are the world's: its Jacobian is that of a rigid body."""
     position = np.array([x, 0.0, -1.0])
     corners = [position + [a, b, 0.0] for a in {-half, half} for b in {-half, half}]
     skew = np.array([[0.0, -position[2], position[1]], [position[2], 0.0, -x], [-position[1], x, 0.0]])
     jacobian = np.block([[np.eye(3), -skew], [np.zeros((3, 3)), np.eye(3)]])
-    return Contact(np.array(corners), np.asarray(normal, float), friction, np.asarray(force, float), position, jacobian)
+    force = np.asarray(force, float)
+    return Contact(np.array(corners), np.asarray(normal, float), friction, force, position, jacobian, moment)
 
 
 def weight(mass: float) -> np.ndarray:
@@ -54,6 +55,22 @@ def test_the_choice_that_balance_leaves_is_the_plans():
     contacts = [contact(x, [0, 0, f]) for x, f in zip(places, planned, strict=True)]
     wrenches, _ = balanced_wrenches(contacts, base, 1.0)
     assert [w[2] for w in wrenches] == pytest.approx(planned, rel=2e-3)
+
+
+def test_the_centre_of_pressure_that_balance_leaves_is_the_plans():
+    """Two soles beside the CoM: how far both centres of pressure move apart is open, and so is a twist of one against the
+    other."""
+    half_weight = 20.0 * G
+    moments = [np.array([0.0, s * 0.05 * half_weight, s * 3.0]) for s in (1.0, -1.0)]
+    contacts = [contact(x, [0, 0, half_weight], half=0.1, moment=m) for x, m in zip((-0.2, 0.2), moments, strict=True)]
+    wrenches, residual = balanced_wrenches(contacts, weight(40.0), 1.0)
+    assert np.abs(residual).max() < 0.1
+    for wrench, moment in zip(wrenches, moments, strict=True):
+        assert wrench[2] == pytest.approx(half_weight, rel=5e-3)
+        assert wrench[3:] == pytest.approx(moment, rel=0.03, abs=0.1)
+    open_ones = [contact(s * 0.2, [0, 0, half_weight], half=0.1) for s in (-1, 1)]
+    for wrench in balanced_wrenches(open_ones, weight(40.0), 1.0)[0]:
+        assert np.abs(wrench[3:]).max() < 1.0
 
 
 def test_forces_stay_in_the_friction_cone():

@@ -6,6 +6,7 @@ from scipy.spatial.transform import Rotation
 
 import mcplan as mp
 import tracked
+import wrenches
 from mcplan.kinematics.rotations import from_rpy
 from mcplan.tracking.references import LARGEST_SWING_ACCELERATION, _angular_velocity, references
 from stepping import stepping_plan
@@ -142,3 +143,59 @@ def test_hands_that_touch_nothing_never_return():
     _, wanted = tracked.still()
     hands = (wanted.surfaces < 0).all(axis=0)
     assert hands.any() and not wanted.returns[:, hands].any()
+
+
+def test_wrenches_change_the_momentum_at_the_rate_that_is_asked_for(robot):
+    """Against differences of the plan's own momentum, but for the steps next to a knot, where the rate jumps."""
+    plan = wrenches.leaning(robot)
+    wanted = references(plan, robot, DT, HOLD)
+    knots, compared = np.array(plan.knot_times()), 0
+    for n in range(1, round(plan.duration() / DT) - 1):
+        if np.abs(knots - n * DT).min() > 1.5 * DT:
+            before, after = (plan.at((n + i) * DT).angular_momentum_W for i in (-1, 1))
+            np.testing.assert_allclose(wanted.momentum_rate_W[n], (after - before) / (2 * DT), atol=1e-3)
+            compared += 1
+    assert compared > 150 and np.abs(wanted.momentum_rate_W).max() > 5.0
+    assert not wanted.momentum_rate_W[np.arange(wanted.count) * DT > plan.duration()].any()
+
+
+@pytest.mark.parametrize("yaw", [0.0, 0.5 * np.pi, 3.0])
+def test_the_base_turns_as_its_momentum_says_however_it_heads(robot, yaw):
+    """omega = R I^-1 R^T L, with roll and pitch of 10 to 15 degrees: no rates of angles in it."""
+    plan = wrenches.leaning(robot, yaw=yaw)
+    wanted = references(plan, robot, DT, HOLD)
+    knots = np.array(plan.knot_times())
+    tilts = []
+    for n in range(1, round(plan.duration() / DT) - 1):
+        if np.abs(knots - n * DT).min() <= 1.5 * DT:
+            continue
+        state = plan.at(n * DT)
+        turn = Rotation.from_euler("xyz", state.base_rpy).as_matrix()
+        omega = turn @ ((turn.T @ state.angular_momentum_W) / robot.inertia)
+        np.testing.assert_allclose(wanted.base_velocity_W[n], omega, atol=2e-3)
+        np.testing.assert_allclose(wanted.base_WB[n], turn, atol=1e-12)
+        tilts.append(np.abs(state.base_rpy[:2]))
+    assert np.max(tilts) > 0.15
+    assert np.linalg.norm(wanted.base_velocity_W, axis=1).max() > 0.1
+
+
+def test_momentum_and_moments_are_scaled_to_the_robot_that_walks(robot):
+    plan, heavy = wrenches.leaning(robot), mp.load_robot("talos")
+    heavy.mass *= 1.5
+    light, wanted = references(plan, robot, DT, HOLD), references(plan, heavy, DT, HOLD)
+    for field in ("momentum_W", "momentum_rate_W", "moments_W"):
+        np.testing.assert_allclose(getattr(wanted, field), 1.5 * getattr(light, field), atol=1e-9)
+
+
+def test_a_turn_asks_every_sole_to_turn_while_it_is_in_the_air(robot):
+    plan = wrenches.turning(robot)
+    wanted = references(plan, robot, DT, HOLD)
+    for foot in (0, 1):
+        down = wanted.surfaces[:, foot] >= 0
+        inner = down & np.roll(down, 1) & np.roll(down, -1)
+        assert not wanted.sole_velocities_W[inner, foot].any()
+        turned = np.cumsum(wanted.sole_velocities_W[:, foot, 2]) * DT
+        assert np.degrees(turned[-1]) == pytest.approx(90.0, abs=0.1)
+    yaw = np.arctan2(wanted.base_WB[:, 1, 0], wanted.base_WB[:, 0, 0])
+    assert np.degrees(yaw[-1]) == pytest.approx(90.0, abs=1e-6)
+    np.testing.assert_allclose(np.cumsum(wanted.base_velocity_W[:, 2]) * DT, yaw, atol=2e-3)

@@ -7,6 +7,7 @@ import pytest
 
 import mcplan as mp
 import tracked
+import wrenches
 from standing import standing_plan
 from stepping import stepping_plan
 
@@ -42,6 +43,26 @@ def test_a_step_is_taken_unassisted(step):
     assert (found.assist_force_rms_N, found.assist_moment_rms_Nm) == (0.0, 0.0)
     assert found.completed_s == pytest.approx(tracked.step_ahead().duration() + 0.4, abs=0.005)
     assert found.realtime_factor > 0.0 and found.control_ms > 0.0
+
+
+def test_a_turn_on_the_spot_is_followed_by_base_and_soles():
+    """60 degrees in two steps: the base is the plan's, not that of postures, and feet land as they are told to head."""
+    robot = mp.load_robot("talos")
+    plan = wrenches.turning(robot, angle=np.radians(60.0), pairs=2)
+    result = track(plan, options=Options(hold_s=0.4))
+    found, run = result.measures, result.recording
+    assert not found.fell and found.qp_failures == 0 and found.simulator_warnings == 0
+    assert found.com_rms_m < 0.002 and found.swing_rms_m < 0.005 and found.slip_m < 0.003
+    assert found.orientation_rms_deg < 0.5 and found.final_base_error_m < 0.005
+    model = mujoco_model.build(robot, plan.scene).loaded
+    data = model.model.createData()
+    pin.framesForwardKinematics(model.model, data, run.configurations[-1])
+    for frame in (data.oMi[1], data.oMf[model.frames[0]], data.oMf[model.frames[1]]):
+        x = frame.rotation[:, 0]
+        assert np.degrees(np.arctan2(x[1], x[0])) == pytest.approx(60.0, abs=2.5)
+    # What turns it is planned to the newton metre: the momentum about the vertical is the plan's.
+    error = run.angular_momentum_W[:, 2] - run.angular_momentum_plan_W[:, 2]
+    assert np.sqrt(np.mean(error**2)) < 0.25 * run.angular_momentum_plan_W[:, 2].max()
 
 
 def test_the_recording_is_what_the_robot_did(step):

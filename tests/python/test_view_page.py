@@ -16,6 +16,7 @@ from mcplan.view import show, show_scene
 from mcplan.view.snapshot import find_browser
 from page_contents import clips_of, commands_of, floats, track
 from stepping import stepping_plan
+from wrenches import standing_wrenches, turning
 
 pytest.importorskip("umsgpack")
 pytest.importorskip("meshcat")
@@ -176,3 +177,33 @@ def test_forces_at_points_start_at_the_centre_of_pressure():
         weights = end.point_forces_W[:, 2]
         assert start == pytest.approx(weights @ end.points_W / weights.sum(), abs=1e-4)
     assert np.ptp(floats(shaft["values"]).reshape(-1, 3)[:, 1]) > 0.01
+
+
+def test_forces_of_wrenches_start_at_the_planned_centre_of_pressure():
+    plan = standing_wrenches()
+    clips = clips_of(show(plan).html())
+    for end, contact in zip(plan.robot.end_effectors, plan.phases[0].contacts, strict=True):
+        if contact.surface < 0:
+            assert f"forces/{end.name}/shaft" not in clips
+            continue
+        starts = floats(track(clips[f"forces/{end.name}/shaft"], "position")["values"]).reshape(-1, 3)
+        assert starts == pytest.approx(np.tile(contact.center_of_pressure_W, (len(starts), 1)), abs=1e-4)
+
+
+def test_feet_turn_on_their_own_and_bodies_with_the_base():
+    plan = turning(by_hand.humanoid())
+    clips = clips_of(show(plan).html())
+    for path, heading in (
+        ("robot/left_foot_tip", lambda s: s.end_effectors[1].yaw),
+        ("robot/base", lambda s: s.base_rpy[2]),
+    ):
+        found = track(clips[path], "quaternion")
+        for t, quat in list(zip(floats(found["times"]), floats(found["values"]).reshape(-1, 4), strict=True))[::5]:
+            x, y, z, w = quat
+            yaw = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+            assert yaw == pytest.approx(heading(plan.at(min(float(t), plan.duration()))), abs=1e-4)
+
+
+def test_captions_of_wrenches_say_how_much_the_body_swings():
+    assert "angular momentum up to 1.3 kg m" in show(turning(by_hand.humanoid())).html()
+    assert "angular momentum" not in show(by_hand.walk(by_hand.stairs(), by_hand.humanoid())).html()

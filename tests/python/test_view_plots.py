@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import plans_by_hand as by_hand
+import wrenches
 from mcplan.view import (
     picture,
     plot_com,
@@ -17,6 +18,7 @@ from mcplan.view import (
     plot_momentum,
     plot_pressure,
     plot_timing,
+    plot_turning,
     save_plots,
 )
 from stepping import LEFT, RIGHT, stepping_plan
@@ -213,3 +215,48 @@ def test_timing_bars_are_the_durations(steps):
     assert [bar.get_height() for bar in axes.patches] == pytest.approx([phase.duration for phase in steps.phases])
     colours = [bar.get_facecolor() for bar in axes.patches]
     assert colours[0] == colours[2] != colours[1] != colours[4]
+
+
+@pytest.fixture(scope="module")
+def turn():
+    return wrenches.turning(by_hand.humanoid())
+
+
+def test_a_plan_with_wrenches_gets_pressure_and_turning_too(turn, tmp_path):
+    names = {path.stem for path in save_plots(turn, None, tmp_path)}
+    assert names == {"picture", "gait", "com", "momentum", "forces", "friction", "pressure", "turning"}
+    for name in names:
+        assert (pixels(tmp_path / f"{name}.png") < 250).any(axis=2).sum() > 500, name
+
+
+def test_planned_centres_of_pressure_are_drawn_in_parts_of_the_sole():
+    panels = plot_pressure(wrenches.standing_wrenches()).axes
+    for row, (length, width) in enumerate(((-0.4, -0.5), (0.4, 0.5))):
+        for column, share in enumerate((length, width)):
+            _, values = drawn(panels[2 * row + column], "centre of pressure")
+            assert values == pytest.approx(np.full(len(values), share), abs=1e-9)
+            edges = [line.get_ydata()[0] for line in panels[2 * row + column].lines[:2]]
+            assert edges == [-1.0, 1.0]
+
+
+def test_turning_shows_the_base_and_the_headings_of_soles_on_the_ground(turn):
+    axes = plot_turning(turn).axes
+    times, yaw = drawn(axes[2], "base")
+    _, right = drawn(axes[2], "right foot")
+    for t, of_base, of_foot in list(zip(times, yaw, right, strict=True))[::61]:
+        state = turn.at(min(t, turn.duration()))
+        assert of_base == pytest.approx(np.degrees(state.base_rpy[2]), abs=1e-9)
+        if state.end_effectors[RIGHT].surface < 0:
+            assert np.isnan(of_foot)
+        else:
+            assert of_foot == pytest.approx(np.degrees(state.end_effectors[RIGHT].yaw), abs=1e-9)
+    assert yaw[-1] == pytest.approx(90.0) and right[-1] == pytest.approx(90.0)
+
+
+def test_friction_of_wrenches_is_that_of_their_forces():
+    """Both feet push along x by m mu squeeze, 0.02 m of 0.7 m of height."""
+    plan = wrenches.standing_wrenches(squeeze_m=0.02)
+    contacts = [c for c in plan.phases[0].contacts if c.surface >= 0]
+    for axes, contact in zip(plot_friction(plan).axes, contacts, strict=True):
+        arm = plan.knots[0].com_W - contact.anchor_W
+        assert drawn(axes, "tangential / normal")[1] == pytest.approx(np.hypot(*arm[:2]) / arm[2])

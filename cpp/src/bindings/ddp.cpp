@@ -8,6 +8,7 @@ namespace mcplan::bindings {
 namespace {
 
 using ddp::Method;
+using ddp::Model;
 using ddp::Options;
 using ddp::StiffnessInput;
 using ddp::SwitchedDdp;
@@ -22,8 +23,15 @@ void bind_weights(py::module_& m) {
   c.def_readwrite("com_end", &Weights::com_end, "At the first and last knot.");
   c.def_readwrite("velocity", &Weights::velocity);
   c.def_readwrite("velocity_end", &Weights::velocity_end);
-  c.def_readwrite("rotation", &Weights::rotation);
+  c.def_readwrite("rotation", &Weights::rotation, "On the base's angles and rates, inside for Model.lipm alone.");
   c.def_readwrite("rotation_end", &Weights::rotation_end);
+  c.def_readwrite("angle", &Weights::angle, "On the base's angles inside, of Model.wrench.");
+  c.def_readwrite("momentum", &Weights::momentum, "On the angular momentum inside, of Model.wrench.");
+  c.def_readwrite("center_of_pressure", &Weights::center_of_pressure,
+                  "On the distance of the acting force from the end-effector, of Model.wrench.");
+  c.def_readwrite("force_line", &Weights::force_line,
+                  "On the distance from there to the line that points at the CoM, of Model.wrench; very large: the "
+                  "paper's forces.");
   c.def_readwrite("end_effector", &Weights::end_effector);
   c.def_readwrite("end_effector_end", &Weights::end_effector_end);
   c.def_readwrite("stride", &Weights::stride, "On the travel of an end-effector within a phase.");
@@ -43,6 +51,10 @@ void bind_options(py::module_& m) {
   py::enum_<Method>(m, "Method", "Which search runs.")
       .value("standard", Method::standard)
       .value("paper", Method::paper);
+  py::enum_<Model>(m, "Model", "What a contact can do.")
+      .value("wrench", Model::wrench,
+             "Forces act within the sole and need not point at the CoM: angular momentum, turning, friction as it is.")
+      .value("lipm", Model::lipm, "The paper's: forces act at the end-effector and point at the CoM.");
   py::enum_<StiffnessInput>(m, "StiffnessInput", "How the contact stiffness enters: mu, or lambda with mu = lambda^2.")
       .value("mu", StiffnessInput::mu)
       .value("lambda_", StiffnessInput::lambda);
@@ -51,6 +63,7 @@ void bind_options(py::module_& m) {
   c.def(py::init<>());
   c.def_readwrite("phases", &Options::phases, "Number of phases N; 0: 18, or more where the way asks for more steps.");
   c.def_readwrite("method", &Options::method);
+  c.def_readwrite("model", &Options::model, "Method.paper always takes Model.lipm.");
   c.def_readwrite("stiffness_input", &Options::stiffness_input);
   c.def_readwrite("weights", &Options::weights);
   c.def_readwrite("duration_min_s", &Options::duration_min_s, "Soft box of the phase durations [s]; 0: the robot's.");
@@ -65,6 +78,8 @@ void bind_options(py::module_& m) {
                   "Share of a sole's half size by which footholds keep from the edges of their surface; 1: the whole "
                   "sole is on it, where it is large enough; negative: the robot's sole_support.");
   c.def_readwrite("friction", &Options::friction, "Hold the friction cones.");
+  c.def_readwrite("friction_sides", &Options::friction_sides,
+                  "Sides of the pyramid inside the cone that is held instead of it; 0: the cone itself.");
   c.def_readwrite("whole_sequence_moves", &Options::whole_sequence_moves);
   c.def_readwrite("one_switch_per_step", &Options::one_switch_per_step);
   c.def_readwrite("restarts", &Options::restarts, "Further attempts while the checker rejects the plan.");

@@ -95,8 +95,8 @@ void bind_knot(py::module_& m) {
   def_points(knot, "end_effector_velocities_W", &Knot::end_effector_velocities_W, "[m/s], zero at contacts.");
   def_vector(knot, "angular_momentum_W", &Knot::angular_momentum_W,
              "About the CoM [kg m^2/s]; not looked at under ForceLaw.pendulum, whose base carries it.");
-  knot.def_readwrite("end_effector_yaw", &Knot::end_effector_yaw,
-                     "Heading of each sole [rad]; empty: all head where the base does.");
+  def_names(knot, "end_effector_yaw", &Knot::end_effector_yaw,
+            "Heading of each sole [rad], a tuple; empty: all head where the base does.");
   def_value(knot, "Knot",
             {"com_W", "com_velocity_W", "base_rpy", "base_rpy_rate", "end_effectors_W", "end_effector_velocities_W",
              "angular_momentum_W", "end_effector_yaw"});
@@ -302,19 +302,24 @@ void bind_report(py::module_& m) {
 void bind_checker(py::module_& m) {
   py::class_<Tolerances> c(m, "Tolerances", "Published tolerances of the checker.");
   const Tolerances d;
-  c.def(py::init([](double dynamics, double contact_distance, double slip, double friction, double force,
-                    double force_cap, double moment, double reach, double clearance, double boundary, double stance,
-                    int switches, double sample_s) {
-          return Tolerances{dynamics, contact_distance, slip,     friction, force,    force_cap, moment,
-                            reach,    clearance,        boundary, stance,   switches, sample_s};
+  c.def(py::init([](double dynamics, double orientation, double center_of_pressure, double contact_distance,
+                    double slip, double friction, double force, double force_cap, double moment, double reach,
+                    double yaw, double clearance, double boundary, double stance, int switches, double sample_s) {
+          return Tolerances{
+              dynamics, orientation, center_of_pressure, contact_distance, slip,   friction, force,   force_cap, moment,
+              reach,    yaw,         clearance,          boundary,         stance, switches, sample_s};
         }),
-        py::kw_only(), py::arg("dynamics") = d.dynamics, py::arg("contact_distance") = d.contact_distance,
+        py::kw_only(), py::arg("dynamics") = d.dynamics, py::arg("orientation") = d.orientation,
+        py::arg("center_of_pressure") = d.center_of_pressure, py::arg("contact_distance") = d.contact_distance,
         py::arg("slip") = d.slip, py::arg("friction") = d.friction, py::arg("force") = d.force,
         py::arg("force_cap") = d.force_cap, py::arg("moment") = d.moment, py::arg("reach") = d.reach,
-        py::arg("clearance") = d.clearance, py::arg("boundary") = d.boundary, py::arg("stance") = d.stance,
-        py::arg("switches") = d.switches, py::arg("sample_s") = d.sample_s);
+        py::arg("yaw") = d.yaw, py::arg("clearance") = d.clearance, py::arg("boundary") = d.boundary,
+        py::arg("stance") = d.stance, py::arg("switches") = d.switches, py::arg("sample_s") = d.sample_s);
   c.def_readwrite("dynamics", &Tolerances::dynamics,
                   "[m], [m/s], [rad], [rad/s] replayed state against the next knot.");
+  c.def_readwrite("orientation", &Tolerances::orientation, "[rad] replayed orientation of the base.");
+  c.def_readwrite("center_of_pressure", &Tolerances::center_of_pressure,
+                  "[m] centre of pressure off the sole or off the surface.");
   c.def_readwrite("contact_distance", &Tolerances::contact_distance,
                   "[m] end-effector in contact off its plane or polygon.");
   c.def_readwrite("slip", &Tolerances::slip, "[m] travel of an end-effector while in contact.");
@@ -323,6 +328,7 @@ void bind_checker(py::module_& m) {
   c.def_readwrite("force_cap", &Tolerances::force_cap, "[-] relative excess over max_force.");
   c.def_readwrite("moment", &Tolerances::moment, "[N m] excess over max_moment or the torsion the contact can give.");
   c.def_readwrite("reach", &Tolerances::reach, "[m] outside the reach box.");
+  c.def_readwrite("yaw", &Tolerances::yaw, "[rad] heading of a sole outside its range.");
   c.def_readwrite("clearance", &Tolerances::clearance, "[m] swinging end-effector inside a solid.");
   c.def_readwrite("boundary", &Tolerances::boundary, "[m], [m/s], [rad] start and goal against the scene's.");
   c.def_readwrite("stance", &Tolerances::stance, "[m] end-effectors in contact at the start off the nominal stance.");
@@ -330,8 +336,8 @@ void bind_checker(py::module_& m) {
                   "[-] contacts made or broken in one step; surface to surface counts two.");
   c.def_readwrite("sample_s", &Tolerances::sample_s, "[s] sampling of the constraints in time.");
   def_value(c, "Tolerances",
-            {"dynamics", "contact_distance", "slip", "friction", "force", "force_cap", "moment", "reach", "clearance",
-             "boundary", "stance", "switches", "sample_s"});
+            {"dynamics", "orientation", "center_of_pressure", "contact_distance", "slip", "friction", "force",
+             "force_cap", "moment", "reach", "yaw", "clearance", "boundary", "stance", "switches", "sample_s"});
 
   py::class_<CheckResult> result(m, "CheckResult", "The worst place of every constraint, violated or not.");
   def_items(result, "constraints", &CheckResult::constraints, "Tuple of Violation, violated or not.");

@@ -15,7 +15,7 @@ using Held = std::vector<std::vector<char>>;
 void snap_positions(const Problem& problem, const ContactSequence& sequence, Trajectory& t) {
   const Layout& at = problem.layout;
   const int n = problem.steps;
-  const int fixed = at.nx() - at.angle();
+  const int fixed = at.nx() - (problem.model == Model::wrench ? 0 : at.angle());
   t.x[0].tail(fixed) = problem.start.tail(fixed);
   for (int l = 0; l < at.ends(); ++l) {
     for (int k = 0; k <= n; ++k) {
@@ -37,6 +37,27 @@ void snap_positions(const Problem& problem, const ContactSequence& sequence, Tra
   }
 }
 
+/// Bring a centre of pressure onto its sole, held there if it was outside; forces of free end-effectors act nowhere.
+void snap_pressure(const Problem& problem, int l, int surface, double sole_yaw, VectorXd& u, std::vector<char>& held) {
+  const Layout& at = problem.layout;
+  const int count = at.pressure_count(l), lines = at.force_line_count(l);
+  if (surface == kFree) {
+    u.segment(at.pressure(l), count).setZero();
+    u.segment(at.force_line(l), lines).setZero();
+    std::fill_n(held.begin() + at.pressure(l), count, 1);
+    std::fill_n(held.begin() + at.force_line(l), lines, 1);
+    return;
+  }
+  if (count == 0) return;
+  const Eigen::Matrix3d sole = problem.sole_frame(surface, sole_yaw);
+  const Eigen::Vector2d offset = sole.leftCols<2>().transpose() * at.pressure_offset(u, l);
+  const Eigen::Vector2d& half = problem.limits[l].half_size;
+  const Eigen::Vector2d on_sole = offset.cwiseMax(-half).cwiseMin(half);
+  if (count == 2 && on_sole == offset) return;
+  u.segment(at.pressure(l), count) = at.offsets(l).pressure.transpose() * (sole.leftCols<2>() * on_sole);
+  std::fill_n(held.begin() + at.pressure(l), count, 1);
+}
+
 /// Bring forces and moments into their bounds and hold those that were outside; free end-effectors have none.
 void snap_forces(const Problem& problem, const Pendulum& pendulum, const ContactSequence& sequence, Trajectory& t,
                  Held& held) {
@@ -51,12 +72,16 @@ void snap_forces(const Problem& problem, const Pendulum& pendulum, const Contact
   for (int k = 0; k < problem.steps; ++k) {
     for (int l = 0; l < at.ends(); ++l)
       bound(k, at.stiffness(l), 0.0, sequence[k][l] == kFree ? 0.0 : std::numeric_limits<double>::infinity());
+    for (int l = 0; l < at.ends(); ++l) snap_pressure(problem, l, sequence[k][l], t.sole_yaw[k][l], t.u[k], held[k]);
     for (int i = 0; i < at.moment_count(); ++i) {
-      const int l = at.moments()[i].end_effector;
+      const Layout::Moment& m = at.moments()[i];
+      const int l = m.end_effector, surface = sequence[k][l];
       double most = 0.0;
-      if (sequence[k][l] != kFree)
-        most = std::min(problem.limits[l].moment_max[at.axes()[at.moments()[i].axis]],
-                        moment_per_stiffness(problem, l, sequence[k][l]) * mu(k, l));
+      if (surface != kFree) most = std::min(m.most, moment_per_stiffness(problem, l, surface) * mu(k, l));
+      // Three moments stand for one about a normal that the dynamics do not know: none is given then.
+      if (problem.model == Model::wrench && surface != kFree &&
+          std::abs(m.direction_W.dot(problem.polygons[surface].normal_W())) < 1.0 - 1e-9)
+        most = 0.0;
       bound(k, at.moment(i), -most, most);
     }
   }
@@ -75,6 +100,7 @@ bool Search::make_exact(Incumbent& now) {
   schedule.proximal_weight = 0.0;
   schedule.held_inputs = &held;
   Trajectory trajectory = now.trajectory;
+  problem_->set_sole_yaw(now.sequence, trajectory);
   snap_positions(*problem_, now.sequence, trajectory);
   // Newton on the defects: quadratic from 1e-3 on, but every input that meets its bound costs a step.
   constexpr double kRounding = 1e-13;

@@ -7,8 +7,9 @@ namespace mcplan::ddp {
 
 using Eigen::VectorXd;
 
-void add_base_rows(const Problem& problem, int k, const VectorXd& x, const VectorXd* u, Rows& rows) {
-  task_cost(problem, k, x, u, rows);
+void add_base_rows(const Problem& problem, int k, const VectorXd& x, const VectorXd* u, const Schedule& schedule,
+                   Rows& rows) {
+  task_cost(problem, k, x, u, schedule.discovering, rows);
   reach_cost(problem, x, rows);
   if (!u) return;
   duration_cost(problem, k, *u, rows);
@@ -16,16 +17,20 @@ void add_base_rows(const Problem& problem, int k, const VectorXd& x, const Vecto
 }
 
 void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const VectorXd& x, const VectorXd* u,
-                      const std::vector<Instant>& instants, int l, int contact, const Schedule& schedule, Rows& rows) {
+                      const std::vector<Instant>& instants, int l, int contact, double sole_yaw,
+                      const Schedule& schedule, Rows& rows) {
   if (contact == kFree) {
     if (u) free_cost(problem, *u, l, schedule.contact_weight, rows);
     if (schedule.interior_weight > 0.0) keep_out_cost(problem, x, l, schedule.interior_weight, rows);
     return;
   }
   contact_cost(problem, x, u, l, contact, schedule.contact_weight, rows);
-  if (!u || schedule.interior_weight == 0.0) return;
+  if (!u) return;
+  pressure_cost(problem, x, *u, l, contact, sole_yaw, schedule.contact_weight, rows);
+  if (schedule.interior_weight == 0.0) return;
   interior_reach_cost(problem, x, instants, l, schedule.interior_weight, rows);
-  if (problem.options.friction) friction_cost(problem, x, instants, l, contact, schedule.interior_weight, rows);
+  sole_turn_cost(problem, instants, l, sole_yaw, schedule.interior_weight, rows);
+  if (problem.options.friction) friction_cost(problem, x, *u, instants, l, contact, schedule.interior_weight, rows);
   force_cap_cost(problem, pendulum, x, *u, instants, l, schedule.interior_weight, rows);
   torsion_cost(problem, pendulum, *u, l, contact, schedule.interior_weight, rows);
 }
@@ -37,14 +42,14 @@ constexpr double kHeld = 1e10;
 
 /// Turn the quadratic of step k into the metric of the least change.
 void hold_inputs(const Problem& problem, int k, const std::vector<char>* held, Quadratic& q) {
-  const int nx = problem.layout.nx(), held_states = nx - Layout::angle();
+  const int nx = problem.layout.nx(), held_states = nx - (problem.model == Model::wrench ? 0 : Layout::angle());
   // The stiff costs count a little, so that the change avoids the limits, but not so much that it runs through the
   // inputs that are soft (durations above all) beyond where the linear model holds.
   constexpr double kCostShare = 1e-3;
   q.g.setZero();
   q.h *= kCostShare;
   q.h.diagonal().array() += 1.0;
-  if (k == 0) q.h.diagonal().segment(Layout::angle(), held_states).array() += kHeld;
+  if (k == 0) q.h.diagonal().segment(nx - held_states, held_states).array() += kHeld;
   if (!held) return;
   for (std::size_t i = 0; i < held->size(); ++i)
     if ((*held)[i]) q.h(nx + static_cast<int>(i), nx + static_cast<int>(i)) += kHeld;
@@ -54,7 +59,7 @@ void hold_inputs(const Problem& problem, int k, const std::vector<char>* held, Q
 
 LocalModel::LocalModel(const Problem& problem)
     : problem_(&problem),
-      pendulum_(problem.layout, problem.inertia, problem.options.stiffness_input),
+      pendulum_(problem.layout, problem.inertia, problem.options.stiffness_input, problem.model),
       stages_(problem.steps + 1),
       base_rows_(problem.layout.nz(), true) {
   for (Stage& stage : stages_) {
@@ -77,7 +82,7 @@ void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) 
     const VectorXd& x = trajectory.x[k];
     const VectorXd* u = last ? nullptr : &trajectory.u[k];
     base_rows_.clear();
-    add_base_rows(*problem_, k, x, u, base_rows_);
+    add_base_rows(*problem_, k, x, u, schedule, base_rows_);
     stage.base.c = 0.0;
     stage.base.g.setZero(at.nz());
     stage.base.h.setZero(at.nz(), at.nz());
@@ -96,11 +101,11 @@ void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) 
     stage.defect.segment<3>(at.com()) = stage.dynamics.com;
     stage.defect.segment<3>(at.velocity()) = stage.dynamics.velocity;
     stage.defect.segment(at.angle(), at.axis_count()) = stage.dynamics.angle;
-    stage.defect.segment(at.rate(), at.axis_count()) = stage.dynamics.rate;
+    stage.defect.segment(at.momentum(), at.axis_count()) = stage.dynamics.momentum;
     for (int l = 0; l < at.ends(); ++l)
       stage.defect.segment<3>(at.end(l)) = x.segment<3>(at.end(l)) + u->segment<3>(at.stride(l));
     stage.defect -= trajectory.x[k + 1];
-    if (schedule.interior_weight > 0.0) make_instants(*problem_, pendulum_, x, *u, true, scratch_step_, stage.instants);
+    if (schedule.interior_weight > 0.0) make_instants(*problem_, pendulum_, x, *u, stage.instants);
   }
 }
 
@@ -115,7 +120,7 @@ const Rows& LocalModel::block(int k, int l, int contact) {
   if (!stage.made[l][choice]) {
     rows.clear();
     add_contact_rows(*problem_, pendulum_, trajectory_->x[k], k < steps() ? &trajectory_->u[k] : nullptr,
-                     stage.instants, l, contact, schedule_, rows);
+                     stage.instants, l, contact, trajectory_->sole_yaw[k][l], schedule_, rows);
     stage.made[l][choice] = 1;
   }
   return rows;
@@ -155,7 +160,7 @@ void LocalModel::add_contacts(int k, const ContactState& state, Quadratic& q) {
 
 Evaluator::Evaluator(const Problem& problem)
     : problem_(&problem),
-      pendulum_(problem.layout, problem.inertia, problem.options.stiffness_input),
+      pendulum_(problem.layout, problem.inertia, problem.options.stiffness_input, problem.model),
       rows_(problem.layout.nz(), false) {}
 
 Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequence& sequence,
@@ -166,10 +171,11 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
     const bool last = k == problem_->steps;
     const VectorXd& x = trajectory.x[k];
     const VectorXd* u = last ? nullptr : &trajectory.u[k];
-    add_base_rows(*problem_, k, x, u, rows_);
-    if (u && schedule.interior_weight > 0.0) make_instants(*problem_, pendulum_, x, *u, false, step_, instants_);
+    add_base_rows(*problem_, k, x, u, schedule, rows_);
+    if (u && schedule.interior_weight > 0.0) make_instants(*problem_, pendulum_, x, *u, instants_);
     for (int l = 0; l < problem_->layout.ends(); ++l)
-      add_contact_rows(*problem_, pendulum_, x, u, instants_, l, sequence[k][l], schedule, rows_);
+      add_contact_rows(*problem_, pendulum_, x, u, instants_, l, sequence[k][l], trajectory.sole_yaw[k][l], schedule,
+                       rows_);
     if (last) break;
     if (in_flight(sequence[k])) flight_duration_cost(*problem_, *u, rows_);
     rows_.begin(Term::flight);

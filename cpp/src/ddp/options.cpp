@@ -35,6 +35,8 @@ void Options::validate() const {
   require_positive("proximal_weight", proximal_weight);
   require_at_least("interior_points", interior_points, 0);
   if (interior_points > 20) throw InvalidOptions("interior_points", "must be 20 at most", text(interior_points));
+  if (friction_sides != 0 && (friction_sides < 3 || friction_sides > 64))
+    throw InvalidOptions("friction_sides", "must be 0 (the cone) or lie in [3, 64]", text(friction_sides));
   require_weight("reach_margin_m", reach_margin_m);
   if (!(sole_inside <= 2.0)) throw InvalidOptions("sole_inside", "must be 2 at most", text(sole_inside));
   require_at_least("restarts", restarts, 0);
@@ -48,6 +50,10 @@ void Options::validate() const {
   require_weight("weights.velocity_end", weights.velocity_end);
   require_weight("weights.rotation", weights.rotation);
   require_weight("weights.rotation_end", weights.rotation_end);
+  require_weight("weights.angle", weights.angle);
+  require_weight("weights.momentum", weights.momentum);
+  require_positive("weights.center_of_pressure", weights.center_of_pressure);
+  require_positive("weights.force_line", weights.force_line);
   require_weight("weights.end_effector", weights.end_effector);
   require_weight("weights.end_effector_end", weights.end_effector_end);
   require_weight("weights.stride", weights.stride);

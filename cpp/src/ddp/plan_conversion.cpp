@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mcplan/base/rotation.hpp"
+#include "mcplan/base/turning.hpp"
 #include "mcplan/plan/swings.hpp"
 
 namespace mcplan::ddp {
@@ -23,7 +24,14 @@ Knot make_knot(const Problem& problem, const VectorXd& x) {
   knot.com_W = x.segment<3>(at.com()) * units.length;
   knot.com_velocity_W = x.segment<3>(at.velocity()) * units.velocity();
   knot.base_rpy = problem.rpy(x);
-  for (int a = 0; a < at.axis_count(); ++a) knot.base_rpy_rate[at.axes()[a]] = x[at.rate(a)] / units.time;
+  Vector3d momentum = Vector3d::Zero();
+  for (int a = 0; a < at.axis_count(); ++a) momentum[at.axes()[a]] = x[at.momentum(a)] * units.angular_momentum();
+  if (problem.model == Model::wrench) {
+    knot.angular_momentum_W = momentum;
+    knot.base_rpy_rate = rpy_rate(knot.base_rpy, momentum, problem.robot.inertia);
+  } else {
+    knot.base_rpy_rate = momentum.cwiseQuotient(problem.robot.inertia);
+  }
   // Idle end-effectors ride along at their nominal place.
   const Eigen::Matrix3d r_WB = rotation_from_rpy(knot.base_rpy);
   for (const EndEffector& end : problem.robot.end_effectors) {
@@ -59,12 +67,26 @@ void set_swing_velocities(const Problem& problem, Plan& plan) {
   }
 }
 
+/// A sole's heading at a knot is that of the contact that the knot belongs to; idle end-effectors head with the base.
+void set_sole_yaw(const Problem& problem, const Trajectory& trajectory, Plan& plan) {
+  for (int k = 0; k <= problem.steps; ++k) {
+    std::vector<double>& yaw = plan.knots[k].end_effector_yaw;
+    yaw.assign(problem.robot.end_effectors.size(), plan.knots[k].base_rpy.z());
+    for (int l = 0; l < problem.layout.ends(); ++l) {
+      const int e = problem.active[l];
+      const bool just_left = k > 0 && touches(plan, k - 1, e);
+      yaw[e] = trajectory.sole_yaw[just_left ? k - 1 : k][l];
+    }
+  }
+}
+
 }  // namespace
 
 Plan to_plan(const Problem& problem, const Incumbent& incumbent) {
   const Layout& at = problem.layout;
   const Units& units = problem.units;
-  const Pendulum pendulum(at, problem.inertia, problem.options.stiffness_input);
+  const Pendulum pendulum(at, problem.inertia, problem.options.stiffness_input, problem.model);
+  const bool wrench = problem.model == Model::wrench;
   Plan plan;
   plan.scene = problem.scene;
   plan.robot = problem.robot;
@@ -76,20 +98,23 @@ Plan to_plan(const Problem& problem, const Incumbent& incumbent) {
     Phase phase;
     phase.duration = std::max(u[at.duration()] * units.time, kShortestPhase);
     phase.contacts.resize(ends);
+    if (wrench) phase.law = ForceLaw::wrench;
     for (int l = 0; l < at.ends(); ++l) {
       Contact& contact = phase.contacts[problem.active[l]];
       contact.surface = incumbent.sequence[k][l];
-      contact.anchor_W = plan.knots[k].end_effectors_W[problem.active[l]];
+      contact.anchor_W = at.line_point(incumbent.trajectory.x[k], u, l) * units.length;
+      if (wrench) contact.center_of_pressure_W = at.acting_point(incumbent.trajectory.x[k], u, l) * units.length;
       contact.stiffness = pendulum.mu(u, l) * units.stiffness();
     }
     for (int i = 0; i < at.moment_count(); ++i) {
       const Layout::Moment& m = at.moments()[i];
-      phase.contacts[problem.active[m.end_effector]].moment_W[at.axes()[m.axis]] = u[at.moment(i)] * units.moment();
+      phase.contacts[problem.active[m.end_effector]].moment_W += u[at.moment(i)] * units.moment() * m.direction_W;
     }
     plan.phases.push_back(phase);
   }
   plan.final_contacts.assign(ends, kFree);
   for (int l = 0; l < at.ends(); ++l) plan.final_contacts[problem.active[l]] = incumbent.sequence[problem.steps][l];
+  if (wrench) set_sole_yaw(problem, incumbent.trajectory, plan);
   set_swing_velocities(problem, plan);
   choose_swings(plan);
   return plan;
@@ -108,9 +133,12 @@ Incumbent from_plan(const Problem& problem, const Plan& plan, int first) {
     VectorXd x = VectorXd::Zero(at.nx());
     x.segment<3>(at.com()) = knot.com_W / units.length;
     x.segment<3>(at.velocity()) = knot.com_velocity_W / units.velocity();
+    const bool has_momentum = problem.model == Model::wrench && plan.phases[0].law != ForceLaw::pendulum;
+    const Vector3d momentum =
+        has_momentum ? knot.angular_momentum_W : Vector3d(problem.robot.inertia.cwiseProduct(knot.base_rpy_rate));
     for (int a = 0; a < at.axis_count(); ++a) {
       x[at.angle(a)] = knot.base_rpy[at.axes()[a]];
-      x[at.rate(a)] = knot.base_rpy_rate[at.axes()[a]] * units.time;
+      x[at.momentum(a)] = momentum[at.axes()[a]] / units.angular_momentum();
     }
     ContactState state;
     for (int l = 0; l < at.ends(); ++l) {
@@ -132,15 +160,25 @@ Incumbent from_plan(const Problem& problem, const Plan& plan, int first) {
       u[at.stiffness(l)] =
           problem.options.stiffness_input == StiffnessInput::lambda ? std::sqrt(std::max(mu, 0.0)) : mu;
     }
+    for (int l = 0; l < at.ends(); ++l) {
+      const Contact& contact = phase.contacts[problem.active[l]];
+      if (contact.surface == kFree || phase.law != ForceLaw::wrench) continue;
+      const Vector3d acting = contact.center_of_pressure_W / units.length;
+      u.segment(at.pressure(l), at.pressure_count(l)) =
+          at.offsets(l).pressure.transpose() * (acting - out.trajectory.x[k].segment<3>(at.end(l)));
+      u.segment(at.force_line(l), at.force_line_count(l)) =
+          at.offsets(l).force_line.transpose() * (contact.anchor_W / units.length - acting);
+    }
     for (int i = 0; i < at.moment_count(); ++i) {
       const Layout::Moment& m = at.moments()[i];
-      u[at.moment(i)] = phase.contacts[problem.active[m.end_effector]].moment_W[at.axes()[m.axis]] / units.moment();
+      u[at.moment(i)] = m.direction_W.dot(phase.contacts[problem.active[m.end_effector]].moment_W) / units.moment();
     }
     u[at.duration()] = phase.duration / units.time;
     out.trajectory.u.push_back(u);
   }
   out.sequence.front() = problem.start_contacts;
   out.sequence.back() = problem.goal_contacts;
+  problem.set_sole_yaw(out.sequence, out.trajectory);
   return out;
 }
 

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/base/rotation.hpp"
+#include "mcplan/plan/clearance.hpp"
 
 namespace mcplan::ddp {
 namespace {
 
+using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -29,19 +32,72 @@ std::vector<int> addressed(const std::vector<std::string>& who, const Robot& rob
   return out;
 }
 
-Layout make_layout(const Robot& robot, const std::vector<int>& active, bool all_axes) {
-  std::vector<int> axes;
-  for (int axis = 0; axis < 3; ++axis) {
-    const bool driven =
-        std::any_of(active.begin(), active.end(), [&](int e) { return robot.end_effectors[e].max_moment[axis] > 0.0; });
-    if (driven || all_axes) axes.push_back(axis);
-  }
+/// Directions in which an end-effector's centre of pressure, or its moments, may lie: the common plane or normal of all
+/// surfaces that it may touch, or all of space where these differ. The dynamics must not depend on which one it is;
+/// rows of the contact then keep to its plane and normal.
+std::optional<Vector3d> common_normal(const std::vector<Polygon>& polygons, const std::vector<int>& surfaces) {
+  constexpr double kParallel = 1e-9;
+  for (int i : surfaces)
+    if ((polygons[i].normal_W() - polygons[surfaces.front()].normal_W()).norm() > kParallel) return std::nullopt;
+  return polygons[surfaces.front()].normal_W();
+}
+
+/// An end-effector far below (or above) the CoM shifts its force's line sideways; along itself would be the same as
+/// another stiffness.
+Matrix3Xd force_line_directions(const Vector3d& nominal) {
+  constexpr double kUpright = 0.9;
+  return Eigen::Matrix3d::Identity().leftCols(std::abs(nominal.z()) > kUpright * nominal.norm() ? 2 : 3);
+}
+
+Layout wrench_layout(const std::vector<EndLimits>& limits, const std::vector<Polygon>& polygons,
+                     const std::vector<std::vector<int>>& surfaces) {
+  std::vector<Layout::Offsets> ends;
   std::vector<Layout::Moment> moments;
-  for (std::size_t l = 0; l < active.size(); ++l)
-    for (std::size_t a = 0; a < axes.size(); ++a)
-      if (all_axes || robot.end_effectors[active[l]].max_moment[axes[a]] > 0.0)
-        moments.push_back({static_cast<int>(l), static_cast<int>(a)});
-  return Layout(static_cast<int>(active.size()), axes, moments);
+  for (std::size_t l = 0; l < limits.size(); ++l) {
+    const std::optional<Vector3d> normal = common_normal(polygons, surfaces[l]);
+    Layout::Offsets offsets;
+    if (limits[l].half_size.maxCoeff() > 0.0) {
+      if (normal)
+        offsets.pressure = mcplan::sole_frame(*normal, 0.0).leftCols<2>();
+      else
+        offsets.pressure = Eigen::Matrix3d::Identity();
+    }
+    offsets.force_line = force_line_directions(limits[l].nominal);
+    ends.push_back(offsets);
+    const double most = limits[l].moment_max.z();
+    if (most <= 0.0) continue;
+    if (normal)
+      moments.push_back({static_cast<int>(l), *normal, most});
+    else
+      for (int i = 0; i < 3; ++i) moments.push_back({static_cast<int>(l), Vector3d::Unit(i), most});
+  }
+  return Layout(ends, {0, 1, 2}, moments);
+}
+
+/// The paper's: axes that no moment drives are left out, unless `all_axes`.
+Layout lipm_layout(const std::vector<EndLimits>& limits, bool all_axes) {
+  std::vector<int> axes;
+  for (int axis = 0; axis < 3; ++axis)
+    if (all_axes ||
+        std::any_of(limits.begin(), limits.end(), [&](const EndLimits& e) { return e.moment_max[axis] > 0.0; }))
+      axes.push_back(axis);
+  std::vector<Layout::Moment> moments;
+  for (std::size_t l = 0; l < limits.size(); ++l)
+    for (int axis : axes)
+      if (all_axes || limits[l].moment_max[axis] > 0.0)
+        moments.push_back({static_cast<int>(l), Vector3d::Unit(axis), limits[l].moment_max[axis]});
+  return Layout(std::vector<Layout::Offsets>(limits.size()), axes, moments);
+}
+
+/// Tangents of a pyramid of `sides` sides about a normal.
+std::vector<Vector3d> pyramid_tangents(const Vector3d& normal, int sides) {
+  const Eigen::Matrix3d frame = mcplan::sole_frame(normal, 0.0);
+  std::vector<Vector3d> out;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2.0 * M_PI * i / sides;
+    out.push_back(std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1));
+  }
+  return out;
 }
 
 }  // namespace
@@ -51,11 +107,12 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   scene.validate();
   robot.validate();
   options.validate();
+  model = options.effective_model();
   units.length = robot.com_height;
   units.time = std::sqrt(robot.com_height / scene.gravity);
   units.mass = robot.mass;
   inertia = robot.inertia / (units.mass * units.length * units.length);
-  edge_margin = kEdgeMargin / units.length;
+  edge_margin = pressure_margin = kEdgeMargin / units.length;
   const double shortest_s = options.duration_min_s > 0.0 ? options.duration_min_s : robot.phase_duration[0];
   const double longest_s = options.duration_max_s > 0.0 ? options.duration_max_s : robot.phase_duration[1];
   if (longest_s < shortest_s) {
@@ -81,7 +138,6 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     active.push_back(e);
     surfaces.push_back(list);
   }
-  layout = make_layout(robot, active, options.method == Method::paper);
   for (const Surface& surface : scene.surfaces) {
     std::vector<Vector3d> scaled;
     for (const Vector3d& v : surface.vertices_W) scaled.push_back(v / units.length);
@@ -90,7 +146,9 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     keep_out_depth.push_back(2.0 * surface.thickness / units.length);
     friction.push_back(surface.grasp ? std::numeric_limits<double>::infinity()
                                      : std::max(surface.friction - kFrictionMargin, 0.5 * surface.friction));
+    pyramid.push_back(pyramid_tangents(polygons.back().normal_W(), options.friction_sides));
   }
+  if (options.friction_sides > 0) pyramid_share = std::cos(M_PI / options.friction_sides);
   for (int e : active) {
     const EndEffector& end = robot.end_effectors[e];
     const Vector3d margin = Vector3d::Constant(options.method == Method::paper ? 0.0 : options.reach_margin_m);
@@ -102,10 +160,15 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     l.reach_max = (end.reach_max_B - margin).cwiseMax(middle) / units.length;
     // A cap above ten times the weight would not bind; it also stands for "no cap".
     l.force_max = std::min(end.max_force / units.force(), 10.0);
-    l.half_width = end.half_size.minCoeff() / units.length;
+    l.half_size = end.half_size / units.length;
+    l.half_width = l.half_size.minCoeff();
     l.moment_max = end.max_moment / units.moment();
+    l.yaw_min = end.yaw_range[0];
+    l.yaw_max = end.yaw_range[1];
     limits.push_back(l);
   }
+  layout = model == Model::lipm ? lipm_layout(limits, options.method == Method::paper)
+                                : wrench_layout(limits, polygons, surfaces);
   std::vector<StateRule> state_rules;
   for (const ContactRule& rule : scene.rules) {
     // Judged on the whole robot: a rule about what it does not have is void, and what a required name does not find, or
@@ -130,6 +193,8 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
   const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
   base_rpy = Vector3d(0.0, 0.0, from.yaw);
+  start_yaw.assign(layout.ends(), from.yaw);
+  goal_yaw = to.yaw;
   make_foothold_margins(from.yaw, to.yaw);
   const auto state_of = [&](const ResolvedStance& stance) {
     VectorXd x = VectorXd::Zero(layout.nx());
@@ -153,8 +218,22 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
 /// the less the wider it is: less would leave it on its toes, half would leave no choice.
 constexpr double kNarrow = 0.35;
 
+double Problem::foothold_margin(int l, int surface, int edge) const {
+  const double margin = foothold_margins_[l][surface][edge];
+  if (toe_room == 0.0 || limits[l].half_width == 0.0) return margin + edge_margin;
+  return std::max(margin, std::min(margin + toe_room, narrow_[surface][edge])) + edge_margin;
+}
+
 void Problem::make_foothold_margins(double start_yaw, double goal_yaw) {
   const double share = options.sole_inside < 0.0 ? robot.sole_support : options.sole_inside;
+  for (const Polygon& polygon : polygons) {
+    std::vector<double>& of_surface = narrow_.emplace_back();
+    for (int i = 0; i < polygon.edge_count(); ++i) {
+      double width = 0.0;
+      for (const Vector3d& vertex : polygon.vertices_W()) width = std::max(width, -polygon.overshoot(i, vertex));
+      of_surface.push_back(kNarrow * width);
+    }
+  }
   for (int e : active) {
     const Eigen::Vector2d half = robot.end_effectors[e].half_size / units.length;
     std::vector<std::vector<double>>& of_end = foothold_margins_.emplace_back();
@@ -163,7 +242,8 @@ void Problem::make_foothold_margins(double start_yaw, double goal_yaw) {
       for (int i = 0; i < polygon.edge_count(); ++i) {
         const Vector3d& outward = polygon.edge_outward_W(i);
         double extent = 0.0, width = 0.0;
-        for (double yaw : {start_yaw, goal_yaw}) {
+        for (double way : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+          const double yaw = start_yaw + way * (goal_yaw - start_yaw);
           const Vector3d heading(std::cos(yaw), std::sin(yaw), 0.0);
           Vector3d across = polygon.normal_W().cross(heading);
           // On a wall that is faced the two are parallel: the sole's width is taken to lie level then.
@@ -180,8 +260,8 @@ void Problem::make_foothold_margins(double start_yaw, double goal_yaw) {
 }
 
 /// As many steps as the end-effectors that stand need to cover the way one after the other, a swing and a phase of full
-/// support each; at least the paper's 18. The stride is what the reach box leaves inside the friction cone, since
-/// forces point at the CoM.
+/// support each; at least the paper's 18. The stride is what the reach box allows, in the paper's model inside the
+/// friction cone, since forces point at the CoM there.
 int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const {
   constexpr int kPaper = 18, kMost = 400;
   int movers = 0, strides = 0;
@@ -193,7 +273,7 @@ int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& t
     for (int surface : rules.surfaces(static_cast<int>(l))) tangent = std::max(tangent, friction[surface]);
     const EndLimits& limit = limits[l];
     const double spread = std::min(tangent, 10.0) * std::abs(limit.nominal.z());
-    const double ahead = std::sqrt(std::max(spread * spread - limit.nominal.y() * limit.nominal.y(), 0.0));
+    const double ahead = model == Model::wrench ? std::numeric_limits<double>::infinity() : std::sqrt(std::max(spread * spread - limit.nominal.y() * limit.nominal.y(), 0.0));
     const double stride = std::min(limit.reach_max.x(), ahead) - std::max(limit.reach_min.x(), -ahead);
     const double way = (to.end_effectors_W[e] - from.end_effectors_W[e]).head<2>().norm() / units.length;
     if (stride > 0.0) strides = std::max(strides, static_cast<int>(std::ceil(std::min(way / stride - 1e-9, 1e3))));
@@ -201,18 +281,54 @@ int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& t
   return std::clamp(2 * movers * strides + 2, kPaper, kMost);
 }
 
-/// Cubic from start to goal, at rest at both ends (Tazaki, sec. III-A), tied to the step index.
+/// Cubic from start to goal, at rest at both ends (Tazaki, sec. III-A), tied to the step index. End-effectors keep
+/// their place relative to the base where that turns.
 void Problem::make_reference(const VectorXd& goal) {
   const double total = steps * duration_initial;
+  const double yaw_from = rpy(start).z(), yaw_to = rpy(goal).z();
+  const auto level = [](double yaw) { return rotation_from_rpy({0.0, 0.0, yaw}); };
+  const VectorXd way = goal - start;
   reference.x.clear();
   for (int k = 0; k <= steps; ++k) {
-    const double s = static_cast<double>(k) / steps;
-    VectorXd x = start + s * s * (3.0 - 2.0 * s) * (goal - start);
+    const double s = static_cast<double>(k) / steps, blend = s * s * (3.0 - 2.0 * s);
+    VectorXd x = start + blend * way;
     const double rate = 6.0 * s * (1.0 - s) / total;
-    x.segment<3>(layout.velocity()) = rate * (goal - start).segment<3>(layout.com());
-    for (int a = 0; a < layout.axis_count(); ++a) x[layout.rate(a)] = rate * (goal - start)[layout.angle(a)];
+    x.segment<3>(layout.velocity()) = rate * way.segment<3>(layout.com());
+    for (int a = 0; a < layout.axis_count(); ++a)
+      x[layout.momentum(a)] = inertia[layout.axes()[a]] * rate * way[layout.angle(a)];
+    if (yaw_from != yaw_to)
+      for (int l = 0; l < layout.ends(); ++l) {
+        const auto offset = [&](const VectorXd& at, double yaw) -> Vector3d {
+          return level(yaw).transpose() * (at.segment<3>(layout.end(l)) - at.segment<3>(layout.com()));
+        };
+        const Vector3d from = offset(start, yaw_from), to = offset(goal, yaw_to);
+        x.segment<3>(layout.end(l)) =
+            x.segment<3>(layout.com()) + level(yaw_from + blend * (yaw_to - yaw_from)) * (from + blend * (to - from));
+      }
     reference.x.push_back(x);
   }
+}
+
+Eigen::Matrix3d Problem::sole_frame(int surface, double yaw) const {
+  return mcplan::sole_frame(polygons[surface].normal_W(), yaw);
+}
+
+void Problem::set_sole_yaw(const ContactSequence& sequence, Trajectory& t) const {
+  t.sole_yaw.assign(steps + 1, std::vector<double>(layout.ends()));
+  for (int l = 0; l < layout.ends(); ++l)
+    for (int k = 0; k <= steps; ++k) {
+      t.sole_yaw[k][l] = rpy(t.x[k]).z();
+      if (sequence[k][l] == kFree) continue;
+      // Phases first..k are one contact, which holds the knots first..last_knot.
+      const int first = k;
+      while (k < steps && sequence[k + 1][l] == sequence[first][l]) ++k;
+      const int last_knot = std::min(k + 1, steps);
+      double yaw = 0.0;
+      for (int j = first; j <= last_knot; ++j) yaw += rpy(t.x[j]).z() / (last_knot - first + 1);
+      if (k == steps) yaw = goal_yaw;
+      if (first == 0) yaw = start_yaw[l];
+      for (int j = first; j <= k; ++j) t.sole_yaw[j][l] = yaw;
+    }
 }
 
 Vector3d Problem::rpy(const VectorXd& x) const {
@@ -259,6 +375,8 @@ Trajectory Problem::initial_guess(const ContactSequence& sequence) const {
     u[layout.duration()] = k == 0 && first_duration > 0.0 ? first_duration : duration_initial;
     guess.u.push_back(u);
   }
+  // Without a sequence every sole goes with the base.
+  set_sole_yaw(sequence.empty() ? ContactSequence(steps + 1, ContactState(layout.ends(), kFree)) : sequence, guess);
   return guess;
 }
 
@@ -296,15 +414,22 @@ void Problem::set_start(const Knot& measured, const ContactState& contacts) {
   start.segment<3>(layout.com()) = measured.com_W / units.length;
   start.segment<3>(layout.velocity()) = measured.com_velocity_W / units.velocity();
   base_rpy = measured.base_rpy;
+  // What the base's rates make of it where the momentum was not measured.
+  Vector3d momentum = measured.angular_momentum_W;
+  if (model == Model::lipm || momentum.isZero(0.0)) momentum = robot.inertia.cwiseProduct(measured.base_rpy_rate);
   for (int a = 0; a < layout.axis_count(); ++a) {
     start[layout.angle(a)] = measured.base_rpy[layout.axes()[a]];
-    start[layout.rate(a)] = measured.base_rpy_rate[layout.axes()[a]] * units.time;
+    start[layout.momentum(a)] = momentum[layout.axes()[a]] / units.angular_momentum();
   }
+  for (int l = 0; l < layout.ends(); ++l)
+    start_yaw[l] = static_cast<int>(measured.end_effector_yaw.size()) > active[l] ? measured.end_effector_yaw[active[l]]
+                                                                                  : measured.base_rpy.z();
   for (int l = 0; l < layout.ends(); ++l)
     start.segment<3>(layout.end(l)) = measured.end_effectors_W[active[l]] / units.length;
   start_contacts = contacts;
   const VectorXd measured_start = start;
   start.segment<3>(layout.velocity()).setZero();
+  start.segment(layout.momentum(), layout.axis_count()).setZero();
   make_reference(goal);
   start = measured_start;
   reference.x.front() = start;

@@ -126,6 +126,7 @@ int Search::switch_contacts(ContactSequence& sequence, Iteration& row) {
 Status Search::iterate(Incumbent& now, Schedule& schedule, bool free_sequence) {
   Iteration row;
   row.index = ++report_->iterations;
+  if (problem_->model == Model::wrench) problem_->set_sole_yaw(now.sequence, now.trajectory);
   now.evaluation = evaluate_(now.trajectory, now.sequence, schedule);
   const double before = now.evaluation.merit();
   if (!std::isfinite(before)) return Status::numerical_failure;
@@ -176,6 +177,7 @@ Status Search::discover(Incumbent& now, double proximal_weight) {
   Schedule schedule;
   schedule.contact_weight = w.contact_min;
   schedule.proximal_weight = proximal_weight;
+  schedule.discovering = true;
   Status status = Status::solved;
   for (int at_full = 0; at_full < kFreeAtFullWeight;) {
     if (should_stop(status)) return status;

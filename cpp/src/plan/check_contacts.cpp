@@ -11,13 +11,12 @@ using Eigen::Vector3d;
 /// contact_distance: |n . (p - v)|.  contact_polygon: distance of p's projection beyond the boundary (negative inside).
 void offer_place(const Polygon& polygon, const Vector3d& position, const Place& place, Findings& findings) {
   findings.offer(Constraint::contact_distance, std::abs(polygon.height(position)), place);
-  double beyond = polygon.outside(position);
-  if (beyond > 0.0) {
-    const Vector3d projected = position - polygon.normal_W() * polygon.height(position);
-    beyond = (projected - polygon.nearest(projected)).norm();
-  }
-  findings.offer(Constraint::contact_polygon, beyond, place);
+  findings.offer(Constraint::contact_polygon, beyond_polygon(polygon, position), place);
 }
+
+bool has_own_yaw(const Problem& problem, int phase) { return !problem.plan.knots[phase].end_effector_yaw.empty(); }
+
+}  // namespace
 
 double beyond_sole(const Eigen::Vector2d& half, const Vector3d& normal, double yaw, const Vector3d& offset) {
   if (half.maxCoeff() <= 0.0 || offset.norm() == 0.0) return offset.norm();
@@ -26,7 +25,16 @@ double beyond_sole(const Eigen::Vector2d& half, const Vector3d& normal, double y
   return d.norm();
 }
 
-}  // namespace
+double beyond_polygon(const Polygon& polygon, const Vector3d& position) {
+  const double beyond = polygon.outside(position);
+  if (!(beyond > 0.0)) return beyond;
+  const Vector3d projected = position - polygon.normal_W() * polygon.height(position);
+  return (projected - polygon.nearest(projected)).norm();
+}
+
+double sole_yaw(const Problem& problem, const Sample& sample, int l) {
+  return has_own_yaw(problem, sample.phase) ? sample.at.end_effectors[l].yaw : sample.replay.rpy.z();
+}
 
 void check_contact_place(const Problem& problem, const Sample& sample, Findings& findings) {
   for (int l = 0; l < problem.end_effector_count(); ++l) {
@@ -59,8 +67,10 @@ void check_contact_permission(const Problem& problem, Findings& findings) {
 }
 
 /// The anchor s_l, or every point s at which a force acts, lies on the sole: |d_i| <= half_size_i along the sole and
-/// d_n = 0, d = s - p_l. Otherwise the force would act on the robot where the robot does not touch anything.
+/// d_n = 0, d = s - p_l. Otherwise the force would act on the robot where the robot does not touch anything. Under
+/// contact wrenches s_l says no more than the force's direction; there `center_of_pressure` says where it acts.
 void check_anchor(const Problem& problem, const Sample& sample, Findings& findings) {
+  if (problem.has_wrenches(sample.phase)) return;
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const int surface = problem.surface(sample.phase, l);
     if (surface < 0) continue;
@@ -68,16 +78,18 @@ void check_anchor(const Problem& problem, const Sample& sample, Findings& findin
     const Eigen::Vector2d& half = problem.robot.end_effectors[l].half_size;
     const Vector3d& normal = problem.solids[surface].polygon.normal_W();
     const Vector3d& position = sample.at.end_effectors[l].position_W;
+    const double yaw = sole_yaw(problem, sample, l);
     const Place place{sample.phase, l, sample.time_s};
     if (!problem.has_points(sample.phase))
-      findings.offer(Constraint::anchor, beyond_sole(half, normal, sample.replay.rpy.z(), contact.anchor_W - position),
-                     place);
+      findings.offer(Constraint::anchor, beyond_sole(half, normal, yaw, contact.anchor_W - position), place);
     for (const Vector3d& point : contact.points_W)
-      findings.offer(Constraint::anchor, beyond_sole(half, normal, sample.replay.rpy.z(), point - position), place);
+      findings.offer(Constraint::anchor, beyond_sole(half, normal, yaw, point - position), place);
   }
 }
 
-/// slip: |p(t) - p(touchdown)| while the end-effector stays on one surface, over as many phases as that lasts.
+/// slip: |p(t) - p(touchdown)| while the end-effector stays on one surface, over as many phases as that lasts. A sole's
+/// own heading must not change either: half its diagonal times the change is how far a corner slides. Without headings
+/// of their own soles turn with the base, which contact wrenches hold to the same, and the paper's model does not.
 /// path_continuity: |p(knot, from the left) - p(knot, from the right)|.
 void Travel::check(const Problem& problem, const Sample& sample, Findings& findings) {
   const int n = problem.end_effector_count();
@@ -85,6 +97,7 @@ void Travel::check(const Problem& problem, const Sample& sample, Findings& findi
   if (first) {
     surface_.assign(n, -1);
     touched_W_.resize(n);
+    touched_yaw_.assign(n, 0.0);
     last_W_.resize(n);
   }
   for (int l = 0; l < n; ++l) {
@@ -94,8 +107,16 @@ void Travel::check(const Problem& problem, const Sample& sample, Findings& findi
       findings.offer(Constraint::path_continuity, (position - last_W_[l]).norm(), place);
     const int surface = problem.surface(sample.phase, l);
     if (surface >= 0) {
-      if (surface != surface_[l]) touched_W_[l] = position;
+      const double yaw = sole_yaw(problem, sample, l);
+      if (surface != surface_[l]) {
+        touched_W_[l] = position;
+        touched_yaw_[l] = yaw;
+      }
       findings.offer(Constraint::slip, (position - touched_W_[l]).norm(), place);
+      const double half_diagonal = problem.robot.end_effectors[l].half_size.norm();
+      const double turn = std::abs(std::remainder(yaw - touched_yaw_[l], 2.0 * M_PI));
+      if (has_own_yaw(problem, sample.phase) || problem.has_wrenches(sample.phase))
+        findings.offer(Constraint::slip, turn * half_diagonal, place);
     }
     surface_[l] = surface;
     last_W_[l] = position;

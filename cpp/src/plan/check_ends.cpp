@@ -8,7 +8,8 @@ namespace {
 using Eigen::Vector3d;
 
 /// p, v, heading and contacts of a knot against a stance at rest: CoM at the stance's, v = 0, roll = pitch = 0, yaw the
-/// stance's (modulo a turn), rates 0, every end-effector on the surface that the stance names or free like it.
+/// stance's (modulo a turn), rates 0, under contact wrenches no more momentum than such rates have, every end-effector
+/// on the surface that the stance names or free like it.
 void check_stance(const Problem& problem, Constraint constraint, const ResolvedStance& stance, int k,
                   Findings& findings) {
   const Knot& knot = problem.plan.knots[k];
@@ -20,6 +21,9 @@ void check_stance(const Problem& problem, Constraint constraint, const ResolvedS
   findings.offer(constraint, knot.com_velocity_W.norm(), place, tolerance, "m/s");
   findings.offer(constraint, largest(turn.cwiseAbs()), place, tolerance, "rad");
   findings.offer(constraint, knot.base_rpy_rate.norm(), place, tolerance, "rad/s");
+  if (problem.has_wrenches(place.phase))
+    findings.offer(constraint, knot.angular_momentum_W.norm(), place, tolerance * problem.robot.inertia.maxCoeff(),
+                   "kg m^2/s");
   for (int l = 0; l < problem.end_effector_count(); ++l)
     findings.offer(constraint, problem.surface(k, l) == stance.contacts[l] ? 0.0 : 1.0, problem.at_knot(k, l), 0.0,
                    "contacts");

@@ -75,12 +75,12 @@ void check_force_cap(const Problem& problem, const Sample& sample, Findings& fin
   }
 }
 
-/// |tau_i| <= max_moment_i about each world axis.
+/// |tau_i| <= max_moment_i about each world axis (contact wrenches: check_normal_moment).
 void check_moment_cap(const Problem& problem, Findings& findings) {
   for (int k = 0; k < problem.phase_count(); ++k)
     for (int l = 0; l < problem.end_effector_count(); ++l) {
       const Contact& contact = problem.plan.phases[k].contacts[l];
-      if (contact.surface < 0) continue;
+      if (contact.surface < 0 || problem.has_wrenches(k)) continue;
       const Vector3d excess = contact.moment_W.cwiseAbs() - problem.robot.end_effectors[l].max_moment;
       findings.offer(Constraint::moment, largest(excess), problem.at_knot(k, l));
     }
@@ -95,6 +95,7 @@ void check_moment_cap(const Problem& problem, Findings& findings) {
 /// A point contact and a grasp are held by max_moment alone. Forces at points need no such bound: the points lie on the
 /// sole (`anchor`), and none pulls or slides.
 void check_sole_moment(const Problem& problem, const Sample& sample, Findings& findings) {
+  if (problem.has_wrenches(sample.phase)) return;  // check_torsion, check_center_of_pressure
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const int index = problem.surface(sample.phase, l);
     const double half = problem.robot.end_effectors[l].half_size.minCoeff();

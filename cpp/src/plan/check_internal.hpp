@@ -16,11 +16,13 @@ enum class Constraint {
   phase_duration,
   dynamics,
   at_consistency,
+  orientation,
   contact_distance,
   contact_polygon,
   contact_permission,
   slip,
   anchor,
+  center_of_pressure,
   path_continuity,
   free_force,
   stiffness_sign,
@@ -83,6 +85,8 @@ struct Problem {
   std::vector<double> knot_times;
 
   bool has_points(int k) const { return plan.phases[k].has_points(); }
+  bool has_wrenches(int k) const { return plan.phases[k].law == ForceLaw::wrench; }
+  bool has_momentum(int k) const { return has_points(k) || has_wrenches(k); }
   int phase_count() const { return static_cast<int>(plan.phases.size()); }
   int end_effector_count() const { return static_cast<int>(robot.end_effectors.size()); }
 
@@ -95,10 +99,12 @@ struct Problem {
   Place at_knot(int k, int l) const { return {k < phase_count() ? k : k - 1, l, knot_times[k]}; }
 };
 
-/// CoM, base and angular momentum, integrated by the checker itself. The momentum is a state of its own under forces
-/// at points alone; otherwise it stays zero here, since the base carries it.
+/// CoM, base and angular momentum, integrated by the checker itself. Under the pendulum the momentum stays zero here,
+/// since the base carries it. Under contact wrenches the base's orientation is integrated as a quaternion, from which
+/// the angles are read; their rates stay zero, and what the plan states is compared with the momentum.
 struct Replay {
   Eigen::Vector3d com_W, com_velocity_W, rpy, rpy_rate, momentum_W;
+  Eigen::Vector4d quat_wxyz{0.0, 0.0, 0.0, 0.0};
 };
 
 /// An instant of a phase.
@@ -106,7 +112,7 @@ struct Sample {
   int phase = 0;
   double since_start_s = 0.0, time_s = 0.0;
   Replay replay;                          ///< what the checker integrated
-  Eigen::Matrix3d r_WB;                   ///< of replay.rpy
+  Eigen::Matrix3d r_WB;                   ///< of the replay
   PlanState at;                           ///< what the plan says
   std::vector<Eigen::Vector3d> forces_W;  ///< per end-effector, from replay.com_W or from its points [N]
   std::vector<std::vector<Eigen::Vector3d>> cone_forces_W;  ///< per end-effector, what friction holds one by one: the
@@ -128,6 +134,17 @@ Eigen::Vector3d point_force(const Phase& phase, const Contact& contact, int poin
 Replay point_force_rate(const Problem& problem, int phase, const Replay& state, int interval, double since_start);
 void turn_base(const Problem& problem, int phase, double since_start, Replay& state);
 
+/// check_wrench.cpp: contact wrenches, whose momentum turns the base.
+Replay wrench_rate(const Problem& problem, int phase, const Replay& state);
+void set_angles(Replay& state);  ///< unit length, and the angles, of an integrated quaternion
+void check_orientation_at_knot(const Problem& problem, const Sample& phase_end, Findings& findings);
+void check_orientation(const Problem& problem, const Sample& sample, Findings& findings);
+void check_turning_rate(const Problem& problem, int phase, Findings& findings);
+void check_at_wrenches(const Problem& problem, const Sample& sample, Findings& findings);
+void check_normal_moment(const Problem& problem, Findings& findings);
+void check_torsion(const Problem& problem, const Sample& sample, Findings& findings);
+void check_center_of_pressure(const Problem& problem, const Sample& sample, Findings& findings);
+
 /// check_numbers.cpp: both return whether the rest can be evaluated.
 bool check_finite(const Problem& problem, Findings& findings);
 bool check_phase_duration(const Problem& problem, Findings& findings);
@@ -138,6 +155,16 @@ void check_final_contact_place(const Problem& problem, const Sample& last, Findi
 void check_contact_permission(const Problem& problem, Findings& findings);
 void check_anchor(const Problem& problem, const Sample& sample, Findings& findings);
 
+/// Heading of a sole: its own where the knots say it, otherwise the base's.
+double sole_yaw(const Problem& problem, const Sample& sample, int l);
+
+/// Distance from a point to the sole, a rectangle about the end-effector's position: `offset` is between the two.
+double beyond_sole(const Eigen::Vector2d& half_size, const Eigen::Vector3d& normal_W, double yaw,
+                   const Eigen::Vector3d& offset_W);
+
+/// Distance from the projection of a point to the polygon; inside, less than zero: minus the distance to the boundary.
+double beyond_polygon(const Polygon& polygon, const Eigen::Vector3d& position_W);
+
 /// Remembers where each end-effector touched down and was last seen.
 class Travel {
  public:
@@ -146,6 +173,7 @@ class Travel {
  private:
   std::vector<int> surface_;
   std::vector<Eigen::Vector3d> touched_W_, last_W_;
+  std::vector<double> touched_yaw_;
   int phase_ = -1;
 };
 
@@ -160,6 +188,7 @@ void check_sole_moment(const Problem& problem, const Sample& sample, Findings& f
 
 /// check_space.cpp
 void check_reach(const Problem& problem, const Sample& sample, Findings& findings);
+void check_yaw_range(const Problem& problem, const Sample& sample, Findings& findings);
 void check_clearance(const Problem& problem, const Sample& sample, Findings& findings);
 
 /// check_sequence.cpp

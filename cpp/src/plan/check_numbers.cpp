@@ -19,10 +19,12 @@ bool check_finite(const Problem& problem, Findings& findings) {
               count(knot.angular_momentum_W);
     for (int l = 0; l < problem.end_effector_count(); ++l)
       bad += count(knot.end_effectors_W[l]) + count(knot.end_effector_velocities_W[l]);
+    for (double yaw : knot.end_effector_yaw) bad += !std::isfinite(yaw);
     if (k < problem.phase_count()) {
       bad += !std::isfinite(plan.phases[k].duration);
       for (const Contact& contact : plan.phases[k].contacts) {
-        bad += !std::isfinite(contact.stiffness) + count(contact.anchor_W) + count(contact.moment_W);
+        bad += !std::isfinite(contact.stiffness) + count(contact.anchor_W) + count(contact.moment_W) +
+               count(contact.center_of_pressure_W);
         for (const Eigen::Vector3d& point : contact.points_W) bad += count(point);
         for (const Eigen::Vector3d& force : contact.point_forces_W) bad += count(force);
       }

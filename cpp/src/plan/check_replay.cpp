@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "check_internal.hpp"
+#include "mcplan/base/rotation.hpp"
 
 namespace mcplan::checks {
 namespace {
@@ -21,8 +22,12 @@ Replay rate(const Problem& problem, int phase, const Replay& state) {
 }
 
 Replay add(const Replay& state, double h, const Replay& slope) {
-  return {state.com_W + h * slope.com_W, state.com_velocity_W + h * slope.com_velocity_W, state.rpy + h * slope.rpy,
-          state.rpy_rate + h * slope.rpy_rate, state.momentum_W + h * slope.momentum_W};
+  return {state.com_W + h * slope.com_W,
+          state.com_velocity_W + h * slope.com_velocity_W,
+          state.rpy + h * slope.rpy,
+          state.rpy_rate + h * slope.rpy_rate,
+          state.momentum_W + h * slope.momentum_W,
+          state.quat_wxyz + h * slope.quat_wxyz};
 }
 
 /// slope(t, state), t = 0..h.
@@ -35,28 +40,38 @@ Replay rk4(const Replay& from, double h, const Slope& slope) {
   return add(add(add(add(from, h / 6.0, a), h / 3.0, b), h / 3.0, c), h / 6.0, d);
 }
 
-/// Largest difference of two states among its five parts, each in its own unit.
-void offer_difference(Constraint constraint, const Replay& a, const Replay& b, const Place& place, double tolerance,
-                      Findings& findings) {
+/// Largest difference of two states among its five parts, each in its own unit; where momentum turns the base, the
+/// angles are another constraint's.
+void offer_difference(Constraint constraint, const Replay& a, const Replay& b, bool angles, const Place& place,
+                      double tolerance, Findings& findings) {
   const auto offer = [&](const Vector3d& x, const Vector3d& y, const char* unit) {
     findings.offer(constraint, largest((x - y).cwiseAbs()), place, tolerance, unit);
   };
   offer(a.com_W, b.com_W, "m");
   offer(a.com_velocity_W, b.com_velocity_W, "m/s");
+  offer(a.momentum_W, b.momentum_W, "kg m^2/s");
+  if (!angles) return;
   offer(a.rpy, b.rpy, "rad");
   offer(a.rpy_rate, b.rpy_rate, "rad/s");
-  offer(a.momentum_W, b.momentum_W, "kg m^2/s");
 }
 
 Replay advance_pendulum(const Problem& problem, int phase, const Replay& from, double h) {
   double stiffness = 0.0;
   for (const Contact& contact : problem.plan.phases[phase].contacts) stiffness += std::abs(contact.stiffness);
   // A step errs by (sqrt(stiffness) h)^5 / 120 of the motion: 1e-14 at 0.004, so 1e-11 over a second of such steps.
-  const double wanted = std::ceil(std::sqrt(stiffness) * h / 0.004);
+  double wanted = std::ceil(std::sqrt(stiffness) * h / 0.004);
+  const bool wrenches = problem.has_wrenches(phase);
+  // The same of the base, which turns by h |omega|: 1e-8 rad a second at 0.02.
+  if (wrenches)
+    wanted = std::max(wanted, std::ceil(from.momentum_W.norm() / problem.robot.inertia.minCoeff() * h / 0.02));
   const int steps = static_cast<int>(std::clamp(wanted, 1.0, 64.0));
   Replay state = from;
-  for (int i = 0; i < steps; ++i)
-    state = rk4(state, h / steps, [&](double, const Replay& at) { return rate(problem, phase, at); });
+  for (int i = 0; i < steps; ++i) {
+    state = rk4(state, h / steps, [&](double, const Replay& at) {
+      return wrenches ? wrench_rate(problem, phase, at) : rate(problem, phase, at);
+    });
+    if (wrenches) set_angles(state);
+  }
   return state;
 }
 
@@ -82,8 +97,13 @@ int sample_count(const Problem& problem, int phase) {
 
 Replay start_of(const Problem& problem, int phase) {
   const Knot& knot = problem.plan.knots[phase];
-  return {knot.com_W, knot.com_velocity_W, knot.base_rpy, knot.base_rpy_rate,
-          problem.has_points(phase) ? knot.angular_momentum_W : Vector3d(Vector3d::Zero())};
+  const Vector3d zero = Vector3d::Zero();
+  Replay state{knot.com_W, knot.com_velocity_W, knot.base_rpy, knot.base_rpy_rate,
+               problem.has_momentum(phase) ? knot.angular_momentum_W : zero};
+  if (!problem.has_wrenches(phase)) return state;
+  state.rpy_rate = zero;
+  state.quat_wxyz = quat_wxyz_from_rpy(knot.base_rpy);
+  return state;
 }
 
 Replay advance(const Problem& problem, int phase, const Replay& from, double since_start, double h) {
@@ -115,10 +135,14 @@ void contact_forces(const Problem& problem, Sample& sample) {
 /// The state integrated over the phase is the next knot.
 void check_dynamics(const Problem& problem, const Sample& phase_end, Findings& findings) {
   const Knot& next = problem.plan.knots[phase_end.phase + 1];
+  const bool wrenches = problem.has_wrenches(phase_end.phase);
   offer_difference(Constraint::dynamics, phase_end.replay,
                    {next.com_W, next.com_velocity_W, next.base_rpy, next.base_rpy_rate,
-                    problem.has_points(phase_end.phase) ? next.angular_momentum_W : phase_end.replay.momentum_W},
-                   {phase_end.phase, -1, phase_end.time_s}, problem.tolerances.dynamics, findings);
+                    problem.has_momentum(phase_end.phase) ? next.angular_momentum_W : phase_end.replay.momentum_W},
+                   !wrenches, {phase_end.phase, -1, phase_end.time_s}, problem.tolerances.dynamics, findings);
+  if (!wrenches) return;
+  check_turning_rate(problem, phase_end.phase, findings);
+  check_orientation_at_knot(problem, phase_end, findings);
 }
 
 /// What the plan says of an instant is what the integration says; forces are compared in units of the weight, moments
@@ -128,8 +152,10 @@ void check_at_consistency(const Problem& problem, const Sample& sample, Findings
   const bool has_points = problem.has_points(sample.phase);
   offer_difference(Constraint::at_consistency, sample.replay,
                    {at.com_W, at.com_velocity_W, at.base_rpy, at.base_rpy_rate,
-                    has_points ? at.angular_momentum_W : sample.replay.momentum_W},
-                   {sample.phase, -1, sample.time_s}, problem.tolerances.dynamics, findings);
+                    problem.has_momentum(sample.phase) ? at.angular_momentum_W : sample.replay.momentum_W},
+                   !problem.has_wrenches(sample.phase), {sample.phase, -1, sample.time_s}, problem.tolerances.dynamics,
+                   findings);
+  if (problem.has_wrenches(sample.phase)) check_at_wrenches(problem, sample, findings);
   const double weight = problem.robot.mass * problem.scene.gravity;
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const Place place{sample.phase, l, sample.time_s};

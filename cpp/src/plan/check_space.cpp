@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "check_internal.hpp"
 #include "mcplan/base/rotation.hpp"
@@ -67,6 +68,17 @@ void check_reach(const Problem& problem, const Sample& sample, Findings& finding
   }
 }
 
+/// yaw_range: min <= yaw of the sole - yaw of the base <= max while in contact, modulo a turn.
+void check_yaw_range(const Problem& problem, const Sample& sample, Findings& findings) {
+  for (int l = 0; l < problem.end_effector_count(); ++l) {
+    const Eigen::Vector2d& range = problem.robot.end_effectors[l].yaw_range;
+    if (problem.surface(sample.phase, l) < 0 || !range.allFinite()) continue;
+    const double turned = std::remainder(sole_yaw(problem, sample, l) - sample.replay.rpy.z(), 2.0 * M_PI);
+    findings.offer(Constraint::reach, std::max(range[0] - turned, turned - range[1]), {sample.phase, l, sample.time_s},
+                   problem.tolerances.yaw, "rad");
+  }
+}
+
 /// Depth inside the prism below any surface, for end-effectors that are free (clearance.hpp says which points count).
 void check_clearance(const Problem& problem, const Sample& sample, Findings& findings) {
   for (int l = 0; l < problem.end_effector_count(); ++l) {
@@ -75,7 +87,7 @@ void check_clearance(const Problem& problem, const Sample& sample, Findings& fin
       if (sample.phase < stretch.first_phase || sample.phase >= stretch.end_phase) continue;
       const double depth = clearance_depth(problem.solids, problem.robot.end_effectors[l], stretch,
                                            (sample.time_s - stretch.start_s) / stretch.duration_s,
-                                           sample.at.end_effectors[l].position_W, sample.replay.rpy.z());
+                                           sample.at.end_effectors[l].position_W, sole_yaw(problem, sample, l));
       findings.offer(Constraint::clearance, depth, {sample.phase, l, sample.time_s});
     }
   }

@@ -28,7 +28,7 @@ void require_points(const Phase& phase, const std::string& field) {
   constexpr int kMost = 100000;
   if (has_points ? phase.intervals < 1 || phase.intervals > kMost : phase.intervals != 0)
     throw InvalidPlan(field + ".intervals",
-                      has_points ? "must lie in [1, " + text(kMost) + "]" : "must be 0 under the pendulum's force law",
+                      has_points ? "must lie in [1, " + text(kMost) + "]" : "must be 0 where no forces act at points",
                       text(phase.intervals));
   for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
     const std::string contact = field + ".contacts[" + std::to_string(l) + "]";
@@ -49,6 +49,8 @@ void require_shape(const Plan& plan, const Scene& scene, const Robot& robot) {
     const std::string field = "knots[" + std::to_string(k) + "]";
     require_size(field + ".end_effectors", plan.knots[k].end_effectors_W.size(), ends);
     require_size(field + ".end_effector_velocities", plan.knots[k].end_effector_velocities_W.size(), ends);
+    require_size(field + ".end_effector_yaw", plan.knots[k].end_effector_yaw.size(),
+                 plan.knots[0].end_effector_yaw.empty() ? 0 : ends);
   }
   for (std::size_t k = 0; k < n; ++k) {
     const std::string field = "phases[" + std::to_string(k) + "].contacts";
@@ -75,14 +77,18 @@ void require_samples(const Plan& plan, const Tolerances& tolerances) {
 
 void check_sample(const Problem& problem, const Sample& sample, Travel& travel, Findings& findings) {
   check_at_consistency(problem, sample, findings);
+  check_orientation(problem, sample, findings);
   check_contact_place(problem, sample, findings);
   check_anchor(problem, sample, findings);
+  check_center_of_pressure(problem, sample, findings);
   travel.check(problem, sample, findings);
   check_pull(problem, sample, findings);
   check_friction(problem, sample, findings);
   check_force_cap(problem, sample, findings);
   check_sole_moment(problem, sample, findings);
+  check_torsion(problem, sample, findings);
   check_reach(problem, sample, findings);
+  check_yaw_range(problem, sample, findings);
   check_clearance(problem, sample, findings);
 }
 
@@ -132,6 +138,7 @@ CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, cons
   check_free_force(problem, findings);
   check_stiffness_sign(problem, findings);
   check_moment_cap(problem, findings);
+  check_normal_moment(problem, findings);
   check_sequence_switch(problem, findings);
   check_sequence_rule(problem, findings);
   check_start(problem, findings);

@@ -73,13 +73,13 @@ std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Soli
 }
 
 double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_effector, const FreeStretch& stretch,
-                       double s, const Vector3d& position_W, double base_yaw) {
+                       double s, const Vector3d& position_W, double yaw) {
   const bool middle = s > 0.1 && s < 0.9;
   const Vector3d normal = (1.0 - s) * stretch.lift_normal_W + s * stretch.land_normal_W;
   // Half way between opposite walls there is no normal to turn to; the point alone counts there.
   const double length = normal.norm();
   if (!middle || length < 1e-6) return clearance_depth(solids, position_W);
-  return clearance_depth(solids, end_effector, position_W, sole_frame(normal / length, base_yaw), true);
+  return clearance_depth(solids, end_effector, position_W, sole_frame(normal / length, yaw), true);
 }
 
 double clearance_depth(const Plan& plan, const std::vector<Solid>& solids, int end_effector, const FreeStretch& stretch,
@@ -91,9 +91,10 @@ double clearance_depth(const Plan& plan, const std::vector<Solid>& solids, int e
     for (int i = 0; i <= samples; ++i) {
       const double tau = duration * i / samples;
       const PlanState state = plan.at_phase(k, tau);
-      worst = std::max(worst, clearance_depth(solids, plan.robot.end_effectors[end_effector], stretch,
-                                              (before + tau) / stretch.duration_s,
-                                              state.end_effectors[end_effector].position_W, state.base_rpy.z()));
+      worst = std::max(
+          worst,
+          clearance_depth(solids, plan.robot.end_effectors[end_effector], stretch, (before + tau) / stretch.duration_s,
+                          state.end_effectors[end_effector].position_W, state.end_effectors[end_effector].yaw));
     }
     before += duration;
   }

@@ -153,8 +153,8 @@ void wrench_motion(const Plan& plan, const Phase& phase, const Knot& from, doubl
   state.com_velocity_W = f(0) * from.com_velocity_W + tau * f(1) * acceleration;
   state.com_acceleration_W = stiffness * state.com_W - pull;
   state.angular_momentum_W = momentum_at(tau, f);
-  state.base_rpy = turned_rpy(from.base_rpy, from.angular_momentum_W, momentum_at(0.5 * tau, half),
-                              state.angular_momentum_W, plan.robot.inertia, tau);
+  state.base_rpy = Turning(from.base_rpy, from.angular_momentum_W, plan.robot.inertia)
+                       .rpy(momentum_at(0.5 * tau, half), state.angular_momentum_W, tau);
   state.base_rpy_rate = rpy_rate(state.base_rpy, state.angular_momentum_W, plan.robot.inertia);
 
   for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
@@ -166,6 +166,22 @@ void wrench_motion(const Plan& plan, const Phase& phase, const Knot& from, doubl
     end.center_of_pressure_W = contact.center_of_pressure_W;
     end.moment_W += (contact.center_of_pressure_W - from.end_effectors_W[l]).cross(end.force_W);
   }
+}
+
+/// a = sum (n . f_i) p_i / sum (n . f_i), where the forces at points press at all.
+void set_center_of_pressure(const Plan& plan, int surface, EndEffectorState& end) {
+  if (end.points_W.empty() || surface < 0 || surface >= static_cast<int>(plan.scene.surfaces.size())) return;
+  const std::vector<Vector3d>& corners = plan.scene.surfaces[surface].vertices_W;
+  if (corners.size() < 3) return;
+  const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[1]);  // of any length
+  double pressed = 0.0;
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 0; i < end.points_W.size(); ++i) {
+    const double press = normal.dot(end.point_forces_W[i]);
+    pressed += press;
+    sum += press * end.points_W[i];
+  }
+  if (pressed > 1e-9 * normal.norm()) end.center_of_pressure_W = sum / pressed;
 }
 
 /// CoM and angular momentum from the forces at points; the base on its own quintic. A contact's moment is the one of
@@ -199,6 +215,7 @@ void point_force_motion(const Plan& plan, const Phase& phase, const Knot& from, 
       end.moment_W += (end.points_W[i] - from.end_effectors_W[l]).cross(end.point_forces_W[i]);
     }
     state.com_acceleration_W += end.force_W / mass;
+    set_center_of_pressure(plan, phase.contacts[l].surface, end);
   }
 }
 
@@ -269,7 +286,6 @@ PlanState Plan::at_phase(int k, double since_start) const {
                        to.end_effector_velocities_W[l], phase.duration, tau / phase.duration);
     end.position_W = path.position;
     end.velocity_W = path.velocity;
-    if (end.surface < 0) end.center_of_pressure_W = end.position_W;
     end.yaw = sole_yaw(from, to, l, tau / phase.duration, state.base_rpy.z());
   }
   for (const Swing& swing : swings) {
@@ -278,6 +294,8 @@ PlanState Plan::at_phase(int k, double since_start) const {
     add_clearance(*this, swing, k, tau, end);
     hold_in_reach(*this, swing, state, end);
   }
+  for (EndEffectorState& end : state.end_effectors)
+    if (end.surface < 0) end.center_of_pressure_W = end.position_W;
   return state;
 }
 

@@ -13,14 +13,20 @@ bool finite(const std::vector<Vector3d>& vectors) {
   return std::all_of(vectors.begin(), vectors.end(), [](const Vector3d& v) { return v.allFinite(); });
 }
 
-void validate_knot(const Knot& knot, int ends, const std::string& field) {
+void validate_knot(const Knot& knot, const Knot& first, int ends, const std::string& field) {
   if (static_cast<int>(knot.end_effectors_W.size()) != ends ||
       static_cast<int>(knot.end_effector_velocities_W.size()) != ends)
     throw InvalidPlan(field + ".end_effectors", "must be one per end-effector (" + text(ends) + ")",
                       text(static_cast<int>(knot.end_effectors_W.size())));
+  const int headings = static_cast<int>(knot.end_effector_yaw.size());
+  if ((headings != 0 && headings != ends) || knot.end_effector_yaw.empty() != first.end_effector_yaw.empty())
+    throw InvalidPlan(field + ".end_effector_yaw", "must be one per end-effector (" + text(ends) + "), or none in all",
+                      text(headings));
   if (!(knot.com_W.allFinite() && knot.com_velocity_W.allFinite() && knot.base_rpy.allFinite() &&
         knot.base_rpy_rate.allFinite() && knot.angular_momentum_W.allFinite() && finite(knot.end_effectors_W) &&
-        finite(knot.end_effector_velocities_W)))
+        finite(knot.end_effector_velocities_W) &&
+        std::all_of(knot.end_effector_yaw.begin(), knot.end_effector_yaw.end(),
+                    [](double yaw) { return std::isfinite(yaw); })))
     throw InvalidPlan(field, "must be finite numbers", "nan or inf");
 }
 
@@ -29,12 +35,12 @@ void validate_contact(const Phase& phase, const Contact& contact, int surfaces, 
     throw InvalidPlan(field + ".surface", "must be -1 or the index of a surface (below " + text(surfaces) + ")",
                       text(contact.surface));
   if (!(std::isfinite(contact.stiffness) && contact.anchor_W.allFinite() && contact.moment_W.allFinite() &&
-        finite(contact.points_W) && finite(contact.point_forces_W)))
+        contact.center_of_pressure_W.allFinite() && finite(contact.points_W) && finite(contact.point_forces_W)))
     throw InvalidPlan(field, "must be finite numbers", "nan or inf");
 
   const int points = static_cast<int>(contact.points_W.size());
   if (points > 0 && !phase.has_points())
-    throw InvalidPlan(field + ".points", "must be none under the pendulum's force law", text(points));
+    throw InvalidPlan(field + ".points", "must be none where the law has no forces at points", text(points));
   if (points > 0 && contact.surface < 0)
     throw InvalidPlan(field + ".points", "must be none at a free end-effector", text(points));
   const int wanted = phase.node_count() * points;
@@ -48,6 +54,9 @@ void validate_contact(const Phase& phase, const Contact& contact, int surfaces, 
     throw InvalidPlan(field + ".anchor", "must be 0 where forces act at points", text(contact.anchor_W));
   if (contact.moment_W != Vector3d::Zero())
     throw InvalidPlan(field + ".moment", "must be 0 where forces act at points", text(contact.moment_W));
+  if (contact.center_of_pressure_W != Vector3d::Zero())
+    throw InvalidPlan(field + ".center_of_pressure", "must be 0 where forces act at points",
+                      text(contact.center_of_pressure_W));
 }
 
 void validate_phase(const Phase& phase, int ends, int surfaces, const std::string& field) {
@@ -57,7 +66,7 @@ void validate_phase(const Phase& phase, int ends, int surfaces, const std::strin
     throw InvalidPlan(field + ".contacts", "must be one per end-effector (" + text(ends) + ")",
                       text(static_cast<int>(phase.contacts.size())));
   if (!phase.has_points() && phase.intervals != 0)
-    throw InvalidPlan(field + ".intervals", "must be 0 under the pendulum's force law", text(phase.intervals));
+    throw InvalidPlan(field + ".intervals", "must be 0 where the law has no forces at points", text(phase.intervals));
   if (phase.has_points() && phase.intervals < 1)
     throw InvalidPlan(field + ".intervals", "must be at least 1 where forces act at points", text(phase.intervals));
   for (int l = 0; l < ends; ++l)
@@ -84,7 +93,7 @@ void Plan::validate() const {
   if (static_cast<int>(knots.size()) != n + 1)
     throw InvalidPlan("knots", "must be one more than the phases (" + text(n + 1) + ")",
                       text(static_cast<int>(knots.size())));
-  for (int k = 0; k <= n; ++k) validate_knot(knots[k], ends, "knots[" + std::to_string(k) + "]");
+  for (int k = 0; k <= n; ++k) validate_knot(knots[k], knots[0], ends, "knots[" + std::to_string(k) + "]");
   for (int k = 0; k < n; ++k) validate_phase(phases[k], ends, surfaces, "phases[" + std::to_string(k) + "]");
   if (static_cast<int>(final_contacts.size()) != ends)
     throw InvalidPlan("final_contacts", "must be one per end-effector (" + text(ends) + ")",

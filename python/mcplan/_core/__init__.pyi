@@ -921,12 +921,12 @@ class Knot:
     @end_effector_velocities_W.setter
     def end_effector_velocities_W(self, arg1: typing.Any) -> None: ...
     @property
-    def end_effector_yaw(self) -> list[float]:
+    def end_effector_yaw(self) -> typing.Any:
         """
-        Heading of each sole [rad]; empty: all head where the base does.
+        Heading of each sole [rad], a tuple; empty: all head where the base does.
         """
     @end_effector_yaw.setter
-    def end_effector_yaw(self, arg0: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
+    def end_effector_yaw(self, arg1: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
     @property
     def end_effectors_W(self) -> numpy.ndarray:
         """
@@ -1406,6 +1406,8 @@ class Tolerances:
         self,
         *,
         dynamics: typing.SupportsFloat | typing.SupportsIndex = 1e-08,
+        orientation: typing.SupportsFloat | typing.SupportsIndex = 0.017453292519943295,
+        center_of_pressure: typing.SupportsFloat | typing.SupportsIndex = 0.001,
         contact_distance: typing.SupportsFloat | typing.SupportsIndex = 0.001,
         slip: typing.SupportsFloat | typing.SupportsIndex = 0.001,
         friction: typing.SupportsFloat | typing.SupportsIndex = 0.001,
@@ -1413,6 +1415,7 @@ class Tolerances:
         force_cap: typing.SupportsFloat | typing.SupportsIndex = 0.001,
         moment: typing.SupportsFloat | typing.SupportsIndex = 1e-06,
         reach: typing.SupportsFloat | typing.SupportsIndex = 0.001,
+        yaw: typing.SupportsFloat | typing.SupportsIndex = 0.01,
         clearance: typing.SupportsFloat | typing.SupportsIndex = 0.005,
         boundary: typing.SupportsFloat | typing.SupportsIndex = 0.01,
         stance: typing.SupportsFloat | typing.SupportsIndex = 0.02,
@@ -1427,6 +1430,13 @@ class Tolerances:
         """
     @boundary.setter
     def boundary(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def center_of_pressure(self) -> float:
+        """
+        [m] centre of pressure off the sole or off the surface.
+        """
+    @center_of_pressure.setter
+    def center_of_pressure(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def clearance(self) -> float:
         """
@@ -1477,6 +1487,13 @@ class Tolerances:
     @moment.setter
     def moment(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def orientation(self) -> float:
+        """
+        [rad] replayed orientation of the base.
+        """
+    @orientation.setter
+    def orientation(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def reach(self) -> float:
         """
         [m] outside the reach box.
@@ -1511,6 +1528,13 @@ class Tolerances:
         """
     @switches.setter
     def switches(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def yaw(self) -> float:
+        """
+        [rad] heading of a sole outside its range.
+        """
+    @yaw.setter
+    def yaw(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
 class CheckResult:
     """

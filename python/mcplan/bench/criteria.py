@@ -8,12 +8,25 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from mcplan import Plan
+    from mcplan import Plan, Report
 
 #: Least rise of the CoM over its height at take-off that counts as a jump [m].
 APEX_M = 0.15
 
+#: Terms of the cost that are constants of the contact sequence: choices of this engine, in no published cost.
+OWN_TERMS = ("flight", "contact_change")
+
 Sequence2 = Sequence[Sequence[int]]
+
+
+def comparable_cost(report: Report) -> float:
+    """The cost J of a plan without the constants on flights and on contact changes.
+
+    Those two say which of two sequences is wanted when their motions cost the same (1/2 for each phase of flight, 0.005 for each
+    contact made or broken). A cost that is published, or one of another model, knows the motion alone: what it costs to be off
+    the reference and at the limits. The weights of the terms that are left are the report's own.
+    """
+    return float(sum(cost for name, cost in report.cost_terms.items() if name not in OWN_TERMS))
 
 
 def shortcoming(scene: str, plan: Plan) -> str:

@@ -30,6 +30,7 @@ class Task:
     seed: int = 0
     robot: str = "humanoid44"
     time_limit_s: float | None = None
+    model: str = ""  # of the contact forces; empty: the planner's default
 
 
 @dataclass(frozen=True)
@@ -102,6 +103,8 @@ def solve(task: Task) -> Outcome:
     options: dict[str, Any] = {}
     if task.time_limit_s is not None:
         options["time_limit_s"] = task.time_limit_s
+    if task.model:
+        options["model"] = task.model
     if task.scene:
         scene, kind = mcplan.load_scene(task.scene), task.scene
         options |= {"proximal_weight": task.proximal_weight, "duration_initial_s": task.duration_initial_s}

@@ -3,26 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
+from mcplan.bench.sections import ABSENT, Section, between_marks, section_lines
+from mcplan.bench.sections import holds as _holds
+from mcplan.bench.sections import number as _number
 from mcplan.bench.tracking import TRACKED, Row
 from mcplan.bench.tracking_cases import CONTROL_MS, REALTIME_FACTOR
 
-ABSENT = "-"
-
 #: Between these lines of a page the tables are put.
 BEGIN, END = "<!-- begin: mcplan bench tracking -->", "<!-- end: mcplan bench tracking -->"
-
-
-@dataclass(frozen=True)
-class Section:
-    """A table with its title, and lines below it."""
-
-    title: str
-    head: Sequence[str]
-    rows: Sequence[Sequence[str]]
-    notes: Sequence[str] = field(default_factory=tuple)
 
 
 def sections(result: dict[str, Any]) -> list[Section]:
@@ -53,10 +43,9 @@ def markdown(result: dict[str, Any], page: str = "") -> str:
         result: As for ``sections``; and `machine`, `packages`, `jobs`, `command`: what it was measured on, with and by.
         page: Text that the tables go into, where BEGIN and END stand in it; without them the tables are a page of their own.
     """
-    before, begin, rest = page.partition(BEGIN)
-    _, end, after = rest.partition(END)
-    if begin and end:
-        return f"{before}{BEGIN}\n\n{_body(result, '###')}\n{END}{after}"
+    put = between_marks(page, BEGIN, END, _body(result, "###"))
+    if put is not None:
+        return put
     return f"# Plans tracked in simulation: results\n\n{_body(result, '##')}"
 
 
@@ -70,14 +59,8 @@ def _body(result: dict[str, Any], heading: str) -> str:
         f"{with_what}. Runs at a time: {result['jobs']}.",
     ]
     for section in sections(result):
-        lines += ["", f"{heading} {section.title}", "", *_table(section.head, section.rows)]
-        lines += [""] * bool(section.notes) + [f"- {note}" for note in section.notes]
+        lines += section_lines(section, heading)
     return "\n".join(lines) + "\n"
-
-
-def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
-    cells = [list(head), ["---"] * len(head), *rows]
-    return ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in cells]
 
 
 def _errors(rows: Sequence[Row]) -> Section:
@@ -207,13 +190,3 @@ def _run(row: Row) -> str:
         return ABSENT
     word = ("left the plan" if row.planner == "sip" else "fell") if row.fell else "up"
     return f"{word}, {row.completed_s:.1f} s"
-
-
-def _holds(holds: bool | None) -> str:
-    return {True: "yes", False: "NO", None: "not demanded"}[holds]
-
-
-def _number(value: float | None, form: str, factor: float = 1.0, unit: str = "") -> str:
-    if value is None:
-        return ABSENT
-    return f"{value:{form}}" if form == "d" else f"{factor * value:{form}}{unit}"

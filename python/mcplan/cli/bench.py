@@ -9,12 +9,14 @@ from typing import Annotated, Any
 
 import typer
 
+from mcplan.cli.bench_contacts import contacts
 from mcplan.cli.bench_tracking import tracking
 
 app = typer.Typer(
     invoke_without_command=True,
     rich_markup_mode=None,
 )
+app.command()(contacts)
 app.command()(tracking)
 
 _OUT = typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written.")
@@ -73,6 +75,9 @@ def robustness(
         bool, typer.Option("--settings/--no-settings", help="The 15 settings on the paper's four scenes.")
     ] = True,
     robot: Annotated[str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")] = "humanoid44",
+    model: Annotated[
+        str | None, typer.Option("--model", metavar="M", help="Of the contact forces: wrench or lipm (the paper's).")
+    ] = None,
     time_limit: Annotated[
         float | None, typer.Option("--time-limit", metavar="S", help="Of each solve; none by default.")
     ] = None,
@@ -89,12 +94,14 @@ def robustness(
     the random scenes are good. Repeat a failure: python -m mcplan.files.generate random SEED > scene.toml
 
     Example: mcplan bench robustness --scenes 40 --seed 100 --jobs 2
+
+    Example: mcplan bench robustness --model lipm
     """
     from mcplan.bench import records
     from mcplan.bench import robustness as bench
 
-    options: dict[str, Any] = {"robot": robot, "time_limit_s": time_limit}
-    result: dict[str, Any] = {"machine": records.machine(), "seed": seed}
+    options: dict[str, Any] = {"robot": robot, "time_limit_s": time_limit, "model": model or ""}
+    result: dict[str, Any] = {"machine": records.machine(), "seed": seed, "model": model}
     enough = True
     for part, tasks, share in (
         ("settings", bench.setting_tasks(**options) if settings else [], 14 / 15),

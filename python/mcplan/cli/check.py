@@ -41,6 +41,7 @@ def check(
     from mcplan._core import WholeBodyPlan
     from mcplan._core import check as run
     from mcplan._core.sip import certify as prove
+    from mcplan.cli.loads_text import friction_line, load_lines
     from mcplan.cli.table import print_table
     from mcplan.errors import InvalidInput
     from mcplan.files.whole_body_plans import load_any_plan
@@ -81,6 +82,9 @@ def check(
     else:
         print(f"{plan}: {len(result.violations())} constraints violated")
         print_table([[str(violation)] for violation in result.violations()])
+    if not json and not isinstance(loaded, WholeBodyPlan):
+        for line in [*friction_line(loaded), *load_lines(loaded)]:
+            print(line)
     if certificate is not None and not json:
         print(str(certificate).rstrip())
     if feasibility is not None and not json:

@@ -27,6 +27,9 @@ def plan(
         float | None, typer.Option("--min-flight", metavar="S", help="Shortest phase without any contact.")
     ] = None,
     phases: Annotated[int | None, typer.Option("--phases", metavar="N", help="Phases of the plan.")] = None,
+    model: Annotated[
+        str | None, typer.Option("--model", metavar="M", help="Of the contacts: wrench (default) or lipm, the paper's.")
+    ] = None,
     method: Annotated[str | None, typer.Option("--method", metavar="M", help="standard or paper.")] = None,
     time_limit: Annotated[
         float | None,
@@ -52,7 +55,7 @@ def plan(
 
     require_outputs("plan", output, html, plots)
     given = {"phases": phases, "method": method, "time_limit": time_limit, "threads": threads, "seed": seed}
-    given |= {"sole_inside": sole_inside, "flight_duration_min_s": min_flight}
+    given |= {"model": model, "sole_inside": sole_inside, "flight_duration_min_s": min_flight}
     options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if plots is not None:
         options["record_history"] = True
@@ -71,6 +74,7 @@ def plan(
 def summary(result: PlanResult) -> dict[str, Any]:
     """What ``--json`` prints."""
     from mcplan.cli.check import finite, violation_dict
+    from mcplan.cli.loads_text import load_dict
 
     plan, report = result.plan, result.report
     names = [surface.name for surface in plan.scene.surfaces]
@@ -94,6 +98,7 @@ def summary(result: PlanResult) -> dict[str, Any]:
         "final_contacts": [names[i] if i >= 0 else None for i in plan.final_contacts],
         "flight_phases": flight_phases(sequence),
         "friction_use": {name: finite(value) for name, value in report.friction_use.items()},
+        **load_dict(plan),
         "worst_violation": {
             key: worst[key] for key in ("name", "phase", "end_effector", "time_s", "value", "tolerance", "unit")
         },
@@ -110,6 +115,8 @@ def flight_phases(sequence: list[list[int]]) -> int:
 
 def report_text(result: PlanResult, written: list[Path | None]) -> str:
     """What is printed without ``--json``: how it ended, the steps, what was saved."""
+    from mcplan.cli.loads_text import friction_text, load_lines
+
     plan, report = result.plan, result.report
     lead = f"{plan.scene.name}  {plan.robot.name}  "
     took = f"{report.time_s:.3f} s ({report.iterations} iterations)"
@@ -125,8 +132,8 @@ def report_text(result: PlanResult, written: list[Path | None]) -> str:
         lines.append(f"{' ' * len(lead)}{label}: {report.worst_violation}")
     lines += contact_rows(plan)
     if report.friction_use:
-        used = ", ".join(f"{name} {value:.2f}" for name, value in report.friction_use.items())
-        lines.append(f"  friction used (tangential / normal): {used}")
+        lines.append(friction_text(report.friction_use))
+    lines += load_lines(plan)
     files = [str(path) for path in written if path is not None]
     if files:
         lines.append(f"Saved {', '.join(files)}" + ("" if solved else f", with status {report.status}"))

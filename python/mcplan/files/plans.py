@@ -12,7 +12,10 @@ That is format 1, for plans of the pendulum alone. A plan with forces at points 
     laws (N: 0 pendulum, 1 held, 2 linear)  intervals (N)  angular_momentum_W (N+1, 3)
     point_counts (N, L)  points_W (P, 3)  point_forces_W (F, 3)
 
-Points stand phase by phase and end-effector by end-effector; so do forces, and within a contact node by node.
+Points stand phase by phase and end-effector by end-effector; so do forces, and within a contact node by node. A plan of
+contact wrenches, or with headings of soles, has format 3: the arrays of format 2 (laws up to 3, wrench), and
+
+    centers_of_pressure_W (N, L, 3)  end_effector_yaw (N+1, L; no columns where soles head where the base does)
 """
 
 from __future__ import annotations
@@ -29,11 +32,13 @@ from mcplan.files.archives import archive_bytes, read_arrays, read_header, write
 from mcplan.files.robots import robot_from_dict, robot_to_dict
 from mcplan.files.scenes import scene_from_dict, scene_to_dict
 
-#: 2 since forces may act at points; what has none is still written as 1, which older versions read.
-FORMATS = (1, 2)
+#: 2 since forces may act at points, 3 since contacts have wrenches. A plan is written in the least that holds it, so that
+#: older versions read what they know.
+FORMATS = (1, 2, 3)
 UNITS = "SI: m, kg, s, N, rad; stiffness in 1/s^2; _W: world frame, z up"
 _INTEGERS = {"surfaces", "final_contacts", "swings", "laws", "intervals", "point_counts"}
-_LAWS = (ForceLaw.pendulum, ForceLaw.held, ForceLaw.linear)
+_LAWS = (ForceLaw.pendulum, ForceLaw.held, ForceLaw.linear, ForceLaw.wrench)
+_LAST_LAW = {2: 2, 3: 3}  # by format
 
 
 def save_plan(plan: Plan, path: str | Path) -> None:
@@ -65,10 +70,11 @@ def load_plan(path: str | Path) -> Plan:
 def plan_to_bytes(plan: Plan) -> bytes:
     """The content of a plan file."""
     plan.validate()
+    version = _format(plan)
     count, ends = len(plan.phases), plan.end_effector_count()
     contacts = [contact for phase in plan.phases for contact in phase.contacts]
     header = {
-        "format": 2 if _needs_points(plan) else 1,
+        "format": version,
         "units": UNITS,
         "mcplan": __version__,
         "planner": plan.planner,
@@ -99,8 +105,11 @@ def plan_to_bytes(plan: Plan) -> bytes:
         "end_effector_velocities_W",
     ):
         arrays[name] = np.array([getattr(knot, name) for knot in plan.knots])
-    if _needs_points(plan):
+    if version >= 2:
         arrays.update(_point_arrays(plan))
+    if version >= 3:
+        arrays["centers_of_pressure_W"] = np.array([c.center_of_pressure_W for c in contacts]).reshape(count, ends, 3)
+        arrays["end_effector_yaw"] = np.array([knot.end_effector_yaw for knot in plan.knots], dtype=float)
     return archive_bytes(header, arrays)
 
 
@@ -116,6 +125,8 @@ def plan_from_bytes(data: bytes) -> Plan:
     robot = _part("header.robot", robot_from_dict, header["robot"])
     _check_shapes(arrays, len(robot.end_effectors), header["format"])
     laws, points = _read_points(arrays, header["format"])
+    centers = arrays.get("centers_of_pressure_W", np.zeros_like(arrays["anchors_W"]))
+    headings = arrays.get("end_effector_yaw", np.zeros((len(arrays["com_W"]), 0)))
     plan = Plan(
         measured_start=header.get("measured_start", False) is True,
         open_end=header.get("open_end", False) is True,
@@ -131,8 +142,9 @@ def plan_from_bytes(data: bytes) -> Plan:
                 end_effectors_W=ends,
                 end_effector_velocities_W=end_velocities,
                 angular_momentum_W=momentum,
+                end_effector_yaw=yaw.tolist(),
             )
-            for com, velocity, rpy, rate, ends, end_velocities, momentum in zip(
+            for com, velocity, rpy, rate, ends, end_velocities, momentum, yaw in zip(
                 arrays["com_W"],
                 arrays["com_velocity_W"],
                 arrays["base_rpy"],
@@ -140,6 +152,7 @@ def plan_from_bytes(data: bytes) -> Plan:
                 arrays["end_effectors_W"],
                 arrays["end_effector_velocities_W"],
                 arrays.get("angular_momentum_W", np.zeros_like(arrays["com_W"])),
+                headings,
                 strict=True,
             )
         ],
@@ -149,8 +162,15 @@ def plan_from_bytes(data: bytes) -> Plan:
                 law=law,
                 intervals=intervals,
                 contacts=[
-                    Contact(surface=int(surface), stiffness=stiffness, anchor_W=anchor, moment_W=moment, **at_points)
-                    for surface, stiffness, anchor, moment, at_points in zip(*row, strict=True)
+                    Contact(
+                        surface=int(surface),
+                        stiffness=stiffness,
+                        anchor_W=anchor,
+                        moment_W=moment,
+                        center_of_pressure_W=center,
+                        **at_points,
+                    )
+                    for surface, stiffness, anchor, moment, center, at_points in zip(*row, strict=True)
                 ],
             )
             for duration, (law, intervals), *row in zip(
@@ -160,6 +180,7 @@ def plan_from_bytes(data: bytes) -> Plan:
                 arrays["stiffness"],
                 arrays["anchors_W"],
                 arrays["moments_W"],
+                centers,
                 points,
                 strict=True,
             )
@@ -183,10 +204,16 @@ def plan_from_bytes(data: bytes) -> Plan:
     return plan
 
 
-def _needs_points(plan: Plan) -> bool:
-    return any(phase.law != ForceLaw.pendulum for phase in plan.phases) or any(
-        knot.angular_momentum_W.any() for knot in plan.knots
-    )
+def _format(plan: Plan) -> int:
+    """The least format that holds all that the plan says."""
+    if (
+        any(phase.law == ForceLaw.wrench for phase in plan.phases)
+        or any(knot.end_effector_yaw for knot in plan.knots)
+        or any(contact.center_of_pressure_W.any() for phase in plan.phases for contact in phase.contacts)
+    ):
+        return 3
+    points = any(phase.law != ForceLaw.pendulum for phase in plan.phases)
+    return 2 if points or any(knot.angular_momentum_W.any() for knot in plan.knots) else 1
 
 
 def _point_arrays(plan: Plan) -> dict[str, np.ndarray]:
@@ -207,7 +234,7 @@ def _read_points(arrays: dict[str, np.ndarray], version: int) -> tuple[list[Any]
     count, ends = arrays["surfaces"].shape
     if version == 1:
         return [(ForceLaw.pendulum, 0)] * count, [[{}] * ends] * count
-    for name, most in (("laws", len(_LAWS) - 1), ("intervals", 100_000), ("point_counts", 100_000)):
+    for name, most in (("laws", _LAST_LAW[version]), ("intervals", 100_000), ("point_counts", 100_000)):
         bad = arrays[name][(arrays[name] < 0) | (arrays[name] > most)]
         if bad.size:
             raise InvalidPlan(name, f"must lie in [0, {most}]", str(bad[0]))
@@ -246,7 +273,7 @@ def _read_header(arrays: dict[str, np.ndarray]) -> dict[str, Any]:
     if header.get("kind") is not None:
         raise InvalidPlan("header.kind", "must be none: a plan of contacts and CoM", repr(header["kind"]))
     if header.get("format") not in FORMATS or isinstance(header["format"], bool):
-        raise InvalidPlan("header.format", "must be 1 or 2 for this version of mcplan", repr(header.get("format")))
+        raise InvalidPlan("header.format", "must be 1, 2 or 3 for this version of mcplan", repr(header.get("format")))
     for key, kind in (("planner", str), ("scene", dict), ("robot", dict)):
         if not isinstance(header.get(key), kind):
             raise InvalidPlan(f"header.{key}", f"must be a {kind.__name__}", type(header.get(key)).__name__)
@@ -277,7 +304,7 @@ def _check_shapes(arrays: dict[str, np.ndarray], ends: int, version: int) -> Non
         "swing_heights": (swings,),
         "swing_normals_W": (swings, 2, 3),
     }
-    if version == 2:
+    if version >= 2:
         expected |= {
             "laws": (count,),
             "intervals": (count,),
@@ -286,6 +313,10 @@ def _check_shapes(arrays: dict[str, np.ndarray], ends: int, version: int) -> Non
             "points_W": (_rows(arrays, "points_W"), 3),
             "point_forces_W": (_rows(arrays, "point_forces_W"), 3),
         }
+    if version >= 3:
+        expected["centers_of_pressure_W"] = (count, ends, 3)
+        without = arrays.get("end_effector_yaw", np.empty(1)).shape == (count + 1, 0)
+        expected["end_effector_yaw"] = (count + 1, 0 if without else ends)
     for name, shape in expected.items():
         if name not in arrays:
             raise InvalidPlan(name, "is required")

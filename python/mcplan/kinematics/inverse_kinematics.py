@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .rotations import quat_xyzw
+
 if TYPE_CHECKING:
     from mcplan import EndEffector
 
@@ -79,6 +81,7 @@ def follow(loaded: UrdfModel, samples: Samples, near: Array | None = None) -> Po
     import pinocchio as pin  # type: ignore[import-untyped]
 
     q = loaded.neutral.copy()
+    q[3:7] = quat_xyzw(samples.rotation_WB[:1])[0]
     q[:3] += samples.com_W[0] - pin.centerOfMass(loaded.model, loaded.model.createData(), q)
     solver = _Solver(pin, loaded)
     if near is not None:

@@ -32,6 +32,19 @@ def with_axis_z(z: Array, x_hint: Array) -> Array:
     return np.column_stack([x, np.cross(z, x), z])
 
 
+def about_z(angles: Array) -> Array:
+    """Rotations (..., 3, 3) by angles (...) [rad] about the world's vertical."""
+    angles = np.asarray(angles, float)
+    return from_rpy(np.stack([np.zeros_like(angles), np.zeros_like(angles), angles], axis=-1))
+
+
+def sole_frame(normal: Array, yaw: float) -> Array:
+    """Frame of a sole on a surface: z along the unit normal, x along its heading yaw [rad], or up where it faces a wall."""
+    heading = np.array([np.cos(yaw), np.sin(yaw), 0.0])
+    faces = np.linalg.norm(heading - normal * np.dot(normal, heading)) < 0.1
+    return with_axis_z(normal, np.array([0.0, 0.0, 1.0]) if faces else heading)
+
+
 def between(start: Array, end: Array, share: float) -> Array:
     """Rotation a share of the way from start to end along the shortest arc."""
     relative = start.T @ end

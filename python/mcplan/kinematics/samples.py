@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .rotations import between, from_rpy, polygon_normal, with_axis_z
+from mcplan._core import ForceLaw
+
+from .rotations import about_z, between, from_rpy, polygon_normal, sole_frame
 
 if TYPE_CHECKING:
     from mcplan import Plan, Robot, Scene
-    from mcplan._core import ResolvedStance
+    from mcplan._core import PlanState, ResolvedStance
 
 Array = NDArray[np.float64]
 
@@ -26,7 +28,7 @@ class Interval:
     start_s: float
     end_s: float
     position_W: Array  # (3,) [m]
-    rotation_W: Array  # (3, 3) sole: z along the surface normal, x along the heading
+    rotation_W: Array  # (3, 3) sole: z along the surface normal, x along its own heading
 
 
 @dataclass(frozen=True)
@@ -46,12 +48,14 @@ class Samples:
     velocities_W: Array  # (n, e, 3)
     rotations_W: Array  # (n, e, 3, 3) soles and palms
     forces_W: Array  # (n, e, 3)
-    pressure_W: Array  # (n, e, 3) where they act: centre of pressure of the points, else the end-effector itself
+    pressure_W: Array  # (n, e, 3) where they act: the plan's centre of pressure, else the end-effector itself
+    moments_W: Array  # (n, e, 3) about there [N m]
     points_W: Array  # (n, e, p, 3), NaN where there are fewer
     point_forces_W: Array  # (n, e, p, 3) [N], NaN likewise
     angular_momentum_W: Array  # (n, 3) about the CoM [kg m^2/s]
     surfaces: NDArray[np.int64]  # (n, e), -1: free
     intervals: list[Interval]
+    has_wrenches: bool = False  # centre of pressure and moment are the plan's own, of ForceLaw.wrench
 
     @property
     def has_points(self) -> bool:
@@ -88,8 +92,14 @@ def sample_at(plan: Plan, scene: Scene, robot: Robot, times: Array) -> Samples:
     ends = [s.end_effectors for s in states]
     intervals = contact_intervals(plan, scene, robot)
     positions_W = np.array([[e.position_W for e in row] for row in ends], float)
+    forces_W = np.array([[e.force_W for e in row] for row in ends], float)
     surfaces = np.array([[e.surface for e in row] for row in ends], int)
     points_W, point_forces_W = _padded(ends, "points_W"), _padded(ends, "point_forces_W")
+    pressure_W = _centres_of_pressure(scene, positions_W, surfaces, points_W, point_forces_W)
+    wrenches = np.array([plan.phases[s.phase].law == ForceLaw.wrench for s in states])
+    planned_W = np.array([[e.center_of_pressure_W for e in row] for row in ends], float)
+    pressure_W = np.where(wrenches[:, None, None], planned_W, pressure_W)
+    moments_W = np.array([[e.moment_W for e in row] for row in ends], float)
     return Samples(
         times_s=times,
         com_W=np.array([s.com_W for s in states], float),
@@ -98,26 +108,27 @@ def sample_at(plan: Plan, scene: Scene, robot: Robot, times: Array) -> Samples:
         rotation_WB=rotation_WB,
         positions_W=positions_W,
         velocities_W=np.array([[e.velocity_W for e in row] for row in ends], float),
-        rotations_W=_sole_rotations(times, rotation_WB, intervals, len(robot.end_effectors)),
-        forces_W=np.array([[e.force_W for e in row] for row in ends], float),
-        pressure_W=_centres_of_pressure(scene, positions_W, surfaces, points_W, point_forces_W),
+        rotations_W=_sole_rotations(plan, times, states, rotation_WB, intervals),
+        forces_W=forces_W,
+        pressure_W=pressure_W,
+        moments_W=moments_W - np.cross(pressure_W - positions_W, forces_W),
         points_W=points_W,
         point_forces_W=point_forces_W,
         angular_momentum_W=np.array([s.angular_momentum_W for s in states], float),
         surfaces=surfaces,
         intervals=intervals,
+        has_wrenches=bool(wrenches.all()),
     )
 
 
 def stance_samples(scene: Scene, robot: Robot, stance: ResolvedStance) -> Samples:
     """A robot that stands, as a single sample."""
-    rotation = from_rpy(np.array([0.0, 0.0, float(stance.yaw)]))
+    yaw = float(stance.yaw)
+    rotation = about_z(np.array(yaw))
     rotations = []
     for surface in stance.contacts:
         touched = scene.surfaces[surface] if surface >= 0 else None
-        rotations.append(
-            with_axis_z(polygon_normal(np.array(touched.vertices_W)), rotation[:, 0]) if touched else rotation
-        )
+        rotations.append(sole_frame(polygon_normal(np.array(touched.vertices_W)), yaw) if touched else rotation)
     ends = len(robot.end_effectors)
     return Samples(
         times_s=np.zeros(1),
@@ -130,6 +141,7 @@ def stance_samples(scene: Scene, robot: Robot, stance: ResolvedStance) -> Sample
         rotations_W=np.array([rotations]),
         forces_W=np.zeros((1, ends, 3)),
         pressure_W=np.array([stance.end_effectors_W], float),
+        moments_W=np.zeros((1, ends, 3)),
         points_W=np.zeros((1, ends, 0, 3)),
         point_forces_W=np.zeros((1, ends, 0, 3)),
         angular_momentum_W=np.zeros((1, 3)),
@@ -153,8 +165,6 @@ def contact_intervals(plan: Plan, scene: Scene, robot: Robot) -> list[Interval]:
                 until += 1
             if surface >= 0:
                 middle = plan.at(0.5 * (times[k] + times[until]))
-                heading = from_rpy(np.asarray(middle.base_rpy))[:, 0]
-                heading[2] = 0.0
                 intervals.append(
                     Interval(
                         end_effector=end,
@@ -162,7 +172,7 @@ def contact_intervals(plan: Plan, scene: Scene, robot: Robot) -> list[Interval]:
                         start_s=float(times[k]),
                         end_s=float(times[until]),
                         position_W=np.array(plan.knots[k].end_effectors_W[end], float),
-                        rotation_W=with_axis_z(normals[surface], heading),
+                        rotation_W=sole_frame(normals[surface], float(middle.end_effectors[end].yaw)),
                     )
                 )
             k = until
@@ -193,11 +203,20 @@ def _centres_of_pressure(
     return np.where(carries, centres, positions_W)
 
 
-def _sole_rotations(times: Array, rotation_WB: Array, intervals: list[Interval], ends: int) -> Array:
-    """Plans do not say how a free foot is turned: blend from the contact before to the one after."""
+def _sole_rotations(
+    plan: Plan, times: Array, states: list[PlanState], rotation_WB: Array, intervals: list[Interval]
+) -> Array:
+    """Soles in contact as they lie; a free one blends from the contact before to the one after.
+
+    Where a plan says how soles head, only the tilt against that heading is blended, the base's where there is no contact.
+    """
+    ends = len(plan.robot.end_effectors)
     result = np.repeat(rotation_WB[:, None], ends, axis=1)
     for end in range(ends):
         own = [i for i in intervals if i.end_effector == end]
+        if not own:
+            continue
+        headings = _headings(plan, states, end)
         for n, t in enumerate(times):
             inside = [i for i in own if i.start_s <= t <= i.end_s]
             if inside:
@@ -210,5 +229,20 @@ def _sole_rotations(times: Array, rotation_WB: Array, intervals: list[Interval],
             since = before[-1].end_s if before else times[0]
             until = after[0].start_s if after else times[-1]
             share = (t - since) / max(until - since, 1e-9)
-            result[n, end] = between(start, goal, share * share * (3.0 - 2.0 * share))
+            share = share * share * (3.0 - 2.0 * share)
+            if headings is None:
+                result[n, end] = between(start, goal, share)
+                continue
+            own_yaw, base_yaw = headings[n], float(states[n].base_rpy[2])
+            lifted = float(plan.at(since).end_effectors[end].yaw) if before else base_yaw
+            lands = float(plan.at(until).end_effectors[end].yaw) if after else base_yaw
+            tilt = between(about_z(np.array(-lifted)) @ start, about_z(np.array(-lands)) @ goal, share)
+            result[n, end] = about_z(np.array(own_yaw)) @ tilt
     return result
+
+
+def _headings(plan: Plan, states: list[PlanState], end: int) -> list[float] | None:
+    """Of a sole at each state [rad]; None where the plan leaves it to the base."""
+    if any(len(knot.end_effector_yaw) <= end for knot in plan.knots):
+        return None
+    return [float(state.end_effectors[end].yaw) for state in states]

@@ -68,6 +68,18 @@ class ForcePoints:
         """(3 p,) forces at the points that add up to a force (3,) [N] acting at (2,) in the contact frame [m]."""
         return np.outer(self.weights @ np.array([1.0, *pressure_F]), force_W).ravel()
 
+    def twist(self, moment_Nm: float, rotation_W: Array) -> Array:
+        """(3 p,) least forces at the points that add up to nothing but a moment about the contact frame's z.
+
+        f_i = tau z x (r_i - r) / sum |r_i - r|^2, r the mean of the points; none at a single point.
+        """
+        arms = self.offsets - self.offsets.mean(axis=0)
+        size = float((arms**2).sum())
+        if size <= 0.0:
+            return np.zeros(3 * self.count)
+        across = np.column_stack([-arms[:, 1], arms[:, 0], np.zeros(self.count)])
+        return np.asarray((moment_Nm / size * across @ rotation_W.T).ravel())
+
 
 def clipped(polygon: Array, outline: Array) -> Array:
     """(k, 2) the part of a convex polygon (n, 2) inside another one (m, 2), both counter-clockwise."""

@@ -1,6 +1,6 @@
 """Contact forces that balance a posture: near to the plan's, within soles and friction.
 
-The plan's forces hold its lumped mass along straight lines through the CoM. The bodies of the robot ask for a little more:
+The plan's forces hold a lumped mass. The bodies of the robot ask for a little more:
 legs that swing, a mass that is not quite the plan's. Without a correction that difference would be a wrench on the base that
 nothing bears, and the torques of the joints would be wrong by it.
 """
@@ -29,6 +29,7 @@ class Contact:
         force_W: (3,) the plan's [N].
         position_W: (3,) of the end-effector, about which moments are taken [m].
         jacobian: (6, nv) of the end-effector, world's axes.
+        moment_W: (3,) the plan's about position_W [N m]; None: it leaves the centre of pressure open.
     """
 
     points_W: Array
@@ -37,6 +38,7 @@ class Contact:
     force_W: Array
     position_W: Array
     jacobian: Array
+    moment_W: Array | None = None
 
 
 def balanced_wrenches(contacts: list[Contact], base: Array, length_m: float) -> tuple[list[Array], Array]:
@@ -59,11 +61,14 @@ def balanced_wrenches(contacts: list[Contact], base: Array, length_m: float) -> 
     bases = [contact.jacobian[:, :6].T @ generators for contact, generators in zip(contacts, maps, strict=True)]
     scale = np.array([1.0, 1.0, 1.0, 1.0 / length_m, 1.0 / length_m, 1.0 / length_m])
     count = sum(m.shape[1] for m in maps)
-    reference = np.zeros((3 * len(contacts), count))
-    wanted = np.concatenate([contact.force_W for contact in contacts])
+    reference, wanted = np.zeros((6 * len(contacts), count)), np.zeros(6 * len(contacts))
     start = 0
-    for i, generators in enumerate(maps):
-        reference[3 * i : 3 * i + 3, start : start + generators.shape[1]] = generators[:3]
+    for i, (contact, generators) in enumerate(zip(contacts, maps, strict=True)):
+        columns = slice(start, start + generators.shape[1])
+        reference[6 * i : 6 * i + 3, columns], wanted[6 * i : 6 * i + 3] = generators[:3], contact.force_W
+        if contact.moment_W is not None:
+            reference[6 * i + 3 : 6 * i + 6, columns] = generators[3:] / length_m
+            wanted[6 * i + 3 : 6 * i + 6] = contact.moment_W / length_m
         start += generators.shape[1]
     matrix = np.vstack([scale[:, None] * np.hstack(bases), REFERENCE * reference, SMALL * np.eye(count)])
     amounts, _ = nnls(matrix, np.concatenate([scale * base, REFERENCE * wanted, np.zeros(count)]), maxiter=50 * count)

@@ -153,6 +153,7 @@ class Controller:
             points, motion = self.points[i], ends[i]
             force_map[:, at : at + width] = motion.jacobian.T @ points.map(motion.rotation_W)
             wanted = points.share(self._planned_force(n, i), self._pressure(n, i, motion))
+            wanted += points.twist(float(self.references.moments_W[n, i] @ motion.rotation_W[:, 2]), motion.rotation_W)
             gradient[nv + at : nv + at + width] = -gains.force_weight * wanted
             cone = self.pyramids[max(self._surface(n, i), 0)]
             for p in range(points.count):

@@ -105,7 +105,10 @@ def _matched(plan: Plan, loaded: UrdfModel, samples: Samples) -> tuple[UrdfModel
     order = [names.index(name) for name in mine]
     shared = copy.copy(robot)
     shared.end_effectors = [robot.end_effectors[i] for i in kept]
-    per_end = ("positions_W", "rotations_W", "forces_W", "pressure_W", "points_W", "point_forces_W", "surfaces")
+    per_end = (
+        *("positions_W", "rotations_W", "forces_W", "pressure_W", "moments_W"),
+        *("points_W", "point_forces_W", "surfaces"),
+    )
     chosen = {field: getattr(samples, field)[:, order] for field in per_end}
     intervals = [
         replace(i, end_effector=order.index(i.end_effector)) for i in samples.intervals if i.end_effector in order

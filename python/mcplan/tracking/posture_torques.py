@@ -146,6 +146,13 @@ def _contact(
         normal_W=polygon_normal(np.asarray(surface.vertices_W)),
         friction=np.inf if surface.grasp else float(surface.friction),
         force_W=scale * samples.forces_W[n, end],
+        moment_W=scale * _moment_about_end(samples, n, end) if samples.has_wrenches else None,
         position_W=position,
         jacobian=jacobian,
     )
+
+
+def _moment_about_end(samples: Samples, n: int, end: int) -> Array:
+    """(3,) the plan's contact moment about the end-effector [N m]."""
+    arm = samples.pressure_W[n, end] - samples.positions_W[n, end]
+    return np.asarray(samples.moments_W[n, end] + np.cross(arm, samples.forces_W[n, end]))

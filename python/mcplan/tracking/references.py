@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan._core import ForceLaw
 from mcplan.kinematics.rotations import rotations_of
-from mcplan.kinematics.samples import sample_at
+from mcplan.kinematics.samples import Samples, sample_at
 
 if TYPE_CHECKING:
     from mcplan._core import Plan, Robot
@@ -32,7 +33,7 @@ class References:
         base_WB: (n, 3, 3); base_velocity_W: (n, 3) angular.
         ends_W, end_velocities_W, end_accelerations_W: (n, e, 3).
         soles_W: (n, e, 3, 3): z the normal of the ground, x ahead; sole_velocities_W: (n, e, 3) angular.
-        forces_W: (n, e, 3), and pressure_W (n, e, 3): where they act.
+        forces_W: (n, e, 3), and pressure_W (n, e, 3): where they act; moments_W (n, e, 3): about there.
         surfaces: (n, e) surface in contact or -1.
         swing_share: (n, e) how much of the swing has passed, 0 to 1; 1 in contact.
         returns: (n, e) whether a free end-effector will be in contact later.
@@ -54,6 +55,7 @@ class References:
     sole_velocities_W: Array
     forces_W: Array
     pressure_W: Array
+    moments_W: Array
     surfaces: NDArray[np.int64]
     swing_share: Array
     returns: NDArray[np.bool_]
@@ -73,7 +75,7 @@ def references(plan: Plan, robot: Robot, dt_s: float, hold_s: float) -> Referenc
 
     Args:
         plan: The plan; its end-effectors are those of `robot`, in the same order.
-        robot: Whose mass scales the plan's forces.
+        robot: Whose mass scales the plan's forces and angular momentum.
         dt_s: Control step [s].
         hold_s: How long the last state is held [s].
     """
@@ -88,10 +90,15 @@ def references(plan: Plan, robot: Robot, dt_s: float, hold_s: float) -> Referenc
     com_velocity[over], velocities[over] = 0.0, 0.0
     acceleration = samples.com_acceleration_W.copy()
     acceleration[over] = 0.0
-    momentum = samples.angular_momentum_W.copy()
+    scale = robot.mass / plan.robot.mass
+    momentum = samples.angular_momentum_W * scale
     momentum[over] = 0.0
-    forces = samples.forces_W * (robot.mass / plan.robot.mass)
-    forces[over] = _standing(plan, robot)
+    momentum_rate = np.gradient(momentum, dt_s, axis=0)
+    if all(phase.law == ForceLaw.wrench for phase in plan.phases):
+        momentum_rate = scale * moment_about_com(samples)
+        momentum_rate[over] = 0.0
+    forces, moments = samples.forces_W * scale, samples.moments_W * scale
+    forces[over], moments[over] = _standing(plan, robot), 0.0
     end_acceleration = np.gradient(velocities, dt_s, axis=0)
     size = np.linalg.norm(end_acceleration, axis=2, keepdims=True)
     end_acceleration *= np.minimum(1.0, LARGEST_SWING_ACCELERATION / np.maximum(size, 1e-9))
@@ -104,7 +111,7 @@ def references(plan: Plan, robot: Robot, dt_s: float, hold_s: float) -> Referenc
         com_velocity_W=com_velocity,
         com_acceleration_W=acceleration,
         momentum_W=momentum,
-        momentum_rate_W=np.gradient(momentum, dt_s, axis=0),
+        momentum_rate_W=momentum_rate,
         base_WB=samples.rotation_WB,
         base_velocity_W=_angular_velocity(samples.rotation_WB, dt_s),
         ends_W=samples.positions_W,
@@ -114,10 +121,17 @@ def references(plan: Plan, robot: Robot, dt_s: float, hold_s: float) -> Referenc
         sole_velocities_W=_angular_velocity(samples.rotations_W, dt_s),
         forces_W=forces,
         pressure_W=samples.pressure_W,
+        moments_W=moments,
         surfaces=surfaces,
         swing_share=share,
         returns=returns,
     )
+
+
+def moment_about_com(samples: Samples) -> Array:
+    """(n, 3) what the contacts add to the angular momentum: sum (a - p) x f + tau [N m]."""
+    arms = samples.pressure_W - samples.com_W[:, None]
+    return np.asarray((np.cross(arms, samples.forces_W) + samples.moments_W).sum(axis=1))
 
 
 def _standing(plan: Plan, robot: Robot) -> Array:

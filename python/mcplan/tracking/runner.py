@@ -84,7 +84,7 @@ def track(
     on_ground[2] += options.ground_shift_m
     simulation.reset(on_ground, np.zeros(loaded.model.nv))
     posture = start
-    if any(phase.law != ForceLaw.pendulum for phase in plan.phases):
+    if any(phase.law in (ForceLaw.held, ForceLaw.linear) for phase in plan.phases):
         # Such plans know nothing of the base: how it is turned has to suit the legs.
         posture = postures_along(loaded, plan, wanted.count, options.control_step_s)
         wanted = wanted.with_base(posture[:, 3:7])

@@ -25,6 +25,7 @@ from .plots import (
     plot_pressure,
     plot_timing,
     plot_torques,
+    plot_turning,
     save_plots,
     stroboscope,
 )
@@ -69,6 +70,7 @@ __all__ = [
     "plot_run_momentum",
     "plot_run_torques",
     "plot_torques",
+    "plot_turning",
     "save_plots",
     "save_run_plots",
     "save_run_postures",

@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mcplan._core import WholeBodyPlan
+from mcplan._core import ForceLaw, WholeBodyPlan
 
 from .film_strip import film_strip, stroboscope
 from .picture import picture
-from .plots_plan import plot_com, plot_forces, plot_friction, plot_gait, plot_momentum
+from .plots_plan import plot_com, plot_forces, plot_friction, plot_gait, plot_momentum, plot_turning
 from .plots_point_forces import plot_cones, plot_point_forces
 from .plots_points import plot_pressure, plot_timing
 from .plots_report import has_sequences, plot_contact_sequence, plot_cost
@@ -39,6 +39,7 @@ __all__ = [
     "plot_pressure",
     "plot_timing",
     "plot_torques",
+    "plot_turning",
     "save_plots",
     "stroboscope",
 ]
@@ -48,7 +49,8 @@ def save_plots(plan: Plan | WholeBodyPlan, report: Report | None, directory: str
     """Write all plots of a plan.
 
     Of a plan of contacts and CoM: picture.png, gait.png, com.png, momentum.png, forces.png, friction.png, for one with
-    forces at points pressure.png and timing.png, and from the report cost.png and contact_sequence.png as far as it holds
+    forces at points pressure.png and timing.png, for one with contact wrenches pressure.png and turning.png, and from the
+    report cost.png and contact_sequence.png as far as it holds
     their data. Of a whole-body plan: strip.png, postures.png, joints.png, velocities.png, torques.png, forces.png,
     cones.png, base.png and drift.png.
 
@@ -89,6 +91,8 @@ def _figures(plan: Plan, report: Report | None) -> dict[str, Figure]:
     }
     if any(phase.intervals for phase in plan.phases):
         figures |= {"pressure": plot_pressure(plan), "timing": plot_timing(plan)}
+    elif any(phase.law == ForceLaw.wrench for phase in plan.phases):
+        figures |= {"pressure": plot_pressure(plan), "turning": plot_turning(plan)}
     if report is not None and report.history:
         figures["cost"] = plot_cost(report)
         if has_sequences(report):

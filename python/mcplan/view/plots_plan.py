@@ -1,4 +1,4 @@
-"""Plots of a plan over time: CoM, angular momentum, contacts, forces, friction."""
+"""Plots of a plan over time: CoM, angular momentum, base, contacts, forces, friction."""
 
 from __future__ import annotations
 
@@ -66,6 +66,37 @@ def plot_momentum(plan: Plan) -> Figure:
     label(axes[2, 0], x="time [s]")
     axes[0, 0].set_xlim(0.0, samples.times_s[-1])
     legend(figure, handles=support_patches(), loc="outside lower center", ncol=2)
+    return figure
+
+
+def plot_turning(plan: Plan) -> Figure:
+    """Roll, pitch and yaw of the base; beside its yaw the headings of the soles in contact."""
+    samples = sample(plan, plan.scene, plan.robot, RATE)
+    states = [plan.at(float(t)) for t in samples.times_s]
+    angles = np.degrees(np.array([state.base_rpy for state in states]))
+    figure, axes = sheet(3, 1, size=(10.0, 5.6), sharex=True)
+    for i, name in enumerate(("roll", "pitch", "yaw")):
+        shade_support(axes[i, 0], samples)
+        axes[i, 0].plot(samples.times_s, angles[:, i], color=COM, linewidth=2.0, label="base", zorder=3)
+        label(axes[i, 0], y=f"{name} [deg]")
+    for end, colour in enumerate(end_effector_colours(plan.robot)):
+        body = plan.robot.end_effectors[end]
+        touches = samples.surfaces[:, end] >= 0
+        if body.half_size.all() and touches.any():
+            heading = np.degrees([state.end_effectors[end].yaw for state in states])
+            curve = np.where(touches, heading, np.nan)
+            axes[2, 0].plot(samples.times_s, curve, color=colour, linewidth=1.4, label=body.name.replace("_", " "))
+    for chart in axes[:, 0]:
+        low, high = chart.get_ylim()
+        if high - low < 1.0:  # no axis in units of rounding
+            middle = 0.5 * (low + high)
+            chart.set_ylim(middle - 0.5, middle + 0.5)
+    label(axes[0, 0], title="orientation of the base")
+    label(axes[2, 0], x="time [s]")
+    axes[0, 0].set_xlim(0.0, samples.times_s[-1])
+    handles, _ = axes[2, 0].get_legend_handles_labels()
+    handles += support_patches()
+    legend(figure, handles=handles, loc="outside lower center", ncol=len(handles))
     return figure
 
 

@@ -1,4 +1,4 @@
-"""Plots of plans with forces at points: centre of pressure under every foot, durations of the phases."""
+"""Plots of where forces act in soles and of how long phases last: centre of pressure under every foot, durations."""
 
 from __future__ import annotations
 
@@ -23,10 +23,11 @@ MANY = "#C3CAD2"
 
 def plot_pressure(plan: Plan) -> Figure:
     """Centre of pressure of every end-effector with a sole, along its length and its width; the sole ends at the red
-    lines."""
+    lines. In metres where forces act at points, in parts of half the sole's size where the plan has contact wrenches."""
     samples = sample(plan, plan.scene, plan.robot, RATE)
     ends = plan.robot.end_effectors
-    used = [e for e in range(len(ends)) if np.isfinite(samples.points_W[:, e]).any() and ends[e].half_size.all()]
+    says_where = samples.surfaces >= 0 if samples.has_wrenches else np.isfinite(samples.points_W).any(axis=(2, 3))
+    used = [e for e in range(len(ends)) if says_where[:, e].any() and ends[e].half_size.all()]
     colours = end_effector_colours(plan.robot)
     figure, axes = sheet(max(len(used), 1), 2, size=(10.0, 1.0 + 1.7 * max(len(used), 1)), sharex=True)
     for row, end in enumerate(used):
@@ -35,7 +36,10 @@ def plot_pressure(plan: Plan) -> Figure:
         in_sole[samples.surfaces[:, end] < 0] = np.nan
         for column, side in enumerate(("length", "width")):
             chart = axes[row, column]
-            half = float(ends[end].half_size[column])
+            half, unit = float(ends[end].half_size[column]), "[m]"
+            if samples.has_wrenches:
+                in_sole[:, column] /= half
+                half, unit = 1.0, "[half size]"
             shade_support(chart, samples)
             for edge in (-half, half):
                 chart.axhline(edge, color="#B00020", linewidth=1.2, label="edge of the sole" if edge > 0.0 else None)
@@ -43,7 +47,7 @@ def plot_pressure(plan: Plan) -> Figure:
                 samples.times_s, in_sole[:, column], color=colours[end], linewidth=2.0, label="centre of pressure"
             )
             chart.set_ylim(-1.25 * half, 1.25 * half)
-            label(chart, y="[m]", title=f"{ends[end].name.replace('_', ' ')}, along its {side}")
+            label(chart, y=unit, title=f"{ends[end].name.replace('_', ' ')}, along its {side}")
     for chart in axes[-1]:
         label(chart, x="time [s]")
         chart.set_xlim(0.0, samples.times_s[-1])

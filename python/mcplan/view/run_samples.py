@@ -89,6 +89,7 @@ def frames_of(recording: Recording, loaded: UrdfModel, rate_hz: float) -> RunFra
         rotations_W=soles_W,
         forces_W=recording.forces_W[chosen],
         pressure_W=positions,
+        moments_W=np.zeros((count, ends, 3)),
         points_W=np.zeros((count, ends, 0, 3)),
         point_forces_W=np.zeros((count, ends, 0, 3)),
         angular_momentum_W=recording.angular_momentum_W[chosen],

@@ -9,6 +9,7 @@ import numpy as np
 
 from mcplan._core import WholeBodyPlan
 from mcplan.errors import InvalidInput
+from mcplan.kinematics.loads import loads_of
 from mcplan.kinematics.samples import Samples, sample, stance_samples
 
 from .colours import end_effector_colours
@@ -65,6 +66,9 @@ def show(
     draw_plan(stage, samples, scene, robot, figure_of(samples, robot, colours), colours)
     phases = len(plan.phases)
     lines = [f"{robot.name}: {phases} phases, {samples.times_s[-1]:.2f} s"]
+    loads = loads_of(plan)
+    if loads is not None:
+        lines.append(f"angular momentum up to {loads.angular_momentum:.1f} kg m²/s")
     if report is not None:
         lines.append(f"{report.status}: {report.iterations} iterations, {report.time_s:.2f} s of planning")
     newton_per_metre = float(robot.mass) * float(scene.gravity) / (WEIGHT_ARROW * float(robot.com_height))

@@ -5,6 +5,7 @@
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/plan.hpp"
 #include "plan/point_fixtures.hpp"
+#include "plan/wrench_fixtures.hpp"
 
 using namespace fixtures;
 using mcplan::Plan;
@@ -61,4 +62,24 @@ TEST_CASE("validate names the field of forces at points that does not fit") {
   CHECK(field([](Plan& p) {
           p.phases[2].contacts[0].points_W.push_back({0, 0, 0});
         }) == "phases[2].contacts[0].points");
+}
+
+TEST_CASE("validate names the field of contact wrenches that does not fit") {
+  const auto of_walk = [](const std::function<void(Plan&)>& mutate) { return field(mutate, wrench_walk()); };
+  CHECK(of_walk([](Plan&) {}) == "accepted");
+  CHECK(of_walk([](Plan& p) {
+          for (auto& knot : p.knots) knot.end_effector_yaw.clear();
+        }) == "accepted");
+  CHECK(of_walk([](Plan& p) { p.knots[2].end_effector_yaw.pop_back(); }) == "knots[2].end_effector_yaw");
+  CHECK(of_walk([](Plan& p) { p.knots[2].end_effector_yaw.clear(); }) == "knots[2].end_effector_yaw");
+  CHECK(of_walk([](Plan& p) { p.knots[0].end_effector_yaw.clear(); }) == "knots[1].end_effector_yaw");
+  CHECK(of_walk([](Plan& p) { p.knots[2].end_effector_yaw[3] = std::nan(""); }) == "knots[2]");
+  CHECK(of_walk([](Plan& p) { p.phases[1].contacts[0].center_of_pressure_W.y() = INFINITY; }) ==
+        "phases[1].contacts[0]");
+  CHECK(of_walk([](Plan& p) { p.phases[1].intervals = 2; }) == "phases[1].intervals");
+  CHECK(of_walk([](Plan& p) {
+          p.phases[1].contacts[0].points_W.push_back({0, 0, 0});
+        }) == "phases[1].contacts[0].points");
+  CHECK(field([](Plan& p) { p.phases[0].contacts[1].center_of_pressure_W.z() = 1.0; }, step_on_corners()) ==
+        "phases[0].contacts[1].center_of_pressure");
 }

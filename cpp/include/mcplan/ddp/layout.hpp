@@ -1,56 +1,110 @@
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 namespace mcplan::ddp {
 
 /// Where each quantity lies in the state x and the input u (Tazaki, eq. 13).
 ///
-///     x = [ com p (3), velocity v (3), base angles theta (a), rates omega (a), end-effectors p_l (3 each) ]
-///     u = [ strides dp_l (3 each), stiffness mu_l or lambda_l (1 each), moments tau (m), duration h (1) ]
+///     x = [ com p (3), velocity v (3), base angles theta (a), angular momentum L (a), end-effectors p_l (3 each) ]
+///     u = [ strides dp_l (3 each), stiffness mu_l or lambda_l (1 each), centres of pressure c_l, force lines r_l,
+///           moments tau, duration h (1) ]
 ///
-/// The paper's t_k is left out: no cost reads it, so it is only the running sum of the durations. Base axes that no
-/// contact moment can drive (a < 3) are left out as well; they would keep their initial value for ever.
-/// z = [x, u] stacks the two.
+/// The paper's t_k is left out: no cost reads it, so it is only the running sum of the durations. Base axes that
+/// nothing can drive (a < 3, in the paper's model) are left out as well; they would keep their initial value for ever.
+/// How many numbers c_l, r_l and tau are, and what they stand for, the Problem decides: none in the paper's model,
+/// whose forces act at p_l and point at the CoM. z = [x, u] stacks the two.
 class Layout {
  public:
+  /// What one end-effector can do besides pushing along the line to the CoM. A column a direction, world axes.
+  struct Offsets {
+    Eigen::Matrix3Xd pressure;    ///< c_l = pressure * (its inputs): from p_l to where the force acts
+    Eigen::Matrix3Xd force_line;  ///< r_l = force_line * (its inputs): from there to the line through the CoM
+  };
   struct Moment {
     int end_effector;
-    int axis;  ///< position in axes()
+    Eigen::Vector3d direction_W;  ///< unit vector
+    double most;                  ///< largest absolute value, in units of the problem
   };
 
   Layout() = default;
-  Layout(int end_effectors, std::vector<int> axes, std::vector<Moment> moments)
-      : ends_(end_effectors), axes_(std::move(axes)), moments_(std::move(moments)) {}
+  Layout(std::vector<Offsets> ends, std::vector<int> axes, std::vector<Moment> moments)
+      : ends_(std::move(ends)), axes_(std::move(axes)), moments_(std::move(moments)) {
+    int next = 4 * this->ends();
+    for (const Offsets& e : ends_) {
+      pressure_.push_back(next);
+      next += static_cast<int>(e.pressure.cols());
+    }
+    for (const Offsets& e : ends_) {
+      force_line_.push_back(next);
+      next += static_cast<int>(e.force_line.cols());
+    }
+    first_moment_ = next;
+  }
 
-  int ends() const { return ends_; }
+  int ends() const { return static_cast<int>(ends_.size()); }
+  const Offsets& offsets(int l) const { return ends_[l]; }
   const std::vector<int>& axes() const { return axes_; }           ///< active base axes: 0 roll, 1 pitch, 2 yaw
   const std::vector<Moment>& moments() const { return moments_; }  ///< which moments are inputs
   int axis_count() const { return static_cast<int>(axes_.size()); }
   int moment_count() const { return static_cast<int>(moments_.size()); }
+  int pressure_count(int l) const { return static_cast<int>(ends_[l].pressure.cols()); }
+  int force_line_count(int l) const { return static_cast<int>(ends_[l].force_line.cols()); }
 
-  int nx() const { return 6 + 2 * axis_count() + 3 * ends_; }
-  int nu() const { return 4 * ends_ + moment_count() + 1; }
+  int nx() const { return 6 + 2 * axis_count() + 3 * ends(); }
+  int nu() const { return first_moment_ + moment_count() + 1; }
   int nz() const { return nx() + nu(); }
 
   // Offsets in x.
   static constexpr int com() { return 0; }
   static constexpr int velocity() { return 3; }
   static constexpr int angle(int a = 0) { return 6 + a; }
-  int rate(int a = 0) const { return 6 + axis_count() + a; }
+  int momentum(int a = 0) const { return 6 + axis_count() + a; }
   int end(int l) const { return 6 + 2 * axis_count() + 3 * l; }
 
   // Offsets in u.
   static constexpr int stride(int l) { return 3 * l; }
-  int stiffness(int l = 0) const { return 3 * ends_ + l; }
-  int moment(int i = 0) const { return 4 * ends_ + i; }
-  int duration() const { return 4 * ends_ + moment_count(); }
+  int stiffness(int l = 0) const { return 3 * ends() + l; }
+  int pressure(int l) const { return pressure_[l]; }
+  int force_line(int l) const { return force_line_[l]; }
+  int moment(int i = 0) const { return first_moment_ + i; }
+  int duration() const { return first_moment_ + moment_count(); }
+
+  /// c_l, from the end-effector to where its force acts.
+  Eigen::Vector3d pressure_offset(const Eigen::VectorXd& u, int l) const {
+    return ends_[l].pressure * u.segment(pressure(l), pressure_count(l));
+  }
+  /// r_l, from where the force acts to the line on which it points at the CoM.
+  Eigen::Vector3d line_offset(const Eigen::VectorXd& u, int l) const {
+    return ends_[l].force_line * u.segment(force_line(l), force_line_count(l));
+  }
+  /// a_l = p_l + c_l, where the force acts: the centre of pressure.
+  Eigen::Vector3d acting_point(const Eigen::VectorXd& x, const Eigen::VectorXd& u, int l) const {
+    return x.segment<3>(end(l)) + pressure_offset(u, l);
+  }
+  /// s_l = a_l + r_l, from which the force points at the CoM.
+  Eigen::Vector3d line_point(const Eigen::VectorXd& x, const Eigen::VectorXd& u, int l) const {
+    return acting_point(x, u, l) + line_offset(u, l);
+  }
+  /// g += (d a_l / dz)' along.
+  void add_along_acting_point(int l, const Eigen::Vector3d& along, Eigen::Ref<Eigen::VectorXd> g) const {
+    g.segment<3>(end(l)) += along;
+    g.segment(nx() + pressure(l), pressure_count(l)) += ends_[l].pressure.transpose() * along;
+  }
+  /// g += (d s_l / dz)' along.
+  void add_along_line_point(int l, const Eigen::Vector3d& along, Eigen::Ref<Eigen::VectorXd> g) const {
+    add_along_acting_point(l, along, g);
+    g.segment(nx() + force_line(l), force_line_count(l)) += ends_[l].force_line.transpose() * along;
+  }
 
  private:
-  int ends_ = 0;
+  std::vector<Offsets> ends_;
   std::vector<int> axes_;
   std::vector<Moment> moments_;
+  std::vector<int> pressure_, force_line_;
+  int first_moment_ = 0;
 };
 
 }  // namespace mcplan::ddp

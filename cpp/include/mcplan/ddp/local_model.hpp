@@ -22,6 +22,7 @@ struct Quadratic {
 struct Schedule {
   double contact_weight = 0.01;   ///< w_compl
   double interior_weight = 0.0;   ///< on reach, friction and force inside the phases
+  bool discovering = false;       ///< the weights that Model::wrench has in discovery
   double proximal_weight = 30.0;  ///< on the change of the input: 1/2 r |du|^2, a part of the model's cost
 
   /// Not null: only the least change that closes the dynamics defects is sought, whatever it costs. Held (by a
@@ -78,7 +79,6 @@ class LocalModel {
   const Trajectory* trajectory_ = nullptr;
   Schedule schedule_;
   std::vector<Stage> stages_;
-  PendulumStep scratch_step_;
   Eigen::MatrixXd scratch_;
   Rows base_rows_;
 };
@@ -105,14 +105,14 @@ class Evaluator {
   Pendulum pendulum_;
   Rows rows_;
   std::vector<Instant> instants_;
-  PendulumStep step_;
   Eigen::VectorXd next_;
 };
 
 /// All rows of one step and contact state into `rows` (shared by model and evaluation). `u` null at k = N.
-void add_base_rows(const Problem& problem, int k, const Eigen::VectorXd& x, const Eigen::VectorXd* u, Rows& rows);
+void add_base_rows(const Problem& problem, int k, const Eigen::VectorXd& x, const Eigen::VectorXd* u,
+                   const Schedule& schedule, Rows& rows);
 void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x,
                       const Eigen::VectorXd* u, const std::vector<Instant>& instants, int l, int contact,
-                      const Schedule& schedule, Rows& rows);
+                      double sole_yaw, const Schedule& schedule, Rows& rows);
 
 }  // namespace mcplan::ddp

@@ -14,6 +14,12 @@ enum class Method {
   paper,     ///< Tazaki's Algorithms 1 and 2 as published
 };
 
+/// What a contact can do.
+enum class Model {
+  wrench,  ///< forces act within the sole and need not point at the CoM: angular momentum, turning, friction as it is
+  lipm,    ///< the paper's: every force acts at its end-effector and points at the CoM, the base barely turns
+};
+
 /// How the contact stiffness enters as an input.
 enum class StiffnessInput {
   mu,  ///< mu = lambda^2 >= 0: contact forces are linear in it, so a free end-effector can see what contact would give
@@ -25,7 +31,11 @@ enum class StiffnessInput {
 struct Weights {
   double com = 0.1, com_end = 100.0;                     ///< w_p
   double velocity = 1.0, velocity_end = 100.0;           ///< w_v
-  double rotation = 100.0, rotation_end = 100.0;         ///< w_theta, w_omega
+  double rotation = 100.0, rotation_end = 100.0;         ///< w_theta, w_omega; inside, of Model::lipm alone
+  double angle = 1.0;                                    ///< on the base's angles inside, of Model::wrench
+  double momentum = 0.3;                                 ///< on the angular momentum inside, likewise
+  double center_of_pressure = 0.3;                       ///< on c_l, from the end-effector to where its force acts
+  double force_line = 0.3;                               ///< on r_l, from there to the line that points at the CoM
   double end_effector = 0.01, end_effector_end = 100.0;  ///< w_p,l: not in Table I; the value of the author's program
   double stride = 0.01;                                  ///< on the end-effector's travel within a phase, likewise
   double stiffness = 0.01;                               ///< w_lambda
@@ -43,6 +53,7 @@ struct Weights {
 struct Options {
   int phases = 0;  ///< N; 0: 18 as in the paper, or more where the way asks for more steps
   Method method = Method::standard;
+  Model model = Model::wrench;  ///< Method::paper always takes Model::lipm
   StiffnessInput stiffness_input = StiffnessInput::mu;
   Weights weights;
 
@@ -54,6 +65,7 @@ struct Options {
   double reach_margin_m = 0.003;     ///< the reach box is planned smaller by this
   double sole_inside = -1.0;         ///< share of a sole that footholds keep on their surface; negative: the robot's
   bool friction = true;              ///< hold the friction cones
+  int friction_sides = 0;            ///< of the pyramid inside the cone that is held instead of it; 0: the cone itself
   bool whole_sequence_moves = true;  ///< dynamic programming over (step, contact state) where it pays
   bool one_switch_per_step = true;   ///< Tazaki's eq. (32)
   int restarts = 3;                  ///< further attempts from other settings while the checker rejects the plan
@@ -69,6 +81,9 @@ struct Options {
   bool record_history = false;  ///< keep the contact sequence of every iteration in the report
   Logger logger;                ///< iteration table and decisions, line by line; null: silent
   StopRequest stop;             ///< polled every iteration; null: never
+
+  /// The model that is in force.
+  Model effective_model() const { return method == Method::paper ? Model::lipm : model; }
 
   /// Throws InvalidOptions naming the first field out of its range.
   void validate() const;

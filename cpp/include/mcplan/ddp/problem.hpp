@@ -24,19 +24,23 @@ struct Units {
   double stiffness() const { return 1.0 / (time * time); }  ///< of mu = lambda^2
   double force() const { return mass * length / (time * time); }
   double moment() const { return force() * length; }
+  double angular_momentum() const { return mass * length * velocity(); }
 };
 
 /// A motion at the knots: x_0..x_N and u_0..u_{N-1}, non-dimensional.
 struct Trajectory {
   std::vector<Eigen::VectorXd> x, u;
+  std::vector<std::vector<double>> sole_yaw;  ///< by step and end-effector [rad]: given, not optimised; see Problem
 };
 
 /// Limits and nominal position of an end-effector, non-dimensional.
 struct EndLimits {
   Eigen::Vector3d nominal, reach_min, reach_max;
   double force_max = 0.0;
-  double half_width = 0.0;  ///< the sole's shorter half side
+  Eigen::Vector2d half_size{0.0, 0.0};  ///< half length and half width of the sole
+  double half_width = 0.0;              ///< the shorter of the two
   Eigen::Vector3d moment_max;
+  double yaw_min = 0.0, yaw_max = 0.0;  ///< [rad] of the sole against the base
 };
 
 /// Scene, robot and options worked out for the planner: non-dimensional, by index. The end-effectors here are the
@@ -51,11 +55,16 @@ class Problem {
   Options options;
   Units units;
   Layout layout;
-  int steps = 0;                       ///< N
-  std::vector<int> active;             ///< end-effector of the robot behind each of the problem's
-  std::vector<Polygon> polygons;       ///< by scene surface
-  std::vector<double> friction;        ///< by scene surface; infinite where it may be held (grasp)
-  double edge_margin = 0.0;            ///< footholds are planned this much inside their polygon
+  int steps = 0;                  ///< N
+  std::vector<int> active;        ///< end-effector of the robot behind each of the problem's
+  std::vector<Polygon> polygons;  ///< by scene surface
+  Model model = Model::wrench;
+  std::vector<double> friction;                       ///< by scene surface; infinite where it may be held (grasp)
+  std::vector<std::vector<Eigen::Vector3d>> pyramid;  ///< by scene surface: tangents t of the sides t.d <= friction n.d
+  double pyramid_share = 1.0;                         ///< of the cone's opening that lies inside every side
+  double edge_margin = 0.0;                           ///< footholds are planned this much inside their polygon
+  double pressure_margin = 0.0;  ///< and centres of pressure
+  double toe_room = 0.0;  ///< further margin of soles, where one has caught an edge
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<EndLimits> limits;       ///< by active end-effector
   Eigen::Vector3d inertia;             ///< in units of mass length^2
@@ -65,18 +74,26 @@ class Problem {
   Eigen::Vector3d base_rpy;  ///< angles of the axes that are not in the layout
   ContactRules rules;
   ContactState start_contacts, goal_contacts;
-  Trajectory reference;   ///< x_ref by knot (u empty)
-  Eigen::VectorXd start;  ///< x_0 as demanded
+  std::vector<double> start_yaw;  ///< [rad] by end-effector: headings of the soles at the start
+  double goal_yaw = 0.0;          ///< [rad] and at the goal
+  Trajectory reference;           ///< x_ref by knot (u empty)
+  Eigen::VectorXd start;          ///< x_0 as demanded
 
   /// How far inside edge i of a surface an end-effector's footholds are planned: edge_margin, and the share
-  /// Options::sole_inside of how far its sole, headed as at start or goal, extends towards that edge. Never past the
-  /// middle of a surface that is too narrow.
-  double foothold_margin(int l, int surface, int edge) const {
-    return foothold_margins_[l][surface][edge] + edge_margin;
-  }
+  /// Options::sole_inside of how far its sole, headed as at start or goal, extends towards that edge; for soles toe_room
+  /// as well. Never past the middle of a surface that is too narrow.
+  double foothold_margin(int l, int surface, int edge) const;
 
   /// Roll, pitch, yaw of a state.
   Eigen::Vector3d rpy(const Eigen::VectorXd& x) const;
+
+  /// Frame of a sole of this heading on a surface: x along it, y across, z the normal.
+  Eigen::Matrix3d sole_frame(int surface, double yaw) const;
+
+  /// Set the headings of soles: one that stands keeps the mean heading of the base over its contact, the start's or the
+  /// goal's where the contact is one of theirs; elsewhere it goes with the base. The headings follow the iterates
+  /// instead of being variables: so the dynamics do not depend on the contact state, which pricing needs.
+  void set_sole_yaw(const ContactSequence& sequence, Trajectory& trajectory) const;
 
   /// First guess: the reference at constant duration. Without a sequence the weight is spread over all end-effectors,
   /// which lets the search see what every one of them could do (measured: with the weight on the feet alone it never
@@ -92,6 +109,7 @@ class Problem {
 
  private:
   std::vector<std::vector<std::vector<double>>> foothold_margins_;  // by active end-effector, surface, edge
+  std::vector<std::vector<double>> narrow_;                         // by surface, edge: the widest margin there can be
 
   void make_foothold_margins(double start_yaw, double goal_yaw);
   int automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const;

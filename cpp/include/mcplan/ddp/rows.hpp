@@ -30,6 +30,9 @@ class Rows {
   /// A row with a dense gradient, returned as zeros to be filled in (valid until the next add). Only with gradients.
   Eigen::Ref<Eigen::VectorXd> add_dense(double weight, double value);
 
+  /// The gradient of the row added last, to be added to.
+  Eigen::Ref<Eigen::VectorXd> last_gradient() { return gradient_.col(count() - 1); }
+
   /// The same without a gradient.
   void add_value(double weight, double value);
 

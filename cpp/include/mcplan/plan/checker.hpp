@@ -10,19 +10,22 @@ namespace mcplan {
 
 /// Published tolerances of the checker.
 struct Tolerances {
-  double dynamics = 1e-8;          ///< [m], [m/s], [rad], [rad/s], [kg m^2/s] replayed state against the next knot
-  double contact_distance = 1e-3;  ///< [m] end-effector in contact off its plane, or beyond its polygon
-  double slip = 1e-3;              ///< [m] travel of an end-effector while in contact
-  double friction = 1e-3;          ///< [-] tangential over normal force, beyond the coefficient
-  double force = 1e-6;             ///< [N] pull of a contact, or force of a free end-effector
-  double force_cap = 1e-3;         ///< [-] relative excess over max_force
-  double moment = 1e-6;            ///< [N m] excess over max_moment or the torsion the contact can give
-  double reach = 1e-3;             ///< [m] outside the reach box
-  double clearance = 5e-3;         ///< [m] swinging end-effector inside a solid
-  double boundary = 1e-2;          ///< [m], [m/s], [rad], [rad/s] start and goal against the scene's
-  double stance = 2e-2;            ///< [m] end-effectors in contact at the start off the nominal stance
-  int switches = 1;                ///< [-] contacts made or broken in one step; surface to surface counts two
-  double sample_s = 1e-3;          ///< [s] sampling of the constraints in time
+  double dynamics = 1e-8;  ///< [m], [m/s], [rad], [rad/s], [kg m^2/s] replayed state against the next knot
+  double orientation = 0.017453292519943295;  ///< [rad] replayed orientation of the base, a degree
+  double center_of_pressure = 1e-3;           ///< [m] centre of pressure off the sole or off the surface
+  double contact_distance = 1e-3;             ///< [m] end-effector in contact off its plane, or beyond its polygon
+  double slip = 1e-3;                         ///< [m] travel of an end-effector while in contact
+  double friction = 1e-3;                     ///< [-] tangential over normal force, beyond the coefficient
+  double force = 1e-6;                        ///< [N] pull of a contact, or force of a free end-effector
+  double force_cap = 1e-3;                    ///< [-] relative excess over max_force
+  double moment = 1e-6;                       ///< [N m] excess over max_moment or the torsion the contact can give
+  double reach = 1e-3;                        ///< [m] outside the reach box
+  double yaw = 1e-2;                          ///< [rad] heading of a sole outside its range
+  double clearance = 5e-3;                    ///< [m] swinging end-effector inside a solid
+  double boundary = 1e-2;                     ///< [m], [m/s], [rad], [rad/s] start and goal against the scene's
+  double stance = 2e-2;                       ///< [m] end-effectors in contact at the start off the nominal stance
+  int switches = 1;        ///< [-] contacts made or broken in one step; surface to surface counts two
+  double sample_s = 1e-3;  ///< [s] sampling of the constraints in time
 };
 
 /// What the checker found: the worst place of every constraint, violated or not. Names and meanings:
@@ -31,21 +34,28 @@ struct Tolerances {
 ///     phase_duration     every phase lasts longer than a microsecond
 ///     dynamics           forces, gravity and moments, integrated by RK4 over a phase, end at the next knot
 ///     at_consistency     Plan::at_phase agrees with that integration
+///     orientation        contact wrenches: the angular momentum, integrated on the rotations, turns the base to the
+///                        next knot and to what Plan::at_phase says
 ///     contact_distance   height of an end-effector in contact off its plane
 ///     contact_polygon    its distance beyond the polygon's boundary
 ///     contact_permission it may touch that surface
-///     slip               its distance from where it touched down
-///     anchor             distance of the force's anchor, or of its points, from the sole (from the point, without one)
+///     slip               its distance from where it touched down, and that of a corner of a sole that turns
+///     anchor             distance of the force's anchor, or of its points, from the sole (without one, from the
+///     point);
+///                        not of contact wrenches, whose line of force may pass anywhere
+///     center_of_pressure contact wrenches: distance of the point where the force acts from the sole (from the point,
+///                        without one), from the surface's plane and from its polygon
 ///     path_continuity    jump of an end-effector at a knot
 ///     free_force         stiffness, moment and points of a free end-effector are none
 ///     stiffness_sign     mu_l >= 0
 ///     pull               no contact and no point of one pulls, n . f >= 0 (grasp surfaces excepted)
 ///     friction           |tangential force| / (n . f) <= friction coefficient, at every point (grasp surfaces
-///     excepted) force_cap          |f_l| <= max_force, f_l the sum over its points moment             contact moment
-///     within max_moment and within what the sole can give (not of forces at points,
-///                        which `anchor`, `pull` and `friction` hold)
+///                        excepted)
+///     force_cap          |f_l| <= max_force, f_l the sum over its points
+///     moment             contact moment within max_moment and within what the sole can give (not of forces at points,
+///                        which `anchor`, `pull` and `friction` hold); of contact wrenches: none along the surface
 ///     reach              every end-effector, swinging or not, in its reach box about the CoM; in contact in com_reach
-///                        and partner_reach, where the robot has them
+///                        and partner_reach, where the robot has them, and its heading in yaw_range
 ///     clearance          depth of a swinging end-effector in a solid
 ///     sequence_switch    contacts made or broken in one step
 ///     sequence_rule      the scene's contact rules, in every phase and at the end

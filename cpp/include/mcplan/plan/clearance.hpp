@@ -22,7 +22,7 @@ std::vector<Solid> solids_of(const Scene& scene);
 /// Depth [m] of a point below the plane of the solid that holds it, the largest over all solids; 0 when in none.
 double clearance_depth(const std::vector<Solid>& solids, const Eigen::Vector3d& point_W);
 
-/// Frame of a sole that lies flat on a plane with this normal and heads where the base does: columns along
+/// Frame of a sole that lies flat on a plane with this normal and heads to `yaw`: columns along
 /// half_size[0], along half_size[1], normal. A heading along the normal (a foot on a wall) leaves the sole's direction
 /// to the world's z.
 Eigen::Matrix3d sole_frame(const Eigen::Vector3d& normal_W, double yaw);
@@ -47,7 +47,7 @@ std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Soli
 /// Depth [m] at s = 0..1 of a stretch. The sole turns from the one surface's normal to the other's; its corners count
 /// in the middle 80 % of the time only, since a sole may overhang an edge where it lifts off and touches down.
 double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_effector, const FreeStretch& stretch,
-                       double s, const Eigen::Vector3d& position_W, double base_yaw);
+                       double s, const Eigen::Vector3d& position_W, double yaw);
 
 /// Largest depth [m] over a stretch, sampled every `sample_s` [s]: 0 for a swing that clears the scene. Serves to
 /// choose Swing::height.

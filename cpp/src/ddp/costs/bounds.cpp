@@ -19,8 +19,7 @@ void bounds_cost(const Problem& problem, const Eigen::VectorXd& u, Rows& rows) {
     hold(at.stiffness(l), 0.0, problem.options.stiffness_input == StiffnessInput::lambda ? std::sqrt(mu_max) : mu_max);
   }
   for (int i = 0; i < at.moment_count(); ++i) {
-    const Layout::Moment& m = at.moments()[i];
-    const double most = problem.limits[m.end_effector].moment_max[at.axes()[m.axis]];
+    const double most = at.moments()[i].most;
     hold(at.moment(i), -most, most);
   }
 }

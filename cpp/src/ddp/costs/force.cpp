@@ -9,27 +9,50 @@ namespace mcplan::ddp {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-void friction_cost(const Problem& problem, const VectorXd& x, const std::vector<Instant>& instants, int l, int surface,
-                   double weight, Rows& rows) {
+namespace {
+
+/// d mu_l / d(its input).
+double stiffness_slope(const Problem& problem, const VectorXd& u, int l) {
+  return problem.options.stiffness_input == StiffnessInput::lambda ? 2.0 * u[problem.layout.stiffness(l)] : 1.0;
+}
+
+/// A row that depends on d = p(t) - s_l alone.
+void add_along_direction(const Problem& problem, const Instant& instant, int l, double weight, double value,
+                         const Vector3d& along, Rows& rows) {
+  if (!rows.with_gradient()) {
+    rows.add_value(weight, value);
+    return;
+  }
+  auto g = rows.add_dense(weight, value);
+  instant.add_along(along, Vector3d::Zero(), g);
+  problem.layout.add_along_line_point(l, -along, g);
+}
+
+}  // namespace
+
+void friction_cost(const Problem& problem, const VectorXd& x, const VectorXd& u, const std::vector<Instant>& instants,
+                   int l, int surface, double weight, Rows& rows) {
   const double friction = problem.friction[surface];
   if (std::isinf(friction)) return;
   const Vector3d& n = problem.polygons[surface].normal_W();
+  const Vector3d s = problem.layout.line_point(x, u, l);
   rows.begin(Term::friction);
   for (const Instant& instant : instants) {
-    const Vector3d d = instant.com - x.segment<3>(problem.layout.end(l));
+    const Vector3d d = instant.com - s;
     const double normal = n.dot(d);
     const Vector3d tangential = d - normal * n;
     const double length = tangential.norm();
-    const double beyond = length - friction * normal;
-    if (beyond <= 0.0) continue;
-    if (!rows.with_gradient()) {
-      rows.add_value(weight, beyond);
+    if (problem.options.friction_sides > 0) {
+      const double inside = friction * problem.pyramid_share;
+      for (const Vector3d& t : problem.pyramid[surface])
+        if (const double beyond = t.dot(d) - inside * normal; beyond > 0.0)
+          add_along_direction(problem, instant, l, weight, beyond, t - inside * n, rows);
       continue;
     }
-    const Vector3d direction = (length > 1e-12 ? Vector3d(tangential / length) : Vector3d::Zero()) - friction * n;
-    auto g = rows.add_dense(weight, beyond);
-    g = instant.com_jacobian.transpose() * direction;
-    g.segment<3>(problem.layout.end(l)) -= direction;
+    const double beyond = length - friction * normal;
+    if (beyond <= 0.0) continue;
+    const Vector3d along = (length > 1e-12 ? Vector3d(tangential / length) : Vector3d::Zero()) - friction * n;
+    add_along_direction(problem, instant, l, weight, beyond, along, rows);
   }
 }
 
@@ -37,21 +60,16 @@ void force_cap_cost(const Problem& problem, const Pendulum& pendulum, const Vect
                     const std::vector<Instant>& instants, int l, double weight, Rows& rows) {
   const Layout& at = problem.layout;
   const double mu = pendulum.mu(u, l), cap = problem.limits[l].force_max;
+  const Vector3d s = at.line_point(x, u, l);
   rows.begin(Term::force_cap);
   for (const Instant& instant : instants) {
-    const Vector3d d = instant.com - x.segment<3>(at.end(l));
+    const Vector3d d = instant.com - s;
     const double distance = d.norm();
     const double beyond = mu * distance - cap;
     if (beyond <= 0.0) continue;
-    if (!rows.with_gradient()) {
-      rows.add_value(weight, beyond);
-      continue;
-    }
-    auto g = rows.add_dense(weight, beyond);
-    g = instant.com_jacobian.transpose() * (mu / distance * d);
-    g.segment<3>(at.end(l)) -= mu / distance * d;
-    const bool lambda = problem.options.stiffness_input == StiffnessInput::lambda;
-    g[at.nx() + at.stiffness(l)] += distance * (lambda ? 2.0 * u[at.stiffness(l)] : 1.0);
+    add_along_direction(problem, instant, l, weight, beyond, mu / distance * d, rows);
+    if (rows.with_gradient())
+      rows.last_gradient()[at.nx() + at.stiffness(l)] += distance * stiffness_slope(problem, u, l);
   }
 }
 
@@ -67,21 +85,30 @@ double moment_per_stiffness(const Problem& problem, int l, int surface) {
 void torsion_cost(const Problem& problem, const Pendulum& pendulum, const VectorXd& u, int l, int surface,
                   double weight, Rows& rows) {
   const Layout& at = problem.layout;
-  const double ratio = moment_per_stiffness(problem, l, surface);
-  if (std::isinf(ratio)) return;
   rows.begin(Term::bounds);
+  const double ratio = moment_per_stiffness(problem, l, surface);
+  const Vector3d& n = problem.polygons[surface].normal_W();
+  const bool any_direction = problem.model == Model::wrench;
   for (int i = 0; i < at.moment_count(); ++i) {
-    if (at.moments()[i].end_effector != l) continue;
-    const double moment = u[at.moment(i)], beyond = std::abs(moment) - ratio * pendulum.mu(u, l);
+    const Layout::Moment& m = at.moments()[i];
+    if (m.end_effector != l) continue;
+    const double moment = u[at.moment(i)];
+    // Moments that are not about this surface's normal are what the centre of pressure does.
+    constexpr double kAlong = 1.0 - 1e-9;
+    if (any_direction && std::abs(m.direction_W.dot(n)) < kAlong) {
+      rows.add_single(problem.options.weights.limit, moment, at.nx() + at.moment(i));
+      continue;
+    }
+    if (std::isinf(ratio)) continue;
+    const double beyond = std::abs(moment) - ratio * pendulum.mu(u, l);
     if (beyond <= 0.0) continue;
     if (!rows.with_gradient()) {
       rows.add_value(weight, beyond);
       continue;
     }
-    const bool lambda = problem.options.stiffness_input == StiffnessInput::lambda;
     auto g = rows.add_dense(weight, beyond);
     g[at.nx() + at.moment(i)] = moment > 0.0 ? 1.0 : -1.0;
-    g[at.nx() + at.stiffness(l)] = -ratio * (lambda ? 2.0 * u[at.stiffness(l)] : 1.0);
+    g[at.nx() + at.stiffness(l)] = -ratio * stiffness_slope(problem, u, l);
   }
 }
 

@@ -5,7 +5,6 @@ namespace mcplan::ddp {
 namespace {
 
 using Eigen::Matrix3d;
-using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -30,18 +29,15 @@ void reach_rows(const Problem& problem, const VectorXd& x, int l, const Vector3d
       continue;
     }
     auto g = rows.add_dense(weight, beyond);
-    if (inside)
-      g -= inside->com_jacobian.transpose() * r.col(i);
-    else
-      g.segment<3>(at.com()) = -r.col(i);
     g.segment<3>(at.end(l)) += r.col(i);
-    for (int a = 0; a < at.axis_count(); ++a) {
-      const double turn = rotation_derivative(rpy, at.axes()[a]).col(i).dot(offset);
-      if (inside)
-        g += turn * inside->angle_jacobian.row(a).transpose();
-      else
-        g[at.angle(a)] += turn;
+    Vector3d turn = Vector3d::Zero();
+    for (int axis : at.axes()) turn[axis] = rotation_derivative(rpy, axis).col(i).dot(offset);
+    if (inside) {
+      inside->add_along(-r.col(i), turn, g);
+      continue;
     }
+    g.segment<3>(at.com()) -= r.col(i);
+    for (int a = 0; a < at.axis_count(); ++a) g[at.angle(a)] += turn[at.axes()[a]];
   }
 }
 
@@ -59,6 +55,21 @@ void interior_reach_cost(const Problem& problem, const VectorXd& x, const std::v
   rows.begin(Term::reach);
   for (std::size_t i = 1; i + 1 < instants.size(); ++i)
     reach_rows(problem, x, l, instants[i].com, instants[i].rpy, &instants[i], weight, rows);
+}
+
+void sole_turn_cost(const Problem& problem, const std::vector<Instant>& instants, int l, double sole_yaw, double weight,
+                    Rows& rows) {
+  const EndLimits& limit = problem.limits[l];
+  rows.begin(Term::reach);
+  for (const Instant& instant : instants) {
+    const double turn = sole_yaw - instant.rpy.z();
+    const double beyond = turn < limit.yaw_min ? turn - limit.yaw_min : turn > limit.yaw_max ? turn - limit.yaw_max : 0;
+    if (beyond == 0.0) continue;
+    if (!rows.with_gradient())
+      rows.add_value(weight, beyond);
+    else
+      instant.add_along(Vector3d::Zero(), -Vector3d::UnitZ(), rows.add_dense(weight, beyond));
+  }
 }
 
 }  // namespace mcplan::ddp

@@ -10,23 +10,35 @@
 /// The cost terms of the search, one function a term, one source file a function. Each writes its rows for one step.
 namespace mcplan::ddp {
 
-/// An instant inside a phase: where the CoM and the base are, and how that depends on z = [x, u].
+/// An instant inside a phase: where the CoM and the base are, and how that depends on z = [x, u]. Few instants have a
+/// row that is active, so the derivatives are worked out when the first asks for them.
 struct Instant {
   double fraction = 0.0;  ///< of the phase
   Eigen::Vector3d com, rpy;
-  Eigen::MatrixXd com_jacobian;    ///< 3 x nz, only with gradients
-  Eigen::MatrixXd angle_jacobian;  ///< active axes x nz, likewise
+
+  /// g += (d com/dz)' along_com + (d rpy/dz)' along_rpy. The state and input given to make_instants() must still be
+  /// there.
+  void add_along(const Eigen::Vector3d& along_com, const Eigen::Vector3d& along_rpy,
+                 Eigen::Ref<Eigen::VectorXd> g) const;
+
+  const Pendulum* pendulum = nullptr;
+  const Eigen::VectorXd *x = nullptr, *u = nullptr;
+  mutable PendulumStep step;
+  mutable bool stepped = false;
 };
 
-/// Fill `out` with 0, 1/(n+1), ..., 1 of the phase (n interior points). `step` is scratch.
+/// Fill `out` with 0, 1/(n+1), ..., 1 of the phase (n interior points). Keeps references to pendulum, x and u.
 void make_instants(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x, const Eigen::VectorXd& u,
-                   bool with_gradient, PendulumStep& step, std::vector<Instant>& out);
+                   std::vector<Instant>& out);
 
 // Independent of the contact state. `u` is null at the last knot.
 
 /// Distance to the reference and size of the inputs (Tazaki, sec. III-A, the equation of L_task), as
-/// 1/2 w^2 e^2 where the paper writes w^2 e^2: a common factor.
-void task_cost(const Problem& problem, int k, const Eigen::VectorXd& x, const Eigen::VectorXd* u, Rows& rows);
+/// 1/2 w^2 e^2 where the paper writes w^2 e^2: a common factor. With Model::wrench also |c_l|, |r_l| and the angular
+/// momentum, which keep it close to the paper's model where that is good enough. Discovery weighs these more: soft ones
+/// lead to needless jumps there.
+void task_cost(const Problem& problem, int k, const Eigen::VectorXd& x, const Eigen::VectorXd* u, bool discovering,
+               Rows& rows);
 
 /// Durations: towards the middle of their box, and inside it (not in the paper, which leaves h unbounded; its author's
 /// program has the box).
@@ -74,12 +86,23 @@ double contact_change_cost(const Problem& problem, const ContactSequence& sequen
 void interior_reach_cost(const Problem& problem, const Eigen::VectorXd& x, const std::vector<Instant>& instants, int l,
                          double weight, Rows& rows);
 
-/// Friction cone: the force points along d = p - p_l, so |d_t| <= mu_friction n.d at every instant. Stiffness drops
-/// out. Not in the paper.
-void friction_cost(const Problem& problem, const Eigen::VectorXd& x, const std::vector<Instant>& instants, int l,
-                   int surface, double weight, Rows& rows);
+/// Turn of the sole against the base within the end-effector's yaw_range at every instant: yaw_min <= yaw_l - yaw <=
+/// yaw_max. Not in the paper.
+void sole_turn_cost(const Problem& problem, const std::vector<Instant>& instants, int l, double sole_yaw, double weight,
+                    Rows& rows);
 
-/// mu_l |p - p_l| <= f_max at every instant. The paper bounds the stiffness instead.
+/// Centre of pressure c_l inside the sole's rectangle and, as a_l = p_l + c_l, inside the polygon. Without the latter
+/// the robot would stand on nothing with the half of a foot that sticks out over an edge. Not in the paper.
+void pressure_cost(const Problem& problem, const Eigen::VectorXd& x, const Eigen::VectorXd& u, int l, int surface,
+                   double sole_yaw, double contact_weight, Rows& rows);
+
+/// Friction cone: the force points along d = p - s_l, so |d_t| <= mu_friction n.d at every instant, or t_i.d <=
+/// mu_friction cos(pi/n) n.d for each side of a pyramid of n sides inside the cone. Stiffness drops out: one row
+/// however large the force. Not in the paper.
+void friction_cost(const Problem& problem, const Eigen::VectorXd& x, const Eigen::VectorXd& u,
+                   const std::vector<Instant>& instants, int l, int surface, double weight, Rows& rows);
+
+/// mu_l |p - s_l| <= f_max at every instant. The paper bounds the stiffness instead.
 void force_cap_cost(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x,
                     const Eigen::VectorXd& u, const std::vector<Instant>& instants, int l, double weight, Rows& rows);
 
@@ -87,7 +110,8 @@ void force_cap_cost(const Problem& problem, const Pendulum& pendulum, const Eige
 /// a force that carries the CoM at about its nominal height. Infinite for moments that nothing bears down on (grasp).
 double moment_per_stiffness(const Problem& problem, int l, int surface);
 
-/// |tau_l| <= moment_per_stiffness mu_l: a foot that hardly presses cannot twist. Not in the paper.
+/// |tau_l| <= moment_per_stiffness mu_l: a foot that hardly presses cannot twist; with Model::wrench no moment but
+/// about the surface's normal. Not in the paper.
 void torsion_cost(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& u, int l, int surface,
                   double weight, Rows& rows);
 
