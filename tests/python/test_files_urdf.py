@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import mcplan as mp
-from mcplan.files.reach import share_reached
+from mcplan.files.reach import HEADING_STEP, headings_reached, share_reached
 from mcplan.files.robots import robot_to_dict
-from mcplan.files.urdf import contact_frame, limb_of, load_model, robot_from_urdf
+from mcplan.files.urdf import contact_frame, limb_of, load_model, robot_from_urdf, sole_torsion
 from mcplan.files.urdf_setups import SETUPS, End
 
 pin = pytest.importorskip("pinocchio")
@@ -80,6 +80,18 @@ def test_soles_of_talos_turn_as_far_as_the_first_joint_of_its_hip():
         assert share_reached(limb, end.reach_min_B, end.reach_max_B, 5, 0, (beyond, beyond)) == 0.0
 
 
+def test_soles_turn_as_far_as_inverse_kinematics_follows(loaded):
+    """The range is that of the twin that turns less far; a step further one of the nine points is lost."""
+    robot, setup, model, posture = loaded
+    for number, end in enumerate(robot.end_effectors):
+        if end.half_size.any():
+            limb = limb_of(model, posture, setup.ends[number], setup.ends)
+            right, left = headings_reached(limb, end.nominal_B, end.reach_min_B, end.reach_max_B)
+            np.testing.assert_allclose([right, left], end.yaw_range, atol=HEADING_STEP + 1e-9)
+            assert right <= end.yaw_range[0] + 1e-9 and left >= end.yaw_range[1] - 1e-9
+            assert headings_reached(limb, end.nominal_B, end.reach_min_B, end.reach_max_B, 0.1) == (-0.1, 0.1)
+
+
 def test_left_and_right_soles_turn_and_bear_alike(loaded):
     robot, setup, *_ = loaded
     for end, made in zip(robot.end_effectors, setup.ends, strict=True):
@@ -87,6 +99,9 @@ def test_left_and_right_soles_turn_and_bear_alike(loaded):
         np.testing.assert_array_equal(end.yaw_range, -twin.yaw_range[::-1])
         assert end.yaw_range[0] <= 0.0 <= end.yaw_range[1]
         assert end.max_force == twin.max_force
+        # Half the weight on half of a friction of 0.7
+        moment = sole_torsion(tuple(end.half_size), 0.5 * robot.mass * 9.81, 0.35)
+        np.testing.assert_allclose(end.max_moment, [0.0, 0.0, moment], atol=5e-3)
 
 
 def test_feet_stand_where_the_posture_has_them(loaded):
