@@ -55,7 +55,7 @@ def test_the_command_runs_as_a_process():
     done = subprocess.run([sys.executable, "-m", "mcplan", "plan", "stares"], capture_output=True, text=True)
     assert done.returncode == 2 and done.stdout == ""
     assert done.stderr.startswith(
-        "error: no scene 'stares' and no file of that name. Did you mean 'stairs'? Built-in: flat"
+        "error: no scene 'stares' and no file of that name. Did you mean 'stairs'? Built-in: chimney, flat"
     )
 
 
@@ -79,7 +79,7 @@ def test_a_scene_is_printed_with_its_rule_and_surfaces(capsys):
     code, out, _ = run(capsys, "scenes", "gap_with_rail")
     assert code == 0
     assert "when foot is free, right_hand and left_hand must be in contact" in out
-    assert "left_pad   0.900 0.375 0.500   0.000 0.000 1.000  4        grasp     left_hand" in out
+    assert "left_pad   0.900 0.375 0.500   0.000 0.000 1.000  4        0.7       left_hand" in out
 
 
 def test_a_scene_file_is_printed_like_a_built_in_one(capsys, tmp_path):
@@ -186,7 +186,7 @@ BAD_WORDS = [
     (("scenes", "--htm"), "No such option"),
     (
         ("scenes", "stares"),
-        "no scene 'stares' and no file of that name. Did you mean 'stairs'? Built-in: flat, ",
+        "no scene 'stares' and no file of that name. Did you mean 'stairs'? Built-in: chimney, flat, ",
     ),
     (("scenes", "--html", "x.html"), "--html: needs the NAME of a scene"),
     (("robots", "humanoid4"), "no robot 'humanoid4' and no file of that name. Did you mean 'humanoid44'?"),

@@ -139,7 +139,7 @@ def test_wrong_input_gives_one_line_and_exit_code_2(words, message, capsys):
     ("scene", "message"),
     [
         ("gap", "must have a foot on the ground for rhp, got flight"),
-        ("gap_with_rail", "must have feet alone in contact for rhp, got "),
+        ("gap_with_handle", "must have feet alone in contact for rhp, got "),
     ],
 )
 def test_a_sequence_that_is_no_walk_is_named(scene, message, capsys, tmp_path):

@@ -64,7 +64,7 @@ def test_a_folder_is_not_a_scene(tmp_path):
 def test_an_unknown_name_lists_the_names_that_exist(name):
     with pytest.raises(mp.UnknownScene) as found:
         load_scene(name)
-    assert "Built-in: flat, gap, " in str(found.value)
+    assert "Built-in: chimney, flat, gap, " in str(found.value)
     assert ("Did you mean 'stairs'?" in str(found.value)) == (name == "stares")
 
 
@@ -133,7 +133,7 @@ class TestBuiltIn:
             ):
                 relative = turn.T @ (position_W - resolved.com_W)
                 assert (relative >= end.reach_min_B - 1e-9).all() and (relative <= end.reach_max_B + 1e-9).all()
-                assert (surface >= 0) == (end.kind == "foot")
+                assert (surface >= 0) == (end.kind == "foot" or name == "chimney")
 
 
 def test_stairs_gap_and_rail_have_the_published_sizes():
@@ -144,15 +144,22 @@ def test_stairs_gap_and_rail_have_the_published_sizes():
     before, after, right, left = (s.vertices_W for s in rail.surfaces)
     assert after[:, 0].min() - before[:, 0].max() == pytest.approx(0.8)
     np.testing.assert_allclose(right, (left * [1, -1, 1])[[3, 2, 1, 0]])  # mirror images
-    assert rail.surfaces[2].grasp and rail.surfaces[3].grasp
+    handle = load_scene("gap_with_handle")
+    for pad, grip in zip(rail.surfaces[2:], handle.surfaces[2:], strict=True):
+        assert (pad.grasp, pad.friction, grip.grasp) == (False, 0.7, True)
+        np.testing.assert_array_equal(pad.vertices_W, grip.vertices_W)
     assert rail.rules[0].when_free == ("foot",) and rail.rules[0].require == ("right_hand", "left_hand")
+
+
+SIDES = (("right", 1.0), ("left", -1.0))
 
 
 def test_slope_is_20_degrees_and_walls_face_each_other():
     normal = Polygon(load_scene("slope").surfaces[1].vertices_W).normal_W
     assert np.degrees(np.arccos(normal[2])) == pytest.approx(20.0, abs=1e-3)
-    scene = load_scene("gap_with_wall")
-    for wall, sign in (("right_wall", 1.0), ("left_wall", -1.0)):
+    walls = [("gap_with_wall", "wall"), ("chimney", "wall"), ("chimney", "rib")]
+    for name, wall, sign in [(name, f"{side}_{wall}", sign) for name, wall in walls for side, sign in SIDES]:
+        scene = load_scene(name)
         polygon = Polygon(scene.surfaces[scene.surface_index(wall)].vertices_W)
         np.testing.assert_allclose(polygon.normal_W, [0.0, sign, 0.0], atol=1e-12)
 

@@ -123,7 +123,7 @@ def test_names_cannot_break_out_of_the_page(plan):
 
 
 def test_scene_page_has_no_animation():
-    html = show_scene(mp.load_scene("gap_with_rail"), mp.load_robot("humanoid44")).html()
+    html = show_scene(mp.load_scene("gap_with_handle"), mp.load_robot("humanoid44")).html()
     assert "may be held" in html
     assert not [c for c in commands_of(html) if c["type"] == "set_animation"]
 

@@ -147,7 +147,7 @@ def test_wrong_input_is_named(given, options, error, message):
 
 def test_hands_in_contact_are_no_walk():
     with pytest.raises(mp.InvalidPlan, match="must have feet alone in contact for rhp, got (right|left)_hand"):
-        mp.walk("gap_with_rail", sequence=mp.plan("gap_with_rail").plan)
+        mp.walk("gap_with_handle", sequence=mp.plan("gap_with_handle").plan)
 
 
 @pytest.mark.parametrize(

@@ -218,8 +218,29 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
 /// the less the wider it is: less would leave it on its toes, half would leave no choice.
 constexpr double kNarrow = 0.35;
 
+double Problem::foothold_margin(int l, int surface, int edge) const {
+  const double margin = foothold_margins_[l][surface][edge];
+  if (toe_room == 0.0 || limits[l].half_width == 0.0) return margin + edge_margin;
+  // Nor further in than where the end-effector has to stand at the start or the goal.
+  double most = narrow_[surface][edge];
+  const auto stands = [&](const ContactState& contacts, const VectorXd& x) {
+    if (contacts[l] == surface) most = std::min(most, -polygons[surface].overshoot(edge, x.segment<3>(layout.end(l))));
+  };
+  stands(start_contacts, start);
+  stands(goal_contacts, reference.x.back());
+  return std::max(margin, std::min(margin + toe_room, most - edge_margin)) + edge_margin;
+}
+
 void Problem::make_foothold_margins(double start_yaw, double goal_yaw) {
   const double share = options.sole_inside < 0.0 ? robot.sole_support : options.sole_inside;
+  for (const Polygon& polygon : polygons) {
+    std::vector<double>& of_surface = narrow_.emplace_back();
+    for (int i = 0; i < polygon.edge_count(); ++i) {
+      double width = 0.0;
+      for (const Vector3d& vertex : polygon.vertices_W()) width = std::max(width, -polygon.overshoot(i, vertex));
+      of_surface.push_back(kNarrow * width);
+    }
+  }
   for (int e : active) {
     const Eigen::Vector2d half = robot.end_effectors[e].half_size / units.length;
     std::vector<std::vector<double>>& of_end = foothold_margins_.emplace_back();
@@ -246,8 +267,8 @@ void Problem::make_foothold_margins(double start_yaw, double goal_yaw) {
 }
 
 /// As many steps as the end-effectors that stand need to cover the way one after the other, a swing and a phase of full
-/// support each; at least the paper's 18. The stride is what the reach box leaves inside the friction cone, since
-/// forces point at the CoM.
+/// support each; at least the paper's 18. The stride is what the reach box allows, in the paper's model inside the
+/// friction cone, since forces point at the CoM there.
 int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const {
   constexpr int kPaper = 18, kMost = 400;
   int movers = 0, strides = 0;
@@ -259,7 +280,9 @@ int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& t
     for (int surface : rules.surfaces(static_cast<int>(l))) tangent = std::max(tangent, friction[surface]);
     const EndLimits& limit = limits[l];
     const double spread = std::min(tangent, 10.0) * std::abs(limit.nominal.z());
-    const double ahead = std::sqrt(std::max(spread * spread - limit.nominal.y() * limit.nominal.y(), 0.0));
+    const double ahead = model == Model::wrench
+                             ? std::numeric_limits<double>::infinity()
+                             : std::sqrt(std::max(spread * spread - limit.nominal.y() * limit.nominal.y(), 0.0));
     const double stride = std::min(limit.reach_max.x(), ahead) - std::max(limit.reach_min.x(), -ahead);
     const double way = (to.end_effectors_W[e] - from.end_effectors_W[e]).head<2>().norm() / units.length;
     if (stride > 0.0) strides = std::max(strides, static_cast<int>(std::ceil(std::min(way / stride - 1e-9, 1e3))));

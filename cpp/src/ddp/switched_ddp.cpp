@@ -208,7 +208,7 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
           double further_m = on_surface >= 1.0 ? kToeRoom_m : kClearanceLeast_m;
           for (const EndEffector& end : robot.end_effectors)
             if (on_surface < 1.0) further_m = std::max(further_m, kClearanceShare * end.half_size.maxCoeff());
-          run.problem.edge_margin += further_m / p.units.length;
+          run.problem.toe_room += further_m / p.units.length;
           others.insert(others.begin(), Guess{run.last});
         }
         status = run.attempt(std::move(others));

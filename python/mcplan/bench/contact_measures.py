@@ -232,7 +232,7 @@ def _slip(plan: Plan, given: Contacts, e: int) -> float:
         if surface < 0:
             continue
         way = float(np.linalg.norm(plan.knots[k + 1].end_effectors_W[e] - plan.knots[touched].end_effectors_W[e]))
-        turn = abs(_yaws(plan, k + 1)[e] - _yaws(plan, touched)[e]) if says else 0.0
+        turn = float(abs(_yaws(plan, k + 1)[e] - _yaws(plan, touched)[e])) if says else 0.0
         most = max(most, way + corner * turn)
     return most
 

@@ -64,9 +64,9 @@ def largest_force_N(
 
 
 def strengths_in_box(
-    limb: Limb, low: Array, high: Array, points: int = POINTS, seed: int = 0, push_B: Array | None = None
+    limb: Limb, low: Array, high: Array, points: int = POINTS, seed: int = 0, through_com: bool = False
 ) -> Array:
-    """Largest forces [N] of a limb at random points of a box, in every posture that is found there, ascending.
+    """Largest forces [N] that a limb pushes with at random points of a box, in every posture that is found there, ascending.
 
     Args:
         limb: On its upright base.
@@ -74,18 +74,18 @@ def strengths_in_box(
         high: The opposite one.
         points: How many are drawn.
         seed: Of the points, and of the postures that inverse kinematics starts from.
-        push_B: (3,) direction of the force on the surroundings; None: down.
+        through_com: Push down, or away from the CoM if it can push harder so; else only down.
 
     Returns:
         One for each posture; empty if no point is reached.
     """
     rng, data, forces = np.random.default_rng(seed), limb.model.createData(), []
-    direction = np.asarray(DOWN if push_B is None else push_B, float)
     for _ in range(points):
         target = rng.uniform(low, high)
+        pushes = [np.array(DOWN), target] if through_com else [np.array(DOWN)]
         for start in [limb.nominal, *(rng.uniform(limb.lower, limb.upper) for _ in range(POSTURES - 1))]:
             joints = limb.solve(target, start)
             if joints is not None:
-                whole = np.concatenate([limb.base, joints])
-                forces.append(largest_force_N(limb.model, data, limb.frame, whole, direction)[0])
+                q = np.concatenate([limb.base, joints])
+                forces.append(max(largest_force_N(limb.model, data, limb.frame, q, push)[0] for push in pushes))
     return np.sort(forces)

@@ -36,12 +36,14 @@ HEADER = (
     "Mass, inertia (its diagonal, about the CoM) and com_height are those of the URDF in {posture}. Reach "
     "boxes: the largest box around the nominal position whose every grid point ({step} m apart) is reached by inverse "
     "kinematics within the joint limits: base upright, other limbs nominal, soles level, feet on their own side of the "
-    "body. Left and right are given the same box, force and turn. max_force: the largest upward force that the limb's "
-    "torque limits bear beside its own weight (tau = g(q) - J^T f), the median over postures at {points} random points "
-    "of the box, rounded down. yaw_range: how far inverse kinematics turns the sole about the vertical, at the nominal "
-    "position and half way to every corner of the box, at most {heading}. A hand's nominal position is moved {inset} m "
-    "into its box. max_moment of soles: 2/3 x {friction} x half the weight x the shorter half side, the torsion of a "
-    "disc by half the friction of {full}. phase_duration and sole_support: what legs can follow and whole soles stand on."
+    "body. Left and right are given the same box, force and turn. max_force: the largest contact force that the "
+    "limb's torque limits bear beside its own weight (tau = g(q) - J^T f), the median over postures at {points} random "
+    "points, rounded down: of hands, upward and all over the box; of feet, upward or towards the CoM, whichever is "
+    "more, at the height of standing. yaw_range: how far inverse kinematics turns the sole about the vertical, at the "
+    "nominal position and half way to every corner of the box, at most {heading}. A hand's nominal position is moved "
+    "{inset} m into its box. max_moment of soles: 2/3 x {friction} x half the weight x the shorter half side, the "
+    "torsion of a disc by half the friction of {full}. phase_duration and sole_support: what legs can follow and whole "
+    "soles stand on."
 )
 
 
@@ -113,7 +115,7 @@ def robot_from_urdf(
         low, high = _search_box(position, end, com_height, setup.lift if setup else Setup.lift)
         boxes[end.name] = _Reach(position, *largest_box(explore(limb, low, high, step, seed)))
     shared = {end.name: _same_box(boxes, end, com_height) for end in ends}
-    able = {name: _with_strength(limbs[name], reach, seed) for name, reach in shared.items()}
+    able = {end.name: _with_strength(limbs[end.name], shared[end.name], end.kind == "foot", seed) for end in ends}
     weight = mass * GRAVITY
     return Robot(
         name=Path(source).stem,
@@ -284,9 +286,16 @@ def _same_box(boxes: Mapping[str, _Reach], end: End, com_height: float) -> _Reac
     return _Reach(np.clip(nominal, low + inset, high - inset).round(3) + 0.0, low, high)  # no -0.0
 
 
-def _with_strength(limb: Limb, reach: _Reach, seed: int) -> _Reach:
-    """With the median of the forces that the limb bears in its box, and how far its sole can be turned."""
-    forces = strengths_in_box(limb, reach.low, reach.high, seed=seed)
+def _with_strength(limb: Limb, reach: _Reach, foot: bool, seed: int) -> _Reach:
+    """With the median of the forces that the limb bears, and how far its sole can be turned.
+
+    Feet bear most of the weight near the height at which the robot stands, where legs are stretched: the box reaches
+    higher for swings. Walking forces lie between upright ones and those that point at the CoM.
+    """
+    low, high = reach.low.copy(), reach.high.copy()
+    if foot:
+        low[2] = high[2] = reach.nominal[2]
+    forces = strengths_in_box(limb, low, high, seed=seed, through_com=foot)
     headings = headings_reached(limb, reach.nominal, reach.low, reach.high) if limb.flat else None
     return replace(reach, force=float(np.median(forces)) if len(forces) else 0.0, headings=headings)
 

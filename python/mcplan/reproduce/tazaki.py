@@ -1,5 +1,6 @@
 """Table II and Figures 1, 3 and 4 of Y. Tazaki, "Fast Multi-Contact Motion Planning Based on Best-Neighbor Search of
-Contact Sequences", from runs on this machine: the published form of the search and ours.
+Contact Sequences", from runs on this machine: the published form of the search and ours. And its model of contacts against
+ours, which has no table in the paper.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 from mcplan.bench import SCENES, records
 from mcplan.bench.speed import PAPER, iterations, searching_iterations
 from mcplan.extras import require
+from mcplan.reproduce import tazaki_models
 
 if TYPE_CHECKING:
     from mcplan import PlanResult
@@ -30,7 +32,7 @@ METHODS: dict[str, dict[str, Any]] = {"paper": PAPER, "standard": {}}
 
 
 def reproduce(out: Path, quick: bool = False, progress: Callable[[str], None] | None = None) -> list[Path]:
-    """Write tazaki.md, table_2.csv and the figures as PNG.
+    """Write tazaki.md, table_2.csv, models.csv and the figures as PNG.
 
     Args:
         out: Folder, made if it does not exist.
@@ -64,8 +66,13 @@ def reproduce(out: Path, quick: bool = False, progress: Callable[[str], None] | 
             results[name][method] = result
             written += figures(out, name, method, result)
             say(f"figures, {name}, {method}: {result.report.status}")
+    compared, rail = tazaki_models.compare_models(names, robot, say)
+    written.append(records.write_csv(out / "models.csv", compared))
+    drawn = tazaki_models.save_hand_forces(out, rail)
+    written += [drawn] if drawn else []
     page = out / "tazaki.md"
-    page.write_text(page_text(rows, results, threads), encoding="utf-8")
+    models = tazaki_models.section_lines(compared, drawn.name if drawn else "")
+    page.write_text(page_text(rows, results, threads, models), encoding="utf-8")
     return [page, *written]
 
 
@@ -112,8 +119,10 @@ def late_switches(result: PlanResult) -> int:
     return sum(row.switches for row in result.report.history[-10:])
 
 
-def page_text(rows: list[dict[str, Any]], results: dict[str, dict[str, PlanResult]], threads: int) -> str:
-    """The page: table, text, figures."""
+def page_text(
+    rows: list[dict[str, Any]], results: dict[str, dict[str, PlanResult]], threads: int, models: list[str]
+) -> str:
+    """The page: table, text, lines on the models, figures."""
     machine = records.machine()
     phases = max(len(result.plan.phases) for by_method in results.values() for result in by_method.values())
     lines = [
@@ -151,6 +160,7 @@ def page_text(rows: list[dict[str, Any]], results: dict[str, dict[str, PlanResul
                 f"| {name} | {_title(method)} | {report.status} | {report.cost:.3g} | {report.iterations} "
                 f"| {report.switches} | {late_switches(result)} | {report.worst_violation} |"
             )
+    lines += ["", *models]
     titles = {
         1: "Figure 1: the motions found",
         3: "Figure 3: contact sequence over the number of switches",

@@ -22,9 +22,18 @@ struct Point {
 };
 
 std::vector<Options> variants() {
-  std::vector<Options> out(3, phases(12));
+  std::vector<Options> out(5, phases(12));
   out[1].stiffness_input = StiffnessInput::lambda;
-  out[2].method = Method::paper;
+  out[1].friction_sides = 6;
+  out[2].model = out[3].model = Model::lipm;
+  out[3].stiffness_input = StiffnessInput::lambda;
+  out[4].method = Method::paper;
+  return out;
+}
+
+Schedule schedule(double contact, double interior, double proximal, bool discovering) {
+  Schedule out = support::schedule(contact, interior, proximal);
+  out.discovering = discovering;
   return out;
 }
 
@@ -32,11 +41,11 @@ std::vector<Options> variants() {
 
 TEST_CASE("the model's cost at the point of expansion is the true cost, and its defects the true ones") {
   std::uint64_t seed = 60;
-  for (const mcplan::Scene& scene : scenes::all_four())
+  for (const mcplan::Scene& scene : scenes_of_all_kinds())
     for (const Options& options : variants())
       for (double interior : {0.0, 100.0}) {
         Point at(scene, options, ++seed, 0.2);
-        const Schedule weights = schedule(3.0, interior, 10.0);
+        const Schedule weights = schedule(3.0, interior, 10.0, interior == 0.0);
         LocalModel model(at.problem);
         model.expand(at.trajectory, weights);
         double cost = 0.0;
@@ -59,7 +68,7 @@ TEST_CASE("the model's cost at the point of expansion is the true cost, and its 
           model.pendulum().next(at.trajectory.x[k], at.trajectory.u[k], next);
           const VectorXd defect = next - at.trajectory.x[k + 1];
           CHECK((model.defect(k) - defect).cwiseAbs().maxCoeff() <= 1e-13);
-          // [com, velocity, yaw, yaw rate, end-effectors], or with all three angles and rates in the paper's form
+          // [com, velocity, angles, momenta, end-effectors], the yaw's alone or all three
           const int angles = 2 * at.problem.layout.axis_count();
           sum += defect.head<3>().norm() + defect.segment<3>(3).norm() + defect.segment(6, angles).cwiseAbs().sum();
           for (int i = 6 + angles; i < defect.size(); i += 3) sum += defect.segment<3>(i).norm();
@@ -74,10 +83,10 @@ TEST_CASE("the model's cost at the point of expansion is the true cost, and its 
 TEST_CASE("the model's gradient is that of the true cost, step by step") {
   std::uint64_t seed = 80;
   int checked = 0;
-  for (const mcplan::Scene& scene : {scenes::stairs(), scenes::gap_with_rail()})
+  for (const mcplan::Scene& scene : {scenes::stairs(), scenes::gap_with_rail(), gap_with_walls()})
     for (const Options& options : variants()) {
       Point at(scene, options, ++seed, 0.2);
-      const Schedule weights = schedule(3.0, 5.0, 10.0);
+      const Schedule weights = schedule(3.0, 5.0, 10.0, false);
       LocalModel model(at.problem);
       model.expand(at.trajectory, weights);
       Evaluator evaluate(at.problem);
@@ -111,26 +120,29 @@ TEST_CASE("the model's gradient is that of the true cost, step by step") {
 }
 
 TEST_CASE("contact states enter as blocks: any sequence can be assembled without a new expansion") {
-  Point at(scenes::gap_with_rail(), phases(12), 90, 0.1);
-  const Schedule weights = schedule(3.0, 100.0, 10.0);
-  LocalModel model(at.problem);
-  model.expand(at.trajectory, weights);
-  Evaluator evaluate(at.problem);
-  for (int i = 0; i < 5; ++i) {
-    const ContactSequence other = random_sequence(at.problem, at.random);
-    double cost = 0.0;
-    for (int k = 0; k <= at.problem.steps; ++k) {
-      Quadratic q = model.base(k);
-      model.add_contacts(k, other[k], q);
-      cost += q.c;
+  for (Model of : kModels) {
+    Point at(scenes::gap_with_rail(), phases(12, of), 90, 0.1);
+    const Schedule weights = schedule(3.0, 100.0, 10.0, false);
+    LocalModel model(at.problem);
+    model.expand(at.trajectory, weights);
+    Evaluator evaluate(at.problem);
+    for (int i = 0; i < 5; ++i) {
+      const ContactSequence other = random_sequence(at.problem, at.random);
+      double cost = 0.0;
+      for (int k = 0; k <= at.problem.steps; ++k) {
+        Quadratic q = model.base(k);
+        model.add_contacts(k, other[k], q);
+        cost += q.c;
+      }
+      cost += contact_change_cost(at.problem, other);
+      CHECK(cost == doctest::Approx(evaluate(at.trajectory, other, weights).cost).epsilon(1e-12));
     }
-    cost += contact_change_cost(at.problem, other);
-    CHECK(cost == doctest::Approx(evaluate(at.trajectory, other, weights).cost).epsilon(1e-12));
   }
 }
 
 TEST_CASE("the proximal term adds its weight to the inputs' curvature and nothing else") {
   Point at(scenes::flat(), phases(6), 91, 0.1);
+  using support::schedule;
   LocalModel loose(at.problem), tight(at.problem);
   loose.expand(at.trajectory, schedule(1.0, 0.0, 0.0));
   tight.expand(at.trajectory, schedule(1.0, 0.0, 7.0));

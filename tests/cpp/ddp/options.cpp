@@ -65,6 +65,8 @@ TEST_CASE("every weight must be a number that is not negative") {
                             {&Weights::velocity_end, "velocity_end"},
                             {&Weights::rotation, "rotation"},
                             {&Weights::rotation_end, "rotation_end"},
+                            {&Weights::angle, "angle"},
+                            {&Weights::momentum, "momentum"},
                             {&Weights::end_effector, "end_effector"},
                             {&Weights::end_effector_end, "end_effector_end"},
                             {&Weights::stride, "stride"},
@@ -87,6 +89,9 @@ TEST_CASE("numbers with a range of their own") {
     CHECK(refused([&](Options& o) { o.proximal_weight = bad; }) == "proximal_weight");
     CHECK(refused([&](Options& o) { o.weights.contact_min = bad; }) == "weights.contact_min");
     CHECK(refused([&](Options& o) { o.weights.contact_max = bad; }) == "weights.contact_max");
+    // Without a weight of their own nothing would determine them where a contact carries nothing.
+    CHECK(refused([&](Options& o) { o.weights.center_of_pressure = bad; }) == "weights.center_of_pressure");
+    CHECK(refused([&](Options& o) { o.weights.force_line = bad; }) == "weights.force_line");
   }
   for (double bad : {-1.0, kNan, kInf}) CHECK(refused([&](Options& o) { o.duration_min_s = bad; }) == "duration_min_s");
   for (double bad : {0.1, -1.0, kNan, kInf})
@@ -103,6 +108,24 @@ TEST_CASE("numbers with a range of their own") {
   CHECK(refused([](Options& o) { o.time_limit_s = kInf; }) == "accepted");
   CHECK(refused([](Options& o) { o.weights.overshoot_factor = 1.0; }) == "accepted");
   CHECK(refused([](Options& o) { o.duration_max_s = o.duration_min_s; }) == "accepted");
+}
+
+TEST_CASE("a friction pyramid has three sides at least; none stands for the cone") {
+  for (int bad : {-1, 1, 2, 65}) CHECK(refused([&](Options& o) { o.friction_sides = bad; }) == "friction_sides");
+  for (int good : {0, 3, 4, 64}) CHECK(refused([&](Options& o) { o.friction_sides = good; }) == "accepted");
+}
+
+TEST_CASE("the model is that of contact wrenches, but for the paper's method") {
+  using namespace mcplan::ddp;
+  Options options;
+  CHECK(options.effective_model() == Model::wrench);
+  options.model = Model::lipm;
+  CHECK(options.effective_model() == Model::lipm);
+  for (Model model : {Model::wrench, Model::lipm}) {
+    options.model = model;
+    options.method = Method::paper;
+    CHECK(options.effective_model() == Model::lipm);
+  }
 }
 
 TEST_CASE("contact weights that fall instead of growing are refused") {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <functional>
 #include <random>
 #include <vector>
@@ -123,10 +124,43 @@ inline ddp::Schedule schedule(double contact, double interior, double proximal) 
   return out;
 }
 
-inline mcplan::ddp::Options phases(int n) {
+inline mcplan::ddp::Options phases(int n, ddp::Model model = ddp::Options().model) {
   mcplan::ddp::Options options;
   options.phases = n;
+  options.model = model;
   return options;
+}
+
+/// Most code serves both.
+constexpr ddp::Model kModels[] = {ddp::Model::wrench, ddp::Model::lipm};
+
+inline const char* name(ddp::Model model) { return model == ddp::Model::wrench ? "wrench" : "lipm"; }
+
+/// The gap with a ramp on its far side and an upright wall for either hand: the feet's surfaces have different normals,
+/// and so do the hands'.
+inline mcplan::Scene gap_with_walls() {
+  mcplan::Scene scene = scenes::gap();
+  scene.name = "gap_with_walls";
+  for (auto& v : scene.surfaces[1].vertices_W) v.z() += 0.3 * (v.x() - 1.3);
+  scene.goal.position_W.z() = 0.3 * 0.7;
+  for (double side : {-1.0, 1.0}) {
+    mcplan::Surface wall;
+    wall.name = side < 0 ? "right_wall" : "left_wall";
+    wall.end_effectors = {"hand"};
+    wall.friction = 0.5;
+    const double y = 0.4 * side;
+    wall.vertices_W = {{0.5, y, 0.5}, {1.3, y, 0.5}, {1.3, y, 1.2}, {0.5, y, 1.2}};
+    if (side < 0) std::reverse(wall.vertices_W.begin(), wall.vertices_W.end());
+    scene.surfaces.push_back(wall);
+  }
+  return scene;
+}
+
+/// The paper's four scenes and one of many normals.
+inline std::vector<mcplan::Scene> scenes_of_all_kinds() {
+  std::vector<mcplan::Scene> out = scenes::all_four();
+  out.push_back(gap_with_walls());
+  return out;
 }
 
 }  // namespace support

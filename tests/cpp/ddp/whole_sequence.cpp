@@ -25,30 +25,32 @@ constexpr std::size_t kNoLimit = 1000000;
 
 TEST_CASE("the price of a whole sequence is that of its own Riccati recursion, and no worse than the present one's") {
   std::uint64_t seed = 500;
-  for (const mcplan::Scene& scene : scenes::all_four())
-    for (double weight : {0.01, 1.0, 100.0}) {
-      if (kSlowBuild && weight != 1.0) continue;
-      const Problem problem(scene, scenes::humanoid44(), phases(12));
-      Random random(++seed);
-      CAPTURE(scene.name);
-      CAPTURE(seed);
-      const Trajectory trajectory = shaken_guess(problem, random, 0.05);
-      const ContactSequence sequence = random_sequence(problem, random);
-      LocalModel model(problem);
-      model.expand(trajectory, schedule(weight, 100.0, 10.0));
-      ValueFunctions values(model);
-      REQUIRE(values.backward(sequence, 12));
-      REQUIRE(values.forward(sequence, 0));
-      const double present = full_price(model, sequence);
-      const PricedSequence found = best_whole_sequence(model, values, kNoLimit);
-      REQUIRE(found.sequence.size() == 13);
-      CHECK(problem.rules.valid(found.sequence));
-      CHECK(found.sequence.front() == problem.start_contacts);
-      CHECK(found.sequence.back() == problem.goal_contacts);
-      CHECK(std::abs(full_price(model, found.sequence) - found.cost) <= 1e-8 * std::abs(found.cost));
-      // The present sequence's own nodes have rank `present`; taking the best successor at each node only lowers it.
-      CHECK(found.cost <= present + 1e-8 * std::abs(present));
-    }
+  for (Model of : kModels)
+    for (const mcplan::Scene& scene : scenes::all_four())
+      for (double weight : {0.01, 1.0, 100.0}) {
+        if (kSlowBuild && weight != 1.0) continue;
+        CAPTURE(name(of));
+        const Problem problem(scene, scenes::humanoid44(), phases(12, of));
+        Random random(++seed);
+        CAPTURE(scene.name);
+        CAPTURE(seed);
+        const Trajectory trajectory = shaken_guess(problem, random, 0.05);
+        const ContactSequence sequence = random_sequence(problem, random);
+        LocalModel model(problem);
+        model.expand(trajectory, schedule(weight, 100.0, 10.0));
+        ValueFunctions values(model);
+        REQUIRE(values.backward(sequence, 12));
+        REQUIRE(values.forward(sequence, 0));
+        const double present = full_price(model, sequence);
+        const PricedSequence found = best_whole_sequence(model, values, kNoLimit);
+        REQUIRE(found.sequence.size() == 13);
+        CHECK(problem.rules.valid(found.sequence));
+        CHECK(found.sequence.front() == problem.start_contacts);
+        CHECK(found.sequence.back() == problem.goal_contacts);
+        CHECK(std::abs(full_price(model, found.sequence) - found.cost) <= 1e-8 * std::abs(found.cost));
+        // The present sequence's own nodes have rank `present`; taking the best successor at each node only lowers it.
+        CHECK(found.cost <= present + 1e-8 * std::abs(present));
+      }
 }
 
 TEST_CASE("against all 183 sequences of six steps: never below the best, and near it") {

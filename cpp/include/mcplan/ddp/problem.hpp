@@ -63,7 +63,8 @@ class Problem {
   std::vector<std::vector<Eigen::Vector3d>> pyramid;  ///< by scene surface: tangents t of the sides t.d <= friction n.d
   double pyramid_share = 1.0;                         ///< of the cone's opening that lies inside every side
   double edge_margin = 0.0;                           ///< footholds are planned this much inside their polygon
-  double pressure_margin = 0.0;                       ///< and centres of pressure
+  double pressure_margin = 0.0;  ///< and centres of pressure
+  double toe_room = 0.0;  ///< further margin of soles, where one has caught an edge
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<EndLimits> limits;       ///< by active end-effector
   Eigen::Vector3d inertia;             ///< in units of mass length^2
@@ -79,11 +80,9 @@ class Problem {
   Eigen::VectorXd start;          ///< x_0 as demanded
 
   /// How far inside edge i of a surface an end-effector's footholds are planned: edge_margin, and the share
-  /// Options::sole_inside of how far its sole, headed as at start or goal, extends towards that edge. Never past the
-  /// middle of a surface that is too narrow.
-  double foothold_margin(int l, int surface, int edge) const {
-    return foothold_margins_[l][surface][edge] + edge_margin;
-  }
+  /// Options::sole_inside of how far its sole, headed as at start or goal, extends towards that edge; for soles toe_room
+  /// as well. Never past the middle of a surface that is too narrow.
+  double foothold_margin(int l, int surface, int edge) const;
 
   /// Roll, pitch, yaw of a state.
   Eigen::Vector3d rpy(const Eigen::VectorXd& x) const;
@@ -110,6 +109,7 @@ class Problem {
 
  private:
   std::vector<std::vector<std::vector<double>>> foothold_margins_;  // by active end-effector, surface, edge
+  std::vector<std::vector<double>> narrow_;                         // by surface, edge: the widest margin there can be
 
   void make_foothold_margins(double start_yaw, double goal_yaw);
   int automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const;

@@ -16,15 +16,16 @@ using ddp::Rows;
 using Writer = std::function<void(const VectorXd& x, const VectorXd& u, Rows& rows)>;
 
 /// The paper's robot with all base axes alive, on the paper's hardest scene with a slope of 30 degrees added.
-inline ddp::Problem workshop(ddp::Options options = phases(6)) {
+inline ddp::Problem workshop(ddp::Options options = phases(6), bool with_slope = true) {
   mcplan::Scene scene = scenes::gap_with_rail();
   mcplan::Surface slope = scenes::rectangle("slope", 1.3, 2.0, -1, 1, 0, "foot");
   for (auto& v : slope.vertices_W) v.z() += std::tan(0.52) * v.x();
-  scene.surfaces.push_back(slope);
+  if (with_slope) scene.surfaces.push_back(slope);
   scene.start.yaw = 0.4;
   mcplan::Robot robot = scenes::humanoid44();
   robot.inertia = {4.0, 5.0, 6.0};
   for (int i : {0, 1}) robot.end_effectors[i].max_moment = {20.0, 30.0, 10.0};
+  for (auto& end : robot.end_effectors) end.yaw_range = {-0.3, 0.5};
   return ddp::Problem(scene, robot, options);
 }
 

@@ -16,11 +16,13 @@ Writer contact_of(const ddp::Problem& problem, int l, int surface) {
 }  // namespace
 
 TEST_CASE("contact and free: gradients") {
-  const ddp::Problem problem = workshop();
-  for (int surface : {before, slope, right_pad}) check_rows(problem, contact_of(problem, 1, surface), 46, 0.8, 40);
-  check_rows(
-      problem, [&](const VectorXd&, const VectorXd& u, Rows& rows) { free_cost(problem, u, 1, 3.0, rows); }, 47, 0.5,
-      10);
+  for (ddp::Model model : kModels) {
+    const ddp::Problem problem = workshop(phases(6, model));
+    for (int surface : {before, slope, right_pad}) check_rows(problem, contact_of(problem, 1, surface), 46, 0.8, 40);
+    check_rows(
+        problem, [&](const VectorXd&, const VectorXd& u, Rows& rows) { free_cost(problem, u, 1, 3.0, rows); }, 47, 0.5,
+        10);
+  }
 }
 
 TEST_CASE("contact: height off the plane, way beyond every edge, and motion") {
@@ -91,18 +93,20 @@ TEST_CASE("contact: on a surface too small for the sole its place is near the mi
 }
 
 TEST_CASE("free: no stiffness and no moment of this end-effector, whatever the others do") {
-  const ddp::Problem problem = workshop();
-  const ddp::Layout& at = problem.layout;
-  VectorXd u = VectorXd::Ones(at.nu());
-  Rows rows(at.nz(), true);
-  free_cost(problem, u, 1, 3.0, rows);
-  CHECK(rows.cost() == doctest::Approx(0.5 * 9.0 * 4));  // one stiffness, three moments
-  u[at.stiffness(1)] = 0.0;
-  for (int i = 0; i < at.moment_count(); ++i)
-    if (at.moments()[i].end_effector == 1) u[at.moment(i)] = 0.0;
-  rows.clear();
-  free_cost(problem, u, 1, 3.0, rows);
-  CHECK(rows.cost() == 0.0);
+  for (ddp::Model model : kModels) {
+    const ddp::Problem problem = workshop(phases(6, model));
+    const ddp::Layout& at = problem.layout;
+    VectorXd u = VectorXd::Ones(at.nu());
+    Rows rows(at.nz(), true);
+    free_cost(problem, u, 1, 3.0, rows);
+    CHECK(rows.cost() == doctest::Approx(0.5 * 9.0 * 4));  // one stiffness, three moments
+    u[at.stiffness(1)] = 0.0;
+    for (int i = 0; i < at.moment_count(); ++i)
+      if (at.moments()[i].end_effector == 1) u[at.moment(i)] = 0.0;
+    rows.clear();
+    free_cost(problem, u, 1, 3.0, rows);
+    CHECK(rows.cost() == 0.0);
+  }
 }
 
 TEST_CASE("a free end-effector is kept out of the solids, at their outline and down to twice their thickness") {
