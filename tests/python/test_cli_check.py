@@ -8,6 +8,7 @@ import mcplan as mp
 from command_line import one_line_error, strict
 from mcplan.cli import main
 from standing import standing_plan
+from wrenches import standing_wrenches
 
 pytest.importorskip("pinocchio")
 pytest.importorskip("example_robot_data")
@@ -109,3 +110,24 @@ def test_strength_is_told_per_hand_and_direction(capsys):
 )
 def test_robots_without_arms_are_one_line(capsys, words, message):
     assert one_line_error(run(capsys, "robots", *words)).startswith(message)
+
+
+def test_loads_of_contact_wrenches_are_said_and_written(capsys, tmp_path):
+    """Half of the weight on each foot, and a push of 0.02 m in 0.7 m along x: hypot(0.02, sideways) / 0.7."""
+    plan = standing_wrenches()
+    path = tmp_path / "plan.npz"
+    plan.save(path)
+    _, out, _ = run(capsys, "check", path)
+    contact, place = plan.phases[0].contacts[0], plan.knots[0].com_W
+    arm = place - contact.anchor_W
+    friction = (arm[0] ** 2 + arm[1] ** 2) ** 0.5 / arm[2]
+    force = 0.5 * (1.0 + friction**2) ** 0.5
+    lines = [line.strip() for line in out.splitlines()]
+    assert f"friction used (tangential / normal): right_foot {friction:.2f}, left_foot {friction:.2f}" in lines
+    assert "angular momentum: 0.00 kg m^2/s at most" in lines
+    assert f"largest force in weights: right_foot {force:.2f}, left_foot {force:.2f}" in lines
+
+
+def test_a_pendulum_has_no_loads_to_be_said(capsys, file):
+    _, out, _ = run(capsys, "check", file)
+    assert "angular momentum" not in out and "weights" not in out and len(out.splitlines()) == 1

@@ -26,7 +26,9 @@ def plot_pressure(plan: Plan) -> Figure:
     lines. In metres where forces act at points, in parts of half the sole's size where the plan has contact wrenches."""
     samples = sample(plan, plan.scene, plan.robot, RATE)
     ends = plan.robot.end_effectors
-    says_where = samples.surfaces >= 0 if samples.has_wrenches else np.isfinite(samples.points_W).any(axis=(2, 3))
+    says_where = samples.surfaces >= 0
+    if not samples.has_wrenches:
+        says_where = np.asarray(np.isfinite(samples.points_W).any(axis=(2, 3)))
     used = [e for e in range(len(ends)) if says_where[:, e].any() and ends[e].half_size.all()]
     colours = end_effector_colours(plan.robot)
     figure, axes = sheet(max(len(used), 1), 2, size=(10.0, 1.0 + 1.7 * max(len(used), 1)), sharex=True)
