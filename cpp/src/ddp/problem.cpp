@@ -221,7 +221,14 @@ constexpr double kNarrow = 0.35;
 double Problem::foothold_margin(int l, int surface, int edge) const {
   const double margin = foothold_margins_[l][surface][edge];
   if (toe_room == 0.0 || limits[l].half_width == 0.0) return margin + edge_margin;
-  return std::max(margin, std::min(margin + toe_room, narrow_[surface][edge])) + edge_margin;
+  // Nor further in than where the end-effector has to stand at the start or the goal.
+  double most = narrow_[surface][edge];
+  const auto stands = [&](const ContactState& contacts, const VectorXd& x) {
+    if (contacts[l] == surface) most = std::min(most, -polygons[surface].overshoot(edge, x.segment<3>(layout.end(l))));
+  };
+  stands(start_contacts, start);
+  stands(goal_contacts, reference.x.back());
+  return std::max(margin, std::min(margin + toe_room, most - edge_margin)) + edge_margin;
 }
 
 void Problem::make_foothold_margins(double start_yaw, double goal_yaw) {
@@ -273,7 +280,9 @@ int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& t
     for (int surface : rules.surfaces(static_cast<int>(l))) tangent = std::max(tangent, friction[surface]);
     const EndLimits& limit = limits[l];
     const double spread = std::min(tangent, 10.0) * std::abs(limit.nominal.z());
-    const double ahead = model == Model::wrench ? std::numeric_limits<double>::infinity() : std::sqrt(std::max(spread * spread - limit.nominal.y() * limit.nominal.y(), 0.0));
+    const double ahead = model == Model::wrench
+                             ? std::numeric_limits<double>::infinity()
+                             : std::sqrt(std::max(spread * spread - limit.nominal.y() * limit.nominal.y(), 0.0));
     const double stride = std::min(limit.reach_max.x(), ahead) - std::max(limit.reach_min.x(), -ahead);
     const double way = (to.end_effectors_W[e] - from.end_effectors_W[e]).head<2>().norm() / units.length;
     if (stride > 0.0) strides = std::max(strides, static_cast<int>(std::ceil(std::min(way / stride - 1e-9, 1e3))));

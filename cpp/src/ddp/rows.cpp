@@ -4,6 +4,22 @@
 
 namespace mcplan::ddp {
 
+namespace {
+
+/// Where a gradient is not zero, and how many there are (or one more than `at` holds).
+template <std::size_t N>
+int nonzeros(const Eigen::Ref<const Eigen::VectorXd>& gradient, std::array<int, N>& at) {
+  std::size_t count = 0;
+  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
+    if (gradient[i] == 0.0) continue;
+    if (count == N) return static_cast<int>(N) + 1;
+    at[count++] = static_cast<int>(i);
+  }
+  return static_cast<int>(count);
+}
+
+}  // namespace
+
 const char* to_string(Term term) {
   constexpr const char* kNames[kTermCount] = {"task", "duration", "reach",     "bounds", "contact",
                                               "free", "friction", "force_cap", "flight", "contact_change"};
@@ -47,12 +63,21 @@ Eigen::Ref<Eigen::VectorXd> Rows::add_dense(double weight, double value) {
 
 void Rows::accumulate(double& c, Eigen::VectorXd& g, Eigen::MatrixXd& h, Eigen::MatrixXd& scratch) const {
   c += cost_;
+  // Most rows touch a point and what shifts it, a few of z's numbers: a full update would be wasted on them.
+  constexpr int kFew = 10;
+  std::array<int, kFew> at;
   int dense = 0;
   for (int r = 0; r < count(); ++r) {
     const double d = precision_[r];
     if (single_[r] >= 0) {
       g[single_[r]] += d * value_[r];
       h(single_[r], single_[r]) += d;
+    } else if (const int few = nonzeros(gradient_.col(r), at); few <= kFew) {
+      for (int i = 0; i < few; ++i) {
+        const double di = d * gradient_(at[i], r);
+        g[at[i]] += di * value_[r];
+        for (int j = 0; j < few; ++j) h(at[j], at[i]) += di * gradient_(at[j], r);
+      }
     } else {
       g += d * value_[r] * gradient_.col(r);
       if (scratch.rows() != nz_ || scratch.cols() <= dense) scratch.conservativeResize(nz_, std::max(16, 2 * dense));
