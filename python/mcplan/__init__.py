@@ -210,7 +210,9 @@ def plan(
         scene: A scene, or what load_scene takes.
         robot: A robot, or what load_robot takes.
         warm_start: An earlier plan of the same robot to start from.
-        **options: Fields of ``mcplan.ddp.Options``; ``time_limit`` [s] is short for ``time_limit_s``.
+        **options: Fields of ``mcplan.ddp.Options``; ``time_limit`` [s] is short for ``time_limit_s``. ``model`` says what
+            contacts can do: "wrench" (default), forces within soles and friction cones that turn the base, or "lipm", the
+            paper's forces through the CoM.
 
     Returns:
         The plan, with a report whose status is ``solved`` only if the checker accepts the plan.
@@ -239,7 +241,8 @@ def replan(
     Args:
         previous: The plan under way.
         t: Time in it [s]; the phase under way and those after it are the first guess.
-        measured: The state now; its end-effectors in contact stand where they are.
+        measured: The state now; its end-effectors in contact stand where they are. An ``angular_momentum_W`` of zero is
+            made from ``base_rpy_rate``, an empty ``end_effector_yaw`` from the base's heading.
         scene: None: the plan's own.
         robot: None: the plan's own.
         **options: As for plan(); the number of phases is what is left of them.
