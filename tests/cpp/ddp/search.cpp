@@ -48,35 +48,40 @@ struct Bench {
 }  // namespace
 
 TEST_CASE("discovery lets the feet alternate and leaves a valid sequence with small defects") {
-  Bench bench(scenes::flat(), phases(18));
-  const Incumbent now = bench.discovered();
-  CHECK(bench.problem.rules.valid(now.sequence));
-  CHECK(now.sequence.front() == bench.problem.start_contacts);
-  CHECK(now.sequence.back() == bench.problem.goal_contacts);
-  CHECK(switch_count(now.sequence) >= 6);
-  CHECK(now.evaluation.defect_max < 0.05);
+  for (Model model : kModels) {
+    CAPTURE(name(model));
+    Bench bench(scenes::flat(), phases(18, model));
+    const Incumbent now = bench.discovered();
+    CHECK(bench.problem.rules.valid(now.sequence));
+    CHECK(now.sequence.front() == bench.problem.start_contacts);
+    CHECK(now.sequence.back() == bench.problem.goal_contacts);
+    CHECK(switch_count(now.sequence) >= 6);
+    CHECK(now.evaluation.defect_max < 0.05);
+  }
 }
 
 TEST_CASE("polishing keeps the sequence and never lets the merit rise") {
-  for (const mcplan::Scene& scene : {scenes::flat(), scenes::gap()}) {
-    Bench bench(scene, phases(18));
-    Incumbent now = bench.discovered();
-    const ContactSequence sequence = now.sequence;
-    const double before = bench.search.evaluate(now).merit();
-    const std::size_t first = bench.report.history.size();
-    CHECK(bench.search.polish(now, 30, 0.0, kForever) == Status::solved);
-    CHECK(now.sequence == sequence);
-    REQUIRE(bench.report.history.size() == first + 30);
-    double last = before;
-    for (std::size_t i = first; i < bench.report.history.size(); ++i) {
-      const mcplan::Iteration& row = bench.report.history[i];
-      CHECK(row.merit <= last * (1.0 + 1e-12));
-      CHECK(row.switches == 0);
-      last = row.merit;
+  for (Model model : kModels)
+    for (const mcplan::Scene& scene : {scenes::flat(), scenes::gap()}) {
+      CAPTURE(name(model));
+      Bench bench(scene, phases(18, model));
+      Incumbent now = bench.discovered();
+      const ContactSequence sequence = now.sequence;
+      const double before = bench.search.evaluate(now).merit();
+      const std::size_t first = bench.report.history.size();
+      CHECK(bench.search.polish(now, 30, 0.0, kForever) == Status::solved);
+      CHECK(now.sequence == sequence);
+      REQUIRE(bench.report.history.size() == first + 30);
+      double last = before;
+      for (std::size_t i = first; i < bench.report.history.size(); ++i) {
+        const mcplan::Iteration& row = bench.report.history[i];
+        CHECK(row.merit <= last * (1.0 + 1e-12));
+        CHECK(row.switches == 0);
+        last = row.merit;
+      }
+      CHECK(bench.search.evaluate(now).merit() == doctest::Approx(last));
+      CHECK(last < before);
     }
-    CHECK(bench.search.evaluate(now).merit() == doctest::Approx(last));
-    CHECK(last < before);
-  }
 }
 
 TEST_CASE("refining changes the sequence only for a lower true merit, and settles: no chattering") {
