@@ -355,6 +355,43 @@ TEST_CASE("a turn of 30 degrees between start and goal is planned") {
   CHECK(result.plan.knots.back().base_rpy.z() == doctest::Approx(0.52).epsilon(0.02));
 }
 
+TEST_CASE("a quarter turn on the spot takes several steps, each sole within its range of the base") {
+  mcplan::Scene scene = scenes::flat(0.0);
+  scene.goal.yaw = M_PI / 2;
+  mcplan::Robot robot = scenes::humanoid44();
+  for (int foot : {0, 1}) robot.end_effectors[foot].yaw_range = {-0.5, 0.5};
+  const PlanResult result = solve(scene, {}, robot);
+  CHECK_MESSAGE(result.report.status == Status::solved, result.report.message);
+  const Plan& plan = result.plan;
+  REQUIRE(plan.knots.size() > 1);
+  CHECK(plan.knots.back().base_rpy.z() == doctest::Approx(M_PI / 2).epsilon(0.02));
+  for (int foot : {0, 1}) {
+    CHECK(plan.knots.back().end_effector_yaw[foot] == doctest::Approx(M_PI / 2));
+    int landings = 0;
+    for (std::size_t k = 1; k < plan.phases.size(); ++k)
+      landings += plan.phases[k].contacts[foot].surface >= 0 && plan.phases[k - 1].contacts[foot].surface < 0;
+    CHECK(landings >= 2);
+  }
+}
+
+TEST_CASE("over the gap with an eighth of a turn: what turns in flight is the momentum of the take-off") {
+  mcplan::Scene scene = scenes::gap();
+  scene.goal.yaw = M_PI / 4;
+  const PlanResult result = solve(scene);
+  CHECK_MESSAGE(result.report.status == Status::solved, result.report.message);
+  const Plan& plan = result.plan;
+  REQUIRE(plan.knots.size() > 1);
+  CHECK(plan.knots.back().base_rpy.z() == doctest::Approx(M_PI / 4).epsilon(0.02));
+  double turned = 0.0;
+  for (std::size_t k = 0; k < plan.phases.size(); ++k) {
+    if (plan.phases[k].contacts[0].surface >= 0 || plan.phases[k].contacts[1].surface >= 0) continue;
+    turned += plan.knots[k + 1].base_rpy.z() - plan.knots[k].base_rpy.z();
+    CHECK((plan.knots[k + 1].angular_momentum_W - plan.knots[k].angular_momentum_W).norm() <= 1e-9);
+  }
+  MESSAGE("turned by ", turned, " rad in flight, cost ", result.report.cost);
+  CHECK(turned > 0.02);
+}
+
 TEST_CASE("a given sequence is kept as the first guess; one that does not fit is refused at once") {
   Options options = phases(8);
   const std::vector<int> both{0, 0, -1, -1}, right{0, -1, -1, -1}, left{-1, 0, -1, -1};
