@@ -169,8 +169,10 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     l.half_size = end.half_size / units.length;
     l.half_width = l.half_size.minCoeff();
     l.moment_max = end.max_moment / units.moment();
-    l.yaw_min = end.yaw_range[0];
-    l.yaw_max = end.yaw_range[1];
+    // The paper's model knows no headings of soles.
+    const bool turns = model == Model::wrench;
+    l.yaw_min = turns ? end.yaw_range[0] : -std::numeric_limits<double>::infinity();
+    l.yaw_max = turns ? end.yaw_range[1] : std::numeric_limits<double>::infinity();
     limits.push_back(l);
   }
   layout = model == Model::lipm ? lipm_layout(limits, options.method == Method::paper)

@@ -80,8 +80,9 @@ class Problem {
   Eigen::VectorXd start;          ///< x_0 as demanded
 
   /// How far inside edge i of a surface an end-effector's footholds are planned: edge_margin, and the share
-  /// Options::sole_inside of how far its sole, headed as at start or goal, extends towards that edge; for soles
-  /// toe_room as well. Never past the middle of a surface that is too narrow.
+  /// Options::sole_inside of how far its sole, headed anywhere from start to goal, extends towards that edge; for
+  /// soles toe_room as well. Never past the middle of a surface that is too narrow, and with toe_room no further than
+  /// where the end-effector has to stand at the start or the goal.
   double foothold_margin(int l, int surface, int edge) const;
 
   /// Roll, pitch, yaw of a state.
