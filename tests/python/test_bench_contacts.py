@@ -104,6 +104,7 @@ def test_a_plan_that_must_fail_and_one_that_must_not_claim_hands():
     assert bench.shortfalls(replace(GOOD, status="infeasible"), Demand(solved=False)) == []
     honest = Demand(solved=None, hands_only=False)
     assert bench.shortfalls(GOOD, honest) == ["claims a phase on hands alone"]
+    assert bench.shortfalls(replace(GOOD, status="acceptable"), honest) == ["claims a phase on hands alone"]
     assert bench.shortfalls(replace(GOOD, hands_only=0), honest) == []
     assert bench.shortfalls(replace(GOOD, status="infeasible"), honest) == []
 

@@ -42,7 +42,8 @@ class Demand:
         flights: Exact number.
         alternate: Feet in turn.
         every_surface: A foot on each.
-        hands_only: There must be a phase on hands alone, or (False) no plan that is called solved may have one.
+        hands_only: There must be a phase on hands alone, or (False) no plan that is called solved or acceptable may
+            have one.
     """
 
     solved: bool | None = True

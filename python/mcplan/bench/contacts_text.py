@@ -68,7 +68,19 @@ def _body(result: dict[str, Any], heading: str) -> str:
 
 
 def _plans(rows: Sequence[Row]) -> Section:
-    head = ["plan", "robot", "ended", "in", "J", "flights", "hands only", "feet in turn", "no foot on", "holds"]
+    head = [
+        "plan",
+        "robot",
+        "ended",
+        "in",
+        "J",
+        "of it durations",
+        "flights",
+        "hands only",
+        "feet in turn",
+        "no foot on",
+        "holds",
+    ]
     cells = [
         [
             row.case,
@@ -76,6 +88,7 @@ def _plans(rows: Sequence[Row]) -> Section:
             row.status,
             number(row.time_s, ".2f", unit=" s"),
             number(row.cost, ".3g"),
+            number(row.cost_duration, ".2g"),
             number(row.flights, "d"),
             number(row.hands_only, "d"),
             {True: "yes", False: "no", None: ABSENT}[row.alternate],
