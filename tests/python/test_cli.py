@@ -22,6 +22,7 @@ from mcplan.files.scenes import list_scenes, load_scene, scene_to_dict
 from mcplan.files.terrains import random_patches
 from mcplan.files.toml import toml_text
 from standing import standing_plan
+from wrenches import standing_wrenches
 
 VERBS = ("bench", "check", "demo", "motions", "plan", "reproduce", "rhp", "robots", "scenes", "sip", "version")
 
@@ -341,3 +342,20 @@ LEG = (
     + JOINT.format(name="tip", kind="fixed", parent="shank", child="tip", xyz="0 0 -0.1", axis="0 0 1")
     + "</robot>"
 )
+
+
+def test_plans_of_contact_wrenches_are_summed_up_with_their_loads(capsys, monkeypatch):
+    found = solve_result()
+    found.plan = standing_wrenches(squeeze_m=0.0)
+    monkeypatch.setattr(mp, "plan", lambda *args, **options: found)
+    report = json.loads(run(capsys, "plan", "flat", "--json")[1])
+    assert report["angular_momentum_max"] == pytest.approx(0.0, abs=1e-9)
+    assert report["force_max_weights"].keys() == {"right_foot", "left_foot"}
+    assert all(0.5 < force < 0.55 for force in report["force_max_weights"].values())
+    lines = run(capsys, "plan", "flat")[1].splitlines()
+    assert "  friction used (tangential / normal): left_foot 0.40" in lines  # the report's
+    assert "  angular momentum: 0.00 kg m^2/s at most" in lines
+    assert any(line.startswith("  largest force in weights: right_foot 0.5") for line in lines)
+    found.plan = standing_plan()
+    report = json.loads(run(capsys, "plan", "flat", "--json")[1])
+    assert report["angular_momentum_max"] is None and report["force_max_weights"] is None
