@@ -184,7 +184,8 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
     next_ -= trajectory.x[k + 1];
     const Layout& at = problem_->layout;
     out.defect_sum += next_.segment<3>(at.com()).norm() + next_.segment<3>(at.velocity()).norm() +
-                      next_.segment(at.angle(), 2 * at.axis_count()).lpNorm<1>();
+                      next_.segment(at.angle(), at.axis_count()).lpNorm<1>() +
+                      next_.segment(at.momentum(), at.axis_count()).norm();
     for (int l = 0; l < at.ends(); ++l) out.defect_sum += next_.segment<3>(at.end(l)).norm();
     out.defect_max = std::max(out.defect_max, next_.lpNorm<Eigen::Infinity>());
   }

@@ -27,7 +27,9 @@ void Options::validate() const {
   if (!(std::isfinite(duration_min_s) && duration_min_s >= 0.0))
     throw InvalidOptions("duration_min_s", "must be at least 0 (0: the robot's)", text(duration_min_s));
   require_positive("flight_duration_min_s", flight_duration_min_s);
-  require_positive("duration_initial_s", duration_initial_s);
+  if (!(std::isfinite(duration_initial_s) && duration_initial_s >= 0.0))
+    throw InvalidOptions("duration_initial_s", "must be at least 0 (0: the middle of the box)",
+                         text(duration_initial_s));
   if (!(std::isfinite(duration_max_s) && (duration_max_s == 0.0 || duration_max_s >= duration_min_s)))
     throw InvalidOptions("duration_max_s",
                          "must be 0 (the robot's) or at least duration_min_s (" + text(duration_min_s) + ")",

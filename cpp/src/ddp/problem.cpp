@@ -42,11 +42,15 @@ std::optional<Vector3d> common_normal(const std::vector<Polygon>& polygons, cons
   return polygons[surfaces.front()].normal_W();
 }
 
-/// An end-effector far below (or above) the CoM shifts its force's line sideways; along itself would be the same as
-/// another stiffness.
-Matrix3Xd force_line_directions(const Vector3d& nominal) {
-  constexpr double kUpright = 0.9;
-  return Eigen::Matrix3d::Identity().leftCols(std::abs(nominal.z()) > kUpright * nominal.norm() ? 2 : 3);
+/// An end-effector that stands below the CoM shifts its force's line sideways: along itself would be nearly the same as
+/// another stiffness. Where it may touch surfaces that it meets at an angle, walls above all, the line goes anywhere.
+Matrix3Xd force_line_directions(const Vector3d& nominal, const std::vector<Polygon>& polygons,
+                                const std::vector<int>& surfaces) {
+  constexpr double kFacing = 0.7;
+  const bool facing = std::all_of(surfaces.begin(), surfaces.end(), [&](int i) {
+    return std::abs(polygons[i].normal_W().dot(nominal)) > kFacing * nominal.norm();
+  });
+  return Eigen::Matrix3d::Identity().leftCols(facing ? 2 : 3);
 }
 
 Layout wrench_layout(const std::vector<EndLimits>& limits, const std::vector<Polygon>& polygons,
@@ -62,7 +66,7 @@ Layout wrench_layout(const std::vector<EndLimits>& limits, const std::vector<Pol
       else
         offsets.pressure = Eigen::Matrix3d::Identity();
     }
-    offsets.force_line = force_line_directions(limits[l].nominal);
+    offsets.force_line = force_line_directions(limits[l].nominal, polygons, surfaces[l]);
     ends.push_back(offsets);
     const double most = limits[l].moment_max.z();
     if (most <= 0.0) continue;
@@ -126,7 +130,9 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   duration_min = shortest_s / units.time;
   duration_max = longest_s / units.time;
   flight_duration_min = std::min(options.flight_duration_min_s, longest_s) / units.time;
-  duration_initial = options.duration_initial_s / units.time;
+  // The paper's model was measured from its author's 0.45 s.
+  const double middle_s = model == Model::wrench ? 0.5 * (shortest_s + longest_s) : 0.45;
+  duration_initial = (options.duration_initial_s > 0.0 ? options.duration_initial_s : middle_s) / units.time;
 
   const int robot_ends = static_cast<int>(robot.end_effectors.size());
   std::vector<std::vector<int>> surfaces;
@@ -163,8 +169,10 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     l.half_size = end.half_size / units.length;
     l.half_width = l.half_size.minCoeff();
     l.moment_max = end.max_moment / units.moment();
-    l.yaw_min = end.yaw_range[0];
-    l.yaw_max = end.yaw_range[1];
+    // The paper's model knows no headings of soles.
+    const bool turns = model == Model::wrench;
+    l.yaw_min = turns ? end.yaw_range[0] : -std::numeric_limits<double>::infinity();
+    l.yaw_max = turns ? end.yaw_range[1] : std::numeric_limits<double>::infinity();
     limits.push_back(l);
   }
   layout = model == Model::lipm ? lipm_layout(limits, options.method == Method::paper)

@@ -69,8 +69,9 @@ TEST_CASE("the model's cost at the point of expansion is the true cost, and its 
           const VectorXd defect = next - at.trajectory.x[k + 1];
           CHECK((model.defect(k) - defect).cwiseAbs().maxCoeff() <= 1e-13);
           // [com, velocity, angles, momenta, end-effectors], the yaw's alone or all three
-          const int angles = 2 * at.problem.layout.axis_count();
-          sum += defect.head<3>().norm() + defect.segment<3>(3).norm() + defect.segment(6, angles).cwiseAbs().sum();
+          const int axes = at.problem.layout.axis_count(), angles = 2 * axes;
+          sum += defect.head<3>().norm() + defect.segment<3>(3).norm() + defect.segment(6, axes).cwiseAbs().sum() +
+                 defect.segment(6 + axes, axes).norm();
           for (int i = 6 + angles; i < defect.size(); i += 3) sum += defect.segment<3>(i).norm();
           most = std::max(most, defect.lpNorm<Eigen::Infinity>());
         }

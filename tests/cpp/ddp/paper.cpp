@@ -46,6 +46,19 @@ TEST_CASE("the paper's Algorithm 2 switches in every iteration, for its J* start
   }
 }
 
+TEST_CASE("method paper takes the paper's model, whichever is asked for") {
+  std::vector<mcplan::PlanResult> results;
+  for (Model model : kModels) {
+    Options options = paper();
+    options.model = model;
+    options.max_iterations = 15;
+    results.push_back(SwitchedDdp(scenes::stairs(), scenes::humanoid44(), options).solve());
+    for (const mcplan::Phase& phase : results.back().plan.phases) CHECK(phase.law == mcplan::ForceLaw::pendulum);
+  }
+  CHECK(results[0].report.cost == results[1].report.cost);
+  CHECK(results[0].report.cost > 0.0);
+}
+
 TEST_CASE("method paper runs on every scene and says honestly how it went") {
   for (const mcplan::Scene& scene : scenes::all_four()) {
     CAPTURE(scene.name);

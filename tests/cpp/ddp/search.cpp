@@ -48,18 +48,21 @@ struct Bench {
 }  // namespace
 
 TEST_CASE("discovery lets the feet alternate and leaves a valid sequence with small defects") {
-  Bench bench(scenes::flat(), phases(18));
-  const Incumbent now = bench.discovered();
-  CHECK(bench.problem.rules.valid(now.sequence));
-  CHECK(now.sequence.front() == bench.problem.start_contacts);
-  CHECK(now.sequence.back() == bench.problem.goal_contacts);
-  CHECK(switch_count(now.sequence) >= 6);
-  CHECK(now.evaluation.defect_max < 0.05);
+  for (Model model : kModels) {
+    CAPTURE(name(model));
+    Bench bench(scenes::flat(), phases(18, model));
+    const Incumbent now = bench.discovered();
+    CHECK(bench.problem.rules.valid(now.sequence));
+    CHECK(now.sequence.front() == bench.problem.start_contacts);
+    CHECK(now.sequence.back() == bench.problem.goal_contacts);
+    CHECK(switch_count(now.sequence) >= 6);
+    CHECK(now.evaluation.defect_max < 0.05);
+  }
 }
 
 TEST_CASE("polishing keeps the sequence and never lets the merit rise") {
   for (const mcplan::Scene& scene : {scenes::flat(), scenes::gap()}) {
-    Bench bench(scene, phases(18));
+    Bench bench(scene, phases(18, Model::lipm));
     Incumbent now = bench.discovered();
     const ContactSequence sequence = now.sequence;
     const double before = bench.search.evaluate(now).merit();
@@ -76,6 +79,27 @@ TEST_CASE("polishing keeps the sequence and never lets the merit rise") {
     }
     CHECK(bench.search.evaluate(now).merit() == doctest::Approx(last));
     CHECK(last < before);
+  }
+}
+
+TEST_CASE("with contact wrenches no iteration lets the merit rise but by what the soles' new headings cost") {
+  for (const mcplan::Scene& scene : {scenes::flat(), scenes::gap()}) {
+    CAPTURE(scene.name);
+    Bench bench(scene, phases(18));
+    Incumbent now = bench.discovered();
+    const ContactSequence sequence = now.sequence;
+    const double first = bench.search.evaluate(now).merit();
+    for (int i = 0; i < 30; ++i) {
+      Incumbent headed = now;
+      bench.problem.set_sole_yaw(headed.sequence, headed.trajectory);
+      const double before = bench.search.evaluate(headed).merit();
+      CHECK(bench.search.polish(now, 1, 0.0, kForever) == Status::solved);
+      CHECK(now.evaluation.merit() <= before * (1.0 + 1e-12));
+      CHECK(now.trajectory.sole_yaw == headed.trajectory.sole_yaw);
+      CHECK(bench.search.evaluate(now).merit() == doctest::Approx(now.evaluation.merit()));
+    }
+    CHECK(now.sequence == sequence);
+    CHECK(now.evaluation.merit() < first);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "mcplan/ddp/local_model.hpp"
@@ -134,7 +135,7 @@ inline mcplan::ddp::Options phases(int n, ddp::Model model = ddp::Options().mode
 /// Most code serves both.
 constexpr ddp::Model kModels[] = {ddp::Model::wrench, ddp::Model::lipm};
 
-inline const char* name(ddp::Model model) { return model == ddp::Model::wrench ? "wrench" : "lipm"; }
+inline std::string name(ddp::Model model) { return model == ddp::Model::wrench ? "wrench" : "lipm"; }
 
 /// The gap with a ramp on its far side and an upright wall for either hand: the feet's surfaces have different normals,
 /// and so do the hands'.

@@ -27,13 +27,17 @@ PlanResult solve(const mcplan::Scene& scene, const Options& options = {},
   return SwitchedDdp(scene, robot, options).solve();
 }
 
-/// Defaults on a scene of the paper; solved once for all tests that need it.
-const PlanResult& solved(const std::string& name) {
-  static std::map<std::string, PlanResult> results;
-  const auto known = results.find(name);
+using mcplan::ddp::Model;
+
+/// A scene of the paper with default options but for the model; solved once for all tests that need it.
+const PlanResult& solved(const std::string& name, Model model = Options().model) {
+  static std::map<std::pair<std::string, Model>, PlanResult> results;
+  const auto known = results.find({name, model});
   if (known != results.end()) return known->second;
+  Options options;
+  options.model = model;
   for (const mcplan::Scene& scene : scenes::all_four())
-    if (scene.name == name) return results[name] = solve(scene);
+    if (scene.name == name) return results[{name, model}] = solve(scene, options);
   throw std::runtime_error(name);
 }
 
@@ -75,80 +79,94 @@ std::string refused_field(const Call& call) {
 }  // namespace
 
 TEST_CASE("the four scenes of the paper are solved, and the checker agrees") {
-  for (const mcplan::Scene& scene : scenes::all_four()) {
-    if (kSlowBuild && scene.name == "gap_with_rail") continue;
-    CAPTURE(scene.name);
-    const PlanResult& result = solved(scene.name);
-    MESSAGE(scene.name, ": ", result.report.message, ", cost ", result.report.cost, ", ", result.report.iterations,
-            " iterations, ", result.report.time_s, " s");
-    CHECK(result.report.status == Status::solved);
-    const mcplan::CheckResult check = mcplan::check(result.plan, scene, scenes::humanoid44());
-    CHECK_MESSAGE(check.ok(), check.to_string());
-    double sum = 0.0;
-    for (const auto& [name, value] : result.report.cost_terms) sum += value;
-    CHECK(sum == doctest::Approx(result.report.cost).epsilon(1e-9));
-    CHECK(result.report.history.size() == static_cast<std::size_t>(result.report.iterations));
-  }
+  for (Model model : kModels)
+    for (const mcplan::Scene& scene : scenes::all_four()) {
+      if (kSlowBuild && scene.name == "gap_with_rail") continue;
+      CAPTURE(name(model));
+      CAPTURE(scene.name);
+      const PlanResult& result = solved(scene.name, model);
+      MESSAGE(name(model), " ", scene.name, ": ", result.report.message, ", cost ", result.report.cost, ", ",
+              result.report.iterations, " iterations, ", result.report.time_s, " s");
+      CHECK(result.report.status == Status::solved);
+      const mcplan::CheckResult check = mcplan::check(result.plan, scene, scenes::humanoid44());
+      CHECK_MESSAGE(check.ok(), check.to_string());
+      double sum = 0.0;
+      for (const auto& [name, value] : result.report.cost_terms) sum += value;
+      CHECK(sum == doctest::Approx(result.report.cost).epsilon(1e-9));
+      CHECK(result.report.history.size() == static_cast<std::size_t>(result.report.iterations));
+    }
 }
 
 TEST_CASE("flat and stairs are walked: feet alternate, no flight, every tread used") {
-  for (const char* name : {"flat", "stairs"}) {
-    CAPTURE(name);
-    const auto sequence = solved(name).plan.contact_sequence();
-    CHECK(phases_without_feet(solved(name).plan) == 0);
-    int last = -1, steps = 0;
-    std::vector<int> used(4, 0);
-    for (std::size_t k = 0; k < sequence.size(); ++k)
-      for (int l : {0, 1}) {
-        if (sequence[k][l] >= 0) used[sequence[k][l]] = 1;
-        if (k == 0 || sequence[k][l] >= 0 || sequence[k - 1][l] < 0) continue;
-        CHECK(l != last);
-        last = l;
-        ++steps;
-      }
-    CHECK(steps >= 4);
-    if (std::string(name) == "stairs") CHECK(used == std::vector<int>(4, 1));
-  }
+  for (Model model : kModels)
+    for (const std::string scene : {"flat", "stairs"}) {
+      CAPTURE(name(model));
+      CAPTURE(scene);
+      const auto sequence = solved(scene, model).plan.contact_sequence();
+      CHECK(phases_without_feet(solved(scene, model).plan) == 0);
+      int last = -1, steps = 0;
+      std::vector<int> used(4, 0);
+      for (std::size_t k = 0; k < sequence.size(); ++k)
+        for (int l : {0, 1}) {
+          if (sequence[k][l] >= 0) used[sequence[k][l]] = 1;
+          if (k == 0 || sequence[k][l] >= 0 || sequence[k - 1][l] < 0) continue;
+          CHECK(l != last);
+          last = l;
+          ++steps;
+        }
+      CHECK(steps >= 4);
+      if (scene == "stairs") CHECK(used == std::vector<int>(4, 1));
+    }
 }
 
 TEST_CASE("the gap is jumped once, on a parabola") {
-  const Plan& plan = solved("gap").plan;
-  int flights = 0;
-  for (std::size_t k = 0; k < plan.phases.size(); ++k) {
-    bool flies = true;
-    for (const auto& contact : plan.phases[k].contacts) flies = flies && contact.surface < 0;
-    if (flies) {
-      ++flights;
-      for (int i = 0; i <= 50; ++i) {
-        const mcplan::PlanState s = plan.at_phase(static_cast<int>(k), i / 50.0 * plan.phases[k].duration);
-        CHECK((s.com_acceleration_W - Eigen::Vector3d(0, 0, -9.8)).norm() <= 1e-12);
+  for (Model model : kModels) {
+    CAPTURE(name(model));
+    const Plan& plan = solved("gap", model).plan;
+    int flights = 0;
+    for (std::size_t k = 0; k < plan.phases.size(); ++k) {
+      bool flies = true;
+      for (const auto& contact : plan.phases[k].contacts) flies = flies && contact.surface < 0;
+      if (flies) {
+        ++flights;
+        for (int i = 0; i <= 50; ++i) {
+          const mcplan::PlanState s = plan.at_phase(static_cast<int>(k), i / 50.0 * plan.phases[k].duration);
+          CHECK((s.com_acceleration_W - Eigen::Vector3d(0, 0, -9.8)).norm() <= 1e-12);
+          if (model == Model::wrench) CHECK((s.angular_momentum_W - plan.knots[k].angular_momentum_W).norm() <= 1e-12);
+        }
       }
     }
+    CHECK(flights == 1);
   }
-  CHECK(flights == 1);
 }
 
 TEST_CASE("the jump rises at least 0.15 m above the take-off") {
-  const Plan& plan = solved("gap").plan;
-  for (std::size_t k = 0; k < plan.phases.size(); ++k) {
-    bool flies = true;
-    for (const auto& contact : plan.phases[k].contacts) flies = flies && contact.surface < 0;
-    if (!flies) continue;
-    const double up = plan.knots[k].com_velocity_W.z();
-    const double time = std::min(plan.phases[k].duration, std::max(up, 0.0) / 9.8);  // to the apex
-    CHECK(up * time - 0.5 * 9.8 * time * time >= 0.15);
+  for (Model model : kModels) {
+    CAPTURE(name(model));
+    const Plan& plan = solved("gap", model).plan;
+    for (std::size_t k = 0; k < plan.phases.size(); ++k) {
+      bool flies = true;
+      for (const auto& contact : plan.phases[k].contacts) flies = flies && contact.surface < 0;
+      if (!flies) continue;
+      const double up = plan.knots[k].com_velocity_W.z();
+      const double time = std::min(plan.phases[k].duration, std::max(up, 0.0) / 9.8);  // to the apex
+      CHECK(up * time - 0.5 * 9.8 * time * time >= 0.15);
+    }
   }
 }
 
 TEST_CASE("over the rail both hands hold while both feet are off") {
   if (kSlowBuild) return;
-  const Plan& plan = solved("gap_with_rail").plan;
-  CHECK(phases_without_feet(plan) >= 1);
-  for (const auto& row : plan.contact_sequence())
-    if (row[0] < 0 && row[1] < 0) {
-      CHECK(row[2] == 2);
-      CHECK(row[3] == 3);
-    }
+  for (Model model : kModels) {
+    CAPTURE(name(model));
+    const Plan& plan = solved("gap_with_rail", model).plan;
+    CHECK(phases_without_feet(plan) >= 1);
+    for (const auto& row : plan.contact_sequence())
+      if (row[0] < 0 && row[1] < 0) {
+        CHECK(row[2] == 2);
+        CHECK(row[3] == 3);
+      }
+  }
 }
 
 TEST_CASE("the plan is the same to the last bit for 1, 2 and 4 threads") {
@@ -335,6 +353,43 @@ TEST_CASE("a turn of 30 degrees between start and goal is planned") {
   const PlanResult result = solve(scene);
   CHECK_MESSAGE(result.report.status == Status::solved, result.report.message);
   CHECK(result.plan.knots.back().base_rpy.z() == doctest::Approx(0.52).epsilon(0.02));
+}
+
+TEST_CASE("a quarter turn on the spot takes several steps, each sole within its range of the base") {
+  mcplan::Scene scene = scenes::flat(0.0);
+  scene.goal.yaw = M_PI / 2;
+  mcplan::Robot robot = scenes::humanoid44();
+  for (int foot : {0, 1}) robot.end_effectors[foot].yaw_range = {-0.5, 0.5};
+  const PlanResult result = solve(scene, {}, robot);
+  CHECK_MESSAGE(result.report.status == Status::solved, result.report.message);
+  const Plan& plan = result.plan;
+  REQUIRE(plan.knots.size() > 1);
+  CHECK(plan.knots.back().base_rpy.z() == doctest::Approx(M_PI / 2).epsilon(0.02));
+  for (int foot : {0, 1}) {
+    CHECK(plan.knots.back().end_effector_yaw[foot] == doctest::Approx(M_PI / 2));
+    int landings = 0;
+    for (std::size_t k = 1; k < plan.phases.size(); ++k)
+      landings += plan.phases[k].contacts[foot].surface >= 0 && plan.phases[k - 1].contacts[foot].surface < 0;
+    CHECK(landings >= 2);
+  }
+}
+
+TEST_CASE("over the gap with an eighth of a turn: what turns in flight is the momentum of the take-off") {
+  mcplan::Scene scene = scenes::gap();
+  scene.goal.yaw = M_PI / 4;
+  const PlanResult result = solve(scene);
+  CHECK_MESSAGE(result.report.status == Status::solved, result.report.message);
+  const Plan& plan = result.plan;
+  REQUIRE(plan.knots.size() > 1);
+  CHECK(plan.knots.back().base_rpy.z() == doctest::Approx(M_PI / 4).epsilon(0.02));
+  double turned = 0.0;
+  for (std::size_t k = 0; k < plan.phases.size(); ++k) {
+    if (plan.phases[k].contacts[0].surface >= 0 || plan.phases[k].contacts[1].surface >= 0) continue;
+    turned += plan.knots[k + 1].base_rpy.z() - plan.knots[k].base_rpy.z();
+    CHECK((plan.knots[k + 1].angular_momentum_W - plan.knots[k].angular_momentum_W).norm() <= 1e-9);
+  }
+  MESSAGE("turned by ", turned, " rad in flight, cost ", result.report.cost);
+  CHECK(turned > 0.02);
 }
 
 TEST_CASE("a given sequence is kept as the first guess; one that does not fit is refused at once") {

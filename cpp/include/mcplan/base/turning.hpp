@@ -33,7 +33,8 @@ struct RpyTrig {
 /// Where a base turns from a given state, as a function of time: theta(h) by one Runge-Kutta step of order 4 on the
 /// momentum at begin, middle and end. The momentum itself is known in closed form (docs/theory/ddp.md, "Angular
 /// momentum and base"), so this is the one approximation of the model. Measured on the phases of gap_with_rail, against
-/// a fine integration: 1.2e-3 rad at most; one exponential map with the mean angular velocity errs by 5e-3 there.
+/// a fine integration: 2.4e-3 rad at most in a phase; one exponential map with the mean angular velocity errs by two to
+/// five times that.
 class Turning {
  public:
   Turning(const Eigen::Vector3d& rpy, const Eigen::Vector3d& begin_W, const Eigen::Vector3d& inertia);

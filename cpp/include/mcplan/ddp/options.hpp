@@ -59,12 +59,12 @@ struct Options {
 
   double duration_min_s = 0.0, duration_max_s = 0.0;  ///< soft box of the phase durations; 0: the robot's
   double flight_duration_min_s = 0.40;  ///< lower bound of phases without any contact (the paper's for all)
-  double duration_initial_s = 0.45;
-  double proximal_weight = 30.0;     ///< first weight on the change of the inputs; adapts
-  int interior_points = 4;           ///< instants inside each phase at which reach, force and friction are held
-  double reach_margin_m = 0.003;     ///< the reach box is planned smaller by this
-  double sole_inside = -1.0;         ///< share of a sole that footholds keep on their surface; negative: the robot's
-  bool friction = true;              ///< hold the friction cones
+  double duration_initial_s = 0.0;      ///< first guess of all phases; 0: the middle of their box, 0.45 for Model::lipm
+  double proximal_weight = 30.0;        ///< first weight on the change of the inputs; adapts
+  int interior_points = 4;              ///< instants inside each phase at which reach, force and friction are held
+  double reach_margin_m = 0.003;        ///< the reach box is planned smaller by this
+  double sole_inside = -1.0;            ///< share of a sole that footholds keep on their surface; negative: the robot's
+  bool friction = true;                 ///< hold the friction cones
   int friction_sides = 0;            ///< of the pyramid inside the cone that is held instead of it; 0: the cone itself
   bool whole_sequence_moves = true;  ///< dynamic programming over (step, contact state) where it pays
   bool one_switch_per_step = true;   ///< Tazaki's eq. (32)

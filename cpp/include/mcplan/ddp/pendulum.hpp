@@ -29,9 +29,17 @@ struct PendulumStep {
 
 /// Multi-contact pendulum in closed form, over a time t of one phase. With s_l = p_l + c_l + r_l, a_l = p_l + c_l,
 ///
-///     f_l = mu_l (p - s_l)  acting at a_l,   Lambda = sum_l mu_l,   a = Lambda p - sum_l mu_l s_l - g,   z = Lambda
-///     t^2 p(t) = p + t F_1(z) v + t^2 F_2(z) a          v(t) = F_0(z) v + t F_1(z) a P(t) = int p = t p + t^2 F_2(z) v
-///     + t^3 F_3(z) a L(t) = L + P(t) x rho + t kappa,   rho = sum_l mu_l r_l,   kappa = sum_l (tau_l - mu_l a_l x r_l)
+/// the force on an end-effector is f_l = mu_l (p - s_l), acting at a_l. Then, with sums over the end-effectors
+///
+///     Lambda = sum mu_l,   z = Lambda t^2,   a = Lambda p - sum mu_l s_l - g
+///
+///     p(t) = p + t F_1(z) v + t^2 F_2(z) a
+///
+///     v(t) = F_0(z) v + t F_1(z) a
+///
+///     P(t) = t p + t^2 F_2(z) v + t^3 F_3(z) a,   the integral of p
+///
+///     L(t) = L + P(t) x rho + t kappa,   rho = sum mu_l r_l,   kappa = sum (tau_l - mu_l a_l x r_l)
 ///
 /// with the entire functions F_n (base/entire_functions.hpp): no case distinction, exact in flight. Non-dimensional:
 /// mass 1, g = e_z. The base turns by theta' = E(theta) R I^-1 R^T L (base/turning.hpp).

@@ -63,8 +63,8 @@ class Problem {
   std::vector<std::vector<Eigen::Vector3d>> pyramid;  ///< by scene surface: tangents t of the sides t.d <= friction n.d
   double pyramid_share = 1.0;                         ///< of the cone's opening that lies inside every side
   double edge_margin = 0.0;                           ///< footholds are planned this much inside their polygon
-  double pressure_margin = 0.0;  ///< and centres of pressure
-  double toe_room = 0.0;  ///< further margin of soles, where one has caught an edge
+  double pressure_margin = 0.0;                       ///< and centres of pressure
+  double toe_room = 0.0;                              ///< further margin of soles, where one has caught an edge
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<EndLimits> limits;       ///< by active end-effector
   Eigen::Vector3d inertia;             ///< in units of mass length^2
@@ -80,8 +80,9 @@ class Problem {
   Eigen::VectorXd start;          ///< x_0 as demanded
 
   /// How far inside edge i of a surface an end-effector's footholds are planned: edge_margin, and the share
-  /// Options::sole_inside of how far its sole, headed as at start or goal, extends towards that edge; for soles toe_room
-  /// as well. Never past the middle of a surface that is too narrow.
+  /// Options::sole_inside of how far its sole, headed anywhere from start to goal, extends towards that edge; for
+  /// soles toe_room as well. Never past the middle of a surface that is too narrow, and with toe_room no further than
+  /// where the end-effector has to stand at the start or the goal.
   double foothold_margin(int l, int surface, int edge) const;
 
   /// Roll, pitch, yaw of a state.

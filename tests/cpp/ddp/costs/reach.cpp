@@ -49,8 +49,8 @@ TEST_CASE("reach and turn of the sole: gradients, at the knot and inside the pha
     const ddp::Pendulum pendulum = pendulum_of(problem);
     REQUIRE(problem.layout.axis_count() == 3);
     check_rows(problem, reach_of(problem), 44, 0.5, 60);
-    for (int l : {0, 3}) check_rows(problem, interior_reach_of(problem, pendulum, l), 45, 0.25, 40);
-    for (double yaw : {-0.4, 1.2}) check_rows(problem, sole_turn_of(problem, pendulum, yaw), 60, 0.25, 40);
+    for (int l : {0, 3}) check_rows(problem, interior_reach_of(problem, pendulum, l), 45, 0.1, 40);
+    for (double yaw : {-0.4, 1.2}) check_rows(problem, sole_turn_of(problem, pendulum, yaw), 60, 0.1, 40);
   }
 }
 
