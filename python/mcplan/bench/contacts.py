@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -19,6 +20,8 @@ from mcplan.errors import InvalidOptions, UnknownScene
 
 if TYPE_CHECKING:
     from mcplan import EndEffector, Plan, PlanResult, Robot, Scene
+
+Outcome = TypeVar("Outcome")
 
 
 @dataclass(frozen=True)
@@ -308,7 +311,7 @@ def compare_speed(
     models: Sequence[str] = ("wrench", "lipm"),
     progress: Callable[[str], None] | None = None,
 ) -> list[dict[str, Any]]:
-    """Times per iteration of two models, on one thread, one after the other on each scene.
+    """Processor times per iteration of two models, on one thread, in turn on each scene.
 
     Args:
         repeats: Solves behind each median.
@@ -344,8 +347,18 @@ def compare_speed(
 
 
 def _iteration_times_ms(scene: Scene, robot: Robot, options: dict[str, Any]) -> tuple[float, float, float]:
-    """An iteration with the sequence free, one of all those of a plan, and the whole plan [ms]."""
-    whole, (found,) = iterations(scene, robot, 1, options)
-    first = searching_iterations(found.report)
-    search, _ = iterations(scene, robot, 1, options | {"max_iterations": first, "restarts": 0})
-    return search.ms, whole.ms, 1e3 * found.report.time_s
+    """An iteration with the sequence free, one of all those of a plan, and the whole plan [ms of the processor]."""
+    (whole, (found,)), share = _with_share(lambda: iterations(scene, robot, 1, options))
+    limits = {"max_iterations": searching_iterations(found.report), "restarts": 0}
+    (search, _), search_share = _with_share(lambda: iterations(scene, robot, 1, options | limits))
+    return search_share * search.ms, share * whole.ms, share * 1e3 * found.report.time_s
+
+
+def _with_share(function: Callable[[], Outcome]) -> tuple[Outcome, float]:
+    """What a function returns, and the share of the wall clock in which this process had a processor, at most 1.
+
+    Reports time by the wall clock; this takes out of it what other processes had meanwhile.
+    """
+    wall, processor = time.perf_counter(), time.process_time()
+    outcome = function()
+    return outcome, min(1.0, (time.process_time() - processor) / (time.perf_counter() - wall))

@@ -148,8 +148,8 @@ CASES: tuple[Case, ...] = (
     ),
 )
 
-#: First weight on the change of the inputs x first guess of the phase durations [s] x how the stiffness enters: around the
-#: defaults, 30 and 0.45 s.
+#: First weight on the change of the inputs x first guess of the phase durations [s] x how the stiffness enters. Its default, a
+#: proximal weight of 30, lies among them; the default durations are shorter, and are those of the plan among the cases.
 SETTINGS: tuple[tuple[float, float, str], ...] = tuple(
     (proximal, duration, stiffness)
     for stiffness in ("mu", "lambda_")

@@ -217,7 +217,7 @@ def _speed(rows: Sequence[dict[str, Any]]) -> Section:
     ]
     median = float(np.median([max(row["ratio"], row["ratio_all"]) for row in rows]))
     notes = [
-        f"At most {RATIO:g} times and {ITERATION_MS:g} ms are demanded. The larger of the two ratios, median of the scenes: "
-        f"{median:.2f}."
+        f"Of the processor, medians. At most {RATIO:g} times and {ITERATION_MS:g} ms are demanded. The larger of the two "
+        f"ratios, median of the scenes: {median:.2f}."
     ]
     return Section("Time of an iteration", head, cells, notes)
