@@ -58,11 +58,23 @@ void snap_pressure(const Problem& problem, int l, int surface, double sole_yaw, 
   std::fill_n(held.begin() + at.pressure(l), count, 1);
 }
 
+/// What torsion an end-effector can have all through phase k, with a little to spare for what the steps still change.
+double least_torsion(const Problem& problem, const Pendulum& pendulum, const Trajectory& t, int k, int l, int surface) {
+  constexpr double kSpare = 0.9;
+  const Vector3d& n = problem.polygons[surface].normal_W();
+  const Vector3d s = problem.layout.line_point(t.x[k], t.u[k], l);
+  std::vector<Instant> instants;
+  make_instants(problem, pendulum, t.x[k], t.u[k], instants);
+  double normal = std::numeric_limits<double>::infinity();
+  for (const Instant& instant : instants) normal = std::min(normal, n.dot(instant.com - s));
+  const double arm = torsion_arm(problem, l, surface);
+  return std::isinf(arm) ? arm : kSpare * arm * pendulum.mu(t.u[k], l) * std::max(normal, 0.0);
+}
+
 /// Bring forces and moments into their bounds and hold those that were outside; free end-effectors have none.
 void snap_forces(const Problem& problem, const Pendulum& pendulum, const ContactSequence& sequence, Trajectory& t,
                  Held& held) {
   const Layout& at = problem.layout;
-  const auto mu = [&](int k, int l) { return pendulum.mu(t.u[k], l); };
   const auto bound = [&](int k, int i, double low, double high) {
     double& value = t.u[k][i];
     if (value > low && value < high) return;
@@ -76,12 +88,8 @@ void snap_forces(const Problem& problem, const Pendulum& pendulum, const Contact
     for (int i = 0; i < at.moment_count(); ++i) {
       const Layout::Moment& m = at.moments()[i];
       const int l = m.end_effector, surface = sequence[k][l];
-      double most = 0.0;
-      if (surface != kFree) most = std::min(m.most, moment_per_stiffness(problem, l, surface) * mu(k, l));
-      // Three moments stand for one about a normal that the dynamics do not know: none is given then.
-      if (problem.model == Model::wrench && surface != kFree &&
-          std::abs(m.direction_W.dot(problem.polygons[surface].normal_W())) < 1.0 - 1e-9)
-        most = 0.0;
+      const bool possible = surface != kFree && about_normal(problem, m, surface);
+      const double most = possible ? std::min(m.most, least_torsion(problem, pendulum, t, k, l, surface)) : 0.0;
       bound(k, at.moment(i), -most, most);
     }
   }

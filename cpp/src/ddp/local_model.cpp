@@ -32,7 +32,7 @@ void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const Ve
   sole_turn_cost(problem, instants, l, sole_yaw, schedule.interior_weight, rows);
   if (problem.options.friction) friction_cost(problem, x, *u, instants, l, contact, schedule.interior_weight, rows);
   force_cap_cost(problem, pendulum, x, *u, instants, l, schedule.interior_weight, rows);
-  torsion_cost(problem, pendulum, *u, l, contact, schedule.interior_weight, rows);
+  torsion_cost(problem, pendulum, x, *u, instants, l, contact, schedule.interior_weight, rows);
 }
 
 namespace {

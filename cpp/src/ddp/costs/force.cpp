@@ -73,42 +73,46 @@ void force_cap_cost(const Problem& problem, const Pendulum& pendulum, const Vect
   }
 }
 
-double moment_per_stiffness(const Problem& problem, int l, int surface) {
+double torsion_arm(const Problem& problem, int l, int surface) {
   const double friction = problem.friction[surface];
   // Point contacts have no sole to judge by; their max_moment alone counts.
   if (std::isinf(friction) || problem.limits[l].half_width <= 0.0) return std::numeric_limits<double>::infinity();
-  // The force's normal part is mu_l times the CoM's height above the plane, which may sink well below nominal.
-  constexpr double kLowestHeight = 0.6;
-  return kLowestHeight * std::min(friction, 1.0) * problem.limits[l].half_width;
+  return std::min(friction, 1.0) * problem.limits[l].half_width;
 }
 
-void torsion_cost(const Problem& problem, const Pendulum& pendulum, const VectorXd& u, int l, int surface,
-                  double weight, Rows& rows) {
+bool about_normal(const Problem& problem, const Layout::Moment& moment, int surface) {
+  constexpr double kAlong = 1.0 - 1e-9;
+  return problem.model == Model::lipm ||
+         std::abs(moment.direction_W.dot(problem.polygons[surface].normal_W())) >= kAlong;
+}
+
+void torsion_cost(const Problem& problem, const Pendulum& pendulum, const VectorXd& x, const VectorXd& u,
+                  const std::vector<Instant>& instants, int l, int surface, double weight, Rows& rows) {
   const Layout& at = problem.layout;
   rows.begin(Term::bounds);
-  const double ratio = moment_per_stiffness(problem, l, surface);
+  const double arm = torsion_arm(problem, l, surface), mu = pendulum.mu(u, l);
   const Vector3d& n = problem.polygons[surface].normal_W();
-  const bool any_direction = problem.model == Model::wrench;
+  const Vector3d s = at.line_point(x, u, l);
   for (int i = 0; i < at.moment_count(); ++i) {
     const Layout::Moment& m = at.moments()[i];
     if (m.end_effector != l) continue;
     const double moment = u[at.moment(i)];
     // Moments that are not about this surface's normal are what the centre of pressure does.
-    constexpr double kAlong = 1.0 - 1e-9;
-    if (any_direction && std::abs(m.direction_W.dot(n)) < kAlong) {
+    if (!about_normal(problem, m, surface)) {
       rows.add_single(problem.options.weights.limit, moment, at.nx() + at.moment(i));
       continue;
     }
-    if (std::isinf(ratio)) continue;
-    const double beyond = std::abs(moment) - ratio * pendulum.mu(u, l);
-    if (beyond <= 0.0) continue;
-    if (!rows.with_gradient()) {
-      rows.add_value(weight, beyond);
-      continue;
+    if (std::isinf(arm)) continue;
+    const double sign = moment > 0.0 ? 1.0 : -1.0;
+    for (const Instant& instant : instants) {
+      const double normal = n.dot(instant.com - s), beyond = std::abs(moment) - arm * mu * normal;
+      if (beyond <= 0.0) continue;
+      add_along_direction(problem, instant, l, weight, beyond, -arm * mu * n, rows);
+      if (!rows.with_gradient()) continue;
+      auto g = rows.last_gradient();
+      g[at.nx() + at.moment(i)] += sign;
+      g[at.nx() + at.stiffness(l)] -= arm * normal * stiffness_slope(problem, u, l);
     }
-    auto g = rows.add_dense(weight, beyond);
-    g[at.nx() + at.moment(i)] = moment > 0.0 ? 1.0 : -1.0;
-    g[at.nx() + at.stiffness(l)] = -ratio * stiffness_slope(problem, u, l);
   }
 }
 

@@ -106,13 +106,15 @@ void friction_cost(const Problem& problem, const Eigen::VectorXd& x, const Eigen
 void force_cap_cost(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x,
                     const Eigen::VectorXd& u, const std::vector<Instant>& instants, int l, double weight, Rows& rows);
 
-/// Largest contact moment per stiffness [length^2]: what friction under the sole and the sole's half width can bear of
-/// a force that carries the CoM at about its nominal height. Infinite for moments that nothing bears down on (grasp).
-double moment_per_stiffness(const Problem& problem, int l, int surface);
+/// What friction under a sole makes of its force: largest moment about the normal per normal force [length], with the
+/// sole's half width for a lever. Infinite for moments that nothing bears down on (grasp, points).
+double torsion_arm(const Problem& problem, int l, int surface);
 
-/// |tau_l| <= moment_per_stiffness mu_l: a foot that hardly presses cannot twist; with Model::wrench no moment but
-/// about the surface's normal. Not in the paper.
-void torsion_cost(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& u, int l, int surface,
-                  double weight, Rows& rows);
+/// Whether a moment input is one that a contact with this surface can have: with Model::wrench about its normal alone.
+bool about_normal(const Problem& problem, const Layout::Moment& moment, int surface);
+
+/// |tau_l| <= torsion_arm mu_l n.(p - s_l) at every instant: a foot that hardly presses cannot twist. Not in the paper.
+void torsion_cost(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x, const Eigen::VectorXd& u,
+                  const std::vector<Instant>& instants, int l, int surface, double weight, Rows& rows);
 
 }  // namespace mcplan::ddp
