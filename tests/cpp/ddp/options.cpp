@@ -85,7 +85,6 @@ TEST_CASE("every weight must be a number that is not negative") {
 
 TEST_CASE("numbers with a range of their own") {
   for (double bad : {0.0, -1.0, kNan, kInf}) {
-    CHECK(refused([&](Options& o) { o.duration_initial_s = bad; }) == "duration_initial_s");
     CHECK(refused([&](Options& o) { o.proximal_weight = bad; }) == "proximal_weight");
     CHECK(refused([&](Options& o) { o.weights.contact_min = bad; }) == "weights.contact_min");
     CHECK(refused([&](Options& o) { o.weights.contact_max = bad; }) == "weights.contact_max");
@@ -93,7 +92,11 @@ TEST_CASE("numbers with a range of their own") {
     CHECK(refused([&](Options& o) { o.weights.center_of_pressure = bad; }) == "weights.center_of_pressure");
     CHECK(refused([&](Options& o) { o.weights.force_line = bad; }) == "weights.force_line");
   }
-  for (double bad : {-1.0, kNan, kInf}) CHECK(refused([&](Options& o) { o.duration_min_s = bad; }) == "duration_min_s");
+  for (double bad : {-1.0, kNan, kInf}) {
+    CHECK(refused([&](Options& o) { o.duration_min_s = bad; }) == "duration_min_s");
+    CHECK(refused([&](Options& o) { o.duration_initial_s = bad; }) == "duration_initial_s");
+  }
+  for (double middle : {0.0, 0.3}) CHECK(refused([&](Options& o) { o.duration_initial_s = middle; }) == "accepted");
   for (double bad : {0.1, -1.0, kNan, kInf})
     CHECK(refused([&](Options& o) { o.duration_min_s = 0.2, o.duration_max_s = bad; }) == "duration_max_s");
   for (double robots : {0.0, 0.3}) CHECK(refused([&](Options& o) { o.duration_min_s = robots; }) == "accepted");

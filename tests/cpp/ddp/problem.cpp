@@ -97,11 +97,8 @@ TEST_CASE("soles that know several planes have all directions; points neither pr
     CHECK(at.moments()[i].end_effector == i / 3);
     CHECK(at.moments()[i].direction_W == Vector3d::Unit(i % 3));
   }
-  for (int l : {2, 3}) {
-    CHECK(at.pressure_count(l) == 0);
-    CHECK(at.offsets(l).force_line == Eigen::Matrix3d::Identity());  // beside the CoM
-  }
-  CHECK(at.nu() == 2 * (3 + 1 + 3 + 2 + 3) + 2 * (3 + 1 + 0 + 3 + 0) + 1);
+  for (int l : {2, 3}) CHECK(at.pressure_count(l) == 0);
+  CHECK(at.nu() == 2 * (3 + 1 + 3 + 2 + 3) + 2 * (3 + 1) + at.force_line_count(2) + at.force_line_count(3) + 1);
   // Every input has its own place.
   std::vector<int> used(at.nu(), 0);
   const auto use = [&](int first, int count) {
@@ -113,6 +110,31 @@ TEST_CASE("soles that know several planes have all directions; points neither pr
   }
   use(at.moment(), at.moment_count()), use(at.duration(), 1);
   CHECK(used == std::vector<int>(at.nu(), 1));
+}
+
+TEST_CASE("the line of force goes anywhere where surfaces are met at an angle") {
+  const Problem rail(scenes::gap_with_rail(), scenes::humanoid44(), phases(18));
+  for (int hand : {2, 3}) CHECK(rail.layout.offsets(hand).force_line == Eigen::Matrix3d::Identity());
+  mcplan::Scene walls = gap_with_walls();
+  for (int i : {2, 3}) walls.surfaces[i].end_effectors = {"foot"};
+  const Problem chimney(walls, scenes::humanoid44(), phases(18));
+  for (int foot : {0, 1}) CHECK(chimney.layout.offsets(foot).force_line == Eigen::Matrix3d::Identity());
+}
+
+TEST_CASE("phases are first guessed in the middle of their box, in the paper's model at its author's 0.45 s") {
+  mcplan::Robot robot = scenes::humanoid44();
+  robot.phase_duration = {0.2, 0.5};
+  for (Model model : kModels) {
+    Options options = phases(18, model);
+    const auto initial_s = [&] {
+      const Problem problem(scenes::flat(), robot, options);
+      CHECK(problem.initial_guess({}).u[3][problem.layout.duration()] == problem.duration_initial);
+      return problem.duration_initial * problem.units.time;
+    };
+    CHECK(initial_s() == doctest::Approx(model == Model::wrench ? 0.35 : 0.45));
+    options.duration_initial_s = 0.3;
+    CHECK(initial_s() == doctest::Approx(0.3));
+  }
 }
 
 TEST_CASE("a robot that cannot twist has no moments") {
