@@ -51,7 +51,7 @@ void snap_pressure(const Problem& problem, int l, int surface, double sole_yaw, 
   if (count == 0) return;
   const Eigen::Matrix3d sole = problem.sole_frame(surface, sole_yaw);
   const Eigen::Vector2d offset = sole.leftCols<2>().transpose() * at.pressure_offset(u, l);
-  const Eigen::Vector2d& half = problem.limits[l].half_size;
+  const Eigen::Vector2d& half = problem.limits[l].pressure_half;
   const Eigen::Vector2d on_sole = offset.cwiseMax(-half).cwiseMin(half);
   if (count == 2 && on_sole == offset) return;
   u.segment(at.pressure(l), count) = at.offsets(l).pressure.transpose() * (sole.leftCols<2>() * on_sole);

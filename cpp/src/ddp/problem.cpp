@@ -50,7 +50,8 @@ Matrix3Xd force_line_directions(const Vector3d& nominal, const std::vector<Polyg
   const bool facing = std::all_of(surfaces.begin(), surfaces.end(), [&](int i) {
     return std::abs(polygons[i].normal_W().dot(nominal)) > kFacing * nominal.norm();
   });
-  return Eigen::Matrix3d::Identity().leftCols(facing ? 2 : 3);
+  // The two are level: those of an end-effector that hangs down.
+  return Eigen::Matrix3d::Identity().leftCols(facing && std::abs(nominal.z()) > kFacing * nominal.norm() ? 2 : 3);
 }
 
 Layout wrench_layout(const std::vector<EndLimits>& limits, const std::vector<Polygon>& polygons,
@@ -168,6 +169,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     l.force_max = std::min(end.max_force / units.force(), 10.0);
     l.half_size = end.half_size / units.length;
     l.half_width = l.half_size.minCoeff();
+    l.pressure_half = robot.pressure_share * l.half_size;
     l.moment_max = end.max_moment / units.moment();
     // The paper's model knows no headings of soles.
     const bool turns = model == Model::wrench;
@@ -220,6 +222,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     goal_contacts.push_back(to.contacts[e]);
   }
   make_reference(state_of(to));
+  make_slack();
 }
 
 /// A sole that finds no room is kept to the middle of its surface, down to this share of the width from either edge,
@@ -228,15 +231,31 @@ constexpr double kNarrow = 0.35;
 
 double Problem::foothold_margin(int l, int surface, int edge) const {
   const double margin = foothold_margins_[l][surface][edge];
-  if (toe_room == 0.0 || limits[l].half_width == 0.0) return margin + edge_margin;
-  // Nor further in than where the end-effector has to stand at the start or the goal.
-  double most = narrow_[surface][edge];
-  const auto stands = [&](const ContactState& contacts, const VectorXd& x) {
-    if (contacts[l] == surface) most = std::min(most, -polygons[surface].overshoot(edge, x.segment<3>(layout.end(l))));
-  };
-  stands(start_contacts, start);
-  stands(goal_contacts, reference.x.back());
-  return std::max(margin, std::min(margin + toe_room, most - edge_margin)) + edge_margin;
+  double further = margin + edge_margin;
+  if (toe_room > 0.0 && limits[l].half_width > 0.0)
+    further = std::max(further, std::min(margin + toe_room, narrow_[surface][edge]) + edge_margin);
+  return std::max(margin, std::min(further, slack_[l][surface][edge]));
+}
+
+/// How far inside each edge the end-effectors have to stand at the start and at the goal: no margin may ask for more.
+void Problem::make_slack() {
+  slack_.clear();
+  for (int l = 0; l < layout.ends(); ++l) {
+    std::vector<std::vector<double>>& of_end = slack_.emplace_back();
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+      std::vector<double>& of_surface = of_end.emplace_back();
+      for (int edge = 0; edge < polygons[i].edge_count(); ++edge) {
+        double slack = std::numeric_limits<double>::infinity();
+        const auto stands = [&](const ContactState& contacts, const VectorXd& x) {
+          if (contacts[l] == static_cast<int>(i))
+            slack = std::min(slack, std::max(0.0, -polygons[i].overshoot(edge, x.segment<3>(layout.end(l)))));
+        };
+        stands(start_contacts, start);
+        stands(goal_contacts, reference.x.back());
+        of_surface.push_back(slack);
+      }
+    }
+  }
 }
 
 void Problem::make_foothold_margins(double start_yaw, double goal_yaw) {
@@ -274,16 +293,15 @@ void Problem::make_foothold_margins(double start_yaw, double goal_yaw) {
   }
 }
 
-/// As many steps as the end-effectors that stand need to cover the way one after the other, a swing and a phase of full
-/// support each; at least the paper's 18. The stride is what the reach box allows, in the paper's model inside the
-/// friction cone, since forces point at the CoM there.
+/// As many steps as the end-effectors that stand need to cover the way, level and up, one after the other, a swing and
+/// a phase of full support each; at least the paper's 18. The stride is what the reach box allows, in the paper's model
+/// inside the friction cone, since forces point at the CoM there.
 int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const {
   constexpr int kPaper = 18, kMost = 400;
-  int movers = 0, strides = 0;
+  double strides = 0.0;
   for (std::size_t l = 0; l < active.size(); ++l) {
     const int e = active[l];
     if (from.contacts[e] == kFree || to.contacts[e] == kFree) continue;
-    ++movers;
     double tangent = 0.0;
     for (int surface : rules.surfaces(static_cast<int>(l))) tangent = std::max(tangent, friction[surface]);
     const EndLimits& limit = limits[l];
@@ -292,10 +310,12 @@ int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& t
                              ? std::numeric_limits<double>::infinity()
                              : std::sqrt(std::max(spread * spread - limit.nominal.y() * limit.nominal.y(), 0.0));
     const double stride = std::min(limit.reach_max.x(), ahead) - std::max(limit.reach_min.x(), -ahead);
-    const double way = (to.end_effectors_W[e] - from.end_effectors_W[e]).head<2>().norm() / units.length;
-    if (stride > 0.0) strides = std::max(strides, static_cast<int>(std::ceil(std::min(way / stride - 1e-9, 1e3))));
+    const Vector3d way = (to.end_effectors_W[e] - from.end_effectors_W[e]) / units.length;
+    const double level = stride > 0.0 ? way.head<2>().norm() / stride : 0.0;
+    const double up = std::abs(way.z()) / (limit.reach_max.z() - limit.reach_min.z());
+    strides += std::ceil(std::min(std::max(level, up) - 1e-9, 1e3));
   }
-  return std::clamp(2 * movers * strides + 2, kPaper, kMost);
+  return std::clamp(2 * static_cast<int>(strides) + 2, kPaper, kMost);
 }
 
 /// Cubic from start to goal, at rest at both ends (Tazaki, sec. III-A), tied to the step index. End-effectors keep
@@ -450,6 +470,7 @@ void Problem::set_start(const Knot& measured, const ContactState& contacts) {
   make_reference(goal);
   start = measured_start;
   reference.x.front() = start;
+  make_slack();
 }
 
 }  // namespace mcplan::ddp

@@ -201,7 +201,7 @@ Status Search::polish(Incumbent& now, int iterations, double calm, double give_u
     status = iterate(now, schedule, false);
     if (status != Status::solved) return status;
     const double merit = now.evaluation.merit();
-    calm_iterations = last - merit < calm * std::abs(merit) ? calm_iterations + 1 : 0;
+    calm_iterations = std::abs(last - merit) < calm * std::abs(merit) ? calm_iterations + 1 : 0;
     if (calm_iterations >= 3 && now.evaluation.defect_max < 1e-4) return Status::solved;
     // Progress comes in bursts, so it is judged over several iterations.
     constexpr int kWindow = 5;

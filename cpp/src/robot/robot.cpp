@@ -100,6 +100,8 @@ void Robot::validate() const {
   require_durations(phase_duration);
   if (!(sole_support >= 0.0 && sole_support <= 1.0))
     throw InvalidRobot("sole_support", "must lie in [0, 1]", text(sole_support));
+  if (!(pressure_share > 0.0 && pressure_share <= 1.0))
+    throw InvalidRobot("pressure_share", "must lie in (0, 1]", text(pressure_share));
   if (end_effectors.empty()) throw InvalidRobot("end_effectors", "needs at least one end-effector", "none");
   if (end_effectors.size() > 8)
     throw InvalidRobot("end_effectors", "may be 8 at most", text(static_cast<int>(end_effectors.size())));

@@ -591,6 +591,7 @@ class Robot:
         swing_height: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         phase_duration: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
         sole_support: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        pressure_share: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         end_effectors: collections.abc.Sequence[EndEffector] = [],
         urdf: str = "",
         posture: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {},
@@ -647,6 +648,13 @@ class Robot:
         """
     @posture.setter
     def posture(self, arg1: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
+    @property
+    def pressure_share(self) -> float:
+        """
+        Share of a sole's half size within which a plan keeps the centre of pressure.
+        """
+    @pressure_share.setter
+    def pressure_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def sole_support(self) -> float:
         """

@@ -7,13 +7,27 @@ import collections.abc
 import mcplan._core
 import typing
 
-__all__: list[str] = ["Method", "Options", "StiffnessInput", "SwitchedDdp", "Weights"]
+__all__: list[str] = ["Method", "Model", "Options", "StiffnessInput", "SwitchedDdp", "Weights"]
 
 class Weights:
     """
     Weights w of the cost terms 1/2 w^2 e^2 (Tazaki, Table I), for non-dimensional quantities: length in CoM heights, time in sqrt(height / gravity), mass 1.
     """
     def __init__(self) -> None: ...
+    @property
+    def angle(self) -> float:
+        """
+        On the base's angles inside, of Model.wrench.
+        """
+    @angle.setter
+    def angle(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def center_of_pressure(self) -> float:
+        """
+        On the distance of the acting force from the end-effector, of Model.wrench.
+        """
+    @center_of_pressure.setter
+    def center_of_pressure(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def com(self) -> float: ...
     @com.setter
@@ -76,6 +90,13 @@ class Weights:
     @flight.setter
     def flight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def force_line(self) -> float:
+        """
+        On the distance from there to the line that points at the CoM, of Model.wrench; very large: the paper's forces.
+        """
+    @force_line.setter
+    def force_line(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def limit(self) -> float:
         """
         Reach, stiffness, moment, force, friction, duration.
@@ -87,6 +108,13 @@ class Weights:
     @moment.setter
     def moment(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def momentum(self) -> float:
+        """
+        On the angular momentum inside, of Model.wrench.
+        """
+    @momentum.setter
+    def momentum(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def overshoot_factor(self) -> float:
         """
         On leaving a polygon sideways, at least 1.
@@ -94,7 +122,10 @@ class Weights:
     @overshoot_factor.setter
     def overshoot_factor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def rotation(self) -> float: ...
+    def rotation(self) -> float:
+        """
+        On the base's angles and rates, inside for Model.lipm alone.
+        """
     @rotation.setter
     def rotation(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
@@ -146,6 +177,41 @@ class Method:
     def __int__(self) -> int: ...
     @typing.overload
     def __ne__(self, other: Method) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class Model:
+    """
+    What a contact can do.
+
+    Members:
+
+      wrench : Forces act within the sole and need not point at the CoM: angular momentum, turning, friction as it is.
+
+      lipm : The paper's: forces act at the end-effector and point at the CoM.
+    """
+
+    __members__: typing.ClassVar[dict[str, Model]]
+    lipm: typing.ClassVar[Model]
+    wrench: typing.ClassVar[Model]
+    @typing.overload
+    def __eq__(self, other: Model) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Model) -> bool: ...
     @typing.overload
     def __ne__(self, other: typing.Any) -> bool: ...
     def __repr__(self) -> str: ...
@@ -209,7 +275,7 @@ class Options:
     @property
     def duration_initial_s(self) -> float:
         """
-        [s]
+        First guess of all phases [s]; 0: the middle of their box, 0.45 for Model.lipm.
         """
     @duration_initial_s.setter
     def duration_initial_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -242,6 +308,13 @@ class Options:
     @friction.setter
     def friction(self, arg0: bool) -> None: ...
     @property
+    def friction_sides(self) -> int:
+        """
+        Sides of the pyramid inside the cone that is held instead of it; 0: the cone itself.
+        """
+    @friction_sides.setter
+    def friction_sides(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
     def initial_sequence(self) -> list[list[int]]:
         """
         phases + 1 rows: surface index per end-effector, -1 free. Empty: searched for.
@@ -271,6 +344,13 @@ class Options:
         """
     @max_iterations.setter
     def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def model(self) -> Model:
+        """
+        Method.paper always takes Model.lipm.
+        """
+    @model.setter
+    def model(self, arg0: Model) -> None: ...
     @property
     def phases(self) -> int:
         """

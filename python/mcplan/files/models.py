@@ -129,6 +129,9 @@ class RobotModel(Table):
     sole_support: Annotated[float, Field(ge=0, le=1)] = Field(
         0.0, description="[-] Share of a sole that a contact sequence keeps on its surface; 0: its centre."
     )
+    pressure_share: Annotated[float, Field(gt=0, le=1)] = Field(
+        1.0, description="[-] Share of a sole's half size within which a plan keeps the centre of pressure."
+    )
     urdf: str = Field("", description='Path, or "example-robot-data:NAME".')
     posture: dict[Name, Number] = Field({}, description="[rad] Nominal joint positions by URDF joint name.")
     end_effectors: list[EndEffectorModel] = Field(min_length=1, max_length=8)

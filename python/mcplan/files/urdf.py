@@ -29,6 +29,8 @@ GRAVITY = 9.81
 HAND_INSET_M = 0.03  # of a hand's nominal position in its box: an arm hanging down is at the edge of what it reaches
 SOLE_FRICTION = 0.7  # surfaces' default; half of it is left for forces along the ground
 PHASE_DURATION = (0.3, 0.6)  # [s] of robots with soles: legs of such a weight follow no shorter swing
+#: Share of a sole for the planned centre of pressure: swinging legs need the rest, g1 fell without it.
+PRESSURE_SHARE = 0.75
 _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
 
@@ -42,8 +44,8 @@ HEADER = (
     "more, at the height of standing. yaw_range: how far inverse kinematics turns the sole about the vertical, at the "
     "nominal position and half way to every corner of the box, at most {heading}. A hand's nominal position is moved "
     "{inset} m into its box. max_moment of soles: 2/3 x {friction} x half the weight x the shorter half side, the "
-    "torsion of a disc by half the friction of {full}. phase_duration and sole_support: what legs can follow and whole "
-    "soles stand on."
+    "torsion of a disc by half the friction of {full}. phase_duration, sole_support and pressure_share: what legs "
+    "can follow, whole soles on their surface, and room under them for what swinging limbs ask of a controller."
 )
 
 
@@ -126,6 +128,7 @@ def robot_from_urdf(
         swing_height=setup.swing_height if setup else swing_height,
         phase_duration=PHASE_DURATION if any(any(end.half_size) for end in ends) else Robot().phase_duration,
         sole_support=1.0 if any(any(end.half_size) for end in ends) else 0.0,
+        pressure_share=PRESSURE_SHARE if any(any(end.half_size) for end in ends) else 1.0,
         end_effectors=[_end_effector(end, _same_strength(able, end), weight) for end in ends],
         urdf=urdf,
         posture={

@@ -31,7 +31,7 @@ void check_exact(const Problem& problem, const Incumbent& now) {
         continue;
       }
       const Eigen::Matrix3d sole = problem.sole_frame(surface, now.trajectory.sole_yaw[k][l]);
-      for (int i : {0, 1}) CHECK(std::abs(sole.col(i).dot(pressure)) <= problem.limits[l].half_size[i] + 1e-14);
+      for (int i : {0, 1}) CHECK(std::abs(sole.col(i).dot(pressure)) <= problem.limits[l].pressure_half[i] + 1e-14);
       CHECK(std::abs(sole.col(2).dot(pressure)) <= 1e-14);
       CHECK(pendulum.mu(u, l) >= 0.0);
       const Vector3d foot = x.segment<3>(at.end(l));
@@ -46,7 +46,9 @@ void check_exact(const Problem& problem, const Incumbent& now) {
       const Vector3d& about = at.moments()[i].direction_W;
       const int surface = now.sequence[k][l];
       if (surface != kFree && (problem.model == Model::lipm || about.dot(problem.polygons[surface].normal_W()) > 0.999))
-        most = std::min(at.moments()[i].most, moment_per_stiffness(problem, l, surface) * pendulum.mu(u, l));
+        most = std::min(at.moments()[i].most,
+                        torsion_arm(problem, l, surface) * pendulum.mu(u, l) *
+                            problem.polygons[surface].normal_W().dot(x.segment<3>(at.com()) - at.line_point(x, u, l)));
       CHECK(std::abs(u[at.moment(i)]) <= most);
     }
   }

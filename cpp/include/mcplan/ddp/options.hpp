@@ -34,7 +34,7 @@ struct Weights {
   double rotation = 100.0, rotation_end = 100.0;         ///< w_theta, w_omega; inside, of Model::lipm alone
   double angle = 1.0;                                    ///< on the base's angles inside, of Model::wrench
   double momentum = 0.3;                                 ///< on the angular momentum inside, likewise
-  double center_of_pressure = 0.3;                       ///< on c_l, from the end-effector to where its force acts
+  double center_of_pressure = 0.5;                       ///< on c_l, from the end-effector to where its force acts
   double force_line = 0.3;                               ///< on r_l, from there to the line that points at the CoM
   double end_effector = 0.01, end_effector_end = 100.0;  ///< w_p,l: not in Table I; the value of the author's program
   double stride = 0.01;                                  ///< on the end-effector's travel within a phase, likewise

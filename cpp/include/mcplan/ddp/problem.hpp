@@ -37,8 +37,9 @@ struct Trajectory {
 struct EndLimits {
   Eigen::Vector3d nominal, reach_min, reach_max;
   double force_max = 0.0;
-  Eigen::Vector2d half_size{0.0, 0.0};  ///< half length and half width of the sole
-  double half_width = 0.0;              ///< the shorter of the two
+  Eigen::Vector2d half_size{0.0, 0.0};      ///< half length and half width of the sole
+  Eigen::Vector2d pressure_half{0.0, 0.0};  ///< and of the part of it that holds the centre of pressure
+  double half_width = 0.0;                  ///< the shorter of the two
   Eigen::Vector3d moment_max;
   double yaw_min = 0.0, yaw_max = 0.0;  ///< [rad] of the sole against the base
 };
@@ -110,8 +111,10 @@ class Problem {
 
  private:
   std::vector<std::vector<std::vector<double>>> foothold_margins_;  // by active end-effector, surface, edge
+  std::vector<std::vector<std::vector<double>>> slack_;             // likewise: how far in it has to stand
   std::vector<std::vector<double>> narrow_;                         // by surface, edge: the widest margin there can be
 
+  void make_slack();
   void make_foothold_margins(double start_yaw, double goal_yaw);
   int automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const;
   void make_reference(const Eigen::VectorXd& goal);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <string>
@@ -16,7 +17,9 @@ namespace mcplan::ddp {
 /// Wall clock of a solve, shared by all its attempts.
 class Deadline {
  public:
-  explicit Deadline(double limit_s) : start_(std::chrono::steady_clock::now()), limit_s_(limit_s) {}
+  /// `finishing_s`: what making a plan exact and checking it will take, left free at the end (half the limit at most).
+  explicit Deadline(double limit_s, double finishing_s = 0.0)
+      : start_(std::chrono::steady_clock::now()), limit_s_(limit_s - std::min(finishing_s, 0.5 * limit_s)) {}
   double elapsed_s() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   bool passed() const { return elapsed_s() >= limit_s_; }
 

@@ -51,6 +51,7 @@ struct Robot {
   double swing_height = 0.10;                         ///< [m] clearance of a swinging end-effector
   Eigen::Vector2d phase_duration{0.15, 0.50};         ///< [s] shortest and longest phase of a contact sequence
   double sole_support = 0.0;                          ///< share of a sole that a contact sequence keeps on its surface
+  double pressure_share = 1.0;  ///< share of a sole's half size within which a plan keeps the centre of pressure
   std::vector<EndEffector> end_effectors;
   std::string urdf;                       ///< path, or "example-robot-data:NAME"; empty: none
   std::map<std::string, double> posture;  ///< nominal joint positions [rad] by URDF joint name

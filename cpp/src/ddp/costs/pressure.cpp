@@ -25,7 +25,7 @@ void pressure_cost(const Problem& problem, const VectorXd& x, const VectorXd& u,
   };
   const Eigen::Matrix3d sole = problem.sole_frame(surface, sole_yaw);
   for (int i = 0; i < 2; ++i) {
-    const double along = sole.col(i).dot(offset), half = problem.limits[l].half_size[i];
+    const double along = sole.col(i).dot(offset), half = problem.limits[l].pressure_half[i];
     if (std::abs(along) > half)
       add(problem.options.weights.limit, along > 0 ? along - half : along + half, sole.col(i), false);
   }

@@ -46,7 +46,7 @@ void task_cost(const Problem& problem, int k, const Eigen::VectorXd& x, const Ei
   }
   for (int l = 0; l < at.ends(); ++l) {
     for (int i = 0; i < at.pressure_count(l); ++i)
-      rows.add_single(stiffer * w.center_of_pressure, (*u)[at.pressure(l) + i], at.nx() + at.pressure(l) + i);
+      rows.add_single(w.center_of_pressure, (*u)[at.pressure(l) + i], at.nx() + at.pressure(l) + i);
     for (int i = 0; i < at.force_line_count(l); ++i)
       rows.add_single(stiffer * w.force_line, (*u)[at.force_line(l) + i], at.nx() + at.force_line(l) + i);
   }
