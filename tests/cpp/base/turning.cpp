@@ -65,6 +65,11 @@ double difference_error(const Matrix3d& jacobian, const Vector3d& x,
   return worst;
 }
 
+Vector3d turned_rpy(const Vector3d& rpy, const Vector3d& begin, const Vector3d& middle, const Vector3d& end,
+                    const Vector3d& inertia, double h) {
+  return mcplan::Turning(rpy, begin, inertia).rpy(middle, end, h);
+}
+
 }  // namespace
 
 TEST_CASE("rates of the angles turn the rotation as the momentum asks") {
@@ -102,24 +107,20 @@ TEST_CASE("derivatives of a turn are its differences, of all that it depends on"
     const Vector3d rpy = random.vector(1.0), begin = random.vector(3.0), middle = random.vector(3.0),
                    end = random.vector(3.0);
     const double h = 0.1 + 0.004 * i;
-    mcplan::Turned out;
-    mcplan::turn(rpy, begin, middle, end, kInertia, h, out);
-    CHECK(out.rpy == mcplan::turned_rpy(rpy, begin, middle, end, kInertia, h));
-    CHECK(difference_error(out.d_rpy, rpy, [&](const Vector3d& x) {
-            return mcplan::turned_rpy(x, begin, middle, end, kInertia, h);
-          }) < 1e-8);
-    CHECK(difference_error(out.d_begin, begin, [&](const Vector3d& x) {
-            return mcplan::turned_rpy(rpy, x, middle, end, kInertia, h);
-          }) < 1e-8);
-    CHECK(difference_error(out.d_middle, middle, [&](const Vector3d& x) {
-            return mcplan::turned_rpy(rpy, begin, x, end, kInertia, h);
-          }) < 1e-8);
-    CHECK(difference_error(out.d_end, end, [&](const Vector3d& x) {
-            return mcplan::turned_rpy(rpy, begin, middle, x, kInertia, h);
-          }) < 1e-8);
+    mcplan::Turning::Derivatives out;
+    mcplan::Turning(rpy, begin, kInertia).differentiate(middle, end, h, out);
+    CHECK(out.rpy == turned_rpy(rpy, begin, middle, end, kInertia, h));
+    CHECK(difference_error(out.d_rpy, rpy,
+                           [&](const Vector3d& x) { return turned_rpy(x, begin, middle, end, kInertia, h); }) < 1e-8);
+    CHECK(difference_error(out.d_begin, begin,
+                           [&](const Vector3d& x) { return turned_rpy(rpy, x, middle, end, kInertia, h); }) < 1e-8);
+    CHECK(difference_error(out.d_middle, middle,
+                           [&](const Vector3d& x) { return turned_rpy(rpy, begin, x, end, kInertia, h); }) < 1e-8);
+    CHECK(difference_error(out.d_end, end,
+                           [&](const Vector3d& x) { return turned_rpy(rpy, begin, middle, x, kInertia, h); }) < 1e-8);
     const double dt = 1e-6;
-    const Vector3d by_time = (mcplan::turned_rpy(rpy, begin, middle, end, kInertia, h + dt) -
-                              mcplan::turned_rpy(rpy, begin, middle, end, kInertia, h - dt)) /
+    const Vector3d by_time = (turned_rpy(rpy, begin, middle, end, kInertia, h + dt) -
+                              turned_rpy(rpy, begin, middle, end, kInertia, h - dt)) /
                              (2 * dt);
     CHECK((out.d_duration - by_time).norm() < 1e-8);
   }
@@ -128,7 +129,7 @@ TEST_CASE("derivatives of a turn are its differences, of all that it depends on"
 TEST_CASE("a turn about one principal axis is L t / I, however far") {
   for (int axis : {0, 2}) {
     const Vector3d momentum = 20.0 * Vector3d::Unit(axis);
-    const Vector3d turned = mcplan::turned_rpy(Vector3d::Zero(), momentum, momentum, momentum, kInertia, 0.5);
+    const Vector3d turned = turned_rpy(Vector3d::Zero(), momentum, momentum, momentum, kInertia, 0.5);
     CHECK((turned - 0.5 * momentum.cwiseQuotient(kInertia)).norm() < 1e-13);
   }
 }
@@ -142,7 +143,7 @@ TEST_CASE("a turn of a radian a second is that of a fine integration on the rota
                    bend = random.vector(1.0);
     const auto momentum = [&](double t) -> Vector3d { return offset + t * slope + t * t * bend; };
     const auto error = [&](double h) {
-      const Vector3d turned = mcplan::turned_rpy(rpy, momentum(0), momentum(h / 2), momentum(h), kInertia, h);
+      const Vector3d turned = turned_rpy(rpy, momentum(0), momentum(h / 2), momentum(h), kInertia, h);
       return angle_between(turned_finely(rpy, momentum, h, 4000), mcplan::rotation_from_rpy(turned));
     };
     CHECK(error(0.5) < 3e-4);
@@ -162,7 +163,7 @@ TEST_CASE("a body that tumbles freely keeps its energy") {
   Vector3d rpy(0.2, -0.1, 0.4);
   const double before = energy(rpy);
   for (int i = 0; i < 10; ++i) {
-    rpy = mcplan::turned_rpy(rpy, momentum, momentum, momentum, kInertia, 0.1);
+    rpy = turned_rpy(rpy, momentum, momentum, momentum, kInertia, 0.1);
     CHECK(energy(rpy) == doctest::Approx(before).epsilon(1e-5));
   }
   CHECK(rpy.norm() > 0.5);

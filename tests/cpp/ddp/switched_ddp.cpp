@@ -286,9 +286,9 @@ TEST_CASE("a warm start from a solved plan keeps its sequence and takes fewer it
 
 TEST_CASE("replanning starts from the measured state and arrives") {
   const PlanResult& before = solved("flat");
-  for (double share : {0.3, 0.62}) {
-    CAPTURE(share);
-    const double t = share * before.plan.duration();
+  for (int phase : {5, 11}) {
+    CAPTURE(phase);
+    const double t = before.plan.knot_times()[phase] + 0.6 * before.plan.phases[phase].duration;
     const mcplan::PlanState now = before.plan.at(t);
     mcplan::Knot measured;
     measured.com_W = now.com_W + Eigen::Vector3d(0.004, -0.003, 0.002);
