@@ -27,6 +27,9 @@ G1_SCALE, G1_STAIRS_SCALE = 0.8, 0.65
 #: no jump: its reach boxes end 3 to 9 cm short of every take-off.
 FLIGHT_S = 0.3
 WIDER_GAPS_M = (0.35, 0.40, 0.45, 0.50)
+#: How firmly plans keep to the pendulum there: landings and leaning on hands leave a controller less room than walking.
+FIRM_JUMP = {"force_line": 3.0, "momentum": 3.0}
+FIRM_HANDS = {"force_line": 1.0, "momentum": 1.0, "center_of_pressure": 1.0}
 
 CYCLES = 14
 
@@ -99,7 +102,7 @@ def _sequence(scene: str, robot: str, demand: Demand | None, scale: float = 1.0,
 def _jump(demand: Demand | None, assist: bool = False, gap_m: float = 0.0) -> Case:
     case = _sequence("short_gap", "talos", demand, assist=assist)
     name = f"{case.name}/{gap_m:.2f} m" if gap_m else case.name
-    return replace(case, name=name, gap_m=gap_m, planning={"flight_duration_min_s": FLIGHT_S})
+    return replace(case, name=name, gap_m=gap_m, planning={"flight_duration_min_s": FLIGHT_S, "weights": FIRM_JUMP})
 
 
 def _walk(scene: str, fidelity: str) -> Case:
@@ -131,8 +134,14 @@ CASES: tuple[Case, ...] = (
     _jump(JUMPS),
     _jump(JUMPS, assist=True),
     *(_jump(None, gap_m=width) for width in WIDER_GAPS_M),
-    replace(_sequence("short_gap_with_rail", "talos", STAYS_UP, assist=True), strong_hands=True),
-    replace(_sequence("short_gap_with_rail", "talos", None), strong_hands=True),
+    *(
+        replace(
+            _sequence("short_gap_with_rail", "talos", STAYS_UP if assist else None, assist=assist),
+            strong_hands=True,
+            planning={"weights": FIRM_HANDS},
+        )
+        for assist in (True, False)
+    ),
     _planar("cartwheel", "climber9"),
     _planar("climbing", "climber9", clearances=True, phase_duration_s=PHASES_S),
     _planar("walking", "walker9", phase_duration_s=PHASES_S),
