@@ -112,10 +112,10 @@ class Problem {
  private:
   std::vector<std::vector<std::vector<double>>> foothold_margins_;  // by active end-effector, surface, edge
   std::vector<std::vector<std::vector<double>>> slack_;             // likewise: how far in it has to stand
-  std::vector<std::vector<double>> narrow_;                         // by surface, edge: the widest margin there can be
+  std::vector<std::vector<double>> widths_;                         // by surface, edge: from it to the farthest vertex
 
   void make_slack();
-  void make_foothold_margins(double start_yaw, double goal_yaw);
+  void make_foothold_margins();
   int automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const;
   void make_reference(const Eigen::VectorXd& goal);
   void place_footholds(const ContactSequence& sequence, Trajectory& guess) const;

@@ -1,0 +1,84 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mcplan/ddp/problem.hpp"
+
+/// How far inside their surfaces footholds are planned.
+namespace mcplan::ddp {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// A sole that finds no room is kept to the middle of its surface, down to this share of the width from either edge,
+/// the less the wider it is: less would leave it on its toes, half would leave no choice.
+constexpr double kNarrow = 0.35;
+
+double Problem::foothold_margin(int l, int surface, int edge) const {
+  const double margin = foothold_margins_[l][surface][edge];
+  double further = margin + edge_margin;
+  if (toe_room > 0.0 && limits[l].half_width > 0.0)
+    further = std::max(further, std::min(margin + toe_room, kNarrow * widths_[surface][edge]) + edge_margin);
+  return std::max(margin, std::min(further, slack_[l][surface][edge]));
+}
+
+/// How far inside each edge the end-effectors have to stand at the start and at the goal: no margin may ask for more.
+void Problem::make_slack() {
+  slack_.clear();
+  for (int l = 0; l < layout.ends(); ++l) {
+    std::vector<std::vector<double>>& of_end = slack_.emplace_back();
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+      std::vector<double>& of_surface = of_end.emplace_back();
+      for (int edge = 0; edge < polygons[i].edge_count(); ++edge) {
+        double slack = std::numeric_limits<double>::infinity();
+        const auto stands = [&](const ContactState& contacts, const VectorXd& x) {
+          if (contacts[l] == static_cast<int>(i))
+            slack = std::min(slack, std::max(0.0, -polygons[i].overshoot(edge, x.segment<3>(layout.end(l)))));
+        };
+        stands(start_contacts, start);
+        stands(goal_contacts, reference.x.back());
+        of_surface.push_back(slack);
+      }
+    }
+  }
+}
+
+void Problem::make_foothold_margins() {
+  const double start_heading = start_yaw.empty() ? goal_yaw : start_yaw.front();
+  const double share = options.sole_inside < 0.0 ? robot.sole_support : options.sole_inside;
+  for (const Polygon& polygon : polygons) {
+    std::vector<double>& of_surface = widths_.emplace_back();
+    for (int i = 0; i < polygon.edge_count(); ++i) {
+      double width = 0.0;
+      for (const Vector3d& vertex : polygon.vertices_W()) width = std::max(width, -polygon.overshoot(i, vertex));
+      of_surface.push_back(width);
+    }
+  }
+  for (int e : active) {
+    const Eigen::Vector2d half = robot.end_effectors[e].half_size / units.length;
+    std::vector<std::vector<double>>& of_end = foothold_margins_.emplace_back();
+    for (std::size_t surface = 0; surface < polygons.size(); ++surface) {
+      const Polygon& polygon = polygons[surface];
+      std::vector<double>& of_surface = of_end.emplace_back();
+      for (int i = 0; i < polygon.edge_count(); ++i) {
+        const Vector3d& outward = polygon.edge_outward_W(i);
+        const double width = widths_[surface][i];
+        double extent = 0.0;
+        for (double way : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+          const double yaw = start_heading + way * (goal_yaw - start_heading);
+          const Vector3d heading(std::cos(yaw), std::sin(yaw), 0.0);
+          Vector3d across = polygon.normal_W().cross(heading);
+          // On a wall that is faced the two are parallel: the sole's width is taken to lie level then.
+          if (across.norm() < 1e-6) across = Vector3d::UnitZ().cross(heading);
+          across.normalize();
+          const Vector3d along = across.cross(polygon.normal_W());
+          extent = std::max(extent, half[0] * std::abs(along.dot(outward)) + half[1] * std::abs(across.dot(outward)));
+        }
+        of_surface.push_back(std::min(share * extent, std::max(kNarrow * width, width - share * extent)));
+      }
+    }
+  }
+}
+
+}  // namespace mcplan::ddp
