@@ -127,6 +127,16 @@ def test_mcplan_hpp_includes_every_public_header() -> None:
     assert set(quoted_includes((HEADERS / "mcplan.hpp").read_text())) == every - {"mcplan/mcplan.hpp"}
 
 
+def test_a_cpp_test_has_the_name_of_what_it_tests() -> None:
+    parts = {path.relative_to(top).with_suffix("") for top in (HEADERS, SOURCES) for path in top.rglob("*.[ch]pp")}
+    tests = ROOT / "tests/cpp"
+    for path in tests.glob("*/**/*.cpp"):
+        name = path.relative_to(tests).with_suffix("")
+        beside = [part.name for part in parts if part.parent == name.parent]
+        # Some things have a second file, of a case of theirs: plan_wrench beside plan.
+        assert any(name.name == part or name.name.startswith(f"{part}_") for part in beside), path
+
+
 def room_of(module: str) -> str:
     """Room of a dotted name inside the package; "" for the front itself and for names that it exports."""
     name = module.split(".")[1] if "." in module else ""

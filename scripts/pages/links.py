@@ -1,0 +1,56 @@
+"""Links, anchors, pictures and the width of lines."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from pathlib import Path
+
+from pages.page import Page
+
+WIDTH = 130
+_LINK = re.compile(r"\]\(([^)\s]*)\)")
+#: Lines that cannot be broken: tables, pictures, headings, marks, indented code.
+_LONG = re.compile(r"\s*(\||!\[|#|<!--)|    ")
+
+
+def faults(page: Page) -> list[str]:
+    """What leads nowhere, and lines that are too long."""
+    out = []
+    measured = False
+    for number, line, is_code in page.lines():
+        measured = (measured or line.startswith("<!-- begin: ")) and not line.startswith("<!-- end: ")
+        if len(line) > WIDTH and not (measured or is_code or _LONG.match(line)):
+            out.append(f"{page.name}:{number}: {len(line)} columns, at most {WIDTH}")
+        if not is_code:
+            out += [f"{page.name}:{number}: {fault}" for link in _LINK.findall(line) if (fault := _broken(page, link))]
+    return out
+
+
+def _broken(page: Page, link: str) -> str | None:
+    if "://" in link:
+        return None
+    file, _, anchor = link.partition("#")
+    path = (page.path.parent / file).resolve() if file else page.path
+    if not path.exists():
+        return f"there is no {file}"
+    if anchor and anchor not in anchors(path if file else page.path):
+        return f"{path.name} has no heading #{anchor}"
+    return None
+
+
+@cache
+def anchors(path: Path) -> frozenset[str]:
+    """Anchors of a page's headings, as GitHub makes them."""
+    seen: dict[str, int] = {}
+    out = set()
+    for _, line, is_code in Page.read(path).lines():
+        heading = re.match(r"#+ +(.*)", line)
+        if is_code or not heading:
+            continue
+        text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading[1]).strip().lower()
+        anchor = re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
+        count = seen.get(anchor, 0)
+        seen[anchor] = count + 1
+        out.add(anchor if count == 0 else f"{anchor}-{count}")
+    return frozenset(out)

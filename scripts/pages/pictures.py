@@ -1,0 +1,78 @@
+"""The table of docs/pictures.md: which command makes which picture."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from pages import commands
+from pages.page import ROOT, Page
+
+TABLE = ROOT / "docs/pictures.md"
+_ROW = re.compile(r"^\| \[(?P<file>[\w./]+)\]\([^)]+\) \| (?P<commands>`.+`) \| `(?P<made>[\w./]+)` \|$", re.M)
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture: its file below docs/, the commands that make it, and the file that they write."""
+
+    file: str
+    commands: tuple[str, ...]
+    made: str
+
+
+def listed(text: str) -> list[Picture]:
+    """Pictures of the table."""
+    return [Picture(m["file"], tuple(re.findall(r"`([^`]+)`", m["commands"])), m["made"]) for m in _ROW.finditer(text)]
+
+
+def faults(pages: Sequence[Page]) -> list[str]:
+    """Pictures that no command makes, that no page shows, or whose command the product would refuse."""
+    text = TABLE.read_text(encoding="utf-8")
+    table = listed(text)
+    there = {path.relative_to(ROOT / "docs").as_posix() for path in (ROOT / "docs").rglob("*.png")}
+    named = {picture.file for picture in table}
+    out = [f"docs/pictures.md: no row for {file}" for file in sorted(there - named)]
+    out += [f"docs/pictures.md: there is no {file}" for file in sorted(named - there)]
+    for picture in table:
+        for command in picture.commands:
+            if command.startswith("mcplan ") and (why := commands.wrong(command)):
+                out.append(f"docs/pictures.md: `{command}`: {why}")
+    shown = {
+        (page.path.parent / link).resolve()
+        for page in pages
+        for link in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", page.text)
+    }
+    return out + [f"docs/{f}: no page shows it" for f in sorted(there) if (ROOT / "docs" / f).resolve() not in shown]
+
+
+def draw(name: str) -> int:
+    """Draw one picture again, or all (`all`); returns the exit code."""
+    table = listed(TABLE.read_text(encoding="utf-8"))
+    chosen = [p for p in table if name in ("all", p.file, Path(p.file).name, Path(p.file).stem)]
+    if not chosen:
+        print(f"no picture {name!r}; there are: {', '.join(p.file for p in table)}", file=sys.stderr)
+        return 2
+    done: dict[tuple[str, ...], Path] = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for picture in chosen:
+            if picture.commands not in done:
+                done[picture.commands] = Path(folder) / str(len(done))
+                done[picture.commands].mkdir()
+                for command in picture.commands:
+                    print(f"$ {command}", flush=True)
+                    words = command.split()
+                    words = ["-m", *words] if words[0] == "mcplan" else words[1:]
+                    code = subprocess.run([sys.executable, *words], cwd=done[picture.commands]).returncode
+                    if code not in (0, 1):
+                        print(f"{picture.file} is as it was: the command ended with {code}", file=sys.stderr)
+                        return 1
+            shutil.copyfile(done[picture.commands] / picture.made, ROOT / "docs" / picture.file)
+            print(f"wrote docs/{picture.file}", flush=True)
+    return 0
