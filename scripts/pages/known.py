@@ -6,6 +6,7 @@ import json
 import re
 import tempfile
 from collections.abc import Callable
+from dataclasses import fields
 from functools import cache
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from mcplan.files.motions import list_motions
 from mcplan.files.planar_robots import list_planar_robots
 from mcplan.files.robots import list_robots
 from mcplan.files.scenes import list_scenes
+from mcplan.tracking.measures import Measures
 from pages import made
 from pages.page import ROOT
 
@@ -54,6 +56,12 @@ def _sip_json() -> list[str]:
         return list(json.loads(made.run("mcplan sip walking --kinematics --minimise none --json -q", Path(folder))))
 
 
+def _track_json() -> list[str]:
+    """Keys of `mcplan track --json` for plans of humanoids, from what prints them; a run takes too long."""
+    text = (ROOT / "python/mcplan/cli/track_text.py").read_text(encoding="utf-8")
+    return re.findall(r'^\s+"(\w+)":', text, re.M) + [field.name for field in fields(Measures)]
+
+
 def _plan_fields() -> list[str]:
     """Data of a plan: what is no method."""
     return [name for name, member in vars(mcplan.Plan).items() if isinstance(member, property)]
@@ -81,6 +89,7 @@ LISTS: dict[str, Callable[[], list[str]]] = {
     "motions": list_motions,
     "fidelities": _fidelities,
     "keys of mcplan sip": _sip_json,
+    "keys of mcplan track": _track_json,
     "fields of a plan": _plan_fields,
     "tolerances": _tolerances,
     "options of CMake": lambda: list(cmake_options()),

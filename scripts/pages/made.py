@@ -4,9 +4,10 @@
     ...
     <!-- end -->
 
-Several commands are separated by ` && `; they run in a folder of their own, and all are shown. `made slowly by` marks blocks
-whose commands plan or simulate: they are made with --slow, and numbers may then differ by a fiftieth, since a search ends
-slightly elsewhere on another processor. Times on the clock are never compared.
+Several commands are separated by ` && `; they run in a folder of their own, and all are shown. Of one that ends in `(silent)`
+the output is not. `made slowly by` marks blocks whose commands plan or simulate: they are made with --slow, and numbers may then
+differ by a fiftieth, since a search ends slightly elsewhere on another processor. Times on the clock are never compared, and
+stand as they are when a block is made again: they were measured on a quiet machine.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ def refresh(page: Page, slow: bool) -> list[str]:
         except RuntimeError as found:
             faults.append(f"{page.name}: {found}")
             return match[0]
-        kept = old if same(old, new, ABOUT if slowly else 0.0) else new
+        kept = old if same(old, new, ABOUT if slowly else 0.0) else with_clock_of(old, new)
         return match[0].replace(f"-->\n{old}<!--", f"-->\n{kept}<!--")
 
     page.text = MARK.sub(replaced, page.text)
@@ -58,7 +59,9 @@ def output(command: str) -> str:
     lines = []
     with tempfile.TemporaryDirectory() as folder:
         for part in command.split(" && "):
-            lines += [f"$ {part}", *run(part, Path(folder)).splitlines()]
+            command, silent = part.removesuffix(" (silent)"), part.endswith(" (silent)")
+            printed = run(command, Path(folder)).splitlines()
+            lines += [f"$ {command}", *([] if silent else printed)]
     return "\n".join(["```", *lines, "```", ""])
 
 
@@ -88,6 +91,14 @@ def same(old: str, new: str, about: float = 0.0) -> bool:
         abs(float(a) - float(b)) <= about * max(abs(float(a)), abs(float(b))) + _last_digit(a)
         for a, b in zip(_NUMBER.findall(old), _NUMBER.findall(new), strict=True)
     )
+
+
+def with_clock_of(old: str, new: str) -> str:
+    """The new text with the times on the clock of the old one, where it has as many."""
+    times = CLOCK.findall(old)
+    if len(times) != len(CLOCK.findall(new)):
+        return new
+    return CLOCK.sub(lambda _: times.pop(0), new)
 
 
 def _last_digit(number: str) -> float:

@@ -22,6 +22,10 @@ import mcplan
 from mcplan import Tolerances, WholeBodyTolerances, rhp, sip
 from mcplan._core import ddp
 from mcplan.files.toml import tomllib
+from mcplan.tracking.options import Gains
+from mcplan.tracking.options import Options as TrackingOptions
+from mcplan.tracking.planar.run import DEFAULT_OPTIONS as PLANAR_TRACKING
+from mcplan.tracking.planar.settings import ContactSettings, Feedback
 from pages import constants
 from pages.page import ROOT, Page
 
@@ -115,6 +119,11 @@ def value(expression: str) -> Any:
             "ddp": ddp.Options(),
             "rhp": rhp.Options(),
             "sip": sip.Options(),
+            "tracking": TrackingOptions(),
+            "gains": Gains(),
+            "planar_tracking": PLANAR_TRACKING,
+            "contacts": ContactSettings(),
+            "feedback": Feedback(),
             "tolerances": Tolerances(),
             "whole_body": WholeBodyTolerances(),
             "robot": mcplan.load_robot,

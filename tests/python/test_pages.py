@@ -91,6 +91,12 @@ def test_times_on_the_clock_are_not_compared_and_other_numbers_are():
     assert not made.same("left knee 1\n", "right knee 1\n", 0.02)
 
 
+def test_times_on_the_clock_stay_when_the_rest_is_made_again():
+    old, new = "at 1 s, 0.60 ms a step, 2.39 times real time", "at 2 s, 3.95 ms a step, 0.39 times real time"
+    assert made.with_clock_of(old, new) == "at 2 s, 0.60 ms a step, 2.39 times real time"
+    assert made.with_clock_of("nothing", new) == new
+
+
 @pytest.mark.parametrize(
     "command",
     [
