@@ -47,7 +47,7 @@ def review(pages: list[Page], slow: bool = False) -> list[str]:
     faults += stated.refresh(pages)
     for page in pages:
         faults += links.faults(page) + commands.faults(page) + names.faults(page)
-    return faults + pictures.faults(pages)
+    return faults + commands.help_faults() + pictures.faults(pages)
 
 
 def _diff(page: Page) -> str:

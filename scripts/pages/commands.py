@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 import shlex
 from collections.abc import Iterator
@@ -44,6 +45,23 @@ def spoken_of(page: Page) -> Iterator[tuple[int, str]]:
                 yield number, command
 
 
+def help_faults() -> list[str]:
+    """Examples of help texts that the product would refuse."""
+    out = []
+    for name, verb in _verbs(_root(), "mcplan"):
+        for example in re.findall(r"Example: (mcplan .*(?:\n .*)*)", inspect.cleandoc(verb.help or "")):
+            for command in example.split(" && "):
+                if why := wrong(command):
+                    out.append(f"{name} --help: `{command}`: {why}")
+    return out
+
+
+def _verbs(verb: Any, name: str) -> Iterator[tuple[str, Any]]:
+    yield name, verb
+    for word, below in getattr(verb, "commands", {}).items():
+        yield from _verbs(below, f"{name} {word}")
+
+
 def wrong(command: str) -> str | None:
     """Why a command would be refused; None when it would not.
 
@@ -75,6 +93,9 @@ def wrong(command: str) -> str | None:
             value = value if joined else words.pop(0) if words else "VALUE"
             if fault := _refused(verb, option, value):
                 return fault
+    places = sum(parameter.param_type_name == "argument" for parameter in verb.params)
+    if len(positional) > places:
+        return f"{' '.join(path)} takes {places} without an option, got {' '.join(positional)}"
     return _unknown_name(path[-1], positional)
 
 

@@ -106,6 +106,7 @@ def test_times_on_the_clock_stay_when_the_rest_is_made_again():
         "mcplan plan flat --time-limit soon",
         "mcplan plan flat --robot tallos",
         "mcplan sip walkin",
+        "mcplan scenes gap, mcplan scenes flat",
         "mcplan bench contact",
         "mcplan reproduce lengange",
     ],

@@ -26,7 +26,7 @@ _OUT = typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written
 def speed(
     context: typer.Context,
     repeats: Annotated[int, typer.Option("--repeats", metavar="N", min=1, help="Solves behind each median.")] = 7,
-    threads: Annotated[int, typer.Option("--threads", metavar="N", min=1, help="Of our search.")] = 1,
+    threads: Annotated[int, typer.Option("--threads", metavar="N", min=1, help="Threads of our search.")] = 1,
     quick: Annotated[bool, typer.Option("--quick", help="Few sizes in the growth.")] = False,
     out: Annotated[Path, _OUT] = Path("out/bench"),
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
@@ -70,16 +70,17 @@ def speed(
 @app.command()
 def robustness(
     scenes: Annotated[int, typer.Option("--scenes", metavar="N", min=0, help="Random scenes.")] = 300,
-    seed: Annotated[int, typer.Option("--seed", metavar="K", min=0, help="Of the first random scene.")] = 0,
+    seed: Annotated[int, typer.Option("--seed", metavar="K", min=0, help="Seed of the first random scene.")] = 0,
     settings: Annotated[
         bool, typer.Option("--settings/--no-settings", help="The 15 settings on the paper's four scenes.")
     ] = True,
     robot: Annotated[str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")] = "humanoid44",
     model: Annotated[
-        str | None, typer.Option("--model", metavar="M", help="Of the contact forces: wrench or lipm (the paper's).")
+        str | None,
+        typer.Option("--model", metavar="M", help="Model of contacts: wrench (default) or lipm, the paper's."),
     ] = None,
     time_limit: Annotated[
-        float | None, typer.Option("--time-limit", metavar="S", help="Of each solve; none by default.")
+        float | None, typer.Option("--time-limit", metavar="S", help="Longest time of each solve; none by default.")
     ] = None,
     jobs: Annotated[int, typer.Option("--jobs", metavar="N", min=1, help="Processes.")] = 1,
     out: Annotated[Path, _OUT] = Path("out/robustness"),

@@ -20,7 +20,9 @@ def motions(
 ) -> None:
     """List the built-in motions of planar robots, or print or copy one.
 
-    Example: mcplan motions stairs, mcplan motions walking -o my.toml
+    Example: mcplan motions stairs
+
+    Example: mcplan motions walking -o my.toml
     """
     from mcplan.cli.table import print_table
     from mcplan.errors import InvalidInput

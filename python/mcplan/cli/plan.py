@@ -26,9 +26,13 @@ def plan(
     min_flight: Annotated[
         float | None, typer.Option("--min-flight", metavar="S", help="Shortest phase without any contact.")
     ] = None,
-    phases: Annotated[int | None, typer.Option("--phases", metavar="N", help="Phases of the plan.")] = None,
+    phases: Annotated[
+        int | None,
+        typer.Option("--phases", metavar="N", help="Number of phases; default: what the way takes, 18 at least."),
+    ] = None,
     model: Annotated[
-        str | None, typer.Option("--model", metavar="M", help="Of the contacts: wrench (default) or lipm, the paper's.")
+        str | None,
+        typer.Option("--model", metavar="M", help="Model of contacts: wrench (default) or lipm, the paper's."),
     ] = None,
     method: Annotated[str | None, typer.Option("--method", metavar="M", help="standard or paper.")] = None,
     time_limit: Annotated[
@@ -36,9 +40,12 @@ def plan(
         typer.Option("--time-limit", metavar="S", help="Return the best plan after so many seconds."),
     ] = None,
     threads: Annotated[
-        int | None, typer.Option("--threads", metavar="N", help="The plan does not depend on it.")
+        int | None,
+        typer.Option("--threads", metavar="N", help="Threads for pricing; the plan does not depend on their number."),
     ] = None,
-    seed: Annotated[int | None, typer.Option("--seed", metavar="K", help="Of the order of restarts.")] = None,
+    seed: Annotated[
+        int | None, typer.Option("--seed", metavar="K", help="Seed of the random order in which restarts are tried.")
+    ] = None,
     output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")] = None,
     html: Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")] = None,
     plots: Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")] = None,

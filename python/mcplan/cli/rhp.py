@@ -21,7 +21,7 @@ def rhp(
     ] = None,
     fidelity: Annotated[
         str,
-        typer.Option("--fidelity", metavar="F", help="Of predicted steps: single, com, rectangle or point."),
+        typer.Option("--fidelity", metavar="F", help="Model of predicted steps: single, com, rectangle or point."),
     ] = "point",
     lookahead: Annotated[
         int, typer.Option("--lookahead", metavar="N", help="Steps in a horizon, the executed one included.")
@@ -39,13 +39,15 @@ def rhp(
         Path | None,
         typer.Option("--sequence", metavar="PLAN", help="Take start and contact sequence of a plan (.npz)."),
     ] = None,
-    time_limit: Annotated[float | None, typer.Option("--time-limit", metavar="S", help="Of each cycle.")] = None,
+    time_limit: Annotated[
+        float | None, typer.Option("--time-limit", metavar="S", help="Longest time of each cycle; none by default.")
+    ] = None,
     output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")] = None,
     html: Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")] = None,
     plots: Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")] = None,
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
     verbose: Annotated[
-        bool, typer.Option("-v", "--verbose", help="Sizes, drift and where the time goes, too.")
+        bool, typer.Option("-v", "--verbose", help="Print sizes, drift and where the time goes, too.")
     ] = False,
     quiet: Annotated[bool, typer.Option("-q", "--quiet", help="No line per cycle (to stderr) on the way.")] = False,
 ) -> int:

@@ -43,7 +43,7 @@ def robots(
     strength: Annotated[
         bool, typer.Option("--strength", help="With NAME: what its arms can push, over random postures.")
     ] = False,
-    seed: Annotated[int, typer.Option("--seed", metavar="SEED", help="Of the random postures.")] = 0,
+    seed: Annotated[int, typer.Option("--seed", metavar="SEED", help="Seed of the random postures.")] = 0,
     output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file to write.")] = None,
 ) -> None:
     """List the built-in robots, print one, or work one out from a URDF.

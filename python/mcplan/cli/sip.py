@@ -31,7 +31,7 @@ def sip(
     trackable: Annotated[
         bool, typer.Option("--trackable", help="Feet at rest, loaded and off the ground in swings, for mcplan track.")
     ] = False,
-    order: Annotated[int, typer.Option("--order", metavar="N", help="Of the Taylor polynomials, 3 to 12.")] = 8,
+    order: Annotated[int, typer.Option("--order", metavar="N", help="Order of the Taylor polynomials, 3 to 12.")] = 8,
     neq: Annotated[int, typer.Option("--neq", metavar="N", help="Highest coefficient that band and strict hold.")] = 2,
     free_flyer: Annotated[
         str, typer.Option("--free-flyer", metavar="F", help="The base: computed (from the joints) or parameterised.")
@@ -59,7 +59,8 @@ def sip(
         str, typer.Option("--hessian", metavar="H", help="automatic, exact, gauss-newton or limited-memory.")
     ] = "automatic",
     max_iterations: Annotated[
-        int | None, typer.Option("--max-iterations", metavar="N", help="Of each run of the solver (1000).")
+        int | None,
+        typer.Option("--max-iterations", metavar="N", help="Most iterations of each run of the solver (1000)."),
     ] = None,
     certify: Annotated[
         bool, typer.Option("--certify", help="Prove the constraints at every instant; exit code 0 then needs that too.")

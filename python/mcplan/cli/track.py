@@ -31,7 +31,9 @@ def track(
             help="Push the base: newtons, how long [s], when [s], direction [deg] (0 forward, 90 left). May be repeated.",
         ),
     ] = None,
-    mass_scale: Annotated[float, typer.Option("--mass-scale", metavar="X", help="Of all masses.")] = 1.0,
+    mass_scale: Annotated[
+        float, typer.Option("--mass-scale", metavar="X", help="Factor on all masses and inertias.")
+    ] = 1.0,
     friction: Annotated[float, typer.Option("--friction", metavar="X", help="Factor on all friction.")] = 1.0,
     ground_shift: Annotated[
         float, typer.Option("--ground-shift", metavar="M", help="The ground lies higher than planned by so much.")
