@@ -5,14 +5,44 @@ import pytest
 
 import mcplan as mp
 import recordings
+from mcplan.kinematics.rotations import pose
 from mcplan.view import save_run_postures, save_run_strip
+from mcplan.view.figure import Figure, Part
 from mcplan.view.rendering import Eye
-from mcplan.view.run_strip import fitted
+from mcplan.view.run_scene import RunScene
+from mcplan.view.run_strip import fitted, framed
+from mcplan.view.shapes import box
 from test_view_rendering import pixel_of
 
 pytest.importorskip("mujoco")
 pytest.importorskip("pinocchio")
 Image = pytest.importorskip("PIL.Image")
+
+
+def rotations(count, random):
+    """Turns about the vertical, with some lean."""
+    for yaw, lean in zip(random.uniform(-0.5, 0.5, count), random.uniform(-0.3, 0.3, count), strict=True):
+        c, s = np.cos([yaw, lean]), np.sin([yaw, lean])
+        yield np.array([[c[0], -s[0], 0], [s[0], c[0], 0], [0, 0, 1]]) @ np.array(
+            [[c[1], 0, s[1]], [0, 1, 0], [-s[1], 0, c[1]]]
+        )
+
+
+def scene_with(part):
+    """A run of nothing but one part."""
+    count = len(part.poses)
+    return RunScene(
+        times_s=np.arange(count, dtype=float),
+        com_W=part.poses[:, :3, 3],
+        reach_W=part.poses[:, None, :3, 3],
+        figure=Figure("urdf", [part]),
+        arrows=[[] for _ in range(count)],
+        drawings=[],
+        footholds=[],
+        forward=np.array([1.0, 0.0]),
+        sun_W=np.array([0.3, -0.5, 1.0]),
+        height_m=float(np.ptp(part.mesh.vertices[:, 2])),
+    )
 
 
 @pytest.fixture(scope="module")
@@ -26,10 +56,11 @@ def test_a_strip_has_a_robot_in_every_frame_and_they_differ(recording, tmp_path)
         pixels = np.asarray(image.convert("RGB"), float)
     gap, cell = 2, (480 - 2 * 2) // 3
     assert pixels.shape[1] == 480
-    cells = [pixels[: round(1.55 * cell), n * (cell + gap) : n * (cell + gap) + cell] for n in range(3)]
+    high = pixels.shape[0] - 23  # without the line of the times
+    cells = [pixels[:high, n * (cell + gap) : n * (cell + gap) + cell] for n in range(3)]
     for one in cells:
         assert one[60:200].min(axis=2).min() < 60  # Talos' legs are black
-        assert one[:20].std() < 15  # nothing above its head
+        assert one[: high // 20].std() < 15  # nothing above its head
     assert np.abs(cells[0] - cells[1]).mean() > 2 and np.abs(cells[1] - cells[2]).mean() > 2
 
 
@@ -55,6 +86,27 @@ def test_a_fitted_eye_sees_every_point_and_is_as_near_as_can_be(seed):
     assert (seen >= -1e-6).all() and (seen <= np.array(size) + 1e-6).all()
     slack = np.minimum(seen, np.array(size) - seen).min()
     assert slack == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("size", [(0.7, 0.3, 0.4), (0.3, 0.3, 1.7), (7e-3, 3e-3, 4e-3), (20.0, 9.0, 12.0)])
+def test_every_frame_of_a_strip_holds_all_of_the_robot_large_and_at_one_scale(size):
+    """A dog is longer than a human is wide, and once lost its head and tail to a frame made for humans."""
+    random = np.random.default_rng(7)
+    poses = [pose(R, p * max(size)) for R, p in zip(rotations(4, random), random.normal(size=(4, 3)), strict=True)]
+    scene = scene_with(Part("trunk", box(size), "#d00000", np.array(poses)))
+    width = 120
+    eyes, height = framed(scene, range(4), width)
+    assert len({eye.distance_m for eye in eyes}) == 1
+    share = []
+    for n, eye in enumerate(eyes):
+        corners = scene.figure.parts[0].mesh.moved(poses[n]).vertices
+        seen = np.array([pixel_of(corner, eye, (width, height)) for corner in corners])
+        assert (seen >= 0.0).all() and (seen <= [width, height]).all()
+        assert 0.5 * (seen.min(axis=0) + seen.max(axis=0)) == pytest.approx(
+            [0.5 * width, 0.5 * height], abs=0.12 * width
+        )
+        share.append((np.ptp(seen, axis=0) / [width, height]).max())
+    assert max(share) > 0.75
 
 
 @pytest.mark.parametrize(

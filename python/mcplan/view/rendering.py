@@ -19,6 +19,7 @@ from .colours import OUTLINE, mix, rgb
 from .figure import Figure
 from .scene_drawing import SurfaceDrawing, edges
 from .shapes import Mesh
+from .winding import both_sides
 
 Array = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
@@ -295,6 +296,7 @@ def _model(mj: Any, figure: Figure, drawings: list[SurfaceDrawing], size: tuple[
 
 def _add_mesh(mj: Any, spec: Any, name: str, mesh: Mesh) -> None:
     added = spec.add_mesh(name=name)
+    mesh = both_sides(mesh)  # MuJoCo draws fronts alone
     added.uservert = mesh.vertices.ravel()
     added.userface = mesh.faces.ravel().astype(np.int32)
     # Open and flat meshes have no volume, which MuJoCo asks for even where nothing has mass.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from mcplan.kinematics.urdf_model import UrdfModel, load_model
 from .colours import mix
 from .figure import Figure, Part
 from .shapes import Mesh, box, capsule, circle, ellipsoid, loft
+from .winding import whole
 
 if TYPE_CHECKING:
     from mcplan import Robot
@@ -87,7 +89,7 @@ def _mesh(item: Any) -> Mesh | None:
     if kind.startswith("BVHModel"):
         triangles = (shape.tri_indices(i) for i in range(shape.num_tris))
         faces = np.array([(t[0], t[1], t[2]) for t in triangles], dtype=np.int64)
-        return Mesh(np.asarray(shape.vertices(), float), faces)
+        return whole(Mesh(np.asarray(shape.vertices(), float), faces))
     if kind == "Box":
         x, y, z = 2.0 * np.asarray(shape.halfSide, float)
         return box((x, y, z))
@@ -100,7 +102,7 @@ def _mesh(item: Any) -> Mesh | None:
     if kind == "Capsule":
         half = float(shape.halfLength)
         mesh = capsule(2.0 * half, float(shape.radius), float(shape.radius))
-        return Mesh(mesh.vertices - [0.0, 0.0, half], mesh.faces, mesh.smooth)
+        return replace(mesh, vertices=mesh.vertices - [0.0, 0.0, half])
     return None
 
 

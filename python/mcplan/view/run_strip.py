@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,8 +24,9 @@ Pixels = NDArray[np.uint8]
 
 #: [1/s] instants that can be chosen from.
 RATE = 100.0
-#: Of the camera, over the CoM height: closer than in videos, since frames are tall.
-DISTANCE = 4.6
+#: Height over width that a frame may have, and room around the robot over its size.
+ASPECTS = (0.7, 1.9)
+ROOM = 0.06
 INK = (34, 38, 43)
 
 
@@ -35,7 +37,9 @@ def save_run_strip(
     columns: int | None = None,
     width: int = 1920,
 ) -> Path:
-    """Write a PNG of the robot at several instants, side by side, with the time under each.
+    """Write a PNG of the robot at several instants, side by side at one scale, with the time under each.
+
+    Every frame holds all of the robot, in its middle.
 
     Args:
         run: A recording, or the result of tracking; also of a planar robot.
@@ -60,18 +64,16 @@ def save_run_strip(
     columns = max(1, min(columns, len(chosen)))
     gap = max(2, width // 240)
     cell = (width - (columns - 1) * gap) // columns
-    height = round(1.55 * cell) if columns > 2 else cell
+    eyes, height = framed(scene, chosen, cell)
     ink = max(12, cell // 14)
     line = round(1.9 * ink)
     rows = -(-len(chosen) // columns)
     sheet = Image.new("RGB", (width, rows * (height + line)), "white")
     font, draw = ImageFont.load_default(ink), ImageDraw.Draw(sheet)
-    # A tall frame is as wide as the robot is: the view from top to bottom is what it leaves.
-    distance = DISTANCE * scene.height_m * max(1.0, 0.7 * height / cell)
     with Renderer(scene.figure, scene.drawings, (cell, height), scene.sun_W, scene.footholds) as renderer:
-        for number, n in enumerate(chosen):
+        for number, (n, eye) in enumerate(zip(chosen, eyes, strict=True)):
             row, column = divmod(number, columns)
-            pixels = renderer.picture([n], scene.eye(scene.com_W[n], distance), scene.arrows[n])
+            pixels = renderer.picture([n], eye, scene.arrows[n])
             x, y = column * (cell + gap), row * (height + line)
             sheet.paste(Image.fromarray(pixels), (x, y))
             place = (x + cell // 2, y + height + line // 2)
@@ -113,12 +115,46 @@ def save_run_postures(
     return path
 
 
-def fitted(points_W: Array, eye: Eye, size: tuple[int, int], margin: float) -> Eye:
-    """The nearest eye that looks as the given one does and sees all points (n, 3), with a margin [m] around."""
+def framed(scene: RunScene, chosen: Sequence[int], width: int) -> tuple[list[Eye], int]:
+    """Eyes that see all of the robot at each of the chosen instants, at one scale, and the height of their pictures.
+
+    Args:
+        scene: The run.
+        chosen: Indices of the instants.
+        width: Of a picture in pixels; as high as the robot wants it, within bounds.
+    """
+    plain = scene.eye(np.zeros(3), 1.0)
+    points = [_corners(scene, n) for n in chosen]
+    spreads = [np.array([np.ptp(p @ axis) for axis in _axes(plain)[:2]]) for p in points]
+    wide, tall = np.max(spreads, axis=0)
+    height = round(width * float(np.clip(tall / max(wide, 1e-9), *ASPECTS)))
+    height -= height % 2
+    eyes = [fitted(p, plain, (width, height), margin=ROOM * float(max(wide, tall))) for p in points]
+    distance = max(eye.distance_m for eye in eyes)
+    return [replace(eye, distance_m=distance) for eye in eyes], height
+
+
+def _corners(scene: RunScene, n: int) -> Array:
+    """Corners (m, 3) [m] of boxes around the robot's parts at an instant."""
+    corners = []
+    for part in scene.figure.parts:
+        low, high = part.mesh.vertices.min(axis=0), part.mesh.vertices.max(axis=0)
+        box = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+        corners.append(box @ part.poses[n, :3, :3].T + part.poses[n, :3, 3])
+    return np.vstack(corners)
+
+
+def _axes(eye: Eye) -> tuple[Array, Array, Array]:
+    """To the right in a picture, upwards, and into it: unit vectors (3,)."""
     a, e = np.radians(eye.azimuth_deg), np.radians(eye.elevation_deg)
     ahead = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
     right = np.array([np.sin(a), -np.cos(a), 0.0])
-    up = np.cross(right, ahead)
+    return right, np.cross(right, ahead), ahead
+
+
+def fitted(points_W: Array, eye: Eye, size: tuple[int, int], margin: float) -> Eye:
+    """The nearest eye that looks as the given one does and sees all points (n, 3), with a margin [m] around."""
+    right, up, ahead = _axes(eye)
     tall = np.tan(np.radians(0.5 * FIELD))
     wide = tall * size[0] / size[1]
     target = np.zeros(3)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +19,11 @@ class Mesh:
     vertices: Array  # (n, 3)
     faces: NDArray[np.int64]  # (m, 3)
     smooth: bool = False  # shade across edges
+    two_sided: bool = False  # open, or wound either way: seen from both sides
 
     def moved(self, transform: Array) -> Mesh:
         """The mesh under a homogeneous transform (4, 4)."""
-        return Mesh(self.vertices @ transform[:3, :3].T + transform[:3, 3], self.faces, self.smooth)
+        return replace(self, vertices=self.vertices @ transform[:3, :3].T + transform[:3, 3])
 
 
 def prism(outline: Array, depth: float) -> Mesh:
@@ -70,7 +71,8 @@ def capsule(length: float, radius_start: float, radius_end: float, sides: int = 
     levels = [(radius_start * np.cos(a), radius_start * np.sin(a)) for a in bend]
     levels += [(radius_end * np.cos(a), length + radius_end * np.sin(a)) for a in -bend[::-1]]
     ring = circle(sides)
-    rings = np.array([np.column_stack([max(r, 1e-4) * ring, np.full(sides, z)]) for r, z in levels])
+    least = 2e-3 * max(radius_start, radius_end)
+    rings = np.array([np.column_stack([max(r, least) * ring, np.full(sides, z)]) for r, z in levels])
     return loft(rings)
 
 
@@ -127,23 +129,23 @@ def disc(radius: float, thickness: float, sides: int = 24) -> Mesh:
 def cone(radius: float, height: float, sides: int = 16) -> Mesh:
     """Cone along +z, its base at z = 0."""
     ring = circle(sides)
-    rings = [np.column_stack([r * ring, np.full(sides, z)]) for r, z in ((radius, 0.0), (1e-4, height))]
+    rings = [np.column_stack([r * ring, np.full(sides, z)]) for r, z in ((radius, 0.0), (2e-3 * radius, height))]
     return loft(np.array(rings), smooth=False)
 
 
 def tube(path: Array, radius: float, sides: int = 8) -> Mesh:
     """Round tube along points (n, 3) [m]; points that repeat are left out."""
     path = np.asarray(path, float)
-    keep = np.concatenate([[True], np.linalg.norm(np.diff(path, axis=0), axis=1) > 1e-6])
+    keep = np.concatenate([[True], np.linalg.norm(np.diff(path, axis=0), axis=1) > 1e-4 * radius])
     path = path[keep]
     if len(path) < 2:
-        path = np.vstack([path, path[-1] + [0.0, 0.0, 1e-4]])
+        path = np.vstack([path, path[-1] + [0.0, 0.0, 1e-2 * radius]])
     along = np.gradient(path, axis=0)
     ring = circle(sides)
     frame = with_axis_z(along[0], np.array([0.0, 0.0, 1.0]))
     rings = []
     for point, tangent in zip(path, along, strict=True):
-        if np.linalg.norm(tangent) > 1e-9:
+        if np.linalg.norm(tangent) > 1e-6 * radius:
             frame = with_axis_z(tangent, frame[:, 0])  # carried along, so that the tube does not twist
         rings.append(point + radius * ring @ frame[:, :2].T)
     return loft(np.array(rings))

@@ -66,7 +66,7 @@ class Stage:
             "depthWrite": opacity == 1.0,
             "depthTest": not on_top,
             "flatShading": not mesh.smooth,
-            "side": 2 if opacity < 1.0 else 0,
+            "side": 2 if opacity < 1.0 or mesh.two_sided else 0,  # three.js: 0 front, 2 both
         }
         self._object(path, "Mesh", mesh.vertices, mesh.faces, material, render_order=10 if on_top else 0)
 
