@@ -6,24 +6,90 @@ import difflib
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+#: Findings that a message lists before it says how many there are more.
+MOST_FINDINGS = 20
+_MOST_TEXT = 60  # characters of a value that a message shows
+
+
+def printable(text: str) -> str:
+    """A text whose control characters and halves of surrogate pairs are escaped, so that any terminal can show it."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else c.encode("unicode_escape", "surrogatepass").decode("ascii") for c in text)
+
+
+def shown(value: Any, most: int = _MOST_TEXT) -> str:
+    """A value as text for a message: short, printable, and never an error of its own.
+
+    Args:
+        value: Whatever was found.
+        most: Characters at most.
+    """
+    try:
+        text = repr(value)
+    except (ValueError, RecursionError):  # whole numbers of more digits than Python writes, or nested too deep
+        text = f"a whole number of {value.bit_length()} bits" if isinstance(value, int) else f"a {type(value).__name__}"
+    text = printable(text)
+    return text if len(text) <= most else text[: most - 3] + "..."
+
 
 class InvalidInput(ValueError):
     """Bad input. Reads "<source>: <field>: <rule>, got <value>"; the source (a file) and the field may be missing.
+
+    Where more than one thing is wrong the message lists all of them, a line each.
 
     Attributes:
         field: Where, e.g. ``"surfaces[3].vertices"``.
         rule: What must hold, e.g. ``"needs at least 3 points"``.
         value: What was found, as text.
         source: The file it was read from, or ``""``.
+        others: What else is wrong with the same input, errors of the same kind.
     """
 
     def __init__(self, field: str, rule: str, value: str = "", source: str = "") -> None:
         super().__init__(field, rule, value, source)
         self.field, self.rule, self.value, self.source = field, rule, value, source
+        self.others: tuple[InvalidInput, ...] = ()
 
     def __str__(self) -> str:
+        findings = [self, *self.others]
+        lines = [printable(finding._line()) for finding in findings[:MOST_FINDINGS]]
+        if len(findings) > MOST_FINDINGS:
+            lines.append(f"and {len(findings) - MOST_FINDINGS} more")
+        return "\n".join(lines)
+
+    def _line(self) -> str:
         where = [part for part in (self.source, self.field) if part]
         return ": ".join([*where, self.rule]) + (f", got {self.value}" if self.value else "")
+
+    def moved(self, kind: type[InvalidInput] | None = None, source: str = "", prefix: str = "") -> InvalidInput:
+        """This error and the others as errors of another kind, of another file, or of a field within another one.
+
+        Args:
+            kind: Class of the new errors; None: as they are.
+            source: The file; "": as it was.
+            prefix: What to put before every field, e.g. ``"header.scene"``.
+        """
+        made = [_moved(finding, kind, source, prefix) for finding in (self, *self.others)]
+        made[0].others = tuple(made[1:])
+        return made[0]
+
+
+def _moved(finding: InvalidInput, kind: type[InvalidInput] | None, source: str, prefix: str) -> InvalidInput:
+    field = ".".join(part for part in (prefix, finding.field) if part)
+    return (kind or type(finding))(field, finding.rule, finding.value, source or finding.source)
+
+
+def together(findings: Sequence[InvalidInput]) -> InvalidInput:
+    """The first of some findings, with all that follow as its others.
+
+    Args:
+        findings: One at least.
+    """
+    flat = [single for finding in findings for single in (finding, *finding.others)]
+    first = flat[0].moved()
+    first.others = tuple(finding.moved() for finding in flat[1:])
+    return first
 
 
 class InvalidScene(InvalidInput):
@@ -107,5 +173,13 @@ class MissingExtra(ImportError):
 
 def did_you_mean(name: str, legal: Iterable[str]) -> str:
     """``"Did you mean 'stairs'? "`` if one of the legal names is near, else ``""``."""
-    near = difflib.get_close_matches(name, list(legal), n=1)
-    return f"Did you mean {near[0]!r}? " if near else ""
+    near = nearest(name, legal)
+    return f"Did you mean {shown(near)}? " if near else ""
+
+
+def nearest(name: str, legal: Iterable[str]) -> str:
+    """The legal name that is most like a name, or "" if none is like it."""
+    if len(name) > _MOST_TEXT:  # comparing takes the square of the length
+        return ""
+    near = difflib.get_close_matches(name, [entry for entry in legal if len(entry) <= _MOST_TEXT], n=1)
+    return near[0] if near else ""

@@ -4,18 +4,26 @@ from __future__ import annotations
 
 import io
 import json
+import math
 import os
 import tempfile
-import tokenize
 import zipfile
-import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 
-from mcplan.errors import InvalidPlan
+from mcplan.errors import InvalidPlan, shown
+from mcplan.files.reading import MOST_PLAN_INFLATED, size_text
+
+_RULE = "must be an .npz file written by mcplan"
+_MOST_MEMBERS = 64  # arrays of an archive
+_MOST_DIRECTORY = 256 * _MOST_MEMBERS  # bytes of the list of members
+_MOST_HEADER = 4 * 1024 * 1024  # bytes of JSON
+_MOST_NUMPY_HEADER = 1000  # bytes that describe an array
+_MOST_AXES = 4
+_MOST_NAME, _MOST_REASON = 60, 200  # characters of names and reasons in messages
 
 
 def archive_bytes(header: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> bytes:
@@ -42,31 +50,78 @@ def write_whole(data: bytes, path: str | Path) -> None:
         raise
 
 
-def read_arrays(data: bytes) -> dict[str, np.ndarray]:
+def read_arrays(data: bytes, most: int = MOST_PLAN_INFLATED) -> dict[str, np.ndarray]:
     """The arrays of an archive.
 
+    What the archive says of its sizes is added up first, then each array is inflated no further than it says, and its
+    shape compared with what came out: memory is taken for what is in the file, never for what it claims.
+
+    Args:
+        data: Content of the file.
+        most: Bytes of all arrays together, at most.
+
     Raises:
-        InvalidPlan: No such archive, or a damaged one.
+        InvalidPlan: No such archive, a damaged one, one with arrays of anything but numbers, or too large.
     """
-    if not zipfile.is_zipfile(io.BytesIO(data)):
-        raise InvalidPlan("", "must be an .npz file written by mcplan", "no zip archive, or an incomplete one")
+    _require_directory(data)
     try:
-        with np.load(io.BytesIO(data), allow_pickle=False) as archive:
-            return {name: archive[name] for name in archive.files}
-    except (
-        ValueError,
-        KeyError,
-        EOFError,
-        OSError,
-        MemoryError,
-        NotImplementedError,
-        RuntimeError,
-        SyntaxError,
-        tokenize.TokenError,
-        zipfile.BadZipFile,
-        zlib.error,
-    ) as found:  # what NumPy and zipfile raise for damaged files
-        raise InvalidPlan("", "must be an .npz file written by mcplan", _first_line(found)) from None
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            members = archive.infolist()
+            _require_sizes(members, most)
+            arrays: dict[str, np.ndarray] = {}
+            for member in members:
+                name = member.filename.removesuffix(".npy")
+                if name in arrays:
+                    raise InvalidPlan(name[:_MOST_NAME], "must be there once")
+                with archive.open(member) as file:
+                    arrays[name] = _array(file.read(member.file_size + 1), name[:_MOST_NAME])
+            return arrays
+    except InvalidPlan:
+        raise
+    except Exception as found:  # zipfile and its decompressors raise some twenty classes for damaged files
+        raise InvalidPlan("", _RULE, _first_line(found)) from None
+
+
+def _require_directory(data: bytes) -> None:
+    """A directory at the end of the file that is small enough to be read, before it is."""
+    end = data.rfind(b"PK\x05\x06")
+    if end < 0 or len(data) < end + 22 or not zipfile.is_zipfile(io.BytesIO(data)):
+        raise InvalidPlan("", _RULE, "no zip archive, or an incomplete one")
+    size = int.from_bytes(data[end + 12 : end + 16], "little")
+    if size > _MOST_DIRECTORY or data[max(0, end - 20) :].startswith(b"PK\x06\x07"):
+        raise InvalidPlan("", f"may have {_MOST_MEMBERS} arrays at most", f"a directory of {size} bytes")
+
+
+def _require_sizes(members: list[zipfile.ZipInfo], most: int) -> None:
+    if len(members) > _MOST_MEMBERS:
+        raise InvalidPlan("", f"may have {_MOST_MEMBERS} arrays at most", str(len(members)))
+    for member in members:
+        if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+            raise InvalidPlan(member.filename[:_MOST_NAME], "must be stored or deflated", str(member.compress_type))
+    total = sum(member.file_size for member in members)
+    if total > most:
+        raise InvalidPlan("", f"may have {size_text(most)} at most when inflated", f"{total} bytes")
+
+
+def _array(data: bytes, name: str) -> np.ndarray:
+    """An array of numbers in NumPy's format; a view of the bytes if it can be."""
+    file = io.BytesIO(data)
+    try:
+        version = np.lib.format.read_magic(file)
+        read = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}[version]
+        shape, fortran, dtype = read(file, max_header_size=_MOST_NUMPY_HEADER)
+    except Exception as found:  # NumPy evaluates the header as Python: all that a literal can be wrong with
+        raise InvalidPlan(name, "must be an array of NumPy", _first_line(found)) from None
+    if dtype.kind not in "biufUS" or dtype.shape:
+        raise InvalidPlan("", _RULE, f"an array {shown(name)} of {shown(dtype)}")
+    if len(shape) > _MOST_AXES or (dtype.kind in "biuf" and dtype.itemsize > 8):
+        rule = f"must hold numbers of 64 bits at most along {_MOST_AXES} axes at most"
+        raise InvalidPlan(name, rule, f"{dtype}, {len(shape)} axes")
+    if any(size < 0 for size in shape) or math.prod(shape) * dtype.itemsize != len(data) - file.tell():
+        rule = f"must have the {len(data) - file.tell()} bytes that are there"
+        raise InvalidPlan(name, rule, f"shape {shown(shape)} of {dtype}")
+    flat = np.frombuffer(data, dtype, offset=file.tell()).reshape(shape, order="F" if fortran else "C")
+    return flat.astype(dtype.newbyteorder("="))
 
 
 def read_header(arrays: Mapping[str, np.ndarray]) -> dict[str, Any]:
@@ -77,14 +132,31 @@ def read_header(arrays: Mapping[str, np.ndarray]) -> dict[str, Any]:
     """
     if "header" not in arrays:
         raise InvalidPlan("header", "is required")
+    if arrays["header"].nbytes > _MOST_HEADER:
+        raise InvalidPlan("header", f"may have {size_text(_MOST_HEADER)} at most", f"{arrays['header'].nbytes} bytes")
     try:
-        header = json.loads(arrays["header"].tobytes())
+        header = json.loads(arrays["header"].tobytes().decode("utf-8"))
     except (ValueError, RecursionError) as found:
         raise InvalidPlan("header", "must be JSON", _first_line(found)) from None
     if not isinstance(header, dict):
         raise InvalidPlan("header", "must be a JSON object", type(header).__name__)
+    _require_text("header", header)
     return header
 
 
+def _require_text(where: str, value: Any) -> None:
+    """JSON may write halves of surrogate pairs, which are no characters and cannot be written again."""
+    left = [(where, value)]
+    while left:
+        where, value = left.pop()
+        if isinstance(value, dict):
+            left += [(f"{where}.{key}", inner) for key, inner in value.items()]
+            left += [(where, key) for key in value]
+        elif isinstance(value, list):
+            left += [(f"{where}[{i}]", inner) for i, inner in enumerate(value) if not isinstance(inner, float)]
+        elif isinstance(value, str) and any("\ud800" <= character <= "\udfff" for character in value):
+            raise InvalidPlan(where, "must be text", shown(value))
+
+
 def _first_line(error: BaseException) -> str:
-    return (str(error).splitlines() or [type(error).__name__])[0]
+    return (str(error).splitlines() or [type(error).__name__])[0][:_MOST_REASON]

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import typing
+from collections.abc import Sequence
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from mcplan.errors import InvalidInput, did_you_mean
+from mcplan.errors import InvalidInput, did_you_mean, nearest, shown, together
 
 Model = TypeVar("Model", bound=BaseModel)
+
+#: Of a table.
+MOST_KEYS = 1000
 
 _TYPE_RULES = {
     "float_type": "must be a number",
@@ -29,14 +33,40 @@ def validated(model: type[Model], data: Any, error: type[InvalidInput], source: 
     Args:
         model: Class to fill.
         data: Nested dicts, lists and values.
-        error: Class raised for the first finding.
+        error: Class raised, with all findings.
         source: File that the data come from, for the message.
     """
+    _require_few_keys(data, error, source)
     try:
         return model.model_validate(data)
     except ValidationError as found:
-        first = found.errors(include_url=False)[0]
-        raise error(path_text(first["loc"]), _rule(model, first), _value(first), source) from None
+        findings = _without_misspelt(model, found.errors(include_url=False))
+        raise together([error(path_text(f["loc"]), _rule(model, f), _value(f), source) for f in findings]) from None
+
+
+def _require_few_keys(data: Any, error: type[InvalidInput], source: str) -> None:
+    """A table has few keys; a million of them that nobody knows would be a million findings."""
+    left: list[tuple[str, Any]] = [("", data)]
+    while left:
+        where, value = left.pop()
+        if isinstance(value, dict):
+            if len(value) > MOST_KEYS:
+                raise error(where, f"may have {MOST_KEYS} keys at most", str(len(value)), source)
+            left += [(f"{where}.{key}" if where else str(key), inner) for key, inner in value.items()]
+        elif isinstance(value, list):
+            left += [(f"{where}[{i}]", inner) for i, inner in enumerate(value) if isinstance(inner, dict | list)]
+
+
+def _without_misspelt(model: type[BaseModel], findings: Sequence[Any]) -> list[Any]:
+    """The findings without keys that are missing because they are misspelt: the unknown key beside says which it means."""
+    unknown = [finding["loc"] for finding in findings if finding["type"] == "extra_forbidden"]
+
+    def misspelt(location: tuple[Any, ...]) -> bool:
+        beside = [str(other[-1]) for other in unknown if other[:-1] == location[:-1]]
+        legal = _keys(_model_at(model, location[:-1])) if beside else []
+        return any(nearest(key, legal) == location[-1] for key in beside)
+
+    return [finding for finding in findings if finding["type"] != "missing" or not misspelt(finding["loc"])]
 
 
 def path_text(location: tuple[Any, ...]) -> str:
@@ -57,8 +87,7 @@ def _rule(model: type[BaseModel], finding: Any) -> str:
     if kind == "missing":
         return "is required"
     if kind == "extra_forbidden":
-        fields = _model_at(model, finding["loc"][:-1]).model_fields
-        legal = [field.alias or name for name, field in fields.items()]
+        legal = _keys(_model_at(model, finding["loc"][:-1]))
         return f"no such key. {did_you_mean(str(finding['loc'][-1]), legal)}Keys: {', '.join(legal)}"
     if kind == "greater_than":
         return "must be a positive number" if context["gt"] == 0 else f"must be greater than {context['gt']}"
@@ -83,8 +112,11 @@ def _value(finding: Any) -> str:
         return ""
     if finding["type"] in ("too_short", "too_long"):
         return str(len(finding["input"]))
-    text = repr(finding["input"])
-    return text if len(text) <= 60 else text[:57] + "..."
+    return shown(finding["input"])
+
+
+def _keys(model: type[BaseModel]) -> list[str]:
+    return [field.alias or name for name, field in model.model_fields.items()]
 
 
 def _model_at(model: type[BaseModel], location: tuple[Any, ...]) -> type[BaseModel]:

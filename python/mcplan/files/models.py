@@ -15,7 +15,7 @@ Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Name = Annotated[str, Field(min_length=1)]
 Point = Annotated[list[Number], Field(min_length=3, max_length=3)]
-Names = list[Name]
+Names = Annotated[list[Name], Field(max_length=1000)]
 
 
 class Table(BaseModel):
@@ -28,6 +28,7 @@ class SurfaceModel(Table):
     name: Name = Field(description="Unique name.")
     vertices: list[Point] = Field(
         min_length=3,
+        max_length=1000,
         description="[m] Corners of a convex polygon, world frame, counter-clockwise about the outward normal.",
     )
     friction: Positive = Field(0.7, description="[-] Coulomb coefficient.")
@@ -64,18 +65,20 @@ class SceneModel(Table):
     name: Name | None = Field(None, description="Default: the name of the file.")
     description: str = Field("", description="One line.")
     gravity: Positive = Field(9.81, description="[m/s^2]")
-    surfaces: list[SurfaceModel] = Field(min_length=1)
+    surfaces: list[SurfaceModel] = Field(min_length=1, max_length=10_000)
     start: StanceModel
     goal: StanceModel
-    rules: list[RuleModel] = []
-    steps: list[StepModel] = Field([], description="Contact sequence of a walk, for planners that want it given.")
+    rules: list[RuleModel] = Field([], max_length=1000)
+    steps: list[StepModel] = Field(
+        [], max_length=10_000, description="Contact sequence of a walk, for planners that want it given."
+    )
 
 
 class PolytopeModel(Table):
     """Convex set {x : A x <= b}: given by A and b, or by the file that holds them."""
 
-    A: list[Point] = Field([], description="Outward normals of the faces, of length 1 within 0.001.")
-    b: list[Number] = Field([], description="[m] Distance of each face from the origin.")
+    A: list[Point] = Field([], max_length=10_000, description="Outward normals of the faces, of length 1 within 0.001.")
+    b: list[Number] = Field([], max_length=10_000, description="[m] Distance of each face from the origin.")
     file: str = Field("", description="JSON file with A and b, relative to the robot's file.")
     name: str = Field("", description="Key of the polytope among the file's `polytopes`.")
 

@@ -22,9 +22,10 @@ from mcplan._core import (
     PlanarRobot,
     PlanarSurface,
 )
-from mcplan.errors import InvalidInput, InvalidMotion
+from mcplan.errors import InvalidInput, InvalidMotion, shown
 
 _Read = Callable[[Any, str], Any]
+_MOST_ENTRIES = 10_000  # of a list
 
 
 def robot_to_plain(robot: PlanarRobot) -> dict[str, Any]:
@@ -76,15 +77,18 @@ def _plain(value: Any) -> Any:
 
 
 def _fail(field: str, rule: str, value: Any) -> InvalidInput:
-    return InvalidMotion(field, rule, repr(value)[:80])
+    return InvalidMotion(field, rule, shown(value))
 
 
 def _number(value: Any, field: str) -> float:
-    if value in ("inf", "-inf"):
+    if isinstance(value, str) and value in ("inf", "-inf"):
         return float(value)
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise _fail(field, "must be a number", value)
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:
+        raise _fail(field, "must be a number of 64 bits", value) from None
 
 
 def _integer(value: Any, field: str) -> int:
@@ -103,6 +107,8 @@ def _list(read: _Read, size: int | None = None) -> _Read:
     def read_list(value: Any, field: str) -> list[Any]:
         if not isinstance(value, list) or (size is not None and len(value) != size):
             raise _fail(field, "must be a list" + ("" if size is None else f" of {size}"), value)
+        if len(value) > _MOST_ENTRIES:
+            raise InvalidMotion(field, f"may have {_MOST_ENTRIES} entries at most", str(len(value)))
         return [read(item, f"{field}[{i}]") for i, item in enumerate(value)]
 
     return read_list
@@ -113,7 +119,7 @@ def _object(kind: type[Any], keys: Mapping[str, _Read]) -> _Read:
         if not isinstance(value, Mapping):
             raise _fail(field, "must be a table", value)
         prefix = f"{field}." if field else ""
-        for key in value.keys() - keys.keys():
+        for key in sorted(value.keys() - keys.keys()):
             raise _fail(f"{prefix}{key}", f"no such key. Keys: {', '.join(keys)}", key)
         for key in keys:
             if key not in value:

@@ -38,7 +38,7 @@ class PlanarBodyModel(Table):
     position_max: Number | None = Field(None, description="[rad] Of the joint; left out: no limit.")
     velocity_max: Positive | None = Field(None, description="[rad/s] Of the joint; left out: no limit.")
     torque_max: Positive | None = Field(None, description="[N m] Of the joint; left out: no limit.")
-    capsules: list[CapsuleModel] = Field([], description="Shape, for drawing and self-collision.")
+    capsules: list[CapsuleModel] = Field([], max_length=100, description="Shape, for drawing and self-collision.")
 
 
 class PlanarEndEffectorModel(Table):
@@ -48,7 +48,7 @@ class PlanarEndEffectorModel(Table):
     body: Name = Field(description="Name of the body that carries it.")
     position: Point2 = Field([0.0, 0.0], description="[m] Origin of the frame, in the body's frame.")
     angle: Number = Field(0.0, description="[rad] Of the frame's x axis in the body's frame.")
-    points: list[Number] = Field(min_length=1, description="[m] Where forces act, along the x axis.")
+    points: list[Number] = Field(min_length=1, max_length=100, description="[m] Where forces act, along the x axis.")
 
 
 class PlanarRobotModel(Table):
@@ -57,10 +57,12 @@ class PlanarRobotModel(Table):
     name: Name | None = Field(None, description="Default: the name of the file.")
     description: str = Field("", description="One line.")
     gravity: NotNegative = Field(9.81, description="[m/s^2] Along -y.")
-    bodies: list[PlanarBodyModel] = Field(min_length=1, description="The base first, each one after its parent.")
-    end_effectors: list[PlanarEndEffectorModel] = Field(min_length=1)
+    bodies: list[PlanarBodyModel] = Field(
+        min_length=1, max_length=100, description="The base first, each one after its parent."
+    )
+    end_effectors: list[PlanarEndEffectorModel] = Field(min_length=1, max_length=100)
     collision_pairs: list[Annotated[Names, Field(min_length=2, max_length=2)]] = Field(
-        [], description="Pairs of bodies whose capsules may not touch."
+        [], max_length=10_000, description="Pairs of bodies whose capsules may not touch."
     )
 
 
@@ -85,7 +87,9 @@ class PlanarContactModel(Table):
     surface: Name = Field(description="Name.")
     at: Number | None = Field(None, description="[m] Place of the frame's origin along the surface, from its origin.")
     position: Point2 | None = Field(None, description="[m] The same as a point of the world, instead of `at`.")
-    turns: int | None = Field(None, description="[-] Whole turns by which the end-effector is turned more (default 0).")
+    turns: Annotated[int, Field(ge=-1000, le=1000)] | None = Field(
+        None, description="[-] Whole turns by which the end-effector is turned more (default 0)."
+    )
     angle: Number | None = Field(None, description="[rad] Of the end-effector's x axis, instead of `turns`.")
 
 
@@ -94,8 +98,10 @@ class PlanarClearanceModel(Table):
 
     end_effector: Name = Field(description="Name.")
     surface: Name = Field(description="Name.")
-    first_interval: Annotated[int, Field(ge=0)] = Field(0, description="[-] First interval of the phase that counts.")
-    end_interval: Annotated[int, Field(ge=-1)] = Field(
+    first_interval: Annotated[int, Field(ge=0, le=1000)] = Field(
+        0, description="[-] First interval of the phase that counts."
+    )
+    end_interval: Annotated[int, Field(ge=-1, le=1000)] = Field(
         -1, description="[-] First interval that no longer counts; -1: to the end of the phase."
     )
     middle_height: Number | None = Field(
@@ -116,16 +122,18 @@ class PlanarPoseModel(Table):
 class PlanarPhaseModel(Table):
     """A stretch of time with constant contacts: all of them, or what changes against the phase before."""
 
-    contacts: list[PlanarContactModel] = Field([], description="All contacts of the phase.")
+    contacts: list[PlanarContactModel] = Field([], max_length=100, description="All contacts of the phase.")
     lift: Names = Field([], description="End-effectors that leave their contact, instead of `contacts`.")
-    place: list[PlanarContactModel] = Field([], description="Contacts that are new, instead of `contacts`.")
-    intervals: Annotated[int, Field(ge=1)] | None = Field(
+    place: list[PlanarContactModel] = Field(
+        [], max_length=100, description="Contacts that are new, instead of `contacts`."
+    )
+    intervals: Annotated[int, Field(ge=1, le=1000)] | None = Field(
         None, description="[-] Pieces of the joints' splines. Default: 3 for the first and last phase, else 4."
     )
     min_duration: NotNegative = Field(0.0, description="[s]")
     max_duration: Positive | None = Field(None, description="[s] Left out: no limit.")
-    clearances: list[PlanarClearanceModel] = []
-    poses: list[PlanarPoseModel] = []
+    clearances: list[PlanarClearanceModel] = Field([], max_length=1000)
+    poses: list[PlanarPoseModel] = Field([], max_length=1000)
 
 
 class MotionModel(Table):
@@ -136,5 +144,5 @@ class MotionModel(Table):
     robot: Name | PlanarRobotModel = Field(
         description="Built-in name, path relative to this file, or the robot itself as a table."
     )
-    surfaces: list[PlanarSurfaceModel] = Field(min_length=1)
-    phases: list[PlanarPhaseModel] = Field(min_length=1)
+    surfaces: list[PlanarSurfaceModel] = Field(min_length=1, max_length=1000)
+    phases: list[PlanarPhaseModel] = Field(min_length=1, max_length=1000)

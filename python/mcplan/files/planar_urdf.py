@@ -9,7 +9,6 @@ neither the motion in the plane nor the torques. Links behind fixed joints are p
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ElementTree
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +19,7 @@ import numpy as np
 from mcplan._core import Capsule, PlanarBody, PlanarEndEffector, PlanarRobot
 from mcplan.errors import InvalidRobot, did_you_mean
 from mcplan.extras import require
+from mcplan.files.urdf_reading import build_model, read_urdf
 
 _DIGITS = 12
 _PARALLEL = 1e-6  # sine of the largest angle between axes that count as one
@@ -74,52 +74,25 @@ def planar_robot_from_urdf(
             or no inertia, or an end-effector's link does not exist or is turned out of the plane.
     """
     require("mcplan robots --planar --from-urdf", "view", "pinocchio")
-    import pinocchio as pin
-
     source = str(path)
     try:
-        _check_tree(source)
-        model = pin.buildModelFromUrdf(source, pin.JointModelFreeFlyer())
+        xml = read_urdf(path, InvalidRobot)
+        _require_no_mimics(xml.root)
+        model = build_model(xml, InvalidRobot, source)
         robot = _robot(model, ends, radius)
         robot.name = name or Path(source).stem
         robot.description = f"From {Path(source).name}"
         robot.validate()
     except InvalidRobot as found:
-        raise InvalidRobot(found.field, found.rule, found.value, source) from None
+        raise found.moved(source=source) from None
     return robot
 
 
-def _check_tree(source: str) -> None:
-    """What Pinocchio passes over or says in its own way: joints that mimic others, and loops."""
-    try:
-        root = ElementTree.parse(source).getroot()
-    except OSError as bad:
-        raise InvalidRobot("", f"cannot be read: {bad.strerror}") from None
-    except ElementTree.ParseError as bad:
-        raise InvalidRobot("", f"is not XML: {bad}") from None
-    if root.tag != "robot":
-        raise InvalidRobot("", "must be a URDF file, with the root element robot", repr(root.tag))
-    parents: dict[str, str] = {}
+def _require_no_mimics(root: Any) -> None:
+    """Pinocchio passes over joints that mimic others."""
     for joint in root.findall("joint"):
-        field = f"joint {joint.get('name')}"
         if joint.find("mimic") is not None:
-            raise InvalidRobot(field, "may not mimic another joint")
-        parent, child = (_link_of(joint, key, field) for key in ("parent", "child"))
-        if child in parents:
-            raise InvalidRobot(field, "must be the only joint that carries its link (no loops)", repr(child))
-        parents[child] = parent
-        while parent in parents:
-            parent = parents[parent]
-            if parent == child:
-                raise InvalidRobot(field, "may not close a loop", repr(child))
-
-
-def _link_of(joint: Any, key: str, field: str) -> str:
-    element = joint.find(key)
-    link = None if element is None else element.get("link")
-    if not link:
-        raise InvalidRobot(f"{field}.{key}", "is required")
-    return link
+            raise InvalidRobot(f"joint {joint.get('name')}", "may not mimic another joint")
 
 
 def _robot(model: Any, ends: Sequence[PlanarEnd], radius: float) -> PlanarRobot:

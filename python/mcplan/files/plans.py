@@ -20,6 +20,8 @@ contact wrenches, or with headings of soles, has format 3: the arrays of format 
 
 from __future__ import annotations
 
+import errno
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -27,8 +29,10 @@ from typing import Any
 import numpy as np
 
 from mcplan._core import Contact, ForceLaw, Knot, Phase, Plan, Swing, __version__
-from mcplan.errors import InvalidInput, InvalidPlan
+from mcplan.errors import InvalidInput, InvalidPlan, shown
 from mcplan.files.archives import archive_bytes, read_arrays, read_header, write_whole
+from mcplan.files.builtin import exists
+from mcplan.files.reading import MOST_PLAN, read_file
 from mcplan.files.robots import robot_from_dict, robot_to_dict
 from mcplan.files.scenes import scene_from_dict, scene_to_dict
 
@@ -39,6 +43,8 @@ UNITS = "SI: m, kg, s, N, rad; stiffness in 1/s^2; _W: world frame, z up"
 _INTEGERS = {"surfaces", "final_contacts", "swings", "laws", "intervals", "point_counts"}
 _LAWS = (ForceLaw.pendulum, ForceLaw.held, ForceLaw.linear, ForceLaw.wrench)
 _LAST_LAW = {2: 2, 3: 3}  # by format
+#: Of a plan in a file: each takes a hundred times the memory of its numbers once it is read.
+MOST_PHASES, MOST_SWINGS = 10_000, 40_000
 
 
 def save_plan(plan: Plan, path: str | Path) -> None:
@@ -62,14 +68,28 @@ def load_plan(path: str | Path) -> Plan:
         FileNotFoundError: There is no such file.
     """
     try:
-        return plan_from_bytes(Path(path).read_bytes())
+        return plan_from_bytes(read_plan_file(path))
     except InvalidInput as found:
-        raise InvalidPlan(found.field, found.rule, found.value, str(path)) from None
+        raise found.moved(InvalidPlan, str(path)) from None
+
+
+def read_plan_file(path: str | Path) -> bytes:
+    """The content of a plan file of any kind.
+
+    Raises:
+        InvalidPlan: It cannot be read, or is no regular file or too large.
+        FileNotFoundError: There is no such file.
+    """
+    if not exists(path):
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path))
+    return read_file(path, MOST_PLAN, InvalidPlan)
 
 
 def plan_to_bytes(plan: Plan) -> bytes:
     """The content of a plan file."""
     plan.validate()
+    _require_few("phases", len(plan.phases), MOST_PHASES)
+    _require_few("swings", len(plan.swings), MOST_SWINGS)
     version = _format(plan)
     count, ends = len(plan.phases), plan.end_effector_count()
     contacts = [contact for phase in plan.phases for contact in phase.contacts]
@@ -265,15 +285,15 @@ def _part(field: str, read: Callable[[Any], Any], data: Any) -> Any:
     try:
         return read(data)
     except InvalidInput as found:
-        raise InvalidPlan(f"{field}.{found.field}", found.rule, found.value) from None
+        raise found.moved(InvalidPlan, prefix=field) from None
 
 
 def _read_header(arrays: dict[str, np.ndarray]) -> dict[str, Any]:
     header = read_header(arrays)
     if header.get("kind") is not None:
-        raise InvalidPlan("header.kind", "must be none: a plan of contacts and CoM", repr(header["kind"]))
-    if header.get("format") not in FORMATS or isinstance(header["format"], bool):
-        raise InvalidPlan("header.format", "must be 1, 2 or 3 for this version of mcplan", repr(header.get("format")))
+        raise InvalidPlan("header.kind", "must be none: a plan of contacts and CoM", shown(header["kind"]))
+    if type(header.get("format")) is not int or header["format"] not in FORMATS:
+        raise InvalidPlan("header.format", "must be 1, 2 or 3 for this version of mcplan", shown(header.get("format")))
     for key, kind in (("planner", str), ("scene", dict), ("robot", dict)):
         if not isinstance(header.get(key), kind):
             raise InvalidPlan(f"header.{key}", f"must be a {kind.__name__}", type(header.get(key)).__name__)
@@ -287,6 +307,8 @@ def _rows(arrays: dict[str, np.ndarray], name: str) -> int:
 def _check_shapes(arrays: dict[str, np.ndarray], ends: int, version: int) -> None:
     count = arrays["durations"].size if "durations" in arrays else 0
     swings = arrays["swing_heights"].size if "swing_heights" in arrays else 0
+    _require_few("durations", count, MOST_PHASES)
+    _require_few("swing_heights", swings, MOST_SWINGS)
     expected = {
         "durations": (count,),
         "surfaces": (count, ends),
@@ -324,7 +346,14 @@ def _check_shapes(arrays: dict[str, np.ndarray], ends: int, version: int) -> Non
         if arrays[name].dtype.kind not in kinds:
             wanted = "integers" if name in _INTEGERS else "floating-point numbers"
             raise InvalidPlan(name, f"must hold {wanted}", str(arrays[name].dtype))
-        if name in _INTEGERS and arrays[name].size and np.abs(arrays[name]).max() >= 2**31:
-            raise InvalidPlan(name, "must hold numbers of 32 bits", str(np.abs(arrays[name]).max()))
         if arrays[name].shape != shape:
             raise InvalidPlan(name, f"must have shape {shape}", str(arrays[name].shape))
+        if name in _INTEGERS and arrays[name].size:
+            low, high = int(arrays[name].min()), int(arrays[name].max())
+            if low < -(2**31) or high >= 2**31:
+                raise InvalidPlan(name, "must hold numbers of 32 bits", str(low if low < -(2**31) else high))
+
+
+def _require_few(name: str, count: int, most: int) -> None:
+    if count > most:
+        raise InvalidPlan(name, f"may be {most} at most", str(count))

@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from mcplan._core import Polytope
-from mcplan.errors import InvalidRobot, did_you_mean
+from mcplan.errors import MOST_FINDINGS, InvalidRobot, did_you_mean, shown
+from mcplan.files.reading import MOST_POLYTOPES, read_file, referenced
 
 
 def polytope_to_dict(polytope: Polytope) -> dict[str, Any]:
@@ -46,29 +47,28 @@ def read_polytope(data: Mapping[str, Any], folder: Path | None, field: str, sour
             raise InvalidRobot(f"{field}.A", "is required, or file and name", source=source)
         return {"A": data["A"], "b": data["b"]}
     if data["A"] or data["b"]:
-        raise InvalidRobot(f"{field}.file", "must stand alone, without A and b", repr(data["file"]), source)
+        raise InvalidRobot(f"{field}.file", "must stand alone, without A and b", shown(data["file"]), source)
     if folder is None:
-        raise InvalidRobot(f"{field}.file", "may be used in files alone; here A and b", repr(data["file"]), source)
-    path = folder / data["file"]
+        raise InvalidRobot(f"{field}.file", "may be used in files alone; here A and b", shown(data["file"]), source)
+    path = referenced(folder, data["file"], InvalidRobot, f"{field}.file", source)
     entries = _entries(path, f"{field}.file", source)
     if data["name"] not in entries:
-        names = ", ".join(entries)
+        names = ", ".join(name[:60] for name in list(entries)[:MOST_FINDINGS])
         near = did_you_mean(data["name"], entries)
-        raise InvalidRobot(
-            f"{field}.name", f"must be in {path.name} ({names}). {near}".strip(), repr(data["name"]), source
-        )
+        rule = f"must be in {path.name} ({names}). {near}".strip()
+        raise InvalidRobot(f"{field}.name", rule, shown(data["name"]), source)
     found = validated(PolytopeModel, entries[data["name"]], InvalidRobot, f"{path}: {data['name']}")
     return {"A": found.A, "b": found.b}
 
 
 def _entries(path: Path, field: str, source: str) -> dict[str, Any]:
+    text = read_file(path, MOST_POLYTOPES, InvalidRobot, field, source)
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as bad:
-        raise InvalidRobot(field, f"cannot be read: {bad.strerror}", repr(str(path)), source) from None
+        content = json.loads(text.decode("utf-8"))
     except (ValueError, RecursionError) as bad:
-        raise InvalidRobot(field, "must be a JSON file", f"{path.name}: {bad}".splitlines()[0], source) from None
+        reason = (str(bad).splitlines() or ["malformed"])[0]
+        raise InvalidRobot(field, "must be a JSON file", f"{path.name}: {reason}", source) from None
     entries = content.get("polytopes") if isinstance(content, dict) else None
     if not isinstance(entries, dict):
-        raise InvalidRobot(field, "must hold an object `polytopes`", repr(path.name), source)
+        raise InvalidRobot(field, "must hold an object `polytopes`", shown(path.name), source)
     return entries

@@ -93,7 +93,7 @@ def robot_from_dict(data: Mapping[str, Any], source: str = "", folder: Path | No
     try:
         robot.validate()
     except InvalidRobot as found:
-        raise InvalidRobot(found.field, found.rule, found.value, source) from None
+        raise found.moved(source=source) from None
     return robot
 
 

@@ -75,7 +75,7 @@ def scene_from_dict(data: Mapping[str, Any], source: str = "") -> Scene:
     try:
         scene.validate()
     except InvalidScene as found:
-        raise InvalidScene(found.field, found.rule, found.value, source) from None
+        raise found.moved(source=source) from None
     return scene
 
 

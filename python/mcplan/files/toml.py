@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from mcplan.errors import InvalidInput
+from mcplan.files.reading import MOST_TOML, read_file
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -18,25 +19,28 @@ else:
     import tomli as tomllib
 
 _LINE_WIDTH = 110
+_MOST_PARTS = 100
+#: Keys a.b.c of so many parts, for which the parser takes time that grows with the square of their number.
+_LONG_KEY = re.compile(rf"(?<![\w\"'-])(?:[\w\"'-]+[ \t]*\.[ \t]*){{{_MOST_PARTS}}}")
 
 
 def read_toml(path: Path, error: type[InvalidInput]) -> dict[str, Any]:
     """Parse a TOML file; `error` names the file when it cannot be read or is not TOML."""
     source = str(path)
     try:
-        text = path.read_bytes().decode("utf-8")
+        text = read_file(path, MOST_TOML, error).decode("utf-8")
     except UnicodeDecodeError as bad:
         raise error(
             "", "must be UTF-8 text", f"byte 0x{bad.object[bad.start]:02x} at offset {bad.start}", source
         ) from None
-    except OSError as bad:
-        raise error("", f"cannot be read: {bad.strerror}", source=source) from None
     if not text.strip():
         raise error("", "is empty", source=source)
+    if _LONG_KEY.search(text):
+        raise error("", f"is not TOML of ours: a key may have {_MOST_PARTS} parts at most", source=source)
     try:
         return tomllib.loads(text.removeprefix("\ufeff"))
-    except tomllib.TOMLDecodeError as bad:
-        reason = str(bad)
+    except ValueError as bad:  # what TOML forbids, and whole numbers of more digits than Python reads
+        reason = str(bad) or "malformed"
         raise error("", f"is not TOML: {reason[0].lower() + reason[1:]}", source=source) from None
     except RecursionError:
         raise error("", "is not TOML: nested too deep", source=source) from None

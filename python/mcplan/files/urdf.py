@@ -19,18 +19,22 @@ from typing import Any
 import numpy as np
 
 from mcplan._core import EndEffector, Robot
-from mcplan.errors import InvalidInput
+from mcplan.errors import InvalidInput, shown
 from mcplan.extras import require
+from mcplan.files.builtin import exists
 from mcplan.files.reach import HEADING_MOST, Limb, explore, headings_reached, largest_box
 from mcplan.files.strength import POINTS, strengths_in_box
+from mcplan.files.urdf_reading import build_model, read_urdf, read_xml
 from mcplan.files.urdf_setups import SETUPS, End, Setup
 
 GRAVITY = 9.81
+MOST_COM_HEIGHT = 50.0  # [m] beyond, lengths are not in metres
 HAND_INSET_M = 0.03  # of a hand's nominal position in its box: an arm hanging down is at the edge of what it reaches
 SOLE_FRICTION = 0.7  # surfaces' default; half of it is left for forces along the ground
 PHASE_DURATION = (0.3, 0.6)  # [s] of robots with soles: legs of such a weight follow no shorter swing
 #: Share of a sole for the planned centre of pressure: swinging legs need the rest, g1 fell without it.
 PRESSURE_SHARE = 0.75
+_LEAST_STEP = 0.01  # of the grid of reach boxes, in CoM heights, so that its points can be counted
 _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
 
@@ -108,9 +112,11 @@ def robot_from_urdf(
     pin.framesForwardKinematics(model, data, nominal)
     soles = [data.oMf[f].translation[2] for f, end in zip(frames, ends, strict=True) if end.kind == "foot"]
     com_height = float(com[2] - np.mean(soles))
+    _require_size(mass, com_height, data.Ig.inertia)
 
     limbs = {end.name: limb_of(model, nominal, end, ends) for end in ends}
     boxes = {}
+    step = max(step, _LEAST_STEP * com_height)
     for end in ends:
         limb = limbs[end.name]
         position = limb.position(limb.nominal)
@@ -137,6 +143,17 @@ def robot_from_urdf(
             if model.nqs[j] == 1
         },
     )
+
+
+def _require_size(mass: float, com_height: float, inertia: np.ndarray) -> None:
+    """A robot that stands and is no larger than a crane: lengths of URDFs are easily given in millimetres."""
+    if not (np.isfinite(mass) and mass > 0.0):
+        raise InvalidInput("mass", "must be a positive number: links need their inertial", f"{mass:g} kg")
+    if not (np.isfinite(inertia).all() and np.diag(inertia).min() > 0.0):
+        raise InvalidInput("inertia", "must be positive about every axis", shown(np.diag(inertia).tolist()))
+    if not 1e-3 < com_height < MOST_COM_HEIGHT:
+        rule = f"must lie between 0.001 and {MOST_COM_HEIGHT:g} m above the feet; lengths are in metres"
+        raise InvalidInput("com_height", rule, f"{com_height:g} m")
 
 
 def header(command: str, step: float = 0.02, own_posture: bool = False) -> str:
@@ -194,6 +211,11 @@ def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...]) ->
 
     shared = {j for other in ends if other.name != end.name for j in carriers(other.frame)}
     own = [j for j in carriers(end.frame) if j not in shared]
+    if not own:
+        raise InvalidInput(f"ends.{end.name}", "must be moved by a joint that moves no other one", shown(end.frame))
+    for joint in own:
+        if model.nqs[joint] != 1:
+            raise InvalidInput(f"joint {model.names[joint]}", "must have one angle and limits")
     locked = [j for j in range(2, model.njoints) if j not in own]  # joint 1 is the free base: its mass counts
     reduced = pin.buildReducedModel(model, locked, posture)
     nominal = np.array([posture[model.idx_qs[j]] for j in own])
@@ -241,12 +263,11 @@ def load_model(
 def _read(source: str, srdf: str | None) -> tuple[Any, np.ndarray, str]:
     import pinocchio as pin
 
-    if Path(source).is_file():
-        model = pin.buildModelFromUrdf(source, pin.JointModelFreeFlyer())
+    if exists(source):
+        model = build_model(read_urdf(source, InvalidInput, "--from-urdf", ""), InvalidInput, source)
         if srdf is None:
             return model, pin.neutral(model), source
-        pin.loadReferenceConfigurations(model, srdf)
-        return model, np.array(next(iter(model.referenceConfigurations)).data()), source
+        return model, _first_posture(model, srdf), source
     import example_robot_data
 
     try:
@@ -256,6 +277,20 @@ def _read(source: str, srdf: str | None) -> tuple[Any, np.ndarray, str]:
             "--from-urdf", "must be a URDF file or a name of example-robot-data", repr(source)
         ) from found
     return loaded.model, loaded.q0.copy(), f"example-robot-data:{source}"
+
+
+def _first_posture(model: Any, srdf: str) -> np.ndarray:
+    import pinocchio as pin
+
+    xml = read_xml(srdf, InvalidInput, "--srdf", "")
+    try:
+        pin.loadReferenceConfigurationsFromXML(model, xml.text)
+        posture = np.array(next(iter(model.referenceConfigurations)).data())
+    except Exception as found:  # of Pinocchio's parser; StopIteration: there is none
+        raise InvalidInput("--srdf", "must hold a posture (group_state) of the robot", shown(srdf)) from found
+    if posture.shape != (model.nq,) or not np.isfinite(posture).all():
+        raise InvalidInput("--srdf", "must hold a posture of finite angles", shown(srdf))
+    return posture
 
 
 def _search_box(nominal: np.ndarray, end: End, com_height: float, lift: float) -> tuple[np.ndarray, np.ndarray]:

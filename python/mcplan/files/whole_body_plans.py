@@ -19,15 +19,18 @@ from typing import Any
 import numpy as np
 
 from mcplan._core import Plan, PlanarForceLaw, PlanarMotion, WholeBodyPlan, __version__
-from mcplan.errors import InvalidInput, InvalidPlan
+from mcplan.errors import InvalidInput, InvalidPlan, shown
+from mcplan.files import plans
 from mcplan.files.archives import archive_bytes, read_arrays, read_header, write_whole
 from mcplan.files.planar_data import motion_from_plain, motion_to_plain
-from mcplan.files.plans import load_plan
+from mcplan.files.plans import read_plan_file
 
 KIND = "whole_body"
 #: Of files of runs (tracking/run_files.py), which carry a plan and are none.
 RUN_KINDS = ("run", "planar_run")
 FORMAT = 1
+#: Of a plan in a file, in all phases together.
+MOST_INTERVALS = 20_000
 UNITS = "SI: m, kg, s, N, rad; _W: world frame, x forward, y up; _B: frame of a body; _P: frame of its parent"
 _LAWS = {"least_norm": PlanarForceLaw.least_norm, "polynomial": PlanarForceLaw.polynomial}
 
@@ -53,9 +56,9 @@ def load_whole_body_plan(path: str | Path) -> WholeBodyPlan:
         FileNotFoundError: There is no such file.
     """
     try:
-        return plan_from_bytes(Path(path).read_bytes())
+        return plan_from_bytes(read_plan_file(path))
     except InvalidInput as found:
-        raise InvalidPlan(found.field, found.rule, found.value, str(path)) from None
+        raise found.moved(InvalidPlan, str(path)) from None
 
 
 def load_any_plan(path: str | Path) -> Plan | WholeBodyPlan:
@@ -66,12 +69,13 @@ def load_any_plan(path: str | Path) -> Plan | WholeBodyPlan:
         FileNotFoundError: There is no such file.
     """
     try:
-        kind = read_header(read_arrays(Path(path).read_bytes())).get("kind")
+        data = read_plan_file(path)
+        kind = read_header(read_arrays(data)).get("kind")
         if kind in RUN_KINDS:
             raise InvalidPlan("", "must be a plan", "a run of one, which mcplan track saved")
-    except InvalidPlan as found:
-        raise InvalidPlan(found.field, found.rule, found.value, str(path)) from None
-    return load_whole_body_plan(path) if kind == KIND else load_plan(path)
+        return plan_from_bytes(data) if kind == KIND else plans.plan_from_bytes(data)
+    except InvalidInput as found:
+        raise found.moved(InvalidPlan, str(path)) from None
 
 
 def plan_to_bytes(plan: WholeBodyPlan) -> bytes:
@@ -110,8 +114,11 @@ def plan_from_bytes(data: bytes) -> WholeBodyPlan:
         motion = motion_from_plain(header["motion"])
         motion.validate()
     except InvalidInput as found:
-        raise InvalidPlan(f"header.motion.{found.field}", found.rule, found.value) from None
+        raise found.moved(InvalidPlan, prefix="header.motion") from None
     _check_arrays(arrays)
+    if motion.interval_count() > MOST_INTERVALS:
+        rule = f"may have {MOST_INTERVALS} intervals at most"
+        raise InvalidPlan("header.motion.phases", rule, str(motion.interval_count()))
     law = _LAWS[header["force_law"]]
     points = _point_counts(motion)
     intervals = [count for phase, count in zip(motion.phases, points, strict=True) for _ in range(phase.intervals)]
@@ -139,15 +146,15 @@ def _point_counts(motion: PlanarMotion) -> list[int]:
 
 def _checked_header(header: dict[str, Any]) -> dict[str, Any]:
     if header.get("kind") != KIND:
-        raise InvalidPlan("header.kind", f"must be {KIND!r}", repr(header.get("kind")))
+        raise InvalidPlan("header.kind", f"must be {KIND!r}", shown(header.get("kind")))
     version = header.get("format")
-    if version != FORMAT or isinstance(version, bool):
-        raise InvalidPlan("header.format", f"must be {FORMAT} for this version of mcplan", repr(version))
+    if type(version) is not int or version != FORMAT:
+        raise InvalidPlan("header.format", f"must be {FORMAT} for this version of mcplan", shown(version))
     for key, kind in (("planner", str), ("force_law", str), ("motion", dict)):
         if not isinstance(header.get(key), kind):
             raise InvalidPlan(f"header.{key}", f"must be a {kind.__name__}", type(header.get(key)).__name__)
     if header["force_law"] not in _LAWS:
-        raise InvalidPlan("header.force_law", f"must be one of {', '.join(_LAWS)}", repr(header["force_law"]))
+        raise InvalidPlan("header.force_law", f"must be one of {', '.join(_LAWS)}", shown(header["force_law"]))
     return header
 
 

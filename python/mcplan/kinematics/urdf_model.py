@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan.errors import InvalidRobot
+from mcplan.errors import InvalidRobot, shown
 from mcplan.extras import require
+from mcplan.files.urdf_reading import build_model, package_folders, read_urdf
 
 if TYPE_CHECKING:
     from mcplan._core import Robot
@@ -72,11 +73,14 @@ def load_model(robot: Robot) -> UrdfModel:
             path = Path(wrapper.urdf)
         else:
             path = Path(source).resolve(strict=True)
-            folders = [str(folder) for folder in list(path.parents)[:5]]
-            model, _, visual = pin.buildModelsFromUrdf(str(path), folders, pin.JointModelFreeFlyer())
+            xml = read_urdf(path, InvalidRobot)
+            model = build_model(xml, InvalidRobot, str(path))
+            kind, folders = pin.GeometryType.VISUAL, package_folders(path)
+            visual = pin.buildGeomFromUrdfString(model, xml.text, kind, None, folders)
             neutral = pin.neutral(model)
     except Exception as error:  # loaders of robots raise what the file system or the parser happen to raise
-        raise InvalidRobot("urdf", "must be a readable URDF", f"{source!r} ({error})", robot.name) from error
+        reason = (str(error).splitlines() or [type(error).__name__])[0]
+        raise InvalidRobot("urdf", "must be a readable URDF", f"{shown(source, 200)} ({reason})", robot.name) from error
     if neutral.shape != (model.nq,) or not np.isfinite(neutral).all():
         neutral = pin.neutral(model)
     neutral[:7] = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]

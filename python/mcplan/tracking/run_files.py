@@ -7,8 +7,10 @@ of Recording or PlanarRecording under their names, and `plan`, the bytes of the 
 
 from __future__ import annotations
 
+import errno
 import io
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import asdict, fields
 from pathlib import Path
@@ -17,9 +19,11 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from mcplan._core import __version__
-from mcplan.errors import InvalidInput
+from mcplan.errors import InvalidInput, shown
 from mcplan.files import plans, whole_body_plans
 from mcplan.files.archives import read_arrays, read_header, write_whole
+from mcplan.files.builtin import exists
+from mcplan.files.reading import MOST_PLAN_INFLATED, MOST_RUN, MOST_RUN_INFLATED, MOST_RUN_RATIO, read_file
 from mcplan.files.robots import robot_from_dict, robot_to_dict
 
 from .measures import Measures
@@ -73,23 +77,27 @@ def load_run(path: str | Path) -> TrackingResult | PlanarResult:
         InvalidInput: Not such a file, or its content does not fit together; the message names file, field and rule.
         FileNotFoundError: There is no such file.
     """
-    data = Path(path).read_bytes()
+    if not exists(path):
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path))
+    data = read_file(path, MOST_RUN, InvalidInput)
     try:
-        arrays = read_arrays(data)
+        arrays = read_arrays(data, min(MOST_RUN_INFLATED, MOST_RUN_RATIO * len(data) + MOST_PLAN_INFLATED))
         header = read_header(arrays)
         kind = header.get("kind")
-        if kind not in _ENDS:
-            raise InvalidInput("header.kind", f"must be {RUN!r} or {PLANAR_RUN!r}: no file of a run", repr(kind))
+        if not isinstance(kind, str) or kind not in _ENDS:
+            raise InvalidInput("header.kind", f"must be {RUN!r} or {PLANAR_RUN!r}: no file of a run", shown(kind))
         if header.get("format") != FORMAT:
             raise InvalidInput(
-                "header.format", f"must be {FORMAT} for this version of mcplan", repr(header.get("format"))
+                "header.format", f"must be {FORMAT} for this version of mcplan", shown(header.get("format"))
             )
         try:
             return _planar_result(header, arrays) if kind == PLANAR_RUN else _result(header, arrays)
-        except (KeyError, TypeError, AttributeError) as found:
-            raise InvalidInput("header", "must hold what mcplan track --save writes", str(found)) from None
+        except InvalidInput:
+            raise
+        except (KeyError, TypeError, AttributeError, ValueError, OverflowError) as found:
+            raise InvalidInput("header", "must hold what mcplan track --save writes", shown(str(found))) from None
     except InvalidInput as found:
-        raise InvalidInput(found.field, found.rule, found.value, str(path)) from None
+        raise found.moved(InvalidInput, str(path)) from None
 
 
 def _result(header: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> TrackingResult:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mcplan.errors import InvalidRobot
+from mcplan.files.urdf_reading import read_xml
 
 if TYPE_CHECKING:
     from mcplan.kinematics.urdf_model import UrdfModel
@@ -34,7 +35,7 @@ def rewrite(loaded: UrdfModel, visual: bool = False) -> tuple[str, str]:
     Raises:
         InvalidRobot: The joints of the file are not those of the model.
     """
-    root = ET.parse(loaded.path).getroot()
+    root = read_xml(loaded.path, InvalidRobot, "urdf", loaded.robot.name).root
     for item in list(root):
         if item.tag not in ("link", "joint", "material"):
             root.remove(item)
