@@ -1,4 +1,4 @@
-"""The ``mcplan`` command. One file per verb; errors are one line on stderr and exit code 2."""
+"""The ``mcplan`` command. One file per verb; errors are a line each on stderr and exit code 2."""
 
 from __future__ import annotations
 
@@ -32,12 +32,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except Exception as found:
         # Usage errors: typer brings its own click or uses the installed one, so the class is known by what it does.
         if hasattr(found, "format_message"):
-            return _fail(found.format_message())
+            return _fail(" ".join(found.format_message().split()))
         if type(found).__name__ == "Abort":
             return 130
         raise
 
 
 def _fail(message: str) -> int:
-    print(f"error: {' '.join(message.split())}", file=sys.stderr)
+    for line in message.splitlines() or [""]:
+        print(f"error: {' '.join(line.split())}", file=sys.stderr)
     return 2

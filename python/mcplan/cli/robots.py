@@ -104,7 +104,7 @@ def _from_urdf(
 ) -> None:
     """faces: of the reach polytopes; None: without them."""
     from mcplan.files import reach_polytopes
-    from mcplan.files.robots import robot_to_dict, save_robot
+    from mcplan.files.robots import robot_to_dict, save_robot, urdf_beside
     from mcplan.files.toml import toml_text
     from mcplan.files.urdf import header, robot_from_urdf
     from mcplan.files.urdf_setups import SETUPS
@@ -139,6 +139,13 @@ def _from_urdf(
         robot.validate()
         print(toml_text(robot_to_dict(robot), comment), end="")
     else:
+        beside = urdf_beside(robot.urdf, output)
+        if beside is None:
+            note = (
+                f"lies neither in the folder of {output} nor below: left out. Copy it there, and add its path as urdf"
+            )
+            print(f"note: {robot.urdf} {note}", file=sys.stderr)
+        robot.urdf = beside or ""
         save_robot(robot, output, comment)
         print(f"Wrote {output}")
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from mcplan._core import PlanarClearance, PlanarMotion, PlanarPhase, PlanarPose, PlanarRobot, PlanarSurface
-from mcplan.errors import InvalidMotion, UnknownMotion
+from mcplan.errors import InvalidMotion, UnknownMotion, shown
 from mcplan.files import builtin
 from mcplan.files.planar_robots import (
     field_in_file,
@@ -19,6 +19,7 @@ from mcplan.files.planar_robots import (
     planar_robot_from_dict,
     planar_robot_to_dict,
 )
+from mcplan.files.reading import referenced
 from mcplan.files.stances import Stances, contact_to_dict
 from mcplan.files.toml import read_toml, toml_text
 
@@ -86,21 +87,28 @@ def motion_from_dict(data: Mapping[str, Any], source: str = "", folder: Path | N
         robot = planar_robot_from_dict({"name": "robot", **plain["robot"]}, source, "robot")
         plain["robot"] = robot.name
     elif "robot" in plain and not (isinstance(plain["robot"], str) and plain["robot"]):
-        raise InvalidMotion("robot", "must be a name, a path or a table", repr(plain["robot"]), source)
+        raise InvalidMotion("robot", "must be a name, a path or a table", shown(plain["robot"]), source)
     plain = validated(MotionModel, plain, InvalidMotion, source).model_dump()
-    robot = robot or _load_robot(plain["robot"], folder)
+    robot = robot or _load_robot(plain["robot"], folder, source)
     try:
         stances = Stances(robot, plain["surfaces"])
         motion = _motion_from_plain(plain, robot, stances)
         _validate(motion, stances)
     except InvalidMotion as found:
-        raise InvalidMotion(found.field, found.rule, found.value, source) from None
+        raise found.moved(source=source) from None
     return motion
 
 
-def _load_robot(name: str, folder: Path | None) -> PlanarRobot:
-    path = (folder or Path()) / name
-    return load_planar_robot(path if name not in list_planar_robots() and path.is_file() else name)
+def _load_robot(name: str, folder: Path | None, source: str) -> PlanarRobot:
+    """The robot that a motion names: a built-in one, or a file which, if a file names it, lies beside it or below."""
+    if folder is None or name in list_planar_robots():
+        return load_planar_robot(name)
+    path = folder / name
+    if not builtin.exists(path) and builtin.exists(name):
+        path = Path(name)
+    if not builtin.exists(path):
+        return load_planar_robot(name)  # which says that there is none
+    return load_planar_robot(referenced(folder, str(path.absolute()), InvalidMotion, "robot", source))
 
 
 def _validate(motion: PlanarMotion, stances: Stances) -> None:
@@ -174,7 +182,7 @@ def _pose_from_plain(entry: Mapping[str, Any], robot: PlanarRobot, field: str) -
     for key in ("x", "y", "angle"):
         low, high = entry[key] or (-math.inf, math.inf)
         if not low <= high:
-            raise InvalidMotion(f"{field}.{key}", "must read [from, to], with from not above to", repr(entry[key]))
+            raise InvalidMotion(f"{field}.{key}", "must read [from, to], with from not above to", shown(entry[key]))
         bounds.append((low, high))
     return PlanarPose(
         body=index_of(entry["body"], names, f"{field}.body", "a body of the robot", InvalidMotion),

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from mcplan._core import Capsule, PlanarBody, PlanarEndEffector, PlanarRobot
-from mcplan.errors import InvalidInput, InvalidRobot, UnknownRobot, did_you_mean
+from mcplan.errors import InvalidInput, InvalidRobot, UnknownRobot, did_you_mean, shown, together
 from mcplan.files import builtin
 from mcplan.files.toml import read_toml, toml_text
 
@@ -77,9 +77,13 @@ def planar_robot_from_dict(data: Mapping[str, Any], source: str = "", field: str
         robot = _robot_from_plain(plain)
         robot.validate()
     except InvalidRobot as found:
-        where = [part for part in (field, field_in_file(found.field)) if part]
-        raise InvalidRobot(".".join(where), found.rule, found.value, source) from None
+        raise together([_in_file(finding, field, source) for finding in (found, *found.others)]) from None
     return robot
+
+
+def _in_file(finding: InvalidInput, field: str, source: str) -> InvalidRobot:
+    where = [part for part in (field, field_in_file(finding.field)) if part]
+    return InvalidRobot(".".join(where), finding.rule, finding.value, source)
 
 
 def field_in_file(field: str) -> str:
@@ -96,14 +100,14 @@ def index_of(name: str, legal: Sequence[str], field: str, what: str, error: type
     if name in legal:
         return list(legal).index(name)
     rule = f"must name {what}. {did_you_mean(name, legal)}There are: {', '.join(legal) or 'none'}"
-    raise error(field, rule, repr(name))
+    raise error(field, rule, shown(name))
 
 
 def require_unique(names: Sequence[str], field: str, error: type[InvalidInput]) -> None:
     """Names that are looked up have to be unique first: InvalidInput of the given class names the second of a pair."""
     for i, name in enumerate(names):
         if name in names[:i]:
-            raise error(f"{field}[{i}].name", "must be unique", repr(name))
+            raise error(f"{field}[{i}].name", "must be unique", shown(name))
 
 
 def _body_to_dict(body: PlanarBody, names: Sequence[str]) -> dict[str, Any]:
@@ -181,7 +185,7 @@ def _parent(name: str | None, i: int, names: Sequence[str]) -> int:
             raise InvalidRobot(field, "is required of every body but the first, the base")
         return -1
     if i == 0:
-        raise InvalidRobot(field, "must be left out for the first body, the base", repr(name))
+        raise InvalidRobot(field, "must be left out for the first body, the base", shown(name))
     if name in names[i:]:
-        raise InvalidRobot(field, "must come before its children, and no body may be its own ancestor", repr(name))
+        raise InvalidRobot(field, "must come before its children, and no body may be its own ancestor", shown(name))
     return index_of(name, names[:i], field, "a body above this one", InvalidRobot)

@@ -10,9 +10,13 @@ from typing import Any
 from mcplan._core import EndEffector, Robot
 from mcplan.errors import InvalidRobot, UnknownRobot
 from mcplan.files import builtin
+from mcplan.files.builtin import exists
 from mcplan.files.polytopes import polytope_from_dict, polytope_to_dict, read_polytope
+from mcplan.files.reading import referenced
 from mcplan.files.toml import read_toml, toml_text
 
+#: How a robot names a URDF of the package example-robot-data.
+PACKAGE = "example-robot-data:"
 _POSITIONS = {"nominal": "nominal_B", "reach_min": "reach_min_B", "reach_max": "reach_max_B"}
 
 
@@ -73,7 +77,8 @@ def robot_from_dict(data: Mapping[str, Any], source: str = "", folder: Path | No
     Args:
         data: As from robot_to_dict, or read from a file.
         source: Named in errors.
-        folder: Where the files of reach polytopes are looked for; None: they must be inline.
+        folder: Where the URDF and the files of reach polytopes are looked for, all of which must lie there or below; None:
+            polytopes must be inline, and the path of the URDF is taken as it is.
 
     Raises:
         InvalidRobot: A key is unknown or missing, or a value has the wrong type or is out of range.
@@ -89,12 +94,43 @@ def robot_from_dict(data: Mapping[str, Any], source: str = "", folder: Path | No
             end["com_reach"] = read_polytope(end["com_reach"], folder, f"{field}.com_reach", source)
         for partner, reach in end["partner_reach"].items():
             end["partner_reach"][partner] = read_polytope(reach, folder, f"{field}.partner_reach.{partner}", source)
+    if folder is not None:
+        plain["urdf"] = _urdf_of(plain["urdf"], folder, source)
     robot = rebuild_robot(plain)
     try:
         robot.validate()
     except InvalidRobot as found:
         raise found.moved(source=source) from None
     return robot
+
+
+def _urdf_of(urdf: str, folder: Path, source: str) -> str:
+    """The URDF that a file names, as the working directory sees it.
+
+    Relative paths count from the folder of the file; where there is none, from the working directory, as older files do.
+    """
+    if not urdf or urdf.startswith(PACKAGE):
+        return urdf
+    beside = folder / urdf
+    named = Path(urdf) if exists(urdf) and not exists(beside) else beside
+    referenced(folder, str(named.absolute()), InvalidRobot, "urdf", source)
+    return str(beside) if exists(beside) else urdf
+
+
+def urdf_beside(urdf: str, path: str | Path) -> str | None:
+    """What to write as `urdf` into a robot's file so that it can be read there: the path relative to the file's folder.
+
+    Args:
+        urdf: As the working directory sees it, or "example-robot-data:NAME".
+        path: The robot's file.
+
+    Returns:
+        None: it lies neither in that folder nor below.
+    """
+    if not urdf or urdf.startswith(PACKAGE):
+        return urdf
+    target, root = Path(urdf).resolve(), Path(path).resolve().parent
+    return target.relative_to(root).as_posix() if target.is_relative_to(root) else None
 
 
 def rebuild_robot(data: Mapping[str, Any]) -> Robot:

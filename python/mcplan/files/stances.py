@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mcplan._core import PlanarContact, PlanarMotion, PlanarRobot
-from mcplan.errors import InvalidMotion
+from mcplan.errors import InvalidMotion, shown
 from mcplan.files.planar_robots import index_of, require_unique
 
 _TURN = 2.0 * math.pi
@@ -80,7 +80,7 @@ class Stances:
     def _lift(self, name: str, field: str) -> None:
         end = self.end_effector(name, field)
         if end not in self._current:
-            raise InvalidMotion(field, "must be in contact in the phase before", repr(name))
+            raise InvalidMotion(field, "must be in contact in the phase before", shown(name))
         del self._current[end]
 
     def _place(self, contacts: Sequence[Mapping[str, Any]], field: str) -> None:
@@ -89,7 +89,7 @@ class Stances:
             contact = self._contact(entry, where)
             if contact.end_effector in self._current:
                 rule = "is in contact already" + (": lift it first" if field.endswith("place") else "")
-                raise InvalidMotion(f"{where}.end_effector", rule, repr(entry["end_effector"]))
+                raise InvalidMotion(f"{where}.end_effector", rule, shown(entry["end_effector"]))
             self._current[contact.end_effector] = (contact, where, entry["at"] is not None)
 
     def _contact(self, entry: Mapping[str, Any], field: str) -> PlanarContact:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from mcplan.errors import InvalidRobot, shown
 from mcplan.extras import require
+from mcplan.files.robots import PACKAGE
 from mcplan.files.urdf_reading import build_model, package_folders, read_urdf
 
 if TYPE_CHECKING:
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-PACKAGE = "example-robot-data:"
 #: Inertia of the rotor, seen at the joint, of joints for which URDF and SRDF give none [kg m^2]. Geared joints have some,
 #: and without it light distal links turn too easily to be simulated.
 ARMATURE = 0.01
