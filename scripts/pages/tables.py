@@ -20,6 +20,8 @@ from typing import Any
 import mcplan
 from mcplan import Tolerances, rhp, sip
 from mcplan._core import ddp
+from mcplan.files import reading
+from mcplan.files.reading import size_text
 from mcplan.files.robots import list_robots
 from mcplan.files.scenes import list_scenes
 from mcplan.tracking.options import Options as TrackingOptions
@@ -176,6 +178,19 @@ def scenes() -> str:
     return table(["scene", "way to the goal [m]", "surfaces", "friction", "`grasp`", "steps", "rules"], rows)
 
 
+def file_limits() -> str:
+    """Largest sizes of files that are read."""
+    rows = [
+        ["scene, robot or motion (TOML)", size_text(reading.MOST_TOML)],
+        ["reach polytopes (JSON)", size_text(reading.MOST_POLYTOPES)],
+        ["URDF or SRDF", size_text(reading.MOST_URDF)],
+        ["mesh", size_text(reading.MOST_MESH)],
+        ["plan, its arrays", f"{size_text(reading.MOST_PLAN)}, {size_text(reading.MOST_PLAN_INFLATED)}"],
+        ["run, its arrays", f"{size_text(reading.MOST_RUN)}, {size_text(reading.MOST_RUN_INFLATED)}"],
+    ]
+    return table(["file", "at most"], rows)
+
+
 def least_torque() -> str:
     """Least torque by motion and case: criterion, and in brackets the largest `moment` that the checker finds [N m]."""
     rows = []
@@ -192,4 +207,4 @@ def least_torque() -> str:
     return table(["motion", "case 1", "case 2", "case 3"], rows)
 
 
-MADE: dict[str, Callable[[], str]] = {f.__name__: f for f in (robot_limits, robots, scenes, least_torque)}
+MADE: dict[str, Callable[[], str]] = {f.__name__: f for f in (robot_limits, robots, scenes, file_limits, least_torque)}
