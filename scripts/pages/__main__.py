@@ -43,11 +43,11 @@ def review(pages: list[Page], slow: bool = False) -> list[str]:
     faults: list[str] = []
     for page in pages:
         faults += made.refresh(page, slow)
-        faults += tables.refresh(page)
+        faults += tables.refresh(page, slow)
     faults += stated.refresh(pages)
     for page in pages:
         faults += links.faults(page) + commands.faults(page) + names.faults(page)
-    return faults + commands.help_faults() + pictures.faults(pages)
+    return faults + commands.help_faults() + links.source_faults() + pictures.faults(pages)
 
 
 def _diff(page: Page) -> str:

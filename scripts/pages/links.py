@@ -6,9 +6,10 @@ import re
 from functools import cache
 from pathlib import Path
 
-from pages.page import Page
+from pages.page import ROOT, Page
 
 WIDTH = 130
+_SENT = re.compile(r"(docs/[\w/]+\.md)(?:, \"([^\"\n]+)\")?")
 _LINK = re.compile(r"\]\(([^)\s]*)\)")
 #: Lines that cannot be broken: tables, pictures, headings, marks, indented code.
 _LONG = re.compile(r"\s*(\||!\[|#|<!--)|    ")
@@ -24,6 +25,22 @@ def faults(page: Page) -> list[str]:
             out.append(f"{page.name}:{number}: {len(line)} columns, at most {WIDTH}")
         if not is_code:
             out += [f"{page.name}:{number}: {fault}" for link in _LINK.findall(line) if (fault := _broken(page, link))]
+    return out
+
+
+def source_faults() -> list[str]:
+    """Pages, and headings of them, that comments and docstrings send the reader to and that do not exist."""
+    out = []
+    for folder in ("cpp", "python", "scripts", "examples", "benchmarks", "tests/cpp"):
+        for path in sorted((ROOT / folder).rglob("*")):
+            if path.suffix not in (".cpp", ".hpp", ".py", ".toml", ".txt"):
+                continue
+            for target, heading in _SENT.findall(path.read_text(encoding="utf-8")):
+                where = f"{path.relative_to(ROOT)}: {target}"
+                if not (ROOT / target).exists():
+                    out.append(f"{where} does not exist")
+                elif heading and _anchor(heading) not in anchors(ROOT / target):
+                    out.append(f'{where} has no heading "{heading}"')
     return out
 
 
@@ -48,9 +65,12 @@ def anchors(path: Path) -> frozenset[str]:
         heading = re.match(r"#+ +(.*)", line)
         if is_code or not heading:
             continue
-        text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading[1]).strip().lower()
-        anchor = re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
+        anchor = _anchor(re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading[1]))
         count = seen.get(anchor, 0)
         seen[anchor] = count + 1
         out.add(anchor if count == 0 else f"{anchor}-{count}")
     return frozenset(out)
+
+
+def _anchor(heading: str) -> str:
+    return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")

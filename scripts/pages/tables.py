@@ -1,8 +1,8 @@
 """Tables that the code knows: whole ones between marks, and columns and rows of tables that people write.
 
-<!-- table: robot_limits -->        the whole table is made by the function of this name below
-...
-<!-- end -->
+<!-- table: robot_limits -->      the whole table is made by the function of this name below; `table slowly` marks one that
+    ...                               plans, and is made with --slow
+    <!-- end -->
 
 <!-- defaults of: rhp.Options -->   in the table below, the first column names fields and the second has their defaults
 <!-- rows are: status -->           in the table below, the first column has these names, all of them and no others
@@ -20,13 +20,15 @@ from typing import Any
 import mcplan
 from mcplan import Tolerances, rhp, sip
 from mcplan._core import ddp
+from mcplan.files import reading
+from mcplan.files.reading import size_text
 from mcplan.files.robots import list_robots
 from mcplan.files.scenes import list_scenes
 from mcplan.tracking.options import Options as TrackingOptions
-from pages import known
+from pages import known, made
 from pages.page import Page
 
-_MADE = re.compile(r"<!-- table: (\w+) -->\n(.*?)<!-- end -->", re.S)
+_MADE = re.compile(r"<!-- table( slowly)?: (\w+) -->\n(.*?)<!-- end -->", re.S)
 _DEFAULTS = re.compile(r"(<!-- defaults of: ([\w.]+) -->\n(?:<!--.*-->\n)*\n?)((?:\|.*\n)+)")
 _ROWS = re.compile(r"<!-- rows are: ([\w ]+) -->\n(?:<!--.*-->\n)*\n?((?:\|.*(?:\n|$))+)")
 _NAME = re.compile(r"`([\w/]+)`")
@@ -42,10 +44,10 @@ OPTIONS: dict[str, Callable[[], Any]] = {
 CALLED = {"time_limit": "time_limit_s"}
 
 
-def refresh(page: Page) -> list[str]:
+def refresh(page: Page, slow: bool = False) -> list[str]:
     """Rewrite a page's tables; returns rows that are missing or name nothing."""
     faults: list[str] = []
-    page.text = _MADE.sub(lambda m: f"<!-- table: {m[1]} -->\n{MADE[m[1]]()}<!-- end -->", page.text)
+    page.text = _MADE.sub(lambda match: _made(match, slow), page.text)
     page.text = _DEFAULTS.sub(lambda m: m[1] + _defaults(page, m[2], m[3], faults), page.text)
     for match in _ROWS.finditer(page.text):
         rows = match[2].strip().splitlines()[2:]
@@ -57,6 +59,15 @@ def refresh(page: Page) -> list[str]:
                 f"{page.name}, table of {match[1]}: lacks {sorted(wanted - there)}, has {sorted(there - wanted)} too much"
             )
     return faults
+
+
+def _made(match: re.Match[str], slow: bool) -> str:
+    slowly, name, old = match[1] or "", match[2], match[3]
+    if slowly and not slow:
+        return match[0]
+    new = MADE[name]()
+    kept = old if slowly and made.same(old, new, made.ABOUT) else new
+    return f"<!-- table{slowly}: {name} -->\n{kept}<!-- end -->"
 
 
 def _defaults(page: Page, what: str, table: str, faults: list[str]) -> str:
@@ -167,4 +178,33 @@ def scenes() -> str:
     return table(["scene", "way to the goal [m]", "surfaces", "friction", "`grasp`", "steps", "rules"], rows)
 
 
-MADE: dict[str, Callable[[], str]] = {f.__name__: f for f in (robot_limits, robots, scenes)}
+def file_limits() -> str:
+    """Largest sizes of files that are read."""
+    rows = [
+        ["scene, robot or motion (TOML)", size_text(reading.MOST_TOML)],
+        ["reach polytopes (JSON)", size_text(reading.MOST_POLYTOPES)],
+        ["URDF or SRDF", size_text(reading.MOST_URDF)],
+        ["mesh", size_text(reading.MOST_MESH)],
+        ["plan, its arrays", f"{size_text(reading.MOST_PLAN)}, {size_text(reading.MOST_PLAN_INFLATED)}"],
+        ["run, its arrays", f"{size_text(reading.MOST_RUN)}, {size_text(reading.MOST_RUN_INFLATED)}"],
+    ]
+    return table(["file", "at most"], rows)
+
+
+def least_torque() -> str:
+    """Least torque by motion and case: criterion, and in brackets the largest `moment` that the checker finds [N m]."""
+    rows = []
+    for name in ("cartwheel", "climbing", "walking"):
+        cells = []
+        for forces in ("uniform", "per_body", "per_point"):
+            result = mcplan.whole_body(name, forces=forces)
+            if result.report.status != mcplan.Status.solved:
+                cells.append(str(result.report.status))
+                continue
+            moment = next(c.value for c in mcplan.check(result.plan).constraints if c.name == "moment")
+            cells.append(f"{result.report.cost:.0f} ({moment:.2f})")
+        rows.append([name, *cells])
+    return table(["motion", "case 1", "case 2", "case 3"], rows)
+
+
+MADE: dict[str, Callable[[], str]] = {f.__name__: f for f in (robot_limits, robots, scenes, file_limits, least_torque)}

@@ -150,6 +150,11 @@ def test_links_that_lead_somewhere_and_long_tables_are_not_reported():
     assert links.faults(page(text)) == []
 
 
+def test_headings_that_sources_name_are_found():
+    assert "closed-form" in links.anchors(ROOT / "docs/theory/ddp.md")
+    assert links.source_faults() == []
+
+
 def test_a_line_that_is_too_long_is_reported():
     assert "140 columns" in links.faults(page("x" * 140))[0]
 
