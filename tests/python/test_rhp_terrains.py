@@ -117,7 +117,6 @@ def test_com_alone_fails_by_cycle_3_with_an_honest_status(terrain: str) -> None:
     assert last.index <= 3
     assert last.status in (mp.Status.infeasible, mp.Status.time_limit, mp.Status.iteration_limit)
     assert walk.report.status == last.status
-    assert last.time_s < 5.0 + 0.2
     assert last.worst_violation.name and last.worst_violation.value > 1e-6
     assert len(walk.plan.phases) == 3 * last.index  # the steps before it stand
 

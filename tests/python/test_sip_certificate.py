@@ -37,7 +37,6 @@ def moved(plan, joint: int, index: int, amount: float):
 def test_reference_solutions_are_certified(motion, name):
     certificate = sip.certify(reference_plan(motion, name), TOLERANCES)
     assert certificate.proved(), str(certificate)
-    assert certificate.time_s < 1.0
     assert certificate.rounding < 1e-5
 
 

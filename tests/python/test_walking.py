@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
 import numpy as np
 import pytest
 
@@ -73,11 +71,9 @@ def test_a_measured_state_is_where_the_next_step_starts():
     np.testing.assert_allclose(planner.executed().at(0.0).com_velocity_W, [0.05, 0.0, 0.0], atol=1e-9)
 
 
-def test_the_time_limit_of_a_cycle_is_kept_and_named():
-    planner = mp.receding_horizon("rubbles", lookahead=6, time_limit=0.05)
-    begin = time.monotonic()
+def test_a_cycle_out_of_time_is_named_and_not_executed():
+    planner = mp.receding_horizon("rubbles", lookahead=6, time_limit=1e-3)
     cycle = planner.step()
-    assert time.monotonic() - begin < 1.0  # ten times the limit and more on a busy machine; without it: seconds
     assert cycle.status == mp.Status.time_limit and not cycle.executed
     assert not planner.result().success and not planner.result().plan.phases
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mcplan/base/cubic_spline.hpp"
+#include "mcplan/base/deadline.hpp"
 #include "mcplan/base/entire_functions.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/base/logging.hpp"

@@ -142,7 +142,7 @@ Status SwitchedDdp::Impl::Run::attempt(std::vector<Guess> guesses) {
 PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool measured_start) {
   // Measured: 0.6 ms a phase for the closing Newton steps and the checker's replay.
   constexpr double kFinishing_s = 1e-3;
-  const Deadline deadline(options.time_limit_s, kFinishing_s * problem.steps);
+  const Deadline deadline = Deadline(options.time_limit_s, options.clock).reserving(kFinishing_s * problem.steps);
   Run run(problem, deadline);
   run.measured_start = measured_start;
   const Problem& p = run.problem;

@@ -24,19 +24,9 @@
 namespace mcplan::nlp {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Eigen::VectorXd;
 using Ipopt::Index;
 using Ipopt::Number;
-
-double seconds(Clock::duration time) { return std::chrono::duration<double>(time).count(); }
-
-Clock::time_point deadline_of(Clock::time_point start, double time_limit_s) {
-  constexpr double kForever = 1e8;  // a clock's range ends at 3e9 s
-  return time_limit_s < kForever
-             ? start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_limit_s))
-             : Clock::time_point::max();
-}
 
 /// How a solve ends, and whether Ipopt's last iterate is the one to return (otherwise the best of all points).
 struct Ending {
@@ -114,7 +104,7 @@ double largest_violation(const double* values, const std::vector<double>& lower,
 /// A Problem as Ipopt asks for it. Ipopt's pointers are mapped, nothing is copied or allocated in an evaluation.
 class Adapter : public Ipopt::TNLP {
  public:
-  Adapter(const Problem& problem, const VectorXd& x0, const SolverOptions& options, Clock::time_point deadline)
+  Adapter(const Problem& problem, const VectorXd& x0, const SolverOptions& options, const Deadline& deadline)
       : problem_(problem), options_(options), deadline_(deadline), x0_(x0) {
     best_.x = x0;
     last_x_ = x0;
@@ -207,7 +197,7 @@ class Adapter : public Ipopt::TNLP {
     } catch (...) {
       halt_with_exception();
     }
-    if (reason_ == Reason::none && Clock::now() >= deadline_) reason_ = Reason::time;
+    if (reason_ == Reason::none && deadline_.passed()) reason_ = Reason::time;
     return reason_ == Reason::none;
   }
 
@@ -225,7 +215,7 @@ class Adapter : public Ipopt::TNLP {
   const VectorXd& multipliers() const { return multipliers_; }
   const std::string& not_finite() const { return not_finite_; }
   int iterations() const { return iterations_; }
-  double evaluation_s() const { return seconds(evaluation_); }
+  double evaluation_s() const { return evaluation_s_; }
   double linear_solver_s() const { return regular_s_ + restorations_s_ + restoration_s_; }
   bool feasible() const { return best_.violation <= options_.constraint_tolerance; }
 
@@ -246,8 +236,8 @@ class Adapter : public Ipopt::TNLP {
   template <class Function>
   bool evaluate(Index n, const Number* x, bool new_x, Number* out, Index size, const Function& function) {
     if (new_x) cost_known_ = rows_known_ = false;
-    const Clock::time_point start = Clock::now();
-    if (start >= deadline_) halt(Reason::time);
+    if (deadline_.passed()) halt(Reason::time);
+    const double start_s = deadline_.now_s();
     const Eigen::Map<const VectorXd> at(x, n);
     Eigen::Map<VectorXd> values(out, size);
     try {
@@ -260,7 +250,7 @@ class Adapter : public Ipopt::TNLP {
     } catch (...) {
       halt_with_exception();
     }
-    evaluation_ += Clock::now() - start;
+    evaluation_s_ += deadline_.now_s() - start_s;
     if (reason_ != Reason::none) throw Halt();
     return true;
   }
@@ -306,7 +296,7 @@ class Adapter : public Ipopt::TNLP {
 
   const Problem& problem_;
   const SolverOptions& options_;
-  const Clock::time_point deadline_;
+  const Deadline& deadline_;
   const VectorXd x0_;
 
   bool cost_known_ = false, rows_known_ = false;  ///< at Ipopt's current x
@@ -319,7 +309,7 @@ class Adapter : public Ipopt::TNLP {
   std::string not_finite_;
   bool header_written_ = false;
   int iterations_ = 0;
-  Clock::duration evaluation_{};
+  double evaluation_s_ = 0.0;
   double regular_s_ = 0.0, restorations_s_ = 0.0, restoration_s_ = 0.0;
 };
 
@@ -356,14 +346,13 @@ constexpr bool kReentrant = MCPLAN_IPOPT_AT_LEAST(3, 14);
 /// Holds the process-wide lock of the solves while it lives: neither Ipopt before 3.14 nor its MUMPS is re-entrant.
 class Turn {
  public:
-  explicit Turn(Clock::time_point deadline) : lock_(mutex(), std::defer_lock) {
+  explicit Turn(const Deadline& deadline) : lock_(mutex(), std::defer_lock) {
     if (kReentrant) return;
     if (inside())
       throw std::logic_error("nlp::solve called from within a solve, by a piece, a logger or a stop request");
-    if (deadline == Clock::time_point::max())
-      lock_.lock();
-    else
-      lock_.try_lock_until(deadline);
+    if (!deadline.limited()) lock_.lock();
+    constexpr std::chrono::milliseconds kLook{2};
+    while (!lock_.owns_lock() && !lock_.try_lock_for(kLook) && !deadline.passed()) continue;
     inside() = lock_.owns_lock();
   }
   ~Turn() {
@@ -416,7 +405,7 @@ Ending judge_fixed(const Problem& problem, const VectorXd& x, double constraint_
 }
 
 Ending run(const Problem& problem, const VectorXd& x0, Adapter& adapter, const SolverOptions& options,
-           Clock::time_point deadline) {
+           const Deadline& deadline) {
   const std::string impossible = crossed(problem);
   if (!impossible.empty())
     return {Status::infeasible, "the lower bound of " + impossible + " lies above its upper bound", false};
@@ -438,7 +427,7 @@ Ending run(const Problem& problem, const VectorXd& x0, Adapter& adapter, const S
 }  // namespace
 
 Solution solve(const Problem& problem, const VectorXd& x0, const SolverOptions& options) {
-  const Clock::time_point start = Clock::now(), deadline = deadline_of(start, options.time_limit_s);
+  const Deadline deadline(options.time_limit_s, options.clock);
   options.validate();
   require_start(problem, x0);
   const VectorXd x = projected(problem, x0);
@@ -456,7 +445,7 @@ Solution solve(const Problem& problem, const VectorXd& x0, const SolverOptions& 
   out.iterations = adapter->iterations();
   out.evaluation_s = adapter->evaluation_s();
   out.linear_solver_s = adapter->linear_solver_s();
-  out.time_s = seconds(Clock::now() - start);
+  out.time_s = deadline.elapsed_s();
   return out;
 }
 

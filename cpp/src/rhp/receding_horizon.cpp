@@ -1,12 +1,12 @@
 #include "mcplan/rhp/receding_horizon.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <deque>
 #include <optional>
 #include <utility>
 
+#include "mcplan/base/deadline.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/nlp/solver.hpp"
 #include "mcplan/plan/checker.hpp"
@@ -22,9 +22,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 nlp::SolverOptions solver_options(const Options& options, double time_left_s) {
   nlp::SolverOptions out;
@@ -38,6 +35,7 @@ nlp::SolverOptions solver_options(const Options& options, double time_left_s) {
   out.initial_barrier = options.paper ? 0.3 : options.fidelity == Fidelity::single ? 0.03 : 0.1;
   out.gradient_scaling = false;  // the variables are of the order of one as they are
   out.stop = options.stop;
+  out.clock = options.clock;
   return out;
 }
 
@@ -83,8 +81,8 @@ struct RecedingHorizon::Impl {
 };
 
 Cycle RecedingHorizon::Impl::run() {
-  const Clock::time_point begin = Clock::now();
   const Options& options = walker.options;
+  const Deadline deadline(options.time_limit_s, options.clock);
   Cycle cycle;
   cycle.index = static_cast<int>(cycles.size());
   const int steps = std::min(options.lookahead, steps_left());
@@ -109,7 +107,7 @@ Cycle RecedingHorizon::Impl::run() {
   Horizon horizon_now = build_horizon(walker, footsteps, request);
   nlp::Solution solution;
   for (int attempt = 0;; ++attempt) {
-    nlp::SolverOptions how = solver_options(options, options.time_limit_s - seconds_since(begin));
+    nlp::SolverOptions how = solver_options(options, deadline.remaining_s());
     if (attempt > 0) how.initial_barrier = 1e-4;  // close to the solution already
     how.max_iterations = std::max(1, options.max_iterations - cycle.iterations);
     solution = nlp::solve(horizon_now.problem, horizon_now.guess, how);
@@ -140,7 +138,7 @@ Cycle RecedingHorizon::Impl::run() {
     accept(cycle, horizon_now, solution);
   else if (cycle.status == Status::solved)
     cycle.status = Status::acceptable;
-  cycle.time_s = seconds_since(begin);
+  cycle.time_s = deadline.elapsed_s();
   cycles.push_back(cycle);
   if (options.logger)
     options.logger(LogLevel::info, "cycle " + std::to_string(cycle.index) + "  " +

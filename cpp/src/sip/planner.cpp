@@ -1,20 +1,16 @@
 #include "mcplan/sip/planner.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
+#include "mcplan/base/deadline.hpp"
 #include "mcplan/nlp/solver.hpp"
 #include "mcplan/sip/program.hpp"
 #include "mcplan/version.hpp"
 
 namespace mcplan::sip {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 constexpr int kKinematicOrder = 5;      // of angles and places, to a tenth of a millimetre
 constexpr double kCloseBarrier = 1e-4;  // the start is nearly the solution
@@ -97,7 +93,7 @@ struct Planner::Impl {
   Options options;
   Layout layout;
   int rows = 0;
-  Clock::time_point begin;
+  Deadline deadline;
   Report report;
 
   Impl(const PlanarMotion& of, const Options& with) : motion(of), options(with), layout(checked(of, with), with) {
@@ -135,7 +131,7 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
   const bool cost = cost_scale > 0.0;
   std::optional<nlp::Solution> best;
   for (const Attempt& attempt : attempts_for(with, cost)) {
-    const double left = with.time_limit_s - seconds_since(begin);
+    const double left = deadline.remaining_s();
     if (best && left <= 0.0) {
       if (best->status == Status::acceptable) break;
       best->status = Status::time_limit;
@@ -156,6 +152,7 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
     how.gradient_scaling = false;
     how.logger = with.logger;
     how.stop = with.stop;
+    how.clock = with.clock;
     nlp::Solution solution = nlp::solve(program.problem(), x, how);
     report.iterations += solution.iterations;
     report.timing_s["evaluation"] += solution.evaluation_s;
@@ -295,7 +292,7 @@ CheckResult Planner::Impl::judged(const WholeBodyPlan& plan) const {
 
 /// The checker's word, and what the solver said.
 void Planner::Impl::judge(Result& result, const nlp::Solution& solution) {
-  const Clock::time_point start = Clock::now();
+  const double start_s = deadline.elapsed_s();
   report.status = solution.status;
   report.message = solution.message;
   const CheckResult found = judged(result.plan);
@@ -314,8 +311,8 @@ void Planner::Impl::judge(Result& result, const nlp::Solution& solution) {
   const Drift drift = largest_drift(result.plan);
   result.drift_m = drift.position_m;
   result.drift_rad = drift.angle_rad;
-  report.timing_s["check"] = seconds_since(start);
-  report.time_s = seconds_since(begin);
+  report.timing_s["check"] = deadline.elapsed_s() - start_s;
+  report.time_s = deadline.elapsed_s();
   report.version = MCPLAN_VERSION;
   result.report = report;
 }
@@ -326,12 +323,12 @@ Planner::Planner(Planner&&) noexcept = default;
 Planner& Planner::operator=(Planner&&) noexcept = default;
 
 Result Planner::solve() {
-  impl_->begin = Clock::now();
+  impl_->deadline = Deadline(impl_->options.time_limit_s, impl_->options.clock);
   return impl_->solve(zero_start(impl_->motion, impl_->options, impl_->layout));
 }
 
 Result Planner::solve(const WholeBodyPlan& warm_start) {
-  impl_->begin = Clock::now();
+  impl_->deadline = Deadline(impl_->options.time_limit_s, impl_->options.clock);
   return impl_->solve(parameters_of(warm_start, impl_->motion, impl_->options, impl_->layout));
 }
 

@@ -8,6 +8,7 @@
 
 namespace {
 
+using mcplan::Deadline;
 using namespace support;
 using namespace mcplan::ddp;
 using Eigen::Vector3d;

@@ -10,6 +10,7 @@
 
 namespace {
 
+using mcplan::Deadline;
 using namespace support;
 using namespace mcplan::ddp;
 using mcplan::Status;

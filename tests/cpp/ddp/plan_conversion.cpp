@@ -12,6 +12,7 @@
 
 namespace {
 
+using mcplan::Deadline;
 using namespace support;
 using namespace mcplan::ddp;
 

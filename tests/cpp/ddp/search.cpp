@@ -11,6 +11,7 @@
 
 namespace {
 
+using mcplan::Deadline;
 using namespace support;
 using namespace mcplan::ddp;
 using mcplan::Status;

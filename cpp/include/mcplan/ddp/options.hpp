@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "mcplan/base/deadline.hpp"
 #include "mcplan/base/logging.hpp"
 
 namespace mcplan::ddp {
@@ -81,6 +82,7 @@ struct Options {
   bool record_history = false;  ///< keep the contact sequence of every iteration in the report
   Logger logger;                ///< iteration table and decisions, line by line; null: silent
   StopRequest stop;             ///< polled every iteration; null: never
+  Clock clock;                  ///< what time_limit_s is measured by; null: the steady clock
 
   /// The model that is in force.
   Model effective_model() const { return method == Method::paper ? Model::lipm : model; }

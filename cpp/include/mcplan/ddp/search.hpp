@@ -1,11 +1,11 @@
 #pragma once
 
-#include <algorithm>
 #include <chrono>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "mcplan/base/deadline.hpp"
 #include "mcplan/base/status.hpp"
 #include "mcplan/ddp/local_model.hpp"
 #include "mcplan/ddp/pricing.hpp"
@@ -13,20 +13,6 @@
 #include "mcplan/plan/report.hpp"
 
 namespace mcplan::ddp {
-
-/// Wall clock of a solve, shared by all its attempts.
-class Deadline {
- public:
-  /// `finishing_s`: what making a plan exact and checking it will take, left free at the end (half the limit at most).
-  explicit Deadline(double limit_s, double finishing_s = 0.0)
-      : start_(std::chrono::steady_clock::now()), limit_s_(limit_s - std::min(finishing_s, 0.5 * limit_s)) {}
-  double elapsed_s() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  bool passed() const { return elapsed_s() >= limit_s_; }
-
- private:
-  std::chrono::steady_clock::time_point start_;
-  double limit_s_;
-};
 
 /// Adds the time of a scope to a named part of the report.
 class Stopwatch {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "mcplan/base/deadline.hpp"
 #include "mcplan/base/logging.hpp"
 #include "mcplan/base/status.hpp"
 #include "mcplan/nlp/problem.hpp"
@@ -28,6 +29,7 @@ struct SolverOptions {
   bool gradient_scaling = true;  ///< Ipopt scales costs and rows by their gradients at x0; off for well-scaled problems
   Logger logger;                 ///< one line an iteration; null: silent
   StopRequest stop;              ///< polled once an iteration; null: never
+  Clock clock;                   ///< what time_limit_s is measured by; null: the steady clock
 
   /// Throws InvalidOptions naming the first field out of its range.
   void validate() const;

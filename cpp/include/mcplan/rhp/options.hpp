@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "mcplan/base/deadline.hpp"
 #include "mcplan/base/logging.hpp"
 
 namespace mcplan::rhp {
@@ -66,6 +67,7 @@ struct Options {
 
   Logger logger;     ///< a line a cycle; null: silent
   StopRequest stop;  ///< polled every iteration; null: never
+  Clock clock;       ///< what time_limit_s is measured by; null: the steady clock
 
   /// Throws InvalidOptions naming the first field out of its range.
   void validate() const;

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "mcplan/base/deadline.hpp"
 #include "mcplan/base/logging.hpp"
 
 namespace mcplan::sip {
@@ -85,6 +86,7 @@ struct Options {
 
   Logger logger;     ///< a line an iteration; null: silent
   StopRequest stop;  ///< polled every iteration; null: never
+  Clock clock;       ///< what time_limit_s is measured by; null: the steady clock
 
   /// Whether there is anything to minimise: torques are known with dynamics only.
   bool has_cost() const { return (dynamics && torque_weight > 0.0) || duration_weight > 0.0 || jerk_weight > 0.0; }
