@@ -1,25 +1,74 @@
 #include "mcplan/plan/report.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
 namespace mcplan {
+namespace {
+
+/// Amounts between these are written without a prefix: 0.0278 m, not 27.8 mm.
+constexpr double kPlainMin = 1e-3, kPlainMax = 1e3;
+
+struct Prefix {
+  const char* letters;
+  double factor;
+};
+
+/// The prefix with which an amount in this unit is written with few digits before the point: 431 kN, 0.43 mm, 21 um.
+/// Robots of millimetres and of hundreds of tonnes have amounts that say nothing in metres and newtons.
+Prefix prefix_of(double amount, const std::string& unit) {
+  constexpr Prefix none{"", 1.0};
+  constexpr std::array<Prefix, 7> prefixes{
+      {{"G", 1e9}, {"M", 1e6}, {"k", 1e3}, {"", 1.0}, {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}}};
+  constexpr std::array<const char*, 7> prefixable{"m", "m/s", "N", "N m", "s", "rad", "rad/s"};
+  const bool plain = amount >= kPlainMin && amount < kPlainMax;
+  if (plain || std::find(prefixable.begin(), prefixable.end(), unit) == prefixable.end()) return none;
+  const double least = amount < kPlainMin ? 0.1 : 1.0;
+  for (const Prefix& p : prefixes)
+    if (amount >= least * p.factor && amount < 1e3 * least * p.factor) return p;
+  return none;
+}
+
+/// "over the limit (tolerance 5 mm)": in the amount's prefix where that suits the tolerance, else in its own; the unit
+/// is said where there is a prefix.
+void write_tolerance(std::ostringstream& out, double tolerance, Prefix prefix, const std::string& unit) {
+  const double shared = tolerance / prefix.factor;
+  if (shared != 0.0 && !(shared >= kPlainMin && shared < kPlainMax)) {
+    const bool told = prefix.factor != 1.0;
+    prefix = prefix_of(tolerance, unit);
+    out << tolerance / prefix.factor;
+    if (told || prefix.factor != 1.0) out << " " << prefix.letters << unit;
+    return;
+  }
+  out << shared;
+  if (shared != 0.0 && prefix.factor != 1.0) out << " " << prefix.letters << unit;
+}
+
+}  // namespace
 
 std::string Violation::to_string() const {
   std::ostringstream out;
+  out.precision(3);
   out << name;
   if (!end_effector.empty()) out << " at " << end_effector;
-  if (phase >= 0) {
-    out << " in phase " << phase << " (t = ";
-    out.precision(3);
-    out << time_s << " s)";
+  if (phase >= 0) out << " in phase " << phase << " (t = " << time_s << " s)";
+  out << ": ";
+  if (value == 0.0) {
+    out << "at the limit";
+    return out.str();
   }
-  out.precision(3);
-  out << ": " << std::abs(value) << (unit.empty() ? "" : " ") << unit;
-  if (value >= 0.0)
-    out << " over the limit (tolerance " << tolerance << ")";
-  else
+  const double amount = std::abs(value);
+  const Prefix prefix = prefix_of(amount, unit);
+  out << amount / prefix.factor << (unit.empty() ? "" : " ") << prefix.letters << unit;
+  if (value < 0.0) {
     out << " below the limit";
+    return out.str();
+  }
+  out << (value > tolerance ? " over the limit (tolerance " : ", within tolerance (");
+  write_tolerance(out, tolerance, prefix, unit);
+  out << ")";
   return out.str();
 }
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
+from mcplan.cli.contacts_text import wrapped
+
 if TYPE_CHECKING:
-    from mcplan._core import Plan
+    from mcplan._core import Plan, Robot
 
 
 def load_lines(plan: Plan) -> list[str]:
@@ -15,9 +18,11 @@ def load_lines(plan: Plan) -> list[str]:
     loads = loads_of(plan)
     if loads is None:
         return []
-    lines = [f"  angular momentum: {loads.angular_momentum:.2f} kg m^2/s at most"]
+    lines = [
+        f"  angular momentum: {_momentum(loads.angular_momentum, plan.robot, plan.scene.gravity)} kg m^2/s at most"
+    ]
     if loads.forces:
-        lines.append("  largest force in weights: " + _listed(loads.forces))
+        lines += _listed("largest force in weights: ", loads.forces)
     return lines
 
 
@@ -26,12 +31,12 @@ def friction_line(plan: Plan) -> list[str]:
     from mcplan.kinematics.loads import loads_of
 
     loads = loads_of(plan)
-    return [friction_text(loads.frictions)] if loads is not None and loads.frictions else []
+    return friction_lines(loads.frictions) if loads is not None and loads.frictions else []
 
 
-def friction_text(frictions: dict[str, float]) -> str:
-    """The line on friction, of a report or of a plan."""
-    return "  friction used (tangential / normal): " + _listed(frictions)
+def friction_lines(frictions: dict[str, float]) -> list[str]:
+    """The line on friction, of a report or of a plan; more than one where it does not fit into 80 columns."""
+    return _listed("friction used (tangential / normal): ", frictions)
 
 
 def load_dict(plan: Plan) -> dict[str, Any]:
@@ -45,5 +50,14 @@ def load_dict(plan: Plan) -> dict[str, Any]:
     }
 
 
-def _listed(values: dict[str, float]) -> str:
-    return ", ".join(f"{name} {value:.2f}" for name, value in values.items())
+def _listed(lead: str, values: dict[str, float]) -> list[str]:
+    text = ", ".join(f"{name} {value:.2f}" for name, value in values.items())
+    return wrapped(lead + text, "  ", " " * (2 + len(lead)))
+
+
+def _momentum(value: float, robot: Robot, gravity: float) -> str:
+    """Two digits behind the point for robots of human size; for others the figures that count against m h sqrt(g h)."""
+    unit = robot.mass * robot.com_height * math.sqrt(gravity * robot.com_height)
+    if 1.0 <= unit < 1e4:
+        return f"{value:.2f}"
+    return f"{round(value, 3 - math.floor(math.log10(unit))):.3g}"

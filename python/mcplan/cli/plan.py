@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mcplan.cli.contacts_text import contact_rows
+
 if TYPE_CHECKING:
     from mcplan import PlanResult
 
@@ -122,7 +124,7 @@ def flight_phases(sequence: list[list[int]]) -> int:
 
 def report_text(result: PlanResult, written: list[Path | None]) -> str:
     """What is printed without ``--json``: how it ended, the steps, what was saved."""
-    from mcplan.cli.loads_text import friction_text, load_lines
+    from mcplan.cli.loads_text import friction_lines, load_lines
 
     plan, report = result.plan, result.report
     lead = f"{plan.scene.name}  {plan.robot.name}  "
@@ -134,27 +136,16 @@ def report_text(result: PlanResult, written: list[Path | None]) -> str:
         lines = [f"{lead}solved in {took}: {len(plan.phases)} phases, {plan.duration():.2f} s long, {flight}"]
     else:
         lines = [f"{lead}{report.status} after {took}: {report.message or 'no plan that the checker accepts'}"]
-    if report.worst_violation.name:
+    worst = str(report.worst_violation)
+    # The message of a plan that is not solved tells the worst violation already; without a plan there is none.
+    if plan.phases and report.worst_violation.name and worst not in report.message:
         label = "closest to its limit" if solved else "worst"
-        lines.append(f"{' ' * len(lead)}{label}: {report.worst_violation}")
+        lines.append(f"{' ' * len(lead)}{label}: {worst}")
     lines += contact_rows(plan)
     if report.friction_use:
-        lines.append(friction_text(report.friction_use))
+        lines += friction_lines(report.friction_use)
     lines += load_lines(plan)
     files = [str(path) for path in written if path is not None]
     if files:
         lines.append(f"Saved {', '.join(files)}" + ("" if solved else f", with status {report.status}"))
     return "\n".join(lines)
-
-
-def contact_rows(plan: Any) -> list[str]:
-    """One line per end-effector: what it touches over the phases, by number of the surface, "-" when free."""
-    width = max([len(end.name) for end in plan.robot.end_effectors], default=0)
-    sequence = plan.contact_sequence()
-    digits = max(len(str(len(plan.scene.surfaces) - 1)), 1)
-    rows = []
-    for number, end in enumerate(plan.robot.end_effectors):
-        cells = [str(row[number]) if row[number] >= 0 else "-" for row in sequence]
-        rows.append(f"  {end.name:{width}}  " + " ".join(f"{cell:>{digits}}" for cell in cells))
-    legend = ", ".join(f"{i} {surface.name}" for i, surface in enumerate(plan.scene.surfaces))
-    return [*rows, f"  {'':{width}}  {legend}"]

@@ -70,9 +70,10 @@ def summary_text(walk: rhp.Walk, scene: str, robot: str, options: rhp.Options, w
         lines.append(f"{indent}walked {walk.distance_m():.2f} m in {walk.plan.duration():.2f} s; cost {cost}")
         drift = f"CoM {1e3 * walk.drift_com_m():.2g} mm, angular momentum {walk.drift_momentum():.2g} kg m2/s"
         lines.append(f"{indent}forces replayed, largest drift of a step: {drift}")
-    if report.worst_violation.name:
+    worst = str(report.worst_violation)
+    if report.worst_violation.name and worst not in report.message:
         label = "closest to its limit" if str(report.status) == "solved" else "worst"
-        lines.append(f"{indent}{label}: {report.worst_violation}")
+        lines.append(f"{indent}{label}: {worst}")
     files = [str(path) for path in written if path is not None]
     if files and not done:
         lines.append(f"Not written, since no step was found: {', '.join(files)}")
