@@ -19,7 +19,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="scripts/docs", description=__doc__)
     parser.add_argument("--check", action="store_true", help="Change nothing; print what is stale.")
     parser.add_argument("--slow", action="store_true", help="Also blocks marked `made slowly by`.")
-    parser.add_argument("--pictures", metavar="NAME", help="Draw one picture again, or all.")
+    parser.add_argument("--pictures", metavar="NAME", nargs="+", help="Draw pictures again, or all.")
     given = parser.parse_args(arguments)
     if given.pictures:
         return pictures.draw(given.pictures)

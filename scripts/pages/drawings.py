@@ -1,7 +1,7 @@
 """Pictures that no option of `mcplan` writes:
 
 python -m pages.drawings page WALK.npz PICTURE.png SECONDS    the page of a plan at an instant, by Chromium
-python -m pages.drawings postures RUN.npz PICTURE.png NUMBER   several postures of a run in one scene
+python -m pages.drawings postures RUN.npz PICTURE.png T,T,...  postures of a run at these instants [s] in one scene
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ def main(kind: str, source: str, picture: str, argument: str) -> None:
         from mcplan.tracking import TrackingResult
         from mcplan.view import save_run_postures
 
-        save_run_postures(TrackingResult.load(source), picture, int(argument), POSTURES_SIZE)
+        times_s = [float(time_s) for time_s in argument.split(",")]
+        save_run_postures(TrackingResult.load(source), picture, times_s, POSTURES_SIZE)
     else:
         raise SystemExit(f"no kind of picture {kind!r}; there are: page, postures")
 

@@ -23,6 +23,8 @@ from pathlib import Path
 from pages.page import Page
 
 MARK = re.compile(r"<!-- made (slowly )?by: (.+?) -->\n(.*?)<!-- end -->", re.S)
+#: Tables of a benchmark, which `--markdown` puts: of one machine on one day, and never compared.
+MEASURED = re.compile(r"<!-- begin: (.+?) -->\n(.*?)<!-- end: \1 -->", re.S)
 #: What depends on the machine and its load.
 CLOCK = re.compile(r"(?:after|in) [\d.]+ s\b|[\d.]+ ms a step|[\d.]+ times real time")
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -47,6 +49,9 @@ def refresh(page: Page, slow: bool) -> list[str]:
         return match[0].replace(f"-->\n{old}<!--", f"-->\n{kept}<!--")
 
     page.text = MARK.sub(replaced, page.text)
+    for command, body in MEASURED.findall(page.text):
+        if not re.search(r"\d{4}-\d\d-\d\d", body):
+            faults.append(f"{page.name}: what `{command}` measured has no date")
     return faults
 
 

@@ -25,7 +25,7 @@ GOOD = replace(
 )
 GOOD = replace(GOOD, momentum_replay_Nms=1e-11, orientation_deg=0.01, holds=True)
 FLAT = next(case for case in CASES if case.name == "flat")
-MACHINE = {"cpu": "A processor", "cores": 2, "version": "0.1.0", "python": "3.11"}
+MACHINE = {"cpu": "A processor", "cores": 2, "version": "0.1.0", "python": "3.11", "date": "2026-11-21"}
 
 
 def test_the_cases_have_what_is_demanded():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import datetime
 import json
 
 from mcplan.bench import records
@@ -24,3 +25,7 @@ def test_json_holds_no_nan(tmp_path):
 def test_the_machine_is_named():
     machine = records.machine()
     assert machine["cores"] >= 1 and machine["cpu"]
+
+
+def test_measurements_have_their_date():
+    assert datetime.date.fromisoformat(records.machine()["date"])

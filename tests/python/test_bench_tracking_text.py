@@ -26,7 +26,7 @@ SPEED = {"repeats": 3, "control_ms": 0.8, "qp_ms": 0.2, "model_ms": 0.1, "rest_m
 SPEED |= {"case": "flat/talos", "qp_share": 0.25, "model_share": 0.125, "rest_share": 0.625}
 SPEED |= {"simulation_ms": 0.2, "realtime_factor": 1.9}
 RESULT = {
-    "machine": {"cpu": "A processor", "cores": 2, "version": "0.1.0", "python": "3.11"},
+    "machine": {"cpu": "A processor", "cores": 2, "version": "0.1.0", "python": "3.11", "date": "2026-11-21"},
     "packages": {"mujoco": "4.0.0", "pin": "4.1.0"},
     "jobs": 2,
     "command": "mcplan bench tracking --jobs 2",

@@ -97,6 +97,13 @@ def test_times_on_the_clock_stay_when_the_rest_is_made_again():
     assert made.with_clock_of("nothing", new) == new
 
 
+def test_measurements_without_a_date_are_reported():
+    assert "no date" in made.refresh(page("<!-- begin: mcplan bench -->\n1 ms\n<!-- end: mcplan bench -->\n"), False)[0]
+    assert (
+        made.refresh(page("<!-- begin: mcplan bench -->\n2026-11-21: 1 ms\n<!-- end: mcplan bench -->\n"), False) == []
+    )
+
+
 @pytest.mark.parametrize(
     "command",
     [

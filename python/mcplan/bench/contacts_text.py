@@ -59,7 +59,8 @@ def _body(result: dict[str, Any], heading: str) -> str:
     lines = [
         f"Written by `{result['command']}`. Rows that do not hold what is demanded say why below their table.",
         "",
-        f"{machine['cpu']}, {machine['cores']} cores; mcplan {machine['version']}, Python {machine['python']}. "
+        f"{machine['date']}, {machine['cpu']}, {machine['cores']} cores; mcplan {machine['version']}, "
+        f"Python {machine['python']}. "
         f"Runs at a time: {result['jobs']}.",
     ]
     for section in sections(result):

@@ -8,6 +8,7 @@ import json
 import math
 import os
 import platform
+import time
 from collections.abc import Sequence
 from importlib import metadata
 from pathlib import Path
@@ -46,12 +47,13 @@ def plain(value: Any) -> Any:
 
 
 def machine() -> Row:
-    """What the numbers were measured on."""
+    """What the numbers were measured on, and when (UTC)."""
     return {
         "version": mcplan.__version__,
         "cpu": cpu_name(),
         "cores": os.cpu_count(),
         "python": platform.python_version(),
+        "date": time.strftime("%Y-%m-%d", time.gmtime()),
     }
 
 
