@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import types
 import typing
 from collections.abc import Sequence
 from typing import Any, TypeVar
@@ -120,10 +121,38 @@ def _keys(model: type[BaseModel]) -> list[str]:
 
 
 def _model_at(model: type[BaseModel], location: tuple[Any, ...]) -> type[BaseModel]:
-    """The model of the table at a location, walking through lists of tables."""
+    """The model of the table at a location, walking through lists, tables by name and alternatives."""
+    annotation: Any = model
     for part in location:
-        if isinstance(part, str):
-            annotation = model.model_fields[part].annotation
-            inner = [a for a in (annotation, *typing.get_args(annotation)) if isinstance(a, type)]
-            model = next(a for a in inner if issubclass(a, BaseModel))
-    return model
+        annotation = _entered(annotation, part) or annotation  # pydantic also names the alternative that it tried
+    found = next((inner for inner in _alternatives(annotation) if _is_model(inner)), BaseModel)
+    return typing.cast(type[BaseModel], found)
+
+
+def _entered(annotation: Any, part: Any) -> Any:
+    """The type of what stands at a key or index of a type, or None if there is nothing."""
+    for inner in _alternatives(annotation):
+        origin, arguments = typing.get_origin(inner), typing.get_args(inner)
+        if origin is list and isinstance(part, int):
+            return arguments[0]
+        if origin is dict and isinstance(part, str):
+            return arguments[1]
+        if _is_model(inner):
+            for name, field in inner.model_fields.items():
+                if part == (field.alias or name):
+                    return field.annotation
+    return None
+
+
+def _alternatives(annotation: Any) -> list[Any]:
+    """The types that a union or an annotated type stands for."""
+    origin, arguments = typing.get_origin(annotation), typing.get_args(annotation)
+    if origin is typing.Annotated:
+        return _alternatives(arguments[0])
+    if origin in (typing.Union, types.UnionType):
+        return [inner for argument in arguments for inner in _alternatives(argument)]
+    return [annotation]
+
+
+def _is_model(annotation: Any) -> bool:
+    return isinstance(annotation, type) and issubclass(annotation, BaseModel)

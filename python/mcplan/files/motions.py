@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from mcplan._core import PlanarClearance, PlanarMotion, PlanarPhase, PlanarPose, PlanarRobot, PlanarSurface
-from mcplan.errors import InvalidMotion, UnknownMotion, shown
+from mcplan.errors import InvalidInput, InvalidMotion, InvalidRobot, UnknownMotion, shown, together
 from mcplan.files import builtin
 from mcplan.files.planar_robots import (
     field_in_file,
@@ -82,13 +82,22 @@ def motion_from_dict(data: Mapping[str, Any], source: str = "", folder: Path | N
     from mcplan.files.fields import validated
     from mcplan.files.planar_models import MotionModel
 
-    plain, robot = dict(data), None
+    plain, robot, findings = dict(data), None, list[InvalidInput]()
     if isinstance(plain.get("robot"), Mapping):
-        robot = planar_robot_from_dict({"name": "robot", **plain["robot"]}, source, "robot")
-        plain["robot"] = robot.name
+        try:
+            robot = planar_robot_from_dict({"name": "robot", **plain["robot"]}, source, "robot")
+        except InvalidRobot as found:
+            findings.append(found)
+        plain["robot"] = "robot"
     elif "robot" in plain and not (isinstance(plain["robot"], str) and plain["robot"]):
-        raise InvalidMotion("robot", "must be a name, a path or a table", shown(plain["robot"]), source)
-    plain = validated(MotionModel, plain, InvalidMotion, source).model_dump()
+        findings.append(InvalidMotion("robot", "must be a name, a path or a table", shown(plain["robot"]), source))
+        plain["robot"] = "robot"
+    try:
+        plain = validated(MotionModel, plain, InvalidMotion, source).model_dump()
+    except InvalidMotion as found:
+        findings.append(found)
+    if findings:
+        raise together(findings) from None
     robot = robot or _load_robot(plain["robot"], folder, source)
     try:
         stances = Stances(robot, plain["surfaces"])
