@@ -15,6 +15,9 @@ Importing this loads NumPy and nothing heavier; the rest comes when first used.
 
 from __future__ import annotations
 
+from mcplan import starting as _starting  # noqa: F401  first: Ctrl-C while the command loads
+
+# isort: split
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,6 +52,7 @@ from mcplan._core import (
     sip,
 )
 from mcplan.errors import (
+    Interrupted,
     InvalidInput,
     InvalidMotion,
     InvalidOptions,
@@ -74,6 +78,7 @@ __all__ = [
     "ContactRule",
     "EndEffector",
     "ForceLaw",
+    "Interrupted",
     "InvalidInput",
     "InvalidMotion",
     "InvalidOptions",

@@ -167,6 +167,22 @@ class PlanViolated(RuntimeError):
         return str(self.violations[0]) + (f" (and {more} more)" if more else "")
 
 
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C ended a solve, a check or a run; a KeyboardInterrupt, so that it ends the loop around it as well.
+
+    Attributes:
+        result: What the call would have returned, as far as it came: a ``PlanResult``, ``Walk``, ``sip.Result``,
+            ``CheckResult`` or run, with status ``interrupted`` unless it was done just then.
+    """
+
+    def __init__(self, result: Any = None) -> None:
+        super().__init__(result)
+        self.result = result
+
+    def __str__(self) -> str:
+        return "interrupted"
+
+
 class MissingExtra(ImportError):
     """An optional dependency is not installed; the message says what to install."""
 

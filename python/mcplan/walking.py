@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mcplan._core import Plan, Robot, Scene, rhp
-from mcplan.errors import InvalidInput
+from mcplan.errors import Interrupted, InvalidInput
 from mcplan.options import fill
 from mcplan.solve import robot_of, scene_of
 
@@ -61,10 +61,15 @@ def cycles_of(planner: rhp.RecedingHorizon, count: int) -> Iterator[rhp.Cycle]:
     """Run cycles one by one, as planner.walk() does, until `count` are done, one fails or the sequence ends.
 
     planner.result() is the walk then, and its success that of all cycles.
+
+    Raises:
+        Interrupted: Ctrl-C, with the walk until then.
     """
     for index in range(count):
         try:
             cycle = planner.step()
+        except Interrupted:
+            raise Interrupted(planner.result()) from None
         except InvalidInput as end:
             if index > 0 and end.field == "cycles":  # the sequence has no more steps
                 return

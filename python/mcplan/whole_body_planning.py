@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mcplan._core import PlanarMotion, WholeBodyPlan, sip
-from mcplan.errors import InvalidOptions
+from mcplan.errors import Interrupted, InvalidOptions
 from mcplan.options import fill
 
 #: What each choice of `minimise` sets; options given besides come after it.
@@ -32,21 +32,32 @@ def whole_body(
     chosen = make_options(minimise, options)  # before files are read: what is said first is what was typed
     if certify:
         require_provable(chosen)
-    result = solve(sip.Planner(motion_of(motion), chosen), warm_start)
-    if certify:
-        result.certificate = sip.certify(result.plan, self_collision=chosen.self_collision)
-    return result
+    planner = sip.Planner(motion_of(motion), chosen)
+    return solve(planner, warm_start, certify=certify, self_collision=chosen.self_collision)
 
 
-def solve(planner: sip.Planner, warm_start: WholeBodyPlan | str | Path | None) -> sip.Result:
-    """Run the planner from nothing, or from a plan or the path of one."""
-    if warm_start is None:
-        return planner.solve()
-    if not isinstance(warm_start, WholeBodyPlan):
+def solve(
+    planner: sip.Planner,
+    warm_start: WholeBodyPlan | str | Path | None,
+    certify: bool = False,
+    self_collision: bool = False,
+) -> sip.Result:
+    """Run the planner from nothing, or from a plan or the path of one, and prove what it found where that is asked for.
+
+    Raises:
+        Interrupted: Ctrl-C, also while it proves: the motion is there then, without a certificate.
+    """
+    if warm_start is not None and not isinstance(warm_start, WholeBodyPlan):
         from mcplan.files.whole_body_plans import load_whole_body_plan
 
         warm_start = load_whole_body_plan(warm_start)
-    return planner.solve(warm_start)
+    result = planner.solve() if warm_start is None else planner.solve(warm_start)
+    if certify:
+        try:
+            result.certificate = sip.certify(result.plan, self_collision=self_collision)
+        except KeyboardInterrupt:
+            raise Interrupted(result) from None
+    return result
 
 
 def make_options(minimise: str | None, values: Mapping[str, Any]) -> sip.Options:

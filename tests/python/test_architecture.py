@@ -34,6 +34,7 @@ PYTHON_ROOMS = {
     "__main__": {"cli"},
     "_core": set(),
     "errors": set(),
+    "starting": set(),  # the command's first moments
     "extras": {"errors"},
     "options": {"errors"},
     "files": _GROUND,
@@ -47,8 +48,20 @@ PYTHON_ROOMS = {
     "reproduce": _GROUND
     | {"files", "solve", "walking", "whole_body_planning", "kinematics", "tracking", "view", "bench", ""},
     "cli": _GROUND
-    | {"files", "solve", "walking", "whole_body_planning", "kinematics", "tracking", "view", "bench", "reproduce", ""},
-    "": _GROUND | {"files", "solve", "walking", "whole_body_planning", "kinematics", "tracking", "view"},
+    | {
+        "starting",
+        "files",
+        "solve",
+        "walking",
+        "whole_body_planning",
+        "kinematics",
+        "tracking",
+        "view",
+        "bench",
+        "reproduce",
+        "",
+    },
+    "": _GROUND | {"starting", "files", "solve", "walking", "whole_body_planning", "kinematics", "tracking", "view"},
 }
 HEAVY = {"crocoddyl", "example_robot_data", "imageio", "matplotlib", "meshcat", "mink", "mujoco"}
 HEAVY |= {"PIL", "pink", "pinocchio", "proxsuite", "scipy"}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -157,8 +156,10 @@ def test_the_largest_torques_are_named_for_legs_and_for_all():
 
 
 def test_ctrl_c_ends_the_table(monkeypatch):
-    stopped = SimpleNamespace(interrupted=True)
-    monkeypatch.setattr("mcplan.tracking.runner.track", lambda *_: stopped)
+    def interrupted(*_):
+        raise mp.Interrupted(None)
+
+    monkeypatch.setattr("mcplan.tracking.runner.track", interrupted)
     with pytest.raises(KeyboardInterrupt):
         bench.table([named("flat/talos")])
 

@@ -134,7 +134,7 @@ def test_an_interrupt_keeps_what_was_found(capsys, monkeypatch, tmp_path):
 
     monkeypatch.setattr(Progress, "__call__", interrupt)
     code, out, _ = run(capsys, "cartwheel", "-o", tmp_path / "a.npz")
-    assert code == 1 and out.startswith("cartwheel  climber9  interrupted after ") and len(calls) < 10
+    assert code == 130 and out.startswith("cartwheel  climber9  interrupted after ") and len(calls) < 10
     mp.WholeBodyPlan.load(tmp_path / "a.npz").validate()
 
 

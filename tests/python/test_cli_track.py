@@ -163,7 +163,7 @@ def test_ctrl_c_ends_the_run_and_reports_what_was_there(capsys, file, monkeypatc
 
     monkeypatch.setattr(Progress, "simulated", press)
     code, out, err = run(capsys, file, "--no-check")
-    assert (code, err) == (1, "")
+    assert (code, err) == (130, "")
     assert out.splitlines()[0].startswith("flat  talos  interrupted after 0.20 s, until then without a fall")
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 

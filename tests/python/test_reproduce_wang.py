@@ -91,7 +91,7 @@ def test_ctrl_c_leaves_what_was_done_and_resume_goes_on(tmp_path, monkeypatch):
         walks.append(config)
         if len(walks) == 3:
             raise KeyboardInterrupt
-        return made_up(config.terrain, config.method, config.predicted, cycles=cycles, asked=cycles), _Nothing, False
+        return made_up(config.terrain, config.method, config.predicted, cycles=cycles, asked=cycles), _Nothing
 
     monkeypatch.setattr(wang_runs, "walk", walk)
     wanted = wang_runs.configs(3, 0)

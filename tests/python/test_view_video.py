@@ -69,13 +69,13 @@ def test_animations_keep_their_frames_and_their_pace(tmp_path, suffix, lasts_ms)
 
 def test_frames_arrive_at_ffmpeg_whole_and_in_order(tmp_path, monkeypatch):
     program = tmp_path / "ffmpeg"
-    program.write_text('#!/bin/sh\nfor last; do :; done\necho "$@" >"$last.arguments"\ncat >"$last"\n')
+    program.write_text('#!/bin/sh\nfor last; do :; done\necho "$@" >"$(dirname "$0")/arguments"\ncat >"$last"\n')
     program.chmod(program.stat().st_mode | stat.S_IXUSR)
     monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
     frames = np.random.default_rng(5).integers(0, 255, (7, 12, 16, 3), np.uint8)
     write_video(iter(frames), tmp_path / "run.mp4", 25.0)
     assert (tmp_path / "run.mp4").read_bytes() == frames.tobytes()
-    assert "-s 16x12 -r 25" in (tmp_path / "run.mp4.arguments").read_text()
+    assert "-s 16x12 -r 25" in (tmp_path / "arguments").read_text()
 
 
 def test_what_ffmpeg_says_is_told_when_it_fails(tmp_path, monkeypatch):

@@ -107,7 +107,9 @@ def test_an_interrupt_in_the_logger_ends_the_search_and_not_the_program():
         if lines == 4:
             signal.raise_signal(signal.SIGINT)
 
-    result = mp.whole_body("cartwheel", logger=interrupt)
+    with pytest.raises(mp.Interrupted) as stop:
+        mp.whole_body("cartwheel", logger=interrupt)
+    result = stop.value.result
     assert result.report.status == mp.Status.interrupted and lines < 10
     result.plan.validate()
 
@@ -117,7 +119,9 @@ def test_an_interrupt_without_a_logger_ends_the_search():
     planner = mp.sip.Planner(mp.load_motion("climbing"))
     timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
-    result = planner.solve()
+    with pytest.raises(mp.Interrupted) as stop:
+        planner.solve()
+    result = stop.value.result
     timer.join()
     assert result.report.status == mp.Status.interrupted
     result.plan.validate()

@@ -32,6 +32,7 @@
 #include "mcplan/plan/checker.hpp"
 #include "mcplan/plan/clearance.hpp"
 #include "mcplan/plan/friction_use.hpp"
+#include "mcplan/plan/loads.hpp"
 #include "mcplan/plan/plan.hpp"
 #include "mcplan/plan/planar_motion.hpp"
 #include "mcplan/plan/point_forces.hpp"

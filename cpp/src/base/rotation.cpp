@@ -32,7 +32,11 @@ Matrix3d rotation_derivative(const Eigen::Vector3d& rpy, int i) {
 }
 
 Eigen::Vector4d quat_wxyz_from_rpy(const Eigen::Vector3d& rpy) {
-  Eigen::Quaterniond q(rotation_from_rpy(rpy));
+  return quat_wxyz_from_rotation(rotation_from_rpy(rpy));
+}
+
+Eigen::Vector4d quat_wxyz_from_rotation(const Matrix3d& rotation) {
+  Eigen::Quaterniond q(rotation);
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   return {q.w(), q.x(), q.y(), q.z()};
 }

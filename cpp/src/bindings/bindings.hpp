@@ -34,15 +34,6 @@ auto without_gil(Solve&& solve) {
   return solve();
 }
 
-/// StopRequest of every solve: Ctrl-C ends it with Status.interrupted and the best iterate. The KeyboardInterrupt
-/// itself is swallowed then, because the caller gets its result.
-inline bool stop_on_signal() {
-  const py::gil_scoped_acquire acquire;
-  if (PyErr_CheckSignals() == 0) return false;
-  PyErr_Clear();
-  return true;
-}
-
 /// Text that Python reads back as the same value: arrays as nested lists, infinity as float('inf').
 std::string paste(py::handle value);
 

@@ -3,6 +3,7 @@
 #include "bindings.hpp"
 #include "mcplan/ddp/options.hpp"
 #include "mcplan/ddp/switched_ddp.hpp"
+#include "signals.hpp"
 
 namespace mcplan::bindings {
 namespace {
@@ -95,35 +96,30 @@ void bind_options(py::module_& m) {
   c.def("validate", &Options::validate, "Raises InvalidOptions naming the first field out of its range.");
 }
 
-/// The caller's options with Ctrl-C heard.
-Options guarded(Options options) {
-  options.stop = stop_on_signal;
-  return options;
-}
-
 }  // namespace
 
 void bind_ddp(py::module_& parent) {
   py::module_ m = parent.def_submodule("ddp", "Contact-sequence search by switched differential dynamic programming.");
   bind_weights(m);
   bind_options(m);
-  py::class_<SwitchedDdp> c(m, "SwitchedDdp",
-                            "Contact-sequence search for one scene and robot. Solves release the GIL; Ctrl-C ends them "
-                            "with Status.interrupted and the best plan so far.");
+  py::class_<SwitchedDdp> c(
+      m, "SwitchedDdp",
+      "Contact-sequence search for one scene and robot. Solves release the GIL; Ctrl-C ends them, and "
+      "Interrupted carries the best plan so far.");
   c.def(py::init([](const Scene& scene, const Robot& robot, const Options& options) {
-          return SwitchedDdp(scene, robot, guarded(options));
+          return SwitchedDdp(scene, robot, watched(options));
         }),
         py::arg("scene"), py::arg("robot"), py::arg_v("options", Options(), "Options()"));
   c.def(
-      "solve", [](SwitchedDdp& self) { return without_gil([&] { return self.solve(); }); },
+      "solve", [](SwitchedDdp& self) { return interruptible([&] { return self.solve(); }); },
       "Plan from the scene's start to its goal.");
   c.def(
-      "solve", [](SwitchedDdp& self, const Plan& plan) { return without_gil([&] { return self.solve(plan); }); },
+      "solve", [](SwitchedDdp& self, const Plan& plan) { return interruptible([&] { return self.solve(plan); }); },
       py::arg("warm_start"), "The same, starting from an earlier plan's contact sequence, motion and timing.");
   c.def(
       "replan",
       [](SwitchedDdp& self, const Plan& previous, double t, const Knot& measured) {
-        return without_gil([&] { return self.replan(previous, t, measured); });
+        return interruptible([&] { return self.replan(previous, t, measured); });
       },
       py::arg("previous"), py::arg("t"), py::arg("measured"),
       "Plan on from a measured state at time t [s] of an earlier plan.");

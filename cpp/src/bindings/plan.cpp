@@ -2,7 +2,9 @@
 
 #include "bindings.hpp"
 #include "mcplan/plan/checker.hpp"
+#include "mcplan/plan/loads.hpp"
 #include "mcplan/plan/report.hpp"
+#include "signals.hpp"
 
 namespace mcplan::bindings {
 namespace {
@@ -341,6 +343,7 @@ void bind_checker(py::module_& m) {
 
   py::class_<CheckResult> result(m, "CheckResult", "The worst place of every constraint, violated or not.");
   def_items(result, "constraints", &CheckResult::constraints, "Tuple of Violation, violated or not.");
+  result.def_readonly("complete", &CheckResult::complete, "False: interrupted; what was found by then is listed.");
   result.def("ok", &CheckResult::ok);
   result.def("violations", &CheckResult::violations, "Those beyond their tolerance, worst first.");
   result.def(
@@ -360,13 +363,28 @@ void bind_checker(py::module_& m) {
   m.def(
       "check",
       [](const Plan& plan, const Scene* scene, const Robot* robot, const Tolerances& tolerances) {
-        const py::gil_scoped_release release;
-        return check(plan, scene ? *scene : plan.scene, robot ? *robot : plan.robot, tolerances);
+        return interruptible([&] {
+          return check(plan, scene ? *scene : plan.scene, robot ? *robot : plan.robot, tolerances, SignalWatch::stop);
+        });
       },
       py::arg("plan"), py::arg("scene") = py::none(), py::arg("robot") = py::none(), py::arg("tolerances") = d,
       "Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons "
       "alone. "
-      "Raises InvalidPlan when its arrays do not fit together.");
+      "Raises InvalidPlan when its arrays do not fit together, and Interrupted with what was found by then.");
+}
+
+void bind_loads(py::module_& m) {
+  py::class_<ContactLoad> load(m, "ContactLoad", "Largest contact force of an end-effector over a plan.");
+  load.def_readonly("end_effector", &ContactLoad::end_effector);
+  load.def_readonly("force", &ContactLoad::force, "[weights of the robot]");
+  load.def_readonly("friction", &ContactLoad::friction, "[-] tangential over normal force, infinite for a pull.");
+  def_value(load, "ContactLoad", {"end_effector", "force", "friction"});
+  py::class_<Loads> loads_class(m, "PlanLoads", "Largest loads over a plan.");
+  loads_class.def_readonly("angular_momentum", &Loads::angular_momentum, "About the CoM [kg m^2/s].");
+  def_items(loads_class, "contacts", &Loads::contacts, "Tuple of ContactLoad, the first to touch something first.");
+  def_value(loads_class, "PlanLoads", {"angular_momentum", "contacts"});
+  m.def("plan_loads", &loads, py::arg("plan"), py::arg("sample_s") = 0.005,
+        "Largest values over the whole plan, looked at least every sample_s [s]. Raises InvalidPlan, InvalidOptions.");
 }
 
 }  // namespace
@@ -380,6 +398,7 @@ void bind_plan(py::module_& m) {
   bind_plan_class(m);
   bind_report(m);
   bind_checker(m);
+  bind_loads(m);
 }
 
 }  // namespace mcplan::bindings

@@ -3,6 +3,7 @@
 #include "bindings.hpp"
 #include "mcplan/rhp/options.hpp"
 #include "mcplan/rhp/receding_horizon.hpp"
+#include "signals.hpp"
 
 namespace mcplan::bindings {
 namespace {
@@ -122,32 +123,28 @@ void bind_rhp(py::module_& parent) {
   bind_options(m);
   bind_state(m);
   bind_results(m);
-  const auto guarded = [](Options options) {
-    options.stop = stop_on_signal;
-    return options;
-  };
   py::class_<RecedingHorizon> c(m, "RecedingHorizon",
                                 "One nonlinear program a cycle, of whose steps the first is executed. Solves release "
-                                "the GIL; Ctrl-C ends them with Status.interrupted.");
-  c.def(py::init([guarded](const Scene& scene, const Robot& robot, const Options& options) {
-          return RecedingHorizon(scene, robot, guarded(options));
+                                "the GIL; Ctrl-C ends them, and Interrupted carries the walk or the cycle.");
+  c.def(py::init([](const Scene& scene, const Robot& robot, const Options& options) {
+          return RecedingHorizon(scene, robot, watched(options));
         }),
         py::arg("scene"), py::arg("robot"), py::arg_v("options", Options(), "Options()"),
         "The contact sequence is scene.steps; after its end the feet go on in turn on its last surface.");
-  c.def(py::init([guarded](const Scene& scene, const Robot& robot, const Plan& sequence, const Options& options) {
-          return RecedingHorizon(scene, robot, sequence, guarded(options));
+  c.def(py::init([](const Scene& scene, const Robot& robot, const Plan& sequence, const Options& options) {
+          return RecedingHorizon(scene, robot, sequence, watched(options));
         }),
         py::arg("scene"), py::arg("robot"), py::arg("sequence"), py::arg_v("options", Options(), "Options()"),
         "Contact sequence and start are those of a plan; the walk comes to rest after its last step.");
   c.def(
-      "walk", [](RecedingHorizon& self) { return without_gil([&] { return self.walk(); }); },
+      "walk", [](RecedingHorizon& self) { return interruptible([&] { return self.walk(); }); },
       "Run all cycles that the options ask for, or until one fails.");
   c.def(
-      "step", [](RecedingHorizon& self) { return without_gil([&] { return self.step(); }); },
+      "step", [](RecedingHorizon& self) { return interruptible([&] { return self.step(); }); },
       "One cycle from where the last one ended.");
   c.def(
       "step",
-      [](RecedingHorizon& self, const State& measured) { return without_gil([&] { return self.step(measured); }); },
+      [](RecedingHorizon& self, const State& measured) { return interruptible([&] { return self.step(measured); }); },
       py::arg("measured"), "One cycle from a measured state.");
   c.def("state", &RecedingHorizon::state, "At the start of the next cycle.", py::return_value_policy::copy);
   c.def("executed", &RecedingHorizon::executed, "The step that the last good cycle executes, from time 0.");

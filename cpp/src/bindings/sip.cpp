@@ -3,6 +3,7 @@
 #include "bindings.hpp"
 #include "mcplan/sip/certificate.hpp"
 #include "mcplan/sip/taylor_model.hpp"
+#include "signals.hpp"
 
 namespace mcplan::bindings {
 namespace {
@@ -95,7 +96,9 @@ void bind_certificate(py::module_& m) {
       "certify",
       [](const WholeBodyPlan& plan, const WholeBodyTolerances& tolerances, int order, int max_depth,
          bool self_collision) {
-        return without_gil([&] { return sip::certify(plan, {tolerances, order, max_depth, self_collision}); });
+        return interruptible([&] {
+          return sip::certify(plan, {tolerances, order, max_depth, self_collision, SignalWatch::stop});
+        });
       },
       py::arg("plan"), py::arg("tolerances") = WholeBodyTolerances(), py::arg("order") = CertifyOptions().order,
       py::arg("max_depth") = CertifyOptions().max_depth, py::arg("self_collision") = false,

@@ -1,12 +1,11 @@
 #include <pybind11/functional.h>
 
-#include <memory>
 #include <optional>
-#include <utility>
 
 #include "bindings.hpp"
 #include "mcplan/sip/certificate.hpp"
 #include "mcplan/sip/planner.hpp"
+#include "signals.hpp"
 
 namespace mcplan::bindings {
 namespace {
@@ -111,43 +110,24 @@ void bind_result(py::module_& m) {
   });
 }
 
-/// The caller's options with Ctrl-C heard, also where it comes while his logger runs and Python raises it there.
-Options guarded(Options options) {
-  if (!options.logger) {
-    options.stop = stop_on_signal;
-    return options;
-  }
-  const auto interrupted = std::make_shared<bool>(false);
-  options.logger = [logger = options.logger, interrupted](LogLevel level, const std::string& line) {
-    try {
-      logger(level, line);
-    } catch (const py::error_already_set& error) {
-      const py::gil_scoped_acquire acquire;
-      if (!error.matches(PyExc_KeyboardInterrupt)) throw;
-      *interrupted = true;
-    }
-  };
-  options.stop = [interrupted] { return std::exchange(*interrupted, false) || stop_on_signal(); };
-  return options;
-}
-
 void bind_planner_class(py::module_& m) {
-  py::class_<Planner> c(m, "Planner",
-                        "Whole-body planning of a planar robot through a sequence of contact stances by semi-infinite "
-                        "programming (Lengagne et al., 2010). Solves release the GIL; Ctrl-C ends them with "
-                        "Status.interrupted and the best plan so far.");
-  c.def(py::init([](const PlanarMotion& motion, const Options& options) { return Planner(motion, guarded(options)); }),
+  py::class_<Planner> c(
+      m, "Planner",
+      "Whole-body planning of a planar robot through a sequence of contact stances by semi-infinite "
+      "programming (Lengagne et al., 2010). Solves release the GIL; Ctrl-C ends them, and Interrupted "
+      "carries the best plan so far.");
+  c.def(py::init([](const PlanarMotion& motion, const Options& options) { return Planner(motion, watched(options)); }),
         py::arg("motion"), py::arg_v("options", Options(), "Options()"),
         "Raises InvalidMotion, InvalidRobot, InvalidOptions.");
   c.def(
-      "solve", [](Planner& self) { return without_gil([&] {
+      "solve", [](Planner& self) { return interruptible([&] {
                                      return JudgedResult{self.solve(), std::nullopt};
                                    }); },
       "From the robot's zero posture throughout, weights of 1, and one second.");
   c.def(
       "solve",
       [](Planner& self, const WholeBodyPlan& plan) {
-        return without_gil([&] { return JudgedResult{self.solve(plan), std::nullopt}; });
+        return interruptible([&] { return JudgedResult{self.solve(plan), std::nullopt}; });
       },
       py::arg("warm_start"),
       "From a plan of the same robot and phases; forces, order, tube and durations may differ. Raises InvalidPlan "

@@ -1,6 +1,7 @@
 #include "bindings.hpp"
 #include "mcplan/plan/whole_body_checker.hpp"
 #include "mcplan/plan/whole_body_plan.hpp"
+#include "signals.hpp"
 
 namespace mcplan::bindings {
 namespace {
@@ -175,12 +176,11 @@ void bind_checker(py::module_& m) {
   m.def(
       "check",
       [](const WholeBodyPlan& plan, const WholeBodyTolerances& tolerances, bool self_collision) {
-        const py::gil_scoped_release release;
-        return check(plan, tolerances, self_collision);
+        return interruptible([&] { return check(plan, tolerances, self_collision, SignalWatch::stop); });
       },
       py::arg("plan"), py::arg("tolerances") = d, py::arg("self_collision") = false,
       "Check a whole-body plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidMotion "
-      "or InvalidRobot where it is malformed.");
+      "or InvalidRobot where it is malformed, and Interrupted with what was found by then.");
 
   py::class_<Drift> drift(m, "Drift", "Largest distance and angle of a contact from where it should be.");
   drift.def_readonly("position_m", &Drift::position_m, "[m]");

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <vector>
 
 #include "mcplan/plan/checker.hpp"
 #include "mcplan/plan/clearance.hpp"
+#include "phase_state.hpp"
 
 /// What the files check_*.cpp share. One constraint is one small function with its equation; it offers what it measures
 /// to Findings, which keep the worst of each.
@@ -107,13 +109,23 @@ struct Replay {
   Eigen::Vector4d quat_wxyz{0.0, 0.0, 0.0, 0.0};
 };
 
+/// What the instants of a phase share: looked up once a phase, so that a sample costs the same in long plans.
+struct PhaseView {
+  PhaseFrame frame;
+  std::vector<const FreeStretch*> stretches;     ///< per end-effector, null in contact
+  std::vector<Eigen::AlignedBox3d> reach_boxes;  ///< per end-effector, in frame B about the CoM [m]
+};
+PhaseView phase_view(const Problem& problem, int phase);  // check_space.cpp
+
 /// An instant of a phase.
 struct Sample {
+  const PhaseView* view = nullptr;
   int phase = 0;
   double since_start_s = 0.0, time_s = 0.0;
   Replay replay;                          ///< what the checker integrated
   Eigen::Matrix3d r_WB;                   ///< of the replay
   PlanState at;                           ///< what the plan says
+  Eigen::Matrix3d r_at_WB;                ///< of the angles that it says
   std::vector<Eigen::Vector3d> forces_W;  ///< per end-effector, from replay.com_W or from its points [N]
   std::vector<std::vector<Eigen::Vector3d>> cone_forces_W;  ///< per end-effector, what friction holds one by one: the
                                                             ///< forces at its points, or the one of the pendulum
@@ -189,7 +201,26 @@ void check_sole_moment(const Problem& problem, const Sample& sample, Findings& f
 /// check_space.cpp
 void check_reach(const Problem& problem, const Sample& sample, Findings& findings);
 void check_yaw_range(const Problem& problem, const Sample& sample, Findings& findings);
-void check_clearance(const Problem& problem, const Sample& sample, Findings& findings);
+
+/// The solids around swinging end-effectors: those out of an end-effector's reach until it has moved on are not looked
+/// at again and again.
+class Surroundings {
+ public:
+  void check_clearance(const Problem& problem, const Sample& sample, Findings& findings);
+
+ private:
+  struct Near {
+    Eigen::Vector3d center_W;
+    std::vector<Solid> solids;  ///< all that a point of the end-effector within kMove of the centre can be in
+    bool known = false;
+  };
+  static constexpr double kMove = 0.25;  ///< [m]
+
+  const std::vector<Solid>& around(const Problem& problem, int l, const Eigen::Vector3d& position_W);
+
+  std::vector<Eigen::AlignedBox3d> boxes_;  ///< of the problem's solids
+  std::vector<Near> near_;                  ///< per end-effector
+};
 
 /// check_sequence.cpp
 void check_sequence_switch(const Problem& problem, Findings& findings);

@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "check_internal.hpp"
 #include "mcplan/base/rotation.hpp"
@@ -11,6 +12,14 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// Rz(yaw).
+Eigen::Matrix3d level_frame(double yaw) {
+  const double c = std::cos(yaw), s = std::sin(yaw);
+  Eigen::Matrix3d frame;
+  frame << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
+  return frame;
+}
+
 /// Largest excess [m] of A x <= b.
 double beyond_polytope(const Polytope& polytope, const Vector3d& x) {
   return (polytope.A * x - polytope.b).maxCoeff<Eigen::PropagateNaN>();
@@ -18,17 +27,14 @@ double beyond_polytope(const Polytope& polytope, const Vector3d& x) {
 
 /// Reach box of an end-effector, in frame B about the CoM. Where polytopes decide on the contacts, a free
 /// end-effector's box grows to hold where it lifts off and touches down, which the polytopes have admitted.
-Eigen::AlignedBox3d reach_box(const Problem& problem, int phase, int l) {
+Eigen::AlignedBox3d reach_box(const Problem& problem, const FreeStretch* stretch, int l) {
   const EndEffector& limits = problem.robot.end_effectors[l];
   Eigen::AlignedBox3d box(limits.reach_min_B, limits.reach_max_B);
-  if (!limits.com_reach.given()) return box;
-  for (const FreeStretch& stretch : problem.stretches[l]) {
-    if (phase < stretch.first_phase || phase >= stretch.end_phase) continue;
-    for (int k : {stretch.first_phase, stretch.end_phase}) {
-      const bool in_contact = k == stretch.first_phase ? k > 0 : problem.surface(k, l) >= 0;
-      const Knot& knot = problem.plan.knots[k];
-      if (in_contact) box.extend(rotation_from_rpy(knot.base_rpy).transpose() * (knot.end_effectors_W[l] - knot.com_W));
-    }
+  if (!limits.com_reach.given() || stretch == nullptr) return box;
+  for (int k : {stretch->first_phase, stretch->end_phase}) {
+    const bool in_contact = k == stretch->first_phase ? k > 0 : problem.surface(k, l) >= 0;
+    const Knot& knot = problem.plan.knots[k];
+    if (in_contact) box.extend(rotation_from_rpy(knot.base_rpy).transpose() * (knot.end_effectors_W[l] - knot.com_W));
   }
   return box;
 }
@@ -45,13 +51,36 @@ void check_partners(const Problem& problem, const Sample& sample, int l, const E
   }
 }
 
+/// Box of the prism below a surface; of one without a bottom nothing can be said, and its numbers say so.
+Eigen::AlignedBox3d box_of(const Solid& solid) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& vertex : solid.polygon.vertices_W()) {
+    box.extend(vertex);
+    box.extend(vertex - solid.thickness * solid.polygon.normal_W());
+  }
+  return box;
+}
+
 }  // namespace
+
+PhaseView phase_view(const Problem& problem, int phase) {
+  PhaseView view{phase_frame(problem.plan, phase), {}, {}};
+  for (int l = 0; l < problem.end_effector_count(); ++l) {
+    const std::vector<FreeStretch>& all = problem.stretches[l];  // in the order of time, none over another
+    const auto after = std::upper_bound(all.begin(), all.end(), phase,
+                                        [](int k, const FreeStretch& stretch) { return k < stretch.first_phase; });
+    const bool free = after != all.begin() && phase < std::prev(after)->end_phase;
+    view.stretches.push_back(free ? &*std::prev(after) : nullptr);
+    view.reach_boxes.push_back(reach_box(problem, view.stretches.back(), l));
+  }
+  return view;
+}
 
 /// reach_min <= R_WB^T (p_l - p) <= reach_max, for end-effectors in contact and free ones alike. In contact, and where
 /// the robot says it finer, A Rz(yaw)^T (p - p_l) <= b takes the box's place, and the other end-effectors are held to
 /// theirs.
 void check_reach(const Problem& problem, const Sample& sample, Findings& findings) {
-  const Eigen::Matrix3d level = rotation_from_rpy({0.0, 0.0, sample.replay.rpy.z()});
+  const Eigen::Matrix3d level = level_frame(sample.replay.rpy.z());
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const EndEffector& limits = problem.robot.end_effectors[l];
     const Vector3d offset = sample.at.end_effectors[l].position_W - sample.replay.com_W;
@@ -62,7 +91,7 @@ void check_reach(const Problem& problem, const Sample& sample, Findings& finding
       findings.offer(Constraint::reach, beyond_polytope(limits.com_reach, level.transpose() * -offset), place);
       continue;
     }
-    const Eigen::AlignedBox3d box = reach_box(problem, sample.phase, l);
+    const Eigen::AlignedBox3d& box = sample.view->reach_boxes[l];
     const Vector3d relative = sample.r_WB.transpose() * offset;
     findings.offer(Constraint::reach, largest((box.min() - relative).cwiseMax(relative - box.max())), place);
   }
@@ -79,17 +108,32 @@ void check_yaw_range(const Problem& problem, const Sample& sample, Findings& fin
   }
 }
 
+/// The end-effector's solids nearby, looked for again once it has left the ball for which they are known.
+const std::vector<Solid>& Surroundings::around(const Problem& problem, int l, const Vector3d& position_W) {
+  Near& near = near_[l];
+  if (near.known && (position_W - near.center_W).norm() <= kMove) return near.solids;
+  const double reach = kMove + problem.robot.end_effectors[l].half_size.norm() + 1e-6;
+  near.center_W = position_W;
+  near.known = true;
+  near.solids.clear();
+  for (std::size_t i = 0; i < boxes_.size(); ++i)
+    if (!(boxes_[i].squaredExteriorDistance(position_W) > reach * reach)) near.solids.push_back(problem.solids[i]);
+  return near.solids;
+}
+
 /// Depth inside the prism below any surface, for end-effectors that are free (clearance.hpp says which points count).
-void check_clearance(const Problem& problem, const Sample& sample, Findings& findings) {
+void Surroundings::check_clearance(const Problem& problem, const Sample& sample, Findings& findings) {
+  near_.resize(problem.end_effector_count());
+  if (boxes_.size() != problem.solids.size())
+    for (const Solid& solid : problem.solids) boxes_.push_back(box_of(solid));
   for (int l = 0; l < problem.end_effector_count(); ++l) {
-    if (problem.surface(sample.phase, l) >= 0) continue;
-    for (const FreeStretch& stretch : problem.stretches[l]) {
-      if (sample.phase < stretch.first_phase || sample.phase >= stretch.end_phase) continue;
-      const double depth = clearance_depth(problem.solids, problem.robot.end_effectors[l], stretch,
-                                           (sample.time_s - stretch.start_s) / stretch.duration_s,
-                                           sample.at.end_effectors[l].position_W, sole_yaw(problem, sample, l));
-      findings.offer(Constraint::clearance, depth, {sample.phase, l, sample.time_s});
-    }
+    const FreeStretch* stretch = sample.view->stretches[l];
+    if (stretch == nullptr) continue;
+    const EndEffectorState& end = sample.at.end_effectors[l];
+    const double depth = clearance_depth(around(problem, l, end.position_W), problem.robot.end_effectors[l], *stretch,
+                                         (sample.time_s - stretch->start_s) / stretch->duration_s, end.position_W,
+                                         sole_yaw(problem, sample, l));
+    findings.offer(Constraint::clearance, depth, {sample.phase, l, sample.time_s});
   }
 }
 

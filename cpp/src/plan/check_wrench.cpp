@@ -72,7 +72,7 @@ void check_orientation(const Problem& problem, const Sample& sample, Findings& f
   if (!problem.has_wrenches(sample.phase)) return;
   const Place place{sample.phase, -1, sample.time_s};
   const Vector4d& q = sample.at.base_quat_wxyz;
-  findings.offer(Constraint::orientation, angle_between(sample.r_WB, rotation_from_rpy(sample.at.base_rpy)), place);
+  findings.offer(Constraint::orientation, angle_between(sample.r_WB, sample.r_at_WB), place);
   findings.offer(Constraint::orientation,
                  angle_between(sample.r_WB, Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix()), place);
 }
@@ -95,8 +95,7 @@ void check_at_wrenches(const Problem& problem, const Sample& sample, Findings& f
   const double tolerance = problem.tolerances.dynamics;
   const double weight = problem.robot.mass * problem.scene.gravity;
   const PlanState& at = sample.at;
-  const Vector3d omega =
-      angular_velocity(rotation_from_rpy(at.base_rpy), sample.replay.momentum_W, problem.robot.inertia);
+  const Vector3d omega = angular_velocity(sample.r_at_WB, sample.replay.momentum_W, problem.robot.inertia);
   findings.offer(Constraint::at_consistency,
                  largest((angular_velocity(at.base_rpy, at.base_rpy_rate) - omega).cwiseAbs()),
                  {sample.phase, -1, sample.time_s}, tolerance, "rad/s");

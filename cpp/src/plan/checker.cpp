@@ -12,6 +12,9 @@ namespace {
 
 using namespace checks;
 
+/// Instants between two questions to the caller: a millisecond or so.
+constexpr int kSamplesPerPoll = 256;
+
 void require_size(const std::string& field, std::size_t size, std::size_t wanted) {
   if (size != wanted)
     throw InvalidPlan(field, "must have " + std::to_string(wanted) + " entries", std::to_string(size));
@@ -75,7 +78,8 @@ void require_samples(const Plan& plan, const Tolerances& tolerances) {
                          text(samples) + " samples");
 }
 
-void check_sample(const Problem& problem, const Sample& sample, Travel& travel, Findings& findings) {
+void check_sample(const Problem& problem, const Sample& sample, Travel& travel, Surroundings& surroundings,
+                  Findings& findings) {
   check_at_consistency(problem, sample, findings);
   check_orientation(problem, sample, findings);
   check_contact_place(problem, sample, findings);
@@ -89,35 +93,44 @@ void check_sample(const Problem& problem, const Sample& sample, Travel& travel, 
   check_torsion(problem, sample, findings);
   check_reach(problem, sample, findings);
   check_yaw_range(problem, sample, findings);
-  check_clearance(problem, sample, findings);
+  surroundings.check_clearance(problem, sample, findings);
 }
 
 /// Each phase is integrated from its own knot, in equal steps no longer than sample_s, and looked at after each.
-void check_motion(const Problem& problem, Findings& findings) {
+/// Returns false where it was asked to stop.
+bool check_motion(const Problem& problem, const StopRequest& stop, Findings& findings) {
   Travel travel;
+  Surroundings surroundings;
   Sample sample;
+  int samples = 0;
   for (int k = 0; k < problem.phase_count(); ++k) {
     const double duration = problem.plan.phases[k].duration;
     const int steps = sample_count(problem, k);
+    const PhaseView view = phase_view(problem, k);
+    sample.view = &view;
     sample.phase = k;
     sample.replay = start_of(problem, k);
     for (int i = 0; i <= steps; ++i) {
+      if (stop && samples++ % kSamplesPerPoll == 0 && stop()) return false;
       if (i > 0) sample.replay = advance(problem, k, sample.replay, sample.since_start_s, duration / steps);
       sample.since_start_s = duration * i / steps;
       sample.time_s = problem.knot_times[k] + sample.since_start_s;
       sample.r_WB = rotation_from_rpy(sample.replay.rpy);
-      sample.at = problem.plan.at_phase(k, sample.since_start_s);
+      sample.at = state_in_phase(problem.plan, view.frame, sample.since_start_s);
+      sample.r_at_WB = rotation_from_rpy(sample.at.base_rpy);
       contact_forces(problem, sample);
-      check_sample(problem, sample, travel, findings);
+      check_sample(problem, sample, travel, surroundings, findings);
     }
     check_dynamics(problem, sample, findings);
   }
   check_final_contact_place(problem, sample, findings);
+  return true;
 }
 
 }  // namespace
 
-CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, const Tolerances& tolerances) {
+CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, const Tolerances& tolerances,
+                  const StopRequest& stop) {
   scene.validate();
   robot.validate();
   require_shape(plan, scene, robot);
@@ -143,12 +156,13 @@ CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, cons
   check_sequence_rule(problem, findings);
   check_start(problem, findings);
   check_goal(problem, findings);
-  check_motion(problem, findings);
-  return {findings.violations(kConstraints, robot)};
+  const bool complete = check_motion(problem, stop, findings);
+  return {findings.violations(kConstraints, robot), complete};
 }
 
 bool CheckResult::ok() const {
-  return std::all_of(constraints.begin(), constraints.end(), [](const Violation& v) { return v.value <= v.tolerance; });
+  return complete &&
+         std::all_of(constraints.begin(), constraints.end(), [](const Violation& v) { return v.value <= v.tolerance; });
 }
 
 std::vector<Violation> CheckResult::violations() const {
@@ -172,6 +186,7 @@ const Violation& CheckResult::worst() const {
 std::string CheckResult::to_string() const {
   std::string out;
   for (const Violation& v : violations()) out += (out.empty() ? "" : "\n") + v.to_string();
+  if (!complete) out += (out.empty() ? "" : "\n") + std::string("stopped before the end: the rest is not checked");
   return out.empty() ? "ok" : out;
 }
 

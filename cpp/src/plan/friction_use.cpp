@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mcplan/scene/polygon.hpp"
+#include "phase_state.hpp"
 
 namespace mcplan {
 
@@ -13,10 +14,11 @@ std::map<std::string, double> friction_use(const Plan& plan, double sample_s) {
   for (const Surface& surface : plan.scene.surfaces) normals.push_back(Polygon(surface.vertices_W).normal_W());
   std::map<std::string, double> use;
   for (std::size_t k = 0; k < plan.phases.size(); ++k) {
+    const PhaseFrame frame = phase_frame(plan, static_cast<int>(k));
     const double duration = plan.phases[k].duration;
     const int samples = std::max(1, static_cast<int>(std::ceil(duration / sample_s)));
     for (int i = 0; i <= samples; ++i) {
-      const PlanState state = plan.at_phase(static_cast<int>(k), duration * i / samples);
+      const PlanState state = state_in_phase(plan, frame, duration * i / samples);
       for (std::size_t l = 0; l < state.end_effectors.size(); ++l) {
         const EndEffectorState& end = state.end_effectors[l];
         if (end.surface < 0 || end.force_W.norm() < 1e-3) continue;

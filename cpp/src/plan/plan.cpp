@@ -9,6 +9,7 @@
 #include "mcplan/base/rotation.hpp"
 #include "mcplan/base/turning.hpp"
 #include "mcplan/plan/point_forces.hpp"
+#include "phase_state.hpp"
 
 namespace mcplan {
 namespace {
@@ -37,19 +38,29 @@ double sole_yaw(const Knot& from, const Knot& to, std::size_t l, double s, doubl
   return from.end_effector_yaw[l] + blend * (to.end_effector_yaw[l] - from.end_effector_yaw[l]);
 }
 
-double swing_duration(const Plan& plan, const Swing& swing, double* until_phase, int phase) {
-  double total = 0.0;
+/// The swing as phase k sees it.
+ActiveSwing active_swing(const Plan& plan, const Swing& swing, int phase) {
+  const EndEffector& limits = plan.robot.end_effectors[swing.end_effector];
+  ActiveSwing out{&swing, 0.0, 0.0, limits.reach_min_B, limits.reach_max_B};
   for (int k = swing.first_phase; k < swing.end_phase; ++k) {
-    if (k == phase) *until_phase = total;
-    total += plan.phases[k].duration;
+    if (k == phase) out.before_s = out.total_s;
+    out.total_s += plan.phases[k].duration;
   }
-  return total;
+  // The knots themselves may lie outside by the planner's tolerance; widening by them keeps the path continuous.
+  for (int k : {swing.first_phase, swing.end_phase}) {
+    const Knot& knot = plan.knots[k];
+    const Vector3d relative =
+        rotation_from_rpy(knot.base_rpy).transpose() * (knot.end_effectors_W[swing.end_effector] - knot.com_W);
+    out.reach_min_B = out.reach_min_B.cwiseMin(relative);
+    out.reach_max_B = out.reach_max_B.cwiseMax(relative);
+  }
+  return out;
 }
 
-void add_clearance(const Plan& plan, const Swing& swing, int phase, double since_start, EndEffectorState& end) {
-  double before = 0.0;
-  const double total = swing_duration(plan, swing, &before, phase);
-  const double s = std::clamp((before + since_start) / total, 0.0, 1.0);
+void add_clearance(const ActiveSwing& active, double since_start, EndEffectorState& end) {
+  const Swing& swing = *active.swing;
+  const double total = active.total_s;
+  const double s = std::clamp((active.before_s + since_start) / total, 0.0, 1.0);
   const double bump = 16.0 * s * s * (1.0 - s) * (1.0 - s);
   const double bump_rate = 32.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / total;
   const Vector3d turn = swing.land_normal_W - swing.lift_normal_W;
@@ -71,30 +82,19 @@ Vector3d angular_velocity(const Vector3d& rpy, const Vector3d& rate) {
   return {spin(2, 1), spin(0, 2), spin(1, 0)};
 }
 
-void hold_in_reach(const Plan& plan, const Swing& swing, const PlanState& state, EndEffectorState& end) {
-  const EndEffector& limits = plan.robot.end_effectors[swing.end_effector];
-  Vector3d low = limits.reach_min_B, high = limits.reach_max_B;
-  // The knots themselves may lie outside by the planner's tolerance; widening by them keeps the path continuous.
-  for (int k : {swing.first_phase, swing.end_phase}) {
-    const Knot& knot = plan.knots[k];
-    const Vector3d relative =
-        rotation_from_rpy(knot.base_rpy).transpose() * (knot.end_effectors_W[swing.end_effector] - knot.com_W);
-    low = low.cwiseMin(relative);
-    high = high.cwiseMax(relative);
-  }
-  const Eigen::Matrix3d r_WB = rotation_from_rpy(state.base_rpy);
-  const Vector3d spin = angular_velocity(state.base_rpy, state.base_rpy_rate);
+void hold_in_reach(const ActiveSwing& active, const PlanState& state, const Eigen::Matrix3d& r_WB,
+                   EndEffectorState& end) {
+  const Vector3d &low = active.reach_min_B, &high = active.reach_max_B;
   const Vector3d offset = end.position_W - state.com_W;
   Vector3d relative = r_WB.transpose() * offset;
+  if ((relative.array() >= low.array()).all() && (relative.array() <= high.array()).all()) return;
+  const Vector3d spin = angular_velocity(state.base_rpy, state.base_rpy_rate);
   Vector3d rate = r_WB.transpose() * (end.velocity_W - state.com_velocity_W - spin.cross(offset));
-  bool held = false;
   for (int i = 0; i < 3; ++i) {
     if (relative[i] >= low[i] && relative[i] <= high[i]) continue;
     relative[i] = std::clamp(relative[i], low[i], high[i]);
     rate[i] = 0.0;
-    held = true;
   }
-  if (!held) return;
   end.position_W = state.com_W + r_WB * relative;
   end.velocity_W = state.com_velocity_W + spin.cross(r_WB * relative) + r_WB * rate;
 }
@@ -259,25 +259,38 @@ PlanState Plan::at(double t) const {
 PlanState Plan::at_phase(int k, double since_start) const {
   if (k < 0 || k >= static_cast<int>(phases.size()))
     throw InvalidInput("phase", "must lie in [0, " + text(static_cast<int>(phases.size()) - 1) + "]", text(k));
-  const Phase& phase = phases[k];
-  const Knot &from = knots[k], &to = knots[k + 1];
+  return state_in_phase(*this, phase_frame(*this, k), since_start);
+}
+
+PhaseFrame phase_frame(const Plan& plan, int phase) {
+  PhaseFrame frame{phase, 0.0, {}};
+  for (int i = 0; i < phase; ++i) frame.start_s += plan.phases[i].duration;
+  for (const Swing& swing : plan.swings)
+    if (phase >= swing.first_phase && phase < swing.end_phase) frame.swings.push_back(active_swing(plan, swing, phase));
+  return frame;
+}
+
+PlanState state_in_phase(const Plan& plan, const PhaseFrame& frame, double since_start) {
+  const int k = frame.phase;
+  const Phase& phase = plan.phases[k];
+  const Knot &from = plan.knots[k], &to = plan.knots[k + 1];
   const double tau = since_start;
 
   PlanState state;
   state.phase = k;
-  for (int i = 0; i < k; ++i) state.time += phases[i].duration;
-  state.time += tau;
+  state.time = frame.start_s + tau;
 
   state.end_effectors.resize(phase.contacts.size());
   for (std::size_t l = 0; l < phase.contacts.size(); ++l)
     state.end_effectors[l].center_of_pressure_W = from.end_effectors_W[l];
   if (phase.law == ForceLaw::pendulum)
-    pendulum_motion(*this, phase, from, tau, state);
+    pendulum_motion(plan, phase, from, tau, state);
   else if (phase.law == ForceLaw::wrench)
-    wrench_motion(*this, phase, from, tau, state);
+    wrench_motion(plan, phase, from, tau, state);
   else
-    point_force_motion(*this, phase, from, to, tau, state);
-  state.base_quat_wxyz = quat_wxyz_from_rpy(state.base_rpy);
+    point_force_motion(plan, phase, from, to, tau, state);
+  const Eigen::Matrix3d r_WB = rotation_from_rpy(state.base_rpy);
+  state.base_quat_wxyz = quat_wxyz_from_rotation(r_WB);
 
   for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
     EndEffectorState& end = state.end_effectors[l];
@@ -288,11 +301,10 @@ PlanState Plan::at_phase(int k, double since_start) const {
     end.velocity_W = path.velocity;
     end.yaw = sole_yaw(from, to, l, tau / phase.duration, state.base_rpy.z());
   }
-  for (const Swing& swing : swings) {
-    if (k < swing.first_phase || k >= swing.end_phase) continue;
-    EndEffectorState& end = state.end_effectors[swing.end_effector];
-    add_clearance(*this, swing, k, tau, end);
-    hold_in_reach(*this, swing, state, end);
+  for (const ActiveSwing& active : frame.swings) {
+    EndEffectorState& end = state.end_effectors[active.swing->end_effector];
+    add_clearance(active, tau, end);
+    hold_in_reach(active, state, r_WB, end);
   }
   for (EndEffectorState& end : state.end_effectors)
     if (end.surface < 0) end.center_of_pressure_W = end.position_W;

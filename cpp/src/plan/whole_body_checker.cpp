@@ -62,15 +62,17 @@ void require_samples(const WholeBodyPlan& plan, double sample_s) {
                          text(samples) + " samples");
 }
 
-/// Calls see(sample) at both ends of every interval and between them, in equal steps no longer than sample_s.
+/// Calls see(sample) at both ends of every interval and between them, in equal steps no longer than sample_s. Returns
+/// false where it was asked to stop.
 template <class See>
-void for_each_sample(const WholeBodyPlan& plan, const std::vector<IntervalSplines>& splines, double sample_s,
-                     See&& see) {
+bool for_each_sample(const WholeBodyPlan& plan, const std::vector<IntervalSplines>& splines, double sample_s,
+                     const StopRequest& stop, See&& see) {
   Evaluation evaluation(plan);
   PhaseGain gain;
   int phase = -1, interval_of_phase = 0;
   double start_s = 0.0;
   for (const IntervalSplines& interval : splines) {
+    if (stop && stop()) return false;
     ++interval_of_phase;
     if (interval.phase != phase) {
       phase = interval.phase;
@@ -84,6 +86,7 @@ void for_each_sample(const WholeBodyPlan& plan, const std::vector<IntervalSpline
     }
     start_s += interval.length;
   }
+  return true;
 }
 
 std::vector<IntervalSplines> all_splines(const WholeBodyPlan& plan) {
@@ -103,7 +106,8 @@ void require_well_formed(const WholeBodyPlan& plan) {
 }  // namespace
 }  // namespace whole_body
 
-CheckResult check(const WholeBodyPlan& plan, const WholeBodyTolerances& tolerances, bool self_collision) {
+CheckResult check(const WholeBodyPlan& plan, const WholeBodyTolerances& tolerances, bool self_collision,
+                  const StopRequest& stop) {
   using namespace whole_body;
   require_well_formed(plan);
   Findings findings(tolerances);
@@ -117,7 +121,7 @@ CheckResult check(const WholeBodyPlan& plan, const WholeBodyTolerances& toleranc
   check_continuity(splines, plan.motion.robot, findings);
   check_rest(splines, plan.motion.robot, findings);
   check_poses(plan, findings);
-  for_each_sample(plan, splines, tolerances.sample_s, [&](const Sample& sample) {
+  const bool complete = for_each_sample(plan, splines, tolerances.sample_s, stop, [&](const Sample& sample) {
     check_joints(sample, findings);
     check_drift(sample, findings);
     check_balance(sample, findings);
@@ -125,7 +129,7 @@ CheckResult check(const WholeBodyPlan& plan, const WholeBodyTolerances& toleranc
     check_clearance(sample, findings);
     if (self_collision) check_collision(sample, findings);
   });
-  return {findings.violations(kWholeBodyConstraints)};
+  return {findings.violations(kWholeBodyConstraints), complete};
 }
 
 Drift largest_drift(const WholeBodyPlan& plan, double sample_s) {
@@ -133,7 +137,7 @@ Drift largest_drift(const WholeBodyPlan& plan, double sample_s) {
   plan.validate();
   require_samples(plan, sample_s);
   Drift drift;
-  for_each_sample(plan, all_splines(plan), sample_s, [&drift](const Sample& sample) {
+  for_each_sample(plan, all_splines(plan), sample_s, {}, [&drift](const Sample& sample) {
     for (const Eigen::Vector3d& error : sample.at.state.contact_error) {
       drift.position_m = std::max(drift.position_m, error.head<2>().norm());
       drift.angle_rad = std::max(drift.angle_rad, std::abs(error[2]));

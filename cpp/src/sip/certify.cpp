@@ -99,8 +99,9 @@ class Ledger {
   double rounding_ = 0.0;
 };
 
-/// Halves an interval, depth first, until every row of it is settled. Returns the number of pieces.
-int prove(const IntervalRows& interval, int max_depth, Ledger& ledger) {
+/// Halves an interval, depth first, until every row of it is settled or it is asked to stop. Returns the number of
+/// pieces.
+int prove(const IntervalRows& interval, int max_depth, const StopRequest& stop, Ledger& ledger) {
   struct Piece {
     double middle, half_width;
     int depth;
@@ -110,7 +111,7 @@ int prove(const IntervalRows& interval, int max_depth, Ledger& ledger) {
   std::iota(all.begin(), all.end(), 0);
   std::vector<Piece> stack{{0.0, 1.0, 0, all}};
   int pieces = 0;
-  while (!stack.empty()) {
+  while (!stack.empty() && !(stop && stop())) {
     const Piece piece = std::move(stack.back());
     stack.pop_back();
     ++pieces;
@@ -168,8 +169,13 @@ Certificate certify(const WholeBodyPlan& plan, const CertifyOptions& options) {
     ledger.close(instant.row, instant.phase, instant.time_s, instant.amount);
   }
   Certificate out;
-  for (const IntervalRows& interval : intervals) out.subdivisions += prove(interval, options.max_depth, ledger);
+  bool stopped = false;
+  const StopRequest stop = [&] { return stopped = stopped || (options.stop && options.stop()); };
+  for (const IntervalRows& interval : intervals) out.subdivisions += prove(interval, options.max_depth, stop, ledger);
   out.constraints = ledger.constraints(options.self_collision);
+  if (stopped)
+    for (ProvedConstraint& constraint : out.constraints)
+      if (constraint.proof == Proof::proved) constraint.proof = Proof::not_proved;
   out.rounding = ledger.rounding();
   out.time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;

@@ -16,6 +16,7 @@ __all__: list[str] = [
     "Capsule",
     "CheckResult",
     "Contact",
+    "ContactLoad",
     "ContactRule",
     "Drift",
     "EndEffector",
@@ -27,6 +28,7 @@ __all__: list[str] = [
     "LogLevel",
     "Phase",
     "Plan",
+    "PlanLoads",
     "PlanResult",
     "PlanState",
     "PlanarBody",
@@ -68,6 +70,7 @@ __all__: list[str] = [
     "may_touch",
     "moment_point_W",
     "nlp",
+    "plan_loads",
     "planar_inverse_dynamics",
     "planar_kinematics",
     "planar_point",
@@ -1564,12 +1567,57 @@ class CheckResult:
         Largest value / tolerance, violated or not.
         """
     @property
+    def complete(self) -> bool:
+        """
+        False: interrupted; what was found by then is listed.
+        """
+    @property
     def constraints(self) -> tuple:
         """
         Tuple of Violation, violated or not.
         """
     @constraints.setter
     def constraints(self, arg1: collections.abc.Sequence[Violation]) -> None: ...
+
+class ContactLoad:
+    """
+    Largest contact force of an end-effector over a plan.
+    """
+    def __copy__(self) -> ContactLoad: ...
+    def __deepcopy__(self, memo: dict) -> ContactLoad: ...
+    def __repr__(self) -> str: ...
+    @property
+    def end_effector(self) -> int: ...
+    @property
+    def force(self) -> float:
+        """
+        [weights of the robot]
+        """
+    @property
+    def friction(self) -> float:
+        """
+        [-] tangential over normal force, infinite for a pull.
+        """
+
+class PlanLoads:
+    """
+    Largest loads over a plan.
+    """
+    def __copy__(self) -> PlanLoads: ...
+    def __deepcopy__(self, memo: dict) -> PlanLoads: ...
+    def __repr__(self) -> str: ...
+    @property
+    def angular_momentum(self) -> float:
+        """
+        About the CoM [kg m^2/s].
+        """
+    @property
+    def contacts(self) -> tuple:
+        """
+        Tuple of ContactLoad, the first to touch something first.
+        """
+    @contacts.setter
+    def contacts(self, arg1: collections.abc.Sequence[ContactLoad]) -> None: ...
 
 class Capsule:
     """
@@ -2695,13 +2743,13 @@ def addresses(who: str, end_effector: EndEffector) -> bool:
 @typing.overload
 def check(plan: Plan, scene: Scene = None, robot: Robot = None, tolerances: Tolerances = ...) -> CheckResult:
     """
-    Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons alone. Raises InvalidPlan when its arrays do not fit together.
+    Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons alone. Raises InvalidPlan when its arrays do not fit together, and Interrupted with what was found by then.
     """
 
 @typing.overload
 def check(plan: WholeBodyPlan, tolerances: WholeBodyTolerances = ..., self_collision: bool = False) -> CheckResult:
     """
-    Check a whole-body plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidMotion or InvalidRobot where it is malformed.
+    Check a whole-body plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidMotion or InvalidRobot where it is malformed, and Interrupted with what was found by then.
     """
 
 def largest_drift(plan: WholeBodyPlan, sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> Drift:
@@ -2728,6 +2776,11 @@ def moment_point_W(
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
     """
     Mean of the phase's expected points [m].
+    """
+
+def plan_loads(plan: Plan, sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.005) -> PlanLoads:
+    """
+    Largest values over the whole plan, looked at least every sample_s [s]. Raises InvalidPlan, InvalidOptions.
     """
 
 def planar_inverse_dynamics(

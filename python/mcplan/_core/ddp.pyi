@@ -414,7 +414,7 @@ class Options:
 
 class SwitchedDdp:
     """
-    Contact-sequence search for one scene and robot. Solves release the GIL; Ctrl-C ends them with Status.interrupted and the best plan so far.
+    Contact-sequence search for one scene and robot. Solves release the GIL; Ctrl-C ends them, and Interrupted carries the best plan so far.
     """
     def __init__(self, scene: mcplan._core.Scene, robot: mcplan._core.Robot, options: Options = ...) -> None: ...
     def replan(

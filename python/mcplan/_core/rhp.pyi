@@ -483,7 +483,7 @@ class Walk:
 
 class RecedingHorizon:
     """
-    One nonlinear program a cycle, of whose steps the first is executed. Solves release the GIL; Ctrl-C ends them with Status.interrupted.
+    One nonlinear program a cycle, of whose steps the first is executed. Solves release the GIL; Ctrl-C ends them, and Interrupted carries the walk or the cycle.
     """
     @typing.overload
     def __init__(self, scene: mcplan._core.Scene, robot: mcplan._core.Robot, options: Options = ...) -> None:

@@ -633,7 +633,7 @@ class Result:
 
 class Planner:
     """
-    Whole-body planning of a planar robot through a sequence of contact stances by semi-infinite programming (Lengagne et al., 2010). Solves release the GIL; Ctrl-C ends them with Status.interrupted and the best plan so far.
+    Whole-body planning of a planar robot through a sequence of contact stances by semi-infinite programming (Lengagne et al., 2010). Solves release the GIL; Ctrl-C ends them, and Interrupted carries the best plan so far.
     """
     def __init__(self, motion: mcplan._core.PlanarMotion, options: Options = ...) -> None:
         """

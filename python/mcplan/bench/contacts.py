@@ -94,8 +94,6 @@ def run(cases: Sequence[Case], jobs: int = 1, progress: Callable[[str], None] | 
     """
     rows: dict[int, Row] = {}
     for index, row in each(solve, cases, jobs):
-        if row.status == "interrupted":
-            raise KeyboardInterrupt
         rows[index] = row
         if progress is not None:
             progress(f"[{len(rows)}/{len(cases)}] {line(row)}")

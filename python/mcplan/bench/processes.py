@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
@@ -28,21 +29,45 @@ def each(function: Callable[[Task], Outcome], tasks: Sequence[Task], jobs: int) 
         for index, task in enumerate(tasks):
             yield index, function(task)
         return
-    # Spawned, not forked: a fork would copy the threads' locks of this process but not the threads.
-    with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
-        pending = {pool.submit(function, task): index for index, task in enumerate(tasks)}
-        try:
-            for future in as_completed(pending):
-                yield pending[future], future.result()
-        finally:
-            pool.shutdown(cancel_futures=True)
+    with _pool(jobs) as pool:
+        with _deaf_to_interrupts():
+            pending = {pool.submit(function, task): index for index, task in enumerate(tasks)}
+        for future in as_completed(pending):
+            yield pending[future], future.result()
 
 
 def apart(function: Callable[..., Outcome], *arguments: Any) -> Outcome:
     """The function's result from a new process, on one thread and, where the system can say so, one core."""
-    context = multiprocessing.get_context("spawn")
-    with environment(ONE_THREAD), ProcessPoolExecutor(1, mp_context=context, initializer=_take_one_core) as pool:
-        return pool.submit(function, *arguments).result()
+    with environment(ONE_THREAD), _pool(1, _take_one_core) as pool:
+        with _deaf_to_interrupts():
+            future = pool.submit(function, *arguments)
+        return future.result()
+
+
+@contextmanager
+def _pool(jobs: int, initializer: Callable[[], None] | None = None) -> Iterator[ProcessPoolExecutor]:
+    """Processes that end with the block, also where it is left in the middle of their work."""
+    # Spawned, not forked: a fork would copy the threads' locks of this process but not the threads.
+    pool = ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn"), initializer=initializer)
+    try:
+        yield pool
+    except BaseException:
+        for process in list((pool._processes or {}).values()):
+            process.terminate()
+        raise
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+@contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """Processes that are started meanwhile leave Ctrl-C, which a terminal sends to all, to this one; it gets its own
+    afterwards."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import csv
+import io
 import json
 import math
 import os
@@ -15,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import mcplan
+from mcplan.files.outputs import write_whole
 
 Row = dict[str, Any]
 
@@ -22,19 +24,18 @@ Row = dict[str, Any]
 def write_csv(path: Path, rows: Sequence[Row]) -> Path:
     """Write rows as CSV; the columns are those of the first row. No rows: an empty file."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open("w", newline="", encoding="utf-8") as file:
-        if rows:
-            writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
-    return path
+    text = io.StringIO(newline="")
+    if rows:
+        writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    return write_whole(text.getvalue(), path)
 
 
 def write_json(path: Path, content: Row) -> Path:
     """Write one JSON object; numbers that are not finite become null."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(plain(content), indent=1) + "\n", encoding="utf-8")
-    return path
+    return write_whole(json.dumps(plain(content), indent=1) + "\n", path)
 
 
 def plain(value: Any) -> Any:

@@ -90,8 +90,6 @@ def run(tasks: Sequence[Task], jobs: int = 1, progress: Callable[[str], None] | 
         outcomes[index] = outcome
         if progress is not None:
             progress(f"[{len(outcomes)}/{len(tasks)}] {line(outcome)}")
-        if outcome.status == "interrupted":
-            raise KeyboardInterrupt
     return [outcomes[i] for i in range(len(tasks))]
 
 

@@ -185,8 +185,6 @@ def plan_of(case: Case) -> Planned:
         solver: Any = mcplan.walk if case.planner == "rhp" else mcplan.plan
         found = solver(scene, robot, **case.planning)
     status = str(found.report.status)
-    if status == "interrupted":
-        raise KeyboardInterrupt
     worst = found.report.worst_violation
     message = (
         "" if status in TRACKED else "; ".join(filter(None, [found.report.message, str(worst) if worst.name else ""]))
@@ -246,8 +244,6 @@ def track_plan(case: Case, plan: Any, options: Options | None = None) -> Trackin
         result = track_whole_body(plan, options)
     else:
         result = track(plan, case.robot, options or Options(assist=case.assist))
-    if result.interrupted:
-        raise KeyboardInterrupt
     return result
 
 

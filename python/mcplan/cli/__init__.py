@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
+from mcplan.cli.interrupts import CODE, Watch
+from mcplan.cli.terminal import guarded, printable
 from mcplan.errors import InvalidInput, MissingExtra, UnknownName
 
 
@@ -15,30 +17,40 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: Words after ``mcplan``; None: those of the process.
 
     Returns:
-        The exit code: 0 done, 1 done with a negative answer (not solved, plan violated), 2 bad input, 130 interrupted.
+        The exit code: 0 done, 1 done with a negative answer (not solved, plan violated), 2 bad input, 130 interrupted,
+        also where Ctrl-C came while it was starting, drawing or writing. A reader that goes away early, as in
+        ``| head``, changes nothing.
     """
-    from mcplan.cli.app import app
+    code = CODE
+    with Watch(last=arguments is None) as watch, guarded():
+        code = _run(list(sys.argv[1:] if arguments is None else arguments) or ["--help"])
+    return CODE if watch.told else code
 
-    words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
+
+def _run(words: list[str]) -> int:
     try:
+        from mcplan.cli.app import app
+
         code = app(args=words, prog_name="mcplan", standalone_mode=False)
+        if sys.stdout is not None:
+            sys.stdout.flush()  # here a full disk is still an error with a message
         return code if isinstance(code, int) else 0
     except (InvalidInput, UnknownName, MissingExtra) as found:
         return _fail(str(found))
     except OSError as found:
         return _fail(f"{found.filename}: {found.strerror}" if found.filename else str(found))
     except KeyboardInterrupt:
-        return 130
+        return CODE
     except Exception as found:
         # Usage errors: typer brings its own click or uses the installed one, so the class is known by what it does.
         if hasattr(found, "format_message"):
             return _fail(" ".join(found.format_message().split()))
         if type(found).__name__ == "Abort":
-            return 130
+            return CODE
         raise
 
 
 def _fail(message: str) -> int:
     for line in message.splitlines() or [""]:
-        print(f"error: {' '.join(line.split())}", file=sys.stderr)
+        print(f"error: {printable(' '.join(line.split()))}", file=sys.stderr)
     return 2

@@ -44,7 +44,9 @@ def speed(
         return 0
     from mcplan.bench import growth, records
     from mcplan.bench import speed as bench
+    from mcplan.files.outputs import require_folder
 
+    require_folder("--out", out)
     rows = bench.compare(repeats=repeats, threads=threads, progress=_say)
     grown = growth.measure(quick, max(1, repeats - 2), threads, _say)
     result: dict[str, Any] = {
@@ -100,7 +102,9 @@ def robustness(
     """
     from mcplan.bench import records
     from mcplan.bench import robustness as bench
+    from mcplan.files.outputs import require_folder
 
+    require_folder("--out", out)
     options: dict[str, Any] = {"robot": robot, "time_limit_s": time_limit, "model": model or ""}
     result: dict[str, Any] = {"machine": records.machine(), "seed": seed, "model": model}
     enough = True

@@ -54,7 +54,9 @@ def contacts(
     from mcplan.bench import contacts as bench
     from mcplan.bench import records
     from mcplan.bench.contacts_cases import setting_cases
+    from mcplan.files.outputs import require_folder
 
+    require_folder("--out", out)
     chosen = _chosen(case or [])
     if list_cases:
         print("\n".join(entry.name for entry in chosen))
@@ -98,6 +100,7 @@ def _chosen(names: list[str]) -> list[Case]:
 def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Path]:
     from mcplan.bench import records
     from mcplan.bench.contacts_text import markdown as page
+    from mcplan.files.outputs import write_whole
 
     plain = _plain(result)
     written = [records.write_json(out / "contacts.json", plain)]
@@ -109,8 +112,8 @@ def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Pat
         written.append(records.write_csv(out / "speed.csv", plain["speed"]))
     if markdown is not None:
         markdown.parent.mkdir(parents=True, exist_ok=True)
-        before = markdown.read_text(encoding="utf-8") if markdown.exists() else ""
-        markdown.write_text(page(result, before), encoding="utf-8")
+        before = markdown.read_text(encoding="utf-8") if markdown.is_file() else ""
+        write_whole(page(result, before), markdown)
         written.append(markdown)
     return written
 

@@ -67,7 +67,10 @@ def tracking(
     from mcplan.bench import records, tracking_robustness, tracking_speed
     from mcplan.bench import tracking as bench
     from mcplan.bench.tracking_cases import DISTURBED
+    from mcplan.files.outputs import require_folder
 
+    for option, folder in (("--out", out), ("--html", html), ("--strips", strips)):
+        require_folder(option, folder)
     chosen = _chosen(short, case or [])
     if list_cases:
         print("\n".join(entry.name for entry in chosen))
@@ -137,6 +140,7 @@ def _draw(html: Path | None, strips: Path | None, case: Case, run: Any) -> None:
 def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Path]:
     from mcplan.bench import records
     from mcplan.bench.tracking_text import markdown as page
+    from mcplan.files.outputs import write_whole
 
     plain = _plain(result)
     written = [records.write_json(out / "tracking.json", plain)]
@@ -146,8 +150,8 @@ def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Pat
         written.append(records.write_csv(out / "robustness.csv", plain["robustness"]["outcomes"]))
     if markdown is not None:
         markdown.parent.mkdir(parents=True, exist_ok=True)
-        before = markdown.read_text(encoding="utf-8") if markdown.exists() else ""
-        markdown.write_text(page(result, before), encoding="utf-8")
+        before = markdown.read_text(encoding="utf-8") if markdown.is_file() else ""
+        write_whole(page(result, before), markdown)
         written.append(markdown)
     return written
 

@@ -41,8 +41,9 @@ def check(
     from mcplan._core import WholeBodyPlan
     from mcplan._core import check as run
     from mcplan._core.sip import certify as prove
-    from mcplan.cli.loads_text import friction_line, load_lines
+    from mcplan.cli.loads_text import all_lines
     from mcplan.cli.table import print_table
+    from mcplan.cli.terminal import printable
     from mcplan.errors import InvalidInput
     from mcplan.files.whole_body_plans import load_any_plan
 
@@ -78,15 +79,15 @@ def check(
         }
         print(json_module.dumps(report))
     elif result.ok():
-        print(f"{plan}: ok. Closest to its limit: {result.worst()}")
+        print(printable(f"{plan}: ok. Closest to its limit: {result.worst()}"))
     else:
-        print(f"{plan}: {len(result.violations())} constraints violated")
+        print(printable(f"{plan}: {len(result.violations())} constraints violated"))
         print_table([[str(violation)] for violation in result.violations()])
     if not json and not isinstance(loaded, WholeBodyPlan):
-        for line in [*friction_line(loaded), *load_lines(loaded)]:
-            print(line)
+        for line in all_lines(loaded):
+            print(printable(line))
     if certificate is not None and not json:
-        print(str(certificate).rstrip())
+        print("\n".join(printable(line) for line in str(certificate).rstrip().splitlines()))
     if feasibility is not None and not json:
         _print_feasibility(feasibility)
     proved, followed = certificate is None or certificate.proved(), feasibility is None or feasibility.ok()
@@ -103,8 +104,9 @@ def _feasibility(plan: Plan, robot: str) -> Feasibility:
 def _print_feasibility(feasibility: Feasibility) -> None:
     """The largest of each kind, and the worst that are beyond their limit."""
     from mcplan.cli.table import print_table
+    from mcplan.cli.terminal import printable
 
-    print(feasibility.verdict)
+    print(printable(feasibility.verdict))
     shown = [f for worst in feasibility.worst_of_each() for f in [worst, *_others_beyond(feasibility, worst)]]
     rows = [
         [

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mcplan.cli.terminal import printable, say
+
 if TYPE_CHECKING:
     from mcplan import PlanResult, Violation
 
@@ -34,26 +36,30 @@ def demo(
     from mcplan.extras import require
 
     require("mcplan demo", "view", "meshcat", "matplotlib")
+    from mcplan.files.outputs import require_folder
     from mcplan.view.picture import picture
 
+    require_folder("--out", out)
     scenes = [mcplan.load_scene(name) for name in scene or SCENES]
     model = mcplan.load_robot(robot)
     out.mkdir(parents=True, exist_ok=True)
     results = []
     for i, each in enumerate(scenes):
         lead = f"[{i + 1}/{len(scenes)}] {each.name}:"
-        print(f"{lead} planning", flush=True)
+        print(printable(f"{lead} planning"), flush=True)
         result = mcplan.plan(each, model)
         results.append(result)
-        print(f"{lead} {result.report.status} in {result.report.time_s:.2f} s, drawing", flush=True)
+        took = f"{result.report.status} in {result.report.time_s:.2f} s"
+        print(printable(f"{lead} {took}, drawing"), flush=True)
         if not result.plan.phases:  # no contact sequence joins start and goal: nothing to draw
             continue
         result.plan.save(out / f"{each.name}.npz")
         mcplan.show(result.plan, report=result.report).save_html(out / f"{each.name}.html")
         picture(result.plan, path=out / f"{each.name}.png")
-    print()
+    say()
     print_results(results)
-    print(f"\nIn {out}/: NAME.npz (mcplan check {out}/{scenes[0].name}.npz), NAME.html (open in a browser), NAME.png")
+    say()
+    say(f"In {out}/: NAME.npz (mcplan check {out}/{scenes[0].name}.npz), NAME.html (open in a browser), NAME.png")
     return 0 if all(str(result.report.status) == "solved" for result in results) else 1
 
 

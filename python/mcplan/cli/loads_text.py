@@ -9,13 +9,26 @@ from mcplan.cli.contacts_text import wrapped
 
 if TYPE_CHECKING:
     from mcplan._core import Plan, Robot
+    from mcplan.kinematics.loads import Loads
 
 
 def load_lines(plan: Plan) -> list[str]:
     """Lines below a plan's contacts: peak angular momentum, peak forces in weights; none for other plans."""
     from mcplan.kinematics.loads import loads_of
 
+    return _lines(plan, loads_of(plan))
+
+
+def all_lines(plan: Plan) -> list[str]:
+    """The same and before it the largest tangential over normal force, for plans that come without a report."""
+    from mcplan.kinematics.loads import loads_of
+
     loads = loads_of(plan)
+    friction = friction_lines(loads.frictions) if loads is not None and loads.frictions else []
+    return friction + _lines(plan, loads)
+
+
+def _lines(plan: Plan, loads: Loads | None) -> list[str]:
     if loads is None:
         return []
     lines = [
@@ -24,14 +37,6 @@ def load_lines(plan: Plan) -> list[str]:
     if loads.forces:
         lines += _listed("largest force in weights: ", loads.forces)
     return lines
-
-
-def friction_line(plan: Plan) -> list[str]:
-    """Largest tangential over normal force of each end-effector, for plans that come without a report."""
-    from mcplan.kinematics.loads import loads_of
-
-    loads = loads_of(plan)
-    return friction_lines(loads.frictions) if loads is not None and loads.frictions else []
 
 
 def friction_lines(frictions: dict[str, float]) -> list[str]:

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mcplan.cli.terminal import say
+
 if TYPE_CHECKING:
     from mcplan import PlanarMotion
     from mcplan._core import PlanarClearance, PlanarContact, PlanarPhase, PlanarPose
@@ -27,6 +29,7 @@ def motions(
     from mcplan.cli.table import print_table
     from mcplan.errors import InvalidInput
     from mcplan.files.motions import list_motions, load_motion, save_motion
+    from mcplan.files.outputs import TOML, require_target
 
     if name is None:
         if output is not None:
@@ -34,21 +37,22 @@ def motions(
         loaded = [load_motion(entry) for entry in list_motions()]
         print_table([motion.name, motion.robot.name, motion.description] for motion in loaded)
         return
+    require_target("--output", output, TOML)
     motion = load_motion(name)
     if output is None:
         _print_motion(motion)
     else:
         save_motion(motion, output, f"Made by: mcplan motions {name} -o {output}")
-        print(f"Wrote {output}")
+        say(f"Wrote {output}")
 
 
 def _print_motion(motion: PlanarMotion) -> None:
     from mcplan.cli.table import print_table
 
-    print(f"{motion.name}: {motion.description}" if motion.description else motion.name)
+    say(f"{motion.name}: {motion.description}" if motion.description else motion.name)
     robot = motion.robot
-    print(f"robot {robot.name}, {robot.joint_count()} joints, {motion.interval_count()} intervals")
-    print()
+    say(f"robot {robot.name}, {robot.joint_count()} joints, {motion.interval_count()} intervals")
+    say()
     rows = [
         [
             surface.name,
@@ -60,7 +64,7 @@ def _print_motion(motion: PlanarMotion) -> None:
         for surface in motion.surfaces
     ]
     print_table(rows, ["surface", "origin [m]", "angle [deg]", "extent [m]", "friction"])
-    print()
+    say()
     rows = [
         [
             str(k),

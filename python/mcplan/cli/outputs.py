@@ -19,21 +19,17 @@ def require_outputs(
     """Say what cannot be written before planning, not after.
 
     Raises:
-        InvalidInput: A folder does not exist, or a file stands where a folder should be, or the other way round.
+        InvalidInput: A folder does not exist or cannot be written to, a file stands where a folder should be or the
+            other way round, or a name has the wrong ending.
         MissingExtra: What draws is not installed.
     """
-    from mcplan.errors import InvalidInput
     from mcplan.extras import require
+    from mcplan.files.outputs import ARCHIVE, PAGE, require_folder, require_target
 
-    for option, path in (("--output", output), ("--html", html), ("--strip", strip)):
-        if path is not None and not path.parent.is_dir():
-            raise InvalidInput(option, "must lie in a folder that exists", str(path))
-        if path is not None and path.is_dir():
-            raise InvalidInput(option, "must be a file", str(path))
-    if plots is not None and plots.exists() and not plots.is_dir():
-        raise InvalidInput("--plots", "must be a folder, or a name for a new one", str(plots))
-    if strip is not None and strip.suffix.lower() not in PICTURES:
-        raise InvalidInput("--strip", f"must end in {', '.join(PICTURES)}", str(strip))
+    require_target("--output", output, ARCHIVE)
+    require_target("--html", html, PAGE)
+    require_target("--strip", strip, PICTURES)
+    require_folder("--plots", plots)
     if html is not None:
         require(f"mcplan {verb} --html", "view", "meshcat")
     for option, path in (("--plots", plots), ("--strip", strip)):
@@ -48,10 +44,22 @@ def write_outputs(
     html: Path | None,
     plots: Path | None,
     strip: Path | None = None,
-) -> None:
-    """Save and draw a plan as far as files are named; a film strip is one of a whole-body plan."""
+    drawn: bool = True,
+) -> list[Path]:
+    """Save and draw a plan as far as files are named; a film strip is one of a whole-body plan.
+
+    Args:
+        drawn: Off where Ctrl-C ended the search: who wants to leave does not wait for pictures, but keeps the plan.
+
+    Returns:
+        What was written: nothing of a plan that has no phases.
+    """
     import mcplan
 
+    if not drawn:
+        html = plots = strip = None
+    if isinstance(plan, mcplan.Plan) and not plan.phases:
+        return []
     if output is not None:
         plan.save(output)
     if html is not None:
@@ -63,6 +71,8 @@ def write_outputs(
     if strip is not None:
         from mcplan._core import WholeBodyPlan
         from mcplan.view.film_strip import film_strip
+        from mcplan.view.sheets import save_figure
 
         assert isinstance(plan, WholeBodyPlan)
-        film_strip(plan).savefig(strip, metadata={"Software": None} if strip.suffix.lower() == ".png" else None)
+        save_figure(film_strip(plan), strip)
+    return [path for path in (output, html, plots, strip) if path is not None]

@@ -58,9 +58,13 @@ def plan(
 ) -> int:
     """Find a contact sequence and a motion; exit code 0 only if the plan is solved, 1 otherwise.
 
+    Ctrl-C ends the search: the best plan so far is saved (-o), nothing is drawn, and the exit code is 130.
+
     Example: mcplan plan stepping_stones --robot g1 --scale 0.8 -o plan.npz --html plan.html
     """
+    from mcplan.cli.interrupts import CODE, as_far_as_it_came
     from mcplan.cli.outputs import require_outputs, write_outputs
+    from mcplan.cli.terminal import printable
 
     require_outputs("plan", output, html, plots)
     given = {"phases": phases, "method": method, "time_limit": time_limit, "threads": threads, "seed": seed}
@@ -69,14 +73,17 @@ def plan(
     if plots is not None:
         options["record_history"] = True
     if verbose:
-        options["logger"] = lambda level, line: print(line, file=sys.stderr)
+        options["logger"] = lambda level, line: print(printable(line), file=sys.stderr)
 
     import mcplan
     from mcplan.files.scenes import scaled
 
-    result = mcplan.plan(scene if scale == 1.0 else scaled(mcplan.load_scene(scene), scale), robot, **options)
-    write_outputs(result.plan, result.report, output, html, plots)
-    print(json_module.dumps(summary(result)) if json else report_text(result, [output, html, plots]))
+    ground = scene if scale == 1.0 else scaled(mcplan.load_scene(scene), scale)
+    result, interrupted = as_far_as_it_came(lambda: mcplan.plan(ground, robot, **options))
+    written = write_outputs(result.plan, result.report, output, html, plots, drawn=not interrupted)
+    print(json_module.dumps(summary(result)) if json else report_text(result, written))
+    if interrupted:
+        return CODE
     return 0 if str(result.report.status) == "solved" else 1
 
 
@@ -122,9 +129,10 @@ def flight_phases(sequence: list[list[int]]) -> int:
     return sum(all(surface < 0 for surface in row) for row in sequence)
 
 
-def report_text(result: PlanResult, written: list[Path | None]) -> str:
+def report_text(result: PlanResult, written: list[Path]) -> str:
     """What is printed without ``--json``: how it ended, the steps, what was saved."""
     from mcplan.cli.loads_text import friction_lines, load_lines
+    from mcplan.cli.terminal import printable
 
     plan, report = result.plan, result.report
     lead = f"{plan.scene.name}  {plan.robot.name}  "
@@ -145,7 +153,6 @@ def report_text(result: PlanResult, written: list[Path | None]) -> str:
     if report.friction_use:
         lines += friction_lines(report.friction_use)
     lines += load_lines(plan)
-    files = [str(path) for path in written if path is not None]
-    if files:
-        lines.append(f"Saved {', '.join(files)}" + ("" if solved else f", with status {report.status}"))
-    return "\n".join(lines)
+    if written:
+        lines.append(f"Saved {', '.join(map(str, written))}" + ("" if solved else f", with status {report.status}"))
+    return "\n".join(printable(line) for line in lines)

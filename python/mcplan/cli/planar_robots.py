@@ -7,6 +7,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mcplan.cli.terminal import say
+
 if TYPE_CHECKING:
     from mcplan import PlanarRobot
     from mcplan._core import PlanarBody
@@ -37,9 +39,9 @@ def print_planar_robot(robot: PlanarRobot) -> None:
     """Its bodies with their joints, and its end-effectors."""
     from mcplan.cli.table import print_table
 
-    print(f"{robot.name} (planar): {robot.description}" if robot.description else f"{robot.name} (planar)")
-    print(f"mass {robot.mass():g} kg, {robot.joint_count()} joints, gravity {robot.gravity:g} m/s^2")
-    print()
+    say(f"{robot.name} (planar): {robot.description}" if robot.description else f"{robot.name} (planar)")
+    say(f"mass {robot.mass():g} kg, {robot.joint_count()} joints, gravity {robot.gravity:g} m/s^2")
+    say()
     rows = [
         [
             body.name,
@@ -63,7 +65,7 @@ def print_planar_robot(robot: PlanarRobot) -> None:
         "[N m]",
     ]
     print_table(rows, head)
-    print()
+    say()
     rows = [
         [
             end.name,
@@ -76,15 +78,18 @@ def print_planar_robot(robot: PlanarRobot) -> None:
     ]
     print_table(rows, ["end-effector", "body", "position [m]", "angle [deg]", "points [m]"])
     if robot.collision_pairs:
-        print(f"\n{len(robot.collision_pairs)} collision pairs")
+        say()
+        say(f"{len(robot.collision_pairs)} collision pairs")
 
 
 def planar_robot_from_urdf(source: str, ends: list[str], output: Path | None) -> None:
     """Print or write the planar robot of a URDF."""
+    from mcplan.files.outputs import TOML, require_target
     from mcplan.files.planar_robots import planar_robot_to_dict, save_planar_robot
     from mcplan.files.planar_urdf import planar_robot_from_urdf as read
     from mcplan.files.toml import toml_text
 
+    require_target("--output", output, TOML)
     robot = read(source, [_parse_end(text) for text in ends])
     words = ["mcplan robots --planar --from-urdf", source, *(f"--end {text}" for text in ends)]
     comment = "Made by: " + " ".join([*words, *([f"-o {output}"] if output else [])])
@@ -92,7 +97,7 @@ def planar_robot_from_urdf(source: str, ends: list[str], output: Path | None) ->
         print(toml_text(planar_robot_to_dict(robot), comment), end="")
     else:
         save_planar_robot(robot, output, comment)
-        print(f"Wrote {output}")
+        say(f"Wrote {output}")
 
 
 def _parse_end(text: str) -> PlanarEnd:

@@ -45,11 +45,13 @@ def reproduce(
     Example: mcplan reproduce lengagne --tables 1,2 --motions cartwheel,walking
     """
     from mcplan.errors import InvalidInput
+    from mcplan.files.outputs import require_folder
     from mcplan.reproduce import PAPERS
 
     if paper not in PAPERS:
         raise InvalidInput("PAPER", f"must be one of {', '.join(PAPERS)}", repr(paper))
     folder = out or Path("out") / paper
+    require_folder("--out", folder)
     given: dict[str, Any] = {"cycles": cycles, "lookahead_max": lookahead_max, "seeds": seeds}
     given |= {"tables": None if tables is None else _numbers(tables), "motions": motions and motions.split(",")}
     given |= {"repeats": repeats, "resume": resume or None}

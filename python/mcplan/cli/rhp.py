@@ -54,10 +54,12 @@ def rhp(
     """Walk over given surfaces, planning a few steps ahead and executing one, again and again.
 
     Exit code 0 if every cycle found a step within its constraints, 1 otherwise; what was found is saved either way.
+    Ctrl-C ends the walk: what was walked is saved (-o), nothing is drawn, and the exit code is 130.
 
     Example: mcplan rhp rubbles --fidelity point --lookahead 3 -o walk.npz --html walk.html
     """
     from mcplan import walking
+    from mcplan.cli.interrupts import CODE
     from mcplan.cli.outputs import require_outputs, write_outputs
     from mcplan.cli.rhp_text import Progress, summary_text
     from mcplan.files.scenes import scaled
@@ -69,17 +71,22 @@ def rhp(
     scene = scaled(scene, scale)
     planner = _planner(terrain, scene, model, steps, options)
     progress = None if json or quiet else Progress(verbose)
-    for cycle in walking.cycles_of(planner, cycles):
-        if progress is not None:
-            progress.row(cycle)
+    interrupted = False
+    try:
+        for cycle in walking.cycles_of(planner, cycles):
+            if progress is not None:
+                progress.row(cycle)
+    except KeyboardInterrupt:  # also between two cycles: what was walked until then is there
+        interrupted = True
     walk = planner.result()
-    found = bool(walk.plan.phases)
-    if found:
-        write_outputs(walk.plan, walk.report, output, html, plots)
+    written = write_outputs(walk.plan, walk.report, output, html, plots, drawn=not interrupted)
     if json:
         print(json_module.dumps(summary(walk, scene, model, options), allow_nan=False))
     else:
-        print(summary_text(walk, scene.name, model.name, options, [output, html, plots]))
+        asked = [path for path in (output, html, plots) if path is not None]
+        print(summary_text(walk, scene.name, model.name, options, asked if not interrupted else written))
+    if interrupted:
+        return CODE
     return 0 if walk.success else 1
 
 

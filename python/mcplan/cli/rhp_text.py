@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mcplan.cli.terminal import printable
+
 if TYPE_CHECKING:
     from mcplan import rhp
 
@@ -53,7 +55,7 @@ class Progress:
         print("  ".join(texts).rstrip(), file=sys.stderr, flush=True)
 
 
-def summary_text(walk: rhp.Walk, scene: str, robot: str, options: rhp.Options, written: Sequence[Path | None]) -> str:
+def summary_text(walk: rhp.Walk, scene: str, robot: str, options: rhp.Options, written: Sequence[Path]) -> str:
     """How the walk ended, how far it went, what it cost, what is wrong with it, what was saved."""
     report = walk.report
     lead = f"{scene}  {robot}  "
@@ -74,13 +76,13 @@ def summary_text(walk: rhp.Walk, scene: str, robot: str, options: rhp.Options, w
     if report.worst_violation.name and worst not in report.message:
         label = "closest to its limit" if str(report.status) == "solved" else "worst"
         lines.append(f"{indent}{label}: {worst}")
-    files = [str(path) for path in written if path is not None]
+    files = [str(path) for path in written]
     if files and not done:
         lines.append(f"Not written, since no step was found: {', '.join(files)}")
     elif files:
         ending = "" if walk.success else f", the {_cycles(done)} before the failure"
         lines.append(f"Saved {', '.join(files)}{ending}")
-    return "\n".join(lines)
+    return "\n".join(printable(line) for line in lines)
 
 
 def _cycles(count: int) -> str:

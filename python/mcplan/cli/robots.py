@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mcplan.cli.terminal import say
+
 if TYPE_CHECKING:
     from mcplan import Robot
     from mcplan.files.urdf_setups import End
@@ -104,11 +106,13 @@ def _from_urdf(
 ) -> None:
     """faces: of the reach polytopes; None: without them."""
     from mcplan.files import reach_polytopes
+    from mcplan.files.outputs import TOML, require_target
     from mcplan.files.robots import robot_to_dict, save_robot, urdf_beside
     from mcplan.files.toml import toml_text
     from mcplan.files.urdf import header, robot_from_urdf
     from mcplan.files.urdf_setups import SETUPS
 
+    require_target("--output", output, TOML)
     parsed, srdf_path = tuple(_parse_end(text) for text in ends), str(srdf) if srdf else None
     angles = dict(_parse_angle(text) for text in posture) if posture else None
     robot = robot_from_urdf(source, parsed, srdf=srdf_path, posture=angles, seed=seed)
@@ -147,7 +151,7 @@ def _from_urdf(
             print(f"note: {robot.urdf} {note}", file=sys.stderr)
         robot.urdf = beside or ""
         save_robot(robot, output, comment)
-        print(f"Wrote {output}")
+        say(f"Wrote {output}")
 
 
 def _parse_end(text: str) -> End:
@@ -178,14 +182,14 @@ def _parse_angle(text: str) -> tuple[str, float]:
 def _print_robot(robot: Robot) -> None:
     from mcplan.cli.table import print_table
 
-    print(f"{robot.name}: {robot.description}" if robot.description else robot.name)
-    print(
+    say(f"{robot.name}: {robot.description}" if robot.description else robot.name)
+    say(
         f"mass {robot.mass:g} kg, inertia {_numbers(robot.inertia)} kg m^2, CoM height {robot.com_height:g} m, "
         f"swing height {robot.swing_height:g} m"
     )
     if robot.urdf:
-        print(f"URDF {robot.urdf}")
-    print()
+        say(f"URDF {robot.urdf}")
+    say()
     rows = [
         [
             e.name,
@@ -213,7 +217,7 @@ def _print_robot(robot: Robot) -> None:
     for e in robot.end_effectors:
         reaches = [("CoM", e.com_reach)] if e.com_reach.given else []
         for who, reach in [*reaches, *e.partner_reach.items()]:
-            print(f"{e.name}: polytope of the {who}, {len(reach.b)} faces")
+            say(f"{e.name}: polytope of the {who}, {len(reach.b)} faces")
 
 
 def _numbers(values: object) -> str:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from mcplan.cli.terminal import say
+
 if TYPE_CHECKING:
     from mcplan import Robot
     from mcplan.tracking.arm_strength import Strength
@@ -42,8 +44,8 @@ def print_strengths(found: list[tuple[Strength, float]]) -> None:
         parts = [f"{median / half:.2f}", f"{most / half:.2f}"]
         rows.append([strength.end_effector, strength.direction, f"{median:.0f}", f"{most:.0f}", *parts])
     half = found[0][1]
-    print()
-    print(
+    say()
+    say(
         f"Push of a hand that the arm's torque limits allow, {SAMPLES} random postures; half the weight is {half:.0f} N"
     )
     parts = ["median / half weight", "90th / half weight"]

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mcplan.cli.terminal import say
+
 if TYPE_CHECKING:
     from mcplan import Scene, Stance
 
@@ -27,6 +29,7 @@ def scenes(
     """
     from mcplan.cli.table import print_table
     from mcplan.errors import InvalidInput
+    from mcplan.files.outputs import PAGE, TOML, require_target
     from mcplan.files.scenes import list_scenes, load_scene, save_scene
 
     if name is None:
@@ -35,11 +38,13 @@ def scenes(
                 raise InvalidInput(option, "needs the NAME of a scene")
         print_table([entry, load_scene(entry).description] for entry in list_scenes())
         return
+    require_target("--output", output, TOML)
+    require_target("--html", html, PAGE)
     scene = load_scene(name) if seed is None else _seeded(name, seed)
     if output is not None:
         made = "" if seed is None else f" --seed {seed}"
         save_scene(scene, output, f"Made by: mcplan scenes {name}{made} -o {output}")
-        print(f"Wrote {output}")
+        say(f"Wrote {output}")
     if html is None:
         if output is None:
             _print_scene(scene)
@@ -50,7 +55,7 @@ def scenes(
     from mcplan.view import show_scene
 
     show_scene(scene).save_html(html)
-    print(f"Wrote {html}")
+    say(f"Wrote {html}")
 
 
 def _seeded(name: str, seed: int) -> Scene:
@@ -66,15 +71,15 @@ def _print_scene(scene: Scene) -> None:
     from mcplan._core import Polygon
     from mcplan.cli.table import print_table
 
-    print(f"{scene.name}: {scene.description}" if scene.description else scene.name)
-    print(f"gravity {scene.gravity:g} m/s^2")
+    say(f"{scene.name}: {scene.description}" if scene.description else scene.name)
+    say(f"gravity {scene.gravity:g} m/s^2")
     for field, stance in (("start", scene.start), ("goal", scene.goal)):
-        print(_stance_line(field, stance))
+        say(_stance_line(field, stance))
     for rule in scene.rules:
-        print(f"rule    when {_listed(rule.when_free)} is free, {_listed(rule.require)} must be in contact")
+        say(f"rule    when {_listed(rule.when_free)} is free, {_listed(rule.require)} must be in contact")
     if scene.steps:
-        print("steps   " + ", ".join(f"{step.end_effector} on {step.surface}" for step in scene.steps))
-    print()
+        say("steps   " + ", ".join(f"{step.end_effector} on {step.surface}" for step in scene.steps))
+    say()
     rows = []
     for surface in scene.surfaces:
         polygon = Polygon(surface.vertices_W)

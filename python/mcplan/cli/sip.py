@@ -83,6 +83,7 @@ def sip(
     """Find a planar robot's whole-body motion through a sequence of contacts, within its limits at every instant.
 
     Exit code 0 if the motion is solved (and, with --certify, proved), 1 otherwise; what was found is saved either way.
+    Ctrl-C ends the search: the best motion so far is saved (-o), nothing is drawn, and the exit code is 130.
 
     Example: mcplan sip walking --forces per-point --minimise torque -o walk.npz --strip walk.png
 
@@ -90,10 +91,10 @@ def sip(
     """
     from mcplan import sip as engine
     from mcplan import whole_body_planning as planning
+    from mcplan.cli.interrupts import CODE, as_far_as_it_came
     from mcplan.cli.outputs import require_outputs, write_outputs
     from mcplan.cli.sip_text import Progress, summary_text
 
-    files = [output, html, plots, strip]
     require_outputs("sip", output, html, plots, strip)
     given = {"forces": forces, "contact": contact, "tube_m": tube, "tube_rad": None if tube is None else 5.0 * tube}
     given |= {"order": order, "neq": neq, "free_flyer": free_flyer, "free_durations": free_durations}
@@ -111,16 +112,19 @@ def sip(
     progress = None if quiet or (json and not verbose) else Progress(model.name, verbose)
     if progress is not None:
         options.logger = progress
-    result = planning.solve(engine.Planner(model, options), warm_start)
+    planner = engine.Planner(model, options)
+    result, interrupted = as_far_as_it_came(
+        lambda: planning.solve(planner, warm_start, certify=certify, self_collision=options.self_collision)
+    )
     if progress is not None:
         progress.end()
-    if certify:
-        result.certificate = engine.certify(result.plan, self_collision=self_collision)
-    write_outputs(result.plan, result.report, output, html, plots, strip)
+    written = write_outputs(result.plan, result.report, output, html, plots, strip, drawn=not interrupted)
     if json:
         print(json_module.dumps(summary(result), allow_nan=False))
     else:
-        print(summary_text(result, options, files))
+        print(summary_text(result, options, written))
+    if interrupted:
+        return CODE
     proved = result.certificate is None or result.certificate.proved()
     return 0 if str(result.report.status) == "solved" and proved else 1
 

@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mcplan.cli.terminal import control, printable
+
 if TYPE_CHECKING:
     from mcplan import sip
     from mcplan._core import LogLevel, PlanarMotion, Violation
@@ -49,11 +51,11 @@ class Progress:
         """Make room for the summary."""
         if self.width > 0 and self.terminal:
             self._show("")
-            print(end="\r", file=sys.stderr, flush=True)
+            control(sys.stderr, "\r")
 
     def _show(self, text: str) -> None:
         if self.terminal:
-            print(f"\r{text:{self.width}}", end="", file=sys.stderr, flush=True)
+            control(sys.stderr, f"\r{printable(text):{self.width}}")
         else:
             print(text, file=sys.stderr, flush=True)
         self.width = len(text)
@@ -67,7 +69,7 @@ def iteration_state(line: str) -> tuple[int, str, str] | None:
     return int(cells[0].rstrip("r")), cells[2], cells[3]
 
 
-def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Path | None]) -> str:
+def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Path]) -> str:
     """How the search ended, the motion phase by phase, what is wrong with it, what is proved, what was saved."""
     plan, report = result.plan, result.report
     motion = plan.motion
@@ -94,10 +96,10 @@ def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Pat
     if result.certificate is not None:
         proofs = str(result.certificate).splitlines()
         lines += proofs[:1] if result.certificate.proved() else proofs
-    files = [str(path) for path in written if path is not None]
+    files = [str(path) for path in written]
     if files:
         lines.append(f"Saved {', '.join(files)}" + ("" if solved else f", with status {report.status}"))
-    return "\n".join(lines)
+    return "\n".join(printable(line) for line in lines)
 
 
 def phase_rows(motion: PlanarMotion, durations: Sequence[float]) -> list[str]:

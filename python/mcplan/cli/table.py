@@ -17,8 +17,10 @@ def print_table(rows: Iterable[Sequence[str]], head: Sequence[str] = ()) -> None
     from rich.table import Table
     from rich.text import Text
 
+    from mcplan.cli.terminal import control, printable
+
     table = Table(box=None, show_header=bool(head), pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
-    cells = [list(row) for row in rows]
+    cells = [[printable(cell) for cell in row] for row in rows]
     columns = len(head) if head else len(cells[0])
     for i in range(columns):
         table.add_column(Text(head[i]) if head else "", no_wrap=i + 1 < columns)
@@ -27,4 +29,5 @@ def print_table(rows: Iterable[Sequence[str]], head: Sequence[str] = ()) -> None
     console = Console(width=None if sys.stdout.isatty() else 1000)
     with console.capture() as captured:
         console.print(table)
-    print("\n".join(line.rstrip() for line in captured.get().splitlines()))
+    text = "\n".join(line.rstrip() for line in captured.get().splitlines())
+    control(sys.stdout, f"{text}\n")  # bold titles, in a terminal

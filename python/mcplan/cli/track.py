@@ -61,7 +61,8 @@ def track(
 
     What the options say of mass, friction, ground and pushes is not known to the controller. Whole-body plans are followed
     by their planar robots, without pushes, assistance and seed. Exit code 0 if the robot came to the end of the plan, 1 if
-    it fell, left the plan or was interrupted; the run is drawn and saved either way.
+    it fell or left the plan; the run is drawn and saved either way. Ctrl-C ends the run: what was simulated is saved
+    (--save), nothing is drawn, and the exit code is 130.
 
     Example: mcplan plan flat --robot talos --sole-inside 0.9 -o plan.npz
 
@@ -69,7 +70,9 @@ def track(
 
     Example: mcplan track plan.npz --push 40,0.2,3,90 --mass-scale 1.1 --json
     """
+    from mcplan.cli.interrupts import CODE, as_far_as_it_came
     from mcplan.cli.pushes import parse_pushes, require_within
+    from mcplan.cli.terminal import printable
     from mcplan.cli.track_outputs import RunOutputs
     from mcplan.cli.track_text import Progress, summary
     from mcplan.extras import require
@@ -98,17 +101,21 @@ def track(
         body = load_robot(robot)
     feasibility = _feasibility(loaded, body) if check else None
     if feasibility is not None and not feasibility.ok() and not (quiet or json):
-        print(f"warning: {feasibility.verdict}", file=sys.stderr)
+        print(printable(f"warning: {feasibility.verdict}"), file=sys.stderr)
     progress = Progress(quiet or json)
-    result = track_any(loaded, body, values, progress.simulated)
+    result, interrupted = as_far_as_it_came(lambda: track_any(loaded, body, values, progress.simulated))
     progress.end()
     if json:
         print(json_module.dumps(summary(result, plan, feasibility), allow_nan=False), flush=True)
     else:
         print(result, flush=True)
+    if interrupted:
+        outputs = RunOutputs(save=save)
     written = outputs.write(result, progress)
     if written and not json:
-        print(f"Saved {', '.join(written)}")
+        print(printable(f"Saved {', '.join(written)}"))
+    if interrupted:
+        return CODE
     return 0 if result.completed else 1
 
 

@@ -31,21 +31,16 @@ class RunOutputs:
             MissingExtra: What draws is not installed.
         """
         from mcplan.cli.outputs import require_outputs
-        from mcplan.errors import InvalidInput
         from mcplan.extras import require
+        from mcplan.files.outputs import ARCHIVE, require_target
 
-        for option, path in (("--save", self.save), ("--video", self.video), ("--strip", self.strip)):
-            _require_file(option, path)
+        require_target("--save", self.save, ARCHIVE)
+        require_target("--strip", self.strip, (".png",))
         require_outputs("track", None, self.html, self.plots)
-        for folder_of in (self.html, self.plots):
-            _require_writable("--html" if folder_of is self.html else "--plots", folder_of)
-        if self.strip is not None and self.strip.suffix.lower() != ".png":
-            raise InvalidInput("--strip", "must end in .png", str(self.strip))
         if self.video is not None:
             from mcplan.view.video_files import SUFFIXES, check_target
 
-            if self.video.suffix.lower() not in SUFFIXES:
-                raise InvalidInput("--video", f"must end in {', '.join(SUFFIXES)}", str(self.video))
+            require_target("--video", self.video, SUFFIXES)
             check_target(self.video)
         for option, path in (("--video", self.video), ("--strip", self.strip)):
             if path is not None:
@@ -90,36 +85,6 @@ class RunOutputs:
             save_video(result, self.video, progress=progress.drawn)
         progress.end()
         return [str(path) for path in (self.save, self.plots, self.html, self.strip, self.video) if path is not None]
-
-
-def _require_file(option: str, path: Path | None) -> None:
-    from mcplan.errors import InvalidInput
-
-    if path is None:
-        return
-    if not path.parent.is_dir():
-        raise InvalidInput(option, "must lie in a folder that exists", str(path))
-    if path.is_dir():
-        raise InvalidInput(option, "must be a file", str(path))
-    _require_writable(option, path)
-
-
-def _require_writable(option: str, path: Path | None) -> None:
-    """Raises InvalidInput if no file can be made in the folder, or in the nearest one above that exists."""
-    import tempfile
-
-    from mcplan.errors import InvalidInput
-
-    if path is None:
-        return
-    folder = path if path.is_dir() else path.absolute().parent
-    while not folder.exists():
-        folder = folder.parent
-    try:
-        tempfile.TemporaryFile(dir=folder).close()
-    except OSError as found:
-        rule = "must lie in a folder that can be written to"
-        raise InvalidInput(option, rule, f"{path} ({found.strerror})") from None
 
 
 def _require_graphics(option: str) -> None:

@@ -8,6 +8,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from mcplan.cli.terminal import control, printable
+
 if TYPE_CHECKING:
     from mcplan.tracking import TrackingResult
     from mcplan.tracking.findings import Feasibility
@@ -45,7 +47,7 @@ class Progress:
     def end(self) -> None:
         """Make room for what is printed next."""
         if self.width > 0 and self.terminal:
-            print(f"\r{'':{self.width}}", end="\r", file=sys.stderr, flush=True)
+            control(sys.stderr, f"\r{'':{self.width}}\r")
         self.width = 0
 
     def _show(self, text: str, at_once: bool = False) -> None:
@@ -55,7 +57,7 @@ class Progress:
             return
         self.shown_s = now_s
         if self.terminal:
-            print(f"\r{text:{self.width}}", end="", file=sys.stderr, flush=True)
+            control(sys.stderr, f"\r{printable(text):{self.width}}")
         else:
             print(text, file=sys.stderr, flush=True)
         self.width = len(text)

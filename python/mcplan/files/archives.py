@@ -5,11 +5,8 @@ from __future__ import annotations
 import io
 import json
 import math
-import os
-import tempfile
 import zipfile
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
@@ -32,22 +29,6 @@ def archive_bytes(header: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -
     buffer = io.BytesIO()
     np.savez(buffer, **cast(Any, content))
     return buffer.getvalue()
-
-
-def write_whole(data: bytes, path: str | Path) -> None:
-    """Write a file, which is complete or not there at all."""
-    target = Path(path)
-    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(temporary, 0o666 & ~umask)  # mkstemp makes files that only their owner can read
-        os.replace(temporary, target)
-    except BaseException:
-        os.unlink(temporary)
-        raise
 
 
 def read_arrays(data: bytes, most: int = MOST_PLAN_INFLATED) -> dict[str, np.ndarray]:

@@ -11,6 +11,7 @@ from typing import Any
 from mcplan._core import PlanarClearance, PlanarMotion, PlanarPhase, PlanarPose, PlanarRobot, PlanarSurface
 from mcplan.errors import InvalidInput, InvalidMotion, InvalidRobot, UnknownMotion, shown, together
 from mcplan.files import builtin
+from mcplan.files.outputs import write_whole
 from mcplan.files.planar_robots import (
     field_in_file,
     index_of,
@@ -51,7 +52,7 @@ def save_motion(motion: PlanarMotion, path: str | Path, header: str = "") -> Non
         InvalidMotion, InvalidRobot: A field is out of range.
     """
     motion.validate()
-    Path(path).write_text(toml_text(motion_to_dict(motion), header), encoding="utf-8")
+    write_whole(toml_text(motion_to_dict(motion), header), path)
 
 
 def motion_to_dict(motion: PlanarMotion) -> dict[str, Any]:

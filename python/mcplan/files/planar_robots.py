@@ -11,6 +11,7 @@ from typing import Any
 from mcplan._core import Capsule, PlanarBody, PlanarEndEffector, PlanarRobot
 from mcplan.errors import InvalidInput, InvalidRobot, UnknownRobot, did_you_mean, shown, together
 from mcplan.files import builtin
+from mcplan.files.outputs import write_whole
 from mcplan.files.toml import read_toml, toml_text
 
 _LIMITS = {"position_min": -math.inf, "position_max": math.inf, "velocity_max": math.inf, "torque_max": math.inf}
@@ -41,7 +42,7 @@ def save_planar_robot(robot: PlanarRobot, path: str | Path, header: str = "") ->
         InvalidRobot: A field is out of range.
     """
     robot.validate()
-    Path(path).write_text(toml_text(planar_robot_to_dict(robot), header), encoding="utf-8")
+    write_whole(toml_text(planar_robot_to_dict(robot), header), path)
 
 
 def planar_robot_to_dict(robot: PlanarRobot) -> dict[str, Any]:

@@ -30,8 +30,9 @@ import numpy as np
 
 from mcplan._core import Contact, ForceLaw, Knot, Phase, Plan, Swing, __version__
 from mcplan.errors import InvalidInput, InvalidPlan, shown
-from mcplan.files.archives import archive_bytes, read_arrays, read_header, write_whole
+from mcplan.files.archives import archive_bytes, read_arrays, read_header
 from mcplan.files.builtin import exists
+from mcplan.files.outputs import ARCHIVE, require_suffix, write_whole
 from mcplan.files.reading import MOST_PLAN, read_file
 from mcplan.files.robots import robot_from_dict, robot_to_dict
 from mcplan.files.scenes import scene_from_dict, scene_to_dict
@@ -52,11 +53,15 @@ def save_plan(plan: Plan, path: str | Path) -> None:
 
     Args:
         plan: The plan.
-        path: Where to; used as it stands, no ending is added.
+        path: Where to; used as it stands, no ending is added, and one other than .npz is refused. A device or a pipe is
+            written through, a link goes on pointing where it points.
 
     Raises:
+        InvalidInput: The name promises another kind of file.
+        OSError: The file cannot be written.
         InvalidPlan: Its sizes do not fit together or a number is not finite.
     """
+    require_suffix("path", path, (*ARCHIVE, ""))
     write_whole(plan_to_bytes(plan), path)
 
 

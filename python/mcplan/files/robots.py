@@ -11,6 +11,7 @@ from mcplan._core import EndEffector, Robot
 from mcplan.errors import InvalidRobot, UnknownRobot
 from mcplan.files import builtin
 from mcplan.files.builtin import exists
+from mcplan.files.outputs import write_whole
 from mcplan.files.polytopes import polytope_from_dict, polytope_to_dict, read_polytope
 from mcplan.files.reading import referenced
 from mcplan.files.toml import read_toml, toml_text
@@ -45,7 +46,7 @@ def save_robot(robot: Robot, path: str | Path, header: str = "") -> None:
         InvalidRobot: A field is out of range.
     """
     robot.validate()
-    Path(path).write_text(toml_text(robot_to_dict(robot), header), encoding="utf-8")
+    write_whole(toml_text(robot_to_dict(robot), header), path)
 
 
 def robot_to_dict(robot: Robot) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from typing import Any
 from mcplan._core import ContactRule, Scene, Stance, Step, Surface
 from mcplan.errors import InvalidOptions, InvalidScene, UnknownScene
 from mcplan.files import builtin
+from mcplan.files.outputs import write_whole
 from mcplan.files.toml import read_toml, toml_text
 
 
@@ -38,7 +39,7 @@ def save_scene(scene: Scene, path: str | Path, header: str = "") -> None:
         InvalidScene: A field is out of range.
     """
     scene.validate()
-    Path(path).write_text(toml_text(scene_to_dict(scene), header), encoding="utf-8")
+    write_whole(toml_text(scene_to_dict(scene), header), path)
 
 
 def scene_to_dict(scene: Scene) -> dict[str, Any]:

@@ -21,7 +21,8 @@ import numpy as np
 from mcplan._core import Plan, PlanarForceLaw, PlanarMotion, WholeBodyPlan, __version__
 from mcplan.errors import InvalidInput, InvalidPlan, shown
 from mcplan.files import plans
-from mcplan.files.archives import archive_bytes, read_arrays, read_header, write_whole
+from mcplan.files.archives import archive_bytes, read_arrays, read_header
+from mcplan.files.outputs import ARCHIVE, require_suffix, write_whole
 from mcplan.files.planar_data import motion_from_plain, motion_to_plain
 from mcplan.files.plans import read_plan_file
 
@@ -45,6 +46,7 @@ def save_whole_body_plan(plan: WholeBodyPlan, path: str | Path) -> None:
     Raises:
         InvalidPlan, InvalidMotion, InvalidRobot: Its sizes do not fit together or a number is out of range.
     """
+    require_suffix("path", path, (*ARCHIVE, ""))
     write_whole(plan_to_bytes(plan), path)
 
 

@@ -11,6 +11,7 @@ from typing import Any
 from mcplan.bench import records
 from mcplan.errors import InvalidInput
 from mcplan.extras import require
+from mcplan.files.outputs import write_whole
 
 from . import lengagne_figures, lengagne_tables
 from .lengagne_runs import FILE, Run, collect
@@ -75,7 +76,7 @@ def reproduce(
     if 4 in tables:
         pictures += lengagne_figures.strips(out, chosen)
     page = out / "lengagne.md"
-    page.write_text("\n".join(_page(about, runs, parts, pictures)) + "\n", encoding="utf-8")
+    write_whole("\n".join(_page(about, runs, parts, pictures)) + "\n", page)
     if about["interrupted"]:
         raise KeyboardInterrupt
     return [page, *written, *pictures]

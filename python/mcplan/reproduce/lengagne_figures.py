@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mcplan.view.colours import COOL, TEXT
-from mcplan.view.sheets import label, legend, sheet
+from mcplan.view.sheets import label, legend, save_figure, sheet
 
 from . import lengagne_paper as paper
 from .lengagne_settings import Config
@@ -33,7 +33,7 @@ def strips(out: Path, motions: Sequence[str]) -> list[Path]:
         saved = out / f"{Config(4, motion, 'tube', forces='per_point').key}.npz"
         if motion in motions and saved.exists():
             path = out / f"{PREFIX}figure_{number}.png"
-            film_strip(load_whole_body_plan(saved), frames=8).savefig(path, dpi=DPI, metadata={"Software": None})
+            save_figure(film_strip(load_whole_body_plan(saved), frames=8), path, dpi=DPI)
             written.append(path)
     return written
 
@@ -59,5 +59,5 @@ def costs(out: Path, rows: list[dict[str, Any]]) -> list[Path]:
     axes[0, 0].set_ylim(top=1.08 * axes[0, 0].get_ylim()[1])
     legend(axes[0, 0], loc="upper right")
     path = out / f"{PREFIX}costs.png"
-    figure.savefig(path, dpi=DPI, metadata={"Software": None})
+    save_figure(figure, path, dpi=DPI)
     return [path]

@@ -178,8 +178,6 @@ def collect(
             if config.table == 4:
                 made += from_poorer(made[0][0], runs, out, say)
         except KeyboardInterrupt:
-            made = []
-        if not made or any(kept.status == "interrupted" for kept, _ in made):
             about["interrupted"] = True
             say(f"Interrupted in {config.title}; what is done is saved, --resume goes on")
             break

@@ -15,6 +15,7 @@ import numpy as np
 from mcplan.bench import SCENES, records
 from mcplan.bench.speed import PAPER, iterations, searching_iterations
 from mcplan.extras import require
+from mcplan.files.outputs import write_whole
 from mcplan.reproduce import tazaki_models
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ def reproduce(out: Path, quick: bool = False, progress: Callable[[str], None] | 
     written += [drawn] if drawn else []
     page = out / "tazaki.md"
     models = tazaki_models.section_lines(compared, drawn.name if drawn else "")
-    page.write_text(page_text(rows, results, threads, models), encoding="utf-8")
+    write_whole(page_text(rows, results, threads, models), page)
     return [page, *written]
 
 
@@ -101,16 +102,17 @@ def figures(out: Path, name: str, method: str, result: PlanResult) -> list[Path]
     """Figures 1, 3 and 4 of one scene."""
     from mcplan.view.picture import picture
     from mcplan.view.plots_report import has_sequences, plot_contact_sequence, plot_cost
+    from mcplan.view.sheets import save_figure
 
     written = []
     if result.plan.phases:
         written.append(picture(result.plan, path=out / f"figure_1_{name}_{method}.png"))
     if has_sequences(result.report):
         written.append(out / f"figure_3_{name}_{method}.png")
-        plot_contact_sequence(result.report, result.plan).savefig(written[-1], metadata={"Software": None})
+        save_figure(plot_contact_sequence(result.report, result.plan), written[-1])
     if result.report.history:
         written.append(out / f"figure_4_{name}_{method}.png")
-        plot_cost(result.report).savefig(written[-1], metadata={"Software": None})
+        save_figure(plot_cost(result.report), written[-1])
     return written
 
 

@@ -227,6 +227,8 @@ def save_hand_forces(out: Path, rail: dict[tuple[str, str], PlanResult]) -> Path
     paper, ours = (rail.get(key) for key in ((HELD, "lipm"), (TOUCHED, "wrench")))
     if paper is None or ours is None or not paper.plan.phases or not ours.plan.phases:
         return None
+    from mcplan.view.sheets import save_figure
+
     path = out / "hand_forces.png"
-    plot_hand_forces(paper.plan, ours.plan).savefig(path, metadata={"Software": None})
+    save_figure(plot_hand_forces(paper.plan, ours.plan), path)
     return path

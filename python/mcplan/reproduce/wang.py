@@ -11,6 +11,7 @@ from typing import Any
 from mcplan.bench import records
 from mcplan.errors import InvalidInput
 from mcplan.extras import require
+from mcplan.files.outputs import write_whole
 
 from . import wang_figures, wang_size, wang_tables
 from .wang_runs import FILE, NOISE, ROBOT, TERRAINS, collect, configs
@@ -104,7 +105,7 @@ def reproduce(
         "",
         *_margin(figure_5),
     ]
-    page.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_whole("\n".join(lines) + "\n", page)
     if about["interrupted"]:
         raise KeyboardInterrupt
     return [page, *written]

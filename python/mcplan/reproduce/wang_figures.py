@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from mcplan.view.colours import COM, COOL, TEXT, WARM
-from mcplan.view.sheets import label, legend, sheet
+from mcplan.view.sheets import label, legend, save_figure, sheet
 
 from .wang_runs import METHODS, TERRAINS, Run
 from .wang_tables import find, horizons
@@ -83,7 +83,7 @@ def figure_4(out: Path, runs: list[Run]) -> Path:
     lines = axes[1, 0].get_legend_handles_labels()
     figure.legend(*lines, loc="outside lower center", ncol=4, frameon=False, fontsize=10, labelcolor=TEXT)
     path = out / "figure_4.png"
-    figure.savefig(path, metadata={"Software": None})
+    save_figure(figure, path)
     return path
 
 
@@ -129,5 +129,5 @@ def figure_5(out: Path, rows: list[dict[str, Any]]) -> Path:
     label(chart, x="cycle", y="time [s]")
     legend(figure, loc="outside upper center", ncol=3)
     path = out / "figure_5.png"
-    figure.savefig(path, metadata={"Software": None})
+    save_figure(figure, path)
     return path

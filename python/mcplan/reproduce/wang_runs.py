@@ -142,11 +142,11 @@ def planner(config: Config, **more: Any) -> RecedingHorizon:
     return rhp.RecedingHorizon(mcplan.load_scene(config.terrain), mcplan.load_robot(ROBOT), options)
 
 
-def walk(config: Config, cycles: int) -> tuple[Run, Plan, bool]:
+def walk(config: Config, cycles: int) -> tuple[Run, Plan]:
     """Run one walk until it is done or a cycle fails.
 
     Returns:
-        What is kept of it, its plan, and whether Ctrl-C ended it.
+        What is kept of it, and its plan.
     """
     horizon = planner(config)
     run = Run(config, cycles)
@@ -180,12 +180,10 @@ def walk(config: Config, cycles: int) -> tuple[Run, Plan, bool]:
                 "drift_momentum": cycle.drift_momentum,
             }
         )
-        if status == "interrupted":
-            return run, horizon.result().plan, True
         if not cycle.executed:
             break
     run.load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
-    return run, horizon.result().plan, False
+    return run, horizon.result().plan
 
 
 def noisy(start: State, seed: int) -> State:
@@ -234,10 +232,8 @@ def collect(
         about = {**records.machine(), "date": time.strftime("%Y-%m-%d"), "cycles": cycles, "interrupted": False}
     for number, config in enumerate(missing, start=1):
         try:
-            run, plan, interrupted = walk(config, cycles)
-        except KeyboardInterrupt:  # between two cycles
-            interrupted = True
-        if interrupted:
+            run, plan = walk(config, cycles)
+        except KeyboardInterrupt:
             about["interrupted"] = True
             say(f"Interrupted in {config.title}; what is done is saved, --resume goes on")
             break

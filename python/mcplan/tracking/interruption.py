@@ -4,16 +4,36 @@ from __future__ import annotations
 
 import signal
 import threading
-from types import FrameType
+from types import FrameType, TracebackType
 from typing import Any
+
+from mcplan.errors import Interrupted
 
 
 class Interruption:
-    """While entered, Ctrl-C sets `asked`; a second one raises KeyboardInterrupt. Outside the main thread: nothing."""
+    """While entered, what Ctrl-C's handler raises is kept until the end; a second one is raised at once.
+
+    A handler that raises nothing stops nothing. Outside the main thread: nothing.
+
+    Attributes:
+        raised: What the handler raised, a KeyboardInterrupt in most programs; None: nothing.
+    """
 
     def __init__(self) -> None:
-        self.asked = False
+        self.raised: BaseException | None = None
         self._before: Any = None
+
+    @property
+    def asked(self) -> bool:
+        """Whether the simulation is to end."""
+        return self.raised is not None
+
+    def raise_with(self, result: object) -> None:
+        """Raise what was kept, a KeyboardInterrupt as Interrupted with the result."""
+        if type(self.raised) is KeyboardInterrupt:
+            raise Interrupted(result) from None
+        if self.raised is not None:
+            raise self.raised
 
     def __enter__(self) -> Interruption:
         # Where SIGINT is ignored, as in what a shell starts in the background, it stays so.
@@ -21,12 +41,17 @@ class Interruption:
             self._before = signal.signal(signal.SIGINT, self._ask)
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
         if self._before is not None:
             signal.signal(signal.SIGINT, self._before)
             self._before = None
+        if isinstance(error, Exception) and self.raised is not None:
+            raise self.raised from error
 
     def _ask(self, number: int, frame: FrameType | None) -> None:
-        if self.asked:
-            raise KeyboardInterrupt
-        self.asked = True
+        try:
+            self._before(number, frame)
+        except BaseException as raised:
+            if self.raised is not None:
+                raise
+            self.raised = raised

@@ -21,8 +21,9 @@ import numpy as np
 from mcplan._core import __version__
 from mcplan.errors import InvalidInput, shown
 from mcplan.files import plans, whole_body_plans
-from mcplan.files.archives import read_arrays, read_header, write_whole
+from mcplan.files.archives import read_arrays, read_header
 from mcplan.files.builtin import exists
+from mcplan.files.outputs import ARCHIVE, require_suffix, write_whole
 from mcplan.files.reading import MOST_PLAN_INFLATED, MOST_RUN, MOST_RUN_INFLATED, MOST_RUN_RATIO, read_file
 from mcplan.files.robots import robot_from_dict, robot_to_dict
 
@@ -45,6 +46,7 @@ _NAMES = {RUN: ("joints",), PLANAR_RUN: ("joints", "ends")}
 
 def save_run(result: TrackingResult | PlanarResult, path: str | Path) -> None:
     """Write a run to a file, which is complete or not there at all."""
+    require_suffix("path", path, (*ARCHIVE, ""))
     recording = result.recording
     kind = RUN if isinstance(recording, Recording) else PLANAR_RUN
     header: dict[str, Any] = {

@@ -90,7 +90,9 @@ def track(
         wanted = wanted.with_base(posture[:, 3:7])
         end = posture[-1]
     with Interruption() as stop:
-        return _run(plan, loaded, simulation, wanted, posture, end, options, stop, progress)
+        result = _run(plan, loaded, simulation, wanted, posture, end, options, stop, progress)
+    stop.raise_with(result)
+    return result
 
 
 def robot_for(plan: Plan, robot: Robot | str | Path | None) -> Robot:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan.extras import require
+from mcplan.files.outputs import write_whole
 
 from .snapshot import screenshot
 
@@ -62,7 +63,7 @@ class Page:
         )
 
     def save_html(self, path: str | Path) -> Path:
-        """Write the page to a file, UTF-8.
+        """Write the page to a file, UTF-8, which is complete or not there at all.
 
         In a browser, "#t=1.5" behind its address opens it at 1.5 s, standing still; "#bare" hides meshcat's
         own menu.
@@ -70,9 +71,7 @@ class Page:
         Raises:
             OSError: The file cannot be written.
         """
-        path = Path(path)
-        path.write_text(self.html(), encoding="utf-8")
-        return path
+        return write_whole(self.html(), path)
 
     def save_png(self, path: str | Path, time_s: float | None = None, size: tuple[int, int] = (1280, 720)) -> Path:
         """Write a picture of the page, taken with Chromium without a window.

@@ -20,6 +20,7 @@ from .plan_drawing import WEIGHT_ARROW, contact_plate
 from .robot_stick import stick_robot
 from .scene_drawing import SurfaceDrawing, edges, surface_drawings
 from .shapes import cone, ellipsoid
+from .sheets import save_figure
 from .viewpoint import camera_direction, sun_direction, view_points
 
 if TYPE_CHECKING:
@@ -91,8 +92,7 @@ def picture(
     axes.set_ylim(low[1], high[1])
     _legend(sheet, scene, robot, colours)
     path = Path(path)
-    sheet.savefig(path, metadata={"Software": None})
-    return path
+    return save_figure(sheet, path)
 
 
 def pose_indices(samples: Samples, robot: Robot, poses: int | None = None) -> list[int]:

@@ -14,6 +14,7 @@ from .plots_point_forces import plot_cones, plot_point_forces
 from .plots_points import plot_pressure, plot_timing
 from .plots_report import has_sequences, plot_contact_sequence, plot_cost
 from .plots_whole_body import plot_base, plot_drift, plot_joint_velocities, plot_joints, plot_torques
+from .sheets import save_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -76,7 +77,7 @@ def save_plots(plan: Plan | WholeBodyPlan, report: Report | None, directory: str
         written, figures = [picture(plan, path=directory / "picture.png")], _figures(plan, report)
     for name, figure in figures.items():
         path = directory / f"{name}.png"
-        figure.savefig(path, metadata={"Software": None})
+        save_figure(figure, path)
         written.append(path)
     return written
 

@@ -12,7 +12,7 @@ from .colours import BODY, PLANNED, TEXT, mix
 from .planar_figure import end_colours, limbs_of
 from .planar_run_samples import axes_of
 from .plots_whole_body import LIMIT, PHASE, shade_phases
-from .sheets import QUIET, label, legend, sheet
+from .sheets import QUIET, label, legend, save_figure, sheet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -47,7 +47,7 @@ def save_planar_run_plots(recording: PlanarRecording, folder: str | Path) -> lis
     written = []
     for name, figure in figures.items():
         written.append(folder / f"{name}.png")
-        figure.savefig(written[-1], metadata={"Software": None})
+        save_figure(figure, written[-1])
     return written
 
 

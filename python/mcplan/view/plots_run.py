@@ -16,7 +16,7 @@ from .plots_planar_run import save_planar_run_plots
 from .plots_run_axes import finish, rms, shade_run
 from .plots_run_forces import plot_run_forces, plot_run_torques
 from .runs import Run, recording_of
-from .sheets import QUIET, label, legend, sheet
+from .sheets import QUIET, label, legend, save_figure, sheet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -59,7 +59,7 @@ def save_run_plots(run: Run, folder: str | Path) -> list[Path]:
     written = []
     for name, figure in figures.items():
         written.append(folder / f"{name}.png")
-        figure.savefig(written[-1], metadata={"Software": None})
+        save_figure(figure, written[-1])
     return written
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from mcplan.errors import InvalidInput
 from mcplan.extras import require
+from mcplan.files.outputs import whole_file
 
 from .colours import COM
 from .rendering import FIELD, Eye, Renderer
@@ -78,8 +79,7 @@ def save_run_strip(
             sheet.paste(Image.fromarray(pixels), (x, y))
             place = (x + cell // 2, y + height + line // 2)
             draw.text(place, f"{scene.times_s[n]:.2f} s", fill=INK, font=font, anchor="mm")
-    sheet.save(path)
-    return path
+    return _saved(sheet, path)
 
 
 def save_run_postures(
@@ -111,7 +111,12 @@ def save_run_postures(
     path_W = Line(scene.com_W, COM, 0.008 * height)
     with Renderer(scene.figure, scene.drawings, size, scene.sun_W, scene.footholds) as renderer:
         pixels = renderer.picture(chosen, eye, scene.arrows[chosen[-1]], [path_W], fades)
-    Image.fromarray(pixels).save(path)
+    return _saved(Image.fromarray(pixels), path)
+
+
+def _saved(image: Any, path: Path) -> Path:
+    with whole_file(path) as temporary:
+        image.save(temporary, format="PNG")
     return path
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mcplan.extras import require
+from mcplan.files.outputs import whole_file
 
 from .colours import TEXT
 
@@ -19,6 +21,24 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 QUIET = "#6B7480"
+
+
+def save_figure(figure: Figure, path: str | Path, **options: Any) -> Path:
+    """Write a figure to a file (.png, .pdf, .svg; a device: PNG), which is complete or not there at all.
+
+    Args:
+        figure: The figure.
+        path: File to write.
+        **options: Of matplotlib's ``savefig``.
+
+    Raises:
+        OSError: The file cannot be written.
+    """
+    kind = Path(path).suffix.lower()[1:] or "png"
+    about = {"Software": None} if kind == "png" else None  # its version: the same figure gives the same bytes
+    with whole_file(path) as temporary:
+        figure.savefig(temporary, format=kind, metadata=about, **options)
+    return Path(path)
 
 
 def sheet(rows: int, columns: int = 1, size: tuple[float, float] = (9.0, 4.0), **options: Any) -> tuple[Figure, Array]:

@@ -8,6 +8,7 @@ import tempfile
 from pathlib import Path
 
 from mcplan.errors import MissingExtra
+from mcplan.files.outputs import write_whole
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 
@@ -36,11 +37,10 @@ def screenshot(html: str, target: Path, fragment: str, size: tuple[int, int], ti
         raise MissingExtra(
             "Page.save_png needs Chromium or Chrome: apt-get install chromium (save_plots needs neither)"
         )
-    target = target.resolve()
     with tempfile.TemporaryDirectory(prefix="mcplan-page-") as folder:
         page = Path(folder) / "page.html"
         page.write_text(html, encoding="utf-8")
-        target.unlink(missing_ok=True)
+        picture = Path(folder) / "page.png"
         command = [
             browser,
             "--headless=new",
@@ -50,13 +50,13 @@ def screenshot(html: str, target: Path, fragment: str, size: tuple[int, int], ti
             f"--window-size={size[0]},{size[1]}",
             "--virtual-time-budget=8000",  # WebGL draws late: without it the picture may be taken before
             f"--user-data-dir={folder}/profile",
-            f"--screenshot={target}",
+            f"--screenshot={picture}",
             f"{page.as_uri()}#{fragment}",
         ]
         try:
             result = subprocess.run(command, capture_output=True, text=True, timeout=timeout_s, check=False)
         except subprocess.TimeoutExpired as error:
             raise RuntimeError(f"{browser} took no picture within {timeout_s:g} s") from error
-    if not target.exists():
-        raise RuntimeError(f"{browser} took no picture: {result.stderr.strip()[-300:]}")
-    return target
+        if not picture.exists():
+            raise RuntimeError(f"{browser} took no picture: {result.stderr.strip()[-300:]}")
+        return write_whole(picture.read_bytes(), target)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from mcplan.errors import InvalidInput, MissingExtra
 from mcplan.extras import require
+from mcplan.files.outputs import whole_file
 
 Pixels = NDArray[np.uint8]
 
@@ -56,7 +57,7 @@ def check_target(path: Path) -> None:
 
 
 def write_video(frames: Iterator[Pixels], path: Path, rate_hz: float) -> None:
-    """Write a video.
+    """Write a video, which is complete or not there at all.
 
     Args:
         frames: Pictures (height, width, 3) of one size; for .mp4 of even width and height.
@@ -69,13 +70,14 @@ def write_video(frames: Iterator[Pixels], path: Path, rate_hz: float) -> None:
         OSError: The file cannot be written.
     """
     check_target(path)
-    if path.suffix.lower() == ".mp4":
-        _write_mp4(frames, path, rate_hz)
-    else:
-        _write_animation(frames, path, rate_hz)
+    with whole_file(path) as temporary:
+        if path.suffix.lower() == ".mp4":
+            _write_mp4(frames, temporary, rate_hz, path.name)
+        else:
+            _write_animation(frames, temporary, rate_hz)
 
 
-def _write_mp4(frames: Iterator[Pixels], path: Path, rate_hz: float) -> None:
+def _write_mp4(frames: Iterator[Pixels], path: Path, rate_hz: float, name: str) -> None:
     first = next(frames)
     height, width = first.shape[:2]
     command = [str(find_ffmpeg()), "-y", "-loglevel", "error"]
@@ -84,7 +86,10 @@ def _write_mp4(frames: Iterator[Pixels], path: Path, rate_hz: float) -> None:
     command += ["-an", "-c:v", "libx264", "-preset", "medium", "-crf", "20", "-pix_fmt", "yuv420p"]
     command += ["-movflags", "+faststart", str(path)]
     with tempfile.TemporaryFile() as words:
-        encoder = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=words)
+        # In a session of its own: Ctrl-C is for this process, which then ends the encoder.
+        encoder = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=words, start_new_session=True
+        )
         assert encoder.stdin is not None
         try:
             encoder.stdin.write(first.tobytes())
@@ -100,7 +105,7 @@ def _write_mp4(frames: Iterator[Pixels], path: Path, rate_hz: float) -> None:
         if encoder.returncode != 0:
             words.seek(0)
             said = words.read().decode(errors="replace").strip()
-            raise RuntimeError(f"ffmpeg wrote no {path.name}: {said[-300:]}")
+            raise RuntimeError(f"ffmpeg wrote no {name}: {said[-300:]}")
 
 
 def _write_animation(frames: Iterator[Pixels], path: Path, rate_hz: float) -> None:

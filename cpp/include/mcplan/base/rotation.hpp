@@ -13,5 +13,6 @@ Eigen::Matrix3d rotation_derivative(const Eigen::Vector3d& rpy, int i);
 
 /// Unit quaternion (w, x, y, z) of roll, pitch, yaw [rad], with w >= 0.
 Eigen::Vector4d quat_wxyz_from_rpy(const Eigen::Vector3d& rpy);
+Eigen::Vector4d quat_wxyz_from_rotation(const Eigen::Matrix3d& rotation);  ///< the same of R_WB
 
 }  // namespace mcplan

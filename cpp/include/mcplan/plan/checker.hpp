@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "mcplan/base/logging.hpp"
 #include "mcplan/plan/plan.hpp"
 #include "mcplan/plan/report.hpp"
 
@@ -66,6 +67,7 @@ struct Tolerances {
 /// `phase_duration` is violated nothing else can be evaluated, and the list ends there.
 struct CheckResult {
   std::vector<Violation> constraints;
+  bool complete = true;  ///< false: stopped by the caller; what was looked at by then is listed, and ok() is false
 
   bool ok() const;
   std::vector<Violation> violations() const;  ///< those beyond their tolerance, worst first
@@ -76,6 +78,8 @@ struct CheckResult {
 /// Check a plan against a scene and a robot, from its positions, forces and polygons alone.
 /// Throws InvalidPlan when the plan's arrays do not fit together or do not fit the scene and the robot, InvalidScene
 /// and InvalidRobot when these are malformed, InvalidOptions when sample_s is not positive or the plan too long for it.
-CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, const Tolerances& tolerances = {});
+/// `stop` is polled every few hundred instants, about once a millisecond; null: never. It serves deadlines, too.
+CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, const Tolerances& tolerances = {},
+                  const StopRequest& stop = {});
 
 }  // namespace mcplan

@@ -67,7 +67,9 @@ std::array<WholeBodyConstraintInfo, kWholeBodyConstraints> whole_body_constraint
 ///     pose                           poses at given instants
 ///
 /// Throws InvalidPlan, InvalidMotion, InvalidRobot or InvalidOptions as check() of a Plan does.
-CheckResult check(const WholeBodyPlan& plan, const WholeBodyTolerances& tolerances = {}, bool self_collision = false);
+/// `stop` is polled at every interval between knots; null: never.
+CheckResult check(const WholeBodyPlan& plan, const WholeBodyTolerances& tolerances = {}, bool self_collision = false,
+                  const StopRequest& stop = {});
 
 /// Largest distance [m] and angle [rad] of a contact from where it should be.
 struct Drift {

@@ -100,7 +100,7 @@ def track_whole_body(
         contacts: Their hardness; default: ContactSettings().
         progress: Called now and then with the time simulated and the time to simulate [s].
 
-    Ctrl-C ends the run; the result then is `interrupted`.
+    Ctrl-C ends the run with Interrupted, which carries the result.
 
     Raises:
         InvalidOptions: Out of range, or asking for what planar robots have not: pushes, assistance, random disturbances.
@@ -127,7 +127,9 @@ def track_whole_body(
     wall_clock_s = time.perf_counter() - start
     recording = _recording(plan, rows, left)
     measures = measure(recording, simulation.warnings, wall_clock_s)
-    return PlanarResult(recording, measures, options, stop.asked)
+    result = PlanarResult(recording, measures, options, stop.asked)
+    stop.raise_with(result)
+    return result
 
 
 def _require_supported(options: Options) -> None:

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mcplan/plan/plan.hpp"
+
+/// What every instant of a phase shares. Plan::at_phase() looks for it along the whole plan at each call; who asks for
+/// many instants of a phase looks once.
+namespace mcplan {
+
+/// A swing of which the phase is a part.
+struct ActiveSwing {
+  const Swing* swing = nullptr;
+  double before_s = 0.0, total_s = 0.0;      ///< from lift-off to the phase's start, to touch-down
+  Eigen::Vector3d reach_min_B, reach_max_B;  ///< what the path is held in: the reach box and both ends of the swing
+};
+
+struct PhaseFrame {
+  int phase = 0;
+  double start_s = 0.0;
+  std::vector<ActiveSwing> swings;  ///< in the plan's order
+};
+
+/// The phase must be one of the plan's, whose sizes and indices fit together.
+PhaseFrame phase_frame(const Plan& plan, int phase);
+
+/// What Plan::at_phase() says, to the last bit.
+PlanState state_in_phase(const Plan& plan, const PhaseFrame& frame, double since_start);
+
+}  // namespace mcplan
