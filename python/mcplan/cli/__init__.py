@@ -24,7 +24,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     code = CODE
     with Watch(last=arguments is None) as watch, guarded():
         code = _run(list(sys.argv[1:] if arguments is None else arguments) or ["--help"])
-    return CODE if watch.told else code
+    if not watch.told:
+        return code
+    # CPython ends a process by SIGINT, whatever its exit code, if a KeyboardInterrupt has left an exec() of a text, as
+    # named tuples and data classes are made; the next such exec() makes it forget that.
+    exec("")
+    return CODE
 
 
 def _run(words: list[str]) -> int:

@@ -38,7 +38,8 @@ class Interruption:
     def __enter__(self) -> Interruption:
         # Where SIGINT is ignored, as in what a shell starts in the background, it stays so.
         if threading.current_thread() is threading.main_thread() and callable(signal.getsignal(signal.SIGINT)):
-            self._before = signal.signal(signal.SIGINT, self._ask)
+            self._before = signal.getsignal(signal.SIGINT)  # known before the handler asks for it
+            signal.signal(signal.SIGINT, self._ask)
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
