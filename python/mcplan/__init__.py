@@ -209,7 +209,7 @@ def plan(
 ) -> PlanResult:
     """Find a contact sequence and a motion from the scene's start to its goal.
 
-    Ctrl-C ends the search; the result then has status ``interrupted`` and the best plan so far.
+    Ctrl-C ends the search with Interrupted, which carries the result with the best plan so far.
 
     Args:
         scene: A scene, or what load_scene takes.
@@ -280,8 +280,8 @@ def walk(
     """Plan a walk on two feet over given surfaces: CoM, angular momentum, footholds, timing and forces.
 
     Each cycle plans `lookahead` steps and executes the first; the next cycle starts from where it ends. A cycle that
-    fails ends the walk: ``walk.plan`` is what was executed until then, ``walk.cycles`` says what happened. Ctrl-C does
-    the same, with status ``interrupted``.
+    fails ends the walk: ``walk.plan`` is what was executed until then, ``walk.cycles`` says what happened. Ctrl-C ends
+    it with Interrupted, which carries the walk.
 
     Args:
         scene: A scene, or what load_scene takes; its ``steps`` say which foot lands on which surface.
@@ -370,7 +370,7 @@ def whole_body(
         result.plan.at(0.5).torque  # any instant: joints, base, torques, contact forces
 
     Joint trajectories are splines, and constraints hold at every instant between knots, not only at samples. Ctrl-C
-    ends the search; the result then has status ``interrupted`` and the best motion so far.
+    ends the search with Interrupted, which carries the result with the best motion so far.
 
     Args:
         motion: A motion, or what load_motion takes: its robot, surfaces and the stance of each phase.
@@ -419,7 +419,7 @@ def track(
         print(result)  # a report; result.measures has the numbers, result.recording what the robot did
         result.save("run.npz")
 
-    A fall ends the run and is a result, not an exception. Ctrl-C ends it too; the result then is ``interrupted``.
+    A fall ends the run and is a result, not an exception. Ctrl-C ends it with Interrupted, which carries the result.
 
     Args:
         plan: A plan of any planner, or the path of one.

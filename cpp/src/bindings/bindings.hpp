@@ -37,6 +37,9 @@ auto without_gil(Solve&& solve) {
 /// Text that Python reads back as the same value: arrays as nested lists, infinity as float('inf').
 std::string paste(py::handle value);
 
+/// The text with control characters but line ends written out: names from files are shown on a terminal, not obeyed.
+std::string shown(const std::string& text);
+
 /// "Name(a=..., b=...)" from the attributes listed.
 std::string paste(py::handle self, const std::string& name, const std::vector<std::string>& attributes);
 

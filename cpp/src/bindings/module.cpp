@@ -1,3 +1,5 @@
+#include <cstdio>
+
 #include "bindings.hpp"
 #include "mcplan/plan/planar_motion.hpp"
 #include "mcplan/version.hpp"
@@ -31,6 +33,24 @@ void translate(std::exception_ptr pointer) {
 }
 
 }  // namespace
+
+std::string shown(const std::string& text) {
+  std::string out;
+  char code[8];
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0;
+    const bool upper = byte == 0xC2 && next >= 0x80 && next < 0xA0;  // U+0080 to U+009F in UTF-8
+    if (upper || byte == 0x7F || (byte < 0x20 && byte != '\n')) {
+      std::snprintf(code, sizeof code, "\\x%02x", upper ? next : byte);
+      out += code;
+      i += upper;
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
+}
 
 std::string paste(py::handle value) {
   if (py::isinstance<py::float_>(value)) {

@@ -166,8 +166,9 @@ std::string describe(const Plan& plan) {
     for (int surface : row) any = any || surface >= 0;
     flights += !any;
   }
-  return "<Plan of " + plan.robot.name + " on " + plan.scene.name + ": " + std::to_string(plan.phases.size()) +
-         " phases, " + text(plan.duration()) + " s, " + std::to_string(flights) + " in flight>";
+  return "<Plan of " + shown(plan.robot.name) + " on " + shown(plan.scene.name) + ": " +
+         std::to_string(plan.phases.size()) + " phases, " + text(plan.duration()) + " s, " + std::to_string(flights) +
+         " in flight>";
 }
 
 void bind_plan_class(py::module_& m) {
@@ -236,7 +237,7 @@ std::string describe(const Report& report) {
                     text(report.cost);
   if (!report.message.empty()) out += "\n" + report.message;
   if (!report.worst_violation.name.empty()) out += "\nclosest to its limit: " + report.worst_violation.to_string();
-  return out;
+  return shown(out);
 }
 
 void bind_report(py::module_& m) {
@@ -255,7 +256,7 @@ void bind_report(py::module_& m) {
   violation.def_readwrite("value", &Violation::value, "Amount beyond the limit, in `unit`; negative: margin left.");
   violation.def_readwrite("tolerance", &Violation::tolerance, "Largest value that is still accepted.");
   violation.def_readwrite("unit", &Violation::unit);
-  violation.def("__str__", &Violation::to_string);
+  violation.def("__str__", [](const Violation& self) { return shown(self.to_string()); });
   def_value(violation, "Violation", {"name", "phase", "end_effector", "time_s", "value", "tolerance", "unit"});
 
   py::class_<Iteration> row(m, "Iteration", "One row of the iteration table.");
@@ -357,8 +358,8 @@ void bind_checker(py::module_& m) {
         throw py::error_already_set();
       },
       "Raise PlanViolated naming the worst violation, if there is one.");
-  result.def("__str__", &CheckResult::to_string);
-  result.def("__repr__", [](const CheckResult& self) { return "<CheckResult: " + self.to_string() + ">"; });
+  result.def("__str__", [](const CheckResult& self) { return shown(self.to_string()); });
+  result.def("__repr__", [](const CheckResult& self) { return "<CheckResult: " + shown(self.to_string()) + ">"; });
 
   m.def(
       "check",

@@ -87,7 +87,7 @@ void bind_certificate(py::module_& m) {
                            "Largest allowance for floating-point arithmetic in a bound, in shares of its tolerance.");
   certificate.def_readonly("time_s", &Certificate::time_s, "Wall clock [s].");
   certificate.def("proved", &Certificate::proved, "Whether every constraint is.");
-  certificate.def("__str__", &Certificate::to_string);
+  certificate.def("__str__", [](const Certificate& self) { return shown(self.to_string()); });
   certificate.def("__repr__", [](py::handle self) {
     return paste(self, "Certificate", {"constraints", "subdivisions", "rounding", "time_s"});
   });

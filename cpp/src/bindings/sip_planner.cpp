@@ -104,8 +104,8 @@ void bind_result(py::module_& m) {
   c.def_readonly("drift_rad", &Result::drift_rad, "[rad]");
   c.def_readwrite("certificate", &JudgedResult::certificate, "What is proved of the plan; None: not asked for.");
   c.def("__repr__", [](const JudgedResult& self) {
-    return "<sip.Result: " + self.plan.motion.name + ", " + std::string(py::str(py::cast(self.report.status))) + ", " +
-           std::to_string(self.report.iterations) + " iterations, " + std::to_string(self.parameters) +
+    return "<sip.Result: " + shown(self.plan.motion.name) + ", " + std::string(py::str(py::cast(self.report.status))) +
+           ", " + std::to_string(self.report.iterations) + " iterations, " + std::to_string(self.parameters) +
            " parameters, " + std::to_string(self.constraints) + " constraints>";
   });
 }

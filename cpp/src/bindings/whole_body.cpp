@@ -51,7 +51,7 @@ void bind_state(py::module_& m) {
 }
 
 std::string describe(const WholeBodyPlan& plan) {
-  return "<WholeBodyPlan of " + plan.motion.robot.name + ", " + plan.motion.name + ": " +
+  return "<WholeBodyPlan of " + shown(plan.motion.robot.name) + ", " + shown(plan.motion.name) + ": " +
          std::to_string(plan.durations.size()) + " phases, " + text(plan.duration()) + " s>";
 }
 

@@ -64,7 +64,7 @@ def plan(
     """
     from mcplan.cli.interrupts import CODE, as_far_as_it_came
     from mcplan.cli.outputs import require_outputs, write_outputs
-    from mcplan.cli.terminal import printable
+    from mcplan.cli.terminal import printable, say
 
     require_outputs("plan", output, html, plots)
     given = {"phases": phases, "method": method, "time_limit": time_limit, "threads": threads, "seed": seed}
@@ -82,6 +82,9 @@ def plan(
     result, interrupted = as_far_as_it_came(lambda: mcplan.plan(ground, robot, **options))
     written = write_outputs(result.plan, result.report, output, html, plots, drawn=not interrupted)
     print(json_module.dumps(summary(result)) if json else report_text(result, written))
+    asked = [path for path in (output, html, plots) if path is not None]
+    if asked and not written and not (json or interrupted):
+        say(f"Not written, since there is no plan: {', '.join(map(str, asked))}")
     if interrupted:
         return CODE
     return 0 if str(result.report.status) == "solved" else 1

@@ -65,14 +65,17 @@ def whole_file(path: str | Path) -> Iterator[Path]:
 
 
 def is_special(path: Path) -> bool:
-    """Whether a device, a pipe or a socket goes by that name: it is written through, whatever its name ends in."""
+    """Whether a device, a pipe or a socket goes by that name: it is written through, whatever its name ends in.
+
+    So is whatever stands behind /dev/stdout, which a rename would cut off from those who hold it open.
+    """
     try:
         mode = os.stat(path).st_mode
     except FileNotFoundError:
         return False
     if stat.S_ISDIR(mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
-    return not stat.S_ISREG(mode)
+    return not stat.S_ISREG(mode) or os.path.abspath(path).startswith(("/dev/std", "/dev/fd/", "/proc/"))
 
 
 def require_suffix(field: str, path: str | Path, suffixes: Sequence[str]) -> None:

@@ -56,7 +56,8 @@ def track(
         progress: Called now and then with the time simulated and the time to simulate [s].
 
     Returns:
-        What the robot did, and how well. A fall ends the run and is a result, not an exception; so does Ctrl-C.
+        What the robot did, and how well. A fall ends the run and is a result, not an exception. Ctrl-C ends it with
+        Interrupted, which carries the result.
 
     Raises:
         MissingExtra: The packages of ``pip install 'mcplan[sim]'`` are not installed.

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "mcplan/base/error.hpp"
+#include "mcplan/plan/clearance.hpp"
 #include "plan/fixtures.hpp"
 #include "plan/name_sets.hpp"
 
@@ -365,3 +366,52 @@ TEST_CASE("checker throws on a sampling that is no sampling") {
 }
 
 TEST_CASE("an empty result is worst nowhere") { CHECK(CheckResult().worst().name.empty()); }
+
+TEST_CASE("a check that is stopped asks about once a millisecond, keeps what it found and never says ok") {
+  const Case made;
+  int asked = 0;
+  const CheckResult whole = mcplan::check(made.plan, made.scene, made.robot, {}, [&] {
+    ++asked;
+    return false;
+  });
+  CHECK(whole.complete);
+  CHECK(whole.ok());
+  const double samples = made.plan.duration() / mcplan::Tolerances().sample_s;
+  CHECK(asked >= samples / 1000.0);
+  CHECK(asked <= samples / 100.0 + 1.0);
+  for (int last : {1, asked / 2 + 1}) {
+    int count = 0;
+    const CheckResult part = mcplan::check(made.plan, made.scene, made.robot, {}, [&] { return ++count >= last; });
+    CHECK(count == last);
+    CHECK_FALSE(part.complete);
+    CHECK_FALSE(part.ok());
+    CHECK(part.constraints.size() == whole.constraints.size());
+    CHECK(part.to_string() == "stopped before the end: the rest is not checked");
+  }
+}
+
+TEST_CASE("solids that are set aside while they are out of reach are found again: a wall anywhere on the way is hit") {
+  const Case made;
+  int hit = 0;
+  for (int n = 0; n < 40; ++n) {
+    Case blocked = made;
+    // A thin plate across the way, as high as feet swing, whose prism reaches down to the ground.
+    const double x = -0.2 + 0.05 * n;
+    mcplan::Surface plate;
+    plate.name = "plate";
+    plate.vertices_W = {{x, -2.0, 0.5}, {x + 0.02, -2.0, 0.5}, {x + 0.02, 2.0, 0.5}, {x, 2.0, 0.5}};
+    plate.thickness = 0.499;
+    blocked.scene.surfaces.push_back(plate);
+    double deepest = 0.0;  // by looking everywhere
+    const auto solids = mcplan::solids_of(blocked.scene);
+    for (int l = 0; l < made.plan.end_effector_count(); ++l)
+      for (const auto& stretch : mcplan::free_stretches(made.plan, solids, l))
+        deepest = std::max(deepest, mcplan::clearance_depth(made.plan, solids, l, stretch, 1e-3));
+    double checked = 0.0;
+    for (const auto& violation : blocked.check().constraints)
+      if (violation.name == "clearance") checked = violation.value;
+    CHECK(checked == doctest::Approx(deepest).epsilon(1e-6));
+    hit += deepest > 0.0;
+  }
+  CHECK(hit > 5);
+}
