@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
-from collections.abc import Sequence
+import warnings
+from collections.abc import Iterator, Sequence
+from typing import Any
 
-from mcplan.errors import InvalidInput, MissingExtra, UnknownName
+from mcplan.errors import InvalidInput, MissingExtra, SuspiciousGeometry, UnknownName
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -21,7 +24,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
     try:
-        code = app(args=words, prog_name="mcplan", standalone_mode=False)
+        with _warnings_as_lines():
+            code = app(args=words, prog_name="mcplan", standalone_mode=False)
         return code if isinstance(code, int) else 0
     except (InvalidInput, UnknownName, MissingExtra) as found:
         return _fail(str(found))
@@ -36,6 +40,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if type(found).__name__ == "Abort":
             return 130
         raise
+
+
+@contextlib.contextmanager
+def _warnings_as_lines() -> Iterator[None]:
+    """Warnings of ours are one line on stderr, each time."""
+    with warnings.catch_warnings():
+        others = warnings.showwarning
+
+        def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+            if issubclass(category, SuspiciousGeometry):
+                print(f"warning: {' '.join(str(message).split())}", file=sys.stderr)
+            else:
+                others(message, category, *where, **more)
+
+        warnings.simplefilter("always", SuspiciousGeometry)
+        warnings.showwarning = show
+        yield
 
 
 def _fail(message: str) -> int:
