@@ -112,6 +112,10 @@ class InvalidPlan(InvalidInput):
     """A plan is malformed."""
 
 
+class SuspiciousGeometry(UserWarning):
+    """A file says what it can hardly mean, such as lengths in millimetres. It is read nevertheless."""
+
+
 class UnknownName(ValueError):
     """No built-in of that name and no file of that name; the message lists the names that exist.
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from mcplan import _core
 from mcplan._core import Knot, Plan, PlanResult, Robot, Scene
+from mcplan.files.geometry import require_standing
 from mcplan.options import fill
 
 
@@ -18,7 +19,9 @@ def plan(
     warm_start: Plan | None = None,
 ) -> PlanResult:
     """See mcplan.plan."""
-    planner = _core.ddp.SwitchedDdp(scene_of(scene), robot_of(robot), make_options(options))
+    world, body, chosen = scene_of(scene), robot_of(robot), make_options(options)
+    planner = _core.ddp.SwitchedDdp(world, body, chosen)
+    require_standing(world, body)
     return planner.solve() if warm_start is None else planner.solve(warm_start)
 
 

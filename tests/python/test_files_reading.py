@@ -150,6 +150,18 @@ def test_a_motion_names_robots_beside_it_alone(tmp_path):
         mp.load_motion(tmp_path / "sub" / "motion.toml")
 
 
+@pytest.mark.parametrize("name", [".", "pipe"])
+def test_a_motion_whose_robot_is_no_regular_file_is_named(name, tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "motion.toml").write_text(
+        toml_text({"robot": name, "surfaces": [{"name": "a"}], "phases": [{"lift": ["x"]}]})
+    )
+    with pytest.raises(
+        mp.InvalidMotion, match="motion.toml: robot: (must be a regular file|cannot be read: Is a directory)"
+    ):
+        mp.load_motion(tmp_path / "motion.toml")
+
+
 def test_the_robots_that_mcplan_brings_may_be_links(tmp_path, monkeypatch):
     """Some package managers put links in place of files: what lies beside them is then elsewhere."""
     (tmp_path / "store").mkdir()

@@ -7,10 +7,13 @@
 namespace mcplan::bindings {
 namespace {
 
-/// Raises the class of that name from mcplan.errors with the three parts of the C++ error.
+/// Raises the class of that name from mcplan.errors with the three parts of the C++ error, and what else it has found.
 void raise(const char* name, const InvalidInput& error) {
   const py::object type = py::module_::import("mcplan.errors").attr(name);
   const py::object value = type(error.field(), error.rule(), error.value());
+  py::list others;
+  for (const InvalidInput& other : error.others()) others.append(type(other.field(), other.rule(), other.value()));
+  value.attr("others") = py::tuple(others);
   PyErr_SetObject(type.ptr(), value.ptr());
 }
 

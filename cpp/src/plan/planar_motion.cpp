@@ -188,22 +188,31 @@ int PlanarMotion::phase_of(int interval) const {
 void PlanarMotion::validate() const {
   robot.validate();
   if (surfaces.empty()) throw InvalidMotion("surfaces", "needs at least one surface", "none");
+  Validation<InvalidMotion> check;
   std::set<std::string> names;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    validate_surface(surfaces[i], indexed("surfaces", i));
-    if (!names.insert(surfaces[i].name).second)
-      throw InvalidMotion(indexed("surfaces", i) + ".name", "must be unique", text(surfaces[i].name));
+    check([&] { validate_surface(surfaces[i], indexed("surfaces", i)); });
+    check([&] {
+      if (!names.insert(surfaces[i].name).second)
+        throw InvalidMotion(indexed("surfaces", i) + ".name", "must be unique", text(surfaces[i].name));
+    });
   }
+  check.raise();  // contacts lie on surfaces
   if (phases.empty()) throw InvalidMotion("phases", "needs at least one phase", "none");
+  bool before_sound = false;
   for (std::size_t k = 0; k < phases.size(); ++k) {
     const std::string field = indexed("phases", k);
-    validate_phase(*this, phases[k], field);
+    const bool sound = check([&] { validate_phase(*this, phases[k], field); });
     // Nothing jumps: at the instant between two phases the contacts of both hold.
-    if (k == 0) continue;
-    for (std::size_t i = 0; i < phases[k].contacts.size(); ++i)
-      for (const PlanarContact& before : phases[k - 1].contacts)
-        require_reachable(*this, before, phases[k].contacts[i], indexed(field + ".contacts", i));
+    if (sound && before_sound)
+      check([&] {
+        for (std::size_t i = 0; i < phases[k].contacts.size(); ++i)
+          for (const PlanarContact& before : phases[k - 1].contacts)
+            require_reachable(*this, before, phases[k].contacts[i], indexed(field + ".contacts", i));
+      });
+    before_sound = sound;
   }
+  check.raise();
 }
 
 }  // namespace mcplan

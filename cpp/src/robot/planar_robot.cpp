@@ -116,22 +116,26 @@ std::vector<int> PlanarRobot::joints_to(int body) const {
 
 void PlanarRobot::validate() const {
   if (bodies.empty()) throw InvalidRobot("bodies", "needs at least one body, the base", "none");
+  Validation<InvalidRobot> check;
   std::set<std::string> names;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const std::string field = "bodies[" + std::to_string(b) + "]";
-    require_name(field + ".name", bodies[b].name, names);
-    validate_body(bodies[b], static_cast<int>(b), field);
+    check([&] { require_name(field + ".name", bodies[b].name, names); });
+    check([&] { validate_body(bodies[b], static_cast<int>(b), field); });
   }
-  if (end_effectors.empty()) throw InvalidRobot("end_effectors", "needs at least one end-effector", "none");
+  check([&] {
+    if (end_effectors.empty()) throw InvalidRobot("end_effectors", "needs at least one end-effector", "none");
+  });
   names.clear();
   for (std::size_t l = 0; l < end_effectors.size(); ++l) {
     const std::string field = "end_effectors[" + std::to_string(l) + "]";
-    require_name(field + ".name", end_effectors[l].name, names);
-    validate_end_effector(end_effectors[l], static_cast<int>(bodies.size()), field);
+    check([&] { require_name(field + ".name", end_effectors[l].name, names); });
+    check([&] { validate_end_effector(end_effectors[l], static_cast<int>(bodies.size()), field); });
   }
   for (std::size_t i = 0; i < collision_pairs.size(); ++i)
-    validate_pair(*this, collision_pairs[i], "collision_pairs[" + std::to_string(i) + "]");
-  require_positive("gravity", gravity);
+    check([&] { validate_pair(*this, collision_pairs[i], "collision_pairs[" + std::to_string(i) + "]"); });
+  check([&] { require_positive("gravity", gravity); });
+  check.raise();
 }
 
 PlanarMotionOfFrame planar_point(const PlanarMotionOfFrame& body, const Vector2d& point_B, double angle_B) {

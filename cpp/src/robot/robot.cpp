@@ -74,6 +74,13 @@ void require_durations(const Eigen::Vector2d& range) {
     throw InvalidRobot("phase_duration", "must be two positive numbers, the shorter first", text(range));
 }
 
+void require_shares(const Robot& robot) {
+  if (!(robot.sole_support >= 0.0 && robot.sole_support <= 1.0))
+    throw InvalidRobot("sole_support", "must lie in [0, 1]", text(robot.sole_support));
+  if (!(robot.pressure_share > 0.0 && robot.pressure_share <= 1.0))
+    throw InvalidRobot("pressure_share", "must lie in (0, 1]", text(robot.pressure_share));
+}
+
 void validate_reach(const Robot& robot, const EndEffector& e, const std::string& field) {
   validate_polytope(e.com_reach, -e.nominal_B, field + ".com_reach");
   for (const auto& [partner, reach] : e.partner_reach) {
@@ -93,27 +100,30 @@ int Robot::end_effector_index(const std::string& end_effector_name) const {
 }
 
 void Robot::validate() const {
-  require_positive("mass", mass);
-  for (int i = 0; i < 3; ++i) require_positive("inertia[" + std::to_string(i) + "]", inertia[i]);
-  require_positive("com_height", com_height);
-  require_positive("swing_height", swing_height);
-  require_durations(phase_duration);
-  if (!(sole_support >= 0.0 && sole_support <= 1.0))
-    throw InvalidRobot("sole_support", "must lie in [0, 1]", text(sole_support));
-  if (!(pressure_share > 0.0 && pressure_share <= 1.0))
-    throw InvalidRobot("pressure_share", "must lie in (0, 1]", text(pressure_share));
-  if (end_effectors.empty()) throw InvalidRobot("end_effectors", "needs at least one end-effector", "none");
-  if (end_effectors.size() > 8)
-    throw InvalidRobot("end_effectors", "may be 8 at most", text(static_cast<int>(end_effectors.size())));
+  Validation<InvalidRobot> check;
+  check([&] { require_positive("mass", mass); });
+  for (int i = 0; i < 3; ++i) check([&] { require_positive("inertia[" + std::to_string(i) + "]", inertia[i]); });
+  check([&] { require_positive("com_height", com_height); });
+  check([&] { require_positive("swing_height", swing_height); });
+  check([&] { require_durations(phase_duration); });
+  check([&] { require_shares(*this); });
+  check([&] {
+    if (end_effectors.empty()) throw InvalidRobot("end_effectors", "needs at least one end-effector", "none");
+    if (end_effectors.size() > 8)
+      throw InvalidRobot("end_effectors", "may be 8 at most", text(static_cast<int>(end_effectors.size())));
+  });
   std::set<std::string> names;
-  for (std::size_t l = 0; l < end_effectors.size(); ++l) {
-    const std::string field = "end_effectors[" + std::to_string(l) + "]";
-    validate_end_effector(end_effectors[l], field);
-    if (!names.insert(end_effectors[l].name).second)
-      throw InvalidRobot(field + ".name", "must be unique", text(end_effectors[l].name));
-  }
+  bool sound = true;
   for (std::size_t l = 0; l < end_effectors.size(); ++l)
-    validate_reach(*this, end_effectors[l], "end_effectors[" + std::to_string(l) + "]");
+    sound &= check([&] {
+      const std::string field = "end_effectors[" + std::to_string(l) + "]";
+      validate_end_effector(end_effectors[l], field);
+      if (!names.insert(end_effectors[l].name).second)
+        throw InvalidRobot(field + ".name", "must be unique", text(end_effectors[l].name));
+    });
+  for (std::size_t l = 0; sound && l < end_effectors.size(); ++l)
+    check([&] { validate_reach(*this, end_effectors[l], "end_effectors[" + std::to_string(l) + "]"); });
+  check.raise();
 }
 
 bool addresses(const std::string& who, const EndEffector& end_effector) {

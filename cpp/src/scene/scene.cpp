@@ -74,6 +74,18 @@ void validate_stance(const Scene& scene, const std::string& field, const Stance&
                          text(surface));
 }
 
+void validate_rule(const ContactRule& rule, const std::string& field) {
+  if (rule.when_free.empty())
+    throw InvalidScene(field + ".when_free", "must name at least one end-effector or kind", "[]");
+  if (rule.require.empty()) throw InvalidScene(field + ".require", "must name at least one end-effector or kind", "[]");
+}
+
+void validate_step(const Scene& scene, const Step& step, const std::string& field) {
+  if (step.end_effector.empty()) throw InvalidScene(field + ".end_effector", "must not be empty", "''");
+  if (scene.surface_index(step.surface) < 0)
+    throw InvalidScene(field + ".surface", "must name a surface (" + surface_names(scene) + ")", text(step.surface));
+}
+
 }  // namespace
 
 int Scene::surface_index(const std::string& surface_name) const {
@@ -83,33 +95,28 @@ int Scene::surface_index(const std::string& surface_name) const {
 }
 
 void Scene::validate() const {
-  require_positive("gravity", gravity);
-  if (surfaces.empty()) throw InvalidScene("surfaces", "needs at least one surface", "none");
+  Validation<InvalidScene> check;
+  check([&] { require_positive("gravity", gravity); });
+  check([&] {
+    if (surfaces.empty()) throw InvalidScene("surfaces", "needs at least one surface", "none");
+  });
   std::set<std::string> names;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const Surface& surface = surfaces[i];
     const std::string field = item("surfaces", i);
-    if (surface.name.empty()) throw InvalidScene(field + ".name", "must not be empty", "''");
-    if (!names.insert(surface.name).second) throw InvalidScene(field + ".name", "must be unique", text(surface.name));
-    require_positive(field + ".friction", surface.friction);
-    require_positive(field + ".thickness", surface.thickness);
-    validate_polygon(field + ".vertices", surface.vertices_W);
+    check([&] {
+      if (surface.name.empty()) throw InvalidScene(field + ".name", "must not be empty", "''");
+      if (!names.insert(surface.name).second) throw InvalidScene(field + ".name", "must be unique", text(surface.name));
+    });
+    check([&] { require_positive(field + ".friction", surface.friction); });
+    check([&] { require_positive(field + ".thickness", surface.thickness); });
+    check([&] { validate_polygon(field + ".vertices", surface.vertices_W); });
   }
-  validate_stance(*this, "start", start);
-  validate_stance(*this, "goal", goal);
-  for (std::size_t i = 0; i < rules.size(); ++i) {
-    if (rules[i].when_free.empty())
-      throw InvalidScene(item("rules", i) + ".when_free", "must name at least one end-effector or kind", "[]");
-    if (rules[i].require.empty())
-      throw InvalidScene(item("rules", i) + ".require", "must name at least one end-effector or kind", "[]");
-  }
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    if (steps[i].end_effector.empty())
-      throw InvalidScene(item("steps", i) + ".end_effector", "must not be empty", "''");
-    if (surface_index(steps[i].surface) < 0)
-      throw InvalidScene(item("steps", i) + ".surface", "must name a surface (" + surface_names(*this) + ")",
-                         text(steps[i].surface));
-  }
+  check([&] { validate_stance(*this, "start", start); });
+  check([&] { validate_stance(*this, "goal", goal); });
+  for (std::size_t i = 0; i < rules.size(); ++i) check([&] { validate_rule(rules[i], item("rules", i)); });
+  for (std::size_t i = 0; i < steps.size(); ++i) check([&] { validate_step(*this, steps[i], item("steps", i)); });
+  check.raise();
 }
 
 }  // namespace mcplan

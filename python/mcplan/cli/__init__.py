@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
-from collections.abc import Sequence
+import warnings
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 from mcplan.cli.interrupts import CODE, Watch
 from mcplan.cli.terminal import guarded, printable
-from mcplan.errors import InvalidInput, MissingExtra, UnknownName
+from mcplan.errors import InvalidInput, MissingExtra, SuspiciousGeometry, UnknownName
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -36,7 +39,8 @@ def _run(words: list[str]) -> int:
     try:
         from mcplan.cli.app import app
 
-        code = app(args=words, prog_name="mcplan", standalone_mode=False)
+        with _warnings_as_lines():
+            code = app(args=words, prog_name="mcplan", standalone_mode=False)
         if sys.stdout is not None:
             sys.stdout.flush()  # here a full disk is still an error with a message
         return code if isinstance(code, int) else 0
@@ -53,6 +57,23 @@ def _run(words: list[str]) -> int:
         if type(found).__name__ == "Abort":
             return CODE
         raise
+
+
+@contextlib.contextmanager
+def _warnings_as_lines() -> Iterator[None]:
+    """Warnings of ours are one line on stderr, each time."""
+    with warnings.catch_warnings():
+        others = warnings.showwarning
+
+        def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+            if issubclass(category, SuspiciousGeometry):
+                print(f"warning: {printable(' '.join(str(message).split()))}", file=sys.stderr)
+            else:
+                others(message, category, *where, **more)
+
+        warnings.simplefilter("always", SuspiciousGeometry)
+        warnings.showwarning = show
+        yield
 
 
 def _fail(message: str) -> int:

@@ -20,7 +20,7 @@ from mcplan.files.planar_robots import (
     planar_robot_from_dict,
     planar_robot_to_dict,
 )
-from mcplan.files.reading import referenced
+from mcplan.files.reading import MOST_TOML, referenced, require_regular_file
 from mcplan.files.stances import Stances, contact_to_dict
 from mcplan.files.toml import read_toml, toml_text
 
@@ -118,7 +118,9 @@ def _load_robot(name: str, folder: Path | None, source: str) -> PlanarRobot:
         path = Path(name)
     if not builtin.exists(path):
         return load_planar_robot(name)  # which says that there is none
-    return load_planar_robot(referenced(folder, str(path.absolute()), InvalidMotion, "robot", source))
+    path = referenced(folder, str(path.absolute()), InvalidMotion, "robot", source)
+    require_regular_file(path, MOST_TOML, InvalidMotion, "robot", source)
+    return load_planar_robot(path)
 
 
 def _validate(motion: PlanarMotion, stances: Stances) -> None:

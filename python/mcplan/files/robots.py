@@ -11,6 +11,7 @@ from mcplan._core import EndEffector, Robot
 from mcplan.errors import InvalidRobot, UnknownRobot
 from mcplan.files import builtin
 from mcplan.files.builtin import exists
+from mcplan.files.geometry import require_robot_meant
 from mcplan.files.outputs import write_whole
 from mcplan.files.polytopes import polytope_from_dict, polytope_to_dict, read_polytope
 from mcplan.files.reading import referenced
@@ -31,7 +32,9 @@ def load_robot(source: str | Path) -> Robot:
     path = builtin.find(source, "robots", UnknownRobot)
     data = read_toml(path, InvalidRobot)
     data.setdefault("name", path.stem)
-    return robot_from_dict(data, source=str(path), folder=path.parent)
+    robot = robot_from_dict(data, source=str(path), folder=path.parent)
+    require_robot_meant(robot, str(path))
+    return robot
 
 
 def save_robot(robot: Robot, path: str | Path, header: str = "") -> None:

@@ -10,6 +10,7 @@ from typing import Any
 from mcplan._core import ContactRule, Scene, Stance, Step, Surface
 from mcplan.errors import InvalidOptions, InvalidScene, UnknownScene
 from mcplan.files import builtin
+from mcplan.files.geometry import require_meant
 from mcplan.files.outputs import write_whole
 from mcplan.files.toml import read_toml, toml_text
 
@@ -24,7 +25,9 @@ def load_scene(source: str | Path) -> Scene:
     path = builtin.find(source, "scenes", UnknownScene)
     data = read_toml(path, InvalidScene)
     data.setdefault("name", path.stem)
-    return scene_from_dict(data, source=str(path))
+    scene = scene_from_dict(data, source=str(path))
+    require_meant(scene, str(path))
+    return scene
 
 
 def save_scene(scene: Scene, path: str | Path, header: str = "") -> None:

@@ -1,0 +1,166 @@
+"""Geometry that cannot be meant, found before anything is planned.
+
+Scenes serve robots of any size, so what a scene says is compared with itself; lengths are compared with a robot's once there
+is one. What no robot can do is refused, what may be meant after all is warned of.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from typing import Any
+
+import numpy as np
+
+from mcplan._core import Polygon, Robot, Scene, Stance, resolve_stance
+from mcplan.errors import InvalidInput, InvalidScene, SuspiciousGeometry, together
+
+#: Where a stance may be off all its surfaces, in lengths of the scene: above or below one of them, and beside.
+MOST_ABOVE, MOST_BESIDE = 0.05, 0.25
+#: How far outside of its reach box an end-effector may stand at start and goal, in CoM heights.
+MOST_OUTSIDE = 0.25
+#: Lengths above which they are taken to be millimetres: of a scene [m], of a robot's CoM [m], in CoM heights.
+LONG_SCENE_M, HIGH_COM_M, LONG_OVER_COM = 1000.0, 50.0, 50.0
+_WALKABLE = 0.5  # z of the normal of ground
+
+
+def require_meant(scene: Scene, source: str) -> None:
+    """Refuse a scene that no robot can use as it stands, and warn of what looks wrong.
+
+    Args:
+        scene: A valid one.
+        source: Its file, for messages.
+
+    Raises:
+        InvalidScene: Start or goal hangs in the air, under its ground, or far beside all surfaces that it names.
+    """
+    size = scene_size(scene)
+    findings: list[InvalidInput] = []
+    for field, stance in (("start", scene.start), ("goal", scene.goal)):
+        findings += _off_its_surfaces(scene, stance, field, size)
+        _warn_of_ground_that_faces_down(scene, stance, field, source)
+    if findings:
+        raise together(findings).moved(source=source)
+    if size > LONG_SCENE_M:
+        _warn(source, "surfaces", "lengths are in metres, and these look like millimetres", f"a scene of {size:.4g} m")
+
+
+def require_robot_meant(robot: Robot, source: str) -> None:
+    """Warn of lengths of a robot that look like millimetres.
+
+    Args:
+        robot: A valid one.
+        source: Its file, for messages.
+    """
+    rule = "lengths are in metres, and this looks like millimetres"
+    if robot.com_height > HIGH_COM_M:
+        _warn(source, "com_height", rule, f"{robot.com_height:g} m")
+        return
+    lengths = {"swing_height": [robot.swing_height]}
+    for i, end in enumerate(robot.end_effectors):
+        for name in ("half_size", "nominal_B", "reach_min_B", "reach_max_B", "frame_offset"):
+            lengths[f"end_effectors[{i}].{name.removesuffix('_B')}"] = list(getattr(end, name))
+    for field, values in lengths.items():
+        longest = max(map(abs, values))
+        if longest > LONG_OVER_COM * robot.com_height:
+            _warn(source, field, rule, f"{longest:g} m beside a com_height of {robot.com_height:g} m")
+
+
+def require_standing(scene: Scene, robot: Robot, fields: tuple[str, ...] = ("start", "goal")) -> None:
+    """Refuse a start or goal where a robot cannot stand.
+
+    Args:
+        scene: A valid one.
+        robot: A valid one.
+        fields: Which of "start" and "goal" to look at.
+
+    Raises:
+        InvalidScene: An end-effector would have to reach far beyond its box for its surface, or all surfaces that the
+            stance names face so far down that no force on them holds anything up.
+    """
+    findings: list[InvalidInput] = []
+    for field in fields:
+        findings += _cannot_stand(scene, robot, getattr(scene, field), field)
+    if findings:
+        raise together(findings)
+
+
+def scene_size(scene: Scene) -> float:
+    """Length of the diagonal of the box around all surfaces [m]."""
+    corners = np.concatenate([surface.vertices_W for surface in scene.surfaces])
+    return float(np.linalg.norm(corners.max(axis=0) - corners.min(axis=0)))
+
+
+def holds_up(surface: Any) -> bool:
+    """Whether some force in the friction cone of a surface points up, or the surface can be held."""
+    up = Polygon(surface.vertices_W).normal_W[2]
+    return bool(surface.grasp or up + surface.friction * math.sqrt(max(0.0, 1.0 - up * up)) > 0.0)
+
+
+def _off_its_surfaces(scene: Scene, stance: Stance, field: str, size: float) -> list[InvalidInput]:
+    """The ground below the CoM is far from every surface that the stance names."""
+    named = sorted(set(stance.contacts.values()))
+    nearest = min(named, key=lambda name: _distance(scene, name, stance)[0])
+    distance, over = _distance(scene, nearest, stance)
+    if distance <= (MOST_ABOVE if over else MOST_BESIDE) * size:
+        return []
+    where = "off" if over else "beside"
+    rule = "must be a point of the ground below the robot, near the surfaces that its contacts name"
+    return [
+        InvalidScene(f"{field}.position", rule, f"{_text(stance.position_W)}, {distance:.3g} m {where} {nearest!r}")
+    ]
+
+
+def _distance(scene: Scene, name: str, stance: Stance) -> tuple[float, bool]:
+    """Of the stance from a surface [m]; whether it lies straight above or below ground."""
+    polygon = Polygon(scene.surfaces[scene.surface_index(name)].vertices_W)
+    away = stance.position_W - polygon.nearest(stance.position_W)
+    distance = float(np.linalg.norm(away))
+    along = abs(float(away @ polygon.normal_W)) / distance if distance > 0.0 else 1.0
+    return distance, along > 0.999 and abs(polygon.normal_W[2]) > _WALKABLE
+
+
+def _warn_of_ground_that_faces_down(scene: Scene, stance: Stance, field: str, source: str) -> None:
+    for who, name in stance.contacts.items():
+        index = scene.surface_index(name)
+        surface = scene.surfaces[index]
+        polygon = Polygon(surface.vertices_W)
+        above = stance.position_W[2] >= polygon.nearest(stance.position_W)[2] - 1e-3
+        if polygon.normal_W[2] < -_WALKABLE and above and not surface.grasp:
+            rule = f"faces down, and {who} stands on it at the {field}: corners run counter-clockwise seen from above"
+            _warn(source, f"surfaces[{index}].vertices", rule, f"normal {_text(polygon.normal_W)}")
+
+
+def _cannot_stand(scene: Scene, robot: Robot, stance: Stance, field: str) -> list[InvalidInput]:
+    named = {scene.surface_index(name): name for name in stance.contacts.values()}
+    if not any(holds_up(scene.surfaces[index]) for index in named):
+        rule = "must hold the robot up: corners of ground run counter-clockwise seen from above"
+        faces = ", ".join(f"{name!r} faces down" for name in named.values())
+        return [InvalidScene(f"{field}.contacts", rule, faces)]
+    resolved = resolve_stance(scene, robot, stance, field)
+    turn = _about_z(stance.yaw)
+    findings: list[InvalidInput] = []
+    for end, place_W, surface in zip(robot.end_effectors, resolved.end_effectors_W, resolved.contacts, strict=True):
+        place = turn.T @ (place_W - resolved.com_W)
+        outside = np.linalg.norm(np.maximum(0.0, np.maximum(end.reach_min_B - place, place - end.reach_max_B)))
+        if surface >= 0 and outside > MOST_OUTSIDE * robot.com_height:
+            off = np.linalg.norm(place - end.nominal_B)
+            rule = f"must be where {robot.name} reaches the surfaces that its contacts name"
+            name = scene.surfaces[surface].name
+            value = f"{_text(stance.position_W)}: {end.name} would stand {off:.2g} m off {name!r}"
+            findings.append(InvalidScene(f"{field}.position", rule, value))
+    return findings[:1]
+
+
+def _about_z(yaw: float) -> np.ndarray:
+    cosine, sine = math.cos(yaw), math.sin(yaw)
+    return np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+
+
+def _text(values: Any) -> str:
+    return "[" + ", ".join(f"{value:.4g}" for value in values) + "]"
+
+
+def _warn(source: str, field: str, rule: str, value: str) -> None:
+    finding = InvalidInput(field, rule, value, source)
+    warnings.warn(str(finding), SuspiciousGeometry, stacklevel=2)

@@ -1,0 +1,162 @@
+"""mcplan.files.geometry: what no robot can do is refused by name, what can hardly be meant is warned of, at any scale."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import malformed
+import mcplan as mp
+from mcplan.cli import main
+from mcplan.errors import SuspiciousGeometry
+from mcplan.files.generate import random_scene
+from mcplan.files.geometry import holds_up, require_meant, require_standing
+from mcplan.files.robots import list_robots, load_robot, robot_to_dict
+from mcplan.files.scenes import list_scenes, load_scene, scaled, scene_to_dict
+from mcplan.files.toml import toml_text
+
+SIZES = [0.007, 1.0, 25.0]  # of robots of 5 mm to 20 m
+
+
+def floor(size: float, **changes: object) -> dict:
+    """Level ground of 6 x 2 lengths, start and goal on it."""
+    square = [[size * x, size * y, 0.0] for x, y in ((-3, -1), (3, -1), (3, 1), (-3, 1))]
+    data = {
+        "name": "floor",
+        "start": {"position": [0.0, 0.0, 0.0], "contacts": {"foot": "a"}},
+        "goal": {"position": [size, 0.0, 0.0], "contacts": {"foot": "a"}},
+        "surfaces": [{"name": "a", "vertices": square}],
+    }
+    return {**data, **changes}
+
+
+def write(folder: Path, data: dict, name: str = "scene.toml") -> Path:
+    (folder / name).write_text(toml_text(data))
+    return folder / name
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("field", ["start", "goal"])
+@pytest.mark.parametrize(
+    ("place", "where"), [((1, 0, 0.5), "off"), ((1, 0, -2), "off"), ((9, 0, 0), "beside"), ((0, -5, 0), "beside")]
+)
+def test_a_stance_far_from_its_surfaces_is_refused(size, field, place, where, tmp_path):
+    file = write(tmp_path, floor(size, **{field: {"position": [size * x for x in place], "contacts": {"foot": "a"}}}))
+    with pytest.raises(
+        mp.InvalidScene, match=rf"scene.toml: {field}.position: must be a point of the ground .* m {where} 'a'"
+    ):
+        load_scene(file)
+
+
+def test_start_and_goal_are_both_named(tmp_path):
+    high = {"position": [0.0, 0.0, 2.0], "contacts": {"foot": "a"}}
+    with pytest.raises(mp.InvalidScene) as found:
+        load_scene(write(tmp_path, floor(1.0, start=high, goal=high)))
+    assert [each.field for each in (found.value, *found.value.others)] == ["start.position", "goal.position"]
+    assert {each.source for each in (found.value, *found.value.others)} == {str(tmp_path / "scene.toml")}
+
+
+@pytest.mark.parametrize("factor", SIZES)
+@pytest.mark.parametrize("name", list_scenes())
+def test_built_in_scenes_are_meant_at_every_size(name, factor):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        if factor < 2.0 or name not in ("up_and_down", "v_shape", "rubbles", "random_patches"):  # 53 m long: 1.3 km
+            require_meant(scaled(load_scene(name), factor), "")
+
+
+@pytest.mark.parametrize("name", list_scenes())
+def test_robots_stand_at_start_and_goal_of_built_in_scenes(name):
+    for robot in list_robots():
+        if name != "chimney" or robot not in ("anymal", "talos_wang"):  # which have no hands
+            require_standing(load_scene(name), load_robot(robot))
+
+
+def test_random_scenes_are_meant():
+    robot = load_robot("humanoid44")
+    for seed in range(200):
+        scene = random_scene(seed)
+        require_meant(scene, f"seed {seed}")
+        require_standing(scene, robot)
+
+
+def test_ground_that_faces_down_is_warned_of_and_not_planned_on(tmp_path, capsys):
+    data = floor(1.0)
+    data["surfaces"][0]["vertices"].reverse()
+    file = write(tmp_path, data)
+    with pytest.warns(
+        SuspiciousGeometry, match=r"surfaces\[0\].vertices: faces down, and foot stands on it at the start"
+    ):
+        scene = load_scene(file)
+    with pytest.raises(mp.InvalidScene, match="start.contacts: must hold the robot up: .* got 'a' faces down"):
+        mp.plan(scene, "humanoid44")
+    assert main(["plan", str(file)]) == 2
+    lines = capsys.readouterr().err.splitlines()
+    assert [line.split(":")[0] for line in lines] == ["warning", "warning", "error", "error"]
+
+
+def test_a_ceiling_is_no_ground(tmp_path):
+    """Hands may press against what faces down above the robot."""
+    data = floor(1.0)
+    above = [[x, y, 2.0] for x, y, _ in data["surfaces"][0]["vertices"][::-1]]
+    data["surfaces"].append({"name": "ceiling", "vertices": above})
+    data["start"]["contacts"]["hand"] = "ceiling"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        load_scene(write(tmp_path, data))
+
+
+@pytest.mark.parametrize(
+    ("tilt_deg", "friction", "held", "expected"),
+    [
+        (0, 0.1, False, True),
+        (89, 0.1, False, True),
+        (91, 0.1, False, True),
+        (97, 0.1, False, False),
+        (180, 2.0, False, False),
+        (180, 0.1, True, True),
+    ],
+)
+def test_a_surface_holds_up_what_its_friction_cone_can(tilt_deg, friction, held, expected):
+    """The cone of a normal at this angle to the vertical reaches above the horizon up to 90 degrees + atan(friction)."""
+    s, c = np.sin(np.radians(tilt_deg)), np.cos(np.radians(tilt_deg))
+    across, along = np.array([c, 0.0, -s]), np.array([0.0, 1.0, 0.0])  # across x along = the normal (s, 0, c)
+    corners = [a * across + b * along for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    assert holds_up(mp.Surface(name="a", vertices_W=np.array(corners), friction=friction, grasp=held)) == expected
+
+
+def test_a_goal_out_of_a_robots_reach_is_refused_once_the_robot_is_known(tmp_path):
+    """2 m above 50 m of ground: a large robot may stand so, this one may not."""
+    data = floor(25.0, goal={"position": [1.0, 0.0, 2.0], "contacts": {"foot": "a"}})
+    scene = load_scene(write(tmp_path, data))
+    with pytest.raises(
+        mp.InvalidScene, match=r"goal.position: must be where humanoid44 reaches .*_foot would stand 2 m off 'a'"
+    ):
+        mp.plan(scene, "humanoid44")
+
+
+def test_lengths_in_millimetres_are_warned_of(tmp_path):
+    with pytest.warns(
+        SuspiciousGeometry, match="surfaces: lengths are in metres, and these look like millimetres, got a scene"
+    ):
+        load_scene(write(tmp_path, scene_to_dict(scaled(load_scene("flat"), 1000.0))))
+    robot = robot_to_dict(load_robot("humanoid44"))
+    robot["end_effectors"][1]["half_size"] = [100.0, 50.0]
+    with pytest.warns(SuspiciousGeometry, match=r"end_effectors\[1\].half_size: lengths are in metres"):
+        load_robot(write(tmp_path, robot))
+    with pytest.warns(SuspiciousGeometry, match="com_height: lengths are in metres"):
+        load_robot(write(tmp_path, in_millimetres(malformed.ROBOT)))
+
+
+def in_millimetres(robot: dict) -> dict:
+    data = malformed.broken(robot, ("com_height",), 1000.0 * robot["com_height"])
+    for end in data["end_effectors"]:
+        for key in ("nominal", "reach_min", "reach_max", "half_size"):
+            if key in end:
+                end[key] = [1000.0 * value for value in end[key]]
+        end.pop("com_reach", None)
+        end.pop("partner_reach", None)
+    return data
