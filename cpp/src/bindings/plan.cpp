@@ -359,9 +359,11 @@ void bind_checker(py::module_& m) {
 
   m.def(
       "check",
-      [](const Plan& plan, const Scene* scene, const Robot* robot, const Tolerances& tolerances) {
+      [](Plan plan, const Scene* own_scene, const Robot* own_robot, Tolerances tolerances) {
+        const Scene scene = own_scene ? *own_scene : plan.scene;
+        const Robot robot = own_robot ? *own_robot : plan.robot;
         const py::gil_scoped_release release;
-        return check(plan, scene ? *scene : plan.scene, robot ? *robot : plan.robot, tolerances);
+        return check(plan, scene, robot, tolerances);
       },
       py::arg("plan"), py::arg("scene") = py::none(), py::arg("robot") = py::none(), py::arg("tolerances") = d,
       "Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons "
