@@ -208,9 +208,10 @@ void bind_plan_class(py::module_& m) {
   plan.def(
       "at", &Plan::at, py::arg("t"),
       "PlanState at time t [s] in [0, duration], in closed form. At a knot the phase that begins there is meant (the "
-      "last one at the end). Raises InvalidInput outside.");
+      "last one at the end). Raises InvalidInput outside, InvalidPlan where an edited plan does not fit together.");
   plan.def("at_phase", &Plan::at_phase, py::arg("k"), py::arg("since_start"),
-           "PlanState `since_start` [s] after the start of phase k: says which side of a knot is meant.");
+           "PlanState `since_start` [s], 0 to its duration, after the start of phase k: says which side of a knot is "
+           "meant. Raises as at() does.");
   plan.def("validate", &Plan::validate,
            "Raise InvalidPlan when sizes or indices do not fit together or a number is not finite.");
   plan.def(
