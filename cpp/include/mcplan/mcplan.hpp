@@ -4,6 +4,7 @@
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/base/entire_functions.hpp"
 #include "mcplan/base/error.hpp"
+#include "mcplan/base/fork.hpp"
 #include "mcplan/base/logging.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "mcplan/base/status.hpp"

@@ -5,6 +5,9 @@
 #include <pybind11/stl.h>
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,12 +30,31 @@ void bind_sip_planner(py::module_& m);  // of the sip submodule
 void bind_planar(py::module_& m);
 void bind_whole_body(py::module_& m);
 
-/// Runs a solve without the GIL.
+/// Runs a solve without the GIL. Another thread may change meanwhile what was given by reference: give copies.
 template <class Solve>
 auto without_gil(Solve&& solve) {
   const py::gil_scoped_release release;
   return solve();
 }
+
+/// One call of a planner at a time, for those that change while they work: InvalidInput naming `call` when the planner
+/// is at work already, for another thread or for the one whose callback asks. Made and destroyed under the GIL.
+class Alone {
+ public:
+  Alone(const void* planner, const std::string& call);
+  ~Alone();
+  Alone(const Alone&) = delete;
+  Alone& operator=(const Alone&) = delete;
+
+ private:
+  const void* planner_;
+};
+
+/// Throws as Alone does; `own_thread_may`: a callback of the planner may look at it.
+void require_idle(const void* planner, const std::string& call, bool own_thread_may);
+
+/// Makes use of an object whose __init__ never ran a TypeError, for all classes of a module and its submodules.
+void refuse_uninitialised(py::handle module);
 
 /// Text that Python reads back as the same value: arrays as nested lists, infinity as float('inf').
 std::string paste(py::handle value);
@@ -52,11 +74,20 @@ Eigen::VectorXd vector_from(py::handle value, const std::string& field);
 /// Writable N x 3 view of `points`, which `owner` keeps alive.
 py::array points_view(std::vector<Eigen::Vector3d>& points, py::handle owner);
 
-/// Keeps what a member held until `owner` dies: Python may still hold references into it.
+/// What Python holds while it refers into what a member keeps on the heap: alive as long as any such reference, it
+/// keeps the member's owner alive, and takes over what the member held when that is replaced. `member`: the vector, at
+/// its place in `owner`.
+py::object lease(const void* member, py::handle owner);
+
+/// Takes what leases of members in [begin, begin + size) refer to over into `keep`, made by `make_keeper` if there are
+/// any. Without a reference nothing is kept: what is replaced goes at once.
+void hand_over(const void* begin, std::size_t size, const std::function<std::shared_ptr<void>()>& make_keeper);
+
+/// Replaces a member. References that Python holds into what it held stay valid: they see the old values from then on.
 template <class Value>
-void retire(py::handle owner, Value& member) {
-  py::capsule keeper(new Value(std::move(member)), [](void* kept) { delete static_cast<Value*>(kept); });
-  py::detail::keep_alive_impl(owner, keeper);
+void replace(Value& member, Value value) {
+  hand_over(&member, sizeof(Value), [&member] { return std::make_shared<Value>(std::move(member)); });
+  member = std::move(value);
 }
 
 /// Member that holds N points: reads as a writable N x 3 view.
@@ -64,12 +95,13 @@ template <class T, class... Extra>
 void def_points(py::class_<T, Extra...>& c, const char* name, std::vector<Eigen::Vector3d> T::*member,
                 const char* doc) {
   c.def_property(
-      name, [member](py::object self) { return points_view(self.cast<T&>().*member, self); },
+      name,
+      [member](py::object self) {
+        auto& points = self.cast<T&>().*member;
+        return points_view(points, lease(&points, self));
+      },
       [member, name](py::object self, const py::object& value) {
-        auto points = points_from(value, name);
-        auto& target = self.cast<T&>().*member;
-        retire(self, target);
-        target = std::move(points);
+        replace(self.cast<T&>().*member, points_from(value, name));
       },
       doc);
 }
@@ -82,16 +114,13 @@ void def_items(py::class_<T, Extra...>& c, const char* name, std::vector<Element
       name,
       [member](py::object self) {
         auto& items = self.cast<T&>().*member;
+        const py::object keeper = lease(&items, self);
         py::tuple out(items.size());
         for (std::size_t i = 0; i < items.size(); ++i)
-          out[i] = py::cast(&items[i], py::return_value_policy::reference_internal, self);
+          out[i] = py::cast(&items[i], py::return_value_policy::reference_internal, keeper);
         return out;
       },
-      [member](py::object self, std::vector<Element> value) {
-        auto& target = self.cast<T&>().*member;
-        retire(self, target);
-        target = std::move(value);
-      },
+      [member](py::object self, std::vector<Element> value) { replace(self.cast<T&>().*member, std::move(value)); },
       doc);
 }
 
@@ -114,18 +143,28 @@ void def_range(py::class_<T, Extra...>& c, const char* name, Range T::*member, c
       doc);
 }
 
-/// Member struct: reads as a reference.
+/// Member struct: reads as a reference, which shows what is assigned later.
 template <class T, class Member, class... Extra>
 void def_member(py::class_<T, Extra...>& c, const char* name, Member T::*member, const char* doc) {
   c.def_property(
       name, [member](T& self) -> Member& { return self.*member; },
-      [member](py::object self, const Member& value) {
-        Member copy = value;  // `value` may be the member itself
-        auto& target = self.cast<T&>().*member;
-        retire(self, target);
-        target = std::move(copy);
+      [member](T& self, const Member& value) {
+        Member copy = value;  // `value` may be the member itself, or lie in it
+        replace(self.*member, std::move(copy));
       },
       doc);
+}
+
+/// Member vector or matrix of any size: reads as a writable view.
+template <class T, class Matrix, class... Extra>
+void def_matrix(py::class_<T, Extra...>& c, const char* name, Matrix T::*member, const char* doc) {
+  c.def_property(
+      name,
+      [member](py::object self) {
+        Matrix& matrix = self.cast<T&>().*member;
+        return py::cast(&matrix, py::return_value_policy::reference_internal, lease(&matrix, self));
+      },
+      [member](T& self, Matrix value) { replace(self.*member, std::move(value)); }, doc);
 }
 
 /// Member that holds plain values (names, indices, pairs): reads as a tuple or a read-only mapping.

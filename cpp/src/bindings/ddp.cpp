@@ -114,11 +114,11 @@ void bind_ddp(py::module_& parent) {
       "solve", [](SwitchedDdp& self) { return interruptible([&] { return self.solve(); }); },
       "Plan from the scene's start to its goal.");
   c.def(
-      "solve", [](SwitchedDdp& self, const Plan& plan) { return interruptible([&] { return self.solve(plan); }); },
+      "solve", [](SwitchedDdp& self, Plan plan) { return interruptible([&] { return self.solve(plan); }); },
       py::arg("warm_start"), "The same, starting from an earlier plan's contact sequence, motion and timing.");
   c.def(
       "replan",
-      [](SwitchedDdp& self, const Plan& previous, double t, const Knot& measured) {
+      [](SwitchedDdp& self, Plan previous, double t, Knot measured) {
         return interruptible([&] { return self.replan(previous, t, measured); });
       },
       py::arg("previous"), py::arg("t"), py::arg("measured"),

@@ -140,4 +140,5 @@ PYBIND11_MODULE(_core, m) {
   bind_rhp(m);
   bind_sip(m);
   // The planners' rooms go here, one line each: they may use everything above.
+  refuse_uninitialised(m);
 }

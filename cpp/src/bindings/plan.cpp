@@ -211,9 +211,10 @@ void bind_plan_class(py::module_& m) {
   plan.def(
       "at", &Plan::at, py::arg("t"),
       "PlanState at time t [s] in [0, duration], in closed form. At a knot the phase that begins there is meant (the "
-      "last one at the end). Raises InvalidInput outside.");
+      "last one at the end). Raises InvalidInput outside, InvalidPlan where an edited plan does not fit together.");
   plan.def("at_phase", &Plan::at_phase, py::arg("k"), py::arg("since_start"),
-           "PlanState `since_start` [s] after the start of phase k: says which side of a knot is meant.");
+           "PlanState `since_start` [s], 0 to its duration, after the start of phase k: says which side of a knot is "
+           "meant. Raises as at() does.");
   plan.def("validate", &Plan::validate,
            "Raise InvalidPlan when sizes or indices do not fit together or a number is not finite.");
   plan.def(
@@ -363,10 +364,10 @@ void bind_checker(py::module_& m) {
 
   m.def(
       "check",
-      [](const Plan& plan, const Scene* scene, const Robot* robot, const Tolerances& tolerances) {
-        return interruptible([&] {
-          return check(plan, scene ? *scene : plan.scene, robot ? *robot : plan.robot, tolerances, SignalWatch::stop);
-        });
+      [](Plan plan, const Scene* own_scene, const Robot* own_robot, Tolerances tolerances) {
+        const Scene scene = own_scene ? *own_scene : plan.scene;
+        const Robot robot = own_robot ? *own_robot : plan.robot;
+        return interruptible([&] { return check(plan, scene, robot, tolerances, SignalWatch::stop); });
       },
       py::arg("plan"), py::arg("scene") = py::none(), py::arg("robot") = py::none(), py::arg("tolerances") = d,
       "Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons "

@@ -121,9 +121,9 @@ void bind_configuration(py::module_& m) {
   def_vector(x, "base", &PlanarConfiguration::base, "x, y [m], angle [rad] in the world.");
   def_vector(x, "base_velocity", &PlanarConfiguration::base_velocity, "[m/s], [rad/s]");
   def_vector(x, "base_acceleration", &PlanarConfiguration::base_acceleration, "[m/s^2], [rad/s^2]");
-  def_member(x, "q", &PlanarConfiguration::q, "Joint positions [rad].");
-  def_member(x, "velocity", &PlanarConfiguration::velocity, "[rad/s]");
-  def_member(x, "acceleration", &PlanarConfiguration::acceleration, "[rad/s^2]");
+  def_matrix(x, "q", &PlanarConfiguration::q, "Joint positions [rad].");
+  def_matrix(x, "velocity", &PlanarConfiguration::velocity, "[rad/s]");
+  def_matrix(x, "acceleration", &PlanarConfiguration::acceleration, "[rad/s^2]");
   def_value(x, "PlanarConfiguration", {"base", "base_velocity", "base_acceleration", "q", "velocity", "acceleration"});
 
   py::class_<PlanarMotionOfFrame> frame(m, "PlanarMotionOfFrame", "Where a frame is and how it moves.");

@@ -137,19 +137,39 @@ void bind_rhp(py::module_& parent) {
         py::arg("scene"), py::arg("robot"), py::arg("sequence"), py::arg_v("options", Options(), "Options()"),
         "Contact sequence and start are those of a plan; the walk comes to rest after its last step.");
   c.def(
-      "walk", [](RecedingHorizon& self) { return interruptible([&] { return self.walk(); }); },
+      "walk",
+      [](RecedingHorizon& self) {
+        const Alone alone(&self, "walk");
+        return interruptible([&] { return self.walk(); });
+      },
       "Run all cycles that the options ask for, or until one fails.");
   c.def(
-      "step", [](RecedingHorizon& self) { return interruptible([&] { return self.step(); }); },
+      "step",
+      [](RecedingHorizon& self) {
+        const Alone alone(&self, "step");
+        return interruptible([&] { return self.step(); });
+      },
       "One cycle from where the last one ended.");
   c.def(
       "step",
-      [](RecedingHorizon& self, const State& measured) { return interruptible([&] { return self.step(measured); }); },
+      [](RecedingHorizon& self, State measured) {
+        const Alone alone(&self, "step");
+        return interruptible([&] { return self.step(measured); });
+      },
       py::arg("measured"), "One cycle from a measured state.");
-  c.def("state", &RecedingHorizon::state, "At the start of the next cycle.", py::return_value_policy::copy);
-  c.def("executed", &RecedingHorizon::executed, "The step that the last good cycle executes, from time 0.");
-  c.def("horizon", &RecedingHorizon::horizon, "Its whole horizon, predicted steps included.");
-  c.def("result", &RecedingHorizon::result, "What was executed so far.");
+  const auto def_look = [&c](const char* name, auto look, const char* doc) {
+    c.def(
+        name,
+        [name, look](const RecedingHorizon& self) {
+          require_idle(&self, name, true);
+          return (self.*look)();
+        },
+        doc, py::return_value_policy::copy);
+  };
+  def_look("state", &RecedingHorizon::state, "At the start of the next cycle.");
+  def_look("executed", &RecedingHorizon::executed, "The step that the last good cycle executes, from time 0.");
+  def_look("horizon", &RecedingHorizon::horizon, "Its whole horizon, predicted steps included.");
+  def_look("result", &RecedingHorizon::result, "What was executed so far.");
 }
 
 }  // namespace mcplan::bindings

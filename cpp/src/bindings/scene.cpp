@@ -8,12 +8,7 @@ namespace {
 
 void bind_polygon(py::module_& m) {
   py::class_<Polygon>(m, "Polygon", "Convex planar polygon in the world, prepared for distance queries [m].")
-      .def(py::init([](const py::object& vertices_W) {
-             auto points = points_from(vertices_W, "vertices_W");
-             if (points.size() < 3)
-               throw InvalidInput("vertices_W", "needs at least 3 points", text(static_cast<int>(points.size())));
-             return Polygon(std::move(points));
-           }),
+      .def(py::init([](const py::object& vertices_W) { return Polygon(points_from(vertices_W, "vertices_W")); }),
            py::arg("vertices_W"))
       .def_property_readonly("vertices_W",
                              [](const Polygon& self) {

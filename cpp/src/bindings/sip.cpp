@@ -94,11 +94,9 @@ void bind_certificate(py::module_& m) {
 
   m.def(
       "certify",
-      [](const WholeBodyPlan& plan, const WholeBodyTolerances& tolerances, int order, int max_depth,
-         bool self_collision) {
-        return interruptible([&] {
-          return sip::certify(plan, {tolerances, order, max_depth, self_collision, SignalWatch::stop});
-        });
+      [](WholeBodyPlan plan, const WholeBodyTolerances& tolerances, int order, int max_depth, bool self_collision) {
+        const CertifyOptions options{tolerances, order, max_depth, self_collision, SignalWatch::stop};
+        return interruptible([&] { return sip::certify(plan, options); });
       },
       py::arg("plan"), py::arg("tolerances") = WholeBodyTolerances(), py::arg("order") = CertifyOptions().order,
       py::arg("max_depth") = CertifyOptions().max_depth, py::arg("self_collision") = false,

@@ -102,7 +102,10 @@ void bind_result(py::module_& m) {
   c.def_readonly("constraints", &Result::constraints, "Rows of the program.");
   c.def_readonly("drift_m", &Result::drift_m, "Largest of a contact, at 1 kHz, from exact kinematics [m].");
   c.def_readonly("drift_rad", &Result::drift_rad, "[rad]");
-  c.def_readwrite("certificate", &JudgedResult::certificate, "What is proved of the plan; None: not asked for.");
+  c.def_property(
+      "certificate", [](const JudgedResult& self) { return self.certificate; },
+      [](JudgedResult& self, std::optional<Certificate> value) { self.certificate = std::move(value); },
+      "What is proved of the plan, a copy; None: not asked for.", py::return_value_policy::copy);
   c.def("__repr__", [](const JudgedResult& self) {
     return "<sip.Result: " + shown(self.plan.motion.name) + ", " + std::string(py::str(py::cast(self.report.status))) +
            ", " + std::to_string(self.report.iterations) + " iterations, " + std::to_string(self.parameters) +
@@ -120,13 +123,16 @@ void bind_planner_class(py::module_& m) {
         py::arg("motion"), py::arg_v("options", Options(), "Options()"),
         "Raises InvalidMotion, InvalidRobot, InvalidOptions.");
   c.def(
-      "solve", [](Planner& self) { return interruptible([&] {
-                                     return JudgedResult{self.solve(), std::nullopt};
-                                   }); },
+      "solve",
+      [](Planner& self) {
+        const Alone alone(&self, "solve");
+        return interruptible([&] { return JudgedResult{self.solve(), std::nullopt}; });
+      },
       "From the robot's zero posture throughout, weights of 1, and one second.");
   c.def(
       "solve",
-      [](Planner& self, const WholeBodyPlan& plan) {
+      [](Planner& self, WholeBodyPlan plan) {
+        const Alone alone(&self, "solve");
         return interruptible([&] { return JudgedResult{self.solve(plan), std::nullopt}; });
       },
       py::arg("warm_start"),

@@ -80,8 +80,8 @@ void bind_plan_class(py::module_& m) {
   def_member(plan, "motion", &WholeBodyPlan::motion, "PlanarMotion that it was made for.");
   plan.def_readwrite("planner", &WholeBodyPlan::planner, "E.g. 'sip'.");
   def_names(plan, "durations", &WholeBodyPlan::durations, "Of the phases [s]. Assign a list to change them.");
-  def_member(plan, "control_points", &WholeBodyPlan::control_points, "Joints x (intervals + 3) [rad].");
-  def_member(plan, "base_control_points", &WholeBodyPlan::base_control_points,
+  def_matrix(plan, "control_points", &WholeBodyPlan::control_points, "Joints x (intervals + 3) [rad].");
+  def_matrix(plan, "base_control_points", &WholeBodyPlan::base_control_points,
              "3 x (intervals + 3): x, y [m], angle [rad]; empty: computed from the joints.");
   plan.def_readwrite("force_law", &WholeBodyPlan::force_law);
   def_items(plan, "weights", &WholeBodyPlan::weights,
@@ -175,7 +175,7 @@ void bind_checker(py::module_& m) {
 
   m.def(
       "check",
-      [](const WholeBodyPlan& plan, const WholeBodyTolerances& tolerances, bool self_collision) {
+      [](WholeBodyPlan plan, WholeBodyTolerances tolerances, bool self_collision) {
         return interruptible([&] { return check(plan, tolerances, self_collision, SignalWatch::stop); });
       },
       py::arg("plan"), py::arg("tolerances") = d, py::arg("self_collision") = false,

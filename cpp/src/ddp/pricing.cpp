@@ -4,6 +4,8 @@
 #include <chrono>
 #include <limits>
 
+#include "mcplan/base/fork.hpp"
+
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -145,7 +147,7 @@ const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctio
 #ifdef _OPENMP
   // Below this many candidates the threads cost more than they save (measured; the paper found the same).
   constexpr std::size_t kWorthThreads = 400;
-  if (steps_.size() > 1 && neighbours_.size() >= kWorthThreads) {
+  if (steps_.size() > 1 && neighbours_.size() >= kWorthThreads && !forked()) {
     // Steps are independent and each writes its own prices: the same numbers for any number of threads.
 #pragma omp parallel for num_threads(static_cast<int>(steps_.size())) schedule(static) reduction(+ : prepare_s, price_s)
     for (int k = 1; k < n; ++k) one_step(k, steps_[omp_get_thread_num()]);

@@ -253,6 +253,32 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
   return out;
 }
 
+namespace {
+
+/// What replan() relies on beyond a plan that is valid in itself.
+void require_fit(const Plan& previous, const Knot& measured, const Robot& robot) {
+  const std::size_t ends = robot.end_effectors.size();
+  const auto require_count = [ends](const std::string& field, std::size_t count) {
+    if (count != ends)
+      throw InvalidPlan(field, "must be one per end-effector (" + std::to_string(ends) + ")", std::to_string(count));
+  };
+  require_count("previous.robot.end_effectors", previous.robot.end_effectors.size());
+  require_count("measured.end_effectors_W", measured.end_effectors_W.size());
+  if (!measured.end_effector_yaw.empty()) require_count("measured.end_effector_yaw", measured.end_effector_yaw.size());
+  const auto require_finite = [](const std::string& field, const Eigen::Ref<const Eigen::VectorXd>& value) {
+    if (!value.allFinite()) throw InvalidPlan("measured." + field, "must be finite numbers", text(value));
+  };
+  require_finite("com_W", measured.com_W);
+  require_finite("com_velocity_W", measured.com_velocity_W);
+  require_finite("base_rpy", measured.base_rpy);
+  require_finite("base_rpy_rate", measured.base_rpy_rate);
+  require_finite("angular_momentum_W", measured.angular_momentum_W);
+  for (const Eigen::Vector3d& end : measured.end_effectors_W) require_finite("end_effectors_W", end);
+  for (double yaw : measured.end_effector_yaw) require_finite("end_effector_yaw", Eigen::VectorXd::Constant(1, yaw));
+}
+
+}  // namespace
+
 SwitchedDdp::SwitchedDdp(const Scene& scene, const Robot& robot, const Options& options)
     : impl_(std::make_unique<Impl>(Impl{scene, robot, options})) {
   // Working the problem out validates everything.
@@ -279,11 +305,8 @@ PlanResult SwitchedDdp::solve(const Plan& warm_start) {
 
 PlanResult SwitchedDdp::replan(const Plan& previous, double t, const Knot& measured) {
   previous.validate();
+  require_fit(previous, measured, impl_->robot);
   const PlanState now = previous.at(t);
-  if (static_cast<int>(measured.end_effectors_W.size()) != previous.end_effector_count())
-    throw InvalidPlan("measured.end_effectors_W",
-                      "must be one per end-effector (" + text(previous.end_effector_count()) + ")",
-                      text(static_cast<int>(measured.end_effectors_W.size())));
   const std::vector<double> times = previous.knot_times();
   int first = now.phase;
   double remaining = times[first + 1] - t;

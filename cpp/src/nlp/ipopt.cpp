@@ -1,6 +1,7 @@
 // The only file that includes Ipopt. Its traps, and what is done about them here, are listed in docs/theory/nlp.md.
 
 #include <IpoptConfig.h>
+#include <pthread.h>
 
 #include <IpIpoptApplication.hpp>
 #include <IpIpoptData.hpp>
@@ -12,7 +13,6 @@
 #include <cstdio>
 #include <exception>
 #include <mutex>
-#include <stdexcept>
 #include <utility>
 
 #include "mcplan/base/error.hpp"
@@ -343,13 +343,19 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
 
 constexpr bool kReentrant = MCPLAN_IPOPT_AT_LEAST(3, 14);
 
-/// Holds the process-wide lock of the solves while it lives: neither Ipopt before 3.14 nor its MUMPS is re-entrant.
+/// The process-wide lock of the solves. A child of fork() gets one of its own: the thread that held its parent's is not
+/// there to let go of it.
+std::timed_mutex* the_lock = new std::timed_mutex;
+[[maybe_unused]] const int at_fork = pthread_atfork(nullptr, nullptr, [] { the_lock = new std::timed_mutex; });
+
+/// Holds the lock while it lives: neither Ipopt before 3.14 nor its MUMPS is re-entrant.
 class Turn {
  public:
-  explicit Turn(const Deadline& deadline) : lock_(mutex(), std::defer_lock) {
+  explicit Turn(const Deadline& deadline) : lock_(*the_lock, std::defer_lock) {
     if (kReentrant) return;
     if (inside())
-      throw std::logic_error("nlp::solve called from within a solve, by a piece, a logger or a stop request");
+      throw InvalidInput("solve", "must not be called from within a solve, by a piece, a logger or a stop request",
+                         "a nested call");
     if (!deadline.limited()) lock_.lock();
     constexpr std::chrono::milliseconds kLook{2};
     while (!lock_.owns_lock() && !lock_.try_lock_for(kLook) && !deadline.passed()) continue;
@@ -364,10 +370,6 @@ class Turn {
   bool mine() const { return kReentrant || lock_.owns_lock(); }
 
  private:
-  static std::timed_mutex& mutex() {
-    static std::timed_mutex one;
-    return one;
-  }
   static bool& inside() {
     static thread_local bool flag = false;
     return flag;

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mcplan/base/error.hpp"
+#include "plan_shape.hpp"
+
 namespace mcplan {
 
 using Eigen::Matrix3d;
@@ -46,6 +49,9 @@ double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_
 }
 
 std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Solid>& solids, int end_effector) {
+  require_shape(plan, solids.size(), false);
+  if (end_effector < 0 || end_effector >= plan.end_effector_count())
+    throw InvalidInput("end_effector", "must be an index below " + text(plan.end_effector_count()), text(end_effector));
   std::vector<FreeStretch> stretches;
   const int n = static_cast<int>(plan.phases.size());
   int before = -1;
@@ -84,11 +90,17 @@ double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_
 
 double clearance_depth(const Plan& plan, const std::vector<Solid>& solids, int end_effector, const FreeStretch& stretch,
                        double sample_s) {
+  require_shape(plan, solids.size());
+  if (stretch.first_phase < 0 || stretch.end_phase > static_cast<int>(plan.phases.size()))
+    throw InvalidInput("stretch", "must be a range of phases (0 to " + std::to_string(plan.phases.size()) + ")",
+                       text(stretch.first_phase) + " to " + text(stretch.end_phase));
+  if (end_effector < 0 || end_effector >= plan.end_effector_count())
+    throw InvalidInput("end_effector", "must be an index below " + text(plan.end_effector_count()), text(end_effector));
   double worst = 0.0, before = 0.0;
   for (int k = stretch.first_phase; k < stretch.end_phase; ++k) {
     const double duration = plan.phases[k].duration;
-    const int samples = std::max(1, static_cast<int>(std::ceil(duration / sample_s)));
-    for (int i = 0; i <= samples; ++i) {
+    const int samples = samples_of(plan.phases[k], sample_s);
+    for (int i = 0; samples > 0 && i <= samples; ++i) {
       const double tau = duration * i / samples;
       const PlanState state = plan.at_phase(k, tau);
       worst = std::max(

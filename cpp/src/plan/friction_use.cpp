@@ -6,18 +6,19 @@
 
 #include "mcplan/scene/polygon.hpp"
 #include "phase_state.hpp"
+#include "plan_shape.hpp"
 
 namespace mcplan {
-
 std::map<std::string, double> friction_use(const Plan& plan, double sample_s) {
+  require_shape(plan, plan.scene.surfaces.size());
   std::vector<Eigen::Vector3d> normals;
   for (const Surface& surface : plan.scene.surfaces) normals.push_back(Polygon(surface.vertices_W).normal_W());
   std::map<std::string, double> use;
   for (std::size_t k = 0; k < plan.phases.size(); ++k) {
     const PhaseFrame frame = phase_frame(plan, static_cast<int>(k));
     const double duration = plan.phases[k].duration;
-    const int samples = std::max(1, static_cast<int>(std::ceil(duration / sample_s)));
-    for (int i = 0; i <= samples; ++i) {
+    const int samples = samples_of(plan.phases[k], sample_s);
+    for (int i = 0; samples > 0 && i <= samples; ++i) {
       const PlanState state = state_in_phase(plan, frame, duration * i / samples);
       for (std::size_t l = 0; l < state.end_effectors.size(); ++l) {
         const EndEffectorState& end = state.end_effectors[l];

@@ -1,12 +1,12 @@
 #include "mcplan/plan/loads.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/scene/polygon.hpp"
 #include "phase_state.hpp"
+#include "plan_shape.hpp"
 
 namespace mcplan {
 namespace {
@@ -39,7 +39,7 @@ Loads loads(const Plan& plan, double sample_s) {
   for (int k = 0; k < static_cast<int>(plan.phases.size()); ++k) {
     const PhaseFrame frame = phase_frame(plan, k);
     const double duration = plan.phases[k].duration;
-    const int samples = std::max(1, static_cast<int>(std::ceil(duration / sample_s)));
+    const int samples = samples_of(plan.phases[k], sample_s);
     for (int i = 0; i <= samples; ++i) {
       const PlanState state = state_in_phase(plan, frame, duration * i / samples);
       out.angular_momentum = std::max(out.angular_momentum, state.angular_momentum_W.norm());

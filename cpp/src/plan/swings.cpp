@@ -1,6 +1,7 @@
 #include "mcplan/plan/swings.hpp"
 
 #include "mcplan/plan/clearance.hpp"
+#include "plan_shape.hpp"
 
 namespace mcplan {
 namespace {
@@ -15,6 +16,7 @@ bool touches(const Plan& plan, int k, int end_effector) {
 
 void choose_swings(Plan& plan) {
   plan.swings.clear();
+  require_shape(plan, plan.scene.surfaces.size());
   const std::vector<Solid> solids = solids_of(plan.scene);
   for (int e = 0; e < plan.end_effector_count(); ++e)
     for (const FreeStretch& stretch : free_stretches(plan, solids, e)) {

@@ -67,8 +67,10 @@ void validate_phase(const Phase& phase, int ends, int surfaces, const std::strin
                       text(static_cast<int>(phase.contacts.size())));
   if (!phase.has_points() && phase.intervals != 0)
     throw InvalidPlan(field + ".intervals", "must be 0 where the law has no forces at points", text(phase.intervals));
-  if (phase.has_points() && phase.intervals < 1)
-    throw InvalidPlan(field + ".intervals", "must be at least 1 where forces act at points", text(phase.intervals));
+  if (phase.has_points() && (phase.intervals < 1 || phase.intervals > Phase::max_intervals))
+    throw InvalidPlan(field + ".intervals",
+                      "must lie in [1, " + text(Phase::max_intervals) + "] where forces act at points",
+                      text(phase.intervals));
   for (int l = 0; l < ends; ++l)
     validate_contact(phase, phase.contacts[l], surfaces, field + ".contacts[" + std::to_string(l) + "]");
 }

@@ -5,12 +5,15 @@
 #include <limits>
 #include <utility>
 
+#include "mcplan/base/error.hpp"
+
 namespace mcplan {
 
 using Eigen::Vector3d;
 
 Polygon::Polygon(std::vector<Vector3d> vertices_W) : vertices_(std::move(vertices_W)) {
   const int n = edge_count();
+  if (n < 3) throw InvalidInput("vertices", "needs at least 3 points", text(n));
   // Newell's sum: robust for slightly non-planar input and independent of the first vertex.
   Vector3d sum = Vector3d::Zero();
   for (int i = 0; i < n; ++i) sum += (vertices_[i] - vertices_[0]).cross(vertices_[(i + 1) % n] - vertices_[0]);

@@ -11,6 +11,8 @@ namespace mcplan {
 /// or not its surface demands a friction cone: on a surface that may be held it says what a mere push would need.
 /// Infinite where the force pulls. Of forces
 /// at points their sum counts. Forces below 1e-3 N are left out; sampled every `sample_s` [s].
+/// Throws InvalidPlan where sizes or indices do not
+/// fit together, InvalidInput for a sampling that is not positive or too fine. Phases without a duration are left out.
 std::map<std::string, double> friction_use(const Plan& plan, double sample_s = 0.005);
 
 }  // namespace mcplan

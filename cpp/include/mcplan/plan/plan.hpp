@@ -36,6 +36,8 @@ struct Contact {
 
 /// A stretch of time with constant contacts.
 struct Phase {
+  static constexpr int max_intervals = 100000;
+
   double duration = 0.0;          ///< [s]
   std::vector<Contact> contacts;  ///< one per end-effector
   ForceLaw law = ForceLaw::pendulum;
@@ -125,10 +127,12 @@ class Plan {
   std::vector<std::vector<int>> contact_sequence() const;
 
   /// State at time t [s] in [0, duration], in closed form. At a knot the phase that begins there is meant (the last
-  /// one at the end). Throws InvalidInput outside.
+  /// one at the end). Throws InvalidInput outside, InvalidPlan where what is asked for does not fit together (this is
+  /// no validate(): what the instant does not need is not looked at).
   PlanState at(double t) const;
 
-  /// State at `since_start` [s] after the start of phase k: like at(), but says which side of a knot is meant.
+  /// State at `since_start` [s] in [0, duration] after the start of phase k: like at(), but says which side of a knot
+  /// is meant. Throws as at().
   PlanState at_phase(int k, double since_start) const;
 
   /// Throws InvalidPlan when sizes or indices do not fit together or a number is not finite.

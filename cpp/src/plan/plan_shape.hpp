@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+
+#include "mcplan/plan/plan.hpp"
+
+namespace mcplan {
+
+/// Throws InvalidPlan when sizes or indices do not fit together. Says nothing of the numbers: a planner that ends with
+/// numbers that are not finite still gets an answer about its plan. `surfaces`: how many there are. Swings are left out
+/// with `with_swings` false.
+void require_shape(const Plan& plan, std::size_t surfaces, bool with_swings = true);
+
+/// Samples of a phase in equal steps no longer than sample_s, at least 1; 0 for a phase without a duration. Throws
+/// InvalidInput for a sampling that is not positive or cuts the phase into more than 1e7.
+int samples_of(const Phase& phase, double sample_s);
+
+}  // namespace mcplan
