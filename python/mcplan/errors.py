@@ -122,9 +122,11 @@ class UnknownName(ValueError):
     Attributes:
         name: The name asked for.
         legal: The names that exist.
+        hint: What the name may mean instead: a sentence and a space, or nothing.
     """
 
     kind = "name"
+    hint = ""
 
     def __init__(self, name: str, legal: Sequence[str]) -> None:
         super().__init__(name, legal)
@@ -133,7 +135,7 @@ class UnknownName(ValueError):
     def __str__(self) -> str:
         return (
             f"no {self.kind} {self.name!r} and no file of that name. "
-            f"{did_you_mean(self.name, self.legal)}Built-in: {', '.join(self.legal)}"
+            f"{self.hint or did_you_mean(self.name, self.legal)}Built-in: {', '.join(self.legal)}"
         )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import signal
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import pytest
 
@@ -14,13 +14,14 @@ from mcplan.cli import main
 from mcplan.cli.track_text import Progress
 from mcplan.tracking import Measures, Recording, TrackingResult
 from mcplan.tracking.planar import PlanarMeasures
+from reference_solutions import reference_plan
 from standing import standing_plan
 
 for name in ("mujoco", "pinocchio", "proxsuite", "example_robot_data"):
     pytest.importorskip(name)
 
 BESIDES = {"plan", "scene", "robot", "duration_s", "torque_joint", "interrupted", "feasible", "verdict"}
-BESIDES |= {"options", "version"}
+BESIDES |= {"options", "version", "followed"}
 
 
 def run(capsys, *words) -> tuple[int, str, str]:
@@ -129,7 +130,7 @@ def test_whole_body_plans_have_their_measures_under_the_same_keys(capsys, wheel)
     data = strict(out)
     assert code == 0
     assert set(data) == keys(Measures) | keys(PlanarMeasures) | BESIDES
-    assert (data["fell"], data["completed"], data["com_rms_m"], data["feasible"]) == (False, True, None, None)
+    assert (data["fell"], data["completed"], data["com_rms_m"], data["feasible"]) == (False, True, None, True)
     assert (data["scene"], data["robot"]) == ("cartwheel", "climber9")
 
 
@@ -140,10 +141,12 @@ def test_what_the_robot_exceeds_is_warned_of_before_it_is_simulated_all_the_same
     plan.save(path)
     code, out, err = run(capsys, path)
     assert code == 0 and "followed to the end" in out
-    assert err.count("\n") == 1 and err.startswith(
+    # Below it a slow machine may be told how far the simulation is.
+    assert err.count("warning") == 1 and err.startswith(
         "warning: talos cannot follow the plan: mass at 0.00 s: 0.2, limit 0.1"
     )
-    assert run(capsys, path, "--no-check")[2] == "" == run(capsys, path, "--quiet")[2]
+    assert "warning" not in run(capsys, path, "--no-check")[2]
+    assert run(capsys, path, "--quiet")[2] == ""
 
 
 def test_a_posture_out_of_reach_is_an_error(capsys, file, tmp_path):
@@ -188,8 +191,9 @@ def test_malformed_pushes_are_one_line_that_names_the_field(capsys, file, push, 
     ("words", "message"),
     [
         (("--robot", "tallos"), "no robot 'tallos' and no file of that name. Did you mean 'talos'?"),
-        (("--robot", "humanoid44"), "humanoid44: urdf: must name a URDF: this robot has no joints"),
-        (("--robot", "anymal"), "anymal: end_effectors: must have the plan's 'right_foot', got rf_foot, "),
+        (("--robot", "humanoid44"), "this robot has no joints; plan for one that has (--robot): g1, talos"),
+        (("--robot", "anymal"), "must have the plan's 'right_foot' (--robot: g1, talos), got rf_foot, "),
+        (("--robot", "walker9"), "walker9 is a planar robot: it comes with its motions, for mcplan sip. Built-in:"),
         (("--mass-scale", "9"), "mass_scale: must lie in 0.2 to 5, got 9.0"),
         (("--friction", "0"), "friction_scale: must lie above 0 and at most 10, got 0.0"),
         (("--ground-shift", "1"), "ground_shift_m: must lie in -0.2 to 0.2, got 1.0"),
@@ -205,7 +209,7 @@ def test_malformed_pushes_are_one_line_that_names_the_field(capsys, file, push, 
 )
 def test_what_cannot_be_done_is_said_before_simulating(capsys, file, monkeypatch, words, message):
     monkeypatch.setattr("mcplan.tracking.runner._run", lambda *_: pytest.fail("it simulates"))
-    assert one_line_error(run(capsys, file, *words)).startswith(message)
+    assert message in one_line_error(run(capsys, file, *words))
 
 
 @pytest.mark.parametrize("words", [("--robot", "talos"), ("--assist",), ("--push", "40,0.2,0.3,90"), ("--seed", "3")])
@@ -231,3 +235,37 @@ def test_missing_packages_are_one_line(capsys, file, monkeypatch):
     assert one_line_error(run(capsys, file)) == message
     with pytest.raises(mp.errors.MissingExtra, match="mcplan.track needs mujoco"):
         mp.track(file)
+
+
+@pytest.fixture(scope="module")
+def plain_wheel(tmp_path_factory):
+    """A cartwheel as mcplan sip plans it by default: not made to be tracked."""
+    path = tmp_path_factory.mktemp("track") / "plain.npz"
+    reference_plan("cartwheel", "optimised_per_point").save(path)
+    return path
+
+
+def test_a_plan_not_made_to_be_tracked_is_said_to_be_so_and_other_forces_are_no_success(capsys, plain_wheel):
+    code, out, err = run(capsys, plain_wheel)
+    assert code == 1
+    assert "warning: the plan was not made to be tracked: its contacts move by up to 1.7 mm" in err
+    assert "plan it by mcplan sip --trackable" in err and "to be followed" in out
+    assert "moved as planned to the end, 2.84 s, by other contact forces" in out.splitlines()[0]
+    code, out, err = run(capsys, plain_wheel, "--json")
+    data = strict(out)
+    assert (code, err) == (1, "")
+    assert (data["completed"], data["followed"], data["feasible"]) == (True, False, False)
+    assert data["force_rms"] > 0.3 and "--trackable" in data["verdict"]
+
+
+def test_a_plan_made_to_be_tracked_gets_no_warning(capsys, wheel):
+    code, out, err = run(capsys, wheel)
+    assert code == 0 and "warning" not in err and "to be followed" not in out
+
+
+def test_forces_off_by_more_than_a_quarter_are_other_forces(capsys, wheel, monkeypatch):
+    result = tracked_cartwheel.tracked()
+    for share, code in ((0.24, 0), (0.26, 1)):
+        told = replace(result, measures=replace(result.measures, force_rms=share))
+        monkeypatch.setattr("mcplan.tracking.choice.track_any", lambda *_, told=told: told)
+        assert run(capsys, wheel)[0] == code

@@ -11,11 +11,21 @@ from mcplan.cli.terminal import say
 
 if TYPE_CHECKING:
     from mcplan import Scene, Stance
+    from mcplan.view import Page
 
 
 def scenes(
     name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Built-in name or TOML file.")] = None,
     html: Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the scene on a page.")] = None,
+    robot: Annotated[
+        str | None,
+        typer.Option(
+            "--robot",
+            metavar="R",
+            help="With --html: who stands at start and goal, built-in name or TOML file. "
+            "Default: humanoid44, if it can stand there.",
+        ),
+    ] = None,
     seed: Annotated[
         int | None, typer.Option("--seed", metavar="SEED", help="Other patches: for random_patches alone.")
     ] = None,
@@ -23,9 +33,7 @@ def scenes(
 ) -> None:
     """List the built-in scenes, or print, draw or copy one.
 
-    Example: mcplan scenes gap_with_rail --html rail.html
-
-    Example: mcplan scenes random_patches --seed 3 -o my.toml
+    Example: mcplan scenes gap_with_rail --html rail.html --robot talos, mcplan scenes random_patches --seed 3 -o my.toml
     """
     from mcplan.cli.table import print_table
     from mcplan.errors import InvalidInput
@@ -33,11 +41,13 @@ def scenes(
     from mcplan.files.scenes import list_scenes, load_scene, save_scene
 
     if name is None:
-        for option, value in (("--html", html), ("--seed", seed), ("--output", output)):
+        for option, value in (("--html", html), ("--robot", robot), ("--seed", seed), ("--output", output)):
             if value is not None:
                 raise InvalidInput(option, "needs the NAME of a scene")
         print_table([entry, load_scene(entry).description] for entry in list_scenes())
         return
+    if robot is not None and html is None:
+        raise InvalidInput("--robot", "needs --html")
     require_target("--output", output, TOML)
     require_target("--html", html, PAGE)
     scene = load_scene(name) if seed is None else _seeded(name, seed)
@@ -52,10 +62,22 @@ def scenes(
     from mcplan.extras import require
 
     require("mcplan scenes --html", "view", "meshcat")
+    _page(scene, robot).save_html(html)
+    say(f"Wrote {html}")
+
+
+def _page(scene: Scene, robot: str | None) -> Page:
+    """The scene with the robot asked for, else with the paper's humanoid or, where that cannot stand, with none."""
+    from mcplan.errors import InvalidScene
+    from mcplan.files.robots import load_robot
     from mcplan.view import show_scene
 
-    show_scene(scene).save_html(html)
-    say(f"Wrote {html}")
+    if robot is not None:
+        return show_scene(scene, load_robot(robot))
+    try:
+        return show_scene(scene, load_robot("humanoid44"))
+    except InvalidScene:
+        return show_scene(scene)
 
 
 def _seeded(name: str, seed: int) -> Scene:

@@ -12,6 +12,7 @@ import typer
 if TYPE_CHECKING:
     from mcplan._core import Plan, Robot, WholeBodyPlan
     from mcplan.tracking.findings import Feasibility
+    from mcplan.tracking.planar import Suitability
 
 
 def track(
@@ -61,8 +62,9 @@ def track(
 
     What the options say of mass, friction, ground and pushes is not known to the controller. Whole-body plans are followed
     by their planar robots, without pushes, assistance and seed. Exit code 0 if the robot came to the end of the plan, 1 if
-    it fell or left the plan; the run is drawn and saved either way. Ctrl-C ends the run: what was simulated is saved
-    (--save), nothing is drawn, and the exit code is 130.
+    it fell, left the plan, or followed a whole-body plan by contact forces that are over a quarter off; the run is drawn
+    and saved either way. Ctrl-C ends the run: what was simulated is saved (--save), nothing is drawn, and the exit code
+    is 130.
 
     Example: mcplan plan flat --robot talos --sole-inside 0.9 -o plan.npz
 
@@ -116,16 +118,17 @@ def track(
         print(printable(f"Saved {', '.join(written)}"))
     if interrupted:
         return CODE
-    return 0 if result.completed else 1
+    return 0 if result.followed else 1
 
 
-def _feasibility(plan: Plan | WholeBodyPlan, robot: Robot | None) -> Feasibility | None:
-    """What is known of a plan and a robot before simulating them; None: they are left to the simulation."""
+def _feasibility(plan: Plan | WholeBodyPlan, robot: Robot | None) -> Feasibility | Suitability:
+    """What is known of a plan and a robot before simulating them."""
     from mcplan._core import Plan
     from mcplan.tracking.feasibility import assess
+    from mcplan.tracking.planar.suitability import suitability
     from mcplan.tracking.runner import robot_for
 
-    return assess(plan, robot_for(plan, robot)) if isinstance(plan, Plan) else None
+    return assess(plan, robot_for(plan, robot)) if isinstance(plan, Plan) else suitability(plan)
 
 
 def _require_planar(robot: str | None, assist: bool, pushes: list[Any], seed: int) -> None:
@@ -136,5 +139,6 @@ def _require_planar(robot: str | None, assist: bool, pushes: list[Any], seed: in
     for option, present in given.items():
         if present:
             raise InvalidInput(
-                option, "needs a plan of mcplan plan or mcplan rhp; whole-body plans are tracked without"
+                option,
+                "needs a plan of mcplan plan or mcplan rhp; whole-body plans are tracked without, by their own robot",
             )

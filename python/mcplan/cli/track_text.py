@@ -13,7 +13,7 @@ from mcplan.cli.terminal import control, printable
 if TYPE_CHECKING:
     from mcplan.tracking import TrackingResult
     from mcplan.tracking.findings import Feasibility
-    from mcplan.tracking.planar import PlanarResult
+    from mcplan.tracking.planar import PlanarResult, Suitability
 
 #: [s] between two states of the line: in a terminal, where it is written over, and in a file.
 _TERMINAL_S, _FILE_S = 0.1, 5.0
@@ -63,7 +63,9 @@ class Progress:
         self.width = len(text)
 
 
-def summary(result: TrackingResult | PlanarResult, plan: Path, feasibility: Feasibility | None) -> dict[str, Any]:
+def summary(
+    result: TrackingResult | PlanarResult, plan: Path, feasibility: Feasibility | Suitability | None
+) -> dict[str, Any]:
     """What ``--json`` prints: the same keys for every plan, null where a measure makes no sense, and for whole-body plans
     their own measures besides."""
     from mcplan._core import __version__
@@ -71,6 +73,7 @@ def summary(result: TrackingResult | PlanarResult, plan: Path, feasibility: Feas
 
     common = {
         "interrupted": result.interrupted,
+        "followed": result.followed,
         "feasible": None if feasibility is None else feasibility.ok(),
         "verdict": None if feasibility is None else feasibility.verdict,
         "options": asdict(result.options),

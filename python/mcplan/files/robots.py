@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -27,14 +27,34 @@ def list_robots() -> list[str]:
     return builtin.names("robots")
 
 
+def list_robots_with(end_effectors: Iterable[str], joints: bool) -> list[str]:
+    """Names of the built-in robots that have end-effectors of these names, and, if asked for, a URDF."""
+    wanted = set(end_effectors)
+    robots = {name: load_robot(name) for name in list_robots()}
+    return [
+        name
+        for name, robot in robots.items()
+        if wanted <= {end.name for end in robot.end_effectors} and (robot.urdf or not joints)
+    ]
+
+
 def load_robot(source: str | Path) -> Robot:
     """Load a robot by its built-in name or from a TOML file; see mcplan.load_robot."""
-    path = builtin.find(source, "robots", UnknownRobot)
+    path = _find(source)
     data = read_toml(path, InvalidRobot)
     data.setdefault("name", path.stem)
     robot = robot_from_dict(data, source=str(path), folder=path.parent)
     require_robot_meant(robot, str(path))
     return robot
+
+
+def _find(source: str | Path) -> Path:
+    try:
+        return builtin.find(source, "robots", UnknownRobot)
+    except UnknownRobot as error:
+        if str(source) in builtin.names("planar_robots"):
+            error.hint = f"{source} is a planar robot: it comes with its motions, for mcplan sip. "
+        raise
 
 
 def save_robot(robot: Robot, path: str | Path, header: str = "") -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mcplan.errors import InvalidRobot, shown
 from mcplan.extras import require
-from mcplan.files.robots import PACKAGE
+from mcplan.files.robots import PACKAGE, list_robots_with
 from mcplan.files.urdf_reading import build_model, package_folders, read_urdf
 
 if TYPE_CHECKING:
@@ -49,6 +49,12 @@ class UrdfModel:
     path: Path
 
 
+def _others(robot: Robot) -> str:
+    """Which robots to take instead of one without joints."""
+    names = list_robots_with([end.name for end in robot.end_effectors], joints=True)
+    return f"; plan for one that has (--robot): {', '.join(names)}" if names else ""
+
+
 def load_model(robot: Robot) -> UrdfModel:
     """Read the URDF of a robot.
 
@@ -57,7 +63,7 @@ def load_model(robot: Robot) -> UrdfModel:
         InvalidRobot: The robot names no URDF, it cannot be read, or it lacks a frame or joint that the robot names.
     """
     if not robot.urdf:
-        raise InvalidRobot("urdf", "must name a URDF: this robot has no joints", "''", robot.name)
+        raise InvalidRobot("urdf", f"must name a URDF: this robot has no joints{_others(robot)}", "", robot.name)
     require(f"the joints of {robot.name}", "view", "pinocchio")
     import pinocchio as pin  # type: ignore[import-untyped]
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from mcplan.errors import InvalidInput, InvalidRobot
 from mcplan.extras import require
+from mcplan.files.robots import list_robots_with
 from mcplan.kinematics.inverse_kinematics import Postures, follow, has_sole
 from mcplan.kinematics.samples import Samples, knots_and_between, sample_at
 from mcplan.kinematics.smooth_postures import nearest, smoothed
@@ -101,7 +102,10 @@ def _matched(plan: Plan, loaded: UrdfModel, samples: Samples) -> tuple[UrdfModel
     mine = [robot.end_effectors[i].name for i in kept]
     for i, name in enumerate(names):
         if name not in mine and (samples.surfaces[:, i] >= 0).any():
-            raise InvalidRobot("end_effectors", f"must have {name!r}, which the plan puts down", repr(mine), robot.name)
+            others = list_robots_with([end.name for end in plan.robot.end_effectors], joints=True)
+            take = f" (--robot: {', '.join(others)})" if others else ""
+            own = ", ".join(end.name for end in robot.end_effectors)
+            raise InvalidRobot("end_effectors", f"must have {name!r}, which the plan puts down{take}", own, robot.name)
     order = [names.index(name) for name in mine]
     shared = copy.copy(robot)
     shared.end_effectors = [robot.end_effectors[i] for i in kept]

@@ -31,6 +31,11 @@ class TrackingResult:
         """Whether the run went to its end without a fall."""
         return not (self.measures.fell or self.interrupted)
 
+    @property
+    def followed(self) -> bool:
+        """The same; of planar robots more is asked, see PlanarResult.followed."""
+        return self.completed
+
     def save(self, path: str | Path) -> None:
         """Write everything, the plan included, to an .npz file, which is complete or not there at all."""
         from .run_files import save_run

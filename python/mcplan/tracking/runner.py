@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from mcplan._core import ForceLaw, Plan, Robot
 from mcplan.errors import InvalidInput, InvalidRobot
 from mcplan.extras import require
+from mcplan.files.robots import list_robots_with
 from mcplan.kinematics.inverse_kinematics import follow
 from mcplan.kinematics.samples import sample_at
 from mcplan.kinematics.urdf_model import UrdfModel
@@ -112,7 +113,9 @@ def robot_for(plan: Plan, robot: Robot | str | Path | None) -> Robot:
     own = {end.name: end for end in robot.end_effectors}
     for end in plan.robot.end_effectors:
         if end.name not in own:
-            rule = f"must have the plan's {end.name!r}"
+            others = list_robots_with([e.name for e in plan.robot.end_effectors], joints=True)
+            take = f" (--robot: {', '.join(others)})" if others else ""
+            rule = f"must have the plan's {end.name!r}{take}"
             raise InvalidRobot("end_effectors", rule, ", ".join(own) or "none", robot.name)
     body = Robot(**{key: getattr(robot, key) for key in ("name", "mass", "inertia", "com_height", "swing_height")})
     body.urdf, body.posture = robot.urdf, dict(robot.posture)

@@ -19,7 +19,13 @@ COM = "#7A1F5C"
 GROUND = "#DADDE2"
 WALL = "#9DB4CC"
 GRASP = "#2AA889"
+#: What only hands may touch.
+PAD = "#DDC94B"
 OUTLINE = "#8A919C"
+#: Axes of the world, as everywhere: x, y, z. Outward normals; start and goal of a scene.
+AXES = ("#C8102E", "#1A8F3C", "#1F5FD1")
+NORMAL = "#7A5C00"
+START, GOAL = "#1A7F37", "#8250DF"
 BODY = "#A9B2BD"
 LIMB = "#98A2AE"
 HEAD = "#B9C1CA"

@@ -15,6 +15,18 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
+#: [m] CoM height for which margins are written, and size below which a surface is shown as a whole.
+HEIGHT, SMALL = 0.7, 2.5
+
+
+def scale_of(robot: Robot | None) -> float:
+    """What margins are multiplied by: 1 for a robot whose CoM is 0.7 m high, but also for others of about that size."""
+    if robot is None:
+        return 1.0
+    ratio = float(robot.com_height) / HEIGHT
+    return 1.0 if 0.5 <= ratio <= 2.0 else ratio
+
+
 @dataclass(frozen=True)
 class Extent:
     """A vertical box, turned to the direction of travel, outside of which surfaces are cut off."""
@@ -41,7 +53,9 @@ class Extent:
 
 
 def extent_of(scene: Scene, robot: Robot | None, samples: Samples | None, length: float, width: float) -> Extent:
-    """The box around the motion (or around start and goal) with margins of `length` and `width` [m]."""
+    """The box around the motion (or around start and goal) with margins of `length` and `width` [m], for a robot of
+    usual size."""
+    scale = scale_of(robot)
     points = [np.asarray(s.position_W, float)[:2] for s in (scene.start, scene.goal)]
     if samples is not None:
         points += list(samples.com_W[:, :2]) + list(samples.positions_W[:, :, :2].reshape(-1, 2))
@@ -50,17 +64,19 @@ def extent_of(scene: Scene, robot: Robot | None, samples: Samples | None, length
         travel = points[1] - points[0]
     distance = float(np.linalg.norm(travel))
     yaw = float(scene.start.yaw)
-    forward = travel / distance if distance > 0.1 else np.array([np.cos(yaw), np.sin(yaw)])
+    forward = travel / distance if distance > 0.1 * scale else np.array([np.cos(yaw), np.sin(yaw)])
     # Surfaces that are small belong to the picture as a whole: pads, stones, treads, walls.
     for surface in scene.surfaces:
         outline = np.asarray(surface.vertices_W, float)[:, :2]
-        if np.ptp(outline, axis=0).max() < 2.5:
+        if np.ptp(outline, axis=0).max() < SMALL * scale:
             points += list(outline)
     spread = np.array(points)
     along, across = spread @ forward, spread @ np.array([-forward[1], forward[0]])
     middle = np.array([along.min() + along.max(), across.min() + across.max()]) / 2.0
     centre = middle[0] * forward + middle[1] * np.array([-forward[1], forward[0]])
-    return Extent(centre, forward, 0.5 * float(np.ptp(along)) + length, 0.5 * float(np.ptp(across)) + width)
+    return Extent(
+        centre, forward, 0.5 * float(np.ptp(along)) + scale * length, 0.5 * float(np.ptp(across)) + scale * width
+    )
 
 
 def below(polygon: Array, height: Array) -> Array:

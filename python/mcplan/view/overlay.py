@@ -7,33 +7,76 @@ from typing import TYPE_CHECKING
 
 from mcplan.kinematics.samples import Interval
 
-from .colours import COM, GRASP
+from .annotations import length_text
+from .colours import COM, GRASP, PAD
+from .scene_drawing import is_pad
+from .stage import node
 
 if TYPE_CHECKING:
     from mcplan import Robot, Scene
     from mcplan._core import PlanarMotion, PlanarRobot
 
 
+#: Buttons below the timeline.
+CONTROLS = (
+    '<div id="controls"><button id="before" title="phase before (shift and left)">|&#9664;</button>'
+    '<button id="play" title="play, pause (space)"></button>'
+    '<button id="after" title="next phase (shift and right)">&#9654;|</button><span id="clock"></span>'
+    '<select id="speed" title="speed (+, -)" aria-label="speed">'
+    + "".join(
+        f'<option value="{s:g}"{" selected" if s == 1 else ""}>{s:g}&times;</option>' for s in (0.1, 0.25, 0.5, 1, 2)
+    )
+    + '</select><span id="phase"></span><span id="keys">space: play &middot; &larr; &rarr;: frames, with shift phases '
+    "&middot; + &minus;: speed &middot; l: legend &middot; r: view</span></div>"
+)
+
+
 def caption(title: str, lines: list[str], entries: list[str]) -> str:
     """Panel at the top left: a title, lines of text, legend entries."""
     text = "".join(f"<p>{escape(line)}</p>" for line in lines)
-    return f'<div class="panel" id="caption"><h1>{escape(title)}</h1>{text}{"".join(entries)}</div>'
+    head = (
+        f'<div id="head"><h1 title="{escape(title)}">{escape(title)}</h1><svg id="gizmo" viewBox="0 0 46 46"></svg>'
+        '<button id="fold" title="legend (l)" aria-label="legend">&#10005;</button></div>'
+    )
+    return f'<div class="panel" id="caption">{head}<div id="facts">{text}{"".join(entries)}</div></div>'
 
 
 def plan_legend(scene: Scene, robot: Robot, colours: list[str], newton_per_metre: float) -> list[str]:
     """Legend entries for a plan; a click hides what they name."""
     entries = [entry("com paths/com", "ball", COM, "centre of mass")]
     for end, colour in zip(robot.end_effectors, colours, strict=True):
-        entries.append(entry(f"paths/{end.name} contacts/{end.name}", "line", colour, end.name.replace("_", " ")))
-    entries.append(entry("forces", "arrow", "", f"contact force ({0.1 * newton_per_metre:.0f} N: 10 cm)"))
+        own = f"paths/{node(end.name)} contacts/{node(end.name)}"
+        entries.append(entry(own, "line", colour, end.name.replace("_", " ")))
+    entries.append(entry("forces", "arrow", "", force_text("contact force", newton_per_metre)))
     entries.append(entry("robot", "", "#98a2ae", "robot"))
-    return entries + scene_legend(scene)
+    names = entry(":surface", "text", "", "names of surfaces", shown=False)
+    return [*entries, *scene_legend(scene), *space_legend(), names]
 
 
 def scene_legend(scene: Scene) -> list[str]:
     """Legend entries for surfaces that are special."""
-    grasps = [surface.name for surface in scene.surfaces if surface.grasp]
-    return [entry(" ".join(f"scene/{name}" for name in grasps), "", GRASP, "may be held")] if grasps else []
+    special = (
+        ([s.name for s in scene.surfaces if s.grasp], GRASP, "may be held"),
+        ([s.name for s in scene.surfaces if is_pad(s)], PAD, "for hands"),
+    )
+    return [
+        entry(" ".join(f"scene/{node(name)}" for name in names), "", colour, text)
+        for names, colour, text in special
+        if names
+    ]
+
+
+def space_legend() -> list[str]:
+    """Legend entry of the world's axes and the scale bar."""
+    return [entry("axes scale :axis :scale", "text", "", "world axes, scale")]
+
+
+def force_text(what: str, newton_per_metre: float) -> str:
+    """How long an arrow of a force is."""
+    length = 0.1
+    while not 5.0 <= newton_per_metre * length < 5e4 and 1e-9 < length < 1e9:
+        length *= 10.0 if newton_per_metre * length < 5.0 else 0.1
+    return f"{what} ({newton_per_metre * length:.3g} N: {length_text(length)})"
 
 
 def timeline(
@@ -81,21 +124,38 @@ def timeline(
         f'width: {100.0 * (end_s - start) / duration_s:.3f}%; background: {colour}" title="{escape(text)}"></div>'
         for start, end_s, colour, text in marks or []
     )
-    step = next(s for s in (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 1e9) if duration_s / s <= 12)
-    ticks = [i * step for i in range(1, int(duration_s / step) + 1)]
-    labels = "".join(
-        f'<span style="left: {100.0 * t / duration_s:.3f}%">{t:g} s</span>' for t in ticks if t < 0.99 * duration_s
-    )
     return (
-        f'<div class="panel" id="timeline"><div id="names">{"".join(names)}<button id="play"></button></div>'
-        f'<div id="tracks">{"".join(tracks)}{events}<div id="axis">{labels}</div><div id="cursor"></div></div></div>'
+        f'<div class="panel" id="timeline"><div id="bars"><div id="names">{"".join(names)}</div><div id="tracks">'
+        f'{"".join(tracks)}{events}<div id="axis">{_ticks(duration_s)}</div><div id="cursor"></div></div></div>'
+        f"{CONTROLS}</div>"
     )
 
 
-def entry(nodes: str, shape: str, colour: str, text: str) -> str:
-    """Legend entry that hides and shows nodes; its swatch is a "line", "ball", "arrow", or a patch."""
+def _ticks(duration_s: float) -> str:
+    """Labels of the time axis; where there is little room the page shows every third."""
+    steps = [r * 10.0**p for p in range(-4, 7) for r in (1, 2, 5)]
+    step = next((s for s in steps if duration_s / s <= 12), duration_s)
+    ticks = [(i, i * step) for i in range(1, int(duration_s / step) + 1) if i * step < 0.985 * duration_s]
+    return "".join(
+        f"<span{' class=major' if i % 3 == 0 or len(ticks) < 3 else ''} "
+        f'style="left: {100.0 * t / duration_s:.3f}%">{t:g} s</span>'
+        for i, t in ticks
+    )
+
+
+def entry(nodes: str, shape: str, colour: str, text: str, shown: bool = True) -> str:
+    """Legend entry that hides and shows nodes, or behind a colon kinds of labels.
+
+    Args:
+        nodes: Their paths, with blanks between.
+        shape: Of its swatch: "line", "ball", "arrow", "text", or "" for a patch.
+        colour: Of the swatch.
+        text: What they are.
+        shown: From the start.
+    """
     style = f' style="background: {colour}"' if colour else ""
+    checked = " checked" if shown else ""
     return (
-        f'<label><input type="checkbox" checked data-nodes="{escape(nodes)}">'
-        f'<span class="swatch {shape}"{style}></span>{escape(text)}</label>'
+        f'<label><input type="checkbox"{checked} data-nodes="{escape(nodes)}">'
+        f'<span class="swatch {shape}"{style}>{"A" if shape == "text" else ""}</span>{escape(text)}</label>'
     )

@@ -6,11 +6,12 @@ import base64
 import importlib.util
 import json
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,13 @@ from mcplan.extras import require
 from mcplan.files.outputs import write_whole
 
 from .snapshot import screenshot
+from .stage import decimals
+
+if TYPE_CHECKING:
+    from .annotations import Label
+
+#: Parts of the page's script, in the order in which they run.
+SCRIPTS = ("page_setup.js", "page_camera.js", "page_labels.js", "page_player.js", "page.js")
 
 
 @dataclass(frozen=True)
@@ -33,6 +41,10 @@ class Page:
         direction_W: From the drawing towards the camera, (3,).
         sun_W: From the drawing towards the light, (3,).
         duration_s: Length of the animation, 0 for none.
+        knots_s: Instants between which one steps by whole phases, first and last included.
+        labels: Texts at points of the drawing.
+        axes: Names of the world's axes; one that means nothing is empty.
+        rate_hz: Of the frames by which one steps.
     """
 
     title: str
@@ -42,14 +54,24 @@ class Page:
     direction_W: NDArray[np.float64]
     sun_W: NDArray[np.float64]
     duration_s: float
+    knots_s: Sequence[float] = ()
+    labels: Sequence[Label] = ()
+    axes: tuple[str, str, str] = ("x", "y", "z")
+    rate_hz: float = 30.0
 
     def html(self) -> str:
         """The page as text. The same drawing gives the same text."""
+        size = float(np.ptp(self.points_W, axis=0).max())
+        digits = decimals(size) - 1
         settings = {
-            "points": np.round(self.points_W, 4).tolist(),
+            "points": np.round(self.points_W, digits).tolist(),
             "direction": np.round(self.direction_W, 4).tolist(),
             "sun": np.round(self.sun_W, 4).tolist(),
             "duration": self.duration_s,
+            "rate": self.rate_hz,
+            "knots": np.round(np.asarray(self.knots_s, float), 6).tolist(),
+            "axes": list(self.axes),
+            "labels": [label.settings(digits) for label in self.labels],
         }
         return _fill(
             _asset("page.html"),
@@ -58,15 +80,18 @@ class Page:
             overlay=self.overlay,
             meshcat=_viewer(),
             commands=base64.b64encode(self.payload).decode("ascii"),
-            settings=json.dumps(settings),
-            script=_asset("page.js"),
+            # Names come from files: none may end the script element that they stand in.
+            settings=json.dumps(settings).replace("<", "\\u003c"),
+            script="\n".join(_asset(name) for name in SCRIPTS),
         )
 
     def save_html(self, path: str | Path) -> Path:
         """Write the page to a file, UTF-8, which is complete or not there at all.
 
-        In a browser, "#t=1.5" behind its address opens it at 1.5 s, standing still; "#bare" hides meshcat's
-        own menu.
+        In a browser the space bar plays and pauses, left and right step by frames, with shift (or up and down) by
+        phases, + and - change the speed, l hides the legend and r goes back to the first view. "#t=1.5" behind the
+        page's address opens it at 1.5 s, standing still; "#speed=0.25" plays it slowly, "#folded" opens it without the
+        legend, "#menu" with meshcat's own menu.
 
         Raises:
             OSError: The file cannot be written.

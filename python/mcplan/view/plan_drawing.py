@@ -11,8 +11,10 @@ from mcplan.kinematics.rotations import pose, with_axis_z
 from mcplan.kinematics.samples import Interval, Samples
 
 from .colours import COM, FORCE
+from .extent import scale_of
 from .figure import Figure
 from .shapes import Mesh, circle, cone, disc, ellipsoid, loft, plate, tube
+from .stage import node
 
 if TYPE_CHECKING:
     from mcplan import Robot, Scene
@@ -37,7 +39,7 @@ def draw_plan(stage: Stage, samples: Samples, scene: Scene, robot: Robot, figure
     stage.mesh("paths/com", tube(samples.com_W, 0.011 * scale), COM, glow=0.25)
     for end, colour in enumerate(colours):
         name = robot.end_effectors[end].name
-        stage.mesh(f"paths/{name}", tube(samples.positions_W[:, end], 0.005 * scale, sides=6), colour, glow=0.25)
+        stage.mesh(f"paths/{node(name)}", tube(samples.positions_W[:, end], 0.005 * scale, sides=6), colour, glow=0.25)
     for number, interval in enumerate(samples.intervals):
         draw_contact(stage, number, interval, samples, robot, colours[interval.end_effector])
     draw_forces(stage, samples, scene, robot)
@@ -48,26 +50,27 @@ def draw_forces(stage: Stage, samples: Samples, scene: Scene, robot: Robot, on_t
     weight, height = float(robot.mass) * float(scene.gravity), float(robot.com_height)
     for number, end in enumerate(robot.end_effectors):
         at, force = samples.pressure_W[:, number], samples.forces_W[:, number]
-        draw_arrow(stage, f"forces/{end.name}", samples.times_s, at, force, weight, height, on_top=on_top)
+        draw_arrow(stage, f"forces/{node(end.name)}", samples.times_s, at, force, weight, height, on_top=on_top)
 
 
 def draw_figure(stage: Stage, samples: Samples, figure: Figure) -> None:
     """Put a robot onto a page; parts that share a motion may share a node."""
     nodes: dict[str, int] = {}
     for number, part in enumerate(figure.parts):
-        node, _, rest = part.name.partition("/")
-        path = f"robot/{node}"
-        stage.mesh(f"{path}/{rest}" if rest else path, part.mesh, part.colour)
-        if node not in nodes:
-            nodes[node] = number
+        body, _, rest = part.name.partition("/")
+        path = f"robot/{node(body)}"
+        stage.mesh(f"{path}/{node(rest)}" if rest else path, part.mesh, part.colour)
+        if body not in nodes:
+            nodes[body] = number
             stage.move(path, samples.times_s, part.poses)
 
 
 def contact_plate(robot: Robot, end: int, margin: float = 0.0) -> Mesh:
-    """Patch [m] that stands for a contact: the sole's rectangle, or a disc for a point."""
+    """Patch [m] that stands for a contact: the sole's rectangle, or a disc for a point; a margin around it is that of a
+    robot of usual size."""
     half_size = np.asarray(robot.end_effectors[end].half_size, float)
     scale = float(robot.com_height) / 0.7
-    thickness = 0.004
+    margin, thickness = margin * scale_of(robot), 0.004 * scale_of(robot)
     if half_size.all():
         return plate((half_size[0] + margin, half_size[1] + margin), thickness)
     return disc(0.035 * scale + margin, thickness)
@@ -85,7 +88,7 @@ def draw_contact(
     """Put a contact onto a page: a plate that lights up while it lasts, and a footprint that stays."""
     end = interval.end_effector
     at = pose(interval.rotation_W, interval.position_W)
-    path = f"contacts/{robot.end_effectors[end].name}/{number}"
+    path = f"contacts/{node(robot.end_effectors[end].name)}/{number}"
     if footprint:
         stage.mesh(f"{path}/print", contact_plate(robot, end), colour, 0.45)
         stage.place(f"{path}/print", at)
@@ -142,7 +145,7 @@ def draw_arrow(
         frames.append(frame)
     rotation = np.array(frames)
     shrink = np.clip(length / (2.0 * head), 1e-3, 1.0)
-    shaft = np.maximum(length - head * shrink, 1e-4)
+    shaft = np.maximum(length - head * shrink, 1e-4 * height)
     seen = length > 0.02 * height
     ring = 0.011 * height * circle(10)
     bar = loft(np.array([np.column_stack([ring, np.full(10, z)]) for z in (0.0, 1.0)]))
@@ -156,6 +159,6 @@ def draw_arrow(
 def draw_standing(stage: Stage, name: str, samples: Samples, figure: Figure, opacity: float) -> None:
     """Put a robot that does not move onto a page, under "stances"."""
     for part in figure.parts:
-        path = f"stances/{name}/{part.name}"
+        path = f"stances/{name}/{node(part.name)}"
         stage.mesh(path, part.mesh, part.colour, opacity)
         stage.place(path, part.poses[0])

@@ -16,6 +16,7 @@ from .planar_figure import Shape, limbs_of
 from .planar_ground import CONE, Slab, cone_outline
 from .planar_samples import PlanarSamples
 from .shapes import Mesh, capsule, ellipsoid, prism, tube
+from .stage import node
 
 if TYPE_CHECKING:
     from mcplan._core import PlanarContact, PlanarRobot, WholeBodyPlan
@@ -55,7 +56,7 @@ def lanes_of(robot: PlanarRobot, size: float) -> list[float]:
 def draw_ground(stage: Stage, slabs: list[Slab], size: float) -> None:
     """Put surfaces onto a page as solid slabs, under "scene"."""
     for slab in slabs:
-        path = f"scene/{slab.name}"
+        path = f"scene/{node(slab.name)}"
         if not len(slab.outline_W):
             continue
         stage.mesh(f"{path}/solid", ground_solid(slab, size), WALL if slab.is_wall else GROUND)
@@ -76,10 +77,10 @@ def draw_body(stage: Stage, samples: PlanarSamples, robot: PlanarRobot, shapes: 
     for i, body in enumerate(robot.bodies):
         own = [shape for shape in shapes if shape.body == i]
         for number, shape in enumerate(own):
-            stage.mesh(f"robot/{body.name}/{number}", limb_solid(shape, size), shape.colour)
+            stage.mesh(f"robot/{node(body.name)}/{number}", limb_solid(shape, size), shape.colour)
         if own:
             stage.move(
-                f"robot/{body.name}",
+                f"robot/{node(body.name)}",
                 samples.times_s,
                 pose(turns(samples.angles[:, i]), into_space(samples.positions_W[:, i])),
             )
@@ -94,7 +95,7 @@ def draw_paths(stage: Stage, samples: PlanarSamples, robot: PlanarRobot, colours
     stage.mesh("paths/com", tube(into_space(samples.com_W), 0.010 * size), COM, glow=0.25, on_top=True)
     for end, (colour, lane) in enumerate(zip(colours, lanes_of(robot, size), strict=True)):
         path = tube(into_space(samples.soles_W[:, end], lane), 0.005 * size, sides=6)
-        stage.mesh(f"paths/{robot.end_effectors[end].name}", path, colour, glow=0.25)
+        stage.mesh(f"paths/{node(robot.end_effectors[end].name)}", path, colour, glow=0.25)
 
 
 def draw_cones(stage: Stage, plan: WholeBodyPlan, intervals: list[Interval], colours: list[str], size: float) -> None:
@@ -110,7 +111,7 @@ def draw_cones(stage: Stage, plan: WholeBodyPlan, intervals: list[Interval], col
             if force.end_effector != interval.end_effector:
                 continue
             wedge = cone_outline(float(surface.angle), float(surface.friction), CONE * size) + force.position_W
-            path = f"cones/{end.name}/{number}/{force.point}"
+            path = f"cones/{node(end.name)}/{number}/{force.point}"
             stage.mesh(path, extruded(wedge, 0.004 * size, lane), colours[interval.end_effector], 0.28, glow=0.4)
             switches = np.unique([0.0, interval.start_s, min(interval.end_s, duration), duration])
             on = (switches >= interval.start_s) & ((switches < interval.end_s) | (interval.end_s >= duration - 1e-9))
@@ -131,7 +132,7 @@ def draw_forces(stage: Stage, samples: PlanarSamples, robot: PlanarRobot, weight
             lane = lanes[end] - 0.06 * size
             start = into_space(at[nearest], lane)
             draw_arrow(
-                stage, f"forces/{effector.name}/{point}", samples.times_s, start, into_space(force), weight, size
+                stage, f"forces/{node(effector.name)}/{point}", samples.times_s, start, into_space(force), weight, size
             )
 
 

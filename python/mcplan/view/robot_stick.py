@@ -18,6 +18,7 @@ from mcplan.kinematics.samples import Samples
 from .colours import BODY, HEAD, LIMB, VISOR, mix
 from .figure import Figure, Part
 from .shapes import Mesh, capsule, ellipsoid, rounded_stack
+from .stage import node
 
 if TYPE_CHECKING:
     from mcplan import Robot
@@ -54,7 +55,7 @@ def stick_robot(samples: Samples, robot: Robot, colours: list[str]) -> Figure:
     parts = _humanoid_body(scale, base) if humanoid else _trunk(robot, scale, base)
     joints: list[tuple[Array, ...]] = []
     for end, (limb, colour) in enumerate(zip(limbs, colours, strict=True)):
-        name = robot.end_effectors[end].name
+        name = node(robot.end_effectors[end].name)  # a slash would part a limb from the rest of it
         points = limb_joints(samples, end, limb)
         joints.append(points)
         bend = samples.rotation_WB @ limb.bend_B

@@ -10,19 +10,20 @@ from numpy.typing import NDArray
 
 from mcplan.kinematics.rotations import polygon_normal
 
-from .colours import GRASP, GROUND, OUTLINE, WALL, mix
+from .colours import GRASP, GROUND, OUTLINE, PAD, WALL, mix
 from .extent import Extent
 from .shapes import Mesh, prism
+from .stage import node
 
 if TYPE_CHECKING:
-    from mcplan import Scene
+    from mcplan import Scene, Surface
 
     from .stage import Stage
 
 Array = NDArray[np.float64]
 
-#: [m] between the lines drawn on surfaces to walk on.
-GRID = 0.5
+#: [m] between the lines drawn on surfaces to walk on, for drawings of usual size; and how many there are at most across.
+GRID, MOST_LINES = 0.5, 60
 
 
 @dataclass(frozen=True)
@@ -35,20 +36,36 @@ class SurfaceDrawing:
     mesh: Mesh  # the solid below it
     colour: str
     opacity: float
-    grid: Array  # (m, 2, 3) [m] lines on the surface, every GRID
+    grid: Array  # (m, 2, 3) [m] lines on the surface
+
+
+def is_pad(surface: Surface) -> bool:
+    """Whether a surface that is not held is for hands alone: no end-effector or kind that may touch it is a foot."""
+    own = list(surface.end_effectors)
+    return bool(own) and not surface.grasp and not any("foot" in name or "leg" in name for name in own)
+
+
+def grid_spacing(extent: Extent) -> float:
+    """[m] between grid lines: half a metre, or for drawings that are far smaller or larger as round a number."""
+    size = 2.0 * max(extent.half_length, extent.half_width)
+    if GRID <= size <= MOST_LINES * GRID:
+        return GRID
+    power = 10.0 ** np.floor(np.log10(size / 8.0))
+    return float(max(r * power for r in (1.0, 2.0, 5.0) if r * power <= size / 8.0))
 
 
 def surface_drawings(scene: Scene, extent: Extent) -> list[SurfaceDrawing]:
     """The surfaces that reach into the extent, in the scene's order."""
     drawings = []
+    spacing = grid_spacing(extent)
     for surface in scene.surfaces:
         outline = extent.clip(np.asarray(surface.vertices_W, float))
         if len(outline) < 3:
             continue
         normal = polygon_normal(outline)
         wall = abs(normal[2]) < 0.3
-        colour = GRASP if surface.grasp else WALL if wall else GROUND
-        grid = grid_lines(outline, GRID) if normal[2] > 0.3 and not surface.grasp else np.zeros((0, 2, 3))
+        colour = GRASP if surface.grasp else WALL if wall else PAD if is_pad(surface) else GROUND
+        grid = grid_lines(outline, spacing) if normal[2] > 0.3 and not surface.grasp else np.zeros((0, 2, 3))
         mesh = prism(outline, float(surface.thickness))
         drawings.append(SurfaceDrawing(surface.name, outline, normal, mesh, colour, 0.35 if wall else 1.0, grid))
     return drawings
@@ -91,9 +108,9 @@ def edges(drawing: SurfaceDrawing) -> Array:
 def draw_surfaces(stage: Stage, drawings: list[SurfaceDrawing]) -> None:
     """Put surfaces onto a page, under "scene"."""
     for drawing in drawings:
-        path = f"scene/{drawing.name}"
+        path = f"scene/{node(drawing.name)}"
         stage.mesh(f"{path}/solid", drawing.mesh, drawing.colour, drawing.opacity)
         stage.lines(f"{path}/outline", edges(drawing), OUTLINE, 0.9)
         if len(drawing.grid):
-            lifted = drawing.grid + 0.001 * drawing.normal
+            lifted = drawing.grid + 2e-4 * float(np.ptp(drawing.outline, axis=0).max()) * drawing.normal
             stage.lines(f"{path}/grid", lifted, mix(drawing.colour, "#ffffff", 0.55), 0.8)

@@ -2,30 +2,33 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mcplan._core import WholeBodyPlan
 from mcplan.errors import InvalidInput
 from mcplan.kinematics.loads import loads_of
-from mcplan.kinematics.samples import Samples, sample, stance_samples
+from mcplan.kinematics.samples import sample
 
-from .colours import end_effector_colours
-from .extent import extent_of
-from .figure import Figure
-from .overlay import caption, plan_legend, scene_legend, timeline
+from .annotations import Label, draw_axes, draw_normals, draw_scale, surface_labels
+from .colours import GOAL, NORMAL, START, end_effector_colours
+from .extent import extent_of, scale_of
+from .figure_choice import figure_of
+from .overlay import caption, entry, plan_legend, scene_legend, space_legend, timeline
 from .page import Page
-from .plan_drawing import WEIGHT_ARROW, draw_plan, draw_standing
-from .robot_stick import stick_robot
-from .scene_drawing import draw_surfaces, surface_drawings
+from .plan_drawing import WEIGHT_ARROW, draw_plan
+from .scene_drawing import SurfaceDrawing, draw_surfaces, surface_drawings
 from .show_whole_body import show_whole_body
 from .stage import Stage
+from .stances import draw_stances
 from .viewpoint import camera_direction, sun_direction, view_points
 
 if TYPE_CHECKING:
     from mcplan import Plan, Report, Robot, Scene
+
+Array = NDArray[np.float64]
 
 #: [1/s] frames of the animation; the browser blends between them.
 FRAME_RATE = 30.0
@@ -61,7 +64,7 @@ def show(
     samples = sample(plan, scene, robot, FRAME_RATE)
     extent = extent_of(scene, robot, samples, length=0.6, width=0.6)
     drawings = surface_drawings(scene, extent)
-    stage = Stage()
+    stage = Stage(scale_of(robot))
     draw_surfaces(stage, drawings)
     draw_plan(stage, samples, scene, robot, figure_of(samples, robot, colours), colours)
     phases = len(plan.phases)
@@ -76,60 +79,81 @@ def show(
     overlay = caption(scene.name, lines, legend) + timeline(
         scene, robot, samples.intervals, colours, float(samples.times_s[-1])
     )
+    points, labels = annotated(stage, drawings, view_points(drawings, samples, robot), camera_direction(extent))
     return Page(
         title=f"{scene.name}, {robot.name}",
         payload=stage.payload(),
         overlay=overlay,
-        points_W=view_points(drawings, samples, robot),
+        points_W=points,
         direction_W=camera_direction(extent),
         sun_W=sun_direction(extent),
         duration_s=float(samples.times_s[-1]),
+        knots_s=plan.knot_times(),
+        labels=labels,
     )
 
 
+def annotated(
+    stage: Stage, drawings: list[SurfaceDrawing], points_W: Array, direction_W: Array
+) -> tuple[Array, list[Label]]:
+    """Put world axes and a scale bar onto a page; the points (n, 3) [m] to be seen with it, and all labels.
+
+    Args:
+        stage: The page's.
+        drawings: Its surfaces, whose names the labels carry.
+        points_W: What it shows without, (n, 3) [m].
+        direction_W: From the drawing towards the camera.
+    """
+    floor = float(points_W[:, 2].min())
+    scale, ends = draw_scale(stage, points_W, direction_W, floor)
+    labels = [scale, *draw_axes(stage, points_W), *surface_labels(drawings, direction_W)]
+    return np.vstack([points_W, ends]), labels
+
+
 def show_scene(scene: Scene, robot: Robot | None = None) -> Page:
-    """Draw a scene for the browser; a robot, if given, stands at the start, and pale at the goal.
+    """Draw a scene for the browser: surfaces with their names and outward normals, the axes of the world, a scale bar,
+    start and goal.
+
+    Args:
+        scene: The scene.
+        robot: Stands at the start, and pale at the goal, with its footprints; None: flags at start and goal alone.
 
     Raises:
         InvalidScene: The robot cannot take the scene's start or goal.
         MissingExtra: meshcat is not installed.
     """
     extent = extent_of(scene, robot, None, length=0.9, width=0.9)
-    from mcplan._core import resolve_stance
-
+    direction = camera_direction(extent)
     drawings = surface_drawings(scene, extent)
-    stage = Stage()
+    stage = Stage(scale_of(robot))
     draw_surfaces(stage, drawings)
-    points = [d.mesh.vertices for d in drawings]
-    if robot is not None:
-        colours = end_effector_colours(robot)
-        for name, stance, opacity in (("start", scene.start, 1.0), ("goal", scene.goal, 0.35)):
-            standing = stance_samples(scene, robot, resolve_stance(scene, robot, stance, name))
-            draw_standing(stage, name, standing, figure_of(standing, robot, colours), opacity)
-            head = np.array([0.0, 0.0, 0.95 * float(robot.com_height)])
-            points += [standing.com_W + head, standing.positions_W[0]]
+    standing, marks = draw_stances(stage, scene, robot, 2.0 * extent.half_length)
+    outlines = [d.mesh.vertices for d in drawings]
+    points = np.vstack([*outlines, standing])
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    near = min(0.05 * size, 0.2 * scale_of(robot))
+    draw_normals(stage, drawings, near)
+    points, labels = annotated(stage, drawings, points, direction)
     lines = [scene.description] if scene.description else []
     count = len(scene.surfaces)
     lines.append(f"{count} surface{'' if count == 1 else 's'}")
+    if len(drawings) < count:
+        lines[-1] += f", {count - len(drawings)} of them out of the picture"
+    legend = [
+        entry("stances/start marks/start :start", "", START, "start"),
+        entry("stances/goal marks/goal :goal", "", GOAL, "goal"),
+        entry("normals", "line", NORMAL, "outward normals"),
+        entry(":surface", "text", "", "names of surfaces"),
+        *space_legend(),
+        *scene_legend(scene),
+    ]
     return Page(
         title=scene.name,
         payload=stage.payload(),
-        overlay=caption(scene.name, lines, scene_legend(scene)),
-        points_W=np.vstack(points),
-        direction_W=camera_direction(extent),
+        overlay=caption(scene.name, lines, legend),
+        points_W=points,
+        direction_W=direction,
         sun_W=sun_direction(extent),
         duration_s=0.0,
+        labels=[*marks, *labels],
     )
-
-
-def figure_of(samples: Samples, robot: Robot, colours: list[str]) -> Figure:
-    """The robot over the samples: its URDF's meshes if it has one and they can follow, else a stick robot."""
-    if not robot.urdf:
-        return stick_robot(samples, robot, colours)
-    from .robot_urdf import CannotFollow, urdf_robot
-
-    try:
-        return urdf_robot(samples, robot)
-    except CannotFollow as error:
-        warnings.warn(f"{error}; drawing a stick robot instead", stacklevel=3)
-        return stick_robot(samples, robot, colours)

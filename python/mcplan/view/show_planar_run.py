@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from mcplan.kinematics.samples import Interval
 
 from .colours import COM, PLANNED, TEXT
-from .overlay import caption, entry, timeline
+from .overlay import caption, entry, force_text, timeline
 from .page import Page
 from .plan_drawing import WEIGHT_ARROW
+from .planar_annotations import PLANAR_AXES, annotated_planar, corners_of, planar_legend
 from .planar_drawing import (
     contact_intervals,
     draw_body,
@@ -33,7 +34,7 @@ from .planar_samples import frame_times, sample_whole_body, turned
 from .plots_planar_run import force_error, joint_error_deg, point_drift
 from .run_samples import joined_stretches
 from .shapes import tube
-from .stage import Stage
+from .stage import Stage, node
 
 if TYPE_CHECKING:
     from mcplan.tracking.planar import PlanarRecording
@@ -59,8 +60,8 @@ def show_planar_run(recording: PlanarRecording, shift_m: float = 0.0) -> Page:
     plan = recording.plan
     motion = plan.motion
     robot = motion.robot
-    stage = Stage()
     size = size_of(robot)
+    stage = Stage(size)
     weight = float(robot.mass()) * float(robot.gravity)
     colours, shapes = end_colours(robot), shapes_of(robot)
     samples = sample_planar_run(recording, FRAME_RATE)
@@ -84,7 +85,7 @@ def show_planar_run(recording: PlanarRecording, shift_m: float = 0.0) -> Page:
     stage.mesh("planned/com", tube(into_space(planned.com_W), 0.02 * size), PLANNED, 0.4, glow=0.2)
     for end, lane in enumerate(lanes_of(robot, size)):
         path = tube(into_space(planned.soles_W[:, end], lane), 0.011 * size, sides=6)
-        stage.mesh(f"planned/paths/{robot.end_effectors[end].name}", path, PLANNED, 0.35, glow=0.2)
+        stage.mesh(f"planned/paths/{node(robot.end_effectors[end].name)}", path, PLANNED, 0.35, glow=0.2)
     draw_cones(stage, plan, expected, colours, size)
     draw_forces(stage, samples, robot, weight, size)
 
@@ -93,14 +94,15 @@ def show_planar_run(recording: PlanarRecording, shift_m: float = 0.0) -> Page:
         entry("planned", "line", PLANNED, "as planned: paths"),
     ]
     for end, colour in zip(robot.end_effectors, colours, strict=True):
-        legend.append(entry(f"paths/{end.name}", "line", colour, end.name.replace("_", " ")))
+        legend.append(entry(f"paths/{node(end.name)}", "line", colour, end.name.replace("_", " ")))
     per_metre = weight / (WEIGHT_ARROW * size)
-    legend.append(entry("forces", "arrow", "", f"contact forces ({0.1 * per_metre:.0f} N: 10 cm)"))
+    legend.append(entry("forces", "arrow", "", force_text("contact forces", per_metre)))
     legend.append(entry("cones", "", "#c3cad2", "friction cones"))
     legend.append(entry("robot", "", "#98a2ae", "robot"))
+    legend += planar_legend()
     ground = [ground_solid(slab, size).vertices for slab in slabs if len(slab.outline_W)]
-    seen = np.vstack([into_space(reached), *ground])
-    left = [seen[:, 0].min() - 0.22 * float(np.ptp(seen[:, 2])), 0.0, float(np.median(seen[:, 2]))]
+    seen = np.vstack([*ground, into_space(corners_of(reached))])
+    points, labels = annotated_planar(stage, slabs, seen, size)
     marks = []
     if recording.left_plan_at_s <= duration:
         marks.append(
@@ -112,10 +114,14 @@ def show_planar_run(recording: PlanarRecording, shift_m: float = 0.0) -> Page:
         title=f"{motion.name}, {robot.name}, simulated",
         payload=stage.payload(),
         overlay=caption(f"{motion.name}, simulated", _lines(recording), legend) + bars,
-        points_W=np.vstack([*ground, into_space(np.array([reached.min(axis=0), reached.max(axis=0)])), left]),
+        points_W=points,
         direction_W=side_direction(),
         sun_W=np.array([0.5, -0.8, 1.5]),
         duration_s=duration,
+        knots_s=[t for t in plan.knot_times() if t < duration] + [duration],
+        labels=labels,
+        axes=PLANAR_AXES,
+        rate_hz=FRAME_RATE,
     )
 
 

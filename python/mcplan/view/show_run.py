@@ -16,7 +16,7 @@ from mcplan.tracking import Recording, TrackingResult
 from mcplan.tracking.planar import PlanarRecording
 
 from .colours import ASSIST, COM, PLANNED, PUSH, TEXT, end_effector_colours
-from .extent import extent_of
+from .extent import extent_of, scale_of
 from .overlay import caption, entry, plan_legend, timeline
 from .page import Page
 from .plan_drawing import WEIGHT_ARROW, contact_plate, draw_arrow, draw_contact, draw_figure, draw_forces
@@ -26,8 +26,9 @@ from .run_text import run_lines
 from .runs import Run, ground_shift_of, recording_of
 from .scene_drawing import draw_surfaces, raised, surface_drawings
 from .shapes import ellipsoid, tube
+from .show import annotated
 from .show_planar_run import show_planar_run
-from .stage import Stage
+from .stage import Stage, node
 from .viewpoint import camera_direction, sun_direction, view_points
 
 if TYPE_CHECKING:
@@ -67,7 +68,7 @@ def show_run(run: Run) -> Page:
     samples = frames.samples
     extent = extent_of(scene, robot, samples, length=0.6, width=0.6)
     drawings = [raised(drawing, shift) for drawing in surface_drawings(scene, extent)]
-    stage = Stage()
+    stage = Stage(scale_of(robot))
     draw_surfaces(stage, drawings)
     draw_figure(stage, samples, mesh_figure(loaded, frames.configurations, colours))
     _draw_com(stage, recording, frames, robot)
@@ -91,26 +92,19 @@ def show_run(run: Run) -> Page:
         ],
         marks=_events(recording),
     )
-    points = view_points(drawings, samples, robot)
+    direction = camera_direction(extent)
+    points, labels = annotated(stage, drawings, view_points(drawings, samples, robot), direction)
     return Page(
         title=f"{scene.name}, {robot.name}, simulated",
         payload=stage.payload(),
         overlay=caption(f"{scene.name}, simulated", run_lines(recording, measures), legend) + bars,
-        points_W=np.vstack([points, _beside(points, extent.forward)]),
-        direction_W=camera_direction(extent),
+        points_W=points,
+        direction_W=direction,
         sun_W=sun_direction(extent),
         duration_s=duration,
+        knots_s=[t for t in plan.knot_times() if t < duration] + [duration],
+        labels=labels,
     )
-
-
-def _beside(points_W: Array, forward: Array) -> Array:
-    """A point (1, 3) [m] so far to the left of a view that the caption does not cover the robot."""
-    along = points_W[:, :2] @ forward
-    tall = float(np.ptp(points_W[:, 2]))
-    back = along.min() - 0.18 * float(np.ptp(along)) - 0.35 * tall
-    middle = points_W.mean(axis=0)
-    middle[:2] += (back - middle[:2] @ forward) * forward
-    return np.asarray(middle[None])
 
 
 def _draw_com(stage: Stage, recording: Recording, frames: RunFrames, robot: Robot) -> None:
@@ -133,9 +127,11 @@ def _draw_ends(
         if not (recording.contacts_plan[:, number] >= 0).any():
             continue  # hands that touch nothing: their paths would only clutter
         name = robot.end_effectors[number].name
-        stage.mesh(f"paths/{name}", tube(samples.positions_W[:, number], 0.004 * scale, sides=6), colour, glow=0.25)
+        stage.mesh(
+            f"paths/{node(name)}", tube(samples.positions_W[:, number], 0.004 * scale, sides=6), colour, glow=0.25
+        )
         wide = tube(recording.ends_plan_W[::every, number], 0.009 * scale, sides=6)
-        stage.mesh(f"planned/paths/{name}", wide, PLANNED, 0.35, glow=0.2)
+        stage.mesh(f"planned/paths/{node(name)}", wide, PLANNED, 0.35, glow=0.2)
     for number, interval in enumerate(contact_intervals(plan, plan.scene, robot)):
         path = f"planned/footholds/{number}"
         stage.mesh(path, contact_plate(robot, interval.end_effector), PLANNED, 0.6)

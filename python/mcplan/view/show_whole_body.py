@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .colours import COM
-from .overlay import caption, entry, timeline
+from .overlay import caption, entry, force_text, timeline
 from .page import Page
 from .plan_drawing import WEIGHT_ARROW
+from .planar_annotations import PLANAR_AXES, annotated_planar, corners_of, planar_legend
 from .planar_drawing import (
     contact_intervals,
     draw_body,
@@ -25,7 +26,7 @@ from .planar_drawing import (
 from .planar_figure import end_colours, shapes_of, size_of
 from .planar_ground import slabs_of
 from .planar_samples import frame_times, sample_whole_body, turned
-from .stage import Stage
+from .stage import Stage, node
 
 if TYPE_CHECKING:
     from mcplan import Report
@@ -49,10 +50,10 @@ def show_whole_body(plan: WholeBodyPlan, report: Report | None = None) -> Page:
         InvalidPlan: The plan's arrays do not fit together.
     """
     plan.validate()
-    stage = Stage()
     motion = plan.motion
     robot = motion.robot
     size = size_of(robot)
+    stage = Stage(size)
     weight = float(robot.mass()) * float(robot.gravity)
     colours = end_colours(robot)
     shapes = shapes_of(robot)
@@ -81,27 +82,25 @@ def show_whole_body(plan: WholeBodyPlan, report: Report | None = None) -> Page:
         lines.append(f"cost {report.cost:.4g}")
     legend = [entry("com paths/com", "ball", COM, "centre of mass")]
     for end, colour in zip(robot.end_effectors, colours, strict=True):
-        legend.append(entry(f"paths/{end.name}", "line", colour, end.name.replace("_", " ")))
+        legend.append(entry(f"paths/{node(end.name)}", "line", colour, end.name.replace("_", " ")))
     per_metre = weight / (WEIGHT_ARROW * size)
-    legend.append(entry("forces", "arrow", "", f"contact forces ({0.1 * per_metre:.0f} N: 10 cm)"))
+    legend.append(entry("forces", "arrow", "", force_text("contact forces", per_metre)))
     legend.append(entry("cones", "", "#c3cad2", "friction cones"))
     legend.append(entry("robot", "", "#98a2ae", "robot"))
-    # All of the ground that is drawn, all of the motion, and room for the caption at the left.
+    legend += planar_legend()
     ground = [ground_solid(slab, size).vertices for slab in slabs if len(slab.outline_W)]
-    seen = np.vstack([into_space(reached), *ground])
-    left = [seen[:, 0].min() - 0.22 * float(np.ptp(seen[:, 2])), 0.0, float(np.median(seen[:, 2]))]
+    seen = np.vstack([*ground, into_space(corners_of(reached))])
+    points, labels = annotated_planar(stage, slabs, seen, size)
     return Page(
         title=f"{motion.name}, {robot.name}",
         payload=stage.payload(),
         overlay=caption(motion.name, lines, legend) + timeline(motion, robot, intervals, colours, duration),
-        points_W=np.vstack([*ground, into_space(_corners(reached)), left]),
+        points_W=points,
         direction_W=side_direction(),
         sun_W=np.array([0.5, -0.8, 1.5]),
         duration_s=duration,
+        knots_s=[t for t in plan.knot_times() if t < duration] + [duration],
+        labels=labels,
+        axes=PLANAR_AXES,
+        rate_hz=FRAME_RATE,
     )
-
-
-def _corners(points: Array) -> Array:
-    """Corners (4, 2) of the box around points (n, 2)."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    return np.array([[x, y] for x in (low[0], high[0]) for y in (low[1], high[1])])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import gzip
 import struct
 from typing import Any
+from urllib.parse import quote
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,10 +22,24 @@ Array = NDArray[np.float64]
 UINT32, FLOAT32 = 0x16, 0x17
 
 
-class Stage:
-    """Collects what a page shows. Nodes are named by paths such as "plan/forces/left_foot"."""
+def node(name: str) -> str:
+    """A name from a file as a part of a node's path: plain ones as they are, without blanks and slashes in any."""
+    return quote(name, safe="")
 
-    def __init__(self) -> None:
+
+def decimals(size_m: float) -> int:
+    """Decimals of lengths [m] on a page: micrometres and less, in proportion for what is smaller than a robot is."""
+    return 5 + max(0, int(np.ceil(-np.log10(max(size_m, 1e-9)))))
+
+
+class Stage:
+    """Collects what a page shows. Nodes are named by paths such as "plan/forces/left_foot".
+
+    Args:
+        size_m: Of the robot: how finely lengths are stored.
+    """
+
+    def __init__(self, size_m: float = 1.0) -> None:
         require("mcplan.show", "view", "meshcat")
         import umsgpack  # type: ignore[import-untyped]  # comes with meshcat
 
@@ -32,6 +47,7 @@ class Stage:
         self._commands: list[dict[str, Any]] = []
         self._clips: dict[str, list[dict[str, Any]]] = {}
         self._ids = 0
+        self._decimals = decimals(size_m)
         self.duration_s = 0.0
 
     def mesh(
@@ -132,10 +148,10 @@ class Stage:
         return gzip.compress(b"".join(struct.pack("<I", len(p)) + p for p in packed), compresslevel=9, mtime=0)
 
     def _track(self, name: str, kind: str, times_s: Array, values: Array) -> dict[str, Any]:
-        if np.ptp(values, axis=0).max() < 1e-7:
+        if np.ptp(values, axis=0).max() < 10.0 ** (-2 - self._decimals):
             times_s, values = times_s[[0, -1]], values[[0, -1]]
         # Micrometres and a few microradians: below what is seen, and far better to compress.
-        values = np.round(values, 5) + 0.0
+        values = np.round(values, self._decimals) + 0.0
         return {
             "name": "." + name,
             "type": kind,
@@ -156,7 +172,7 @@ class Stage:
             "position": {
                 "itemSize": 3,
                 "type": "Float32Array",
-                "array": self._floats(np.round(vertices, 5) + 0.0),
+                "array": self._floats(np.round(vertices, self._decimals) + 0.0),
                 "normalized": False,
             }
         }

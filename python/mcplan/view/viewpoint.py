@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mcplan.kinematics.samples import Samples
 
-from .extent import Extent
+from .extent import SMALL, Extent, scale_of
 from .scene_drawing import SurfaceDrawing
 
 if TYPE_CHECKING:
@@ -23,12 +23,15 @@ def view_points(drawings: list[SurfaceDrawing], samples: Samples, robot: Robot) 
     above = np.array([0.0, 0.0, 0.95 * float(robot.com_height)])
     motion = [samples.com_W + above, samples.positions_W.reshape(-1, 3)]
     low, high = np.vstack(motion).min(axis=0), np.vstack(motion).max(axis=0)
+    scale = scale_of(robot)
     # Large surfaces may run out of the picture; what the robot touches may not.
-    small = [d.outline for d in drawings if np.ptp(d.outline, axis=0).max() < 2.5]
+    small = [d.outline for d in drawings if np.ptp(d.outline, axis=0).max() < SMALL * scale]
     near = [
-        p for p in (np.vstack(small) if small else np.zeros((0, 3))) if np.all(p > low - 1.0) and np.all(p < high + 1.0)
+        p
+        for p in (np.vstack(small) if small else np.zeros((0, 3)))
+        if np.all(p > low - scale) and np.all(p < high + scale)
     ]
-    margin = np.array([[-0.35, 0.0, 0.0], [0.35, 0.0, 0.0], [0.0, -0.35, 0.0], [0.0, 0.35, 0.0]])
+    margin = scale * np.array([[-0.35, 0.0, 0.0], [0.35, 0.0, 0.0], [0.0, -0.35, 0.0], [0.0, 0.35, 0.0]])
     floor = (samples.positions_W[[0, -1]].reshape(-1, 1, 3) + margin).reshape(-1, 3)
     return np.vstack([*motion, floor, *[p[None] for p in near]])
 

@@ -15,6 +15,7 @@ from .prepare import PLANNING, trackable, with_clearances
 from .recording import PlanarRecording
 from .run import DEFAULT_OPTIONS, PlanarResult, track_whole_body
 from .settings import ContactSettings, Feedback
+from .suitability import Suitability, suitability
 
 __all__ = [
     "DEFAULT_OPTIONS",
@@ -24,6 +25,8 @@ __all__ = [
     "PlanarMeasures",
     "PlanarRecording",
     "PlanarResult",
+    "Suitability",
+    "suitability",
     "track_whole_body",
     "trackable",
     "with_clearances",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..report import disturbances_text, length
+from .suitability import suitability
 
 if TYPE_CHECKING:
     from .recording import PlanarRecording
@@ -33,6 +34,8 @@ def ending(result: PlanarResult) -> str:
         return f"left its plan after {measures.completed_s:.2f} s"
     if result.interrupted:
         return f"interrupted after {measures.completed_s:.2f} s, until then on its plan"
+    if not result.followed:
+        return f"moved as planned to the end, {measures.completed_s:.2f} s, by other contact forces"
     return f"followed to the end: {measures.completed_s:.2f} s"
 
 
@@ -53,6 +56,9 @@ def rows_of(result: PlanarResult) -> list[tuple[str, str]]:
     disturbed = disturbances_text(result.options)
     if disturbed:
         rows.append(("not known to the plan", disturbed))
+    planned = suitability(result.recording.plan)
+    if not planned.ok():
+        rows.append(("to be followed", planned.verdict))
     warned = f"{m.simulator_warnings or 'no'} warning{'' if m.simulator_warnings == 1 else 's'}"
     return [*rows, ("simulator", f"{warned}, {m.realtime_factor:.2f} times real time")]
 

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 #: A robot that is further than this from its plan has left it: base [m], base and joints [rad].
 LEFT_PLAN_M = 0.1
 LEFT_PLAN_RAD = 0.3
+#: Contact forces that are further than this share off the plan's are others: the run then proves nothing about the plan.
+OTHER_FORCES = 0.25
 
 #: Half the simulation step changes force_rms by at most 0.011 (docs/tracking_planar.md); 1 ms doubles or triples it.
 DEFAULT_OPTIONS = Options(simulation_step_s=2e-4, control_step_s=4e-4)
@@ -51,6 +53,11 @@ class PlanarResult:
     def completed(self) -> bool:
         """Whether the run went to its end and the robot was where the plan wants it."""
         return self.measures.completed and not self.interrupted
+
+    @property
+    def followed(self) -> bool:
+        """Whether it was completed with the plan's contact forces: less than a quarter off, rms over rms."""
+        return self.completed and self.measures.force_rms <= OTHER_FORCES
 
     def save(self, path: str | Path) -> None:
         """Write everything, the plan included, to an .npz file, which is complete or not there at all."""
