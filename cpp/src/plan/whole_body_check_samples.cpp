@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+double determinant(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double distance_to_segment(const Vector2d& point, const Vector2d& from, const Vector2d& to) {
   const Vector2d along = to - from;
@@ -103,8 +103,8 @@ void check_clearance(const Sample& sample, Findings& findings) {
 
 /// Distance of the nearest of a's two ends from b and of b's two ends from a, unless they cross.
 double segment_distance(const Vector2d& a0, const Vector2d& a1, const Vector2d& b0, const Vector2d& b1) {
-  const double from_a0 = cross(b1 - b0, a0 - b0), from_a1 = cross(b1 - b0, a1 - b0);
-  const double from_b0 = cross(a1 - a0, b0 - a0), from_b1 = cross(a1 - a0, b1 - a0);
+  const double from_a0 = determinant(b1 - b0, a0 - b0), from_a1 = determinant(b1 - b0, a1 - b0);
+  const double from_b0 = determinant(a1 - a0, b0 - a0), from_b1 = determinant(a1 - a0, b1 - a0);
   if (from_a0 * from_a1 < 0.0 && from_b0 * from_b1 < 0.0) return 0.0;
   return std::min({distance_to_segment(a0, b0, b1), distance_to_segment(a1, b0, b1), distance_to_segment(b0, a0, a1),
                    distance_to_segment(b1, a0, a1)});

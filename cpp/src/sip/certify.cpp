@@ -11,8 +11,6 @@ namespace mcplan::sip {
 namespace proof {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Halvings that are made even where they are not needed for a proof: they cost little, and bounds come close to what
 /// they bound.
 constexpr int kLeastDepth = 2;

@@ -7,7 +7,6 @@ namespace mcplan::sip::proof {
 namespace {
 
 using Eigen::Vector2d;
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 

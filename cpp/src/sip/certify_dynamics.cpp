@@ -8,8 +8,6 @@
 namespace mcplan::sip::proof {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
 /// Sine and cosine of the library are within an ulp.
 Constant direction(double angle) { return {{std::cos(angle), std::sin(angle)}, kEpsilon}; }
 

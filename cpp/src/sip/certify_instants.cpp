@@ -6,8 +6,6 @@
 namespace mcplan::sip::proof {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 Amount number(double low, double high) { return {{low, high}, {{{low, high}, {low, high}, {low, high}}}, 0.0}; }
 
 Range difference(const Range& a, const Range& b) { return {a.min - b.max, a.max - b.min}; }

@@ -7,8 +7,6 @@
 namespace mcplan::sip::proof {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
 bool needs_dynamics(Kind kind) {
   return kind == Kind::torque || kind == Kind::friction || kind == Kind::pull || kind == Kind::balance ||
          kind == Kind::moment;

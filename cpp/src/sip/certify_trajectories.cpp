@@ -9,7 +9,6 @@ namespace mcplan::sip::proof {
 namespace {
 
 using Real = long double;
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// Rounding to double, and some hundred operations of Cox's recursion in long double, relative to the basis' size.
 constexpr double kSplineError = 2.0 * kEpsilon + 1000.0 * static_cast<double>(std::numeric_limits<Real>::epsilon());

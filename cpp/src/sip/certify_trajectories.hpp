@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "mcplan/plan/whole_body_plan.hpp"
@@ -8,6 +9,9 @@
 
 /// What the files certify*.cpp share: the plan as polynomials whose coefficients are known up to a bound.
 namespace mcplan::sip::proof {
+
+inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A quantity and its derivatives in time, over one interval or a piece of it.
 struct Trajectory {

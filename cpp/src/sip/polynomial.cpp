@@ -11,7 +11,7 @@ namespace mcplan::sip {
 namespace {
 
 using Row = std::array<double, max_degree + 1>;
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kRoundoff = std::numeric_limits<double>::epsilon();
 
 /// C(n, k): an integer below 2^53 for n <= max_degree, so exact.
 double binomial(int n, int k) {
@@ -64,7 +64,7 @@ double horner(const double* a, int n, double s) {
 /// The one root in (low, high), where the polynomial has the sign of `rising` after the root.
 double refine(const double* a, int n, double low, double high, bool rising) {
   double s = 0.5 * (low + high);
-  for (int iteration = 0; iteration < 80 && high - low > 2.0 * kEpsilon; ++iteration) {
+  for (int iteration = 0; iteration < 80 && high - low > 2.0 * kRoundoff; ++iteration) {
     double value = a[n], slope = 0.0;
     for (int k = n - 1; k >= 0; --k) {
       slope = slope * s + value;
@@ -73,7 +73,7 @@ double refine(const double* a, int n, double low, double high, bool rising) {
     if (value == 0.0) return s;
     ((value > 0.0) == rising ? high : low) = s;
     const double newton = s - value / slope;
-    if (std::abs(newton - s) <= kEpsilon) return std::clamp(newton, low, high);
+    if (std::abs(newton - s) <= kRoundoff) return std::clamp(newton, low, high);
     // Newton where it stays inside; every fourth step is a halving, so that the bracket shrinks whatever happens.
     s = newton > low && newton < high && iteration % 4 != 3 ? newton : 0.5 * (low + high);
   }
@@ -148,7 +148,7 @@ Places roots(const ConstPolynomial& a) {
   const int n = static_cast<int>(a.size()) - 1;
   Places places;
   if (n < 1) return places;
-  const double zero = 4.0 * (n + 1) * kEpsilon * a.cwiseAbs().sum();
+  const double zero = 4.0 * (n + 1) * kRoundoff * a.cwiseAbs().sum();
 
   struct Piece {
     double low, high;

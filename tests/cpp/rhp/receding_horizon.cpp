@@ -14,6 +14,7 @@ namespace mcplan::rhp::tests {
 namespace {
 
 using Eigen::Vector3d;
+using walkers::field_of;
 
 /// All numbers of a plan that a cycle decides, in one list.
 std::vector<double> numbers(const Plan& plan) {
@@ -38,16 +39,6 @@ bool same_bytes(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 RecedingHorizon planner(const Scene& scene, const Options& options) { return {scene, walkers::robot(), options}; }
-
-template <typename Error>
-std::string field_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.field();
-  }
-  return "nothing thrown";
-}
 
 /// Motions of two plans, the second carried back by `back`, agree to the accuracy of the solver.
 void check_same_motion(const Plan& a, const Plan& b, const std::function<Vector3d(const Vector3d&)>& back,

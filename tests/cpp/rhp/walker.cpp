@@ -12,17 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using walkers::field_of;
 using walkers::Random;
-
-template <typename Error>
-std::string field_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.field();
-  }
-  return "nothing thrown";
-}
 
 Walker walker_on(const Scene& scene) { return {scene, walkers::robot(), walkers::quick()}; }
 

@@ -73,7 +73,7 @@ void LinearForcePosition::hessian(const nlp::ConstVector& x, const nlp::ConstVec
 // x = (L0, L1, R0, R1, v0, a0, a1, T)
 
 namespace {
-constexpr int kL0 = 0, kL1 = 3, kR0 = 6, kR1 = 9, kV0 = 12, kA0 = 15, kA1 = 18, kT = 21;
+constexpr int kL0 = 0, kL1 = 3, kR0 = 6, kR1 = 9, kV0 = 12, kA0 = 15, kA1 = 18, kDuration = 21;
 }
 
 LinearForceMomentum::LinearForceMomentum(const LinearForceInterval& i, double mass, double gravity)
@@ -86,7 +86,7 @@ LinearForceMomentum::LinearForceMomentum(const LinearForceInterval& i, double ma
       gravity_(gravity) {}
 
 void LinearForceMomentum::values(const nlp::ConstVector& x, nlp::Vector f) const {
-  const double h = share_ * x[kT];
+  const double h = share_ * x[kDuration];
   const Vector3d v0 = x.segment<3>(kV0), a0 = x.segment<3>(kA0), a1 = x.segment<3>(kA1);
   f = x.segment<3>(kL1) - x.segment<3>(kL0) - 0.5 * h * (x.segment<3>(kR0) + x.segment<3>(kR1)) +
       mass_ * h * h *
@@ -95,7 +95,7 @@ void LinearForceMomentum::values(const nlp::ConstVector& x, nlp::Vector f) const
 }
 
 void LinearForceMomentum::jacobian(const nlp::ConstVector& x, nlp::Matrix J) const {
-  const double h = share_ * x[kT];
+  const double h = share_ * x[kDuration];
   const Vector3d v0 = x.segment<3>(kV0), a0 = x.segment<3>(kA0), a1 = x.segment<3>(kA1), up = Vector3d::UnitZ();
   const double m2 = mass_ * h * h / 6.0, m3 = mass_ * h * h * h / 12.0, mg = 0.5 * gravity_ * m3;
   J.middleCols<3>(kL0).diagonal().setConstant(-1.0);
@@ -104,24 +104,25 @@ void LinearForceMomentum::jacobian(const nlp::ConstVector& x, nlp::Matrix J) con
   J.middleCols<3>(kV0) = -m2 * skew(a0 - a1);
   J.middleCols<3>(kA0) = m2 * skew(v0) + m3 * skew(a1) + mg * skew(up);
   J.middleCols<3>(kA1) = -m2 * skew(v0) - m3 * skew(a0) + mg * skew(up);
-  J.col(kT) =
+  J.col(kDuration) =
       share_ *
       (-0.5 * (x.segment<3>(kR0) + x.segment<3>(kR1)) +
        mass_ * h * (v0.cross(a0 - a1) / 3.0 - 0.25 * h * a0.cross(a1) - 0.125 * gravity_ * h * (a0 + a1).cross(up)));
 }
 
 void LinearForceMomentum::hessian(const nlp::ConstVector& x, const nlp::ConstVector& weights, nlp::Matrix H) const {
-  const double h = share_ * x[kT];
+  const double h = share_ * x[kDuration];
   const Vector3d y = weights, v0 = x.segment<3>(kV0), a0 = x.segment<3>(kA0), a1 = x.segment<3>(kA1);
   const Vector3d up = Vector3d::UnitZ(), difference = a0 - a1;
-  for (int r : {kR0, kR1}) H.block<1, 3>(kT, r) = -0.5 * share_ * y.transpose();
-  H.block<1, 3>(kT, kV0) = share_ * mass_ * h / 3.0 * difference.cross(y).transpose();
+  for (int r : {kR0, kR1}) H.block<1, 3>(kDuration, r) = -0.5 * share_ * y.transpose();
+  H.block<1, 3>(kDuration, kV0) = share_ * mass_ * h / 3.0 * difference.cross(y).transpose();
   const Vector3d from_v0 = mass_ * h / 3.0 * y.cross(v0);
   const Vector3d from_gravity = -0.125 * mass_ * gravity_ * h * h * up.cross(y);
-  H.block<1, 3>(kT, kA0) = share_ * (from_v0 - 0.25 * mass_ * h * h * a1.cross(y) + from_gravity).transpose();
-  H.block<1, 3>(kT, kA1) = share_ * (-from_v0 - 0.25 * mass_ * h * h * y.cross(a0) + from_gravity).transpose();
-  H(kT, kT) = share_ * share_ * mass_ *
-              y.dot(v0.cross(difference) / 3.0 - 0.5 * h * a0.cross(a1) - 0.25 * gravity_ * h * (a0 + a1).cross(up));
+  H.block<1, 3>(kDuration, kA0) = share_ * (from_v0 - 0.25 * mass_ * h * h * a1.cross(y) + from_gravity).transpose();
+  H.block<1, 3>(kDuration, kA1) = share_ * (-from_v0 - 0.25 * mass_ * h * h * y.cross(a0) + from_gravity).transpose();
+  H(kDuration, kDuration) =
+      share_ * share_ * mass_ *
+      y.dot(v0.cross(difference) / 3.0 - 0.5 * h * a0.cross(a1) - 0.25 * gravity_ * h * (a0 + a1).cross(up));
   // y . (v0 x a) = a . (y x v0) and y . (a0 x a1) = a1 . (y x a0)
   H.block<3, 3>(kA0, kV0) = mass_ * h * h / 6.0 * skew(y);
   H.block<3, 3>(kA1, kV0) = -mass_ * h * h / 6.0 * skew(y);

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kRate = 0, kCom = 3;  // places in x
+constexpr int kMomentumRate = 0, kCom = 3;  // places in x
 
 std::vector<int> gather(int rate, int com, const std::vector<Placement>& placements,
                         const std::vector<ContactPoint>& points) {
@@ -45,14 +45,14 @@ Vector3d MomentumRate::lever(const nlp::ConstVector& x, const Point& point) cons
 }
 
 void MomentumRate::values(const nlp::ConstVector& x, nlp::Vector f) const {
-  Vector3d sum = x.segment<3>(kRate);
+  Vector3d sum = x.segment<3>(kMomentumRate);
   for (const Point& point : points_)
     sum -= lever(x, point).cross(point.directions_W * x.segment(point.force, point.directions_W.cols()));
   f = sum;
 }
 
 void MomentumRate::jacobian(const nlp::ConstVector& x, nlp::Matrix J) const {
-  J.middleCols<3>(kRate).setIdentity();
+  J.middleCols<3>(kMomentumRate).setIdentity();
   for (const Point& point : points_) {
     const Vector3d force = point.directions_W * x.segment(point.force, point.directions_W.cols());
     J.middleCols<3>(kCom) -= skew(force);
