@@ -66,7 +66,8 @@ def surface_drawings(scene: Scene, extent: Extent) -> list[SurfaceDrawing]:
         wall = abs(normal[2]) < 0.3
         colour = GRASP if surface.grasp else WALL if wall else PAD if is_pad(surface) else GROUND
         grid = grid_lines(outline, spacing) if normal[2] > 0.3 and not surface.grasp else np.zeros((0, 2, 3))
-        mesh = prism(outline, float(surface.thickness))
+        # No deeper than the scene is long: files of millimetres may leave the thickness at its default of centimetres.
+        mesh = prism(outline, min(float(surface.thickness), extent.half_length))
         drawings.append(SurfaceDrawing(surface.name, outline, normal, mesh, colour, 0.35 if wall else 1.0, grid))
     return drawings
 
