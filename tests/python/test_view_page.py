@@ -207,3 +207,42 @@ def test_feet_turn_on_their_own_and_bodies_with_the_base():
 def test_captions_of_wrenches_say_how_much_the_body_swings():
     assert "angular momentum up to 1.3 kg m" in show(turning(by_hand.humanoid())).html()
     assert "angular momentum" not in show(by_hand.walk(by_hand.stairs(), by_hand.humanoid())).html()
+
+
+@pytest.mark.parametrize("size", [1e-3, 5e-3, 0.4, 1.0, 30.0, 4e3])
+@pytest.mark.parametrize("count", [1, 3, 200])
+def test_scenes_of_any_size_and_number_of_surfaces_are_drawn_in_proportion(size, count):
+    """Marks are no larger than a fifth of the scene, whatever its size, and nothing is not a number."""
+    scene = mp.Scene(name="field")
+    square = 0.17 * size * np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    scene.surfaces = [
+        mp.Surface(
+            name=f"s{i}", vertices_W=square + 0.4 * size * np.array([i % 25, i // 25, 0.0]), thickness=0.01 * size
+        )
+        for i in range(count)
+    ]
+    scene.start, scene.goal = mp.Stance(), mp.Stance(position_W=[0.1 * size, 0, 0])
+    page = show_scene(scene)
+    extent = np.linalg.norm(np.ptp(page.points_W, axis=0))
+    corners = {}
+    for command in commands_of(page.html()):
+        if command["type"] == "set_object":
+            values = floats(command["object"]["geometries"][0]["data"]["attributes"]["position"]["array"])
+            assert np.isfinite(values).all()
+            corners[command["path"].removeprefix("/meshcat/")] = values.reshape(-1, 3)
+    assert sum(path.endswith("/solid") for path in corners) == count
+    for path in ("marks/start", "marks/goal"):
+        assert 0.005 * extent < np.linalg.norm(np.ptp(corners[path], axis=0)) < 0.5 * extent
+    assert 0.05 * extent < np.ptp(corners["scale"], axis=0).max() < 0.9 * extent
+
+
+def test_pads_for_hands_have_a_colour_of_their_own():
+    scene = mp.load_scene("gap_with_rail")
+    html = show_scene(scene).html()
+    assert "for hands" in html
+    colours = {
+        c["path"].split("/")[3]: c["object"]["materials"][0]["color"]
+        for c in commands_of(html)
+        if c["type"] == "set_object" and c["path"].endswith("/solid")
+    }
+    assert colours["right_pad"] == colours["left_pad"] != colours["before"] == colours["after"]

@@ -260,3 +260,13 @@ def test_friction_of_wrenches_is_that_of_their_forces():
     for axes, contact in zip(plot_friction(plan).axes, contacts, strict=True):
         arm = plan.knots[0].com_W - contact.anchor_W
         assert drawn(axes, "tangential / normal")[1] == pytest.approx(np.hypot(*arm[:2]) / arm[2])
+
+
+def test_names_with_dollars_are_names_and_no_formulas(tmp_path):
+    plan = by_hand.walk(by_hand.stairs(), by_hand.humanoid())
+    scene, robot = plan.scene, plan.robot
+    scene.surfaces[0].name = robot.end_effectors[0].name = robot.name = "$a^{b$ \\frac{"
+    plan.scene, plan.robot = scene, robot
+    assert picture(plan, scene, robot, path=tmp_path / "plan.png").exists()
+    save_plots(plan, None, tmp_path / "plots")
+    assert list((tmp_path / "plots").glob("*.png"))

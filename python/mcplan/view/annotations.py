@@ -43,8 +43,13 @@ def scale_length(size_m: float) -> float:
     """Length [m] of the bar for a drawing of this size: a metre where that fits, else a round part of it."""
     if 1.8 <= size_m <= 15.0:
         return 1.0
-    power = 10.0 ** np.floor(np.log10(0.25 * size_m))
-    return float(max(r * power for r in ROUND if r * power <= 0.25 * size_m))
+    return round_length(0.25 * size_m)
+
+
+def round_length(most: float) -> float:
+    """The largest of 1, 2 and 5 times a power of ten that is not above a positive length."""
+    power = 10.0 ** np.floor(np.log10(most) + 1e-9)
+    return float(max(r * power for r in ROUND if r == 1.0 or r * power <= most))
 
 
 def length_text(length_m: float) -> str:

@@ -66,3 +66,8 @@ def mix(colour: str, other: str, share: float) -> str:
     """`colour` with the given share of `other`, "#rrggbb"."""
     blend = [(1.0 - share) * a + share * b for a, b in zip(rgb(colour), rgb(other), strict=True)]
     return "#" + "".join(f"{round(255 * c):02x}" for c in blend)
+
+
+def plain(name: str) -> str:
+    """A name as matplotlib is to show it: no dollar begins a formula."""
+    return name.replace("$", r"\$").replace("_", " ")

@@ -17,6 +17,8 @@ Array = NDArray[np.float64]
 
 #: [m] CoM height for which margins are written, and size below which a surface is shown as a whole.
 HEIGHT, SMALL = 0.7, 2.5
+#: [m] from start to goal in scenes for such robots.
+USUAL_WAY = 2.0
 
 
 def scale_of(robot: Robot | None) -> float:
@@ -25,6 +27,16 @@ def scale_of(robot: Robot | None) -> float:
         return 1.0
     ratio = float(robot.com_height) / HEIGHT
     return 1.0 if 0.5 <= ratio <= 2.0 else ratio
+
+
+def scale_of_scene(scene: Scene, robot: Robot | None) -> float:
+    """What margins around a scene are multiplied by; without a robot the way through it and its smallest surface tell."""
+    if robot is not None or not scene.surfaces:
+        return scale_of(robot)
+    way = float(np.linalg.norm(np.asarray(scene.goal.position_W, float) - scene.start.position_W))
+    smallest = min(float(np.ptp(np.asarray(s.vertices_W, float), axis=0).max()) for s in scene.surfaces)
+    ratio = max(way, smallest) / USUAL_WAY
+    return 1.0 if 0.1 <= ratio <= 4.0 else ratio
 
 
 @dataclass(frozen=True)
@@ -55,7 +67,7 @@ class Extent:
 def extent_of(scene: Scene, robot: Robot | None, samples: Samples | None, length: float, width: float) -> Extent:
     """The box around the motion (or around start and goal) with margins of `length` and `width` [m], for a robot of
     usual size."""
-    scale = scale_of(robot)
+    scale = scale_of_scene(scene, robot)
     points = [np.asarray(s.position_W, float)[:2] for s in (scene.start, scene.goal)]
     if samples is not None:
         points += list(samples.com_W[:, :2]) + list(samples.positions_W[:, :, :2].reshape(-1, 2))

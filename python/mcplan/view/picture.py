@@ -13,12 +13,12 @@ from mcplan.kinematics.rotations import pose, with_axis_z
 from mcplan.kinematics.samples import Samples, sample
 
 from .canvas import Canvas
-from .colours import COM, FORCE, GRASP, OUTLINE, TEXT, end_effector_colours, mix
+from .colours import COM, FORCE, GRASP, OUTLINE, PAD, TEXT, end_effector_colours, mix, plain
 from .extent import extent_of
 from .figure import Figure
 from .plan_drawing import WEIGHT_ARROW, contact_plate
 from .robot_stick import stick_robot
-from .scene_drawing import SurfaceDrawing, edges, surface_drawings
+from .scene_drawing import SurfaceDrawing, edges, is_pad, surface_drawings
 from .shapes import cone, ellipsoid
 from .sheets import save_figure
 from .viewpoint import camera_direction, sun_direction, view_points
@@ -106,7 +106,7 @@ def pose_indices(samples: Samples, robot: Robot, poses: int | None = None) -> li
 def _paint_surfaces(canvas: Canvas, drawings: list[SurfaceDrawing]) -> None:
     for drawing in drawings:
         # What robots walk on lies below them; pads and walls may stand before or behind a limb.
-        floor = drawing.normal[2] > 0.3 and drawing.colour != GRASP
+        floor = drawing.normal[2] > 0.3 and drawing.colour not in (GRASP, PAD)
         layer = SOLIDS if floor else BODIES
         canvas.mesh(drawing.mesh, drawing.colour, layer, opacity=1.0 if floor else max(drawing.opacity, 0.3))
         rim = edges(drawing)[: len(drawing.outline)]
@@ -165,10 +165,12 @@ def _legend(sheet, scene: Scene, robot: Robot, colours: list[str]) -> None:  # t
 
     entries: list[Line2D | Patch] = [Line2D([], [], color=COM, linewidth=4, label="centre of mass")]
     for end, colour in zip(robot.end_effectors, colours, strict=True):
-        entries.append(Line2D([], [], color=colour, linewidth=2.2, label=end.name.replace("_", " ")))
+        entries.append(Line2D([], [], color=colour, linewidth=2.2, label=plain(end.name)))
     entries.append(Line2D([], [], color=FORCE, linewidth=1.6, marker=">", markevery=[1], label="contact force"))
     if any(s.grasp for s in scene.surfaces):
         entries.append(Patch(color=GRASP, label="may be held"))
+    if any(is_pad(s) for s in scene.surfaces):
+        entries.append(Patch(color=PAD, label="for hands"))
     sheet.legend(
         handles=entries,
         loc="lower center",

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mcplan.kinematics.rotations import polygon_normal
 from mcplan.kinematics.samples import Samples, contact_intervals, sample
 
-from .colours import COM, TEXT, end_effector_colours, surface_colours
+from .colours import COM, TEXT, end_effector_colours, plain, surface_colours
 from .sheets import QUIET, label, legend, shade_support, sheet, support_patches
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def plot_turning(plan: Plan) -> Figure:
         if body.half_size.all() and touches.any():
             heading = np.degrees([state.end_effectors[end].yaw for state in states])
             curve = np.where(touches, heading, np.nan)
-            axes[2, 0].plot(samples.times_s, curve, color=colour, linewidth=1.4, label=body.name.replace("_", " "))
+            axes[2, 0].plot(samples.times_s, curve, color=colour, linewidth=1.4, label=plain(body.name))
     for chart in axes[:, 0]:
         low, high = chart.get_ylim()
         if high - low < 1.0:  # no axis in units of rounding
@@ -104,7 +104,7 @@ def plot_gait(plan: Plan) -> Figure:
     """Contacts of every end-effector over time, coloured by surface."""
     from matplotlib.patches import Patch
 
-    names = [end.name.replace("_", " ") for end in plan.robot.end_effectors]
+    names = [plain(end.name) for end in plan.robot.end_effectors]
     colours = surface_colours(plan.scene)
     intervals = contact_intervals(plan, plan.scene, plan.robot)
     figure, axes = sheet(1, 1, size=(10.0, 0.9 + 0.42 * len(names)))
@@ -128,7 +128,7 @@ def plot_gait(plan: Plan) -> Figure:
     label(chart, x="time [s]")
     used = sorted({interval.surface for interval in intervals})
     if len(used) > 1:
-        patches = [Patch(color=colours[s], label=plan.scene.surfaces[s].name) for s in used]
+        patches = [Patch(color=colours[s], label=plan.scene.surfaces[s].name.replace("$", r"\$")) for s in used]
         figure.legend(
             handles=patches,
             loc="outside upper center",
@@ -164,7 +164,7 @@ def plot_forces(plan: Plan) -> Figure:
         if np.isfinite(cap) and cap < 1.5 * top:
             chart.axhline(cap, color="#B00020", linewidth=0.9, label="cap of the force")
             top = max(top, 1.06 * cap)
-        label(chart, y="force [N]", title=plan.robot.end_effectors[end].name.replace("_", " "))
+        label(chart, y="force [N]", title=plain(plan.robot.end_effectors[end].name))
     axes[0, 0].set_ylim(0.0, top)
     axes[0, 0].set_xlim(0.0, samples.times_s[-1])
     label(axes[-1, 0], x="time [s]")
@@ -200,7 +200,7 @@ def plot_friction(plan: Plan) -> Figure:
             chart.plot(samples.times_s, largest, color=colours[end], linewidth=0.8, label="largest at a point")
             # A corner about to lift may show any ratio; the cone is what is to be read.
             ratio = np.append(ratio, np.minimum(largest, 2.0 * np.nanmax(np.append(limit, 0.1))))
-        label(chart, y="ratio [-]", title=plan.robot.end_effectors[end].name.replace("_", " "))
+        label(chart, y="ratio [-]", title=plain(plan.robot.end_effectors[end].name))
         chart.set_ylim(0.0, 1.15 * float(np.nanmax(np.append(np.concatenate([limit, ratio]), 0.1), initial=0.1)))
     axes[0, 0].set_xlim(0.0, samples.times_s[-1])
     label(axes[-1, 0], x="time [s]")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .colours import BODY, TEXT, mix
+from .colours import BODY, TEXT, mix, plain
 from .planar_figure import end_colours
 from .planar_samples import sample_phases
 from .plots_whole_body import LIMIT, RATE, curve, shade_phases
@@ -53,7 +53,7 @@ def plot_point_forces(plan: WholeBodyPlan) -> Figure:
                 linestyle=(0, (4, 1.5)),
                 label="tangential",
             )
-            name = end.name.replace("_", " ")
+            name = plain(end.name)
             label(chart, title=f"{name}, point at {1e3 * float(end.points[column]):+.0f} mm")
         label(axes[row, 0], y="force [N]")
     if len(ends):
@@ -94,7 +94,7 @@ def plot_cones(plan: WholeBodyPlan) -> Figure:
             _, normal = curve(samples, samples.normal[:, end, point])
             chart.plot(tangential, normal, color=mix(colour, shade, 0.35), linewidth=1.3, label=name)
         chart.set_aspect("equal")
-        label(chart, x="tangential force [N]", title=ends[end].name.replace("_", " "))
+        label(chart, x="tangential force [N]", title=plain(ends[end].name))
     label(axes[0, 0], y="normal force [N]")
     axes[0, 0].set_xlim(-side, side)
     axes[0, 0].set_ylim(-0.04 * top, top)

@@ -8,7 +8,7 @@ import numpy as np
 
 from mcplan.kinematics.samples import sample
 
-from .colours import TEXT, end_effector_colours
+from .colours import TEXT, end_effector_colours, plain
 from .plots_plan import RATE
 from .sheets import QUIET, label, legend, shade_support, sheet
 
@@ -49,7 +49,7 @@ def plot_pressure(plan: Plan) -> Figure:
                 samples.times_s, in_sole[:, column], color=colours[end], linewidth=2.0, label="centre of pressure"
             )
             chart.set_ylim(-1.25 * half, 1.25 * half)
-            label(chart, y=unit, title=f"{ends[end].name.replace('_', ' ')}, along its {side}")
+            label(chart, y=unit, title=f"{plain(ends[end].name)}, along its {side}")
     for chart in axes[-1]:
         label(chart, x="time [s]")
         chart.set_xlim(0.0, samples.times_s[-1])
@@ -72,7 +72,7 @@ def plot_timing(plan: Plan) -> Figure:
         touching = [end for end, surface in enumerate(row) if surface >= 0]
         colour, name = MANY, "several contacts"
         if len(touching) == 1:
-            colour, name = colours[touching[0]], f"{plan.robot.end_effectors[touching[0]].name.replace('_', ' ')} alone"
+            colour, name = colours[touching[0]], f"{plain(plan.robot.end_effectors[touching[0]].name)} alone"
         elif not touching:
             colour, name = "white", "flight"
         shown[name] = colour

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .colours import COM, SURFACES, TEXT, WARM, surface_colours
+from .colours import COM, SURFACES, TEXT, WARM, plain, surface_colours
 from .sheets import label, sheet
 
 if TYPE_CHECKING:
@@ -57,11 +57,11 @@ def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
         chart.grid(False)
         steps = np.arange(grid.shape[1] + 1) - 0.5
         chart.pcolormesh(edges, steps, grid[:, :, end].T, cmap=colours, norm=norm, rasterized=True)
-        name = plan.robot.end_effectors[end].name if plan is not None else f"end-effector {end}"
+        name = plain(plan.robot.end_effectors[end].name) if plan is not None else f"end-effector {end}"
         label(chart, y="step k", title=name.replace("_", " "))
     label(axes[-1, 0], x="contact switches")
     used = sorted({int(s) for s in np.unique(grid) if s >= 0})
-    names = [plan.scene.surfaces[s].name if plan is not None else f"surface {s}" for s in used]
+    names = [plan.scene.surfaces[s].name.replace("$", r"\$") if plan is not None else f"surface {s}" for s in used]
     patches = [Patch(color="#F3F5F7", label="free")]
     patches += [Patch(color=palette[s], label=name) for s, name in zip(used, names, strict=True)]
     figure.legend(

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mcplan.tracking import Recording
 from mcplan.tracking.planar import PlanarRecording
 
-from .colours import COM, PLANNED, PUSH, TEXT, end_effector_colours
+from .colours import COM, PLANNED, PUSH, TEXT, end_effector_colours, plain
 from .plots_planar_run import save_planar_run_plots
 from .plots_run_axes import finish, rms, shade_run
 from .plots_run_forces import plot_run_forces, plot_run_torques
@@ -101,7 +101,7 @@ def plot_run_errors(recording: Recording) -> Figure:
         if not free[:, number].any():
             continue
         away = 1e3 * np.linalg.norm(recording.ends_W[:, number] - recording.ends_plan_W[:, number], axis=1)
-        name = recording.body.end_effectors[number].name.replace("_", " ")
+        name = plain(recording.body.end_effectors[number].name)
         shown = np.where(free[:, number], away, np.nan)
         swing.plot(recording.times_s, shown, color=colour, linewidth=1.6, label=name)
         parts.append(away[free[:, number]])

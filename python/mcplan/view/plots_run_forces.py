@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mcplan.kinematics.rotations import polygon_normal
 from mcplan.tracking import Recording
 
-from .colours import PLANNED, TEXT, end_effector_colours
+from .colours import PLANNED, TEXT, end_effector_colours, plain
 from .plots_run_axes import finish, rms, shade_run
 from .sheets import QUIET, label, sheet
 
@@ -52,7 +52,7 @@ def plot_run_forces(recording: Recording) -> Figure:
         tallest = max(tallest, float(np.percentile(simulated, 99.5)), float(planned.max()))
         off = rms(np.linalg.norm(recording.forces_W[:, end] - recording.forces_plan_W[:, end], axis=1))
         share = 100.0 * off / weight
-        name = robot.end_effectors[end].name.replace("_", " ")
+        name = plain(robot.end_effectors[end].name)
         label(chart, y="[N]", title=f"{name}: off the plan by {off:.0f} N rms ({share:.1f} % of the weight)")
     for row in range(len(used)):
         axes[row, 0].set_ylim(-0.03 * weight, 1.1 * max(tallest, 0.2 * weight))

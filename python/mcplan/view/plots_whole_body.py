@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .colours import BODY, COM, TEXT, mix
+from .colours import BODY, COM, TEXT, mix, plain
 from .planar_figure import end_colours, limbs_of
 from .planar_samples import PlanarSamples, sample_phases
 from .sheets import label, legend, sheet
@@ -82,7 +82,7 @@ def plot_drift(plan: WholeBodyPlan) -> Figure:
     ):
         shade_phases(chart, plan)
         for end, colour in zip(range(len(ends)), colours, strict=True):
-            name = ends[end].name.replace("_", " ")
+            name = plain(ends[end].name)
             # Contacts share their errors: later ones are dashed, so that those below are seen.
             dashes = "-" if end == 0 else (0.0, (6.0 / end, 4.0))
             chart.plot(*curve(samples, values[:, end]), color=colour, linewidth=1.6, linestyle=dashes, label=name)
@@ -137,7 +137,7 @@ def _joint_panels(
                 chart.axhline(edge, color=LIMIT, linewidth=1.0)
         chart.set_ylim(*view)
         chart.set_xlim(0.0, samples.times_s[-1])
-        title = robot.bodies[body].name.replace("_", " ")
+        title = plain(robot.bodies[body].name)
         if low == -high and 0.0 < high < np.inf:
             title += f": {100.0 * float(np.abs(line).max()) / high:.0f} % of {high:g} {unit}"
         label(chart, title=title)

@@ -50,8 +50,8 @@ def grid_spacing(extent: Extent) -> float:
     size = 2.0 * max(extent.half_length, extent.half_width)
     if GRID <= size <= MOST_LINES * GRID:
         return GRID
-    power = 10.0 ** np.floor(np.log10(size / 8.0))
-    return float(max(r * power for r in (1.0, 2.0, 5.0) if r * power <= size / 8.0))
+    power = 10.0 ** np.floor(np.log10(size / 8.0) + 1e-9)
+    return float(max(r * power for r in (1.0, 2.0, 5.0) if r == 1.0 or r * power <= size / 8.0))
 
 
 def surface_drawings(scene: Scene, extent: Extent) -> list[SurfaceDrawing]:
@@ -60,15 +60,24 @@ def surface_drawings(scene: Scene, extent: Extent) -> list[SurfaceDrawing]:
     spacing = grid_spacing(extent)
     for surface in scene.surfaces:
         outline = extent.clip(np.asarray(surface.vertices_W, float))
-        if len(outline) < 3:
+        if len(outline) < 3 or not _has_area(outline, surface.vertices_W):
             continue
         normal = polygon_normal(outline)
         wall = abs(normal[2]) < 0.3
         colour = GRASP if surface.grasp else WALL if wall else PAD if is_pad(surface) else GROUND
         grid = grid_lines(outline, spacing) if normal[2] > 0.3 and not surface.grasp else np.zeros((0, 2, 3))
-        mesh = prism(outline, float(surface.thickness))
+        # No deeper than the scene is long: files of millimetres may leave the thickness at its default of centimetres.
+        mesh = prism(outline, min(float(surface.thickness), extent.half_length))
         drawings.append(SurfaceDrawing(surface.name, outline, normal, mesh, colour, 0.35 if wall else 1.0, grid))
     return drawings
+
+
+def _has_area(outline: Array, of: Array) -> bool:
+    """Whether what is left of a surface is more than the edge along which it touches the extent."""
+    left, whole = (
+        np.linalg.norm(np.cross(p, np.roll(p, -1, axis=0)).sum(axis=0)) for p in (outline - outline[0], of - of[0])
+    )
+    return bool(left > 1e-9 * whole)
 
 
 def raised(drawing: SurfaceDrawing, by_m: float) -> SurfaceDrawing:

@@ -14,7 +14,7 @@ from mcplan.kinematics.samples import sample
 
 from .annotations import Label, draw_axes, draw_normals, draw_scale, surface_labels
 from .colours import GOAL, NORMAL, START, end_effector_colours
-from .extent import extent_of, scale_of
+from .extent import extent_of, scale_of, scale_of_scene
 from .figure_choice import figure_of
 from .overlay import caption, entry, plan_legend, scene_legend, space_legend, timeline
 from .page import Page
@@ -125,13 +125,15 @@ def show_scene(scene: Scene, robot: Robot | None = None) -> Page:
     extent = extent_of(scene, robot, None, length=0.9, width=0.9)
     direction = camera_direction(extent)
     drawings = surface_drawings(scene, extent)
-    stage = Stage(scale_of(robot))
+    stage = Stage(scale_of_scene(scene, robot))
     draw_surfaces(stage, drawings)
-    standing, marks = draw_stances(stage, scene, robot, 2.0 * extent.half_length)
     outlines = [d.mesh.vertices for d in drawings]
+    stood = [np.asarray([stance.position_W], float) for stance in (scene.start, scene.goal)]
+    spread = np.ptp(np.vstack([*(d.outline for d in drawings), *stood]), axis=0)
+    standing, marks = draw_stances(stage, scene, robot, float(np.linalg.norm(spread)) or 1.0)
     points = np.vstack([*outlines, standing])
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
-    near = min(0.05 * size, 0.2 * scale_of(robot))
+    near = min(0.05 * size, 0.2 * scale_of_scene(scene, robot))
     draw_normals(stage, drawings, near)
     points, labels = annotated(stage, drawings, points, direction)
     lines = [scene.description] if scene.description else []

@@ -32,7 +32,7 @@ def draw_stances(stage: Stage, scene: Scene, robot: Robot | None, size_m: float)
         stage: The page's.
         scene: Whose start and goal.
         robot: That stands there; None: a disc with an arrow in its heading.
-        size_m: Length of the scene.
+        size_m: Of the scene.
 
     Raises:
         InvalidScene: The robot cannot take the scene's start or goal.
@@ -40,7 +40,7 @@ def draw_stances(stage: Stage, scene: Scene, robot: Robot | None, size_m: float)
     points, labels = [], []
     for name, stance, colour, opacity in (("start", scene.start, START, 1.0), ("goal", scene.goal, GOAL, 0.35)):
         if robot is None:
-            radius = min(0.15, 0.05 * size_m) if size_m > 0.0 else 0.15
+            radius = 0.15 if 2.0 <= size_m <= 15.0 else 0.03 * size_m
             seen = _flag(stage, name, stance, colour, radius)
         else:
             seen = _standing(stage, scene, robot, name, stance, colour, opacity)
