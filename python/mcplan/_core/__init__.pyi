@@ -1138,13 +1138,13 @@ class Plan:
     def __repr__(self) -> str: ...
     def at(self, t: typing.SupportsFloat | typing.SupportsIndex) -> PlanState:
         """
-        PlanState at time t [s] in [0, duration], in closed form. At a knot the phase that begins there is meant (the last one at the end). Raises InvalidInput outside.
+        PlanState at time t [s] in [0, duration], in closed form. At a knot the phase that begins there is meant (the last one at the end). Raises InvalidInput outside, InvalidPlan where an edited plan does not fit together.
         """
     def at_phase(
         self, k: typing.SupportsInt | typing.SupportsIndex, since_start: typing.SupportsFloat | typing.SupportsIndex
     ) -> PlanState:
         """
-        PlanState `since_start` [s] after the start of phase k: says which side of a knot is meant.
+        PlanState `since_start` [s], 0 to its duration, after the start of phase k: says which side of a knot is meant. Raises as at() does.
         """
     def contact_sequence(self) -> list[list[int]]:
         """
@@ -1901,7 +1901,7 @@ class PlanarConfiguration:
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
-    def acceleration(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+    def acceleration(self) -> typing.Any:
         """
         [rad/s^2]
         """
@@ -1929,14 +1929,14 @@ class PlanarConfiguration:
     @base_velocity.setter
     def base_velocity(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
-    def q(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+    def q(self) -> typing.Any:
         """
         Joint positions [rad].
         """
     @q.setter
     def q(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]) -> None: ...
     @property
-    def velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+    def velocity(self) -> typing.Any:
         """
         [rad/s]
         """
@@ -2564,14 +2564,14 @@ class WholeBodyPlan:
         Raise InvalidPlan when sizes do not fit together, a duration or weight is not positive or a number is not finite; InvalidMotion and InvalidRobot for the motion.
         """
     @property
-    def base_control_points(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+    def base_control_points(self) -> typing.Any:
         """
         3 x (intervals + 3): x, y [m], angle [rad]; empty: computed from the joints.
         """
     @base_control_points.setter
     def base_control_points(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]) -> None: ...
     @property
-    def control_points(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+    def control_points(self) -> typing.Any:
         """
         Joints x (intervals + 3) [rad].
         """

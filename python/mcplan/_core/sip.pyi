@@ -592,10 +592,10 @@ class Result:
     @property
     def certificate(self) -> Certificate | None:
         """
-        What is proved of the plan; None: not asked for.
+        What is proved of the plan, a copy; None: not asked for.
         """
     @certificate.setter
-    def certificate(self, arg0: Certificate | None) -> None: ...
+    def certificate(self, arg1: Certificate | None) -> None: ...
     @property
     def constraints(self) -> int:
         """
