@@ -58,6 +58,7 @@
 #include "mcplan/rhp/walker.hpp"
 #include "mcplan/robot/planar_robot.hpp"
 #include "mcplan/robot/robot.hpp"
+#include "mcplan/robot/similarity.hpp"
 #include "mcplan/scene/polygon.hpp"
 #include "mcplan/scene/scene.hpp"
 #include "mcplan/sip/certificate.hpp"
