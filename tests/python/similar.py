@@ -52,9 +52,17 @@ def similar_robot(robot: mp.Robot, by: Factors, durations: bool = True) -> mp.Ro
             setattr(other, name, getattr(end, name) * by.length)
         other.max_force = end.max_force * by.force
         other.max_moment = end.max_moment * by.moment
+        if end.com_reach.given:
+            other.com_reach = similar_polytope(end.com_reach, by)
+        other.partner_reach = {name: similar_polytope(reach, by) for name, reach in end.partner_reach.items()}
         ends.append(other)
     out.end_effectors = ends
     return out
+
+
+def similar_polytope(polytope: mp.Polytope, by: Factors) -> mp.Polytope:
+    """A x <= b with x of another size."""
+    return mp.Polytope(A=polytope.A, b=polytope.b * by.length)
 
 
 def similar_scene(scene: mp.Scene, by: Factors) -> mp.Scene:
@@ -98,6 +106,7 @@ def similar_plan(plan: mp.Plan, by: Factors) -> mp.Plan:
             mp.Phase(
                 duration=phase.duration * by.time,
                 law=phase.law,
+                intervals=phase.intervals,
                 contacts=[
                     mp.Contact(
                         surface=contact.surface,
@@ -105,6 +114,8 @@ def similar_plan(plan: mp.Plan, by: Factors) -> mp.Plan:
                         anchor_W=contact.anchor_W * by.length,
                         moment_W=contact.moment_W * by.moment,
                         center_of_pressure_W=contact.center_of_pressure_W * by.length,
+                        points_W=contact.points_W * by.length,
+                        point_forces_W=contact.point_forces_W * by.force,
                     )
                     for contact in phase.contacts
                 ],
@@ -137,5 +148,7 @@ def numbers_of(plan: mp.Plan) -> dict[str, np.ndarray]:
     out["durations"] = np.array([phase.duration for phase in plan.phases])
     for name in ("surface", "stiffness", "anchor_W", "moment_W", "center_of_pressure_W"):
         out[name] = np.array([getattr(contact, name) for contact in contacts])
+    for name in ("points_W", "point_forces_W"):
+        out[name] = np.vstack([np.reshape(getattr(contact, name), (-1, 3)) for contact in contacts])
     out["swings"] = np.array([[s.end_effector, s.first_phase, s.end_phase, s.height] for s in plan.swings])
     return out

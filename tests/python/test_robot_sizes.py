@@ -135,6 +135,31 @@ def test_robots_of_human_size_have_the_published_tolerances():
         assert found["slip"] == (1e-3, "m") and found["pull"] == (1e-6, "N") and found["clearance"] == (5e-3, "m")
 
 
+@pytest.mark.parametrize("by", [EXACT[1], EXACT[2], EXACT[5]], ids=str)
+def test_a_receding_horizon_walks_alike_at_every_size(by):
+    scene, robot = mp.load_scene("rubbles"), mp.load_robot("talos_wang")
+    options = {"fidelity": "point", "lookahead": 2, "cycles": 2}
+    first = mp.walk(scene, robot, **options)
+    second = mp.walk(similar_scene(scene, by), similar_robot(robot, by), **options)
+    assert [str(c.status) for c in first.cycles] == [str(c.status) for c in second.cycles] == ["solved"] * 2
+    found = numbers_of(second.plan)
+    for name, values in numbers_of(similar_plan(first.plan, by)).items():
+        np.testing.assert_array_equal(found[name], values, err_msg=name)
+    assert second.distance_m() == first.distance_m() * by.length
+    assert second.cycles[0].duration_s == first.cycles[0].duration_s * by.time
+    assert second.cycles[0].acceleration_cost == first.cycles[0].acceleration_cost * (by.velocity**2 / by.time)
+
+
+@pytest.mark.parametrize("height", [0.01, 15.0])
+def test_a_receding_horizon_walks_at_sizes_that_are_no_power_of_two(height):
+    scene, robot = mp.load_scene("rubbles"), mp.load_robot("talos_wang")
+    length = height / float(robot.com_height)
+    by = Factors(length, math.sqrt(length), length**3)
+    walk = mp.walk(similar_scene(scene, by), similar_robot(robot, by), fidelity="point", lookahead=2, cycles=2)
+    assert [str(cycle.status) for cycle in walk.cycles] == ["solved"] * 2, walk.report.message
+    assert mp.check(walk.plan).ok()
+
+
 @pytest.mark.parametrize("gravity", [0.01, 9810.0, 1e6])
 def test_impossible_numbers_are_said_with_their_amount(gravity):
     scene = mp.load_scene("flat")
