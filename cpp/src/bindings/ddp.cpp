@@ -70,12 +70,13 @@ void bind_options(py::module_& m) {
   c.def_readwrite("duration_min_s", &Options::duration_min_s, "Soft box of the phase durations [s]; 0: the robot's.");
   c.def_readwrite("duration_max_s", &Options::duration_max_s, "[s]; 0: the robot's.");
   c.def_readwrite("flight_duration_min_s", &Options::flight_duration_min_s,
-                  "Lower bound of phases without any contact [s].");
+                  "Lower bound of phases without any contact [s]. The default goes with the size of the robot.");
   c.def_readwrite("duration_initial_s", &Options::duration_initial_s,
                   "First guess of all phases [s]; 0: the middle of their box, 0.45 for Model.lipm.");
   c.def_readwrite("proximal_weight", &Options::proximal_weight, "First weight on the change of the inputs.");
   c.def_readwrite("interior_points", &Options::interior_points, "Instants inside a phase where limits are held.");
-  c.def_readwrite("reach_margin_m", &Options::reach_margin_m, "The reach box is planned smaller by this [m].");
+  c.def_readwrite("reach_margin_m", &Options::reach_margin_m,
+                  "The reach box is planned smaller by this [m]. The default goes with the size of the robot.");
   c.def_readwrite("sole_inside", &Options::sole_inside,
                   "Share of a sole's half size by which footholds keep from the edges of their surface; 1: the whole "
                   "sole is on it, where it is large enough; negative: the robot's sole_support.");

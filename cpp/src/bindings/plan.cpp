@@ -304,21 +304,25 @@ void bind_report(py::module_& m) {
 }
 
 void bind_checker(py::module_& m) {
-  py::class_<Tolerances> c(m, "Tolerances", "Published tolerances of the checker.");
+  py::class_<Tolerances> c(
+      m, "Tolerances",
+      "Published tolerances of the checker, for robots of human size; for others times a factor of each unit.");
   const Tolerances d;
-  c.def(py::init([](double dynamics, double orientation, double center_of_pressure, double contact_distance,
-                    double slip, double friction, double force, double force_cap, double moment, double reach,
-                    double yaw, double clearance, double boundary, double stance, int switches, double sample_s) {
-          return Tolerances{
-              dynamics, orientation, center_of_pressure, contact_distance, slip,   friction, force,   force_cap, moment,
-              reach,    yaw,         clearance,          boundary,         stance, switches, sample_s};
-        }),
-        py::kw_only(), py::arg("dynamics") = d.dynamics, py::arg("orientation") = d.orientation,
-        py::arg("center_of_pressure") = d.center_of_pressure, py::arg("contact_distance") = d.contact_distance,
-        py::arg("slip") = d.slip, py::arg("friction") = d.friction, py::arg("force") = d.force,
-        py::arg("force_cap") = d.force_cap, py::arg("moment") = d.moment, py::arg("reach") = d.reach,
-        py::arg("yaw") = d.yaw, py::arg("clearance") = d.clearance, py::arg("boundary") = d.boundary,
-        py::arg("stance") = d.stance, py::arg("switches") = d.switches, py::arg("sample_s") = d.sample_s);
+  c.def(
+      py::init([](double dynamics, double orientation, double center_of_pressure, double contact_distance, double slip,
+                  double friction, double force, double force_cap, double moment, double reach, double yaw,
+                  double clearance, double boundary, double stance, int switches, double sample_s, bool scaled) {
+        return Tolerances{
+            dynamics, orientation, center_of_pressure, contact_distance, slip,   friction, force,    force_cap, moment,
+            reach,    yaw,         clearance,          boundary,         stance, switches, sample_s, scaled};
+      }),
+      py::kw_only(), py::arg("dynamics") = d.dynamics, py::arg("orientation") = d.orientation,
+      py::arg("center_of_pressure") = d.center_of_pressure, py::arg("contact_distance") = d.contact_distance,
+      py::arg("slip") = d.slip, py::arg("friction") = d.friction, py::arg("force") = d.force,
+      py::arg("force_cap") = d.force_cap, py::arg("moment") = d.moment, py::arg("reach") = d.reach,
+      py::arg("yaw") = d.yaw, py::arg("clearance") = d.clearance, py::arg("boundary") = d.boundary,
+      py::arg("stance") = d.stance, py::arg("switches") = d.switches, py::arg("sample_s") = d.sample_s,
+      py::arg("scaled") = d.scaled);
   c.def_readwrite("dynamics", &Tolerances::dynamics,
                   "[m], [m/s], [rad], [rad/s] replayed state against the next knot.");
   c.def_readwrite("orientation", &Tolerances::orientation, "[rad] replayed orientation of the base.");
@@ -339,9 +343,14 @@ void bind_checker(py::module_& m) {
   c.def_readwrite("switches", &Tolerances::switches,
                   "[-] contacts made or broken in one step; surface to surface counts two.");
   c.def_readwrite("sample_s", &Tolerances::sample_s, "[s] sampling of the constraints in time.");
-  def_value(c, "Tolerances",
-            {"dynamics", "orientation", "center_of_pressure", "contact_distance", "slip", "friction", "force",
-             "force_cap", "moment", "reach", "yaw", "clearance", "boundary", "stance", "switches", "sample_s"});
+  c.def_readwrite(
+      "scaled", &Tolerances::scaled,
+      "Times the factors of the robot's size, which are 1 for CoM heights of 0.4 to 1.6 m, 20 to 160 kg and "
+      "earth's gravity; False: as they stand.");
+  def_value(
+      c, "Tolerances",
+      {"dynamics", "orientation", "center_of_pressure", "contact_distance", "slip", "friction", "force", "force_cap",
+       "moment", "reach", "yaw", "clearance", "boundary", "stance", "switches", "sample_s", "scaled"});
 
   py::class_<CheckResult> result(m, "CheckResult", "The worst place of every constraint, violated or not.");
   def_items(result, "constraints", &CheckResult::constraints, "Tuple of Violation, violated or not.");

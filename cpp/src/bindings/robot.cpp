@@ -127,8 +127,10 @@ void bind_robot(py::module_& m) {
   c.def_readwrite("mass", &Robot::mass, "[kg]");
   def_vector(c, "inertia", &Robot::inertia, "Diagonal, about the CoM, nominal posture [kg m^2].");
   c.def_readwrite("com_height", &Robot::com_height, "Of the CoM above the ground in the nominal stance [m].");
-  c.def_readwrite("swing_height", &Robot::swing_height, "Clearance of a swinging end-effector [m].");
-  def_vector(c, "phase_duration", &Robot::phase_duration, "Shortest and longest phase of a contact sequence [s].");
+  c.def_readwrite("swing_height", &Robot::swing_height,
+                  "Clearance of a swinging end-effector [m]. The default, 0.10, goes with the size of the robot.");
+  def_vector(c, "phase_duration", &Robot::phase_duration,
+             "Shortest and longest phase of a contact sequence [s]. The default goes with the size of the robot.");
   c.def_readwrite("sole_support", &Robot::sole_support,
                   "Share of a sole that a contact sequence keeps on its surface; 0: its centre.");
   c.def_readwrite("pressure_share", &Robot::pressure_share,

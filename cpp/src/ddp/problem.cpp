@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 /// Soft constraints settle slightly beyond their bound, so friction is planned a little tighter than the surface's.
 constexpr double kFrictionMargin = 0.02;
-/// Footholds likewise [m].
+/// Footholds likewise [m], for a robot of human size.
 constexpr double kEdgeMargin = 0.002;
 
 std::vector<int> addressed(const std::vector<std::string>& who, const Robot& robot, const std::vector<int>& active) {
@@ -116,10 +116,12 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   units.length = robot.com_height;
   units.time = std::sqrt(robot.com_height / scene.gravity);
   units.mass = robot.mass;
+  similarity = similarity_of(robot, scene.gravity);
   inertia = robot.inertia / (units.mass * units.length * units.length);
-  edge_margin = pressure_margin = kEdgeMargin / units.length;
-  const double shortest_s = options.duration_min_s > 0.0 ? options.duration_min_s : robot.phase_duration[0];
-  const double longest_s = options.duration_max_s > 0.0 ? options.duration_max_s : robot.phase_duration[1];
+  edge_margin = pressure_margin = kEdgeMargin * similarity.length / units.length;
+  const Eigen::Vector2d usual_s = phase_duration_of(robot, similarity);
+  const double shortest_s = options.duration_min_s > 0.0 ? options.duration_min_s : usual_s[0];
+  const double longest_s = options.duration_max_s > 0.0 ? options.duration_max_s : usual_s[1];
   if (longest_s < shortest_s) {
     // Options that are both given were compared before: one of the two is the robot's.
     if (options.duration_min_s > 0.0)
@@ -130,9 +132,10 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   }
   duration_min = shortest_s / units.time;
   duration_max = longest_s / units.time;
-  flight_duration_min = std::min(options.flight_duration_min_s, longest_s) / units.time;
+  const double flight_s = by_size(options.flight_duration_min_s, Options().flight_duration_min_s, similarity.time);
+  flight_duration_min = std::min(flight_s, longest_s) / units.time;
   // The paper's model was measured from its author's 0.45 s.
-  const double middle_s = model == Model::wrench ? 0.5 * (shortest_s + longest_s) : 0.45;
+  const double middle_s = model == Model::wrench ? 0.5 * (shortest_s + longest_s) : 0.45 * similarity.time;
   duration_initial = (options.duration_initial_s > 0.0 ? options.duration_initial_s : middle_s) / units.time;
 
   const int robot_ends = static_cast<int>(robot.end_effectors.size());
@@ -156,9 +159,10 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     pyramid.push_back(pyramid_tangents(polygons.back().normal_W(), options.friction_sides));
   }
   if (options.friction_sides > 0) pyramid_share = std::cos(M_PI / options.friction_sides);
+  const double reach_margin_m = by_size(options.reach_margin_m, Options().reach_margin_m, similarity.length);
   for (int e : active) {
     const EndEffector& end = robot.end_effectors[e];
-    const Vector3d margin = Vector3d::Constant(options.method == Method::paper ? 0.0 : options.reach_margin_m);
+    const Vector3d margin = Vector3d::Constant(options.method == Method::paper ? 0.0 : reach_margin_m);
     EndLimits l;
     l.nominal = end.nominal_B / units.length;
     // A box thinner than the margins keeps its middle.

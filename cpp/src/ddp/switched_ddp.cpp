@@ -27,7 +27,7 @@ constexpr double kHardening = 4.0;
 /// Proximal weight of the second discovery over the first one's.
 constexpr double kSecondDiscovery = 4.0;
 /// How much further inside footholds go, each time a swing has caught an edge: a share of the longest half sole, so
-/// that the second time the whole sole stands clear of the next riser.
+/// that the second time the whole sole stands clear of the next riser. Lengths are those of a robot of human size.
 constexpr double kClearanceShare = 0.6, kClearanceLeast_m = 0.04;
 // Where soles are kept on their surface anyway, a toe's room is enough.
 constexpr double kToeRoom_m = 0.03;
@@ -200,14 +200,15 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
       for (int i = 0; i < options.restarts && !(run.best && run.best->ok); ++i) {
         if (status != Status::solved && status != Status::numerical_failure) break;
         const auto [proximal, duration_s] = settings[static_cast<std::size_t>(i) % settings.size()];
-        run.problem.duration_initial = std::clamp(duration_s / p.units.time, p.duration_min, p.duration_max);
+        run.problem.duration_initial =
+            std::clamp(duration_s * p.similarity.time / p.units.time, p.duration_min, p.duration_max);
         Incumbent again = first_guess({});
         again.sequence = initial;
         std::vector<Guess> others{{again, proximal}};
         // A foot too close to the next step catches it with its toe: the same motion with footholds further inside.
         if (run.best && run.best->worst.name == "clearance" && !run.last.sequence.empty()) {
           const double on_surface = options.sole_inside < 0.0 ? robot.sole_support : options.sole_inside;
-          double further_m = on_surface >= 1.0 ? kToeRoom_m : kClearanceLeast_m;
+          double further_m = (on_surface >= 1.0 ? kToeRoom_m : kClearanceLeast_m) * p.similarity.length;
           for (const EndEffector& end : robot.end_effectors)
             if (on_surface < 1.0) further_m = std::max(further_m, kClearanceShare * end.half_size.maxCoeff());
           run.problem.toe_room += further_m / p.units.length;
@@ -236,7 +237,10 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
     out.plan.scene = scene;
     out.plan.robot = robot;
     if (status == Status::solved) status = Status::numerical_failure;
-    report.worst_violation.name = status == Status::no_sequence ? "contact_sequence" : "finite";
+    const bool no_sequence = status == Status::no_sequence;
+    report.worst_violation.name = no_sequence ? "contact_sequence" : "finite";
+    report.worst_violation.value = 1.0;
+    report.worst_violation.unit = no_sequence ? "missing" : "numbers";
   }
   report.status = status;
   report.time_s = deadline.elapsed_s();
@@ -246,6 +250,9 @@ PlanResult SwitchedDdp::Impl::solve(Problem problem, const Incumbent* warm, bool
   else if (status == Status::no_sequence)
     message << "no contact sequence joins start and goal in " << p.steps << " phases; raise `phases`, or look at the "
             << "surfaces' end_effectors and the scene's rules";
+  else if (!run.best)
+    message << (status == Status::numerical_failure ? "every attempt broke down numerically"
+                                                    : "stopped before there was a plan");
   else
     message << "the best plan violates " << report.worst_violation.to_string();
   report.message = message.str();
@@ -311,9 +318,9 @@ PlanResult SwitchedDdp::replan(const Plan& previous, double t, const Knot& measu
   int first = now.phase;
   double remaining = times[first + 1] - t;
   // What is left of the phase is too short to be planned: the next one starts now.
-  constexpr double kShortest = 0.02;
+  const double shortest = 0.02 * similarity_of(impl_->robot, impl_->scene.gravity).time;
   const int phases = static_cast<int>(previous.phases.size());
-  if (remaining < kShortest && first + 1 < phases) {
+  if (remaining < shortest && first + 1 < phases) {
     ++first;
     remaining = previous.phases[first].duration;
   }

@@ -14,16 +14,17 @@ void check_stance(const Problem& problem, Constraint constraint, const ResolvedS
                   Findings& findings) {
   const Knot& knot = problem.plan.knots[k];
   const double tolerance = problem.tolerances.boundary;
+  const Similarity& size = problem.similarity;
   const Place place = problem.at_knot(k, -1);
   Vector3d turn = knot.base_rpy;
   turn.z() = std::remainder(turn.z() - stance.yaw, 2.0 * M_PI);
   findings.offer(constraint, (knot.com_W - stance.com_W).norm(), place);
-  findings.offer(constraint, knot.com_velocity_W.norm(), place, tolerance, "m/s");
+  findings.offer(constraint, knot.com_velocity_W.norm(), place, tolerance * size.velocity(), "m/s");
   findings.offer(constraint, largest(turn.cwiseAbs()), place, tolerance, "rad");
-  findings.offer(constraint, knot.base_rpy_rate.norm(), place, tolerance, "rad/s");
+  findings.offer(constraint, knot.base_rpy_rate.norm(), place, tolerance * size.rate(), "rad/s");
   if (problem.has_wrenches(place.phase))
-    findings.offer(constraint, knot.angular_momentum_W.norm(), place, tolerance * problem.robot.inertia.maxCoeff(),
-                   "kg m^2/s");
+    findings.offer(constraint, knot.angular_momentum_W.norm(), place,
+                   tolerance * size.rate() * problem.robot.inertia.maxCoeff(), "kg m^2/s");
   for (int l = 0; l < problem.end_effector_count(); ++l)
     findings.offer(constraint, problem.surface(k, l) == stance.contacts[l] ? 0.0 : 1.0, problem.at_knot(k, l), 0.0,
                    "contacts");

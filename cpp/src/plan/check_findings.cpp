@@ -13,11 +13,11 @@ struct Row {
 };
 
 /// In the order of the enumeration.
-std::array<Row, kConstraints> rows(const Tolerances& t) {
+std::array<Row, kConstraints> rows(const Tolerances& t, const Similarity& s) {
   return {{{"finite", "numbers", 0.0},
            {"phase_duration", "s", 0.0},
-           {"dynamics", "m", t.dynamics},
-           {"at_consistency", "m", t.dynamics},
+           {"dynamics", "m", t.dynamics * s.length},
+           {"at_consistency", "m", t.dynamics * s.length},
            {"orientation", "rad", t.orientation},
            {"contact_distance", "m", t.contact_distance},
            {"contact_polygon", "m", t.contact_distance},
@@ -36,19 +36,30 @@ std::array<Row, kConstraints> rows(const Tolerances& t) {
            {"clearance", "m", t.clearance},
            {"sequence_switch", "switches", 0.0},
            {"sequence_rule", "contacts", 0.0},
-           {"start", "m", t.boundary},
-           {"goal", "m", t.boundary}}};
+           {"start", "m", t.boundary * s.length},
+           {"goal", "m", t.boundary * s.length}}};
 }
 
 }  // namespace
+
+Tolerances for_size(const Tolerances& tolerances, const Similarity& s) {
+  Tolerances out = tolerances;
+  for (double* length :
+       {&out.center_of_pressure, &out.contact_distance, &out.slip, &out.reach, &out.clearance, &out.stance})
+    *length *= s.length;
+  out.force *= s.force();
+  out.moment *= s.moment();
+  out.sample_s *= s.time;
+  return out;
+}
 
 double severity(double value, double tolerance) {
   if (tolerance > 0.0) return value / tolerance;
   return value > 0.0 ? std::numeric_limits<double>::infinity() : value;
 }
 
-Findings::Findings(const Tolerances& tolerances) {
-  const auto table = rows(tolerances);
+Findings::Findings(const Tolerances& tolerances, const Similarity& similarity) {
+  const auto table = rows(tolerances, similarity);
   for (int i = 0; i < kConstraints; ++i) {
     worst_[i].unit = table[i].unit;
     worst_[i].tolerance = table[i].tolerance;
@@ -70,7 +81,7 @@ void Findings::offer(Constraint constraint, double value, const Place& place, do
 }
 
 std::vector<Violation> Findings::violations(int count, const Robot& robot) const {
-  const auto table = rows({});
+  const auto table = rows({}, {});
   std::vector<Violation> out;
   for (int i = 0; i < count; ++i) {
     const Worst& w = worst_[i];

@@ -48,6 +48,10 @@ struct Place {
   double time_s = 0.0;
 };
 
+/// Tolerances times the factors of their units; but `dynamics` and `boundary`, which have several, stay as they are,
+/// for the caller to multiply.
+Tolerances for_size(const Tolerances& tolerances, const Similarity& similarity);
+
 /// value / tolerance, the measure by which two findings compare; a tolerance of 0 makes any excess infinite.
 double severity(double value, double tolerance);
 
@@ -56,7 +60,7 @@ inline double largest(const Eigen::Vector3d& v) { return v.maxCoeff<Eigen::Propa
 
 class Findings {
  public:
-  explicit Findings(const Tolerances& tolerances);
+  Findings(const Tolerances& tolerances, const Similarity& similarity);
 
   /// Keep this measurement if it is the worst of its constraint. Not a number counts as the largest number.
   void offer(Constraint constraint, double value, const Place& place);
@@ -81,7 +85,8 @@ struct Problem {
   const Plan& plan;
   const Scene& scene;
   const Robot& robot;
-  const Tolerances& tolerances;
+  const Tolerances& tolerances;                     ///< for_size(): those with one unit are the robot's own
+  Similarity similarity;                            ///< for those with several, and for thresholds
   std::vector<Solid> solids;                        ///< one per surface
   std::vector<std::vector<FreeStretch>> stretches;  ///< per end-effector
   std::vector<double> knot_times;

@@ -38,10 +38,10 @@ bool check_finite(const Problem& problem, Findings& findings) {
 
 /// h_k > 0, where a microsecond counts as nothing.
 bool check_phase_duration(const Problem& problem, Findings& findings) {
-  constexpr double kShortest = 1e-6;
+  const double shortest = 1e-6 * problem.similarity.time;
   bool all = true;
   for (int k = 0; k < problem.phase_count(); ++k) {
-    const double missing = kShortest - problem.plan.phases[k].duration;
+    const double missing = shortest - problem.plan.phases[k].duration;
     all = all && missing <= 0.0;
     findings.offer(Constraint::phase_duration, missing, {k, -1, 0.0});
   }

@@ -43,16 +43,17 @@ Replay rk4(const Replay& from, double h, const Slope& slope) {
 /// Largest difference of two states among its five parts, each in its own unit; where momentum turns the base, the
 /// angles are another constraint's.
 void offer_difference(Constraint constraint, const Replay& a, const Replay& b, bool angles, const Place& place,
-                      double tolerance, Findings& findings) {
-  const auto offer = [&](const Vector3d& x, const Vector3d& y, const char* unit) {
-    findings.offer(constraint, largest((x - y).cwiseAbs()), place, tolerance, unit);
+                      const Problem& problem, Findings& findings) {
+  const Similarity& size = problem.similarity;
+  const auto offer = [&](const Vector3d& x, const Vector3d& y, double factor, const char* unit) {
+    findings.offer(constraint, largest((x - y).cwiseAbs()), place, problem.tolerances.dynamics * factor, unit);
   };
-  offer(a.com_W, b.com_W, "m");
-  offer(a.com_velocity_W, b.com_velocity_W, "m/s");
-  offer(a.momentum_W, b.momentum_W, "kg m^2/s");
+  offer(a.com_W, b.com_W, size.length, "m");
+  offer(a.com_velocity_W, b.com_velocity_W, size.velocity(), "m/s");
+  offer(a.momentum_W, b.momentum_W, size.angular_momentum(), "kg m^2/s");
   if (!angles) return;
-  offer(a.rpy, b.rpy, "rad");
-  offer(a.rpy_rate, b.rpy_rate, "rad/s");
+  offer(a.rpy, b.rpy, 1.0, "rad");
+  offer(a.rpy_rate, b.rpy_rate, size.rate(), "rad/s");
 }
 
 Replay advance_pendulum(const Problem& problem, int phase, const Replay& from, double h) {
@@ -139,7 +140,7 @@ void check_dynamics(const Problem& problem, const Sample& phase_end, Findings& f
   offer_difference(Constraint::dynamics, phase_end.replay,
                    {next.com_W, next.com_velocity_W, next.base_rpy, next.base_rpy_rate,
                     problem.has_momentum(phase_end.phase) ? next.angular_momentum_W : phase_end.replay.momentum_W},
-                   !wrenches, {phase_end.phase, -1, phase_end.time_s}, problem.tolerances.dynamics, findings);
+                   !wrenches, {phase_end.phase, -1, phase_end.time_s}, problem, findings);
   if (!wrenches) return;
   check_turning_rate(problem, phase_end.phase, findings);
   check_orientation_at_knot(problem, phase_end, findings);
@@ -153,8 +154,7 @@ void check_at_consistency(const Problem& problem, const Sample& sample, Findings
   offer_difference(Constraint::at_consistency, sample.replay,
                    {at.com_W, at.com_velocity_W, at.base_rpy, at.base_rpy_rate,
                     problem.has_momentum(sample.phase) ? at.angular_momentum_W : sample.replay.momentum_W},
-                   !problem.has_wrenches(sample.phase), {sample.phase, -1, sample.time_s}, problem.tolerances.dynamics,
-                   findings);
+                   !problem.has_wrenches(sample.phase), {sample.phase, -1, sample.time_s}, problem, findings);
   if (problem.has_wrenches(sample.phase)) check_at_wrenches(problem, sample, findings);
   const double weight = problem.robot.mass * problem.scene.gravity;
   for (int l = 0; l < problem.end_effector_count(); ++l) {
@@ -169,7 +169,7 @@ void check_at_consistency(const Problem& problem, const Sample& sample, Findings
       moment +=
           (contact.points_W[i] - problem.plan.knots[sample.phase].end_effectors_W[l]).cross(sample.cone_forces_W[l][i]);
     findings.offer(Constraint::at_consistency, largest((end.moment_W - moment).cwiseAbs()) / weight, place,
-                   problem.tolerances.dynamics, "m of the weight");
+                   problem.tolerances.dynamics * problem.similarity.length, "m of the weight");
   }
 }
 

@@ -85,20 +85,20 @@ void check_turning_rate(const Problem& problem, int phase, Findings& findings) {
         angular_velocity(rotation_from_rpy(knot.base_rpy), knot.angular_momentum_W, problem.robot.inertia);
     const Vector3d stated = angular_velocity(knot.base_rpy, knot.base_rpy_rate);
     findings.offer(Constraint::dynamics, largest((stated - omega).cwiseAbs()), {phase, -1, problem.knot_times[k]},
-                   problem.tolerances.dynamics, "rad/s");
+                   problem.tolerances.dynamics * problem.similarity.rate(), "rad/s");
   }
 }
 
 /// Of an instant: the rates of the angles are those of the replayed momentum in the orientation that the plan states
 /// (which `orientation` compares); centres of pressure are the contacts', moments those about the end-effectors.
 void check_at_wrenches(const Problem& problem, const Sample& sample, Findings& findings) {
-  const double tolerance = problem.tolerances.dynamics;
+  const double tolerance = problem.tolerances.dynamics, length = problem.similarity.length;
   const double weight = problem.robot.mass * problem.scene.gravity;
   const PlanState& at = sample.at;
   const Vector3d omega = angular_velocity(sample.r_at_WB, sample.replay.momentum_W, problem.robot.inertia);
   findings.offer(Constraint::at_consistency,
                  largest((angular_velocity(at.base_rpy, at.base_rpy_rate) - omega).cwiseAbs()),
-                 {sample.phase, -1, sample.time_s}, tolerance, "rad/s");
+                 {sample.phase, -1, sample.time_s}, tolerance * problem.similarity.rate(), "rad/s");
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const Contact& contact = problem.plan.phases[sample.phase].contacts[l];
     if (contact.surface < 0) continue;
@@ -107,10 +107,10 @@ void check_at_wrenches(const Problem& problem, const Sample& sample, Findings& f
     const Vector3d arm = contact.center_of_pressure_W - problem.plan.knots[sample.phase].end_effectors_W[l];
     const Vector3d moment = contact.moment_W + arm.cross(sample.forces_W[l]);
     findings.offer(Constraint::at_consistency,
-                   largest((end.center_of_pressure_W - contact.center_of_pressure_W).cwiseAbs()), place, tolerance,
-                   "m");
-    findings.offer(Constraint::at_consistency, largest((end.moment_W - moment).cwiseAbs()) / weight, place, tolerance,
-                   "m of the weight");
+                   largest((end.center_of_pressure_W - contact.center_of_pressure_W).cwiseAbs()), place,
+                   tolerance * length, "m");
+    findings.offer(Constraint::at_consistency, largest((end.moment_W - moment).cwiseAbs()) / weight, place,
+                   tolerance * length, "m of the weight");
   }
 }
 

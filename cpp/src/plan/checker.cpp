@@ -135,12 +135,14 @@ CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, cons
   robot.validate();
   require_shape(plan, scene, robot);
 
-  Problem problem{plan, scene, robot, tolerances, {}, {}, {}};
-  Findings findings(tolerances);
+  const Similarity similarity = tolerances.scaled ? similarity_of(robot, scene.gravity) : Similarity();
+  const Tolerances own = for_size(tolerances, similarity);
+  Problem problem{plan, scene, robot, own, similarity, {}, {}, {}};
+  Findings findings(own, similarity);
   if (!check_finite(problem, findings)) return {findings.violations(static_cast<int>(Constraint::finite) + 1, robot)};
   if (!check_phase_duration(problem, findings))
     return {findings.violations(static_cast<int>(Constraint::phase_duration) + 1, robot)};
-  require_samples(plan, tolerances);
+  require_samples(plan, own);
 
   problem.solids = solids_of(scene);
   problem.knot_times = plan.knot_times();

@@ -14,6 +14,7 @@
 #include "mcplan/rhp/execution.hpp"
 #include "mcplan/rhp/guess.hpp"
 #include "mcplan/rhp/horizon.hpp"
+#include "mcplan/rhp/human_size.hpp"
 #include "mcplan/rhp/walker.hpp"
 #include "mcplan/version.hpp"
 
@@ -61,11 +62,18 @@ void require_state(const Walker& walker, const State& state) {
 }  // namespace
 
 struct RecedingHorizon::Impl {
-  Impl(const Scene& scene, const Robot& robot, const Options& options) : walker(scene, robot, options) {}
+  Impl(const Scene& scene, const Robot& robot, const Options& options)
+      : size(scene, robot, options), walker(size.walker()) {}
 
-  Walker walker;
+  void start_at(const State& own) {
+    own_state = own;
+    state = size.to_human(own);
+  }
+
+  HumanSize size;
+  Walker walker;  ///< of human size, as is all here whose name does not say "own"
   Footsteps footsteps;
-  State state;
+  State state, own_state;
   bool moved = false;           ///< the next cycle starts where no cycle has ended
   bool measured = false;        ///< the walk did not start where the scene says
   int index = 0;                ///< cycles done well
@@ -152,7 +160,8 @@ void RecedingHorizon::Impl::accept(Cycle& cycle, const Horizon& horizon_now, con
   Plan next = executed_plan(walker, state, horizon_now, solution.x, 1);
   Tolerances tolerances;
   tolerances.sample_s = 0.005;
-  const CheckResult found = check(next, walker.scene, walker.robot, tolerances);
+  const Similarity& own = size.own();
+  const CheckResult found = check(size.to_own(next), size.scene(), size.robot(), tolerances);
   const bool euler = walker.options.transcription == Transcription::euler;
   cycle.worst_violation = found.worst();
   if (cycle.status == Status::solved && !found.ok()) {
@@ -162,14 +171,14 @@ void RecedingHorizon::Impl::accept(Cycle& cycle, const Horizon& horizon_now, con
                         : "converged, but the checker finds " + found.worst().to_string();
   }
   const Measures measures = measure(walker, state, horizon_now, solution.x, next);
-  cycle.acceleration_cost = measures.acceleration_cost;
-  cycle.momentum_cost = measures.momentum_cost;
-  cycle.drift_com_m = measures.drift_com_m;
-  cycle.drift_momentum = measures.drift_momentum;
+  cycle.acceleration_cost = measures.acceleration_cost * (own.velocity() * own.velocity() / own.time);
+  cycle.momentum_cost = measures.momentum_cost * (own.angular_momentum() * own.angular_momentum() * own.time);
+  cycle.drift_com_m = measures.drift_com_m * own.length;
+  cycle.drift_momentum = measures.drift_momentum * own.angular_momentum();
   cycle.defect = measures.defect;
-  cycle.duration_s = next.duration();
+  cycle.duration_s = next.duration() * own.time;
   const State end = end_of(walker, next);
-  cycle.distance_m = walker.r_WH.col(0).dot(end.com_W - state.com_W);
+  cycle.distance_m = walker.r_WH.col(0).dot(end.com_W - state.com_W) * own.length;
   cycle.executed = true;
 
   Memory memory;
@@ -191,19 +200,20 @@ void RecedingHorizon::Impl::accept(Cycle& cycle, const Horizon& horizon_now, con
   executed = std::move(next);
   moved = false;
   state = end;
+  own_state = size.to_own(end);
   ++index;
 }
 
 RecedingHorizon::RecedingHorizon(const Scene& scene, const Robot& robot, const Options& options)
     : impl_(std::make_unique<Impl>(scene, robot, options)) {
   impl_->footsteps = footsteps_of(impl_->walker);
-  impl_->state = impl_->walker.start();
+  impl_->start_at(impl_->size.to_own(impl_->walker.start()));
 }
 
 RecedingHorizon::RecedingHorizon(const Scene& scene, const Robot& robot, const Plan& sequence, const Options& options)
     : impl_(std::make_unique<Impl>(scene, robot, options)) {
   impl_->footsteps = footsteps_of(impl_->walker, sequence);
-  impl_->state = start_of(impl_->walker, sequence);
+  impl_->start_at(start_of(impl_->walker, sequence));
   impl_->measured = sequence.measured_start;
 }
 
@@ -216,17 +226,18 @@ Cycle RecedingHorizon::step() { return impl_->run(); }
 Cycle RecedingHorizon::step(const State& measured) {
   require_state(impl_->walker, measured);
   // A walk joins its steps only where they meet: from elsewhere a new one begins, once its first step is found.
-  const State& planned = impl_->state;
-  impl_->moved = impl_->moved || measured.com_W != planned.com_W || measured.com_velocity_W != planned.com_velocity_W ||
-                 measured.angular_momentum_W != planned.angular_momentum_W || measured.feet_W != planned.feet_W ||
-                 measured.surfaces != planned.surfaces;
-  impl_->state = measured;
+  const State& planned = impl_->own_state;
+  const bool elsewhere = measured.com_W != planned.com_W || measured.com_velocity_W != planned.com_velocity_W ||
+                         measured.angular_momentum_W != planned.angular_momentum_W ||
+                         measured.feet_W != planned.feet_W || measured.surfaces != planned.surfaces;
+  impl_->moved = impl_->moved || elsewhere;
+  if (elsewhere) impl_->start_at(measured);
   return impl_->run();
 }
 
-const State& RecedingHorizon::state() const { return impl_->state; }
-Plan RecedingHorizon::executed() const { return impl_->executed; }
-Plan RecedingHorizon::horizon() const { return impl_->horizon; }
+const State& RecedingHorizon::state() const { return impl_->own_state; }
+Plan RecedingHorizon::executed() const { return impl_->size.to_own(impl_->executed); }
+Plan RecedingHorizon::horizon() const { return impl_->size.to_own(impl_->horizon); }
 
 Walk RecedingHorizon::walk() {
   const int cycles = impl_->footsteps.ends() ? std::min(impl_->walker.options.cycles, impl_->steps_left())
@@ -240,7 +251,7 @@ Walk RecedingHorizon::walk() {
 
 Walk RecedingHorizon::result() const {
   Walk out;
-  out.plan = impl_->walked;
+  out.plan = impl_->size.to_own(impl_->walked);
   out.cycles = impl_->cycles;
   out.success = !out.cycles.empty();
   Report& report = out.report;

@@ -640,7 +640,7 @@ class Robot:
     @property
     def phase_duration(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
-        Shortest and longest phase of a contact sequence [s].
+        Shortest and longest phase of a contact sequence [s]. The default goes with the size of the robot.
         """
     @phase_duration.setter
     def phase_duration(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
@@ -668,7 +668,7 @@ class Robot:
     @property
     def swing_height(self) -> float:
         """
-        Clearance of a swinging end-effector [m].
+        Clearance of a swinging end-effector [m]. The default, 0.10, goes with the size of the robot.
         """
     @swing_height.setter
     def swing_height(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -1409,7 +1409,7 @@ class PlanResult:
 
 class Tolerances:
     """
-    Published tolerances of the checker.
+    Published tolerances of the checker, for robots of human size; for others times a factor of each unit.
     """
     def __copy__(self) -> Tolerances: ...
     def __deepcopy__(self, memo: dict) -> Tolerances: ...
@@ -1432,6 +1432,7 @@ class Tolerances:
         stance: typing.SupportsFloat | typing.SupportsIndex = 0.02,
         switches: typing.SupportsInt | typing.SupportsIndex = 1,
         sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.001,
+        scaled: bool = True,
     ) -> None: ...
     def __repr__(self) -> str: ...
     @property
@@ -1518,6 +1519,13 @@ class Tolerances:
         """
     @sample_s.setter
     def sample_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def scaled(self) -> bool:
+        """
+        Times the factors of the robot's size, which are 1 for CoM heights of 0.4 to 1.6 m, 20 to 160 kg and earth's gravity; False: as they stand.
+        """
+    @scaled.setter
+    def scaled(self, arg0: bool) -> None: ...
     @property
     def slip(self) -> float:
         """

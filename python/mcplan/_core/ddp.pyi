@@ -296,7 +296,7 @@ class Options:
     @property
     def flight_duration_min_s(self) -> float:
         """
-        Lower bound of phases without any contact [s].
+        Lower bound of phases without any contact [s]. The default goes with the size of the robot.
         """
     @flight_duration_min_s.setter
     def flight_duration_min_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -368,7 +368,7 @@ class Options:
     @property
     def reach_margin_m(self) -> float:
         """
-        The reach box is planned smaller by this [m].
+        The reach box is planned smaller by this [m]. The default goes with the size of the robot.
         """
     @reach_margin_m.setter
     def reach_margin_m(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...

@@ -125,9 +125,12 @@ class RobotModel(Table):
         description="[kg m^2] Diagonal, about the CoM, in the nominal posture."
     )
     com_height: Positive = Field(description="[m] Of the CoM above the ground in the nominal stance.")
-    swing_height: Positive = Field(0.10, description="[m] Clearance of a swinging end-effector.")
+    swing_height: Positive = Field(
+        0.10, description="[m] Clearance of a swinging end-effector. The default goes with the robot's size."
+    )
     phase_duration: Annotated[list[Positive], Field(min_length=2, max_length=2)] = Field(
-        [0.15, 0.5], description="[s] Shortest and longest phase of a contact sequence."
+        [0.15, 0.5],
+        description="[s] Shortest and longest phase of a contact sequence. The default goes with the robot's size.",
     )
     sole_support: Annotated[float, Field(ge=0, le=1)] = Field(
         0.0, description="[-] Share of a sole that a contact sequence keeps on its surface; 0: its centre."

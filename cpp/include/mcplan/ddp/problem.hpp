@@ -8,6 +8,7 @@
 #include "mcplan/ddp/options.hpp"
 #include "mcplan/plan/plan.hpp"
 #include "mcplan/robot/robot.hpp"
+#include "mcplan/robot/similarity.hpp"
 #include "mcplan/scene/polygon.hpp"
 #include "mcplan/scene/scene.hpp"
 
@@ -55,6 +56,7 @@ class Problem {
   Robot robot;
   Options options;
   Units units;
+  Similarity similarity;  ///< what margins and durations stated for a robot of human size are multiplied by
   Layout layout;
   int steps = 0;                  ///< N
   std::vector<int> active;        ///< end-effector of the robot behind each of the problem's

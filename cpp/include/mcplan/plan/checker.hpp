@@ -6,10 +6,12 @@
 #include "mcplan/base/logging.hpp"
 #include "mcplan/plan/plan.hpp"
 #include "mcplan/plan/report.hpp"
+#include "mcplan/robot/similarity.hpp"
 
 namespace mcplan {
 
-/// Published tolerances of the checker.
+/// Published tolerances of the checker, for robots of human size. For others check() takes them times the factors of
+/// their Similarity, each by its unit, unless `scaled` is false; what it took stands in Violation::tolerance.
 struct Tolerances {
   double dynamics = 1e-8;  ///< [m], [m/s], [rad], [rad/s], [kg m^2/s] replayed state against the next knot
   double orientation = 0.017453292519943295;  ///< [rad] replayed orientation of the base, a degree
@@ -27,6 +29,7 @@ struct Tolerances {
   double stance = 2e-2;                       ///< [m] end-effectors in contact at the start off the nominal stance
   int switches = 1;        ///< [-] contacts made or broken in one step; surface to surface counts two
   double sample_s = 1e-3;  ///< [s] sampling of the constraints in time
+  bool scaled = true;      ///< times the robot's Similarity; false: as they stand, whatever the robot's size
 };
 
 /// What the checker found: the worst place of every constraint, violated or not. Names and meanings:

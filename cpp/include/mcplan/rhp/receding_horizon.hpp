@@ -34,7 +34,7 @@ struct Cycle {
   double evaluation_s = 0.0;     ///< of which in functions and derivatives
   double linear_solver_s = 0.0;  ///< of which in the linear solver
   int variables = 0, constraints = 0;
-  double cost = 0.0;               ///< of the whole horizon
+  double cost = 0.0;               ///< of the whole horizon, for a robot of human size
   double acceleration_cost = 0.0;  ///< executed step: integral of |acceleration|^2 [m^2/s^3]
   double momentum_cost = 0.0;      ///< executed step: integral of |L|^2
   double distance_m = 0.0;         ///< executed step: travel of the CoM along the heading
