@@ -37,12 +37,12 @@ def spoken_of(page: Page) -> Iterator[tuple[int, str]]:
         number += sum(1 for i in dropped or () if i < number)
         if is_code or line.startswith("    mcplan "):
             bare = re.sub(r"^(\s*\$ |\.venv/bin/|\s+)", "", line)
-            for part in re.split(r"\s&&\s", re.sub(r"\s#\s.*", "", bare)):
+            for part in re.split(r"\s(?:&&|\|)\s", re.sub(r"\s#\s.*", "", bare)):
                 if re.match(r"mcplan( |$)", part.strip()):
                     yield number, part.strip()
         else:
             for command in _INLINE.findall(line):
-                yield number, command
+                yield number, command.partition(" | ")[0]
 
 
 def help_faults() -> list[str]:
