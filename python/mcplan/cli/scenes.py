@@ -33,7 +33,9 @@ def scenes(
 ) -> None:
     """List the built-in scenes, or print, draw or copy one.
 
-    Example: mcplan scenes gap_with_rail --html rail.html --robot talos, mcplan scenes random_patches --seed 3 -o my.toml
+    Example: mcplan scenes gap_with_rail --html rail.html --robot talos
+
+    Example: mcplan scenes random_patches --seed 3 -o my.toml
     """
     from mcplan.cli.table import print_table
     from mcplan.errors import InvalidInput
