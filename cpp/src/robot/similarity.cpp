@@ -8,7 +8,9 @@ namespace {
 
 /// 2^exponent, the largest integer power of 2^step that is at most 2 ratio. Takes the exponent from the floating-point
 /// number itself, so that a ratio times a power of 2^step has the factor times the same, to the last bit.
+/// Numbers that no valid robot has give 0: plans are asked questions before anybody has validated them.
 int exponent_of(double ratio, int step) {
+  if (!(std::isfinite(ratio) && ratio > 0.0)) return 0;
   constexpr int kMost = 240;  // products of three factors stay finite
   const int log2 = std::clamp(std::ilogb(2.0 * ratio), -kMost, kMost);
   const int steps = static_cast<int>(std::floor(static_cast<double>(log2) / step));

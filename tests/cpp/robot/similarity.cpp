@@ -74,7 +74,7 @@ TEST_CASE("a robot larger by powers of 4, 2 and 8 has factors larger by the same
 TEST_CASE("factors are finite and positive whatever the numbers") {
   const double huge = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::denorm_min();
   for (double height : {tiny, 1e-300, 1.0, 1e300, huge, 0.0, std::nan("")})
-    for (double gravity : {tiny, 1.0, huge}) {
+    for (double gravity : {tiny, 1.0, huge, 0.0, -9.81, std::nan("")}) {
       const Similarity s = similarity_of(robot(height, gravity), gravity);
       for (double factor : {s.length, s.time, s.mass, s.force(), s.moment(), s.angular_momentum(), s.rate()}) {
         CHECK(std::isfinite(factor));
