@@ -10,6 +10,7 @@
 #include "mcplan/base/turning.hpp"
 #include "mcplan/plan/point_forces.hpp"
 #include "phase_state.hpp"
+#include "plan_shape.hpp"
 
 namespace mcplan {
 namespace {
@@ -213,73 +214,6 @@ void point_force_motion(const Plan& plan, const Phase& phase, const Knot& from, 
     }
     state.com_acceleration_W += end.force_W / mass;
     set_center_of_pressure(plan, phase.contacts[l].surface, end);
-  }
-}
-
-std::string indexed(const char* list, int i) { return std::string(list) + "[" + std::to_string(i) + "]"; }
-
-void require_count(const std::string& field, std::size_t count, std::size_t wanted, const char* each) {
-  if (count != wanted)
-    throw InvalidPlan(field, "must be one per " + std::string(each) + " (" + std::to_string(wanted) + ")",
-                      std::to_string(count));
-}
-
-void require_knot(const Plan& plan, int k, std::size_t ends) {
-  const Knot& knot = plan.knots[k];
-  if (knot.end_effectors_W.size() == ends && knot.end_effector_velocities_W.size() == ends) return;
-  require_count(indexed("knots", k) + ".end_effectors", knot.end_effectors_W.size(), ends, "end-effector");
-  require_count(indexed("knots", k) + ".end_effector_velocities", knot.end_effector_velocities_W.size(), ends,
-                "end-effector");
-}
-
-void require_point_forces(const Phase& phase, const std::string& field) {
-  if (phase.intervals < 1 || phase.intervals > Phase::max_intervals)
-    throw InvalidPlan(field + ".intervals",
-                      "must lie in [1, " + text(Phase::max_intervals) + "] where forces act at points",
-                      text(phase.intervals));
-  const std::size_t nodes = static_cast<std::size_t>(phase.node_count());
-  for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
-    const Contact& contact = phase.contacts[l];
-    if (contact.point_forces_W.size() != nodes * contact.points_W.size())
-      require_count(field + ".contacts[" + std::to_string(l) + "].point_forces", contact.point_forces_W.size(),
-                    nodes * contact.points_W.size(), "node and point");
-  }
-}
-
-/// What at_phase() would read outside of without these: the plan may have been edited since it was validated. No more
-/// than that, since a controller asks at 1 kHz.
-void require_queryable(const Plan& plan, int k, double since_start) {
-  const int n = static_cast<int>(plan.phases.size());
-  if (n == 0) throw InvalidPlan("phases", "needs at least one phase", "none");
-  if (k < 0 || k >= n) throw InvalidInput("phase", "must lie in [0, " + text(n - 1) + "]", text(k));
-  if (plan.knots.size() != plan.phases.size() + 1)
-    throw InvalidPlan("knots", "must be one more than the phases (" + text(n + 1) + ")",
-                      std::to_string(plan.knots.size()));
-  const Phase& phase = plan.phases[k];
-  const std::size_t ends = plan.robot.end_effectors.size();
-  if (phase.contacts.size() != ends)
-    require_count(indexed("phases", k) + ".contacts", phase.contacts.size(), ends, "end-effector");
-  require_knot(plan, k, ends);
-  require_knot(plan, k + 1, ends);
-  if (!(phase.duration > 0.0 && std::isfinite(phase.duration)))
-    throw InvalidPlan(indexed("phases", k) + ".duration", "must be a positive number", text(phase.duration));
-  constexpr double kRounding = 1e-9;
-  if (!(since_start >= -kRounding && since_start <= phase.duration + kRounding))
-    throw InvalidInput("since_start", "must lie in [0, " + text(phase.duration) + "] s", text(since_start));
-  if (phase.has_points()) require_point_forces(phase, indexed("phases", k));
-  for (std::size_t i = 0; i < plan.swings.size(); ++i) {
-    const Swing& swing = plan.swings[i];
-    if (k < swing.first_phase || k >= swing.end_phase) continue;
-    if (swing.first_phase < 0 || swing.end_phase > n)
-      throw InvalidPlan("swings[" + std::to_string(i) + "]", "must be a range of phases (0 to " + text(n) + ")",
-                        text(swing.first_phase) + " to " + text(swing.end_phase));
-    if (swing.end_effector < 0 || swing.end_effector >= static_cast<int>(ends))
-      throw InvalidPlan("swings[" + std::to_string(i) + "].end_effector",
-                        "must be the index of an end-effector (below " + std::to_string(ends) + ")",
-                        text(swing.end_effector));
-    // Both ends, between which the box of reach is widened.
-    require_knot(plan, swing.first_phase, ends);
-    require_knot(plan, swing.end_phase, ends);
   }
 }
 

@@ -8,6 +8,8 @@
 namespace mcplan {
 namespace {
 
+constexpr const char* kEach = "one per end-effector";
+
 std::string indexed(const char* list, std::size_t i) { return list + ("[" + std::to_string(i) + "]"); }
 
 void require_count(const std::string& field, std::size_t count, std::size_t wanted, const char* what) {
@@ -30,24 +32,79 @@ void require_swing(const Swing& swing, const std::string& field, std::size_t end
                           text(swing.end_phase));
 }
 
+void require_knot(const Plan& plan, int k, std::size_t ends) {
+  const Knot& knot = plan.knots[k];
+  if (knot.end_effectors_W.size() == ends && knot.end_effector_velocities_W.size() == ends) return;
+  require_count(indexed("knots", k) + ".end_effectors", knot.end_effectors_W.size(), ends, kEach);
+  require_count(indexed("knots", k) + ".end_effector_velocities", knot.end_effector_velocities_W.size(), ends, kEach);
+}
+
+void require_point_forces(const Phase& phase, const std::string& field) {
+  if (phase.intervals < 1 || phase.intervals > Phase::max_intervals)
+    throw InvalidPlan(field + ".intervals",
+                      "must lie in [1, " + text(Phase::max_intervals) + "] where forces act at points",
+                      text(phase.intervals));
+  const std::size_t nodes = static_cast<std::size_t>(phase.node_count());
+  for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
+    const Contact& contact = phase.contacts[l];
+    if (contact.point_forces_W.size() != nodes * contact.points_W.size())
+      require_count(field + ".contacts[" + std::to_string(l) + "].point_forces", contact.point_forces_W.size(),
+                    nodes * contact.points_W.size(), "one per node and point");
+  }
+}
+
 }  // namespace
+
+void require_queryable(const Plan& plan, int k, double since_start) {
+  const int n = static_cast<int>(plan.phases.size());
+  if (n == 0) throw InvalidPlan("phases", "needs at least one phase", "none");
+  if (k < 0 || k >= n) throw InvalidInput("phase", "must lie in [0, " + text(n - 1) + "]", text(k));
+  if (plan.knots.size() != plan.phases.size() + 1)
+    throw InvalidPlan("knots", "must be one more than the phases (" + text(n + 1) + ")",
+                      std::to_string(plan.knots.size()));
+  const Phase& phase = plan.phases[k];
+  const std::size_t ends = plan.robot.end_effectors.size();
+  if (phase.contacts.size() != ends)
+    require_count(indexed("phases", k) + ".contacts", phase.contacts.size(), ends, kEach);
+  require_knot(plan, k, ends);
+  require_knot(plan, k + 1, ends);
+  if (!(phase.duration > 0.0 && std::isfinite(phase.duration)))
+    throw InvalidPlan(indexed("phases", k) + ".duration", "must be a positive number", text(phase.duration));
+  constexpr double kRounding = 1e-9;
+  if (!(since_start >= -kRounding && since_start <= phase.duration + kRounding))
+    throw InvalidInput("since_start", "must lie in [0, " + text(phase.duration) + "] s", text(since_start));
+  if (phase.has_points()) require_point_forces(phase, indexed("phases", k));
+  for (std::size_t i = 0; i < plan.swings.size(); ++i) {
+    const Swing& swing = plan.swings[i];
+    if (k < swing.first_phase || k >= swing.end_phase) continue;
+    if (swing.first_phase < 0 || swing.end_phase > n)
+      throw InvalidPlan("swings[" + std::to_string(i) + "]", "must be a range of phases (0 to " + text(n) + ")",
+                        text(swing.first_phase) + " to " + text(swing.end_phase));
+    if (swing.end_effector < 0 || swing.end_effector >= static_cast<int>(ends))
+      throw InvalidPlan("swings[" + std::to_string(i) + "].end_effector",
+                        "must be the index of an end-effector (below " + std::to_string(ends) + ")",
+                        text(swing.end_effector));
+    // Both ends, between which the box of reach is widened.
+    require_knot(plan, swing.first_phase, ends);
+    require_knot(plan, swing.end_phase, ends);
+  }
+}
 
 void require_shape(const Plan& plan, std::size_t surfaces, bool with_swings) {
   const std::size_t n = plan.phases.size(), ends = plan.robot.end_effectors.size();
-  const char* each = "one per end-effector";
   if (n == 0) throw InvalidPlan("phases", "needs at least one phase", "none");
   require_count("knots", plan.knots.size(), n + 1, "one more than the phases");
   for (std::size_t k = 0; k <= n; ++k) {
-    require_count(indexed("knots", k) + ".end_effectors", plan.knots[k].end_effectors_W.size(), ends, each);
+    require_count(indexed("knots", k) + ".end_effectors", plan.knots[k].end_effectors_W.size(), ends, kEach);
     require_count(indexed("knots", k) + ".end_effector_velocities", plan.knots[k].end_effector_velocities_W.size(),
-                  ends, each);
+                  ends, kEach);
   }
   for (std::size_t k = 0; k < n; ++k) {
     const std::string field = indexed("phases", k) + ".contacts";
-    require_count(field, plan.phases[k].contacts.size(), ends, each);
+    require_count(field, plan.phases[k].contacts.size(), ends, kEach);
     for (const Contact& contact : plan.phases[k].contacts) require_surface(field, contact.surface, surfaces);
   }
-  require_count("final_contacts", plan.final_contacts.size(), ends, each);
+  require_count("final_contacts", plan.final_contacts.size(), ends, kEach);
   for (int surface : plan.final_contacts) require_surface("final_contacts", surface, surfaces);
   for (std::size_t i = 0; with_swings && i < plan.swings.size(); ++i)
     require_swing(plan.swings[i], indexed("swings", i), ends, n);

@@ -11,6 +11,11 @@ namespace mcplan {
 /// with `with_swings` false.
 void require_shape(const Plan& plan, std::size_t surfaces, bool with_swings = true);
 
+/// Throws InvalidPlan or InvalidInput for what Plan::at_phase(k, since_start) would read outside of its bounds: the
+/// plan may have been edited since it was validated. It looks at no more than that instant needs, since a controller
+/// asks at 1 kHz.
+void require_queryable(const Plan& plan, int k, double since_start);
+
 /// Samples of a phase in equal steps no longer than sample_s, at least 1; 0 for a phase without a duration. Throws
 /// InvalidInput for a sampling that is not positive or cuts the phase into more than 1e7.
 int samples_of(const Phase& phase, double sample_s);
