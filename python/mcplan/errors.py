@@ -75,6 +75,11 @@ class InvalidInput(ValueError):
         return made[0]
 
 
+def apart(error: InvalidInput) -> list[InvalidInput]:
+    """An error and its others, each on its own."""
+    return [_moved(finding, None, "", "") for finding in (error, *error.others)]
+
+
 def _moved(finding: InvalidInput, kind: type[InvalidInput] | None, source: str, prefix: str) -> InvalidInput:
     field = ".".join(part for part in (prefix, finding.field) if part)
     return (kind or type(finding))(field, finding.rule, finding.value, source or finding.source)

@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from mcplan._core import EndEffector, Robot
-from mcplan.errors import InvalidRobot, UnknownRobot
+from mcplan.errors import InvalidInput, InvalidRobot, UnknownRobot, apart
 from mcplan.files import builtin
 from mcplan.files.builtin import exists
 from mcplan.files.geometry import require_robot_meant
 from mcplan.files.outputs import write_whole
 from mcplan.files.polytopes import polytope_from_dict, polytope_to_dict, read_polytope
 from mcplan.files.reading import referenced
+from mcplan.files.sound_parts import elsewhere, name_of, replaced
 from mcplan.files.toml import read_toml, toml_text
 
 #: How a robot names a URDF of the package example-robot-data.
@@ -110,7 +111,7 @@ def robot_from_dict(data: Mapping[str, Any], source: str = "", folder: Path | No
     from mcplan.files.fields import validated
     from mcplan.files.models import RobotModel
 
-    model = validated(RobotModel, dict(data), InvalidRobot, source)
+    model = validated(RobotModel, dict(data), InvalidRobot, source, _besides)
     plain = model.model_dump()
     for i, end in enumerate(plain["end_effectors"]):
         field = f"end_effectors[{i}]"
@@ -155,6 +156,37 @@ def urdf_beside(urdf: str, path: str | Path) -> str | None:
         return urdf
     target, root = Path(urdf).resolve(), Path(path).resolve().parent
     return target.relative_to(root).as_posix() if target.is_relative_to(root) else None
+
+
+def _besides(data: Any, locations: list[tuple[Any, ...]]) -> list[InvalidInput]:
+    """What is wrong with the parts of a robot that have their keys and types right; reach polytopes are left out."""
+    from pydantic import ValidationError
+
+    from mcplan.files.models import RobotModel
+
+    box = {"nominal": [0.0, 0.0, 0.0], "reach_min": [-1.0, -1.0, -1.0], "reach_max": [1.0, 1.0, 1.0]}
+    sound, fields = replaced(
+        data,
+        locations,
+        {
+            "mass": lambda value, i: 1.0,
+            "inertia": lambda value, i: 1.0 if i >= 0 else [1.0, 1.0, 1.0],
+            "com_height": lambda value, i: 1.0,
+            "end_effectors": lambda value, i: (
+                {"name": name_of(value, i), **box} if i >= 0 else [{"name": "foot", **box}]
+            ),
+        },
+    )
+    try:
+        plain = RobotModel.model_validate(sound).model_dump()
+        for end in plain["end_effectors"]:
+            end["com_reach"], end["partner_reach"] = None, {}
+        rebuild_robot(plain).validate()
+    except InvalidRobot as found:
+        return [each for each in apart(found) if elsewhere(each, fields)]
+    except ValidationError:
+        pass
+    return []
 
 
 def rebuild_robot(data: Mapping[str, Any]) -> Robot:

@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from mcplan._core import ContactRule, Scene, Stance, Step, Surface
-from mcplan.errors import InvalidOptions, InvalidScene, UnknownScene
+from mcplan.errors import InvalidInput, InvalidOptions, InvalidScene, UnknownScene, apart
 from mcplan.files import builtin
 from mcplan.files.geometry import require_meant
 from mcplan.files.outputs import write_whole
+from mcplan.files.sound_parts import elsewhere, name_of, replaced
 from mcplan.files.toml import read_toml, toml_text
 
 
@@ -74,13 +75,47 @@ def scene_from_dict(data: Mapping[str, Any], source: str = "") -> Scene:
     from mcplan.files.fields import validated
     from mcplan.files.models import SceneModel
 
-    model = validated(SceneModel, dict(data), InvalidScene, source)
+    model = validated(SceneModel, dict(data), InvalidScene, source, _besides)
     scene = rebuild_scene(model.model_dump())
     try:
         scene.validate()
     except InvalidScene as found:
         raise found.moved(source=source) from None
     return scene
+
+
+def _besides(data: Any, locations: list[tuple[Any, ...]]) -> list[InvalidInput]:
+    """What is wrong with the parts of a scene that have their keys and types right."""
+    from pydantic import ValidationError
+
+    from mcplan.files.models import SceneModel
+
+    square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]
+    surfaces = data.get("surfaces")
+    first = name_of(surfaces[0], 0) if isinstance(surfaces, list) and surfaces else name_of(None, 0)
+    stance = {"position": [0.0, 0.0, 0.0], "contacts": {"foot": first}}
+    sound, fields = replaced(
+        data,
+        locations,
+        {
+            "surfaces": lambda value, i: {"name": name_of(value, i), "vertices": square} if i >= 0 else [],
+            "start": lambda value, i: stance,
+            "goal": lambda value, i: stance,
+            "rules": lambda value, i: {"when_free": ["foot"], "require": ["hand"]} if i >= 0 else [],
+            "steps": lambda value, i: {"end_effector": "foot", "surface": first} if i >= 0 else [],
+        },
+    )
+    if "surfaces" in fields or not isinstance(surfaces, list):
+        return []  # what the others name is not known
+    try:
+        rebuild_scene(SceneModel.model_validate(sound).model_dump()).validate()
+    except InvalidScene as found:
+        named = all(name_of(value, i) != name_of(None, i) for i, value in enumerate(surfaces))
+        others = [each for each in apart(found) if elsewhere(each, fields)]
+        return [each for each in others if named or not each.rule.startswith("must name a surface")]
+    except ValidationError:
+        pass
+    return []
 
 
 def rebuild_scene(data: Mapping[str, Any]) -> Scene:

@@ -26,3 +26,20 @@ TEST_CASE("values are written short") {
   CHECK(text(Eigen::Vector3d(1, 0.5, -2)) == "[1, 0.5, -2]");
   CHECK(text(Eigen::VectorXd()) == "[]");
 }
+
+TEST_CASE("checks are all made, and what they find is thrown together") {
+  mcplan::Validation<mcplan::InvalidScene> check;
+  CHECK(check([] {}));
+  CHECK_FALSE(check([] { throw mcplan::InvalidScene("a", "must be 1", "2"); }));
+  CHECK_FALSE(check([] { throw mcplan::InvalidScene("b", "must be 3", "4"); }));
+  try {
+    check.raise();
+    FAIL("nothing was thrown");
+  } catch (const mcplan::InvalidScene& found) {
+    CHECK(found.field() == "a");
+    REQUIRE(found.others().size() == 1);
+    CHECK(found.others()[0].field() == "b");
+    CHECK(found.others()[0].value() == "4");
+  }
+  CHECK_NOTHROW(mcplan::Validation<mcplan::InvalidScene>().raise());
+}
