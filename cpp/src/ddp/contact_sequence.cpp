@@ -7,11 +7,20 @@ namespace mcplan::ddp {
 
 ContactRules::ContactRules(std::vector<std::vector<int>> surfaces, std::vector<StateRule> rules,
                            bool one_switch_per_step)
-    : surfaces_(std::move(surfaces)), rules_(std::move(rules)), one_switch_(one_switch_per_step) {}
+    : surfaces_(std::move(surfaces)), rules_(std::move(rules)), one_switch_(one_switch_per_step) {
+  for (const std::vector<int>& list : surfaces_) {
+    std::vector<char>& may = may_touch_.emplace_back();
+    for (int surface : list) {
+      if (surface >= static_cast<int>(may.size())) may.resize(surface + 1, 0);
+      may[surface] = 1;
+    }
+  }
+}
 
 bool ContactRules::allowed(const ContactState& state) const {
   for (int l = 0; l < ends(); ++l)
-    if (state[l] != kFree && std::find(surfaces_[l].begin(), surfaces_[l].end(), state[l]) == surfaces_[l].end())
+    if (state[l] != kFree &&
+        (state[l] < 0 || state[l] >= static_cast<int>(may_touch_[l].size()) || !may_touch_[l][state[l]]))
       return false;
   for (const StateRule& rule : rules_) {
     const bool all_free =
@@ -32,7 +41,16 @@ bool ContactRules::may_follow(const ContactState& from, const ContactState& to) 
   return true;
 }
 
-std::vector<ContactState> ContactRules::successors(const ContactState& state) const {
+std::vector<int> ContactRules::makes(int l, int k, const ContactState& also) const {
+  if (near_.empty() || k < 0) return surfaces_[l];
+  std::vector<int> out = near_[k][l];
+  const int other = also.empty() ? kFree : also[l];
+  if (other == kFree || std::binary_search(out.begin(), out.end(), other)) return out;
+  out.insert(std::upper_bound(out.begin(), out.end(), other), other);
+  return out;
+}
+
+std::vector<ContactState> ContactRules::successors(const ContactState& state, int k, const ContactState& also) const {
   std::vector<ContactState> out;
   if (one_switch_) {
     if (allowed(state)) out.push_back(state);
@@ -42,7 +60,7 @@ std::vector<ContactState> ContactRules::successors(const ContactState& state) co
         next[l] = kFree;
         if (allowed(next)) out.push_back(next);
       } else {
-        for (int surface : surfaces_[l]) {
+        for (int surface : makes(l, k, also)) {
           next[l] = surface;
           if (allowed(next)) out.push_back(next);
         }
@@ -55,10 +73,8 @@ std::vector<ContactState> ContactRules::successors(const ContactState& state) co
   std::vector<std::vector<int>> choices(ends());
   for (int l = 0; l < ends(); ++l) {
     choices[l] = {state[l]};
-    if (state[l] != kFree)
-      choices[l].push_back(kFree);
-    else
-      choices[l].insert(choices[l].end(), surfaces_[l].begin(), surfaces_[l].end());
+    const std::vector<int> made = state[l] == kFree ? makes(l, k, also) : std::vector<int>{kFree};
+    choices[l].insert(choices[l].end(), made.begin(), made.end());
   }
   std::vector<std::size_t> digit(ends(), 0);
   for (;;) {
@@ -102,7 +118,7 @@ bool ContactRules::valid(const ContactSequence& sequence) const {
 }
 
 std::vector<ContactState> ContactRules::neighbours(const ContactSequence& sequence, int k) const {
-  std::vector<ContactState> out = successors(sequence[k - 1]);
+  std::vector<ContactState> out = successors(sequence[k - 1], k, sequence[k + 1]);
   out.erase(std::remove_if(out.begin(), out.end(),
                            [&](const ContactState& s) { return s == sequence[k] || !may_follow(s, sequence[k + 1]); }),
             out.end());

@@ -97,7 +97,7 @@ void snap_forces(const Problem& problem, const Pendulum& pendulum, const Contact
 
 }  // namespace
 
-bool Search::make_exact(Incumbent& now) {
+bool Search::make_exact(Incumbent& now, const StopRequest& give_up) {
   const Stopwatch watch(report_->timing_s, "make_exact");
   const Layout& at = problem_->layout;
   Held held(problem_->steps, std::vector<char>(at.nu(), 0));
@@ -113,6 +113,7 @@ bool Search::make_exact(Incumbent& now) {
   // Newton on the defects: quadratic from 1e-3 on, but every input that meets its bound costs a step.
   constexpr double kRounding = 1e-13;
   for (int i = 0; i < 30; ++i) {
+    if (give_up && give_up()) return false;
     snap_forces(*problem_, model_.pendulum(), now.sequence, trajectory, held);
     model_.expand(trajectory, schedule);
     double defect = 0.0;

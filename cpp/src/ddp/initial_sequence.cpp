@@ -21,7 +21,7 @@ struct Node {
 
 }  // namespace
 
-ContactSequence initial_sequence(LocalModel& model, std::size_t beam) {
+ContactSequence initial_sequence(LocalModel& model, std::size_t beam, const StopRequest& stop) {
   const Problem& problem = model.problem();
   const int n = problem.steps, ends = problem.layout.ends();
   const bool one_switch = problem.options.one_switch_per_step;
@@ -35,16 +35,20 @@ ContactSequence initial_sequence(LocalModel& model, std::size_t beam) {
   std::vector<std::map<ContactState, Node>> layers(n + 1);
   if (!problem.rules.allowed(problem.start_contacts) || !problem.rules.allowed(problem.goal_contacts)) return {};
   layers[0][problem.start_contacts] = {cost_of(0, problem.start_contacts), {}};
+  int looked_at = 0;
   for (int k = 0; k < n; ++k) {
     std::map<ContactState, Node>& next = layers[k + 1];
-    for (const auto& [state, node] : layers[k])
-      for (ContactState& follower : problem.rules.successors(state)) {
+    for (const auto& [state, node] : layers[k]) {
+      constexpr int kOften = 32;
+      if (stop && ++looked_at % kOften == 0 && stop()) return {};
+      for (ContactState& follower : problem.rules.successors(state, k + 1)) {
         // Leave out what can no longer reach the goal's contacts in the steps that remain.
         if (one_switch && distance(follower, problem.goal_contacts) > n - (k + 1)) continue;
         const double cost = node.cost + cost_of(k + 1, follower);
         const auto [it, fresh] = next.try_emplace(std::move(follower), Node{cost, state});
         if (!fresh && clearly_less(cost, it->second.cost)) it->second = {cost, state};
       }
+    }
     if (next.size() > beam) {
       std::vector<double> costs;
       for (const auto& [state, node] : next) costs.push_back(node.cost);

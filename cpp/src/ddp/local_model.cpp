@@ -66,9 +66,14 @@ LocalModel::LocalModel(const Problem& problem)
     stage.flight = Rows(problem.layout.nz(), true);
     for (int l = 0; l < problem.layout.ends(); ++l) {
       const std::size_t choices = problem.rules.surfaces(l).size() + 1;
-      stage.blocks.emplace_back(choices, Rows(problem.layout.nz(), true));
+      stage.blocks.emplace_back(choices);
       stage.made.emplace_back(choices, 0);
     }
+  }
+  for (int l = 0; l < problem.layout.ends(); ++l) {
+    choice_.emplace_back(problem.polygons.size(), 0);
+    int choice = 0;
+    for (int surface : problem.rules.surfaces(l)) choice_[l][surface] = ++choice;
   }
 }
 
@@ -76,6 +81,7 @@ void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) 
   const Layout& at = problem_->layout;
   trajectory_ = &trajectory;
   schedule_ = schedule;
+  ++expansion_;
   for (int k = 0; k <= steps(); ++k) {
     Stage& stage = stages_[k];
     const bool last = k == steps();
@@ -89,7 +95,6 @@ void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) 
     base_rows_.accumulate(stage.base.c, stage.base.g, stage.base.h, scratch_);
     if (schedule.held_inputs) hold_inputs(*problem_, k, last ? nullptr : &(*schedule.held_inputs)[k], stage.base);
     stage.flight_made = false;
-    for (auto& made : stage.made) std::fill(made.begin(), made.end(), 0);
     if (last) {
       stage.base.g.conservativeResize(at.nx());
       stage.base.h.conservativeResize(at.nx(), at.nx());
@@ -111,17 +116,14 @@ void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) 
 
 const Rows& LocalModel::block(int k, int l, int contact) {
   Stage& stage = stages_[k];
-  std::size_t choice = 0;
-  if (contact != kFree) {
-    const auto& list = problem_->rules.surfaces(l);
-    choice = 1 + (std::find(list.begin(), list.end(), contact) - list.begin());
-  }
+  const int choice = contact == kFree ? 0 : choice_[l][contact];
   Rows& rows = stage.blocks[l][choice];
-  if (!stage.made[l][choice]) {
+  if (stage.made[l][choice] != expansion_) {
+    if (!rows.sized()) rows = Rows(problem_->layout.nz(), true);
     rows.clear();
     add_contact_rows(*problem_, pendulum_, trajectory_->x[k], k < steps() ? &trajectory_->u[k] : nullptr,
                      stage.instants, l, contact, trajectory_->sole_yaw[k][l], schedule_, rows);
-    stage.made[l][choice] = 1;
+    stage.made[l][choice] = expansion_;
   }
   return rows;
 }

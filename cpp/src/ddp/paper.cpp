@@ -19,6 +19,7 @@ bool Search::paper_switches(Incumbent& now, Iteration& row) {
   Quadratic value;
   Eigen::LLT<Eigen::MatrixXd> factor;
   for (;;) {
+    if (row.switches > 0 && deadline_->passed()) return true;
     {
       const Stopwatch watch(report_->timing_s, "value_backward");
       if (!values_.backward(now.sequence, problem_->steps)) return false;
@@ -70,6 +71,7 @@ Status Search::run_paper(Incumbent& now, int iterations) {
     now.evaluation = evaluate_(now.trajectory, now.sequence, schedule);
     if (!std::isfinite(now.evaluation.merit())) return Status::numerical_failure;
     record(std::move(row), now, schedule);
+    if (watcher_) watcher_(now);
     schedule.contact_weight = std::min(w.contact_growth * schedule.contact_weight, w.contact_max);
   }
   return Status::solved;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/base/rotation.hpp"
@@ -379,6 +380,28 @@ ContactSequence Problem::to_active(const ContactSequence& sequence) const {
     throw InvalidOptions(field, "must keep permissions, rules and at most one switch a step",
                          "a sequence that does not");
   return out;
+}
+
+void Problem::look_near(int count) {
+  std::size_t most = 0;
+  for (int l = 0; l < layout.ends(); ++l) most = std::max(most, rules.surfaces(l).size());
+  rules.look_near({});
+  if (count <= 0 || most <= static_cast<std::size_t>(count)) return;
+  std::vector<std::vector<std::vector<int>>> near(steps + 1);
+  std::vector<std::pair<double, int>> distances;
+  for (int k = 0; k <= steps; ++k)
+    for (int l = 0; l < layout.ends(); ++l) {
+      const Vector3d due = reference.x[k].segment<3>(layout.end(l));
+      distances.clear();
+      for (int surface : rules.surfaces(l))
+        distances.emplace_back((polygons[surface].nearest(due) - due).squaredNorm(), surface);
+      const std::size_t kept = std::min(distances.size(), static_cast<std::size_t>(count));
+      std::partial_sort(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(kept), distances.end());
+      std::vector<int>& list = near[k].emplace_back();
+      for (std::size_t i = 0; i < kept; ++i) list.push_back(distances[i].second);
+      std::sort(list.begin(), list.end());
+    }
+  rules.look_near(std::move(near));
 }
 
 void Problem::set_start(const Knot& measured, const ContactState& contacts) {

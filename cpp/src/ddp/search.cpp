@@ -104,7 +104,7 @@ int Search::switch_contacts(ContactSequence& sequence, Iteration& row) {
     if (!values_.forward(sequence, 0)) return 0;
   }
   int switches = 0;
-  for (; switches < kSwitchesPerIteration; ++switches) {
+  for (; switches < kSwitchesPerIteration && !deadline_->passed(); ++switches) {
     const Neighbour* best;
     {
       const Stopwatch watch(report_->timing_s, "pricing");
@@ -183,6 +183,7 @@ Status Search::discover(Incumbent& now, double proximal_weight) {
     if (should_stop(status)) return status;
     status = iterate(now, schedule, true);
     if (status != Status::solved) return status;
+    if (watcher_) watcher_(now);
     at_full += schedule.contact_weight >= w.contact_max;
     schedule.contact_weight = std::min(w.contact_growth * schedule.contact_weight, w.contact_max);
   }
@@ -200,6 +201,7 @@ Status Search::polish(Incumbent& now, int iterations, double calm, double give_u
     if (should_stop(status)) return status;
     status = iterate(now, schedule, false);
     if (status != Status::solved) return status;
+    if (watcher_) watcher_(now);
     const double merit = now.evaluation.merit();
     calm_iterations = std::abs(last - merit) < calm * std::abs(merit) ? calm_iterations + 1 : 0;
     if (calm_iterations >= 3 && now.evaluation.defect_max < 1e-4) return Status::solved;
@@ -234,11 +236,12 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now) {
     }
   }
   const Stopwatch watch(report_->timing_s, "whole_sequence");
-  if (problem_->options.whole_sequence_moves) {
+  if (problem_->options.whole_sequence_moves && !deadline_->passed()) {
     PricedSequence whole = best_whole_sequence(model_, values_, kWholeSequenceBudget);
     if (!whole.sequence.empty() && whole.sequence != now.sequence) changes.push_back({whole.cost, whole.sequence});
   }
   for (ContactSequence& edited : swing_edits(problem_->rules, now.sequence)) {
+    if (deadline_->passed()) break;  // the trials will not come to them
     const double cost = values_.minimum_with(edited, now.sequence);
     if (!std::isfinite(cost)) continue;
     const double changing = contact_change_cost(*problem_, edited);

@@ -113,6 +113,9 @@ class Adapter : public Ipopt::TNLP {
 
   enum class Reason { none, time, stop, not_finite, exception };
 
+  /// The solve begins now, after what it may have had to wait for.
+  void begin() { last_s_ = deadline_.now_s(); }
+
   bool get_nlp_info(Index& n, Index& m, Index& jacobian, Index& hessian, IndexStyleEnum& style) override {
     n = problem_.variable_count();
     m = problem_.row_count();
@@ -197,7 +200,7 @@ class Adapter : public Ipopt::TNLP {
     } catch (...) {
       halt_with_exception();
     }
-    if (reason_ == Reason::none && deadline_.passed()) reason_ = Reason::time;
+    if (reason_ == Reason::none && out_of_time()) reason_ = Reason::time;
     return reason_ == Reason::none;
   }
 
@@ -255,6 +258,18 @@ class Adapter : public Ipopt::TNLP {
     return true;
   }
 
+  /// Whether the limit has passed or would pass within the next iteration, taken to last as long as the longer of the
+  /// last two: a factorisation cannot be interrupted. What comes before the first iteration counts as one, since it
+  /// has a factorisation of the same size.
+  bool out_of_time() {
+    if (!deadline_.limited()) return false;
+    const double now_s = deadline_.now_s(), took_s = now_s - last_s_;
+    const double expected_s = std::max(took_s, before_s_);
+    before_s_ = took_s;
+    last_s_ = now_s;
+    return deadline_.remaining_s() <= expected_s;
+  }
+
   [[noreturn]] void halt(Reason reason) {
     reason_ = reason;
     throw Halt();
@@ -297,6 +312,7 @@ class Adapter : public Ipopt::TNLP {
   const Problem& problem_;
   const SolverOptions& options_;
   const Deadline& deadline_;
+  double last_s_ = 0.0, before_s_ = 0.0;  ///< when the last iteration ended, and how long it took
   const VectorXd x0_;
 
   bool cost_known_ = false, rows_known_ = false;  ///< at Ipopt's current x
@@ -415,6 +431,7 @@ Ending run(const Problem& problem, const VectorXd& x0, Adapter& adapter, const S
     return judge_fixed(problem, x0, options.constraint_tolerance);
   const Turn turn(deadline);
   if (!turn.mine()) return {Status::time_limit, "reached time_limit_s while another solve was running", false};
+  adapter.begin();
   Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
   set_options(*application->Options(), options);
   Ipopt::ApplicationReturnStatus code = application->Initialize("");  // no name: no ipopt.opt is read

@@ -125,9 +125,13 @@ Cycle RecedingHorizon::Impl::run() {
     // Faces that were left out and matter after all: again with them, from here.
     constexpr int kAttempts = 5;
     const std::set<ReachRow> missed = violated_reach(walker, horizon_now, solution.x, options.constraint_tolerance);
-    if (missed.empty() || attempt == kAttempts || solution.status != Status::solved) {
+    if (missed.empty() || attempt == kAttempts || solution.status != Status::solved || deadline.passed()) {
       const nlp::Problem::Worst unseen = worst_left_out(walker, horizon_now, solution.x);
       if (unseen.value > solution.worst.value) solution.worst = unseen;
+      if (!missed.empty() && solution.status == Status::solved && deadline.passed()) {
+        solution.status = Status::time_limit;
+        solution.message = "reached time_limit_s";
+      }
       break;
     }
     request.reach_rows.insert(missed.begin(), missed.end());

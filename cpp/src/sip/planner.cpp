@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/nlp/solver.hpp"
@@ -64,10 +65,10 @@ void require_plannable(const PlanarMotion& motion, const Options& options) {
 }
 
 /// The motion's and the options' bounds of durations must leave something between them.
-void require_durations(const nlp::Problem& problem, const Layout& layout, const Options& options) {
-  for (int i = 0; i < layout.durations; ++i) {
-    const int variable = layout.first_duration + i;
-    const double lower = problem.variable_lower()[variable], upper = problem.variable_upper()[variable];
+void require_durations(const PlanarMotion& motion, const Options& options) {
+  const std::vector<Range> ranges = duration_ranges(motion, options);
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const double lower = ranges[i].min, upper = ranges[i].max;
     if (lower > upper)
       throw InvalidOptions(options.free_durations ? "phase_duration_s" : "total_duration_s",
                            "must overlap with what the motion allows" +
@@ -92,15 +93,22 @@ struct Planner::Impl {
   PlanarMotion motion;
   Options options;
   Layout layout;
-  int rows = 0;
+  int rows = 0;  ///< of the program; 0 until there was one
   Deadline deadline;
+  double program_s = 0.0;  ///< that making a program of all constraints took
   Report report;
 
   Impl(const PlanarMotion& of, const Options& with) : motion(of), options(with), layout(checked(of, with), with) {
-    const Program program(motion, options, Curvature::gauss_newton, 0.0, Eigen::VectorXd::Zero(layout.parameters),
-                          &close_discs);
-    require_durations(program.problem(), layout, options);
-    rows = program.problem().row_count();
+    require_durations(motion, options);
+  }
+
+  int row_count() {
+    if (rows == 0)
+      rows =
+          Program(motion, options, Curvature::gauss_newton, 0.0, Eigen::VectorXd::Zero(layout.parameters), &close_discs)
+              .problem()
+              .row_count();
+    return rows;
   }
 
   static const PlanarMotion& checked(const PlanarMotion& motion, const Options& options) {
@@ -132,8 +140,13 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
   std::optional<nlp::Solution> best;
   for (const Attempt& attempt : attempts_for(with, cost)) {
     const double left = deadline.remaining_s();
-    if (best && left <= 0.0) {
-      if (best->status == Status::acceptable) break;
+    // Making the program, of which none but the first evaluation would come, takes its time, too.
+    if (deadline.limited() && left <= (with.dynamics == options.dynamics ? program_s : 0.0)) {
+      if (best && best->status == Status::acceptable) break;
+      if (!best) {
+        best.emplace();
+        best->x = x;
+      }
       best->status = Status::time_limit;
       best->message = "reached time_limit_s";
       break;
@@ -250,7 +263,10 @@ Result Planner::Impl::solve(const Eigen::VectorXd& start) {
   nlp::Solution solution;
   solution.x = start;
   solution.status = Status::solved;
+  const double begin_s = deadline.elapsed_s();
   Program measure(motion, options, Curvature::gauss_newton, 0.0, start, &close_discs);
+  rows = measure.problem().row_count();
+  program_s = deadline.elapsed_s() - begin_s;
   const bool inside = measure.problem().worst_violation(start).value <= options.constraint_tolerance;
   if (!cost || (options.feasible_first && !inside)) solution = feasible(start);
   if (options.self_collision) part(solution, 0.0, solution.x);
@@ -333,6 +349,6 @@ Result Planner::solve(const WholeBodyPlan& warm_start) {
 }
 
 int Planner::parameters() const { return impl_->layout.parameters; }
-int Planner::constraints() const { return impl_->rows; }
+int Planner::constraints() const { return impl_->row_count(); }
 
 }  // namespace mcplan::sip

@@ -76,12 +76,12 @@ void add_parameters(nlp::Problem& problem, const PlanarMotion& motion, const Opt
     problem.add_variables("control_point", layout.splines, -nlp::kInfinity, nlp::kInfinity,
                           {std::max(i - 1, 0), std::min(i + 2, last)});
   const int phases = static_cast<int>(motion.phases.size());
+  const std::vector<Range> durations = duration_ranges(motion, options);
   if (!options.free_durations) {
-    const Range range = total_range(motion, options);
-    problem.add_variables("duration", 1, range.min, range.max, {0, last});
+    problem.add_variables("duration", 1, durations[0].min, durations[0].max, {0, last});
   } else {
     for (int p = 0; p < phases; ++p) {
-      const Range range = duration_range(motion, options, p);
+      const Range& range = durations[p];
       const int first = motion.first_interval(p);
       problem.add_variables("duration", 1, range.min, range.max,
                             {std::max(first - 2, 0), std::min(first + motion.phases[p].intervals + 1, last)});
@@ -106,6 +106,13 @@ Range total_range(const PlanarMotion& motion, const Options& options) {
     out.min = std::max(out.min, phase.min_duration * intervals / phase.intervals);
     out.max = std::min(out.max, phase.max_duration * intervals / phase.intervals);
   }
+  return out;
+}
+
+std::vector<Range> duration_ranges(const PlanarMotion& motion, const Options& options) {
+  if (!options.free_durations) return {total_range(motion, options)};
+  std::vector<Range> out;
+  for (int p = 0; p < static_cast<int>(motion.phases.size()); ++p) out.push_back(duration_range(motion, options, p));
   return out;
 }
 

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from mcplan.cli.bench_contacts import contacts
+from mcplan.cli.bench_deadlines import deadlines
 from mcplan.cli.bench_tracking import tracking
 
 app = typer.Typer(
@@ -17,6 +18,7 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 app.command()(contacts)
+app.command()(deadlines)
 app.command()(tracking)
 
 _OUT = typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written.")

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace mcplan::ddp {
@@ -25,6 +26,12 @@ class ContactRules {
   /// surfaces[l]: the surfaces that end-effector l may touch.
   ContactRules(std::vector<std::vector<int>> surfaces, std::vector<StateRule> rules, bool one_switch_per_step = true);
 
+  /// From now on a contact that is made at step k is looked for among near[k][l] alone; what is already touched may be
+  /// kept, and `valid` is as before.
+  void look_near(std::vector<std::vector<std::vector<int>>> near) { near_ = std::move(near); }
+
+  bool looks_everywhere() const { return near_.empty(); }
+
   int ends() const { return static_cast<int>(surfaces_.size()); }
   const std::vector<int>& surfaces(int l) const { return surfaces_[l]; }
 
@@ -35,8 +42,9 @@ class ContactRules {
   /// Without one_switch_per_step only the latter holds.
   bool may_follow(const ContactState& from, const ContactState& to) const;
 
-  /// Allowed states that may follow `state`, itself included, in a fixed order.
-  std::vector<ContactState> successors(const ContactState& state) const;
+  /// Allowed states that may follow `state`, itself included, in a fixed order; at step k where that is given, with the
+  /// contacts that are looked for there and those of `also`.
+  std::vector<ContactState> successors(const ContactState& state, int k = -1, const ContactState& also = {}) const;
 
   /// All allowed states, or an empty list when there would be more than `limit`.
   std::vector<ContactState> all_states(std::size_t limit) const;
@@ -47,7 +55,11 @@ class ContactRules {
   std::vector<ContactState> neighbours(const ContactSequence& sequence, int k) const;
 
  private:
+  std::vector<int> makes(int l, int k, const ContactState& also) const;
+
   std::vector<std::vector<int>> surfaces_;
+  std::vector<std::vector<char>> may_touch_;         // by end-effector and surface
+  std::vector<std::vector<std::vector<int>>> near_;  // by step and end-effector; empty: all surfaces everywhere
   std::vector<StateRule> rules_;
   bool one_switch_ = true;
 };

@@ -68,8 +68,9 @@ class LocalModel {
     Eigen::VectorXd defect;
     Quadratic base;
     std::vector<Instant> instants;
-    std::vector<std::vector<Rows>> blocks;  ///< [l][choice], choice 0: free, i + 1: surfaces(l)[i]
-    std::vector<std::vector<char>> made;
+    std::vector<std::vector<Rows>>
+        blocks;                           ///< [l][choice], choice 0: free, i + 1: surfaces(l)[i]; sized when asked for
+    std::vector<std::vector<long>> made;  ///< likewise: the expansion that each block belongs to
     Rows flight;
     bool flight_made = false;
   };
@@ -79,6 +80,8 @@ class LocalModel {
   const Trajectory* trajectory_ = nullptr;
   Schedule schedule_;
   std::vector<Stage> stages_;
+  std::vector<std::vector<int>> choice_;  ///< [l][surface]
+  long expansion_ = 0;
   Eigen::MatrixXd scratch_;
   Rows base_rows_;
 };

@@ -108,6 +108,10 @@ class Problem {
   /// fit: steps + 1 rows, valid, from the start's contacts to the goal's.
   ContactSequence to_active(const ContactSequence& sequence) const;
 
+  /// Look for the contacts of each step among this many surfaces nearest to where the reference has the end-effector
+  /// then; 0 or enough for all: among all.
+  void look_near(int count);
+
   /// Start from a measured state instead of the scene's; `contacts` by active end-effector.
   void set_start(const Knot& measured, const ContactState& contacts);
 

@@ -21,6 +21,7 @@ class Rows {
   Rows(int nz, bool with_gradient) : nz_(nz), with_gradient_(with_gradient), gradient_(nz, with_gradient ? 16 : 0) {}
 
   bool with_gradient() const { return with_gradient_; }
+  bool sized() const { return nz_ > 0; }  ///< false: as made without arguments
   void clear();
   void begin(Term term) { term_ = term; }
 

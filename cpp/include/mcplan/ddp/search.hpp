@@ -1,8 +1,10 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mcplan/base/deadline.hpp"
@@ -61,10 +63,15 @@ class Search {
   Status run_paper(Incumbent& now, int iterations);
 
   /// Close the dynamics defects to rounding with the contacts exact: end-effectors on their surfaces and at rest, no
-  /// force where there is no contact. False when that does not converge; `now` is then unchanged.
-  bool make_exact(Incumbent& now);
+  /// force where there is no contact. False when that does not converge, or `give_up`, asked at every step of it, says
+  /// so; `now` is then unchanged.
+  bool make_exact(Incumbent& now, const StopRequest& give_up = nullptr);
+
+  /// Called with every new iterate of discover(), polish() and run_paper(); null: never.
+  void watch(std::function<void(const Incumbent&)> watcher) { watcher_ = std::move(watcher); }
 
   LocalModel& model() { return model_; }
+  Report& report() { return *report_; }
   Evaluation evaluate(const Incumbent& at);  ///< at the full weights
 
  private:
@@ -94,6 +101,7 @@ class Search {
   std::vector<Eigen::VectorXd> dx_, du_;
   Candidate stay_, moved_;
   double polish_proximal_ = 10.0;
+  std::function<void(const Incumbent&)> watcher_;
 };
 
 }  // namespace mcplan::ddp

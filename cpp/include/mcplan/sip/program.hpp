@@ -54,6 +54,9 @@ class Program {
 /// own limits leave none.
 Range total_range(const PlanarMotion& motion, const Options& options);
 
+/// Bounds of each duration of the program: of every phase, or of the whole motion.
+std::vector<Range> duration_ranges(const PlanarMotion& motion, const Options& options);
+
 /// P = 0, durations that add to one second or to what their bounds allow.
 Eigen::VectorXd zero_start(const PlanarMotion& motion, const Options& options, const Layout& layout);
 

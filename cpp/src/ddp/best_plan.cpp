@@ -1,0 +1,103 @@
+#include "mcplan/ddp/best_plan.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "mcplan/ddp/plan_conversion.hpp"
+#include "mcplan/ddp/reachable_surfaces.hpp"
+
+namespace mcplan::ddp {
+namespace {
+
+/// Instants at which iterates are looked at: so many in all, and so many a phase.
+constexpr double kInstants = 400.0, kInstantsPerPhase = 3.0;
+/// The first iterate may be made exact for so long after the limit [s]: the only plan there is.
+constexpr double kGrace_s = 0.01;
+/// The search goes on for this many times as long as looking took, a time more after each look.
+constexpr int kMostPause = 8;
+/// Once there is a plan that the checker accepts, only one of so much less merit is looked at.
+constexpr double kCheaper = 0.9;
+
+double coarse_sample_s(const Plan& plan) {
+  const double instants = std::max(kInstants, kInstantsPerPhase * static_cast<double>(plan.phases.size()));
+  return std::max(Tolerances().sample_s, plan.duration() / instants);
+}
+
+}  // namespace
+
+double violation_ratio(const Violation& v) {
+  if (v.tolerance > 0.0) return v.value / v.tolerance;
+  return v.value > 0.0 ? 1e9 * (1.0 + v.value) : 0.0;
+}
+
+BestPlan::Finished BestPlan::converted(Search& search, const Problem& problem, const std::vector<int>& surfaces,
+                                       Incumbent& now) const {
+  Finished out;
+  out.plan = to_plan(problem, now);
+  out.plan.measured_start = measured_start_;
+  put_back(out.plan, *scene_, surfaces);
+  out.evaluation = search.evaluate(now);
+  return out;
+}
+
+/// True when the checker accepts the plan, or what it sees of it at few instants.
+bool BestPlan::judge(Finished& finished, const Problem& problem, bool few_instants) const {
+  Tolerances tolerances;
+  if (!problem.options.one_switch_per_step) tolerances.switches = std::numeric_limits<int>::max();
+  if (few_instants) tolerances.sample_s = coarse_sample_s(finished.plan);
+  const CheckResult result = check(finished.plan, *scene_, problem.robot, tolerances);
+  finished.ok = result.ok() && !few_instants;
+  finished.sampled = few_instants;
+  finished.worst = result.worst();
+  return result.ok();
+}
+
+void BestPlan::take(Finished&& finished) {
+  const bool better =
+      !best_ || (finished.ok && !best_->ok) ||
+      (finished.ok == best_->ok && (finished.ok ? finished.evaluation.merit() < best_->evaluation.merit()
+                                                : violation_ratio(finished.worst) < violation_ratio(best_->worst)));
+  if (better) best_ = std::move(finished);
+}
+
+bool BestPlan::finish(Search& search, const Problem& problem, const std::vector<int>& surfaces, Incumbent now) {
+  // If the contacts cannot be met exactly, the plan is kept as it is, and the checker says what is wrong with it.
+  search.make_exact(now);
+  const Stopwatch watch(search.report().timing_s, "check");
+  Finished finished = converted(search, problem, surfaces, now);
+  judge(finished, problem, false);
+  take(std::move(finished));
+  return best_->ok;
+}
+
+void BestPlan::keep(Search& search, const Problem& problem, const std::vector<int>& surfaces, const Incumbent& now) {
+  if (!deadline_->limited()) return;
+  const double begin_s = deadline_->elapsed_s();
+  if (best_ && (begin_s < next_s_ || deadline_->remaining_s() < cost_s_)) return;
+  if (ok() && !(search.evaluate(now).merit() < kCheaper * best_->evaluation.merit())) return;
+  Incumbent iterate = now;
+  const double until_s = begin_s + std::max(deadline_->remaining_s(), 0.0) + (best_ ? 0.0 : kGrace_s);
+  search.make_exact(iterate, [&] { return deadline_->elapsed_s() >= until_s; });
+  const Stopwatch watch(search.report().timing_s, "check");
+  Finished finished = converted(search, problem, surfaces, iterate);
+  const double converted_s = deadline_->elapsed_s();
+  const bool accepted = judge(finished, problem, true);
+  look_s_ = deadline_->elapsed_s() - converted_s;
+  if (accepted && full_look_s(finished.plan) <= deadline_->remaining_s()) judge(finished, problem, false);
+  take(std::move(finished));
+  const double end_s = deadline_->elapsed_s();
+  cost_s_ = end_s - begin_s;
+  next_s_ = end_s + std::min(++kept_, kMostPause) * cost_s_;
+}
+
+void BestPlan::settle(const Problem& problem, Report& report) {
+  if (!best_ || !best_->sampled || full_look_s(best_->plan) > std::max(deadline_->remaining_s(), kGrace_s)) return;
+  const Stopwatch watch(report.timing_s, "check");
+  judge(*best_, problem, false);
+}
+
+/// What a check in full will take, from what the last one at few instants took.
+double BestPlan::full_look_s(const Plan& plan) const { return look_s_ * coarse_sample_s(plan) / Tolerances().sample_s; }
+
+}  // namespace mcplan::ddp
