@@ -25,7 +25,7 @@ watch() {
     line=$(grep -aoE '\[[0-9]+/[0-9]+\] [A-Z].*' "$1" | tail -n 1) || continue
     [[ $line == "$last" ]] && continue
     last=$line
-    line="[$(printf '%4d' "$(elapsed)") s]   ${line/%\/*\// ... }"
+    line="[$(printf "%4d" "$(elapsed)") s]   $line"
     if [[ -t 1 ]]; then printf '\r\e[K%.100s' "$line"; else printf '%.120s\n' "$line"; fi
   done
 }

@@ -39,7 +39,7 @@ struct CertifyOptions {
   int order = 8;                   ///< of the Taylor models
   int max_depth = 12;              ///< halvings of an interval
   bool self_collision = false;     ///< prove that capsules of the robot's collision pairs stay apart
-  StopRequest stop;                ///< polled for every piece of time; null: never. Nothing is proved then
+  StopRequest stop = {};           ///< polled for every piece of time; null: never. Nothing is proved then
 };
 
 /// Prove every inequality of a whole-body plan at every instant, not only at samples: sines, cosines, forces and
