@@ -12,7 +12,7 @@ README = Path(__file__).resolve().parents[2] / "README.md"
 
 #: What takes over some seconds, and what stands for it in the quick test.
 SHORTER = {
-    "mcplan rhp rubbles": "mcplan rhp flat --lookahead 1",
+    "mcplan rhp rubbles": "mcplan rhp flat --lookahead 2",
     "mcplan sip climbing --certify": "mcplan sip cartwheel --minimise none",
     "mcplan sip walking": "mcplan sip cartwheel --minimise none",
     "mcplan demo": "mcplan demo --help",
