@@ -1,6 +1,7 @@
 #include "mcplan/scene/scene.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -21,28 +22,36 @@ void require_positive(const std::string& field, double value) {
   if (!(std::isfinite(value) && value > 0.0)) throw InvalidScene(field, "must be a positive number", text(value));
 }
 
+/// Bounds go with the polygon below a metre: the ground of a robot of 5 mm has treads of a millimetre.
 void validate_polygon(const std::string& field, const std::vector<Vector3d>& vertices) {
   const std::size_t n = vertices.size();
   if (n < 3) throw InvalidScene(field, "needs at least 3 points", text(static_cast<int>(n)));
   for (std::size_t i = 0; i < n; ++i) require_finite(item(field, i), vertices[i]);
-  for (std::size_t i = 0; i < n; ++i)
+  double size_m = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
     if (vertices[i].cwiseAbs().maxCoeff() > 1e4)
       throw InvalidScene(item(field, i), "must lie within 10 km of the origin", text(vertices[i]));
+    size_m = std::max(size_m, (vertices[i] - vertices[0]).norm());
+  }
+  size_m = std::min(size_m, 1.0);
   for (std::size_t i = 0; i < n; ++i)
-    if ((vertices[(i + 1) % n] - vertices[i]).norm() < 1e-4)
-      throw InvalidScene(item(field, (i + 1) % n), "must be at least 0.1 mm from the point before it",
+    if ((vertices[(i + 1) % n] - vertices[i]).norm() <= 1e-4 * size_m)
+      throw InvalidScene(item(field, (i + 1) % n),
+                         "must be more than " + text(0.1 * size_m) + " mm from the point before it",
                          text(vertices[(i + 1) % n]));
 
   Vector3d sum = Vector3d::Zero();
   for (std::size_t i = 0; i < n; ++i) sum += (vertices[i] - vertices[0]).cross(vertices[(i + 1) % n] - vertices[0]);
   const double area = 0.5 * sum.norm();
-  if (area < 1e-6) throw InvalidScene(field, "must span an area of at least 1e-6 m^2", text(area) + " m^2");
+  if (area <= 1e-6 * size_m * size_m)
+    throw InvalidScene(field, "must span an area of more than " + text(1e-6 * size_m * size_m) + " m^2",
+                       text(area) + " m^2");
   const Vector3d normal = sum.normalized();
   double turned = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const double height = normal.dot(vertices[i] - vertices[0]);
-    if (std::abs(height) > 1e-3)
-      throw InvalidScene(item(field, i), "must lie in the plane of the others within 1 mm",
+    if (std::abs(height) > 1e-3 * size_m)
+      throw InvalidScene(item(field, i), "must lie in the plane of the others within " + text(size_m) + " mm",
                          text(std::abs(height)) + " m off");
     const Vector3d before = (vertices[i] - vertices[(i + n - 1) % n]).normalized();
     const Vector3d after = (vertices[(i + 1) % n] - vertices[i]).normalized();

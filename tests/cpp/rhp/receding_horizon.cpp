@@ -200,13 +200,14 @@ TEST_CASE("a cycle ends at its time limit") {
   options.intervals = 7;
   for (double limit : {1e-6, 0.2}) {
     options.time_limit_s = limit;
-    options.clock = CountingClock(0.01);  // the solver looks several times an iteration
+    constexpr double kTick_s = 0.01;  // the solver looks several times an iteration
+    options.clock = CountingClock(kTick_s);
     auto walker = planner(walkers::uneven(), options);
     const Cycle cycle = walker.step();
     CAPTURE(limit);
     CHECK(cycle.status == Status::time_limit);
     CHECK(cycle.iterations <= 5);  // of at least 40
-    CHECK(cycle.time_s <= limit + 0.05);
+    CHECK(cycle.time_s <= limit + 10 * kTick_s);  // looks on the way out, after the one that saw that time is up
     CHECK_FALSE(cycle.message.empty());
     CHECK_FALSE(cycle.executed);
   }
