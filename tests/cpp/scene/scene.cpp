@@ -56,11 +56,13 @@ TEST_CASE("degenerate polygons are named") {
   const std::string all = "surfaces[1].vertices";
   CHECK(vertices({}) == all);
   CHECK(vertices({{0, 0, 0}, {1, 0, 0}}) == all);
-  CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}) == all);                             // no area
-  CHECK(vertices({{0, 0, 0}, {1e-3, 0, 0}, {0, 1e-3, 0}}) == all);                       // 5e-7 m^2
-  CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}}) == all + "[2]");          // a point twice
-  CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {0.2, 0.2, 0}, {0, 1, 0}}) == all + "[2]");      // dented
-  CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}}) == all + "[1]");          // a corner of 180 degrees
+  CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}) == all);                         // no area
+  CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {0.5, 1e-6, 0}}) == all);                    // 5e-7 m^2
+  CHECK(vertices({{0, 0, 0}, {1e-3, 0, 0}, {5e-4, 5e-10, 0}}) == all);               // the same, smaller
+  CHECK(vertices({{0, 0, 0}, {1e-3, 0, 0}, {0, 1e-3, 0}}) == "accepted");            // small ground of a small robot
+  CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}}) == all + "[2]");      // a point twice
+  CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {0.2, 0.2, 0}, {0, 1, 0}}) == all + "[2]");  // dented
+  CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}}) == all + "[1]");      // a corner of 180 degrees
   CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {1, 1, 0.1}, {0, 1, 0}}).find(all + "[") == 0);  // warped
   CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {1, std::nan(""), 0}}) == all + "[2]");
   CHECK(vertices({{0, 0, 0}, {INFINITY, 0, 0}, {1, 1, 0}}) == all + "[1]");
