@@ -9,6 +9,7 @@
 #include <string>
 
 #include "clocks.hpp"
+#include "in_threads.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "support.hpp"
@@ -182,6 +183,21 @@ TEST_CASE("the plan is the same to the last bit for 1, 2 and 4 threads") {
         for (std::size_t e = 0; e < 4; ++e)
           CHECK(one.plan.phases[k].contacts[e].stiffness == other.plan.phases[k].contacts[e].stiffness);
     }
+  }
+}
+
+TEST_CASE("planners in several threads, some with threads of their own, plan what one alone plans") {
+  const mcplan::Scene& stairs = solved("stairs").plan.scene;  // shared, as a user's would be
+  const std::vector<PlanResult> results = in_threads(kSlowBuild ? 2 : 4, [&](int t) {
+    Options options;
+    options.threads = 1 + t % 2;
+    options.model = kModels[t / 2];
+    return solve(stairs, options);
+  });
+  for (std::size_t t = 0; t < results.size(); ++t) {
+    const PlanResult& alone = solved("stairs", kModels[t / 2]);
+    CHECK(results[t].report.cost == alone.report.cost);
+    check_same_motion(alone.plan, results[t].plan, Eigen::Isometry3d::Identity(), 0.0);
   }
 }
 

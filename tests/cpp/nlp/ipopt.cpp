@@ -306,7 +306,7 @@ TEST_CASE("an iteration that would not be over in time is not begun") {
   CHECK(s.time_s <= 0.35);
 }
 
-TEST_CASE("waiting for another solve counts against the time limit") {
+TEST_CASE("waiting for a solve of another thread counts against the time limit") {
   // The other solve goes on until this one has ended: it ends by its limit, or never.
   std::atomic<bool> inside = false, released = false;
   const Valley slow([&](const ConstVector&) {

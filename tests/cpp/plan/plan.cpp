@@ -5,8 +5,10 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "in_threads.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/base/rotation.hpp"
+#include "mcplan/plan/checker.hpp"
 #include "plan/point_fixtures.hpp"
 
 namespace {
@@ -316,5 +318,26 @@ TEST_CASE("a walk without points says so, and free flight keeps what it spins") 
   for (double t : {0.0, 0.13, 0.4}) {
     CHECK((thrown.at(t).com_W - flight().at(t).com_W).norm() < 1e-14);
     CHECK((thrown.at(t).angular_momentum_W - thrown.knots[0].angular_momentum_W).norm() < 1e-13);
+  }
+}
+
+TEST_CASE("several threads may ask one plan: each gets what one alone gets") {
+  for (const Plan& plan : {walk(), step_on_corners(), tumbling(7)}) {
+    const auto asked = [&](int) {
+      std::vector<double> out;
+      const auto add = [&](const Vector3d& v) { out.insert(out.end(), v.data(), v.data() + 3); };
+      for (int i = 0; i <= 200; ++i) {
+        const PlanState state = plan.at(plan.duration() * i / 200);
+        for (const Vector3d& v : {state.com_W, state.com_velocity_W, state.base_rpy, state.angular_momentum_W}) add(v);
+        for (const auto& end : state.end_effectors) {
+          add(end.position_W);
+          add(end.force_W);
+        }
+      }
+      for (const auto& c : check(plan, plan.scene, plan.robot).constraints) out.push_back(c.value);
+      return out;
+    };
+    const std::vector<double> alone = asked(0);
+    for (const std::vector<double>& beside_others : in_threads(4, asked)) CHECK(beside_others == alone);
   }
 }

@@ -5,6 +5,8 @@
 #include <functional>
 #include <random>
 
+#include "in_threads.hpp"
+#include "mcplan/plan/whole_body_checker.hpp"
 #include "planar_robots.hpp"
 
 namespace {
@@ -216,4 +218,21 @@ TEST_CASE("a motion whose indices lead nowhere is refused before anything is eva
   plan.motion.robot.bodies[3].parent = 9;
   CHECK_THROWS_AS(plan.at(0.1), mcplan::InvalidRobot);
   CHECK_THROWS_AS(WholeBodyPlan().at(0.0), mcplan::InvalidPlan);
+}
+
+TEST_CASE("several threads may ask one whole-body plan: each gets what one alone gets") {
+  for (const WholeBodyPlan& plan : {moving_plan(), parameterised_plan()}) {
+    const auto asked = [&](int) {
+      std::vector<double> out;
+      for (int i = 0; i <= 100; ++i) {
+        const WholeBodyState state = plan.at(plan.duration() * i / 100);
+        out.insert(out.end(), {state.com_W.x(), state.com_W.y(), state.angular_momentum});
+        for (const auto& force : state.forces) out.insert(out.end(), {force.tangential, force.normal});
+      }
+      for (const auto& c : check(plan).constraints) out.push_back(c.value);
+      return out;
+    };
+    const std::vector<double> alone = asked(0);
+    for (const std::vector<double>& beside_others : in_threads(4, asked)) CHECK(beside_others == alone);
+  }
 }

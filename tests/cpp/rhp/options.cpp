@@ -51,7 +51,8 @@ TEST_CASE("options out of their range are refused by the name of their field") {
       {"max_iterations", [](Options& o) { o.max_iterations = 0; }},
       {"time_limit_s", [](Options& o) { o.time_limit_s = 0.0; }},
       {"time_limit_s", [&](Options& o) { o.time_limit_s = nan; }}};
-  for (const auto& [field, spoil] : wrong) {
+  for (const auto& [name, spoil] : wrong) {
+    const std::string& field = name;  // Clang's lambdas, as CAPTURE makes one, hold no structured bindings
     CAPTURE(field);
     Options options;
     spoil(options);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clocks.hpp"
+#include "in_threads.hpp"
 #include "mcplan/base/error.hpp"
 #include "rhp/walkers.hpp"
 
@@ -206,7 +207,7 @@ TEST_CASE("a cycle ends at its time limit") {
     const Cycle cycle = walker.step();
     CAPTURE(limit);
     CHECK(cycle.status == Status::time_limit);
-    CHECK(cycle.iterations <= 5);  // of at least 40
+    CHECK(cycle.iterations <= 5);                 // of at least 40
     CHECK(cycle.time_s <= limit + 10 * kTick_s);  // looks on the way out, after the one that saw that time is up
     CHECK_FALSE(cycle.message.empty());
     CHECK_FALSE(cycle.executed);
@@ -368,6 +369,16 @@ TEST_CASE("a patch too far or too steep is infeasible, and the worst row is name
   });
   CHECK(small.status == Status::infeasible);
   CHECK_FALSE(small.worst_violation.name.empty());
+}
+
+TEST_CASE("walkers in several threads walk as one alone does") {
+  const Scene scene = walkers::uneven();
+  const auto walk = [&](int t) {
+    constexpr Fidelity kFidelities[] = {Fidelity::point, Fidelity::rectangle, Fidelity::single};
+    return numbers(planner(scene, walkers::quick(kFidelities[t])).walk().plan);
+  };
+  const auto together = in_threads(3, walk);
+  for (int t = 0; t < 3; ++t) CHECK(same_bytes(together[t], walk(t)));
 }
 
 }  // namespace mcplan::rhp::tests

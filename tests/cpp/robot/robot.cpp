@@ -87,7 +87,8 @@ TEST_CASE("phase durations and what of a sole is supported are held to their ran
   const double nan = std::nan("");
   const std::pair<double, double> bad[] = {{0.0, 0.5}, {-0.1, 0.5}, {0.5, 0.4},
                                            {nan, 0.5}, {0.2, nan},  {0.2, INFINITY}};
-  for (const auto& [shortest, longest] : bad) {
+  for (const auto& range : bad) {
+    const double shortest = range.first, longest = range.second;
     CAPTURE(shortest);
     CAPTURE(longest);
     CHECK(field([&](Robot& r) { r.phase_duration = {shortest, longest}; }) == "phase_duration");
@@ -128,7 +129,8 @@ TEST_CASE("a sole may be turned both ways, or any way") {
   for (const auto& [right, left] : good) CHECK(turned(right, left) == "accepted");
   const std::pair<double, double> bad[] = {{0.1, 0.5}, {-0.3, -0.1}, {nan, 0.5},  {-0.3, nan},
                                            {inf, 0.5}, {-0.3, inf},  {-inf, 0.5}, {0.5, -0.3}};
-  for (const auto& [right, left] : bad) {
+  for (const auto& range : bad) {
+    const double right = range.first, left = range.second;
     CAPTURE(right);
     CAPTURE(left);
     CHECK(turned(right, left) == "end_effectors[1].yaw_range");

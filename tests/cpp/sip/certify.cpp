@@ -86,7 +86,9 @@ TEST_CASE("no sample of exact kinematics and dynamics is beyond a bound") {
   for (int seed = 0; seed < 60; ++seed) {
     const WholeBodyPlan plan = random_plan(seed);
     const Certificate certificate = certify(plan, {{}, 3 + seed % 10, 6, true});
-    for (const auto& [name, value] : sampled(plan, 0.004)) {
+    for (const auto& sample : sampled(plan, 0.004)) {
+      const std::string& name = sample.first;
+      const double value = sample.second;
       if (name == "finite") continue;
       const ProvedConstraint& c = find(certificate, name);
       CAPTURE(seed);

@@ -7,7 +7,9 @@
 #include <functional>
 
 #include "clocks.hpp"
+#include "in_threads.hpp"
 #include "interval.hpp"
+#include "mcplan/sip/certificate.hpp"
 #include "motions.hpp"
 #include "planar_robots.hpp"
 
@@ -179,6 +181,21 @@ TEST_CASE("the same problem gives the same bytes, twice and with any number of t
     CHECK(again.plan.weights == feasible_cartwheel().plan.weights);
   }
   omp_set_num_threads(before);
+}
+
+TEST_CASE("planners and proofs in several threads give what one alone gives") {
+  const PlanarMotion motion = standing(1, 4);  // shared, as a user's would be
+  const auto planned = [&](int t) {
+    const WholeBodyPlan plan =
+        Planner(motion, without_cost(t % 2 ? Forces::per_point : Forces::parameters)).solve().plan;
+    CertifyOptions options;
+    options.max_depth = 3;
+    std::vector<double> out(plan.control_points.data(), plan.control_points.data() + plan.control_points.size());
+    for (const ProvedConstraint& c : certify(plan, options).constraints) out.push_back(c.bound);
+    return out;
+  };
+  const auto together = in_threads(4, planned);
+  for (int t = 0; t < 4; ++t) CHECK(together[t] == planned(t % 2));
 }
 
 TEST_CASE("a planner may be asked twice") {
