@@ -75,6 +75,7 @@ def cmake_options() -> dict[str, str]:
     """Names and defaults of the options in CMakeLists.txt."""
     text = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
     found = re.findall(r'option\((MCPLAN_\w+) "[^"]*" ([^)]+)\)', text)
+    found += re.findall(r'set\((MCPLAN_\w+) (\w+) CACHE STRING "[^"]*"\)', text)
     return {name: "ON at top level" if "TOP_LEVEL" in state else state for name, state in found}
 
 

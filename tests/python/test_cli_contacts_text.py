@@ -111,6 +111,7 @@ def test_what_has_no_plan_has_no_worst_place():
     scene = mp.load_scene("gap")
     scene.surfaces = [surface for surface in scene.surfaces]
     scene.surfaces[1].end_effectors = ["hand"]
+    scene.surfaces[1].vertices_W = scene.surfaces[1].vertices_W + [0.0, 0.0, 0.9]  # where hands hang
     scene.goal.contacts = {"right_hand": scene.surfaces[1].name}
     result = mp.plan(scene, "humanoid44", phases=2)
     assert str(result.report.status) == "no_sequence"

@@ -231,7 +231,7 @@ WRENCH_DAMAGE = {
     ),
     "infinite heading": (put("end_effector_yaw", lambda a: a + np.inf), r"knots\[0\]: must be finite numbers"),
     "intervals": (put("intervals", lambda a: a + 1), r"phases\[0\].intervals: must be 0"),
-    "centres of points": (put("laws", lambda a: a - 3 + 2 * (a == 3)), "intervals: must be at least 1"),
+    "centres of points": (put("laws", lambda a: a - 3 + 2 * (a == 3)), r"intervals: must lie in \[1, 100000\]"),
 }
 
 

@@ -360,7 +360,10 @@ def test_a_misspelt_required_key_is_named_once(wrong, right, tmp_path):
 def test_twenty_findings_are_listed_and_the_rest_is_counted(tmp_path):
     data = {
         **malformed.SCENE,
-        "surfaces": [{"name": f"s{i}", "vertices": malformed.SQUARE, "friction": -1.0} for i in range(70)],
+        "surfaces": [
+            *malformed.SCENE["surfaces"],
+            *({"name": f"s{i}", "vertices": malformed.SQUARE, "friction": -1.0} for i in range(70)),
+        ],
     }
     (tmp_path / "bad.toml").write_text(toml_text(data))
     with pytest.raises(mp.InvalidScene) as found:

@@ -14,7 +14,7 @@ namespace mcplan::ddp {
 ///
 /// Under a time limit it is kept up to date while the search runs: iterates are made exact, converted and checked now
 /// and then, so that there is an answer at any time, and the answer after a longer time is never worse. When that is
-/// done does not depend on the limit. Theory: docs/theory/ddp.md, "Time limit".
+/// done does not depend on the limit. Theory: docs/theory/ddp.md, "6. Time limit".
 class BestPlan {
  public:
   /// `scene` and `surfaces`: the user's scene, and which of its surfaces the searched problem has.

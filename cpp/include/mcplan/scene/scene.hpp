@@ -51,8 +51,8 @@ struct Scene {
   int surface_index(const std::string& surface_name) const;
 
   /// Throws InvalidScene naming the first field out of its range: polygons of at least 3 vertices, finite, planar
-  /// within 1 mm, strictly convex, area at least 1e-6 m^2; unique names; friction and thickness positive; contacts and
-  /// rules naming what exists, steps naming surfaces that exist.
+  /// within 1 mm, strictly convex, of more than 1e-6 m^2 (less in proportion below a metre); unique names; friction and
+  /// thickness positive; contacts and rules naming what exists, steps naming surfaces that exist.
   void validate() const;
 };
 
