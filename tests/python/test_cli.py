@@ -359,3 +359,17 @@ def test_plans_of_contact_wrenches_are_summed_up_with_their_loads(capsys, monkey
     found.plan = standing_plan()
     report = json.loads(run(capsys, "plan", "flat", "--json")[1])
     assert report["angular_momentum_max"] is None and report["force_max_weights"] is None
+
+
+@pytest.mark.parametrize("words", [("--output", "x.toml"), ("--srdf", "x.srdf"), ("--end", "foot=sole")])
+@pytest.mark.parametrize("name", ["talos", "walker9"])
+def test_robots_ignore_no_option(capsys, tmp_path, monkeypatch, name, words):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = run(capsys, "robots", name, *words)
+    assert (code, out, err) == (2, "", f"error: {words[0]}: needs --from-urdf\n")
+    assert not list(tmp_path.iterdir())
+
+
+def test_robots_takes_a_name_or_a_urdf(capsys):
+    code, _, err = run(capsys, "robots", "talos", "--from-urdf", "g1")
+    assert (code, err) == (2, "error: NAME: may not stand beside --from-urdf, got talos\n")

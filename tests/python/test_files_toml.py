@@ -21,3 +21,14 @@ def test_long_lists_take_a_line_an_entry():
     written = toml_text({"vertices": [[float(i), 0.123456789, -0.123456789] for i in range(6)]})
     assert written.count("\n") == 8
     assert max(map(len, written.splitlines())) < 60
+
+
+@given(st.text())
+def test_no_header_spoils_the_file(header):
+    """Also one with control characters, or with bytes of a file's name that are no text."""
+    assert tomllib.loads(toml_text({"a": 1}, header).encode().decode()) == {"a": 1}
+
+
+def test_headers_of_names_that_are_no_text_are_written():
+    written = toml_text({"a": 1}, "Made by: mcplan scenes \udcc3\udcb6.toml \x1b[31m\nname = 'evil'")
+    assert tomllib.loads(written.encode("utf-8").decode()) == {"a": 1}

@@ -6,6 +6,7 @@ import json
 import re
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ import pytest
 import mcplan as mp
 import plans_by_hand as by_hand
 from mcplan.view import show, show_scene
+from mcplan.view.overlay import force_text
 from mcplan.view.snapshot import find_browser
 from page_contents import clips_of, commands_of, floats, track
 from stepping import stepping_plan
@@ -120,6 +122,31 @@ def test_names_cannot_break_out_of_the_page(plan):
     scene = by_hand.stairs()
     scene.name = "<script>alert(1)</script>"
     assert "<script>alert" not in show(plan, scene).html()
+
+
+def test_control_characters_of_names_are_written_out(plan):
+    scene = by_hand.stairs()
+    scene.name = "\x1b[31m\u202eevil"
+    page = show(plan, scene).html()
+    assert "\x1b" not in page and "\u202e" not in page
+    assert r"\x1b[31m\u202eevil" in page
+
+
+def test_what_is_no_plan_is_named(plan):
+    scene, robot = by_hand.stairs(), by_hand.humanoid()
+    with pytest.raises(
+        TypeError, match=r"plan: must be a Plan or a WholeBodyPlan, got SimpleNamespace; pass its \.plan"
+    ):
+        show(SimpleNamespace(plan=plan), scene, robot)
+    with pytest.raises(TypeError, match="scene: must be a Scene or None, got Robot"):
+        show(plan, robot, scene)
+    with pytest.raises(TypeError, match="robot: must be a Robot or None, got str"):
+        show(plan, scene, "humanoid44")
+
+
+@pytest.mark.parametrize(("height", "length"), [(0.005, "1 mm"), (0.7, "10 cm"), (20.0, "10 m")])
+def test_arrows_are_measured_in_lengths_of_the_robots_size(height, length):
+    assert force_text("force", 1e3, height).endswith(f"N: {length})")
 
 
 def test_scene_page_has_no_animation():

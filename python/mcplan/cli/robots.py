@@ -57,9 +57,18 @@ def robots(
     from mcplan.files.planar_robots import load_planar_robot
     from mcplan.files.robots import load_robot
 
-    for option, given in (("--reach-polytopes", reach_polytopes), ("--planar", planar), ("--posture", bool(posture))):
+    for option, given in (
+        ("--reach-polytopes", reach_polytopes),
+        ("--planar", planar),
+        ("--posture", bool(posture)),
+        ("--end", bool(end)),
+        ("--srdf", srdf is not None),
+        ("--output", output is not None),
+    ):
         if given and from_urdf is None:
             raise InvalidInput(option, "needs --from-urdf")
+    if name is not None and from_urdf is not None:
+        raise InvalidInput("NAME", "may not stand beside --from-urdf", name)
     for option, given in (
         ("--reach-polytopes", reach_polytopes),
         ("--srdf", srdf is not None),

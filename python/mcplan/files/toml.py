@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mcplan.errors import InvalidInput
+from mcplan.errors import InvalidInput, printable
 from mcplan.files.reading import MOST_TOML, read_file
 
 if sys.version_info >= (3, 11):
@@ -53,7 +53,8 @@ def toml_text(data: Mapping[str, Any], header: str = "") -> str:
         data: Nested mappings, lists, strings, numbers and booleans.
         header: Comment to put on top.
     """
-    lines = [f"# {line}".rstrip() for line in header.splitlines()]
+    # Names in it may hold what TOML forbids in comments: control characters, and bytes that are no text.
+    lines = [f"# {printable(line)}".rstrip() for line in header.splitlines()]
     lines += [_pair(key, value) for key, value in data.items() if not _is_table(value) and not _is_tables(value)]
     for key, value in data.items():
         if _is_table(value):

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from html import escape
 from typing import TYPE_CHECKING
 
+from mcplan.errors import printable
 from mcplan.kinematics.samples import Interval
 
 from .annotations import length_text
@@ -31,11 +33,17 @@ CONTROLS = (
 )
 
 
+def as_shown(text: str) -> str:
+    """Text from a file as the page shows it: markup and control characters written out."""
+    return escape(printable(text))
+
+
 def caption(title: str, lines: list[str], entries: list[str]) -> str:
     """Panel at the top left: a title, lines of text, legend entries."""
-    text = "".join(f"<p>{escape(line)}</p>" for line in lines)
+    text = "".join(f"<p>{as_shown(line)}</p>" for line in lines)
+    name = as_shown(title)
     head = (
-        f'<div id="head"><h1 title="{escape(title)}">{escape(title)}</h1><svg id="gizmo" viewBox="0 0 46 46"></svg>'
+        f'<div id="head"><h1 title="{name}">{name}</h1><svg id="gizmo" viewBox="0 0 46 46"></svg>'
         '<button id="fold" title="legend (l)" aria-label="legend">&#10005;</button></div>'
     )
     return f'<div class="panel" id="caption">{head}<div id="facts">{text}{"".join(entries)}</div></div>'
@@ -47,7 +55,7 @@ def plan_legend(scene: Scene, robot: Robot, colours: list[str], newton_per_metre
     for end, colour in zip(robot.end_effectors, colours, strict=True):
         own = f"paths/{node(end.name)} contacts/{node(end.name)}"
         entries.append(entry(own, "line", colour, end.name.replace("_", " ")))
-    entries.append(entry("forces", "arrow", "", force_text("contact force", newton_per_metre)))
+    entries.append(entry("forces", "arrow", "", force_text("contact force", newton_per_metre, float(robot.com_height))))
     entries.append(entry("robot", "", "#98a2ae", "robot"))
     names = entry(":surface", "text", "", "names of surfaces", shown=False)
     return [*entries, *scene_legend(scene), *space_legend(), names]
@@ -71,8 +79,11 @@ def space_legend() -> list[str]:
     return [entry("axes scale :axis :scale", "text", "", "world axes, scale")]
 
 
-def force_text(what: str, newton_per_metre: float) -> str:
-    """How long an arrow of a force is."""
+def force_text(what: str, newton_per_metre: float, size_m: float | None = None) -> str:
+    """How long an arrow of a force is; `size_m`: of the robot, the power of ten below it is the length."""
+    if size_m is not None:
+        length = 10.0 ** math.floor(math.log10(size_m))
+        return f"{what} ({newton_per_metre * length:.3g} N: {length_text(length)})"
     length = 0.1
     while not 5.0 <= newton_per_metre * length < 5e4 and 1e-9 < length < 1e9:
         length *= 10.0 if newton_per_metre * length < 5.0 else 0.1
@@ -101,14 +112,14 @@ def timeline(
     """
     names, tracks = [], []
     for end, colour in zip(range(len(colours)), colours, strict=True):
-        names.append(f'<div style="color: {colour}">{escape(robot.end_effectors[end].name.replace("_", " "))}</div>')
+        names.append(f'<div style="color: {colour}">{as_shown(robot.end_effectors[end].name.replace("_", " "))}</div>')
         bars = []
         for interval in intervals:
             if interval.end_effector != end:
                 continue
             left = 100.0 * interval.start_s / duration_s
             width = 100.0 * (interval.end_s - interval.start_s) / duration_s
-            name = escape(scene.surfaces[interval.surface].name)
+            name = as_shown(scene.surfaces[interval.surface].name)
             bars.append(
                 f'<div class="bar" style="left: {left:.3f}%; width: {width:.3f}%; background: {colour}" '
                 f'title="{name}, {interval.start_s:.2f} to {interval.end_s:.2f} s">{name}</div>'
@@ -121,7 +132,7 @@ def timeline(
         tracks.append(f'<div class="track">{"".join(bars)}</div>')
     events = "".join(
         f'<div class="event" style="left: {100.0 * start / duration_s:.3f}%; '
-        f'width: {100.0 * (end_s - start) / duration_s:.3f}%; background: {colour}" title="{escape(text)}"></div>'
+        f'width: {100.0 * (end_s - start) / duration_s:.3f}%; background: {colour}" title="{as_shown(text)}"></div>'
         for start, end_s, colour, text in marks or []
     )
     return (
@@ -156,6 +167,6 @@ def entry(nodes: str, shape: str, colour: str, text: str, shown: bool = True) ->
     style = f' style="background: {colour}"' if colour else ""
     checked = " checked" if shown else ""
     return (
-        f'<label><input type="checkbox"{checked} data-nodes="{escape(nodes)}">'
-        f'<span class="swatch {shape}"{style}>{"A" if shape == "text" else ""}</span>{escape(text)}</label>'
+        f'<label><input type="checkbox"{checked} data-nodes="{as_shown(nodes)}">'
+        f'<span class="swatch {shape}"{style}>{"A" if shape == "text" else ""}</span>{as_shown(text)}</label>'
     )

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.errors import printable
 from mcplan.extras import require
 from mcplan.files.outputs import write_whole
 
@@ -75,7 +76,7 @@ class Page:
         }
         return _fill(
             _asset("page.html"),
-            title=escape(self.title),
+            title=escape(printable(self.title)),
             style=_asset("page.css"),
             overlay=self.overlay,
             meshcat=_viewer(),

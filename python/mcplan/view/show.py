@@ -51,12 +51,14 @@ def show(
         MissingExtra: meshcat (or Pinocchio, for a robot with a URDF) is not installed.
         InvalidPlan: The plan's arrays do not fit together.
         InvalidInput: A scene or a robot for a whole-body plan.
+        TypeError: It is no plan, but the result that has one, for instance.
     """
     if isinstance(plan, WholeBodyPlan):
         for name, given in (("scene", scene), ("robot", robot)):
             if given is not None:
                 raise InvalidInput(name, "a whole-body plan is drawn with its own motion", repr(given.name))
         return show_whole_body(plan, report)
+    _require_types(plan, scene, robot)
     scene = scene if scene is not None else plan.scene
     robot = robot if robot is not None else plan.robot
     plan.validate()
@@ -71,7 +73,9 @@ def show(
     lines = [f"{robot.name}: {phases} phases, {samples.times_s[-1]:.2f} s"]
     loads = loads_of(plan)
     if loads is not None:
-        lines.append(f"angular momentum up to {loads.angular_momentum:.1f} kg m²/s")
+        swing = loads.angular_momentum
+        momentum = f"{swing:.1f}" if 0.1 <= swing < 1e4 else f"{swing:.3g}"
+        lines.append(f"angular momentum up to {momentum} kg m²/s")
     if report is not None:
         lines.append(f"{report.status}: {report.iterations} iterations, {report.time_s:.2f} s of planning")
     newton_per_metre = float(robot.mass) * float(scene.gravity) / (WEIGHT_ARROW * float(robot.com_height))
@@ -91,6 +95,18 @@ def show(
         knots_s=plan.knot_times(),
         labels=labels,
     )
+
+
+def _require_types(plan: object, scene: object, robot: object) -> None:
+    """Arguments in the wrong order, and results in the place of their plans, are said by name."""
+    from mcplan._core import Plan, Robot, Scene
+
+    if not isinstance(plan, Plan):
+        hint = "; pass its .plan" if hasattr(plan, "plan") else ""
+        raise TypeError(f"plan: must be a Plan or a WholeBodyPlan, got {type(plan).__name__}{hint}")
+    for name, given, kind in (("scene", scene, Scene), ("robot", robot, Robot)):
+        if given is not None and not isinstance(given, kind):
+            raise TypeError(f"{name}: must be a {kind.__name__} or None, got {type(given).__name__}")
 
 
 def annotated(
