@@ -141,7 +141,8 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
   for (const Attempt& attempt : attempts_for(with, cost)) {
     const double left = deadline.remaining_s();
     // Room for making a program, its first factorisation, which nothing can interrupt, and the last check, in times of
-    // making one. Chosen by hand, not derived: walking then ends early at 0.2 s, and long limits are overrun all the same.
+    // making one. Chosen by hand, not derived: walking then ends early at 0.2 s, and long limits are overrun all the
+    // same.
     constexpr double kUntilFirstIteration = 3.0;
     if (deadline.limited() && left <= (with.dynamics == options.dynamics ? kUntilFirstIteration * program_s : 0.0)) {
       if (best && best->status == Status::acceptable) break;
