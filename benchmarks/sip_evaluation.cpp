@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "mcplan/sip/planner.hpp"
-#include "mcplan/sip/program.hpp"
+#include "mcplan/planar/sip/planner.hpp"
+#include "mcplan/planar/sip/program.hpp"
 #include "motions.hpp"
 
 namespace {
@@ -97,7 +97,7 @@ struct Times {
 };
 
 Times evaluation(int repeats, bool json) {
-  const PlanarMotion motion = sip_motions::walking();
+  const PlanarTask motion = sip_motions::walking();
   const sip::Options options;  // case 3, a duration per phase, hull, tube, all constraints
   const sip::Layout layout(motion, options);
   // Values and derivatives of the last two points are kept: four in turn are computed anew each time.

@@ -17,7 +17,7 @@ void print(const char* name, const mcplan::sip::Result& found) {
 }  // namespace
 
 int main() {
-  const mcplan::PlanarMotion motion = examples::cartwheel();
+  const mcplan::PlanarTask motion = examples::cartwheel();
 
   // First with forces that share the load evenly, then with a weight for each point of contact, from where the first
   // ends.
@@ -36,7 +36,7 @@ int main() {
   const mcplan::sip::Certificate certificate = mcplan::sip::certify(result.plan);
   std::printf("%s\n", certificate.to_string().c_str());
 
-  const mcplan::WholeBodyState state = result.plan.at(0.5);  // any instant: base, joints, torques, contact forces
+  const mcplan::PlanarState state = result.plan.at(0.5);  // any instant: base, joints, torques, contact forces
   std::printf("at 0.5 s the joints need");
   for (const double torque : state.torque) std::printf(" %.0f", torque);
   std::printf(" N m\n");

@@ -68,8 +68,8 @@ inline mcplan::PlanarRobot climber9() {
 }
 
 /// The robot wheels over limb B: A leaves the ground behind, C comes down ahead.
-inline mcplan::PlanarMotion cartwheel() {
-  mcplan::PlanarMotion motion;
+inline mcplan::PlanarTask cartwheel() {
+  mcplan::PlanarTask motion;
   motion.name = "cartwheel";
   motion.robot = climber9();
   mcplan::PlanarSurface ground;

@@ -40,8 +40,8 @@ def _checked() -> list[str]:
 
 
 def _checked_bodies() -> list[str]:
-    text = (ROOT / "cpp/include/mcplan/plan/whole_body_checker.hpp").read_text(encoding="utf-8")
-    listed = re.search(r"enum class WholeBodyConstraint \{(.*?)\}", text, re.S)
+    text = (ROOT / "cpp/include/mcplan/planar/checker.hpp").read_text(encoding="utf-8")
+    listed = re.search(r"enum class PlanarConstraint \{(.*?)\}", text, re.S)
     return re.findall(r"^\s*(\w+),", listed[1] if listed else "", re.M)
 
 

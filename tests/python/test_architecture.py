@@ -23,9 +23,10 @@ CPP_ROOMS = {
     "ddp": {"base", "scene", "robot", "plan"},
     "nlp": {"base"},
     "rhp": {"base", "scene", "robot", "plan", "nlp"},
-    "sip": {"base", "scene", "robot", "plan", "nlp"},
+    "planar": {"base", "plan"},  # robot, task, plan and checker, which sees no planner either
+    "planar/sip": {"base", "plan", "nlp", "planar"},
 }
-OPENMP_ROOMS = {"ddp", "rhp", "sip"}
+OPENMP_ROOMS = {"ddp", "rhp", "planar/sip"}
 
 # room (a module or folder of the package) -> the rooms that it may import, beside itself; "" is the package's
 # front, which others import for annotations only
@@ -67,11 +68,17 @@ HEAVY = {"crocoddyl", "example_robot_data", "imageio", "matplotlib", "meshcat", 
 HEAVY |= {"PIL", "pink", "pinocchio", "proxsuite", "scipy"}
 
 
+def cpp_room(parts: tuple[str, ...]) -> str:
+    """The room of a file by the folders and the name of its path: a room within a room if there is one."""
+    inner = "/".join(parts[:2])
+    return inner if inner in CPP_ROOMS else parts[0]
+
+
 def cpp_files() -> Iterator[tuple[str, Path]]:
     """Room and path of every public header and every source of a room."""
     for top in (HEADERS, SOURCES):
         for path in sorted(top.glob("*/**/*.[ch]pp")):
-            room = path.relative_to(top).parts[0]
+            room = cpp_room(path.relative_to(top).parts)
             if room != "bindings":
                 yield room, path
 
@@ -86,7 +93,8 @@ def forbidden_includes(room: str, text: str) -> list[str]:
     for include in quoted_includes(text):
         parts = include.split("/")
         if parts[0] == "mcplan" and len(parts) > 2:
-            if parts[1] != room and parts[1] not in CPP_ROOMS[room]:
+            other = cpp_room(tuple(parts[1:]))
+            if other != room and other not in CPP_ROOMS[room]:
                 bad.append(include)
         elif include != "mcplan/version.hpp" and len(parts) > 1:
             bad.append(include)
@@ -104,8 +112,10 @@ def test_cpp_rooms_include_only_what_they_may() -> None:
 
 def test_an_include_in_the_wrong_direction_is_seen() -> None:
     assert forbidden_includes("plan", '#include "mcplan/ddp/options.hpp"\n') == ["mcplan/ddp/options.hpp"]
-    assert forbidden_includes("rhp", '  # include "mcplan/sip/spline.hpp"') == ["mcplan/sip/spline.hpp"]
+    assert forbidden_includes("rhp", '  # include "mcplan/planar/sip/spline.hpp"') == ["mcplan/planar/sip/spline.hpp"]
     assert forbidden_includes("scene", '#include "../robot/inner.hpp"') == ["../robot/inner.hpp"]
+    assert forbidden_includes("planar", '#include "mcplan/planar/sip/rows.hpp"') == ["mcplan/planar/sip/rows.hpp"]
+    assert forbidden_includes("planar/sip", '#include "mcplan/planar/plan.hpp"') == []
     assert forbidden_includes("nlp", '#include "mcplan/ddp/costs/a.hpp"') == ["mcplan/ddp/costs/a.hpp"]
     assert forbidden_includes("base", '#include "mcplan/mcplan.hpp"') == ["mcplan/mcplan.hpp"]
     legal = '#include <vector>\n#include "mcplan/scene/scene.hpp"\n#include "beside.hpp"\n'

@@ -1,7 +1,7 @@
 #include <cstdio>
 
 #include "bindings.hpp"
-#include "mcplan/plan/planar_motion.hpp"
+#include "mcplan/planar/task.hpp"
 #include "mcplan/version.hpp"
 
 namespace mcplan::bindings {
@@ -134,11 +134,15 @@ PYBIND11_MODULE(_core, m) {
   bind_robot(m);
   bind_plan(m);
   bind_planar(m);
-  bind_whole_body(m);
+  bind_planar_plan(m);
   bind_ddp(m);
   bind_nlp(m);
   bind_rhp(m);
   bind_sip(m);
   // The planners' rooms go here, one line each: they may use everything above.
+  for (const auto& [old, name] :
+       {std::pair("PlanarMotion", "PlanarTask"), std::pair("WholeBodyPlan", "PlanarPlan"),
+        std::pair("WholeBodyState", "PlanarState"), std::pair("WholeBodyTolerances", "PlanarTolerances")})
+    m.attr(old) = m.attr(name);  // as they were called until 0.1
   refuse_uninitialised(m);
 }

@@ -1,6 +1,6 @@
 #include "bindings.hpp"
-#include "mcplan/plan/planar_motion.hpp"
-#include "mcplan/robot/planar_robot.hpp"
+#include "mcplan/planar/robot.hpp"
+#include "mcplan/planar/task.hpp"
 
 namespace mcplan::bindings {
 namespace {
@@ -271,24 +271,24 @@ void bind_motion(py::module_& m) {
   def_items(phase, "poses", &PlanarPhase::poses, "Tuple of PlanarPose.");
   def_value(phase, "PlanarPhase", {"intervals", "min_duration", "max_duration", "contacts", "clearances", "poses"});
 
-  py::class_<PlanarMotion> motion(m, "PlanarMotion",
-                                  "A task for whole-body planning: planar robot, ground, sequence of contact stances.");
+  py::class_<PlanarTask> motion(m, "PlanarTask",
+                                "A task for whole-body planning: planar robot, ground, sequence of contact stances.");
   motion.def(
       py::init([](std::string name, std::string description, const PlanarRobot& robot,
                   std::vector<PlanarSurface> surfaces, std::vector<PlanarPhase> phases) {
-        return PlanarMotion{std::move(name), std::move(description), robot, std::move(surfaces), std::move(phases)};
+        return PlanarTask{std::move(name), std::move(description), robot, std::move(surfaces), std::move(phases)};
       }),
       py::kw_only(), py::arg("name") = "", py::arg("description") = "", py::arg("robot") = PlanarRobot(),
       py::arg("surfaces") = std::vector<PlanarSurface>(), py::arg("phases") = std::vector<PlanarPhase>());
-  motion.def_readwrite("name", &PlanarMotion::name);
-  motion.def_readwrite("description", &PlanarMotion::description);
-  def_member(motion, "robot", &PlanarMotion::robot, "PlanarRobot.");
-  def_items(motion, "surfaces", &PlanarMotion::surfaces, "Tuple of PlanarSurface.");
-  def_items(motion, "phases", &PlanarMotion::phases, "Tuple of PlanarPhase.");
-  motion.def("interval_count", &PlanarMotion::interval_count, "Of all phases.");
+  motion.def_readwrite("name", &PlanarTask::name);
+  motion.def_readwrite("description", &PlanarTask::description);
+  def_member(motion, "robot", &PlanarTask::robot, "PlanarRobot.");
+  def_items(motion, "surfaces", &PlanarTask::surfaces, "Tuple of PlanarSurface.");
+  def_items(motion, "phases", &PlanarTask::phases, "Tuple of PlanarPhase.");
+  motion.def("interval_count", &PlanarTask::interval_count, "Of all phases.");
   motion.def(
       "first_interval",
-      [](const PlanarMotion& self, int k) {
+      [](const PlanarTask& self, int k) {
         if (k < 0 || k > static_cast<int>(self.phases.size()))
           throw InvalidInput("phase", "must lie in [0, " + std::to_string(self.phases.size()) + "]", text(k));
         return self.first_interval(k);
@@ -296,15 +296,15 @@ void bind_motion(py::module_& m) {
       py::arg("phase"), "Index of the first interval of a phase.");
   motion.def(
       "phase_of",
-      [](const PlanarMotion& self, int interval) {
+      [](const PlanarTask& self, int interval) {
         if (interval < 0 || interval >= self.interval_count())
           throw InvalidInput("interval", "must lie in [0, " + text(self.interval_count() - 1) + "]", text(interval));
         return self.phase_of(interval);
       },
       py::arg("interval"), "Phase that an interval belongs to.");
-  motion.def("validate", &PlanarMotion::validate,
+  motion.def("validate", &PlanarTask::validate,
              "Raise InvalidMotion (InvalidRobot for the robot) naming the first field out of its range.");
-  def_value(motion, "PlanarMotion", {"name", "description", "robot", "surfaces", "phases"});
+  def_value(motion, "PlanarTask", {"name", "description", "robot", "surfaces", "phases"});
   def_pickle(motion, "mcplan.files.planar_data", "motion_to_plain", "motion_from_plain");
 }
 

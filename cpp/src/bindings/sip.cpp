@@ -1,8 +1,8 @@
 #include <pybind11/operators.h>
 
 #include "bindings.hpp"
-#include "mcplan/sip/certificate.hpp"
-#include "mcplan/sip/taylor_model.hpp"
+#include "mcplan/planar/sip/certificate.hpp"
+#include "mcplan/planar/sip/taylor_model.hpp"
 #include "signals.hpp"
 
 namespace mcplan::bindings {
@@ -64,7 +64,7 @@ void bind_certificate(py::module_& m) {
       .value("not_proved", Proof::not_proved, "Neither proved nor violated at any point looked at.")
       .value("violated", Proof::violated, "Does not hold at the instant named.");
   py::class_<ProvedConstraint> c(m, "ProvedConstraint", "What certify() found out about one kind of constraint.");
-  c.def_readonly("name", &ProvedConstraint::name, "As in the checker of whole-body plans.");
+  c.def_readonly("name", &ProvedConstraint::name, "As in the checker of planar plans.");
   c.def_readonly("proof", &ProvedConstraint::proof);
   c.def_readonly("bound", &ProvedConstraint::bound,
                  "Proved upper bound of the amount beyond the limit, over the whole motion, in `unit`.");
@@ -80,7 +80,7 @@ void bind_certificate(py::module_& m) {
     return paste(self, "ProvedConstraint", {"name", "proof", "bound", "tolerance", "phase", "where", "time_s"});
   });
 
-  py::class_<Certificate> certificate(m, "Certificate", "What is proved of a whole-body plan at every instant.");
+  py::class_<Certificate> certificate(m, "Certificate", "What is proved of a planar plan at every instant.");
   certificate.def_property_readonly("constraints", [](const Certificate& self) { return self.constraints; });
   certificate.def_readonly("subdivisions", &Certificate::subdivisions, "Pieces of time looked at.");
   certificate.def_readonly("rounding", &Certificate::rounding,
@@ -94,13 +94,13 @@ void bind_certificate(py::module_& m) {
 
   m.def(
       "certify",
-      [](WholeBodyPlan plan, const WholeBodyTolerances& tolerances, int order, int max_depth, bool self_collision) {
+      [](PlanarPlan plan, const PlanarTolerances& tolerances, int order, int max_depth, bool self_collision) {
         const CertifyOptions options{tolerances, order, max_depth, self_collision, SignalWatch::stop};
         return interruptible([&] { return sip::certify(plan, options); });
       },
-      py::arg("plan"), py::arg("tolerances") = WholeBodyTolerances(), py::arg("order") = CertifyOptions().order,
+      py::arg("plan"), py::arg("tolerances") = PlanarTolerances(), py::arg("order") = CertifyOptions().order,
       py::arg("max_depth") = CertifyOptions().max_depth, py::arg("self_collision") = false,
-      "Prove every inequality of a whole-body plan at every instant, with Taylor models of `order` (2 to 12) on "
+      "Prove every inequality of a planar plan at every instant, with Taylor models of `order` (2 to 12) on "
       "intervals that are halved up to `max_depth` (0 to 40) times. Raises InvalidPlan, InvalidMotion, InvalidRobot, "
       "InvalidOptions.");
 }

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "bindings.hpp"
-#include "mcplan/sip/certificate.hpp"
-#include "mcplan/sip/planner.hpp"
+#include "mcplan/planar/sip/certificate.hpp"
+#include "mcplan/planar/sip/planner.hpp"
 #include "signals.hpp"
 
 namespace mcplan::bindings {
@@ -93,8 +93,8 @@ struct JudgedResult : Result {
 };
 
 void bind_result(py::module_& m) {
-  py::class_<JudgedResult> c(m, "Result", "A whole-body motion and how it was found.");
-  def_member(c, "plan", static_cast<WholeBodyPlan JudgedResult::*>(&Result::plan), "The motion: a WholeBodyPlan.");
+  py::class_<JudgedResult> c(m, "Result", "A planar plan and how it was found.");
+  def_member(c, "plan", static_cast<PlanarPlan JudgedResult::*>(&Result::plan), "The motion: a PlanarPlan.");
   def_member(c, "report", static_cast<Report JudgedResult::*>(&Result::report),
              "Status solved only if the checker accepts the plan; time_s is split in timing_s: \"evaluation\", "
              "\"linear_solver\", \"check\"; cost_terms by name.");
@@ -119,7 +119,7 @@ void bind_planner_class(py::module_& m) {
       "Whole-body planning of a planar robot through a sequence of contact stances by semi-infinite "
       "programming (Lengagne et al., 2010). Solves release the GIL; Ctrl-C ends them, and Interrupted "
       "carries the best plan so far.");
-  c.def(py::init([](const PlanarMotion& motion, const Options& options) { return Planner(motion, watched(options)); }),
+  c.def(py::init([](const PlanarTask& motion, const Options& options) { return Planner(motion, watched(options)); }),
         py::arg("motion"), py::arg_v("options", Options(), "Options()"),
         "Raises InvalidMotion, InvalidRobot, InvalidOptions.");
   c.def(
@@ -131,7 +131,7 @@ void bind_planner_class(py::module_& m) {
       "From the robot's zero posture throughout, weights of 1, and one second.");
   c.def(
       "solve",
-      [](Planner& self, WholeBodyPlan plan) {
+      [](Planner& self, PlanarPlan plan) {
         const Alone alone(&self, "solve");
         return interruptible([&] { return JudgedResult{self.solve(plan), std::nullopt}; });
       },

@@ -42,10 +42,14 @@ __all__: list[str] = [
     "PlanarMotion",
     "PlanarMotionOfFrame",
     "PlanarPhase",
+    "PlanarPlan",
     "PlanarPointForce",
     "PlanarPose",
     "PlanarRobot",
+    "PlanarState",
     "PlanarSurface",
+    "PlanarTask",
+    "PlanarTolerances",
     "Polygon",
     "Polytope",
     "Report",
@@ -2308,15 +2312,15 @@ class PlanarPhase:
     @poses.setter
     def poses(self, arg1: collections.abc.Sequence[PlanarPose]) -> None: ...
 
-class PlanarMotion:
+class PlanarTask:
     """
     A task for whole-body planning: planar robot, ground, sequence of contact stances.
     """
 
     description: str
     name: str
-    def __copy__(self) -> PlanarMotion: ...
-    def __deepcopy__(self, memo: dict) -> PlanarMotion: ...
+    def __copy__(self) -> PlanarTask: ...
+    def __deepcopy__(self, memo: dict) -> PlanarTask: ...
     def __init__(
         self,
         *,
@@ -2414,12 +2418,12 @@ class PlanarPointForce:
         Along the surface [N].
         """
 
-class WholeBodyState:
+class PlanarState:
     """
     A planar robot at an instant.
     """
-    def __copy__(self) -> WholeBodyState: ...
-    def __deepcopy__(self, memo: dict) -> WholeBodyState: ...
+    def __copy__(self) -> PlanarState: ...
+    def __deepcopy__(self, memo: dict) -> PlanarState: ...
     def __repr__(self) -> str: ...
     @property
     def angular_momentum(self) -> float:
@@ -2473,7 +2477,7 @@ class WholeBodyState:
 
 class PlanarForceLaw:
     """
-    Where the contact forces of a whole-body plan come from.
+    Where the contact forces of a planar plan come from.
 
     Members:
 
@@ -2509,23 +2513,23 @@ class PlanarForceLaw:
     @property
     def value(self) -> int: ...
 
-class WholeBodyPlan:
+class PlanarPlan:
     """
-    A whole-body motion of a planar robot: joint splines, durations of the phases, and what fixes the contact forces. Carries the motion (task) it was made for.
+    A motion of a planar robot: joint splines, durations of the phases, and what fixes the contact forces. Carries the motion (task) it was made for.
     """
 
     force_law: PlanarForceLaw
     @staticmethod
-    def load(path: typing.Any) -> WholeBodyPlan:
+    def load(path: typing.Any) -> PlanarPlan:
         """
         Read a plan written by save(). Raises InvalidPlan.
         """
-    def __copy__(self) -> WholeBodyPlan: ...
-    def __deepcopy__(self, memo: dict) -> WholeBodyPlan: ...
+    def __copy__(self) -> PlanarPlan: ...
+    def __deepcopy__(self, memo: dict) -> PlanarPlan: ...
     def __init__(
         self,
         *,
-        motion: PlanarMotion = ...,
+        motion: PlanarTask = ...,
         planner: str = "",
         durations: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [],
         control_points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] = ...,
@@ -2541,15 +2545,15 @@ class WholeBodyPlan:
     def __repr__(self) -> str: ...
     @typing.overload
     def __repr__(self) -> str: ...
-    def at(self, t: typing.SupportsFloat | typing.SupportsIndex) -> WholeBodyState:
+    def at(self, t: typing.SupportsFloat | typing.SupportsIndex) -> PlanarState:
         """
-        WholeBodyState at time t [s] in [0, duration], in closed form. At a boundary the phase that begins there is meant (the last one at the end). Raises InvalidInput outside.
+        PlanarState at time t [s] in [0, duration], in closed form. At a boundary the phase that begins there is meant (the last one at the end). Raises InvalidInput outside.
         """
     def at_phase(
         self, k: typing.SupportsInt | typing.SupportsIndex, since_start: typing.SupportsFloat | typing.SupportsIndex
-    ) -> WholeBodyState:
+    ) -> PlanarState:
         """
-        WholeBodyState `since_start` [s] after the start of phase k: says which side of a boundary is meant.
+        PlanarState `since_start` [s] after the start of phase k: says which side of a boundary is meant.
         """
     def duration(self) -> float:
         """
@@ -2602,12 +2606,12 @@ class WholeBodyPlan:
         self, arg1: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]]
     ) -> None: ...
     @property
-    def motion(self) -> PlanarMotion:
+    def motion(self) -> PlanarTask:
         """
-        PlanarMotion that it was made for.
+        PlanarTask that it was made for.
         """
     @motion.setter
-    def motion(self, arg1: PlanarMotion) -> None: ...
+    def motion(self, arg1: PlanarTask) -> None: ...
     @property
     def planner(self) -> str:
         """
@@ -2625,12 +2629,12 @@ class WholeBodyPlan:
         self, arg1: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]]
     ) -> None: ...
 
-class WholeBodyTolerances:
+class PlanarTolerances:
     """
-    Published tolerances of the checker of whole-body plans.
+    Published tolerances of the checker of planar plans.
     """
-    def __copy__(self) -> WholeBodyTolerances: ...
-    def __deepcopy__(self, memo: dict) -> WholeBodyTolerances: ...
+    def __copy__(self) -> PlanarTolerances: ...
+    def __deepcopy__(self, memo: dict) -> PlanarTolerances: ...
     def __init__(
         self,
         *,
@@ -2755,18 +2759,18 @@ def check(plan: Plan, scene: Scene = None, robot: Robot = None, tolerances: Tole
     """
 
 @typing.overload
-def check(plan: WholeBodyPlan, tolerances: WholeBodyTolerances = ..., self_collision: bool = False) -> CheckResult:
+def check(plan: PlanarPlan, tolerances: PlanarTolerances = ..., self_collision: bool = False) -> CheckResult:
     """
-    Check a whole-body plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidMotion or InvalidRobot where it is malformed, and Interrupted with what was found by then.
+    Check a planar plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidMotion or InvalidRobot where it is malformed, and Interrupted with what was found by then.
     """
 
-def largest_drift(plan: WholeBodyPlan, sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> Drift:
+def largest_drift(plan: PlanarPlan, sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> Drift:
     """
-    Drift of a whole-body plan, from samples in time and exact kinematics.
+    Drift of a planar plan, from samples in time and exact kinematics.
     """
 
 def least_norm_gain(
-    motion: PlanarMotion,
+    motion: PlanarTask,
     phase: typing.SupportsInt | typing.SupportsIndex,
     weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
@@ -2780,7 +2784,7 @@ def may_touch(surface: Surface, end_effector: EndEffector) -> bool:
     """
 
 def moment_point_W(
-    motion: PlanarMotion, phase: typing.SupportsInt | typing.SupportsIndex
+    motion: PlanarTask, phase: typing.SupportsInt | typing.SupportsIndex
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
     """
     Mean of the phase's expected points [m].
@@ -2839,3 +2843,7 @@ def rotation_from_rpy(
     """
 
 __version__: str = "0.1.0"
+PlanarMotion = PlanarTask
+WholeBodyPlan = PlanarPlan
+WholeBodyState = PlanarState
+WholeBodyTolerances = PlanarTolerances

@@ -134,7 +134,7 @@ class ProvedConstraint:
     @property
     def name(self) -> str:
         """
-        As in the checker of whole-body plans.
+        As in the checker of planar plans.
         """
     @property
     def phase(self) -> int:
@@ -168,7 +168,7 @@ class ProvedConstraint:
 
 class Certificate:
     """
-    What is proved of a whole-body plan at every instant.
+    What is proved of a planar plan at every instant.
     """
     def __repr__(self) -> str: ...
     def __str__(self) -> str: ...
@@ -586,7 +586,7 @@ class Options:
 
 class Result:
     """
-    A whole-body motion and how it was found.
+    A planar plan and how it was found.
     """
     def __repr__(self) -> str: ...
     @property
@@ -617,12 +617,12 @@ class Result:
         Variables of the program.
         """
     @property
-    def plan(self) -> mcplan._core.WholeBodyPlan:
+    def plan(self) -> mcplan._core.PlanarPlan:
         """
-        The motion: a WholeBodyPlan.
+        The motion: a PlanarPlan.
         """
     @plan.setter
-    def plan(self, arg1: mcplan._core.WholeBodyPlan) -> None: ...
+    def plan(self, arg1: mcplan._core.PlanarPlan) -> None: ...
     @property
     def report(self) -> mcplan._core.Report:
         """
@@ -635,7 +635,7 @@ class Planner:
     """
     Whole-body planning of a planar robot through a sequence of contact stances by semi-infinite programming (Lengagne et al., 2010). Solves release the GIL; Ctrl-C ends them, and Interrupted carries the best plan so far.
     """
-    def __init__(self, motion: mcplan._core.PlanarMotion, options: Options = ...) -> None:
+    def __init__(self, motion: mcplan._core.PlanarTask, options: Options = ...) -> None:
         """
         Raises InvalidMotion, InvalidRobot, InvalidOptions.
         """
@@ -645,7 +645,7 @@ class Planner:
         From the robot's zero posture throughout, weights of 1, and one second.
         """
     @typing.overload
-    def solve(self, warm_start: mcplan._core.WholeBodyPlan) -> Result:
+    def solve(self, warm_start: mcplan._core.PlanarPlan) -> Result:
         """
         From a plan of the same robot and phases; forces, order, tube and durations may differ. Raises InvalidPlan where its phases or joints do not fit.
         """
@@ -661,12 +661,12 @@ class Planner:
         """
 
 def certify(
-    plan: mcplan._core.WholeBodyPlan,
-    tolerances: mcplan._core.WholeBodyTolerances = ...,
+    plan: mcplan._core.PlanarPlan,
+    tolerances: mcplan._core.PlanarTolerances = ...,
     order: typing.SupportsInt | typing.SupportsIndex = 8,
     max_depth: typing.SupportsInt | typing.SupportsIndex = 12,
     self_collision: bool = False,
 ) -> Certificate:
     """
-    Prove every inequality of a whole-body plan at every instant, with Taylor models of `order` (2 to 12) on intervals that are halved up to `max_depth` (0 to 40) times. Raises InvalidPlan, InvalidMotion, InvalidRobot, InvalidOptions.
+    Prove every inequality of a planar plan at every instant, with Taylor models of `order` (2 to 12) on intervals that are halved up to `max_depth` (0 to 40) times. Raises InvalidPlan, InvalidMotion, InvalidRobot, InvalidOptions.
     """

@@ -1,0 +1,202 @@
+#include "mcplan/planar/plan.hpp"
+
+#include "bindings.hpp"
+#include "mcplan/planar/checker.hpp"
+#include "signals.hpp"
+
+namespace mcplan::bindings {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+void bind_state(py::module_& m) {
+  py::class_<PlanarPointForce> force(m, "PlanarPointForce", "Contact force at one point of an end-effector.");
+  force.def_readonly("contact", &PlanarPointForce::contact, "Index into the phase's contacts.");
+  force.def_readonly("end_effector", &PlanarPointForce::end_effector, "Index into robot.end_effectors.");
+  force.def_readonly("surface", &PlanarPointForce::surface, "Index into motion.surfaces.");
+  force.def_readonly("point", &PlanarPointForce::point, "Index into the end-effector's points.");
+  force.def_readonly("position_W", &PlanarPointForce::position_W, "Actual place of the point [m].");
+  force.def_readonly("force_W", &PlanarPointForce::force_W, "On the robot [N].");
+  force.def_readonly("tangential", &PlanarPointForce::tangential, "Along the surface [N].");
+  force.def_readonly("normal", &PlanarPointForce::normal, "Away from the surface [N].");
+  def_value(force, "PlanarPointForce",
+            {"contact", "end_effector", "surface", "point", "position_W", "force_W", "tangential", "normal"});
+
+  py::class_<PlanarState> state(m, "PlanarState", "A planar robot at an instant.");
+  state.def_readonly("time", &PlanarState::time, "[s]");
+  state.def_readonly("phase", &PlanarState::phase);
+  state.def_readonly("configuration", &PlanarState::configuration,
+                     "PlanarConfiguration: position, velocity, acceleration of base and joints.");
+  state.def_readonly("torque", &PlanarState::torque, "Of the joints [N m].");
+  state.def_readonly("base_residual", &PlanarState::base_residual,
+                     "Force x, y [N] and moment [N m] at the base that nothing carries.");
+  def_items(state, "forces", &PlanarState::forces, "Tuple of PlanarPointForce.");
+  state.def_property_readonly(
+      "contact_error", [](py::object self) { return points_view(self.cast<PlanarState&>().contact_error, self); },
+      "A row for each contact: actual minus expected x, y [m], angle [rad].");
+  state.def_readonly("com_W", &PlanarState::com_W, "[m]");
+  state.def_readonly("com_velocity_W", &PlanarState::com_velocity_W, "[m/s]");
+  state.def_readonly("angular_momentum", &PlanarState::angular_momentum, "About the CoM [kg m^2/s].");
+  def_value(state, "PlanarState",
+            {"time", "phase", "configuration", "torque", "base_residual", "forces", "contact_error", "com_W",
+             "com_velocity_W", "angular_momentum"});
+
+  py::enum_<PlanarForceLaw>(m, "PlanarForceLaw", "Where the contact forces of a planar plan come from.")
+      .value("least_norm", PlanarForceLaw::least_norm, "Weighted least norm that balances the motion.")
+      .value("polynomial", PlanarForceLaw::polynomial, "Cubic in time over each interval, given.")
+      .def(
+          "__repr__",
+          [](PlanarForceLaw law) { return "PlanarForceLaw." + std::string(py::str(py::cast(law).attr("name"))); },
+          py::prepend());
+}
+
+std::string describe(const PlanarPlan& plan) {
+  return "<PlanarPlan of " + shown(plan.motion.robot.name) + ", " + shown(plan.motion.name) + ": " +
+         std::to_string(plan.durations.size()) + " phases, " + text(plan.duration()) + " s>";
+}
+
+void bind_plan_class(py::module_& m) {
+  py::class_<PlanarPlan> plan(m, "PlanarPlan",
+                              "A motion of a planar robot: joint splines, durations of the phases, and "
+                              "what fixes the contact forces. Carries the motion (task) it was made for.");
+  plan.def(py::init([](const PlanarTask& motion, std::string planner, std::vector<double> durations,
+                       const MatrixXd& control_points, const MatrixXd& base_control_points, PlanarForceLaw force_law,
+                       std::vector<VectorXd> weights, std::vector<MatrixXd> force_polynomials) {
+             PlanarPlan out;
+             out.motion = motion;
+             out.planner = std::move(planner);
+             out.durations = std::move(durations);
+             out.control_points = control_points;
+             out.base_control_points = base_control_points;
+             out.force_law = force_law;
+             out.weights = std::move(weights);
+             out.force_polynomials = std::move(force_polynomials);
+             return out;
+           }),
+           py::kw_only(), py::arg("motion") = PlanarTask(), py::arg("planner") = "",
+           py::arg("durations") = std::vector<double>(), py::arg("control_points") = MatrixXd(),
+           py::arg("base_control_points") = MatrixXd(), py::arg("force_law") = PlanarForceLaw::least_norm,
+           py::arg("weights") = std::vector<VectorXd>(), py::arg("force_polynomials") = std::vector<MatrixXd>());
+  def_member(plan, "motion", &PlanarPlan::motion, "PlanarTask that it was made for.");
+  plan.def_readwrite("planner", &PlanarPlan::planner, "E.g. 'sip'.");
+  def_names(plan, "durations", &PlanarPlan::durations, "Of the phases [s]. Assign a list to change them.");
+  def_matrix(plan, "control_points", &PlanarPlan::control_points, "Joints x (intervals + 3) [rad].");
+  def_matrix(plan, "base_control_points", &PlanarPlan::base_control_points,
+             "3 x (intervals + 3): x, y [m], angle [rad]; empty: computed from the joints.");
+  plan.def_readwrite("force_law", &PlanarPlan::force_law);
+  def_items(plan, "weights", &PlanarPlan::weights,
+            "least_norm: an array for each phase, contact by contact, point by point.");
+  def_items(plan, "force_polynomials", &PlanarPlan::force_polynomials,
+            "polynomial: for each interval 4 x (2 points), coefficients of s^0..s^3, s = -1..1, of tangential and "
+            "normal force [N], contact by contact, point by point.");
+  plan.def("duration", &PlanarPlan::duration, "[s]");
+  plan.def("knot_times", &PlanarPlan::knot_times, "[s] phase boundaries, phases + 1 entries, from 0.");
+  plan.def("interval_lengths", &PlanarPlan::interval_lengths, "[s]");
+  plan.def("at", &PlanarPlan::at, py::arg("t"),
+           "PlanarState at time t [s] in [0, duration], in closed form. At a boundary the phase that begins there "
+           "is meant (the last one at the end). Raises InvalidInput outside.");
+  plan.def("at_phase", &PlanarPlan::at_phase, py::arg("k"), py::arg("since_start"),
+           "PlanarState `since_start` [s] after the start of phase k: says which side of a boundary is meant.");
+  plan.def("validate", &PlanarPlan::validate,
+           "Raise InvalidPlan when sizes do not fit together, a duration or weight is not positive or a number is not "
+           "finite; InvalidMotion and InvalidRobot for the motion.");
+  plan.def(
+      "save",
+      [](py::object self, py::object path) {
+        py::module_::import("mcplan.files.whole_body_plans").attr("save_whole_body_plan")(self, path);
+      },
+      py::arg("path"), "Write the plan to an .npz file.");
+  plan.def_static(
+      "load",
+      [](py::object path) -> PlanarPlan {
+        return py::module_::import("mcplan.files.whole_body_plans")
+            .attr("load_whole_body_plan")(path)
+            .cast<PlanarPlan>();
+      },
+      py::arg("path"), "Read a plan written by save(). Raises InvalidPlan.");
+  def_value(plan, "PlanarPlan", {});  // for copies; a repr that can be pasted back would be pages long
+  plan.def("__repr__", &describe, py::prepend());
+  def_pickle(plan, "mcplan.files.whole_body_plans", "plan_to_bytes", "plan_from_bytes");
+}
+
+void bind_functions(py::module_& m) {
+  const auto require_phase = [](const PlanarTask& motion, int phase) {
+    motion.validate();
+    if (phase < 0 || phase >= static_cast<int>(motion.phases.size()))
+      throw InvalidInput("phase", "must lie in [0, " + std::to_string(motion.phases.size() - 1) + "]", text(phase));
+  };
+  m.def(
+      "least_norm_gain",
+      [require_phase](const PlanarTask& motion, int phase, const VectorXd& weights) {
+        require_phase(motion, phase);
+        return least_norm_gain(motion, phase, weights);
+      },
+      py::arg("motion"), py::arg("phase"), py::arg("weights"),
+      "(2 points) x 3: gain from [m (a - g); moment about moment_point_W] to the forces (tangential, normal) of all "
+      "points of a phase.");
+  m.def(
+      "moment_point_W",
+      [require_phase](const PlanarTask& motion, int phase) {
+        require_phase(motion, phase);
+        return moment_point_W(motion, phase);
+      },
+      py::arg("motion"), py::arg("phase"), "Mean of the phase's expected points [m].");
+}
+
+void bind_checker(py::module_& m) {
+  const PlanarTolerances d;
+  py::class_<PlanarTolerances> c(m, "PlanarTolerances", "Published tolerances of the checker of planar plans.");
+  c.def(py::init([](double limit, double drift, double drift_angle, double balance, double moment, double friction,
+                    double pull, double clearance, double continuity, double pose, double sample_s) {
+          return PlanarTolerances{limit, drift,     drift_angle, balance, moment,  friction,
+                                  pull,  clearance, continuity,  pose,    sample_s};
+        }),
+        py::kw_only(), py::arg("limit") = d.limit, py::arg("drift") = d.drift, py::arg("drift_angle") = d.drift_angle,
+        py::arg("balance") = d.balance, py::arg("moment") = d.moment, py::arg("friction") = d.friction,
+        py::arg("pull") = d.pull, py::arg("clearance") = d.clearance, py::arg("continuity") = d.continuity,
+        py::arg("pose") = d.pose, py::arg("sample_s") = d.sample_s);
+  c.def_readwrite("limit", &PlanarTolerances::limit, "[-] position, velocity, torque beyond limits, relative.");
+  c.def_readwrite("drift", &PlanarTolerances::drift, "[m] end-effector in contact from where it should be.");
+  c.def_readwrite("drift_angle", &PlanarTolerances::drift_angle, "[rad]");
+  c.def_readwrite("balance", &PlanarTolerances::balance, "[N] force that nothing carries.");
+  c.def_readwrite("moment", &PlanarTolerances::moment, "[N m] moment that nothing carries.");
+  c.def_readwrite("friction", &PlanarTolerances::friction, "[-] of m g: tangential force beyond the cone.");
+  c.def_readwrite("pull", &PlanarTolerances::pull, "[-] of m g");
+  c.def_readwrite("clearance", &PlanarTolerances::clearance,
+                  "[m] swinging end-effector in a solid, capsules in each other.");
+  c.def_readwrite("continuity", &PlanarTolerances::continuity,
+                  "[rad] jumps at knots, and what is not rest at the ends.");
+  c.def_readwrite("pose", &PlanarTolerances::pose, "[m], [rad]");
+  c.def_readwrite("sample_s", &PlanarTolerances::sample_s, "[s] sampling in time.");
+  def_value(c, "PlanarTolerances",
+            {"limit", "drift", "drift_angle", "balance", "moment", "friction", "pull", "clearance", "continuity",
+             "pose", "sample_s"});
+
+  m.def(
+      "check",
+      [](PlanarPlan plan, PlanarTolerances tolerances, bool self_collision) {
+        return interruptible([&] { return check(plan, tolerances, self_collision, SignalWatch::stop); });
+      },
+      py::arg("plan"), py::arg("tolerances") = d, py::arg("self_collision") = false,
+      "Check a planar plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidMotion "
+      "or InvalidRobot where it is malformed, and Interrupted with what was found by then.");
+
+  py::class_<Drift> drift(m, "Drift", "Largest distance and angle of a contact from where it should be.");
+  drift.def_readonly("position_m", &Drift::position_m, "[m]");
+  drift.def_readonly("angle_rad", &Drift::angle_rad, "[rad]");
+  def_value(drift, "Drift", {"position_m", "angle_rad"});
+  m.def("largest_drift", &largest_drift, py::arg("plan"), py::arg("sample_s") = 1e-3,
+        "Drift of a planar plan, from samples in time and exact kinematics.");
+}
+
+}  // namespace
+
+void bind_planar_plan(py::module_& m) {
+  bind_state(m);
+  bind_plan_class(m);
+  bind_functions(m);
+  bind_checker(m);
+}
+
+}  // namespace mcplan::bindings

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "evaluation.hpp"
+#include "mcplan/planar/checker.hpp"
+
+/// What the files check_*.cpp share. One constraint is one small function with its equation; it offers what
+/// it measures to PlanarFindings, which keep the worst of each.
+namespace mcplan::planar {
+
+using Constraint = PlanarConstraint;
+
+/// Where something was measured. Names are those of joints (their bodies) or end-effectors; a collision has two.
+struct Place {
+  int phase = -1;
+  const std::string* who = nullptr;
+  const std::string* other = nullptr;
+  double time_s = 0.0;
+};
+
+class Findings {
+ public:
+  explicit Findings(const PlanarTolerances& tolerances);
+
+  /// Keep this measurement if it is the worst of its constraint. Not a number counts as the largest number.
+  void offer(Constraint constraint, double value, const Place& place);
+
+  /// The first `count` constraints, in the order of the enumeration.
+  std::vector<Violation> violations(int count) const;
+
+ private:
+  struct Worst {
+    double value = 0.0;
+    Place place;
+    bool measured = false;
+  };
+  std::array<Worst, kPlanarConstraints> worst_;
+  PlanarTolerances tolerances_;
+};
+
+/// An instant of a plan, evaluated.
+struct Sample {
+  const PlanarPlan& plan;
+  const Evaluation& at;
+  int phase = 0, interval_of_phase = 0;
+  bool begin = false;  ///< of the interval
+  double time_s = 0.0;
+};
+
+// Of the whole plan; the first two say whether anything else can be evaluated.
+bool check_finite(const PlanarPlan& plan, Findings& findings);
+bool check_phase_duration(const PlanarPlan& plan, Findings& findings);
+void check_continuity(const std::vector<IntervalSplines>& splines, const PlanarRobot& robot, Findings& findings);
+void check_rest(const std::vector<IntervalSplines>& splines, const PlanarRobot& robot, Findings& findings);
+void check_poses(const PlanarPlan& plan, Findings& findings);
+
+// Of one instant.
+void check_joints(const Sample& sample, Findings& findings);
+void check_drift(const Sample& sample, Findings& findings);
+void check_balance(const Sample& sample, Findings& findings);
+void check_forces(const Sample& sample, Findings& findings);
+void check_clearance(const Sample& sample, Findings& findings);
+void check_collision(const Sample& sample, Findings& findings);
+
+/// Distance of two segments [m], 0 where they cross.
+double segment_distance(const Eigen::Vector2d& a0, const Eigen::Vector2d& a1, const Eigen::Vector2d& b0,
+                        const Eigen::Vector2d& b1);
+
+}  // namespace mcplan::planar

@@ -1,0 +1,357 @@
+#include "mcplan/planar/sip/planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "mcplan/base/deadline.hpp"
+#include "mcplan/nlp/solver.hpp"
+#include "mcplan/planar/sip/program.hpp"
+#include "mcplan/version.hpp"
+
+namespace mcplan::sip {
+namespace {
+
+constexpr int kKinematicOrder = 5;      // of angles and places, to a tenth of a millimetre
+constexpr double kCloseBarrier = 1e-4;  // the start is nearly the solution
+
+/// One way of solving a program.
+struct Attempt {
+  HessianChoice hessian;
+  bool adaptive_barrier;
+  double initial_barrier;
+  int max_iterations;
+};
+
+// Without a cost second derivatives say little: L-BFGS, the weak pull's own Hessian, and the exact one each solve what
+// the others do not. With one the exact Hessian converges in some tens of iterations where Gauss-Newton, which leaves
+// out the constraints' curvature, needs hundreds (docs/theory/sip.md).
+std::vector<Attempt> attempts_for(const Options& options, bool cost) {
+  const int most = options.max_iterations, some = std::min(most, 200);
+  if (options.hessian != HessianChoice::automatic) return {{options.hessian, !cost, cost ? 0.01 : 0.1, most}};
+  if (cost)
+    return {{HessianChoice::exact, false, 0.01, std::min(most, 400)},
+            {HessianChoice::exact, true, 0.1, std::min(most, 400)},
+            {HessianChoice::gauss_newton, true, 0.1, most}};
+  return {{HessianChoice::limited_memory, true, 0.1, some},
+          {HessianChoice::gauss_newton, true, 0.1, some},
+          {HessianChoice::exact, true, 0.1, most}};
+}
+
+bool ends_all(Status status) {
+  return status == Status::solved || status == Status::time_limit || status == Status::interrupted;
+}
+
+/// What a valid motion may lack for this planner, by the first field that does.
+void require_plannable(const PlanarTask& motion, const Options& options) {
+  if (motion.robot.joint_count() < 1)
+    throw InvalidRobot("bodies", "needs at least one joint to plan", "the base alone");
+  if (motion.interval_count() < 2)
+    throw InvalidMotion("phases[0].intervals",
+                        "must be at least 2 in a motion of one phase, to be at rest at both ends",
+                        text(motion.interval_count()));
+  if (options.dynamics && options.forces == Forces::parameters) return;
+  for (std::size_t k = 0; k < motion.phases.size(); ++k) {
+    Eigen::Index points = 0;
+    for (const PlanarContact& contact : motion.phases[k].contacts)
+      points += static_cast<Eigen::Index>(motion.robot.end_effectors[contact.end_effector].points.size());
+    try {
+      least_norm_gain(motion, static_cast<int>(k), Eigen::VectorXd::Ones(points));
+    } catch (const InvalidPlan& error) {
+      throw InvalidMotion("phases[" + std::to_string(k) + "].contacts", error.rule(), error.value());
+    }
+  }
+}
+
+/// The motion's and the options' bounds of durations must leave something between them.
+void require_durations(const PlanarTask& motion, const Options& options) {
+  const std::vector<Range> ranges = duration_ranges(motion, options);
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const double lower = ranges[i].min, upper = ranges[i].max;
+    if (lower > upper)
+      throw InvalidOptions(options.free_durations ? "phase_duration_s" : "total_duration_s",
+                           "must overlap with what the motion allows" +
+                               (options.free_durations ? " phase " + std::to_string(i) : std::string()),
+                           "at least " + text(lower) + " and at most " + text(upper) + " s");
+  }
+}
+
+/// Constraints of the checker that the options leave out.
+bool asked_for(const std::string& name, const Options& options) {
+  if (!options.dynamics)
+    for (const char* force : {"torque", "balance", "moment", "friction", "pull"})
+      if (name == force) return false;
+  if (name == "torque") return options.torque_limits;
+  if (name == "clearance") return options.clearance;
+  return true;
+}
+
+}  // namespace
+
+struct Planner::Impl {
+  PlanarTask motion;
+  Options options;
+  Layout layout;
+  int rows = 0;  ///< of the program; 0 until there was one
+  Deadline deadline;
+  double program_s = 0.0;  ///< that making a program of all constraints took
+  Report report;
+
+  Impl(const PlanarTask& of, const Options& with) : motion(of), options(with), layout(checked(of, with), with) {
+    require_durations(motion, options);
+  }
+
+  int row_count() {
+    if (rows == 0)
+      rows =
+          Program(motion, options, Curvature::gauss_newton, 0.0, Eigen::VectorXd::Zero(layout.parameters), &close_discs)
+              .problem()
+              .row_count();
+    return rows;
+  }
+
+  static const PlanarTask& checked(const PlanarTask& motion, const Options& options) {
+    motion.validate();
+    options.validate();
+    require_plannable(motion, options);
+    return motion;
+  }
+
+  CloseDiscs close_discs;  ///< kept apart; found on the way
+
+  nlp::Solution run(const Options& with, double cost_scale, const Eigen::VectorXd& x, bool close = false);
+  void part(nlp::Solution& solution, double cost_scale, Eigen::VectorXd apart);
+  nlp::Solution feasible(const Eigen::VectorXd& x);
+  void tighten(nlp::Solution& solution, double cost_scale);
+  Result solve(const Eigen::VectorXd& start);
+  CheckResult judged(const PlanarPlan& plan) const;
+  void judge(Result& result, const nlp::Solution& solution);
+
+  /// Parameters under other options.
+  Eigen::VectorXd moved(const Eigen::VectorXd& x, const Options& from, const Options& to) const {
+    return parameters_of(plan_of(motion, from, Layout(motion, from), x), motion, to, Layout(motion, to));
+  }
+};
+
+/// All attempts in turn, until one solves the program; the best of them otherwise. `close`: x is nearly the solution.
+nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const Eigen::VectorXd& x, bool close) {
+  const bool cost = cost_scale > 0.0;
+  std::optional<nlp::Solution> best;
+  for (const Attempt& attempt : attempts_for(with, cost)) {
+    const double left = deadline.remaining_s();
+    // Room for making a program, its first factorisation, which nothing can interrupt, and the last check, in times of
+    // making one. Chosen by hand, not derived: walking then ends early at 0.2 s, and long limits are overrun all the
+    // same.
+    constexpr double kUntilFirstIteration = 3.0;
+    if (deadline.limited() && left <= (with.dynamics == options.dynamics ? kUntilFirstIteration * program_s : 0.0)) {
+      if (best && best->status == Status::acceptable) break;
+      if (!best) {
+        best.emplace();
+        best->x = x;
+      }
+      best->status = Status::time_limit;
+      best->message = "reached time_limit_s";
+      break;
+    }
+    const bool exact = attempt.hessian == HessianChoice::exact;
+    Program program(motion, with, exact ? Curvature::exact : Curvature::gauss_newton, cost_scale, x, &close_discs);
+    if (with.dynamics == options.dynamics) rows = program.problem().row_count();
+    nlp::SolverOptions how;
+    how.tolerance = with.tolerance;
+    how.constraint_tolerance = with.constraint_tolerance;
+    how.max_iterations = attempt.max_iterations;
+    how.time_limit_s = std::max(left, 1e-3);
+    how.hessian = attempt.hessian == HessianChoice::limited_memory ? nlp::Hessian::limited_memory : nlp::Hessian::exact;
+    how.initial_barrier = close ? kCloseBarrier : attempt.initial_barrier;
+    how.adaptive_barrier = attempt.adaptive_barrier;
+    how.gradient_scaling = false;
+    how.logger = with.logger;
+    how.stop = with.stop;
+    how.clock = with.clock;
+    nlp::Solution solution = nlp::solve(program.problem(), x, how);
+    report.iterations += solution.iterations;
+    report.timing_s["evaluation"] += solution.evaluation_s;
+    report.timing_s["linear_solver"] += solution.linear_solver_s;
+    const bool kept = solution.worst.value <= with.constraint_tolerance;
+    const bool best_kept = best && best->worst.value <= with.constraint_tolerance;
+    const bool better = !best || (kept && !best_kept) || (kept && best_kept && solution.cost < best->cost) ||
+                        (!kept && !best_kept && solution.worst.value < best->worst.value);
+    const Status status = solution.status;
+    const std::string message = solution.message;
+    if (better || status == Status::solved) best = std::move(solution);
+    if (ends_all(status)) {
+      best->status = status;
+      best->message = message;
+      break;
+    }
+  }
+  return *best;
+}
+
+/// A point within all constraints.
+///
+/// Kinematics come first: a small program that brings the limbs to their contacts, after which forces need a third of
+/// the iterations. Where phases have durations of their own, one duration for all is searched: the knots stay equally
+/// spaced, and motions found so are not driven to their shortest phases.
+nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {
+  Options with = options;
+  const Range together = total_range(motion, options);
+  const bool convert = options.free_durations && options.has_cost() && together.min <= together.max;
+  if (convert) with.free_durations = false;
+  Eigen::VectorXd start = convert ? moved(x, options, with) : x;
+  if (options.dynamics && options.kinematics_first && options.forces != Forces::parameters) {
+    Options kinematics = with;
+    kinematics.dynamics = false;
+    kinematics.order = std::min(options.order, kKinematicOrder);
+    kinematics.neq = std::min(options.neq, kinematics.order);
+    nlp::Solution found = run(kinematics, 0.0, moved(start, with, kinematics));
+    const Layout layout_with(motion, with);
+    const int splines_and_durations = layout_with.first_duration + layout_with.durations;  // weights stay as they are
+    if (found.status == Status::solved || ends_all(found.status))
+      start.head(splines_and_durations) = moved(found.x, kinematics, with).head(splines_and_durations);
+    if (found.status != Status::solved && ends_all(found.status)) {
+      found.x = convert ? moved(start, with, options) : start;
+      return found;
+    }
+  }
+  nlp::Solution solution = run(with, 0.0, start);
+  if (convert) {
+    solution.x = moved(solution.x, with, options);
+    if (!ends_all(solution.status)) solution = run(options, 0.0, x);
+  }
+  return solution;
+}
+
+/// Rows for every pair of discs in every interval would be ten times all others, and nearly none of them matters: those
+/// that come close on the way are kept apart, and the program is solved again, from a point without collisions where
+/// there is one: from within a collision a way out is rarely found.
+void Planner::Impl::part(nlp::Solution& solution, double cost_scale, Eigen::VectorXd apart) {
+  constexpr int kRounds = 20;
+  for (int round = 0; round < kRounds && solution.status == Status::solved; ++round) {
+    const std::size_t known = close_discs.size();
+    add_close_discs(plan_of(motion, options, layout, solution.x), close_discs);
+    if (close_discs.size() == known) return;
+    solution = run(options, 0.0, apart);
+    apart = solution.x;
+    if (cost_scale > 0.0 && solution.status == Status::solved) solution = run(options, cost_scale, apart);
+  }
+}
+
+/// What the Taylor polynomials leave out of forces and torques may exceed the checker's tolerances by some parts in ten
+/// thousand where intervals are long: then again from here with twice that as a margin.
+void Planner::Impl::tighten(nlp::Solution& solution, double cost_scale) {
+  constexpr int kRounds = 3;
+  constexpr double kMostMargin = 0.02;
+  Options with = options;
+  for (int round = 0; round < kRounds && solution.status == Status::solved; ++round) {
+    double excess = 0.0;
+    for (const Violation& v : judged(plan_of(motion, options, layout, solution.x)).violations()) {
+      if (v.name != "torque" && v.name != "friction" && v.name != "pull") return;
+      excess = std::max(excess, v.value);
+    }
+    with.margin += 2.0 * excess;
+    if (excess == 0.0 || with.margin > kMostMargin) return;
+    nlp::Solution next = run(with, cost_scale, solution.x, true);
+    if (next.status != Status::solved) return;
+    solution = std::move(next);
+  }
+}
+
+Result Planner::Impl::solve(const Eigen::VectorXd& start) {
+  Result result;
+  report = Report();
+  close_discs.clear();
+  const bool cost = options.has_cost();
+  nlp::Solution solution;
+  solution.x = start;
+  solution.status = Status::solved;
+  const double begin_s = deadline.elapsed_s();
+  Program measure(motion, options, Curvature::gauss_newton, 0.0, start, &close_discs);
+  rows = measure.problem().row_count();
+  program_s = deadline.elapsed_s() - begin_s;
+  const bool inside = measure.problem().worst_violation(start).value <= options.constraint_tolerance;
+  if (!cost || (options.feasible_first && !inside)) solution = feasible(start);
+  if (options.self_collision) part(solution, 0.0, solution.x);
+  const Eigen::VectorXd apart = solution.x;
+  double cost_scale = 0.0;
+  if (cost && solution.status == Status::solved) {
+    constexpr double kStartCost = 100.0;  // the objective at the start: its gradients are then of the size of the rows'
+    cost_scale = kStartCost / std::max(measure.cost(apart), 1e-9);
+    solution = run(options, cost_scale, apart);
+    // A solver that is stopped early has moved its start into the interior, and may have nothing as good yet.
+    const auto value = [&](const Eigen::VectorXd& at) { return measure.problem().worst_violation(at).value; };
+    const bool worse =
+        value(solution.x) > options.constraint_tolerance || measure.cost(solution.x) > measure.cost(apart);
+    if (solution.status != Status::solved && value(apart) <= options.constraint_tolerance && worse) solution.x = apart;
+  }
+  if (options.self_collision && cost_scale > 0.0) part(solution, cost_scale, apart);
+  if (options.dynamics) tighten(solution, cost_scale);
+  const Eigen::VectorXd& x = solution.x;
+  result.plan = plan_of(motion, options, layout, x);
+  report.cost = measure.cost(x);
+  report.cost_terms["duration"] = measure.duration(x);
+  if (options.dynamics) report.cost_terms["torque"] = measure.torque_cost(x);
+  if (options.jerk_weight > 0.0) report.cost_terms["jerk"] = measure.jerk_cost(x);
+  result.parameters = layout.parameters;
+  result.constraints = rows;
+  judge(result, solution);
+  return result;
+}
+
+/// The checker's findings on what the options ask for.
+CheckResult Planner::Impl::judged(const PlanarPlan& plan) const {
+  CheckResult found = check(plan, {}, options.self_collision);
+  auto& constraints = found.constraints;
+  constraints.erase(std::remove_if(constraints.begin(), constraints.end(),
+                                   [&](const Violation& v) { return !asked_for(v.name, options); }),
+                    constraints.end());
+  return found;
+}
+
+/// The checker's word, and what the solver said.
+void Planner::Impl::judge(Result& result, const nlp::Solution& solution) {
+  const double start_s = deadline.elapsed_s();
+  report.status = solution.status;
+  report.message = solution.message;
+  const CheckResult found = judged(result.plan);
+  report.worst_violation = found.worst();
+  if (report.status == Status::solved && !found.ok()) {
+    report.status = Status::acceptable;
+    report.message = "converged, but the checker finds " + found.worst().to_string();
+  } else if (report.status != Status::solved && !found.ok()) {
+    report.message += "; violated most: " + found.worst().to_string();
+  } else if (report.status != Status::solved && !options.has_cost()) {
+    report.message = "the checker accepts the plan, on which the search " + solution.message;
+    report.status = Status::solved;
+  } else if (report.status != Status::solved) {
+    report.message += "; the checker accepts the plan, which is not the cheapest";
+  }
+  const Drift drift = largest_drift(result.plan);
+  result.drift_m = drift.position_m;
+  result.drift_rad = drift.angle_rad;
+  report.timing_s["check"] = deadline.elapsed_s() - start_s;
+  report.time_s = deadline.elapsed_s();
+  report.version = MCPLAN_VERSION;
+  result.report = report;
+}
+
+Planner::Planner(const PlanarTask& motion, const Options& options) : impl_(std::make_unique<Impl>(motion, options)) {}
+Planner::~Planner() = default;
+Planner::Planner(Planner&&) noexcept = default;
+Planner& Planner::operator=(Planner&&) noexcept = default;
+
+Result Planner::solve() {
+  impl_->deadline = Deadline(impl_->options.time_limit_s, impl_->options.clock);
+  return impl_->solve(zero_start(impl_->motion, impl_->options, impl_->layout));
+}
+
+Result Planner::solve(const PlanarPlan& warm_start) {
+  impl_->deadline = Deadline(impl_->options.time_limit_s, impl_->options.clock);
+  return impl_->solve(parameters_of(warm_start, impl_->motion, impl_->options, impl_->layout));
+}
+
+int Planner::parameters() const { return impl_->layout.parameters; }
+int Planner::constraints() const { return impl_->row_count(); }
+
+}  // namespace mcplan::sip

@@ -1,0 +1,163 @@
+// Parameters of a program and plans, one made into the other.
+#include <Eigen/LU>
+#include <cmath>
+
+#include "mcplan/planar/sip/program.hpp"
+#include "mcplan/planar/sip/rows.hpp"
+
+namespace mcplan::sip {
+namespace {
+
+void require_same_task(const PlanarPlan& plan, const PlanarTask& motion) {
+  const auto fail = [](const std::string& field, const std::string& rule, int got) {
+    throw InvalidPlan("warm_start." + field, rule, text(got));
+  };
+  const int joints = motion.robot.joint_count(), phases = static_cast<int>(motion.phases.size());
+  if (plan.motion.robot.joint_count() != joints)
+    fail("motion.robot", "needs " + std::to_string(joints) + " joints", plan.motion.robot.joint_count());
+  if (static_cast<int>(plan.motion.phases.size()) != phases)
+    fail("motion.phases", "needs " + std::to_string(phases) + " phases", static_cast<int>(plan.motion.phases.size()));
+  for (int p = 0; p < phases; ++p) {
+    const PlanarPhase &theirs = plan.motion.phases[p], &ours = motion.phases[p];
+    const std::string field = "motion.phases[" + std::to_string(p) + "]";
+    if (theirs.intervals != ours.intervals)
+      fail(field + ".intervals", "must be " + std::to_string(ours.intervals), theirs.intervals);
+    if (theirs.contacts.size() != ours.contacts.size())
+      fail(field + ".contacts", "needs " + std::to_string(ours.contacts.size()) + " contacts",
+           static_cast<int>(theirs.contacts.size()));
+    for (std::size_t i = 0; i < ours.contacts.size(); ++i) {
+      const int end = ours.contacts[i].end_effector;
+      const std::string contact = field + ".contacts[" + std::to_string(i) + "]";
+      if (theirs.contacts[i].end_effector != end)
+        fail(contact, "must be of end-effector " + std::to_string(end), theirs.contacts[i].end_effector);
+      const std::size_t points = motion.robot.end_effectors[end].points.size();
+      const std::size_t other = plan.motion.robot.end_effectors[end].points.size();
+      if (other != points) fail(contact, "needs " + std::to_string(points) + " points", static_cast<int>(other));
+    }
+  }
+}
+
+/// Numbers of the contact to which each point of a phase belongs.
+std::vector<int> contact_of_points(const PlanarTask& motion, int phase) {
+  std::vector<int> out;
+  const auto& contacts = motion.phases[phase].contacts;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    out.insert(out.end(), motion.robot.end_effectors[contacts[i].end_effector].points.size(), static_cast<int>(i));
+  return out;
+}
+
+/// Log weights of a phase from the plan's weights of its points, relative to the first one.
+Eigen::VectorXd log_weights_of(const PlanarPlan& plan, const PlanarTask& motion, const Options& options, int phase,
+                               int count) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(count);
+  if (plan.force_law != PlanarForceLaw::least_norm) return out;
+  const Eigen::VectorXd logs = plan.weights[phase].array().log();
+  if (options.forces == Forces::per_point) {
+    out = logs.tail(count).array() - logs[0];
+  } else {  // of each contact the mean over its points
+    const std::vector<int> contact = contact_of_points(motion, phase);
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(count + 1), points = Eigen::VectorXd::Zero(count + 1);
+    for (std::size_t v = 0; v < contact.size(); ++v) {
+      sum[contact[v]] += logs[static_cast<Eigen::Index>(v)];
+      points[contact[v]] += 1.0;
+    }
+    sum = sum.cwiseQuotient(points);
+    out = sum.tail(count).array() - sum[0];
+  }
+  return out.cwiseMax(-options.log_weight_max).cwiseMin(options.log_weight_max);
+}
+
+/// Cubic through the plan's forces at four instants of an interval: (tangential, normal) point by point, 4 x 2 points.
+Eigen::MatrixXd forces_of(const PlanarPlan& plan, int phase, double begin, double length) {
+  Eigen::Matrix4d at;
+  Eigen::MatrixXd forces;
+  for (int i = 0; i < 4; ++i) {
+    const double s = -1.0 + 2.0 * i / 3.0;
+    at.row(i) = powers(s, 3);
+    const PlanarState state = plan.at_phase(phase, begin + 0.5 * (s + 1.0) * length);
+    if (forces.size() == 0) forces.resize(4, 2 * static_cast<int>(state.forces.size()));
+    for (std::size_t v = 0; v < state.forces.size(); ++v) {
+      forces(i, 2 * static_cast<int>(v)) = state.forces[v].tangential;
+      forces(i, 2 * static_cast<int>(v) + 1) = state.forces[v].normal;
+    }
+  }
+  return at.inverse() * forces;
+}
+
+}  // namespace
+
+Eigen::VectorXd parameters_of(const PlanarPlan& plan, const PlanarTask& motion, const Options& options,
+                              const Layout& layout) {
+  plan.validate();
+  require_same_task(plan, motion);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(layout.parameters);
+  const int joints = motion.robot.joint_count();
+  // Full control points 2 .. intervals are the free ones.
+  for (int i = 0; i < layout.control_points(); ++i)
+    x.segment(layout.control_point(0, i), joints) = plan.control_points.col(i + 2);
+  if (layout.splines > joints) {
+    std::vector<double> lengths = plan.interval_lengths();
+    double time = 0.0;
+    for (int i = 0; i < layout.control_points(); ++i) {
+      time += lengths[i];  // a control point belongs to the knot in the middle of its spline
+      if (plan.base_control_points.size() > 0)
+        x.segment<3>(layout.control_point(joints, i)) = plan.base_control_points.col(i + 2);
+      else
+        x.segment<3>(layout.control_point(joints, i)) = plan.at(std::min(time, plan.duration())).configuration.base;
+    }
+  }
+  for (std::size_t p = 0; p < plan.durations.size(); ++p)
+    x[layout.duration_of_phase(static_cast<int>(p))] += plan.durations[p];
+  for (std::size_t p = 0; p < layout.weights.size(); ++p)
+    if (layout.weights[p] > 0)
+      x.segment(layout.first_weight[p], layout.weights[p]) =
+          log_weights_of(plan, motion, options, static_cast<int>(p), layout.weights[p]);
+  for (int k = 0; k < layout.intervals; ++k) {
+    if (layout.forces[k] == 0) continue;
+    const int phase = motion.phase_of(k), index = k - motion.first_interval(phase);
+    const double length = plan.durations[phase] / motion.phases[phase].intervals;
+    const Eigen::MatrixXd forces = plan.force_law == PlanarForceLaw::polynomial
+                                       ? plan.force_polynomials[k]
+                                       : forces_of(plan, phase, index * length, length);
+    for (int c = 0; c < forces.cols(); ++c) x.segment<4>(layout.first_force[k] + 4 * c) = forces.col(c);
+  }
+  return x;
+}
+
+PlanarPlan plan_of(const PlanarTask& motion, const Options& options, const Layout& layout, const Eigen::VectorXd& x) {
+  PlanarPlan plan;
+  plan.motion = motion;
+  plan.planner = "sip";
+  const int joints = motion.robot.joint_count();
+  for (std::size_t p = 0; p < motion.phases.size(); ++p) {
+    const double share =
+        layout.durations == 1 ? motion.phases[p].intervals / static_cast<double>(layout.intervals) : 1.0;
+    plan.durations.push_back(share * x[layout.duration_of_phase(static_cast<int>(p))]);
+  }
+  plan.control_points.resize(joints, layout.intervals + 3);
+  if (layout.splines > joints) plan.base_control_points.resize(3, layout.intervals + 3);
+  for (int i = 0; i < layout.intervals + 3; ++i) {
+    const int at = layout.control_point(0, layout.free_of(i));
+    plan.control_points.col(i) = x.segment(at, joints);
+    if (layout.splines > joints) plan.base_control_points.col(i) = x.segment<3>(at + joints);
+  }
+  if (options.dynamics && options.forces == Forces::parameters) {
+    plan.force_law = PlanarForceLaw::polynomial;
+    for (int k = 0; k < layout.intervals; ++k)
+      plan.force_polynomials.push_back(
+          Eigen::Map<const Eigen::MatrixXd>(x.data() + layout.first_force[k], 4, layout.forces[k] / 4));
+    return plan;
+  }
+  for (std::size_t p = 0; p < motion.phases.size(); ++p) {
+    const std::vector<int> contact = contact_of_points(motion, static_cast<int>(p));
+    Eigen::VectorXd weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(contact.size()));
+    for (std::size_t v = 0; v < contact.size() && layout.weights[p] > 0; ++v) {
+      const int parameter = (options.forces == Forces::per_body ? contact[v] : static_cast<int>(v)) - 1;
+      if (parameter >= 0) weights[static_cast<Eigen::Index>(v)] = std::exp(x[layout.first_weight[p] + parameter]);
+    }
+    plan.weights.push_back(weights);
+  }
+  return plan;
+}
+
+}  // namespace mcplan::sip

@@ -1,0 +1,218 @@
+#include "mcplan/planar/task.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace mcplan {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kPlace = 1e-6;  // [m], [rad] of a contact off its surface
+
+std::string indexed(const std::string& field, std::size_t i) { return field + "[" + std::to_string(i) + "]"; }
+
+void require_finite(const std::string& field, double value) {
+  if (!std::isfinite(value)) throw InvalidMotion(field, "must be a finite number", text(value));
+}
+
+void require_index(const std::string& field, int value, std::size_t count, const std::string& of_what) {
+  if (value < 0 || value >= static_cast<int>(count))
+    throw InvalidMotion(field, "must be the index of " + of_what + " (below " + std::to_string(count) + ")",
+                        text(value));
+}
+
+void validate_surface(const PlanarSurface& surface, const std::string& field) {
+  if (surface.name.empty()) throw InvalidMotion(field + ".name", "must not be empty", "''");
+  if (!surface.origin_W.allFinite())
+    throw InvalidMotion(field + ".origin", "must be finite numbers", text(surface.origin_W));
+  require_finite(field + ".angle", surface.angle);
+  if (!(std::isfinite(surface.friction) && surface.friction > 0.0))
+    throw InvalidMotion(field + ".friction", "must be a positive number", text(surface.friction));
+  if (!(surface.from < surface.to))
+    throw InvalidMotion(field + ".to", "must exceed from", text(surface.from) + " to " + text(surface.to));
+}
+
+/// On its surface, with all points within its extent, and not turned against it (whole turns aside).
+void validate_contact(const PlanarTask& motion, const PlanarContact& contact, const std::string& field) {
+  require_index(field + ".end_effector", contact.end_effector, motion.robot.end_effectors.size(), "an end-effector");
+  require_index(field + ".surface", contact.surface, motion.surfaces.size(), "a surface");
+  if (!contact.position_W.allFinite())
+    throw InvalidMotion(field + ".position", "must be finite numbers", text(contact.position_W));
+  require_finite(field + ".angle", contact.angle);
+
+  const PlanarSurface& surface = motion.surfaces[contact.surface];
+  const std::string where = "surface " + text(surface.name);
+  const Vector2d from_origin_W = contact.position_W - surface.origin_W;
+  const double height = from_origin_W.dot(surface.normal_W());
+  if (std::abs(height) > kPlace)
+    throw InvalidMotion(field + ".position", "must lie on " + where, text(height) + " m off it");
+  const double turned = std::remainder(contact.angle - surface.angle, 2.0 * M_PI);
+  if (std::abs(turned) > kPlace)
+    throw InvalidMotion(field + ".angle", "must be that of " + where + ", " + text(surface.angle) + ", up to turns",
+                        text(contact.angle));
+  for (double point : motion.robot.end_effectors[contact.end_effector].points) {
+    const double along = from_origin_W.dot(surface.tangent_W()) + point;
+    if (along < surface.from - kPlace || along > surface.to + kPlace)
+      throw InvalidMotion(field + ".position",
+                          "must keep all points within the extent of " + where + ", " + text(surface.from) + " to " +
+                              text(surface.to) + " m",
+                          text(along));
+  }
+}
+
+/// Points of the chain from an end-effector's frame up to an ancestor's child, as lengths; `end_P` is where the chain
+/// meets the ancestor, in the ancestor's frame.
+double chain_length(const PlanarRobot& robot, int end_effector, int ancestor, Vector2d& end_P) {
+  end_P = robot.end_effectors[end_effector].position_B;
+  double length = 0.0;
+  for (int b = robot.end_effectors[end_effector].body; b != ancestor; b = robot.bodies[b].parent) {
+    length += end_P.norm();
+    end_P = robot.bodies[b].joint_P;
+  }
+  return length;
+}
+
+/// Largest distance between two end-effectors' frames, whatever the joints do.
+double longest_stretch(const PlanarRobot& robot, int first, int second) {
+  std::set<int> ancestors{0};
+  for (int b = robot.end_effectors[first].body; b > 0; b = robot.bodies[b].parent) ancestors.insert(b);
+  int common = robot.end_effectors[second].body;
+  while (!ancestors.count(common)) common = robot.bodies[common].parent;
+  Vector2d from_P, to_P;
+  const double length = chain_length(robot, first, common, from_P) + chain_length(robot, second, common, to_P);
+  return length + (from_P - to_P).norm();
+}
+
+void require_reachable(const PlanarTask& motion, const PlanarContact& a, const PlanarContact& b,
+                       const std::string& field) {
+  const auto& ends = motion.robot.end_effectors;
+  if (a.end_effector == b.end_effector) {
+    if ((a.position_W - b.position_W).norm() > kPlace || std::abs(a.angle - b.angle) > kPlace)
+      throw InvalidMotion(
+          field + ".position",
+          "must be where " + text(ends[a.end_effector].name) + " stands in the phase before, which it does not leave",
+          text(b.position_W) + " rad " + text(b.angle));
+    return;
+  }
+  const double distance = (a.position_W - b.position_W).norm();
+  const double stretch = longest_stretch(motion.robot, a.end_effector, b.end_effector);
+  if (distance > stretch + kPlace)
+    throw InvalidMotion(field + ".position",
+                        "must be within " + text(stretch) + " m of " + text(ends[a.end_effector].name) +
+                            ", all that the limbs between them can stretch",
+                        text(distance) + " m");
+}
+
+void validate_clearance(const PlanarTask& motion, const PlanarPhase& phase, const PlanarClearance& clearance,
+                        const std::string& field) {
+  require_index(field + ".end_effector", clearance.end_effector, motion.robot.end_effectors.size(), "an end-effector");
+  require_index(field + ".surface", clearance.surface, motion.surfaces.size(), "a surface");
+  for (const PlanarContact& contact : phase.contacts)
+    if (contact.end_effector == clearance.end_effector)
+      throw InvalidMotion(field + ".end_effector", "must not be in contact in this phase",
+                          text(motion.robot.end_effectors[clearance.end_effector].name));
+  if (clearance.first_interval < 0 || clearance.first_interval >= phase.intervals)
+    throw InvalidMotion(field + ".first_interval",
+                        "must be an interval of the phase (below " + text(phase.intervals) + ")",
+                        text(clearance.first_interval));
+  if (clearance.end_interval != -1 &&
+      (clearance.end_interval <= clearance.first_interval || clearance.end_interval > phase.intervals))
+    throw InvalidMotion(
+        field + ".end_interval",
+        "must be -1 or lie in [" + text(clearance.first_interval + 1) + ", " + text(phase.intervals) + "]",
+        text(clearance.end_interval));
+  if (!(clearance.middle_height < std::numeric_limits<double>::infinity()))
+    throw InvalidMotion(field + ".middle_height", "must be a number below infinity", text(clearance.middle_height));
+}
+
+void validate_pose(const PlanarTask& motion, const PlanarPose& pose, const std::string& field) {
+  require_index(field + ".body", pose.body, motion.robot.bodies.size(), "a body");
+  if (!(pose.fraction >= 0.0 && pose.fraction <= 1.0))
+    throw InvalidMotion(field + ".fraction", "must lie in [0, 1]", text(pose.fraction));
+  const char* components[] = {"x", "y", "angle"};
+  for (int i = 0; i < 3; ++i)
+    if (!(pose.min[i] <= pose.max[i]))
+      throw InvalidMotion(field + ".max", std::string("must not be below min in ") + components[i],
+                          text(pose.min[i]) + " to " + text(pose.max[i]));
+}
+
+void validate_phase(const PlanarTask& motion, const PlanarPhase& phase, const std::string& field) {
+  constexpr int kMost = 1000;
+  if (phase.intervals < 1 || phase.intervals > kMost)
+    throw InvalidMotion(field + ".intervals", "must lie in [1, " + text(kMost) + "]", text(phase.intervals));
+  if (!(std::isfinite(phase.min_duration) && phase.min_duration >= 0.0))
+    throw InvalidMotion(field + ".min_duration", "must be a number >= 0", text(phase.min_duration));
+  if (!(phase.max_duration > 0.0 && phase.max_duration >= phase.min_duration))
+    throw InvalidMotion(field + ".max_duration", "must be positive and not below min_duration",
+                        text(phase.min_duration) + " to " + text(phase.max_duration));
+  if (phase.contacts.empty()) throw InvalidMotion(field + ".contacts", "needs at least one contact", "none");
+  std::set<int> standing;
+  for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
+    const std::string contact = indexed(field + ".contacts", i);
+    validate_contact(motion, phase.contacts[i], contact);
+    if (!standing.insert(phase.contacts[i].end_effector).second)
+      throw InvalidMotion(contact + ".end_effector", "must not be in contact twice in a phase",
+                          text(motion.robot.end_effectors[phase.contacts[i].end_effector].name));
+    for (std::size_t other = 0; other < i; ++other)
+      require_reachable(motion, phase.contacts[other], phase.contacts[i], contact);
+  }
+  for (std::size_t i = 0; i < phase.clearances.size(); ++i)
+    validate_clearance(motion, phase, phase.clearances[i], indexed(field + ".clearances", i));
+  for (std::size_t i = 0; i < phase.poses.size(); ++i)
+    validate_pose(motion, phase.poses[i], indexed(field + ".poses", i));
+}
+
+}  // namespace
+
+Vector2d PlanarSurface::tangent_W() const { return {std::cos(angle), std::sin(angle)}; }
+
+Vector2d PlanarSurface::normal_W() const { return {-std::sin(angle), std::cos(angle)}; }
+
+int PlanarTask::interval_count() const { return first_interval(static_cast<int>(phases.size())); }
+
+int PlanarTask::first_interval(int phase) const {
+  int first = 0;
+  for (int k = 0; k < phase; ++k) first += phases[k].intervals;
+  return first;
+}
+
+int PlanarTask::phase_of(int interval) const {
+  int phase = 0;
+  for (int end = phases[0].intervals; interval >= end && phase + 1 < static_cast<int>(phases.size());)
+    end += phases[++phase].intervals;
+  return phase;
+}
+
+void PlanarTask::validate() const {
+  robot.validate();
+  if (surfaces.empty()) throw InvalidMotion("surfaces", "needs at least one surface", "none");
+  Validation<InvalidMotion> check;
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    check([&] { validate_surface(surfaces[i], indexed("surfaces", i)); });
+    check([&] {
+      if (!names.insert(surfaces[i].name).second)
+        throw InvalidMotion(indexed("surfaces", i) + ".name", "must be unique", text(surfaces[i].name));
+    });
+  }
+  check.raise();  // contacts lie on surfaces
+  if (phases.empty()) throw InvalidMotion("phases", "needs at least one phase", "none");
+  bool before_sound = false;
+  for (std::size_t k = 0; k < phases.size(); ++k) {
+    const std::string field = indexed("phases", k);
+    const bool sound = check([&] { validate_phase(*this, phases[k], field); });
+    // Nothing jumps: at the instant between two phases the contacts of both hold.
+    if (sound && before_sound)
+      check([&] {
+        for (std::size_t i = 0; i < phases[k].contacts.size(); ++i)
+          for (const PlanarContact& before : phases[k - 1].contacts)
+            require_reachable(*this, before, phases[k].contacts[i], indexed(field + ".contacts", i));
+      });
+    before_sound = sound;
+  }
+  check.raise();
+}
+
+}  // namespace mcplan
