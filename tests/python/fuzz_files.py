@@ -335,7 +335,11 @@ def _declared(data: bytes, rng: Random) -> bytes:
 
 
 def _all(data: bytes, mark: bytes) -> list[int]:
-    return [i for i in range(len(data) - 3) if data[i : i + 4] == mark]
+    """Where the mark begins, overlapping or not."""
+    found = [data.find(mark)]
+    while found[-1] >= 0:
+        found.append(data.find(mark, found[-1] + 1))
+    return found[:-1]
 
 
 def read(kind: str, file: Path, number: int) -> None:
