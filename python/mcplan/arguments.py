@@ -63,7 +63,7 @@ def require_number(name: str, value: Any) -> float:
 
 def titled(kind: type) -> str:
     """A class with its article: "a Plan"."""
-    return f"{'an' if kind.__name__[0] in 'AEIOU' else 'a'} {kind.__name__}"
+    return f"{'an' if kind.__name__[0] in 'AEIOUaeio' or kind.__name__ == 'ndarray' else 'a'} {kind.__name__}"
 
 
 def expected(kinds: list[str], optional: bool = False) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mcplan._core import PlanarMotion, WholeBodyPlan, sip
-from mcplan.arguments import require_or_path
+from mcplan.arguments import require, require_or_path
 from mcplan.errors import Interrupted, InvalidOptions, shown
 from mcplan.options import fill
 
@@ -30,6 +30,7 @@ def whole_body(
     options: Mapping[str, Any],
 ) -> sip.Result:
     """See mcplan.whole_body."""
+    require("certify", certify, bool)
     chosen = make_options(minimise, options)  # before files are read: what is said first is what was typed
     if certify:
         require_provable(chosen)
@@ -70,7 +71,8 @@ def make_options(minimise: str | None, values: Mapping[str, Any]) -> sip.Options
     """
     given = {name: value for name, value in values.items() if value is not None}
     if minimise is None:
-        minimise = "torque" if given.get("dynamics", True) else "none"
+        dynamics = {name: value for name, value in given.items() if name == "dynamics"}
+        minimise = "torque" if fill(sip.Options(), dynamics).dynamics else "none"
     if not isinstance(minimise, str) or minimise not in CRITERIA:
         raise InvalidOptions("minimise", f"must be one of {', '.join(CRITERIA)}", shown(minimise))
     options: sip.Options = fill(sip.Options(), {**CRITERIA[minimise], **given})

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import mcplan as mp
@@ -43,6 +44,8 @@ WRONG: list[tuple[str, Callable[[Any], Any]]] = [
         lambda r: mp.whole_body("chimney", warm_start=r.plan),
     ),
     ("minimise: must be one of torque, time, none, got []", lambda r: mp.whole_body("chimney", minimise=[])),
+    ("dynamics: must be of type bool, got array", lambda r: mp.whole_body("chimney", dynamics=np.zeros(2))),
+    ("certify: must be a bool, got an ndarray", lambda r: mp.whole_body("chimney", certify=np.zeros(2))),
     (f"plan: must be a Plan or a WholeBodyPlan, {RESULT_TEXT}", lambda r: mp.show(r)),
     ("report: must be a Report or None, got 'solved'", lambda r: mp.show(r.plan, report="solved")),
     (f"plan: must be a Plan, a WholeBodyPlan or a path, {RESULT_TEXT}", lambda r: mp.track(r)),
