@@ -47,12 +47,13 @@ from mcplan._core import (
     WholeBodyPlan,
     WholeBodyTolerances,
     __version__,
-    check,
     rhp,
     sip,
 )
+from mcplan.checking import check
 from mcplan.errors import (
     Interrupted,
+    InvalidArgument,
     InvalidInput,
     InvalidMotion,
     InvalidOptions,
@@ -79,6 +80,7 @@ __all__ = [
     "EndEffector",
     "ForceLaw",
     "Interrupted",
+    "InvalidArgument",
     "InvalidInput",
     "InvalidMotion",
     "InvalidOptions",
@@ -223,6 +225,7 @@ def plan(
         The plan, with a report whose status is ``solved`` only if the checker accepts the plan.
 
     Raises:
+        InvalidArgument: An argument is of another type, such as the result that has the plan.
         InvalidOptions: No such option, or its value is out of range.
         InvalidScene: The scene is malformed or does not fit the robot.
         InvalidRobot: The robot is malformed.
@@ -256,6 +259,7 @@ def replan(
         A plan from the measured state to the goal (``plan.measured_start`` is set).
 
     Raises:
+        InvalidArgument: An argument is of another type.
         InvalidInput: t lies outside the plan.
         InvalidPlan: The measured state does not fit the robot.
         InvalidOptions: No such option, or its value is out of range.
@@ -300,8 +304,10 @@ def walk(
         is ``solved`` only if the checker accepts the whole plan.
 
     Raises:
+        InvalidArgument: An argument is of another type.
         InvalidOptions: No such option, or its value is out of range.
-        InvalidScene: The scene is malformed, has no steps, or does not fit the robot.
+        InvalidScene: The scene is malformed, has no steps, or does not fit the robot, which cannot stand at its start or
+            goal, for instance.
         InvalidRobot: The robot is malformed or does not have two feet.
         InvalidPlan: The sequence lifts both feet at once, uses other end-effectors than feet, or names surfaces that
             the scene does not have.
@@ -342,7 +348,8 @@ def receding_horizon(
         **options: As for walk().
 
     Raises:
-        InvalidOptions, InvalidScene, InvalidRobot, InvalidPlan, UnknownScene, UnknownRobot: As for walk().
+        InvalidArgument, InvalidOptions, InvalidScene, InvalidRobot, InvalidPlan, UnknownScene, UnknownRobot: As for
+            walk().
     """
     from mcplan.walking import receding_horizon as make
 
@@ -395,6 +402,7 @@ def whole_body(
         ``drift_rad``, ``certificate``. The report's status is ``solved`` only if the checker accepts the plan.
 
     Raises:
+        InvalidArgument: An argument is of another type.
         InvalidOptions: No such option, its value is out of range, or it does not go with another one.
         InvalidMotion: The motion is malformed.
         InvalidRobot: Its robot is malformed.
@@ -434,6 +442,7 @@ def track(
         ``PlanarResult`` with the same three.
 
     Raises:
+        InvalidArgument: An argument is of another type.
         InvalidOptions: No such option, or its value is out of range; a planar robot has no pushes, assistance or seed.
         InvalidPlan: The file is no plan.
         InvalidRobot: The robot has no URDF, or it cannot be read, or it lacks an end-effector of the plan.
@@ -461,6 +470,7 @@ def show(
         report: How the plan was found, for the caption.
 
     Raises:
+        InvalidArgument: An argument is of another type, such as the result that has the plan.
         InvalidInput: A scene or a robot for a whole-body plan.
         MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
     """

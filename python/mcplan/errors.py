@@ -27,7 +27,7 @@ def shown(value: Any, most: int = _MOST_TEXT) -> str:
     """
     try:
         text = repr(value)
-    except (ValueError, RecursionError):  # whole numbers of more digits than Python writes, or nested too deep
+    except Exception:  # whole numbers of more digits than Python writes, what is nested too deep, or is not ours
         text = f"a whole number of {value.bit_length()} bits" if isinstance(value, int) else f"a {type(value).__name__}"
     text = printable(text)
     return text if len(text) <= most else text[: most - 3] + "..."
@@ -115,6 +115,10 @@ class InvalidOptions(InvalidInput):
 
 class InvalidPlan(InvalidInput):
     """A plan is malformed."""
+
+
+class InvalidArgument(InvalidInput, TypeError):
+    """An argument is of a type that the call does not take; a TypeError as well."""
 
 
 class SuspiciousGeometry(UserWarning):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from mcplan.errors import InvalidOptions, did_you_mean
+from mcplan.errors import InvalidOptions, did_you_mean, shown
 
 _ALIASES = {"time_limit": "time_limit_s"}
 
@@ -43,14 +43,22 @@ def option_names(cls: type) -> list[str]:
 def _set(target: Any, name: str, value: Any, prefix: str = "") -> None:
     legal = option_names(type(target))
     if name not in legal:
+        name = str(name)  # keys of a mapping may be anything
         raise InvalidOptions(prefix + name, f"no such option. {did_you_mean(name, legal)}Options: {', '.join(legal)}")
     if isinstance(value, str) and hasattr(type(getattr(target, name)), "__members__"):
         members = type(getattr(target, name)).__members__
         if value.replace("-", "_") not in members:
-            raise InvalidOptions(prefix + name, f"must be one of {', '.join(members)}", repr(value))
+            raise InvalidOptions(prefix + name, f"must be one of {', '.join(members)}", shown(value))
         value = members[value.replace("-", "_")]
     try:
         setattr(target, name, value)
     except TypeError:
-        kind = type(getattr(target, name)).__name__
-        raise InvalidOptions(prefix + name, f"must be of type {kind}", repr(value)) from None
+        raise InvalidOptions(prefix + name, _type_rule(target, name), shown(value)) from None
+
+
+def _type_rule(target: Any, name: str) -> str:
+    """What type an option has, by its value."""
+    value = getattr(target, name)
+    if value is None:  # options that are empty by default are callbacks
+        return "must be a function or None"
+    return f"must be of type {type(value).__name__}"

@@ -8,6 +8,7 @@ from typing import Any
 
 from mcplan import _core
 from mcplan._core import Knot, Plan, PlanResult, Robot, Scene
+from mcplan.arguments import require, require_number, require_or_path
 from mcplan.files.geometry import require_standing
 from mcplan.options import fill
 
@@ -19,6 +20,7 @@ def plan(
     warm_start: Plan | None = None,
 ) -> PlanResult:
     """See mcplan.plan."""
+    require("warm_start", warm_start, Plan, optional=True)
     world, body, chosen = scene_of(scene), robot_of(robot), make_options(options)
     planner = _core.ddp.SwitchedDdp(world, body, chosen)
     require_standing(world, body)
@@ -29,8 +31,13 @@ def replan(
     previous: Plan, t: float, measured: Knot, scene: Scene | None, robot: Robot | None, options: Mapping[str, Any]
 ) -> PlanResult:
     """See mcplan.replan."""
-    planner = _core.ddp.SwitchedDdp(scene or previous.scene, robot or previous.robot, make_options(options))
-    return planner.replan(previous, t, measured)
+    require("previous", previous, Plan)
+    require("measured", measured, Knot)
+    require("scene", scene, Scene, optional=True)
+    require("robot", robot, Robot, optional=True)
+    t = require_number("t", t)
+    world, body = scene or previous.scene, robot or previous.robot
+    return _core.ddp.SwitchedDdp(world, body, make_options(options)).replan(previous, t, measured)
 
 
 def make_options(values: Mapping[str, Any]) -> Any:
@@ -43,18 +50,28 @@ def make_options(values: Mapping[str, Any]) -> Any:
 
 
 def scene_of(scene: Scene | str | Path) -> Scene:
-    """The scene, or what load_scene makes of its name."""
+    """The scene, or what load_scene makes of its name.
+
+    Raises:
+        InvalidArgument: It is neither; otherwise as load_scene.
+    """
     if isinstance(scene, Scene):
         return scene
+    require_or_path("scene", scene, "a Scene", "a name")
     from mcplan.files.scenes import load_scene
 
     return load_scene(scene)
 
 
 def robot_of(robot: Robot | str | Path) -> Robot:
-    """The robot, or what load_robot makes of its name."""
+    """The robot, or what load_robot makes of its name.
+
+    Raises:
+        InvalidArgument: It is neither; otherwise as load_robot.
+    """
     if isinstance(robot, Robot):
         return robot
+    require_or_path("robot", robot, "a Robot", "a name")
     from mcplan.files.robots import load_robot
 
     return load_robot(robot)

@@ -7,7 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from mcplan._core import Plan, Robot, Scene, rhp
+from mcplan.arguments import require_or_path
 from mcplan.errors import Interrupted, InvalidInput
+from mcplan.files.geometry import require_standing
 from mcplan.options import fill
 from mcplan.solve import robot_of, scene_of
 
@@ -32,6 +34,7 @@ def parts_of(
     """Scene, robot and sequence from what walk() takes for them."""
     scene = scene_of(scene)
     if sequence is not None and not isinstance(sequence, Plan):
+        require_or_path("sequence", sequence, "a Plan")
         from mcplan.files.plans import load_plan
 
         sequence = load_plan(sequence)
@@ -41,9 +44,15 @@ def parts_of(
 
 
 def planner_of(scene: Scene, robot: Robot, sequence: Plan | None, options: rhp.Options) -> rhp.RecedingHorizon:
-    """The planner of a scene's own steps or of a plan's."""
+    """The planner of a scene's own steps or of a plan's.
+
+    Raises:
+        InvalidScene: Without a sequence, which has a start of its own: the robot cannot stand at the scene's start or goal.
+    """
     if sequence is None:
-        return rhp.RecedingHorizon(scene, robot, options)
+        planner = rhp.RecedingHorizon(scene, robot, options)
+        require_standing(scene, robot)
+        return planner
     return rhp.RecedingHorizon(scene, robot, sequence, options)
 
 

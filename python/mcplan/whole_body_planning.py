@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from mcplan._core import PlanarMotion, WholeBodyPlan, sip
-from mcplan.errors import Interrupted, InvalidOptions
+from mcplan.arguments import require, require_or_path
+from mcplan.errors import Interrupted, InvalidOptions, shown
 from mcplan.options import fill
 
 #: What each choice of `minimise` sets; options given besides come after it.
@@ -29,6 +30,7 @@ def whole_body(
     options: Mapping[str, Any],
 ) -> sip.Result:
     """See mcplan.whole_body."""
+    require("certify", certify, bool)
     chosen = make_options(minimise, options)  # before files are read: what is said first is what was typed
     if certify:
         require_provable(chosen)
@@ -48,6 +50,7 @@ def solve(
         Interrupted: Ctrl-C, also while it proves: the motion is there then, without a certificate.
     """
     if warm_start is not None and not isinstance(warm_start, WholeBodyPlan):
+        require_or_path("warm_start", warm_start, "a WholeBodyPlan")
         from mcplan.files.whole_body_plans import load_whole_body_plan
 
         warm_start = load_whole_body_plan(warm_start)
@@ -68,9 +71,10 @@ def make_options(minimise: str | None, values: Mapping[str, Any]) -> sip.Options
     """
     given = {name: value for name, value in values.items() if value is not None}
     if minimise is None:
-        minimise = "torque" if given.get("dynamics", True) else "none"
-    if minimise not in CRITERIA:
-        raise InvalidOptions("minimise", f"must be one of {', '.join(CRITERIA)}", repr(minimise))
+        dynamics = {name: value for name, value in given.items() if name == "dynamics"}
+        minimise = "torque" if fill(sip.Options(), dynamics).dynamics else "none"
+    if not isinstance(minimise, str) or minimise not in CRITERIA:
+        raise InvalidOptions("minimise", f"must be one of {', '.join(CRITERIA)}", shown(minimise))
     options: sip.Options = fill(sip.Options(), {**CRITERIA[minimise], **given})
     if not options.dynamics and options.torque_weight > 0.0:
         raise InvalidOptions("minimise", "must be time or none without dynamics: there are no torques then", minimise)
@@ -88,6 +92,7 @@ def motion_of(motion: PlanarMotion | str | Path) -> PlanarMotion:
     """The motion, or what load_motion makes of its name."""
     if isinstance(motion, PlanarMotion):
         return motion
+    require_or_path("motion", motion, "a PlanarMotion", "a name")
     from mcplan.files.motions import load_motion
 
     return load_motion(motion)

@@ -202,7 +202,7 @@ def short(value: Any) -> str:
     return f"<{type(value).__name__}>"
 
 
-def main() -> None:
+def main(kind: type[Fuzzer] = Fuzzer) -> None:
     seed, calls, valid_path, log_path = int(sys.argv[1]), int(sys.argv[2]), sys.argv[3], sys.argv[4]
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY_LIMIT, MEMORY_LIMIT))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -218,7 +218,7 @@ def main() -> None:
 
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        fuzzer = Fuzzer(seed, valid, write)
+        fuzzer = kind(seed, valid, write)
         for count in range(calls):  # noqa: B007 -- the log reads it
             fuzzer.step()
 

@@ -30,7 +30,7 @@ OPENMP_ROOMS = {"ddp", "rhp", "planar/sip"}
 
 # room (a module or folder of the package) -> the rooms that it may import, beside itself; "" is the package's
 # front, which others import for annotations only
-_GROUND = {"_core", "errors", "extras", "options"}
+_GROUND = {"_core", "errors", "extras", "options", "arguments"}
 PYTHON_ROOMS = {
     "__main__": {"cli"},
     "_core": set(),
@@ -38,6 +38,8 @@ PYTHON_ROOMS = {
     "starting": set(),  # the command's first moments
     "extras": {"errors"},
     "options": {"errors"},
+    "arguments": {"_core", "errors"},
+    "checking": {"_core", "errors", "arguments"},
     "files": _GROUND,
     "solve": _GROUND | {"files"},
     "walking": _GROUND | {"files", "solve"},
@@ -62,7 +64,8 @@ PYTHON_ROOMS = {
         "reproduce",
         "",
     },
-    "": _GROUND | {"starting", "files", "solve", "walking", "whole_body_planning", "kinematics", "tracking", "view"},
+    "": _GROUND
+    | {"starting", "checking", "files", "solve", "walking", "whole_body_planning", "kinematics", "tracking", "view"},
 }
 HEAVY = {"crocoddyl", "example_robot_data", "imageio", "matplotlib", "meshcat", "mink", "mujoco"}
 HEAVY |= {"PIL", "pink", "pinocchio", "proxsuite", "scipy"}

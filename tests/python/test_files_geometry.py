@@ -14,6 +14,8 @@ from mcplan.cli import main
 from mcplan.errors import SuspiciousGeometry
 from mcplan.files.generate import random_scene
 from mcplan.files.geometry import holds_up, require_meant, require_standing
+from mcplan.files.motions import motion_to_dict
+from mcplan.files.planar_robots import planar_robot_to_dict
 from mcplan.files.robots import list_robots, load_robot, robot_to_dict
 from mcplan.files.scenes import list_scenes, load_scene, scaled, scene_to_dict
 from mcplan.files.toml import toml_text
@@ -149,6 +151,83 @@ def test_lengths_in_millimetres_are_warned_of(tmp_path):
         load_robot(write(tmp_path, robot))
     with pytest.warns(SuspiciousGeometry, match="com_height: lengths are in metres"):
         load_robot(write(tmp_path, in_millimetres(malformed.ROBOT)))
+
+
+@pytest.mark.parametrize("verb", [mp.plan, mp.walk])
+@pytest.mark.parametrize(
+    ("stance", "changes", "message"),
+    [
+        ("start", {"contacts": {"foot": "ceiling"}}, "start.contacts: must hold the robot up: .* 'ceiling' faces down"),
+        ("goal", {"contacts": {"foot": "ceiling"}}, "goal.contacts: must hold the robot up: .* 'ceiling' faces down"),
+        (
+            "start",
+            {"position_W": [0.0, 0.0, 2.0]},
+            r"start.position: must be where talos_wang .* stand 2 m off 'ground'",
+        ),
+        ("goal", {"position_W": [1.0, 0.0, 2.0]}, r"goal.position: must be where talos_wang .* stand 2 m off 'ground'"),
+    ],
+)
+def test_plan_and_walk_refuse_a_stance_that_cannot_stand_alike(verb, stance, changes, message):
+    scene = load_scene("flat")
+    ground = scene.surfaces[0].vertices_W
+    scene.surfaces = [
+        mp.Surface(name="ground", vertices_W=ground),
+        mp.Surface(name="ceiling", vertices_W=ground[::-1] + [0.0, 0.0, 0.01]),
+    ]
+    for place in (scene.start, scene.goal):
+        place.contacts = {"foot": "ground"}
+    scene.steps = [mp.Step(end_effector=end.name, surface="ground") for end in load_robot("talos_wang").end_effectors]
+    for name, value in changes.items():
+        setattr(getattr(scene, stance), name, value)
+    with pytest.raises(mp.InvalidScene, match=message):
+        verb(scene, "talos_wang")
+
+
+@pytest.mark.parametrize(
+    ("metre", "gravity", "warned"),
+    [
+        (1.0, 9.81, None),
+        (1.0, 9810.0, "gravity: goes with lengths in metres, .* got 9810 m/s.2 in a scene of"),
+        (1000.0, 9.81, "surfaces: lengths are in metres"),
+        (1000.0, 9810.0, None),  # both in millimetres: the same scene as the first
+        (1.0, 24.8, None),  # Jupiter
+        (1.0, 1.62, None),
+    ],
+)
+def test_a_gravity_that_contradicts_the_lengths_is_warned_of_by_name(metre, gravity, warned, tmp_path):
+    data = scene_to_dict(scaled(load_scene("flat"), metre))
+    file = write(tmp_path, {**data, "gravity": gravity})
+    if warned is None:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            load_scene(file)
+    else:
+        with pytest.warns(SuspiciousGeometry, match=warned) as found:
+            load_scene(file)
+        assert len(found) == 1
+
+
+@pytest.mark.parametrize("metre", [1.0, 1000.0])
+def test_the_gravity_of_a_planar_robot_is_held_against_its_limbs(metre, tmp_path):
+    robot = mp.load_planar_robot("climber9")
+    robot.gravity = 9810.0
+    for body in robot.bodies:
+        body.joint_P = metre * body.joint_P
+    file = write(tmp_path, planar_robot_to_dict(robot))
+    motion = write(
+        tmp_path, {**motion_to_dict(mp.load_motion("climbing")), "robot": planar_robot_to_dict(robot)}, "m.toml"
+    )
+    if metre == 1.0:
+        with pytest.warns(
+            SuspiciousGeometry, match="scene.toml: gravity: goes with lengths in metres, .* got 9810 m/s"
+        ):
+            mp.load_planar_robot(file)
+        with pytest.warns(SuspiciousGeometry, match="m.toml: robot.gravity: goes with lengths in metres"):
+            mp.load_motion(motion)
+    else:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            mp.load_planar_robot(file)
 
 
 def in_millimetres(robot: dict) -> dict:

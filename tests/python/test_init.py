@@ -214,3 +214,13 @@ def test_states_carry_points_and_their_forces():
     assert stance.moment_W == pytest.approx(about)
     assert plan.at(0.9).end_effectors[1].points_W.shape == (0, 3)
     assert plan.phases[0].node_count() == 8 and mp.Phase().node_count() == 0
+
+
+@pytest.mark.parametrize("duration", [5e-324, 1e-310, 1e-15])
+def test_a_phase_that_lasts_next_to_nothing_is_looked_at_like_any_other(duration):
+    plan = stepping_plan()
+    plan.phases[1].duration = duration
+    plan.validate()
+    assert np.isfinite(_core.plan_loads(plan).angular_momentum)
+    assert plan.at_phase(1, duration).phase == 1
+    assert not mp.check(plan).ok()  # the knots are still those of a phase that takes its time

@@ -135,12 +135,13 @@ def test_control_characters_of_names_are_written_out(plan):
 def test_what_is_no_plan_is_named(plan):
     scene, robot = by_hand.stairs(), by_hand.humanoid()
     with pytest.raises(
-        TypeError, match=r"plan: must be a Plan or a WholeBodyPlan, got SimpleNamespace; pass its \.plan"
+        mp.InvalidArgument,
+        match=r"plan: must be a Plan or a WholeBodyPlan, got a SimpleNamespace; its plan is result\.plan",
     ):
         show(SimpleNamespace(plan=plan), scene, robot)
-    with pytest.raises(TypeError, match="scene: must be a Scene or None, got Robot"):
+    with pytest.raises(mp.InvalidArgument, match="scene: must be a Scene or None, got a Robot"):
         show(plan, robot, scene)
-    with pytest.raises(TypeError, match="robot: must be a Robot or None, got str"):
+    with pytest.raises(mp.InvalidArgument, match="robot: must be a Robot or None, got 'humanoid44'"):
         show(plan, scene, "humanoid44")
 
 

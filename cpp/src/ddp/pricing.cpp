@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <limits>
 
 #include "mcplan/base/fork.hpp"
@@ -133,7 +134,8 @@ const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctio
     }
   }
   double prepare_s = 0.0, price_s = 0.0;
-  const auto one_step = [&](int k, StepPricing& pricing) {
+  // The times are arguments, so that each thread adds to its own.
+  const auto one_step = [&](int k, StepPricing& pricing, double& preparing_s, double& pricing_s) {
     if (candidates[k].empty()) return;
     const auto start = std::chrono::steady_clock::now();
     const bool ok = pricing.prepare(model, values, k, candidates[k]);
@@ -141,22 +143,33 @@ const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctio
     if (ok)
       for (std::size_t i = range[k].first; i < range[k].second; ++i)
         neighbours_[i].cost = pricing.price(neighbours_[i].state);
-    prepare_s += prepared;
-    price_s += seconds_since(start) - prepared;
+    preparing_s += prepared;
+    pricing_s += seconds_since(start) - prepared;
   };
 #ifdef _OPENMP
   // Below this many candidates the threads cost more than they save (measured; the paper found the same).
   constexpr std::size_t kWorthThreads = 400;
-  if (steps_.size() > 1 && neighbours_.size() >= kWorthThreads && !forked()) {
+  // More threads than processors gain nothing, and OpenMP ends the process where the system denies it a thread.
+  const int team = std::min(static_cast<int>(steps_.size()), omp_get_num_procs());
+  if (team > 1 && neighbours_.size() >= kWorthThreads && !forked()) {
+    std::exception_ptr failure;  // out of memory; an exception that left the loop would end the process
     // Steps are independent and each writes its own prices: the same numbers for any number of threads.
-#pragma omp parallel for num_threads(static_cast<int>(steps_.size())) schedule(static) reduction(+ : prepare_s, price_s)
-    for (int k = 1; k < n; ++k) one_step(k, steps_[omp_get_thread_num()]);
+#pragma omp parallel for num_threads(team) schedule(static) reduction(+ : prepare_s, price_s)
+    for (int k = 1; k < n; ++k) {
+      try {
+        one_step(k, steps_[omp_get_thread_num()], prepare_s, price_s);
+      } catch (...) {
+#pragma omp critical(pricing_failure)
+        failure = std::current_exception();
+      }
+    }
+    if (failure) std::rethrow_exception(failure);
     time_prepare_s += prepare_s;
     time_price_s += price_s;
     return neighbours_;
   }
 #endif
-  for (int k = 1; k < n; ++k) one_step(k, steps_[0]);
+  for (int k = 1; k < n; ++k) one_step(k, steps_[0], prepare_s, price_s);
   time_prepare_s += prepare_s;
   time_price_s += price_s;
   return neighbours_;

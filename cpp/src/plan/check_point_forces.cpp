@@ -10,8 +10,9 @@ using Eigen::Vector3d;
 
 /// At the instant between two intervals the later one; a billionth of an interval is rounding.
 int interval_of(const Phase& phase, double since_start) {
-  const int interval = static_cast<int>(since_start * phase.intervals / phase.duration + 1e-9);
-  return std::min(interval, phase.intervals - 1);
+  // Compared before it is cut: of durations next to nothing it may be any number.
+  return static_cast<int>(
+      std::clamp(since_start * phase.intervals / phase.duration + 1e-9, 0.0, phase.intervals - 1.0));
 }
 
 /// held: f_j.  linear: (1 - s) f_j + s f_{j+1},  s = 0..1 over interval j.

@@ -38,8 +38,9 @@ CentroidalState integrate_interval(const CentroidalState& from, const Wrench& be
 IntervalTime interval_time(const Phase& phase, double since_start) {
   constexpr double kRounding = 1e-9;
   const double length = phase.duration / phase.intervals;
-  const double whole = std::floor(since_start / length + kRounding);
   IntervalTime at;
+  if (!(length > 0.0)) return at;  // of a duration that has no such part among the numbers
+  const double whole = std::floor(since_start / length + kRounding);
   at.interval = static_cast<int>(std::clamp(whole, 0.0, phase.intervals - 1.0));
   at.since_s = std::clamp(since_start - at.interval * length, 0.0, length);
   at.fraction = at.since_s / length;

@@ -118,10 +118,11 @@ PlanarState PlanarPlan::at_phase(int k, double since_start) const {
   const std::vector<double> lengths = interval_lengths();
   const int intervals = motion.phases[k].intervals;
   const double length = durations[k] / intervals;
-  const int i = std::clamp(static_cast<int>(since_start / length), 0, intervals - 1);
+  const double place = length > 0.0 ? since_start / length : 0.0;  // zero: a duration that has no such part
+  const int i = static_cast<int>(std::clamp(place, 0.0, intervals - 1.0));
   planar::Evaluation evaluation(*this);
   evaluation.at(planar::interval_splines(*this, motion.first_interval(k) + i, lengths), planar::phase_gain(*this, k),
-                std::clamp(2.0 * (since_start / length - i) - 1.0, -1.0, 1.0));
+                std::clamp(2.0 * (place - i) - 1.0, -1.0, 1.0));
   evaluation.state.time = since_start;
   for (int before = 0; before < k; ++before) evaluation.state.time += durations[before];
   return evaluation.state;

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from mcplan.arguments import require_or_path
 from mcplan.errors import UnknownName
 
 DATA = Path(__file__).resolve().parent.parent / "data"
@@ -18,8 +19,10 @@ def find(source: str | Path, folder: str, unknown: type[UnknownName]) -> Path:
     """Path of a built-in file, or `source` itself if there is such a file. A string that is a built-in name means that.
 
     Raises:
+        InvalidArgument: It is neither a string nor a path.
         UnknownName: Of the given class; neither exists.
     """
+    require_or_path("source", source, "a name")
     legal = names(folder)
     if isinstance(source, str) and source in legal:
         return DATA / folder / f"{source}.toml"

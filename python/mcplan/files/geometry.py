@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from mcplan._core import Polygon, Robot, Scene, Stance, resolve_stance
+from mcplan._core import PlanarRobot, Polygon, Robot, Scene, Stance, resolve_stance
 from mcplan.errors import InvalidInput, InvalidScene, SuspiciousGeometry, together
 
 #: Where a stance may be off all its surfaces, in lengths of the scene: above or below one of them, and beside.
@@ -21,6 +21,9 @@ MOST_ABOVE, MOST_BESIDE = 0.05, 0.25
 MOST_OUTSIDE = 0.25
 #: Lengths above which they are taken to be millimetres: of a scene [m], of a robot's CoM [m], in CoM heights.
 LONG_SCENE_M, HIGH_COM_M, LONG_OVER_COM = 1000.0, 50.0, 50.0
+#: Above it a gravity [m/s^2] is taken to be in millimetres: there is none like it on any planet.
+STRONG_GRAVITY = 100.0
+_GRAVITY_RULE = "goes with lengths in metres, which these look like, and this looks like one for millimetres"
 _WALKABLE = 0.5  # z of the normal of ground
 
 
@@ -41,8 +44,10 @@ def require_meant(scene: Scene, source: str) -> None:
         _warn_of_ground_that_faces_down(scene, stance, field, source)
     if findings:
         raise together(findings).moved(source=source)
-    if size > LONG_SCENE_M:
+    if size > LONG_SCENE_M and scene.gravity <= STRONG_GRAVITY:
         _warn(source, "surfaces", "lengths are in metres, and these look like millimetres", f"a scene of {size:.4g} m")
+    if size <= LONG_SCENE_M and scene.gravity > STRONG_GRAVITY:
+        _warn(source, "gravity", _GRAVITY_RULE, f"{scene.gravity:g} m/s^2 in a scene of {size:.4g} m")
 
 
 def require_robot_meant(robot: Robot, source: str) -> None:
@@ -64,6 +69,24 @@ def require_robot_meant(robot: Robot, source: str) -> None:
         longest = max(map(abs, values))
         if longest > LONG_OVER_COM * robot.com_height:
             _warn(source, field, rule, f"{longest:g} m beside a com_height of {robot.com_height:g} m")
+
+
+def require_planar_robot_meant(robot: PlanarRobot, source: str, prefix: str = "") -> None:
+    """Warn of a gravity that goes with millimetres where the lengths of a planar robot are those of metres.
+
+    Args:
+        robot: A valid one.
+        source: Its file, for messages.
+        prefix: What stands before its fields there.
+    """
+    length = sum(float(np.linalg.norm(body.joint_P)) for body in robot.bodies)
+    if robot.gravity > STRONG_GRAVITY and length <= HIGH_COM_M:
+        _warn(
+            source,
+            f"{prefix}gravity",
+            _GRAVITY_RULE,
+            f"{robot.gravity:g} m/s^2 beside limbs of {length:.3g} m together",
+        )
 
 
 def require_standing(scene: Scene, robot: Robot, fields: tuple[str, ...] = ("start", "goal")) -> None:

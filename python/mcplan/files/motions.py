@@ -11,6 +11,7 @@ from typing import Any
 from mcplan._core import PlanarClearance, PlanarMotion, PlanarPhase, PlanarPose, PlanarRobot, PlanarSurface
 from mcplan.errors import InvalidInput, InvalidMotion, InvalidRobot, UnknownMotion, shown, together
 from mcplan.files import builtin
+from mcplan.files.geometry import require_planar_robot_meant
 from mcplan.files.outputs import write_whole
 from mcplan.files.planar_robots import (
     field_in_file,
@@ -87,6 +88,7 @@ def motion_from_dict(data: Mapping[str, Any], source: str = "", folder: Path | N
     if isinstance(plain.get("robot"), Mapping):
         try:
             robot = planar_robot_from_dict({"name": "robot", **plain["robot"]}, source, "robot")
+            require_planar_robot_meant(robot, source, "robot.")
         except InvalidRobot as found:
             findings.append(found)
         plain["robot"] = "robot"

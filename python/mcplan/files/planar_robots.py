@@ -11,6 +11,7 @@ from typing import Any
 from mcplan._core import Capsule, PlanarBody, PlanarEndEffector, PlanarRobot
 from mcplan.errors import InvalidInput, InvalidRobot, UnknownRobot, did_you_mean, shown, together
 from mcplan.files import builtin
+from mcplan.files.geometry import require_planar_robot_meant
 from mcplan.files.outputs import write_whole
 from mcplan.files.toml import read_toml, toml_text
 
@@ -27,7 +28,9 @@ def load_planar_robot(source: str | Path) -> PlanarRobot:
     path = builtin.find(source, "planar_robots", UnknownRobot)
     data = read_toml(path, InvalidRobot)
     data.setdefault("name", path.stem)
-    return planar_robot_from_dict(data, source=str(path))
+    robot = planar_robot_from_dict(data, source=str(path))
+    require_planar_robot_meant(robot, str(path))
+    return robot
 
 
 def save_planar_robot(robot: PlanarRobot, path: str | Path, header: str = "") -> None:

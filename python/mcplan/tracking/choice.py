@@ -7,14 +7,13 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mcplan._core import Plan, WholeBodyPlan
+from mcplan._core import Plan, Robot, WholeBodyPlan
+from mcplan.arguments import require_or_path
 from mcplan.errors import InvalidInput, InvalidOptions, did_you_mean
 
 from .options import Gains, Options, Push
 
 if TYPE_CHECKING:
-    from mcplan._core import Robot
-
     from .planar import PlanarResult
     from .result import TrackingResult
 
@@ -33,7 +32,10 @@ def track_any(
         values: Fields of Options by name.
         progress: Called now and then with the time simulated and the time to simulate [s].
     """
+    if not isinstance(robot, Robot):
+        require_or_path("robot", robot, "a Robot", "a name", optional=True)
     if not isinstance(plan, (Plan, WholeBodyPlan)):
+        require_or_path("plan", plan, "a Plan", "a WholeBodyPlan")
         from mcplan.files.whole_body_plans import load_any_plan
 
         plan = load_any_plan(plan)

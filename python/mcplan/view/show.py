@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import copy
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan._core import WholeBodyPlan
+from mcplan._core import Plan, Report, Robot, Scene, WholeBodyPlan
+from mcplan.arguments import require
 from mcplan.errors import InvalidInput
 from mcplan.kinematics.loads import loads_of
 from mcplan.kinematics.samples import sample
@@ -24,9 +25,6 @@ from .show_whole_body import show_whole_body
 from .stage import Stage
 from .stances import draw_stances
 from .viewpoint import camera_direction, sun_direction, view_points
-
-if TYPE_CHECKING:
-    from mcplan import Plan, Report, Robot, Scene
 
 Array = NDArray[np.float64]
 
@@ -51,17 +49,23 @@ def show(
         MissingExtra: meshcat (or Pinocchio, for a robot with a URDF) is not installed.
         InvalidPlan: The plan's arrays do not fit together.
         InvalidInput: A scene or a robot for a whole-body plan.
-        TypeError: It is no plan, but the result that has one, for instance.
+        InvalidArgument: It is no plan, but the result that has one, for instance.
     """
+    require("plan", plan, Plan, WholeBodyPlan)
+    require("scene", scene, Scene, optional=True)
+    require("robot", robot, Robot, optional=True)
+    require("report", report, Report, optional=True)
     if isinstance(plan, WholeBodyPlan):
         for name, given in (("scene", scene), ("robot", robot)):
             if given is not None:
                 raise InvalidInput(name, "a whole-body plan is drawn with its own motion", repr(given.name))
         return show_whole_body(plan, report)
-    _require_types(plan, scene, robot)
-    scene = scene if scene is not None else plan.scene
-    robot = robot if robot is not None else plan.robot
-    plan.validate()
+    if scene is not None or robot is not None:
+        plan = copy.copy(plan)
+        plan.scene = scene if scene is not None else plan.scene
+        plan.robot = robot if robot is not None else plan.robot
+    scene, robot = plan.scene, plan.robot
+    plan.validate()  # with what it is drawn with: another robot may have other end-effectors
     colours = end_effector_colours(robot)
     samples = sample(plan, scene, robot, FRAME_RATE)
     extent = extent_of(scene, robot, samples, length=0.6, width=0.6)
@@ -95,18 +99,6 @@ def show(
         knots_s=plan.knot_times(),
         labels=labels,
     )
-
-
-def _require_types(plan: object, scene: object, robot: object) -> None:
-    """Arguments in the wrong order, and results in the place of their plans, are said by name."""
-    from mcplan._core import Plan, Robot, Scene
-
-    if not isinstance(plan, Plan):
-        hint = "; pass its .plan" if hasattr(plan, "plan") else ""
-        raise TypeError(f"plan: must be a Plan or a WholeBodyPlan, got {type(plan).__name__}{hint}")
-    for name, given, kind in (("scene", scene, Scene), ("robot", robot, Robot)):
-        if given is not None and not isinstance(given, kind):
-            raise TypeError(f"{name}: must be a {kind.__name__} or None, got {type(given).__name__}")
 
 
 def annotated(

@@ -163,6 +163,22 @@ TEST_CASE("an instant belongs to the interval that begins there, rounding aside"
   CHECK(mcplan::interval_time(phase, 0.25).since_s == doctest::Approx(0.05));
 }
 
+TEST_CASE("an instant of a phase that lasts next to nothing has an interval too") {
+  Phase phase;
+  phase.law = ForceLaw::held;
+  phase.intervals = 8;
+  for (double duration : {5e-324, 1e-323, 1e-310, 1e-300, 1e-12, 1e300}) {
+    phase.duration = duration;
+    for (double t : {0.0, 0.5 * duration, duration, duration + 1e-9}) {
+      const mcplan::IntervalTime at = mcplan::interval_time(phase, t);
+      CHECK(at.interval >= 0);
+      CHECK(at.interval < phase.intervals);
+      CHECK(at.fraction >= 0.0);
+      CHECK(at.fraction <= 1.0);
+    }
+  }
+}
+
 TEST_CASE("held forces stay over an interval, linear ones go from node to node") {
   Random random{std::mt19937(5)};
   for (auto law : {ForceLaw::held, ForceLaw::linear}) {

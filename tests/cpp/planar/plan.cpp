@@ -178,6 +178,12 @@ TEST_CASE("at() and at_phase() agree, and say which side of a boundary is meant"
   CHECK_THROWS_AS(plan.at_phase(0, 0.31), mcplan::InvalidInput);
 }
 
+TEST_CASE("a phase of a whole-body plan that lasts next to nothing can be asked for") {
+  WholeBodyPlan plan = moving_plan();
+  plan.durations[1] = 5e-324;
+  for (double t : {0.0, 5e-324, 1e-9}) CHECK(plan.at_phase(1, t).phase == 1);
+}
+
 TEST_CASE("a least-norm gain needs two points apart") {
   mcplan::PlanarTask motion = planar::standing();
   motion.robot.end_effectors[0].points = {0.0};

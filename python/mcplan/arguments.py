@@ -1,0 +1,83 @@
+"""Arguments of the public calls: one of the wrong type is named, and what is expected with it."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from typing import Any
+
+from mcplan._core import Plan, WholeBodyPlan
+from mcplan.errors import InvalidArgument, shown
+
+#: How messages speak of the types that a path may have.
+PATH = "a path"
+
+
+def require(name: str, value: Any, *kinds: type, optional: bool = False) -> None:
+    """Refuse an argument that is an instance of none of some classes.
+
+    Args:
+        name: Of the argument.
+        value: What was given.
+        *kinds: The classes.
+        optional: None is legal as well.
+
+    Raises:
+        InvalidArgument: "plan: must be a Plan, got a PlanResult; its plan is result.plan".
+    """
+    if not isinstance(value, kinds) and not (optional and value is None):
+        raise InvalidArgument(name, expected([titled(kind) for kind in kinds], optional), found(value))
+
+
+def require_or_path(name: str, value: Any, *kinds: str, optional: bool = False) -> None:
+    """Refuse what is no path, where a path may stand for an object; the objects have been taken out before.
+
+    Args:
+        name: Of the argument.
+        value: What was given, an instance of none of `kinds`.
+        *kinds: Names of the classes that the argument may have besides, and of what else a string may be.
+        optional: None is legal as well.
+
+    Raises:
+        InvalidArgument: "scene: must be a Scene, a name or a path, got 3".
+    """
+    if optional and value is None:
+        return
+    if not isinstance(value, str) and not (isinstance(value, os.PathLike) and isinstance(os.fspath(value), str)):
+        raise InvalidArgument(name, expected([*kinds, PATH], optional), found(value))
+
+
+def require_number(name: str, value: Any) -> float:
+    """The number that an argument is.
+
+    Raises:
+        InvalidArgument: It is no number, or one that is too large for a float.
+    """
+    try:
+        if not isinstance(value, str | bytes | bytearray):
+            return float(value)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise InvalidArgument(name, "must be a number", found(value))
+
+
+def titled(kind: type) -> str:
+    """A class with its article: "a Plan"."""
+    return f"{'an' if kind.__name__[0] in 'AEIOUaeio' or kind.__name__ == 'ndarray' else 'a'} {kind.__name__}"
+
+
+def expected(kinds: list[str], optional: bool = False) -> str:
+    """ "must be a Plan or a WholeBodyPlan"; the last of several after "or"."""
+    kinds = [*kinds, "None"] if optional else kinds
+    return "must be " + " or ".join(part for part in (", ".join(kinds[:-1]), kinds[-1]) if part)
+
+
+def found(value: Any) -> str:
+    """What was given: plain values as they are, other things by their class, with a word on where the plan is."""
+    if value is None or isinstance(value, bool | int | float | str | bytes):
+        return shown(value)
+    held = None
+    with contextlib.suppress(Exception):  # an attribute of somebody else's class may raise what it likes
+        held = getattr(value, "plan", None)
+    where = "; its plan is result.plan" if isinstance(held, Plan | WholeBodyPlan) else ""
+    return titled(type(value)) + where

@@ -1,0 +1,62 @@
+"""mp.check: the checker of the library, whose refusal of an argument names it."""
+
+from __future__ import annotations
+
+from typing import Any, overload
+
+from mcplan import _core
+from mcplan._core import CheckResult, Plan, Robot, Scene, Tolerances, WholeBodyPlan, WholeBodyTolerances
+from mcplan.arguments import require, titled
+from mcplan.errors import InvalidArgument
+
+_TAKES: dict[type, dict[str, tuple[type, ...]]] = {
+    Plan: {"scene": (Scene, type(None)), "robot": (Robot, type(None)), "tolerances": (Tolerances,)},
+    WholeBodyPlan: {"tolerances": (WholeBodyTolerances,), "self_collision": (bool,)},
+}
+
+
+@overload
+def check(
+    plan: Plan, scene: Scene | None = None, robot: Robot | None = None, tolerances: Tolerances = ...
+) -> CheckResult: ...
+@overload
+def check(plan: WholeBodyPlan, tolerances: WholeBodyTolerances = ..., self_collision: bool = False) -> CheckResult: ...
+def check(plan: Any, *given: Any, **named: Any) -> CheckResult:
+    """Check a plan from its positions, forces and polygons alone, a whole-body plan from its splines.
+
+        mp.check(result.plan, scene, robot).raise_if_violated()
+
+    Args:
+        plan: The plan.
+        scene: What it is checked against; None: the plan's own. A whole-body plan takes no scene and no robot.
+        robot: As `scene`.
+        tolerances: How far off is still right: ``Tolerances``, or ``WholeBodyTolerances`` of a whole-body plan.
+        self_collision: Of a whole-body plan: whether parts of the robot must keep clear of each other.
+
+    Returns:
+        The violations, if any.
+
+    Raises:
+        InvalidArgument: An argument is of another type, such as the result that has the plan.
+        InvalidPlan: The arrays of the plan do not fit together.
+        InvalidScene, InvalidRobot, InvalidMotion: What it is checked against is malformed.
+        Interrupted: Ctrl-C, with what was found by then.
+    """
+    try:
+        return _core.check(plan, *given, **named)
+    except TypeError:  # only now is it worth a look which argument it was
+        _require_taken(plan, given, named)
+        raise
+
+
+def _require_taken(plan: Any, given: tuple[Any, ...], named: dict[str, Any]) -> None:
+    """Raises InvalidArgument for the first argument of another type, and for one that only the other kind of plan takes."""
+    require("plan", plan, Plan, WholeBodyPlan)
+    kind = Plan if isinstance(plan, Plan) else WholeBodyPlan
+    takes, others = _TAKES[kind], {name for legal in _TAKES.values() for name in legal}
+    for name, value in [*zip(takes, given, strict=False), *named.items()]:
+        if name in takes:
+            kinds = [each for each in takes[name] if each is not type(None)]
+            require(name, value, *kinds, optional=type(None) in takes[name])
+        elif name in others:
+            raise InvalidArgument(name, f"must not be given with {titled(kind)}, which takes {' and '.join(takes)}")
