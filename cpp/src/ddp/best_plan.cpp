@@ -11,20 +11,25 @@ namespace mcplan::ddp {
 namespace {
 
 /// Instants at which iterates are looked at: so many in all, and so many a phase.
-constexpr double kInstants = 400.0, kInstantsPerPhase = 3.0;
+constexpr double kInstants = 400.0, kInstantsPerPhase = 3.0, kInstantsPerPhaseLate = 1.0;
 /// The first iterate may be made exact for so long after the limit [s]: the only plan there is.
 constexpr double kGrace_s = 0.01;
+/// Rounds that Newton's method takes at least to make the first iterate exact, from a defect of a tenth to rounding:
+/// 1e-1, 1e-2, 1e-4, 1e-8, 1e-16.
+constexpr double kLeastRounds = 4.0;
 /// The search goes on for this many times as long as looking took, a time more after each look.
 constexpr int kMostPause = 8;
 /// Once there is a plan that the checker accepts, only one of so much less merit is looked at.
 constexpr double kCheaper = 0.9;
 
-double coarse_sample_s(const Plan& plan) {
-  const double instants = std::max(kInstants, kInstantsPerPhase * static_cast<double>(plan.phases.size()));
+}  // namespace
+
+double BestPlan::sample_s(const Plan& plan, Look look) {
+  if (look == Look::full) return Tolerances().sample_s;
+  const double per_phase = look == Look::late ? kInstantsPerPhaseLate : kInstantsPerPhase;
+  const double instants = std::max(kInstants, per_phase * static_cast<double>(plan.phases.size()));
   return std::max(Tolerances().sample_s, plan.duration() / instants);
 }
-
-}  // namespace
 
 double violation_ratio(const Violation& v) {
   if (v.tolerance > 0.0) return v.value / v.tolerance;
@@ -42,13 +47,13 @@ BestPlan::Finished BestPlan::converted(Search& search, const Problem& problem, c
 }
 
 /// True when the checker accepts the plan, or what it sees of it at few instants.
-bool BestPlan::judge(Finished& finished, const Problem& problem, bool few_instants) const {
+bool BestPlan::judge(Finished& finished, const Problem& problem, Look look) const {
   Tolerances tolerances;
   if (!problem.options.one_switch_per_step) tolerances.switches = std::numeric_limits<int>::max();
-  if (few_instants) tolerances.sample_s = coarse_sample_s(finished.plan);
+  tolerances.sample_s = sample_s(finished.plan, look);
   const CheckResult result = check(finished.plan, *scene_, problem.robot, tolerances);
-  finished.ok = result.ok() && !few_instants;
-  finished.sampled = few_instants;
+  finished.ok = result.ok() && look == Look::full;
+  finished.sampled = look != Look::full;
   finished.worst = result.worst();
   return result.ok();
 }
@@ -66,7 +71,7 @@ bool BestPlan::finish(Search& search, const Problem& problem, const std::vector<
   search.make_exact(now);
   const Stopwatch watch(search.report().timing_s, "check");
   Finished finished = converted(search, problem, surfaces, now);
-  judge(finished, problem, false);
+  judge(finished, problem, Look::full);
   take(std::move(finished));
   return best_->ok;
 }
@@ -78,13 +83,19 @@ void BestPlan::keep(Search& search, const Problem& problem, const std::vector<in
   if (ok() && !(search.evaluate(now).merit() < kCheaper * best_->evaluation.merit())) return;
   Incumbent iterate = now;
   const double until_s = begin_s + std::max(deadline_->remaining_s(), 0.0) + (best_ ? 0.0 : kGrace_s);
-  search.make_exact(iterate, [&] { return deadline_->elapsed_s() >= until_s; });
+  int rounds = 0;
+  search.make_exact(iterate, [&] {
+    const double now_s = deadline_->elapsed_s();
+    const bool hopeless = !best_ && ++rounds == 2 && begin_s + kLeastRounds * (now_s - begin_s) > until_s;
+    return hopeless || now_s >= until_s;
+  });
   const Stopwatch watch(search.report().timing_s, "check");
   Finished finished = converted(search, problem, surfaces, iterate);
   const double converted_s = deadline_->elapsed_s();
-  const bool accepted = judge(finished, problem, true);
-  look_s_ = deadline_->elapsed_s() - converted_s;
-  if (accepted && full_look_s(finished.plan) <= deadline_->remaining_s()) judge(finished, problem, false);
+  const Look look = deadline_->passed() ? Look::late : Look::few;
+  const bool accepted = judge(finished, problem, look);
+  instant_s_ = (deadline_->elapsed_s() - converted_s) * sample_s(finished.plan, look) / finished.plan.duration();
+  if (accepted && full_look_s(finished.plan) <= deadline_->remaining_s()) judge(finished, problem, Look::full);
   take(std::move(finished));
   const double end_s = deadline_->elapsed_s();
   cost_s_ = end_s - begin_s;
@@ -94,10 +105,12 @@ void BestPlan::keep(Search& search, const Problem& problem, const std::vector<in
 void BestPlan::settle(const Problem& problem, Report& report) {
   if (!best_ || !best_->sampled || full_look_s(best_->plan) > std::max(deadline_->remaining_s(), kGrace_s)) return;
   const Stopwatch watch(report.timing_s, "check");
-  judge(*best_, problem, false);
+  judge(*best_, problem, Look::full);
 }
 
 /// What a check in full will take, from what the last one at few instants took.
-double BestPlan::full_look_s(const Plan& plan) const { return look_s_ * coarse_sample_s(plan) / Tolerances().sample_s; }
+double BestPlan::full_look_s(const Plan& plan) const {
+  return instant_s_ * plan.duration() / sample_s(plan, Look::full);
+}
 
 }  // namespace mcplan::ddp

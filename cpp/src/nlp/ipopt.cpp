@@ -114,7 +114,11 @@ class Adapter : public Ipopt::TNLP {
   enum class Reason { none, time, stop, not_finite, exception };
 
   /// The solve begins now, after what it may have had to wait for.
-  void begin() { last_s_ = deadline_.now_s(); }
+  void begin() {
+    if (!deadline_.limited()) return;
+    left_s_ = deadline_.remaining_s();
+    reserve();
+  }
 
   bool get_nlp_info(Index& n, Index& m, Index& jacobian, Index& hessian, IndexStyleEnum& style) override {
     n = problem_.variable_count();
@@ -182,6 +186,7 @@ class Adapter : public Ipopt::TNLP {
     iterations_ = iteration;
     clock_linear_solver(data, restoration);
     try {
+      reserve();
       if (options_.logger) {
         char line[160];
         if (!header_written_)
@@ -219,6 +224,7 @@ class Adapter : public Ipopt::TNLP {
   const std::string& not_finite() const { return not_finite_; }
   int iterations() const { return iterations_; }
   double evaluation_s() const { return evaluation_s_; }
+  double start_s() const { return start_s_; }
   double linear_solver_s() const { return regular_s_ + restorations_s_ + restoration_s_; }
   bool feasible() const { return best_.violation <= options_.constraint_tolerance; }
 
@@ -239,7 +245,7 @@ class Adapter : public Ipopt::TNLP {
   template <class Function>
   bool evaluate(Index n, const Number* x, bool new_x, Number* out, Index size, const Function& function) {
     if (new_x) cost_known_ = rows_known_ = false;
-    if (deadline_.passed()) halt(Reason::time);
+    if (deadline_.limited() && deadline_.remaining_s() <= reserved_s_) halt(Reason::time);
     const double start_s = deadline_.now_s();
     const Eigen::Map<const VectorXd> at(x, n);
     Eigen::Map<VectorXd> values(out, size);
@@ -263,11 +269,18 @@ class Adapter : public Ipopt::TNLP {
   /// has a factorisation of the same size.
   bool out_of_time() {
     if (!deadline_.limited()) return false;
-    const double now_s = deadline_.now_s(), took_s = now_s - last_s_;
+    const double left_s = deadline_.remaining_s(), took_s = left_s_ - left_s;
     const double expected_s = std::max(took_s, before_s_);
+    if (start_s_ == 0.0) start_s_ = took_s;
     before_s_ = took_s;
-    last_s_ = now_s;
-    return deadline_.remaining_s() <= expected_s;
+    left_s_ = left_s;
+    return left_s <= reserved_s_ + expected_s;
+  }
+
+  /// What the caller needs afterwards, but no more than half of the limit.
+  void reserve() {
+    if (deadline_.limited() && options_.finishing_s)
+      reserved_s_ = std::min(options_.finishing_s(best_.x), 0.5 * options_.time_limit_s);
   }
 
   [[noreturn]] void halt(Reason reason) {
@@ -312,7 +325,8 @@ class Adapter : public Ipopt::TNLP {
   const Problem& problem_;
   const SolverOptions& options_;
   const Deadline& deadline_;
-  double last_s_ = 0.0, before_s_ = 0.0;  ///< when the last iteration ended, and how long it took
+  double left_s_ = 0.0, before_s_ = 0.0;  ///< left when the last iteration ended, and how long it took
+  double reserved_s_ = 0.0, start_s_ = 0.0;
   const VectorXd x0_;
 
   bool cost_known_ = false, rows_known_ = false;  ///< at Ipopt's current x
@@ -464,6 +478,7 @@ Solution solve(const Problem& problem, const VectorXd& x0, const SolverOptions& 
   out.iterations = adapter->iterations();
   out.evaluation_s = adapter->evaluation_s();
   out.linear_solver_s = adapter->linear_solver_s();
+  out.start_s = adapter->start_s();
   out.time_s = deadline.elapsed_s();
   return out;
 }

@@ -114,12 +114,22 @@ void Problem::add_cost(std::unique_ptr<Piece> piece) {
   blocks_.push_back(std::move(block));
 }
 
-void Problem::finish() {
+void Problem::finish_for_values() {
+  int most_variables = 0, most_rows = 0;
+  for (const Block& block : blocks_) {
+    most_variables = std::max(most_variables, block.piece->size());
+    most_rows = std::max(most_rows, block.piece->rows());
+  }
+  x_.resize(most_variables);
+  f_.resize(most_rows);
+}
+
+bool Problem::finish(const StopRequest& stop) {
   jacobian_.clear();
   hessian_.clear();
   Places jacobian(jacobian_), hessian(hessian_);
-  int most_variables = 0, most_rows = 0;
   for (Block& block : blocks_) {
+    if (stop && stop()) return false;
     const Piece& piece = *block.piece;
     const std::vector<int>& variables = piece.variables();
     const Pattern pattern = probe(piece);
@@ -136,13 +146,10 @@ void Problem::finish() {
       const int a = variables[at % piece.size()], b = variables[at / piece.size()];
       block.hessian_at.push_back(hessian.of(std::max(a, b), std::min(a, b)));
     }
-    most_variables = std::max(most_variables, piece.size());
-    most_rows = std::max(most_rows, piece.rows());
   }
-  x_.resize(most_variables);
-  f_.resize(most_rows);
-  weights_.resize(most_rows);
-  buffer_ = VectorXd::Zero(std::max(most_variables, most_rows) * most_variables);
+  finish_for_values();
+  weights_.resize(f_.size());
+  buffer_ = VectorXd::Zero(std::max(x_.size(), f_.size()) * x_.size());
 
   linear_jacobian_ = VectorXd::Zero(static_cast<int>(jacobian_.size()));
   for (const Block& block : blocks_) {
@@ -152,6 +159,7 @@ void Problem::finish() {
     for (std::size_t i = 0; i < block.jacobian_at.size(); ++i)
       linear_jacobian_[block.jacobian_at[i]] += J.data()[block.jacobian_from[i]];
   }
+  return true;
 }
 
 int Problem::equality_count() const {

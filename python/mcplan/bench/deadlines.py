@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import time
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
@@ -64,9 +65,10 @@ def cases() -> Iterator[tuple[str, str, Solve]]:
     for phases in (72, 288):
         yield "ddp", f"{phases} phases", _plan(long_floor(phases), phases=phases)
     yield "ddp", "stairs, lipm", _plan(mp.load_scene("stairs"), model="lipm")
+    yield "ddp", "stairs, replanned", _replan(mp.load_scene("stairs"))
     for terrain in ("flat", "rubbles"):
         yield "rhp", terrain, _step(terrain)
-    for motion in ("cartwheel", "walking", "climbing"):
+    for motion in ("cartwheel", "walking", "climbing", "stairs"):
         yield "sip", motion, _move(motion)
 
 
@@ -75,6 +77,24 @@ def _plan(scene: Scene, **options: Any) -> Solve:
 
     robot = mp.load_robot("humanoid44")
     return lambda limit_s: mp.plan(scene, robot, time_limit=limit_s, **options).report.status
+
+
+def _replan(scene: Scene) -> Solve:
+    """From where a plan is after three tenths of it; the plan itself is made once, without a limit."""
+    import mcplan as mp
+
+    @functools.cache
+    def earlier() -> tuple[mp.Plan, float, mp.Knot]:
+        plan = mp.plan(scene, "humanoid44").plan
+        time_s = 0.3 * plan.duration()
+        state, measured = plan.at(time_s), mp.Knot()
+        measured.com_W, measured.com_velocity_W = state.com_W, state.com_velocity_W
+        measured.base_rpy, measured.base_rpy_rate = state.base_rpy, state.base_rpy_rate
+        measured.end_effectors_W = [end.position_W for end in state.end_effectors]
+        return plan, time_s, measured
+
+    earlier()
+    return lambda limit_s: mp.replan(*earlier(), time_limit=limit_s).report.status
 
 
 def _step(terrain: str) -> Solve:

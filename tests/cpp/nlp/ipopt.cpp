@@ -306,6 +306,36 @@ TEST_CASE("an iteration that would not be over in time is not begun") {
   CHECK(s.time_s <= 0.35);
 }
 
+TEST_CASE("what the caller needs after a solve is kept from its limit, by the best point so far") {
+  const Valley valley;
+  for (double finishing_s : {0.0, 0.1, 0.3, 10.0}) {
+    CAPTURE(finishing_s);
+    const CountingClock clock;
+    VectorXd last;
+    SolverOptions options;
+    options.time_limit_s = 0.95;
+    options.clock = clock;
+    options.finishing_s = [&](const VectorXd& x) {
+      last = x;
+      return finishing_s;
+    };
+    options.logger = [&](LogLevel, const std::string& line) {
+      if (line.substr(0, 4) != "iter") clock.advance(0.1);
+    };
+    const Solution s = solve(valley.problem, valley.x0, options);
+    CHECK(s.status == Status::time_limit);
+    // At 0.1, 0.2, ... s, while one more iteration and what is kept, at most half of the limit, fit into the limit.
+    const int iterations = static_cast<int>((0.95 - std::min(finishing_s, 0.475)) / 0.1 + 1e-9) - 1;
+    CHECK(s.iterations == iterations);
+    CHECK(s.time_s <= 0.95 - std::min(finishing_s, 0.475));
+    CHECK(s.start_s == doctest::Approx(0.1));
+    CHECK(same_bytes(last, s.x));
+  }
+  SolverOptions options;
+  options.finishing_s = [](const VectorXd&) -> double { throw std::logic_error("asked without a limit"); };
+  CHECK(solve(valley.problem, valley.x0, options).status == Status::solved);
+}
+
 TEST_CASE("waiting for a solve of another thread counts against the time limit") {
   // The other solve goes on until this one has ended: it ends by its limit, or never.
   std::atomic<bool> inside = false, released = false;

@@ -117,6 +117,32 @@ TEST_CASE("the Jacobian of a linear piece is evaluated by finish() alone") {
   CHECK(curved_calls == curved_before + 5);
 }
 
+TEST_CASE("values are the same without derivatives, and a problem is not finished when asked to stop") {
+  const auto made = [] {
+    Problem problem;
+    problem.add_variables("x", 3, -1, 1, {0, 0});
+    problem.add_constraint(product("product", 0, 2), -0.1, 0.1);
+    problem.add_constraint(std::make_unique<LinearPiece>("sum", std::vector<int>{0, 1}, MatrixXd::Ones(1, 2)), 0.0,
+                           1.0);
+    problem.add_cost(product("cost", 1, 2));
+    return problem;
+  };
+  Problem whole = made(), values = made();
+  CHECK(whole.finish());
+  values.finish_for_values();
+  const Eigen::Vector3d x(0.3, -0.7, 0.9);
+  CHECK(values.cost(x) == whole.cost(x));
+  CHECK(values.worst_violation(x).value == whole.worst_violation(x).value);
+  CHECK(values.worst_violation(x).name == whole.worst_violation(x).name);
+  CHECK(values.jacobian_structure().empty());
+  for (int last : {0, 1, 2}) {
+    Problem stopped = made();
+    int polls = 0;
+    CHECK_FALSE(stopped.finish([&] { return polls++ == last; }));
+    CHECK(polls == last + 1);
+  }
+}
+
 TEST_CASE("the worst violation is named, of a bound or of a row") {
   Problem problem;
   problem.add_variables("com", 2, -1, 1, {4, 4});

@@ -179,7 +179,7 @@ TEST_CASE("at() and at_phase() agree, and say which side of a boundary is meant"
 }
 
 TEST_CASE("a phase of a whole-body plan that lasts next to nothing can be asked for") {
-  WholeBodyPlan plan = moving_plan();
+  PlanarPlan plan = moving_plan();
   plan.durations[1] = 5e-324;
   for (double t : {0.0, 5e-324, 1e-9}) CHECK(plan.at_phase(1, t).phase == 1);
 }

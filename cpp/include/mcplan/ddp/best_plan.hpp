@@ -43,7 +43,13 @@ class BestPlan {
 
  private:
   Finished converted(Search& search, const Problem& problem, const std::vector<int>& surfaces, Incumbent& now) const;
-  bool judge(Finished& finished, const Problem& problem, bool few_instants) const;
+  enum class Look {
+    late,  ///< at least at one instant a phase: the time is over, and nothing is compared with it any more
+    few,   ///< at least at three instants a phase
+    full,
+  };
+  bool judge(Finished& finished, const Problem& problem, Look look) const;
+  static double sample_s(const Plan& plan, Look look);
   double full_look_s(const Plan& plan) const;
   void take(Finished&& finished);
 
@@ -53,7 +59,7 @@ class BestPlan {
   std::optional<Finished> best_;
   int kept_ = 0;
   double cost_s_ = 0.0, next_s_ = 0.0;  ///< of making an iterate a plan and checking it; when the next one is due
-  double look_s_ = 0.0;                 ///< of which the check
+  double instant_s_ = 0.0;              ///< of which an instant of the check
 };
 
 /// Value in tolerances; what admits none is beyond every other violation.

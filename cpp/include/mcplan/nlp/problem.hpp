@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mcplan/base/logging.hpp"
 #include "mcplan/nlp/piece.hpp"
 
 namespace mcplan::nlp {
@@ -43,7 +44,11 @@ class Problem {
 
   /// Find the sparse structure; to be called once, before anything below. Entries that are zero at three random points
   /// are taken to be zero everywhere: a piece with branches in which other entries appear must say so.
-  void finish();
+  /// `stop` is polled at every piece; where it asks to stop, false is returned, and the problem is of no use.
+  bool finish(const StopRequest& stop = {});
+
+  /// Instead of finish(), which evaluates derivatives: values of costs and rows alone can be asked for then.
+  void finish_for_values();
 
   int variable_count() const { return static_cast<int>(lower_.size()); }
   int row_count() const { return row_count_; }

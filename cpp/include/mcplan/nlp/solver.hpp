@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -30,6 +31,9 @@ struct SolverOptions {
   Logger logger;                 ///< one line an iteration; null: silent
   StopRequest stop;              ///< polled once an iteration; null: never
   Clock clock;                   ///< what time_limit_s is measured by; null: the steady clock
+  /// What the caller still does with a point after the solve takes so long [s]. The solve ends earlier by that of the
+  /// best point so far, but after half of the limit at least; asked once an iteration; null: nothing is kept.
+  std::function<double(const Eigen::VectorXd&)> finishing_s;
 
   /// Throws InvalidOptions naming the first field out of its range.
   void validate() const;
@@ -46,6 +50,7 @@ struct Solution {
   double time_s = 0.0;           ///< wall clock
   double evaluation_s = 0.0;     ///< of which in the problem's functions
   double linear_solver_s = 0.0;  ///< of which in factorisations and back-substitutions
+  double start_s = 0.0;          ///< until x0 was evaluated and its multipliers were found; 0: it did not come to that
 };
 
 /// Solve with Ipopt from x0 (projected into the bounds).

@@ -77,6 +77,11 @@ void require_durations(const PlanarTask& motion, const Options& options) {
   }
 }
 
+/// Instants at which the checker looks at a plan, at most.
+double instants_of(int intervals, double duration_s, double sample_s) {
+  return duration_s / sample_s + 2.0 * intervals;
+}
+
 /// Constraints of the checker that the options leave out.
 bool asked_for(const std::string& name, const Options& options) {
   if (!options.dynamics)
@@ -95,7 +100,11 @@ struct Planner::Impl {
   Layout layout;
   int rows = 0;  ///< of the program; 0 until there was one
   Deadline deadline;
-  double program_s = 0.0;  ///< that making a program of all constraints took
+  /// Under a time limit, measured in this solve: what an instant of the checker, values of all intervals, and a
+  /// program's first point took, for each of its derivatives.
+  struct {
+    double instant_s = 0.0, values_s = 0.0, derivative_s = 0.0;
+  } took;
   Report report;
 
   Impl(const PlanarTask& of, const Options& with) : motion(of), options(with), layout(checked(of, with), with) {
@@ -104,10 +113,9 @@ struct Planner::Impl {
 
   int row_count() {
     if (rows == 0)
-      rows =
-          Program(motion, options, Curvature::gauss_newton, 0.0, Eigen::VectorXd::Zero(layout.parameters), &close_discs)
-              .problem()
-              .row_count();
+      rows = Program(motion, options, Curvature::none, 0.0, Eigen::VectorXd::Zero(layout.parameters), &close_discs)
+                 .problem()
+                 .row_count();
     return rows;
   }
 
@@ -120,6 +128,8 @@ struct Planner::Impl {
 
   CloseDiscs close_discs;  ///< kept apart; found on the way
 
+  void measure_finishing(const nlp::Problem& values, const Eigen::VectorXd& x);
+  double finishing_s(const Options& with, const Eigen::VectorXd& x) const;
   nlp::Solution run(const Options& with, double cost_scale, const Eigen::VectorXd& x, bool close = false);
   void part(nlp::Solution& solution, double cost_scale, Eigen::VectorXd apart);
   nlp::Solution feasible(const Eigen::VectorXd& x);
@@ -134,17 +144,47 @@ struct Planner::Impl {
   }
 };
 
+/// From one evaluation, and from a check at few instants.
+void Planner::Impl::measure_finishing(const nlp::Problem& values, const Eigen::VectorXd& x) {
+  constexpr double kCoarser = 16.0;
+  double begin_s = deadline.elapsed_s();
+  values.worst_violation(x);
+  took.values_s = deadline.elapsed_s() - begin_s;
+  const PlanarPlan plan = plan_of(motion, options, layout, x);
+  PlanarTolerances coarse;
+  coarse.sample_s *= kCoarser;
+  begin_s = deadline.elapsed_s();
+  check(plan, coarse, options.self_collision);
+  took.instant_s = (deadline.elapsed_s() - begin_s) / instants_of(layout.intervals, plan.duration(), coarse.sample_s);
+}
+
+/// What remains to be done with x after the solver: its cost and violations in a few evaluations, and the last check.
+double Planner::Impl::finishing_s(const Options& with, const Eigen::VectorXd& x) const {
+  constexpr double kEvaluations = 6.0;  // cost and violation of the solver's point and of its start, terms of the cost
+  const Layout of(motion, with);
+  const double duration_s = x.segment(of.first_duration, of.durations).sum();
+  const double instants = instants_of(layout.intervals, duration_s, PlanarTolerances().sample_s);
+  return kEvaluations * took.values_s + took.instant_s * instants;
+}
+
 /// All attempts in turn, until one solves the program; the best of them otherwise. `close`: x is nearly the solution.
+///
+/// Under a time limit none is begun whose first point would come too late, by those of the programs before.
 nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const Eigen::VectorXd& x, bool close) {
   const bool cost = cost_scale > 0.0;
   std::optional<nlp::Solution> best;
   for (const Attempt& attempt : attempts_for(with, cost)) {
+    const bool exact = attempt.hessian == HessianChoice::exact;
+    const bool second = attempt.hessian != HessianChoice::limited_memory;
+    StopRequest over;
+    if (deadline.limited()) over = [until = deadline.reserving(finishing_s(with, x))] { return until.passed(); };
+    Program program(motion, with, exact ? Curvature::exact : Curvature::gauss_newton, cost_scale, x, &close_discs,
+                    over);
     const double left = deadline.remaining_s();
-    // Room for making a program, its first factorisation, which nothing can interrupt, and the last check, in times of
-    // making one. Chosen by hand, not derived: walking then ends early at 0.2 s, and long limits are overrun all the
-    // same.
-    constexpr double kUntilFirstIteration = 3.0;
-    if (deadline.limited() && left <= (with.dynamics == options.dynamics ? kUntilFirstIteration * program_s : 0.0)) {
+    const nlp::Problem& made = program.problem();
+    const double derivatives = made.jacobian_structure().size() + (second ? made.hessian_structure().size() : 0.0);
+    const double needed_s = deadline.limited() ? finishing_s(with, x) + took.derivative_s * derivatives : 0.0;
+    if (deadline.limited() && (!program.complete() || left <= needed_s)) {
       if (best && best->status == Status::acceptable) break;
       if (!best) {
         best.emplace();
@@ -154,22 +194,22 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
       best->message = "reached time_limit_s";
       break;
     }
-    const bool exact = attempt.hessian == HessianChoice::exact;
-    Program program(motion, with, exact ? Curvature::exact : Curvature::gauss_newton, cost_scale, x, &close_discs);
     if (with.dynamics == options.dynamics) rows = program.problem().row_count();
     nlp::SolverOptions how;
     how.tolerance = with.tolerance;
     how.constraint_tolerance = with.constraint_tolerance;
     how.max_iterations = attempt.max_iterations;
     how.time_limit_s = std::max(left, 1e-3);
-    how.hessian = attempt.hessian == HessianChoice::limited_memory ? nlp::Hessian::limited_memory : nlp::Hessian::exact;
+    how.hessian = second ? nlp::Hessian::exact : nlp::Hessian::limited_memory;
     how.initial_barrier = close ? kCloseBarrier : attempt.initial_barrier;
     how.adaptive_barrier = attempt.adaptive_barrier;
     how.gradient_scaling = false;
     how.logger = with.logger;
     how.stop = with.stop;
     how.clock = with.clock;
+    if (deadline.limited()) how.finishing_s = [&](const Eigen::VectorXd& at) { return finishing_s(with, at); };
     nlp::Solution solution = nlp::solve(program.problem(), x, how);
+    took.derivative_s = std::max(took.derivative_s, solution.start_s / std::max(derivatives, 1.0));
     report.iterations += solution.iterations;
     report.timing_s["evaluation"] += solution.evaluation_s;
     report.timing_s["linear_solver"] += solution.linear_solver_s;
@@ -245,6 +285,7 @@ void Planner::Impl::tighten(nlp::Solution& solution, double cost_scale) {
   constexpr double kMostMargin = 0.02;
   Options with = options;
   for (int round = 0; round < kRounds && solution.status == Status::solved; ++round) {
+    if (deadline.limited() && deadline.remaining_s() <= 2.0 * finishing_s(options, solution.x)) return;
     double excess = 0.0;
     for (const Violation& v : judged(plan_of(motion, options, layout, solution.x)).violations()) {
       if (v.name != "torque" && v.name != "friction" && v.name != "pull") return;
@@ -266,10 +307,10 @@ Result Planner::Impl::solve(const Eigen::VectorXd& start) {
   nlp::Solution solution;
   solution.x = start;
   solution.status = Status::solved;
-  const double begin_s = deadline.elapsed_s();
-  Program measure(motion, options, Curvature::gauss_newton, 0.0, start, &close_discs);
+  Program measure(motion, options, Curvature::none, 0.0, start, &close_discs);
   rows = measure.problem().row_count();
-  program_s = deadline.elapsed_s() - begin_s;
+  took = {};
+  if (deadline.limited()) measure_finishing(measure.problem(), start);
   const bool inside = measure.problem().worst_violation(start).value <= options.constraint_tolerance;
   if (!cost || (options.feasible_first && !inside)) solution = feasible(start);
   if (options.self_collision) part(solution, 0.0, solution.x);
@@ -327,9 +368,10 @@ void Planner::Impl::judge(Result& result, const nlp::Solution& solution) {
   } else if (report.status != Status::solved) {
     report.message += "; the checker accepts the plan, which is not the cheapest";
   }
-  const Drift drift = largest_drift(result.plan);
-  result.drift_m = drift.position_m;
-  result.drift_rad = drift.angle_rad;
+  for (const Violation& worst : found.constraints) {
+    if (worst.name == "drift") result.drift_m = worst.value;
+    if (worst.name == "drift_angle") result.drift_rad = worst.value;
+  }
   report.timing_s["check"] = deadline.elapsed_s() - start_s;
   report.time_s = deadline.elapsed_s();
   report.version = MCPLAN_VERSION;

@@ -117,12 +117,14 @@ std::vector<Range> duration_ranges(const PlanarTask& motion, const Options& opti
 }
 
 Program::Program(const PlanarTask& motion, const Options& options, Curvature curvature, double cost_scale,
-                 const Eigen::VectorXd& anchor, const CloseDiscs* close)
+                 const Eigen::VectorXd& anchor, const CloseDiscs* close, const StopRequest& stop)
     : motion_(motion), options_(options), layout_(motion_, options_) {
   add_parameters(problem_, motion_, options_, layout_);
   const auto work = std::make_shared<TaylorGraph::Workspace>();
-  for (int k = 0; k < layout_.intervals; ++k)
+  for (int k = 0; k < layout_.intervals; ++k) {
+    if (stop && stop()) return;
     models_.push_back(std::make_unique<IntervalModel>(motion_, options_, layout_, k, work, close));
+  }
   const bool weighted = cost_scale > 0.0;
   for (const auto& model : models_) {
     const Rows& rows = model->rows();
@@ -146,7 +148,11 @@ Program::Program(const PlanarTask& motion, const Options& options, Curvature cur
       problem_.add_cost(std::make_unique<Proximity>(variables, anchor.segment(i, count), kProximity));
     }
   }
-  problem_.finish();
+  if (curvature == Curvature::none)
+    problem_.finish_for_values();
+  else if (!problem_.finish(stop))
+    return;
+  complete_ = true;
 }
 
 double Program::torque_cost(const Eigen::VectorXd& x) {

@@ -135,6 +135,48 @@ TEST_CASE("a time limit ends a solve in time, with the best that was found") {
   CHECK(result.report.worst_violation.value > result.report.worst_violation.tolerance);  // said, not hidden
 }
 
+TEST_CASE("what a limit that is over at once costs does not grow with the motion") {
+  double looks_s = 0.0;
+  for (const PlanarTask& motion : {standing(1, 4), sip_motions::cartwheel(), sip_motions::climbing()}) {
+    Options options;
+    options.time_limit_s = 1e-6;
+    options.clock = CountingClock(1.0);
+    const Result result = Planner(motion, options).solve();
+    CHECK(result.report.status == Status::time_limit);
+    CHECK(result.report.iterations == 0);
+    CHECK_NOTHROW(result.plan.validate());
+    CHECK(result.report.cost_terms.count("torque") == 1);
+    if (looks_s > 0.0) CHECK(result.report.time_s == looks_s);  // of all intervals or none
+    looks_s = result.report.time_s;
+  }
+}
+
+TEST_CASE("the last check is kept from the limit, by what a check took") {
+  // A check of the start at every 16th instant takes a look at the clock, and so do the values of all intervals: what
+  // is kept are six of those, and as many looks as a check of all instants has more of them.
+  const PlanarTask motion = sip_motions::climbing();
+  const auto instants = [&](double duration_s, double sample_s) {
+    return duration_s / sample_s + 2.0 * motion.interval_count();
+  };
+  Options options = without_cost();
+  double shortest_s = 0.0;
+  for (const auto& phase : motion.phases) shortest_s += std::max(options.phase_duration_s.min, phase.min_duration);
+  constexpr double kTick_s = 0.01;
+  options.clock = CountingClock(kTick_s);
+  options.time_limit_s = 1e-6;
+  const double of_start = instants(Planner(motion, options).solve().plan.duration(), 0.016);
+  for (double limit_s : {2.0, 4.0, 8.0}) {
+    CAPTURE(limit_s);
+    options.time_limit_s = limit_s;
+    const Result result = Planner(motion, options).solve();
+    REQUIRE(result.report.status == Status::time_limit);
+    // At least; how long the best motion is is asked once an iteration.
+    const double kept_s = kTick_s * (6.0 + instants(shortest_s, 0.001) / of_start);
+    // After that: looks of the evaluation that is stopped (3), of the solver (1), around the check and at the end (3).
+    CHECK(result.report.time_s <= limit_s - std::min(kept_s, 0.5 * limit_s) + 7.0 * kTick_s);
+  }
+}
+
 TEST_CASE("an iteration limit and a stop request have statuses of their own") {
   Options options = without_cost();
   options.max_iterations = 2;

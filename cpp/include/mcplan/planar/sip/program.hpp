@@ -13,6 +13,7 @@ namespace mcplan::sip {
 
 /// Second derivatives that a program offers its solver.
 enum class Curvature {
+  none,          ///< nor first ones: values alone can be asked for
   exact,         ///< of cost and constraints
   gauss_newton,  ///< of the cost, without that of torques and constraints
 };
@@ -24,14 +25,16 @@ class Program {
  public:
   /// The objective is cost_scale times the cost; with a scale of zero it is a weak pull to `anchor`,
   /// kProximity / 2 |P - anchor|^2, which makes the solution unique where constraints leave room. `close`: discs that
-  /// self-collision is about; null: all.
+  /// self-collision is about; null: all. `stop` is polled at every interval; where it asks to stop, the program is not
+  /// complete() and of no use.
   Program(const PlanarTask& motion, const Options& options, Curvature curvature, double cost_scale,
-          const Eigen::VectorXd& anchor, const CloseDiscs* close = nullptr);
+          const Eigen::VectorXd& anchor, const CloseDiscs* close = nullptr, const StopRequest& stop = {});
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
   static constexpr double kProximity = 1e-4;
 
+  bool complete() const { return complete_; }
   const nlp::Problem& problem() const { return problem_; }
   const Layout& layout() const { return layout_; }
   int intervals() const { return static_cast<int>(models_.size()); }
@@ -48,6 +51,7 @@ class Program {
   Layout layout_;
   std::vector<std::unique_ptr<IntervalModel>> models_;
   nlp::Problem problem_;
+  bool complete_ = false;
 };
 
 /// Bounds of a motion's duration where it has one, which intervals share equally; empty (max < min) where the phases'
