@@ -30,7 +30,7 @@ using Ipopt::Number;
 
 /// How a solve ends, and whether Ipopt's last iterate is the one to return (otherwise the best of all points).
 struct Ending {
-  Status status = Status::numerical_failure;
+  Outcome outcome = Outcome::numerical_failure;
   std::string message;
   bool keep_last = false;
 };
@@ -39,47 +39,48 @@ struct Ending {
 Ending ending_of(Ipopt::ApplicationReturnStatus code, bool feasible) {
   switch (code) {
     case Ipopt::Solve_Succeeded:
-      return {Status::solved, "converged", true};
+      return {Outcome::converged, "converged", true};
     case Ipopt::Solved_To_Acceptable_Level:
-      return {Status::acceptable, "no further progress; the optimality error is within 100 times the tolerance", true};
+      return {Outcome::nearly_converged, "no further progress; the optimality error is within 100 times the tolerance",
+              true};
     case Ipopt::Feasible_Point_Found:  // as many equalities as variables: feasible is all that can be asked for
-      return {Status::solved, "found the feasible point of a square problem", true};
+      return {Outcome::converged, "found the feasible point of a square problem", true};
     case Ipopt::Infeasible_Problem_Detected:
-      return {Status::infeasible, "converged to a point at which the violation is locally least", false};
+      return {Outcome::infeasible, "converged to a point at which the violation is locally least", false};
     case Ipopt::Search_Direction_Becomes_Too_Small:
-      if (feasible) return {Status::acceptable, "feasible, but the steps became too small to converge", false};
-      return {Status::numerical_failure, "the steps became too small before a feasible point was found", false};
+      if (feasible) return {Outcome::nearly_converged, "feasible, but the steps became too small to converge", false};
+      return {Outcome::numerical_failure, "the steps became too small before a feasible point was found", false};
     case Ipopt::Diverging_Iterates:
-      return {Status::numerical_failure, "the iterates diverge; is the cost bounded from below?", false};
+      return {Outcome::numerical_failure, "the iterates diverge; is the cost bounded from below?", false};
     case Ipopt::User_Requested_Stop:
-      return {Status::interrupted, "stopped by the caller", false};
+      return {Outcome::interrupted, "stopped by the caller", false};
     case Ipopt::Maximum_Iterations_Exceeded:
-      return {Status::iteration_limit, "reached max_iterations", false};
+      return {Outcome::iteration_limit, "reached max_iterations", false};
     case Ipopt::Maximum_CpuTime_Exceeded:
 #if MCPLAN_IPOPT_AT_LEAST(3, 14)
     case Ipopt::Maximum_WallTime_Exceeded:
 #endif
-      return {Status::time_limit, "reached time_limit_s", false};
+      return {Outcome::time_limit, "reached time_limit_s", false};
     case Ipopt::Restoration_Failed:
-      return {Status::numerical_failure, "found no way back to feasibility, nor that there is none", false};
+      return {Outcome::numerical_failure, "found no way back to feasibility, nor that there is none", false};
     case Ipopt::Error_In_Step_Computation:
-      return {Status::numerical_failure, "the linear system of a step could not be solved", false};
+      return {Outcome::numerical_failure, "the linear system of a step could not be solved", false};
     case Ipopt::Not_Enough_Degrees_Of_Freedom:
-      return {Status::infeasible, "there are more equalities than free variables", false};
+      return {Outcome::infeasible, "there are more equalities than free variables", false};
     case Ipopt::Invalid_Problem_Definition:
-      return {Status::infeasible, "Ipopt finds a contradiction in the bounds", false};
+      return {Outcome::infeasible, "Ipopt finds a contradiction in the bounds", false};
     case Ipopt::Invalid_Number_Detected:
-      return {Status::numerical_failure, "a number in Ipopt's own computation is not finite", false};
+      return {Outcome::numerical_failure, "a number in Ipopt's own computation is not finite", false};
     case Ipopt::Invalid_Option:
-      return {Status::numerical_failure, "Ipopt refused an option; is it built without MUMPS?", false};
+      return {Outcome::numerical_failure, "Ipopt refused an option; is it built without MUMPS?", false};
     case Ipopt::Insufficient_Memory:
-      return {Status::numerical_failure, "out of memory", false};
+      return {Outcome::numerical_failure, "out of memory", false};
     case Ipopt::Unrecoverable_Exception:
     case Ipopt::NonIpopt_Exception_Thrown:
     case Ipopt::Internal_Error:
       break;
   }
-  return {Status::numerical_failure, "internal error of Ipopt", false};
+  return {Outcome::numerical_failure, "internal error of Ipopt", false};
 }
 
 /// Thrown through Ipopt, which hands it to nobody but ends at once: `false` from an evaluation would only shorten the
@@ -432,28 +433,28 @@ std::string crossed(const Problem& problem) {
 /// Without a free variable there is nothing to optimise, and Ipopt's versions disagree on how to say so.
 Ending judge_fixed(const Problem& problem, const VectorXd& x, double constraint_tolerance) {
   if (problem.worst_violation(x).value <= constraint_tolerance)
-    return {Status::solved, "every variable is fixed, and the constraints hold", true};
-  return {Status::infeasible, "every variable is fixed, and a constraint does not hold", true};
+    return {Outcome::converged, "every variable is fixed, and the constraints hold", true};
+  return {Outcome::infeasible, "every variable is fixed, and a constraint does not hold", true};
 }
 
 Ending run(const Problem& problem, const VectorXd& x0, Adapter& adapter, const SolverOptions& options,
            const Deadline& deadline) {
   const std::string impossible = crossed(problem);
   if (!impossible.empty())
-    return {Status::infeasible, "the lower bound of " + impossible + " lies above its upper bound", false};
+    return {Outcome::infeasible, "the lower bound of " + impossible + " lies above its upper bound", false};
   if (problem.variable_lower() == problem.variable_upper())
     return judge_fixed(problem, x0, options.constraint_tolerance);
   const Turn turn(deadline);
-  if (!turn.mine()) return {Status::time_limit, "reached time_limit_s while another solve was running", false};
+  if (!turn.mine()) return {Outcome::time_limit, "reached time_limit_s while another solve was running", false};
   adapter.begin();
   Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
   set_options(*application->Options(), options);
   Ipopt::ApplicationReturnStatus code = application->Initialize("");  // no name: no ipopt.opt is read
   if (code == Ipopt::Solve_Succeeded) code = application->OptimizeTNLP(&adapter);
   adapter.rethrow();
-  if (adapter.reason() == Adapter::Reason::time) return {Status::time_limit, "reached time_limit_s", false};
+  if (adapter.reason() == Adapter::Reason::time) return {Outcome::time_limit, "reached time_limit_s", false};
   if (adapter.reason() == Adapter::Reason::not_finite)
-    return {Status::numerical_failure, "not finite: " + adapter.not_finite(), false};
+    return {Outcome::numerical_failure, "not finite: " + adapter.not_finite(), false};
   return ending_of(code, adapter.feasible());
 }
 
@@ -468,7 +469,7 @@ Solution solve(const Problem& problem, const VectorXd& x0, const SolverOptions& 
   const Ending ending = run(problem, x, *adapter, options, deadline);
 
   Solution out;
-  out.status = ending.status;
+  out.outcome = ending.outcome;
   out.message = ending.message;
   // Ipopt moves a bound by some 1e-12 where it would divide by the distance to it.
   out.x = projected(problem, ending.keep_last ? adapter->last_x() : adapter->best().x);

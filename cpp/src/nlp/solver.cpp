@@ -21,4 +21,24 @@ void SolverOptions::validate() const {
   require_positive("initial_barrier", initial_barrier);
 }
 
+Status status_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::converged:
+      return Status::solved;
+    case Outcome::nearly_converged:
+      return Status::acceptable;
+    case Outcome::infeasible:
+      return Status::infeasible;
+    case Outcome::iteration_limit:
+      return Status::iteration_limit;
+    case Outcome::time_limit:
+      return Status::time_limit;
+    case Outcome::interrupted:
+      return Status::interrupted;
+    case Outcome::numerical_failure:
+      break;
+  }
+  return Status::numerical_failure;
+}
+
 }  // namespace mcplan::nlp

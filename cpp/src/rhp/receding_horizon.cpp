@@ -125,11 +125,11 @@ Cycle RecedingHorizon::Impl::run() {
     // Faces that were left out and matter after all: again with them, from here.
     constexpr int kAttempts = 5;
     const std::set<ReachRow> missed = violated_reach(walker, horizon_now, solution.x, options.constraint_tolerance);
-    if (missed.empty() || attempt == kAttempts || solution.status != Status::solved || deadline.passed()) {
+    if (missed.empty() || attempt == kAttempts || solution.outcome != nlp::Outcome::converged || deadline.passed()) {
       const nlp::Problem::Worst unseen = worst_left_out(walker, horizon_now, solution.x);
       if (unseen.value > solution.worst.value) solution.worst = unseen;
-      if (!missed.empty() && solution.status == Status::solved && deadline.passed()) {
-        solution.status = Status::time_limit;
+      if (!missed.empty() && solution.outcome == nlp::Outcome::converged && deadline.passed()) {
+        solution.outcome = nlp::Outcome::time_limit;
         solution.message = "reached time_limit_s";
       }
       break;
@@ -138,7 +138,7 @@ Cycle RecedingHorizon::Impl::run() {
     request.guess = [&](const Horizon&) { return solution.x; };
     horizon_now = build_horizon(walker, footsteps, request);
   }
-  cycle.status = solution.status;
+  cycle.status = nlp::status_of(solution.outcome);
   cycle.message = solution.message;
   cycle.variables = horizon_now.problem.variable_count();
   cycle.constraints = horizon_now.problem.row_count();

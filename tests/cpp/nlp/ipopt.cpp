@@ -111,7 +111,7 @@ TEST_CASE("problem 71 of Hock and Schittkowski: the published optimum and multip
         options.hessian = hessian;
         options.adaptive_barrier = adaptive;
         const Solution s = solve(hs.problem, hs.x0, options);
-        CHECK_MESSAGE(s.status == Status::solved, s.message);
+        CHECK_MESSAGE(s.outcome == Outcome::converged, s.message);
         CHECK((s.x - hs.optimum).lpNorm<Eigen::Infinity>() < 1e-6);
         CHECK(std::abs(s.cost - hs.cost) < 1e-6);
         CHECK(s.worst.value < 1e-8);
@@ -132,7 +132,7 @@ TEST_CASE("gradient + Jacobian' multipliers vanishes in the variables that are a
   SolverOptions options;
   options.tolerance = 1e-9;
   const Solution s = solve(problem, VectorXd::Zero(3), options);
-  CHECK(s.status == Status::solved);
+  CHECK(s.outcome == Outcome::converged);
   CHECK((s.x - Eigen::Vector3d(0.5, 1.5, 1.0)).lpNorm<Eigen::Infinity>() < 1e-7);
   CHECK(s.x[2] <= 1.0);
   CHECK(std::abs(s.multipliers[0] - 1.0) < 1e-6);  // an upper limit: positive
@@ -144,7 +144,7 @@ TEST_CASE("no rows; fixed variables; nothing but fixed variables") {
   free.add_cost(squared_distance({0, 1}, Vector2d(3, 1)));
   free.finish();
   const Solution at_bound = solve(free, Vector2d(-5, 9));  // outside: projected
-  CHECK(at_bound.status == Status::solved);
+  CHECK(at_bound.outcome == Outcome::converged);
   CHECK((at_bound.x - Vector2d(2, 1)).lpNorm<Eigen::Infinity>() < 1e-4);
   CHECK(at_bound.multipliers.size() == 0);
 
@@ -159,7 +159,7 @@ TEST_CASE("no rows; fixed variables; nothing but fixed variables") {
     SolverOptions options;
     options.tolerance = 1e-8;
     const Solution s = solve(some, VectorXd::Zero(3), options);
-    CHECK_MESSAGE(s.status == Status::solved, s.message);
+    CHECK_MESSAGE(s.outcome == Outcome::converged, s.message);
     CHECK(s.x[1] == 4.0);
     const Eigen::Vector3d expected = limit == 2.0 ? Eigen::Vector3d(0, 4, 2) : Eigen::Vector3d(1, 4, 3);
     CHECK((s.x - expected).lpNorm<Eigen::Infinity>() < 1e-6);
@@ -176,7 +176,7 @@ TEST_CASE("no rows; fixed variables; nothing but fixed variables") {
   none.add_constraint(std::make_unique<LinearPiece>("sum", std::vector<int>{0, 1}, MatrixXd::Ones(1, 2)), 0.0, 3.0);
   none.finish();
   const Solution fixed = solve(none, VectorXd::Zero(2));
-  CHECK(fixed.status == Status::solved);
+  CHECK(fixed.outcome == Outcome::converged);
   CHECK(fixed.cost == 2.0);
 }
 
@@ -187,7 +187,7 @@ TEST_CASE("what cannot be satisfied is infeasible, and the least violated point 
   apart.add_constraint(std::make_unique<LinearPiece>("sum", std::vector<int>{0, 1}, MatrixXd::Ones(1, 2)), 3.0, 3.0);
   apart.finish();
   const Solution corner = solve(apart, Vector2d(0.5, 0.5));
-  CHECK_MESSAGE(corner.status == Status::infeasible, corner.message);
+  CHECK_MESSAGE(corner.outcome == Outcome::infeasible, corner.message);
   CHECK(corner.x.minCoeff() > 0.99);
   CHECK(corner.worst.name == "sum at stage 0");
   CHECK(std::abs(corner.worst.value - 1.0) < 0.02);
@@ -201,7 +201,7 @@ TEST_CASE("what cannot be satisfied is infeasible, and the least violated point 
   SolverOptions options;
   options.logger = [&](LogLevel, const std::string& line) { restored |= line.size() > 4 && line[4] == 'r'; };
   const Solution centre = solve(curved, Vector2d(2, 2), options);
-  CHECK_MESSAGE(centre.status == Status::infeasible, centre.message);
+  CHECK_MESSAGE(centre.outcome == Outcome::infeasible, centre.message);
   CHECK(restored);
   CHECK(centre.x.norm() < 0.05);
 
@@ -210,7 +210,7 @@ TEST_CASE("what cannot be satisfied is infeasible, and the least violated point 
   square.add_constraint(std::make_unique<LinearPiece>("twice", std::vector<int>{0}, MatrixXd::Ones(2, 1)),
                         Vector2d(1, 2), Vector2d(1, 2));
   square.finish();
-  CHECK(solve(square, VectorXd::Zero(1)).status == Status::infeasible);
+  CHECK(solve(square, VectorXd::Zero(1)).outcome == Outcome::infeasible);
 
   Problem crossed;
   crossed.add_variables("x", 2, 0.0, 1.0, {0, 0});
@@ -218,14 +218,14 @@ TEST_CASE("what cannot be satisfied is infeasible, and the least violated point 
   crossed.add_cost(squared_norm("norm", {0, 1}));
   crossed.finish();
   const Solution upside_down = solve(crossed, VectorXd::Zero(2));
-  CHECK(upside_down.status == Status::infeasible);
+  CHECK(upside_down.outcome == Outcome::infeasible);
   CHECK(upside_down.message == "the lower bound of x[1] at stage 0 lies above its upper bound");
 
   Problem fixed;
   fixed.add_variables("x", 1, 1.0, 1.0, {0, 0});
   fixed.add_constraint(squared_norm("norm", {0}), 2.0, 3.0);
   fixed.finish();
-  CHECK(solve(fixed, VectorXd::Zero(1)).status == Status::infeasible);
+  CHECK(solve(fixed, VectorXd::Zero(1)).outcome == Outcome::infeasible);
 }
 
 TEST_CASE("a cost without a lower bound is a numerical failure") {
@@ -235,7 +235,7 @@ TEST_CASE("a cost without a lower bound is a numerical failure") {
   problem.finish();
   SolverOptions options;
   options.max_iterations = 3000;
-  CHECK(solve(problem, VectorXd::Zero(2), options).status == Status::numerical_failure);
+  CHECK(solve(problem, VectorXd::Zero(2), options).outcome == Outcome::numerical_failure);
 }
 
 TEST_CASE("at a limit of iterations no point that was evaluated is better than the one returned") {
@@ -255,8 +255,8 @@ TEST_CASE("at a limit of iterations no point that was evaluated is better than t
     options.tolerance = 1e-12;
     const Solution s = solve(problem, Vector2d(-2.5, 0.3), options);
     armed = false;
-    if (s.status == Status::solved) continue;
-    CHECK(s.status == Status::iteration_limit);
+    if (s.outcome == Outcome::converged) continue;
+    CHECK(s.outcome == Outcome::iteration_limit);
     CHECK(s.iterations == limit);
     const double violation = problem.worst_violation(s.x).value;
     CHECK(s.worst.value == violation);
@@ -277,7 +277,7 @@ TEST_CASE("the time limit holds to one evaluation when pieces are slow") {
     options.time_limit_s = 0.055;
     options.clock = clock;
     const Solution s = solve(valley.problem, valley.x0, options);
-    CHECK(s.status == Status::time_limit);
+    CHECK(s.outcome == Outcome::time_limit);
     // One that has begun before the limit, and the cost of the point that is handed back.
     CHECK(s.time_s <= 0.06 + 0.01 + 1e-9);
     CHECK(s.evaluation_s <= 0.06 + 1e-9);
@@ -287,7 +287,7 @@ TEST_CASE("the time limit holds to one evaluation when pieces are slow") {
   options.time_limit_s = 1e-9;  // over before the first evaluation
   const Valley valley;
   const Solution s = solve(valley.problem, valley.x0, options);
-  CHECK(s.status == Status::time_limit);
+  CHECK(s.outcome == Outcome::time_limit);
   CHECK(same_bytes(s.x, valley.x0));
 }
 
@@ -301,7 +301,7 @@ TEST_CASE("an iteration that would not be over in time is not begun") {
   };
   const Valley valley;
   const Solution s = solve(valley.problem, valley.x0, options);
-  CHECK(s.status == Status::time_limit);
+  CHECK(s.outcome == Outcome::time_limit);
   CHECK(s.iterations == 2);  // at 0.3 s, with 0.05 s left
   CHECK(s.time_s <= 0.35);
 }
@@ -323,7 +323,7 @@ TEST_CASE("what the caller needs after a solve is kept from its limit, by the be
       if (line.substr(0, 4) != "iter") clock.advance(0.1);
     };
     const Solution s = solve(valley.problem, valley.x0, options);
-    CHECK(s.status == Status::time_limit);
+    CHECK(s.outcome == Outcome::time_limit);
     // At 0.1, 0.2, ... s, while one more iteration and what is kept, at most half of the limit, fit into the limit.
     const int iterations = static_cast<int>((0.95 - std::min(finishing_s, 0.475)) / 0.1 + 1e-9) - 1;
     CHECK(s.iterations == iterations);
@@ -333,7 +333,7 @@ TEST_CASE("what the caller needs after a solve is kept from its limit, by the be
   }
   SolverOptions options;
   options.finishing_s = [](const VectorXd&) -> double { throw std::logic_error("asked without a limit"); };
-  CHECK(solve(valley.problem, valley.x0, options).status == Status::solved);
+  CHECK(solve(valley.problem, valley.x0, options).outcome == Outcome::converged);
 }
 
 TEST_CASE("waiting for a solve of another thread counts against the time limit") {
@@ -358,7 +358,7 @@ TEST_CASE("waiting for a solve of another thread counts against the time limit")
   const Solution s = solve(valley.problem, valley.x0, options);
   released = true;
   other.join();
-  if (before_3_14()) CHECK(s.status == Status::time_limit);
+  if (before_3_14()) CHECK(s.outcome == Outcome::time_limit);
 }
 
 TEST_CASE("what a piece, the logger or the stop request throws arrives unchanged, and the next solve works") {
@@ -387,7 +387,7 @@ TEST_CASE("what a piece, the logger or the stop request throws arrives unchanged
       calls = 0;
       CHECK_THROWS_WITH_AS(solve(valley.problem, valley.x0, options), "knee 3", Own);
       CHECK(calls == when + 1);
-      CHECK(solve(Valley().problem, valley.x0).status == Status::solved);
+      CHECK(solve(Valley().problem, valley.x0).outcome == Outcome::converged);
     }
   }
 }
@@ -416,7 +416,7 @@ TEST_CASE("a value or derivative that is not finite is named, and the point retu
         problem.finish();
         armed = true;
         const Solution s = solve(problem, Vector2d(-2.5, 0.3));
-        CHECK(s.status == Status::numerical_failure);
+        CHECK(s.outcome == Outcome::numerical_failure);
         CHECK(s.message == "not finite: constraint ring at stage 7");
         CHECK(s.x.allFinite());
       }
@@ -428,14 +428,14 @@ TEST_CASE("the stop request is polled once an iteration") {
   SolverOptions options;
   options.stop = [&] { return ++polls == 4; };
   const Solution stopped = solve(valley.problem, valley.x0, options);
-  CHECK(stopped.status == Status::interrupted);
+  CHECK(stopped.outcome == Outcome::interrupted);
   CHECK(polls == 4);
   CHECK(stopped.iterations == 3);  // the first poll is at iteration 0
   CHECK(stopped.cost < valley.problem.cost(valley.x0));
 
   polls = -1000;
   const Solution s = solve(valley.problem, valley.x0, options);
-  CHECK(s.status == Status::solved);
+  CHECK(s.outcome == Outcome::converged);
   CHECK(polls + 1000 == s.iterations + 1);
 }
 
@@ -467,7 +467,7 @@ TEST_CASE("the logger gets a header and a line an iteration; nothing else is pri
   CHECK(!std::filesystem::exists("ipopt.out"));
   std::filesystem::current_path(before);
   std::filesystem::remove_all(folder);
-  CHECK(s.status == Status::solved);
+  CHECK(s.outcome == Outcome::converged);
   CHECK(static_cast<int>(lines.size()) == s.iterations + 2);
   CHECK(lines[0].substr(0, 4) == "iter");
   for (std::size_t i = 1; i < lines.size(); ++i) {
@@ -500,7 +500,7 @@ TEST_CASE("a solve within a solve is refused instead of waiting for itself") {
   if (before_3_14())
     CHECK_THROWS_AS(solve(outer.problem, outer.x0), std::logic_error);
   else
-    CHECK(solve(outer.problem, outer.x0).status == Status::solved);
+    CHECK(solve(outer.problem, outer.x0).outcome == Outcome::converged);
 }
 
 TEST_CASE("a start that is no start is refused by name") {

@@ -37,3 +37,15 @@ TEST_CASE("options out of their range are refused by name") {
   CHECK(refused([](SolverOptions& o) { o.max_iterations = -1; }) == "max_iterations");
   CHECK(refused([](SolverOptions& o) { o.max_iterations = 0; }) == "accepted");
 }
+
+TEST_CASE("every outcome of a solve has a status of its own") {
+  using mcplan::Status;
+  using mcplan::nlp::Outcome;
+  CHECK(status_of(Outcome::converged) == Status::solved);
+  CHECK(status_of(Outcome::nearly_converged) == Status::acceptable);
+  for (auto [outcome, name] :
+       {std::pair(Outcome::infeasible, "infeasible"), std::pair(Outcome::iteration_limit, "iteration_limit"),
+        std::pair(Outcome::time_limit, "time_limit"), std::pair(Outcome::interrupted, "interrupted"),
+        std::pair(Outcome::numerical_failure, "numerical_failure")})
+    CHECK(to_string(status_of(outcome)) == name);
+}

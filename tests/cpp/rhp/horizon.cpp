@@ -247,7 +247,7 @@ TEST_CASE("the start is fixed to the state, with positions counted from beneath 
 TEST_CASE("at the end of the walk the robot stands still") {
   const First first(walkers::quick(Fidelity::single), walkers::uneven(), true);
   const nlp::Solution solution = nlp::solve(first.horizon.problem, first.guess());
-  REQUIRE(solution.status == Status::solved);
+  REQUIRE(solution.outcome == nlp::Outcome::converged);
   const Horizon::Node& end = first.horizon.nodes.back();
   CHECK(solution.x.segment<3>(end.velocity).norm() == 0.0);
   CHECK(solution.x.segment<3>(end.momentum).norm() == 0.0);
@@ -265,8 +265,8 @@ TEST_CASE("psi eliminated and lifted have the same optimum, and the lifted psi a
     how.gradient_scaling = false;
     const nlp::Solution a = nlp::solve(plain.horizon.problem, plain.guess(), how);
     const nlp::Solution b = nlp::solve(lifted.horizon.problem, lifted.guess(), how);
-    REQUIRE(a.status == Status::solved);
-    REQUIRE(b.status == Status::solved);
+    REQUIRE(a.outcome == nlp::Outcome::converged);
+    REQUIRE(b.outcome == nlp::Outcome::converged);
     CHECK(a.cost == doctest::Approx(b.cost).epsilon(1e-6));
     for (int i = 0; i < options.lookahead; ++i)
       CHECK((plain.horizon.position_W(a.x, 2 + i) - lifted.horizon.position_W(b.x, 2 + i)).norm() < 1e-3);
@@ -333,8 +333,8 @@ TEST_CASE("leaving out faces that others imply does not change the optimum") {
   CHECK(fewer.horizon.problem.row_count() < all.horizon.problem.row_count());
   const nlp::Solution a = nlp::solve(fewer.horizon.problem, fewer.guess()),
                       b = nlp::solve(all.horizon.problem, all.guess());
-  REQUIRE(a.status == Status::solved);
-  REQUIRE(b.status == Status::solved);
+  REQUIRE(a.outcome == nlp::Outcome::converged);
+  REQUIRE(b.outcome == nlp::Outcome::converged);
   CHECK(violated_reach(fewer.walker, fewer.horizon, a.x, 1e-6).empty());
   CHECK(all.horizon.problem.worst_violation(a.x).value <= 1e-6);
   CHECK(a.cost == doctest::Approx(b.cost).epsilon(1e-6));

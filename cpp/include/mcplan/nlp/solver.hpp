@@ -39,9 +39,23 @@ struct SolverOptions {
   void validate() const;
 };
 
+/// How a solve ended. It says nothing about a plan, which is judged by its checker (Status).
+enum class Outcome {
+  converged,          ///< within the tolerances
+  nearly_converged,   ///< feasible, and no further progress is made
+  infeasible,         ///< the violation is locally least and not zero, or bounds contradict each other
+  iteration_limit,    ///< the best point of the iterations is returned
+  time_limit,         ///< the best point until then is returned
+  interrupted,        ///< the caller has stopped the solve
+  numerical_failure,  ///< a step could not be computed, or a number was not finite
+};
+
+/// What a user is told, unless a checker objects: converged is solved, nearly_converged acceptable.
+Status status_of(Outcome outcome);
+
 struct Solution {
-  Status status = Status::numerical_failure;  ///< solved: converged; whether a plan is good is for its checker to say
-  std::string message;                        ///< why it ended, in one sentence
+  Outcome outcome = Outcome::numerical_failure;
+  std::string message;          ///< why it ended, in one sentence
   Eigen::VectorXd x;            ///< the solution, or the best iterate: feasible and cheap, or least violated
   Eigen::VectorXd multipliers;  ///< of the rows, at the last iterate: <= 0 at a lower limit, >= 0 at an upper one
   double cost = 0.0;

@@ -39,8 +39,9 @@ std::vector<Attempt> attempts_for(const Options& options, bool cost) {
           {HessianChoice::exact, true, 0.1, most}};
 }
 
-bool ends_all(Status status) {
-  return status == Status::solved || status == Status::time_limit || status == Status::interrupted;
+bool ends_all(nlp::Outcome outcome) {
+  return outcome == nlp::Outcome::converged || outcome == nlp::Outcome::time_limit ||
+         outcome == nlp::Outcome::interrupted;
 }
 
 /// What a valid motion may lack for this planner, by the first field that does.
@@ -185,12 +186,12 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
     const double derivatives = made.jacobian_structure().size() + (second ? made.hessian_structure().size() : 0.0);
     const double needed_s = deadline.limited() ? finishing_s(with, x) + took.derivative_s * derivatives : 0.0;
     if (deadline.limited() && (!program.complete() || left <= needed_s)) {
-      if (best && best->status == Status::acceptable) break;
+      if (best && best->outcome == nlp::Outcome::nearly_converged) break;
       if (!best) {
         best.emplace();
         best->x = x;
       }
-      best->status = Status::time_limit;
+      best->outcome = nlp::Outcome::time_limit;
       best->message = "reached time_limit_s";
       break;
     }
@@ -217,11 +218,11 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
     const bool best_kept = best && best->worst.value <= with.constraint_tolerance;
     const bool better = !best || (kept && !best_kept) || (kept && best_kept && solution.cost < best->cost) ||
                         (!kept && !best_kept && solution.worst.value < best->worst.value);
-    const Status status = solution.status;
+    const nlp::Outcome outcome = solution.outcome;
     const std::string message = solution.message;
-    if (better || status == Status::solved) best = std::move(solution);
-    if (ends_all(status)) {
-      best->status = status;
+    if (better || outcome == nlp::Outcome::converged) best = std::move(solution);
+    if (ends_all(outcome)) {
+      best->outcome = outcome;
       best->message = message;
       break;
     }
@@ -248,9 +249,9 @@ nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {
     nlp::Solution found = run(kinematics, 0.0, moved(start, with, kinematics));
     const Layout layout_with(motion, with);
     const int splines_and_durations = layout_with.first_duration + layout_with.durations;  // weights stay as they are
-    if (found.status == Status::solved || ends_all(found.status))
+    if (found.outcome == nlp::Outcome::converged || ends_all(found.outcome))
       start.head(splines_and_durations) = moved(found.x, kinematics, with).head(splines_and_durations);
-    if (found.status != Status::solved && ends_all(found.status)) {
+    if (found.outcome != nlp::Outcome::converged && ends_all(found.outcome)) {
       found.x = convert ? moved(start, with, options) : start;
       return found;
     }
@@ -258,7 +259,7 @@ nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {
   nlp::Solution solution = run(with, 0.0, start);
   if (convert) {
     solution.x = moved(solution.x, with, options);
-    if (!ends_all(solution.status)) solution = run(options, 0.0, x);
+    if (!ends_all(solution.outcome)) solution = run(options, 0.0, x);
   }
   return solution;
 }
@@ -268,13 +269,13 @@ nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {
 /// there is one: from within a collision a way out is rarely found.
 void Planner::Impl::part(nlp::Solution& solution, double cost_scale, Eigen::VectorXd apart) {
   constexpr int kRounds = 20;
-  for (int round = 0; round < kRounds && solution.status == Status::solved; ++round) {
+  for (int round = 0; round < kRounds && solution.outcome == nlp::Outcome::converged; ++round) {
     const std::size_t known = close_discs.size();
     add_close_discs(plan_of(motion, options, layout, solution.x), close_discs);
     if (close_discs.size() == known) return;
     solution = run(options, 0.0, apart);
     apart = solution.x;
-    if (cost_scale > 0.0 && solution.status == Status::solved) solution = run(options, cost_scale, apart);
+    if (cost_scale > 0.0 && solution.outcome == nlp::Outcome::converged) solution = run(options, cost_scale, apart);
   }
 }
 
@@ -284,7 +285,7 @@ void Planner::Impl::tighten(nlp::Solution& solution, double cost_scale) {
   constexpr int kRounds = 3;
   constexpr double kMostMargin = 0.02;
   Options with = options;
-  for (int round = 0; round < kRounds && solution.status == Status::solved; ++round) {
+  for (int round = 0; round < kRounds && solution.outcome == nlp::Outcome::converged; ++round) {
     if (deadline.limited() && deadline.remaining_s() <= 2.0 * finishing_s(options, solution.x)) return;
     double excess = 0.0;
     for (const Violation& v : judged(plan_of(motion, options, layout, solution.x)).violations()) {
@@ -294,7 +295,7 @@ void Planner::Impl::tighten(nlp::Solution& solution, double cost_scale) {
     with.margin += 2.0 * excess;
     if (excess == 0.0 || with.margin > kMostMargin) return;
     nlp::Solution next = run(with, cost_scale, solution.x, true);
-    if (next.status != Status::solved) return;
+    if (next.outcome != nlp::Outcome::converged) return;
     solution = std::move(next);
   }
 }
@@ -306,7 +307,7 @@ Result Planner::Impl::solve(const Eigen::VectorXd& start) {
   const bool cost = options.has_cost();
   nlp::Solution solution;
   solution.x = start;
-  solution.status = Status::solved;
+  solution.outcome = nlp::Outcome::converged;
   Program measure(motion, options, Curvature::none, 0.0, start, &close_discs);
   rows = measure.problem().row_count();
   took = {};
@@ -316,7 +317,7 @@ Result Planner::Impl::solve(const Eigen::VectorXd& start) {
   if (options.self_collision) part(solution, 0.0, solution.x);
   const Eigen::VectorXd apart = solution.x;
   double cost_scale = 0.0;
-  if (cost && solution.status == Status::solved) {
+  if (cost && solution.outcome == nlp::Outcome::converged) {
     constexpr double kStartCost = 100.0;  // the objective at the start: its gradients are then of the size of the rows'
     cost_scale = kStartCost / std::max(measure.cost(apart), 1e-9);
     solution = run(options, cost_scale, apart);
@@ -324,7 +325,8 @@ Result Planner::Impl::solve(const Eigen::VectorXd& start) {
     const auto value = [&](const Eigen::VectorXd& at) { return measure.problem().worst_violation(at).value; };
     const bool worse =
         value(solution.x) > options.constraint_tolerance || measure.cost(solution.x) > measure.cost(apart);
-    if (solution.status != Status::solved && value(apart) <= options.constraint_tolerance && worse) solution.x = apart;
+    if (solution.outcome != nlp::Outcome::converged && value(apart) <= options.constraint_tolerance && worse)
+      solution.x = apart;
   }
   if (options.self_collision && cost_scale > 0.0) part(solution, cost_scale, apart);
   if (options.dynamics) tighten(solution, cost_scale);
@@ -353,7 +355,7 @@ CheckResult Planner::Impl::judged(const PlanarPlan& plan) const {
 /// The checker's word, and what the solver said.
 void Planner::Impl::judge(Result& result, const nlp::Solution& solution) {
   const double start_s = deadline.elapsed_s();
-  report.status = solution.status;
+  report.status = nlp::status_of(solution.outcome);
   report.message = solution.message;
   const CheckResult found = judged(result.plan);
   report.worst_violation = found.worst();
