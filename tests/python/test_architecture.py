@@ -156,10 +156,10 @@ def room_of(module: str) -> str:
     return name if name in PYTHON_ROOMS else ""
 
 
-def imported(tree: ast.AST, package: str) -> Iterator[str]:
-    """Dotted names that a module of `package` imports anywhere, except under `if TYPE_CHECKING:`."""
+def imported(tree: ast.AST, package: str, typing: bool = False) -> Iterator[str]:
+    """Dotted names that a module of `package` imports anywhere; those under `if TYPE_CHECKING:` only if `typing`."""
     for node in ast.iter_child_nodes(tree):
-        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
+        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test) and not typing:
             continue
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
@@ -168,7 +168,84 @@ def imported(tree: ast.AST, package: str) -> Iterator[str]:
             origin = ".".join(base + ([node.module] if node.module else []))
             yield from (f"{origin}.{alias.name}" for alias in node.names)
         else:
-            yield from imported(node, package)
+            yield from imported(node, package, typing)
+
+
+def import_graph(sources: dict[str, str], packages: set[str], typing: bool) -> dict[str, set[str]]:
+    """For each module, by dotted name and text, the other modules that it names in imports, lazy ones included.
+
+    A package stands for its `__init__`, which is counted where something is imported from it by name; that a module in it
+    loads it on the way is not.
+    """
+    graph: dict[str, set[str]] = {}
+    for module, text in sources.items():
+        package = module if module in packages else module.rpartition(".")[0]
+        graph[module] = set()
+        for name in imported(ast.parse(text), package, typing):
+            while name and name not in sources:
+                name = name.rpartition(".")[0] if not name.startswith("mcplan._core") else ""
+            graph[module] |= {name} - {"", module}
+    return graph
+
+
+def circles(graph: dict[str, set[str]]) -> list[list[str]]:
+    """The modules of each circle: those that can be reached from each other (Tarjan's strong components)."""
+    order: dict[str, int] = {}
+    lowest: dict[str, int] = {}
+    path: list[str] = []
+    found = []
+
+    def visit(module: str) -> None:
+        order[module] = lowest[module] = len(order)
+        path.append(module)
+        for other in graph[module]:
+            if other not in order:
+                visit(other)
+            if other in path:
+                lowest[module] = min(lowest[module], lowest[other])
+        if lowest[module] == order[module]:
+            start = path.index(module)
+            if len(path) - start > 1:
+                found.append(sorted(path[start:]))
+            del path[start:]
+
+    for module in graph:
+        if module not in order:
+            visit(module)
+    return found
+
+
+def modules_of(top: Path) -> tuple[dict[str, str], set[str]]:
+    """Text of each module below the folder of a package, by dotted name; and those that are packages."""
+    sources, packages = {}, set()
+    for path in sorted(top.rglob("*.py")):
+        parts = [top.name, *path.relative_to(top).with_suffix("").parts]
+        if parts[-1] == "__init__":
+            parts.pop()
+            packages.add(".".join(parts))
+        sources[".".join(parts)] = path.read_text()
+    return sources, packages
+
+
+@pytest.mark.parametrize("typing", [False, True], ids=["what runs", "annotations too"])
+def test_modules_import_each_other_in_no_circle(typing: bool) -> None:
+    sources, packages = modules_of(PACKAGE)
+    assert len(sources) > 100
+    assert circles(import_graph(sources, packages, typing)) == []
+
+
+def test_a_circle_is_seen() -> None:
+    sources = {
+        "p": "from p.a import f",
+        "p.a": "def f():\n    from .b import g",
+        "p.b": "class C:\n    def m(self):\n        from . import c",
+        "p.c": "import p.a, numpy",
+        "p.d": "from p import f\nfrom p.a import f",
+    }
+    assert circles(import_graph(sources, {"p"}, False)) == [["p.a", "p.b", "p.c"]]
+    sources["p.c"] = "if TYPE_CHECKING:\n    import p.a"
+    assert circles(import_graph(sources, {"p"}, False)) == []
+    assert circles(import_graph(sources, {"p"}, True)) == [["p.a", "p.b", "p.c"]]
 
 
 def forbidden_imports(room: str, text: str, package: str) -> list[str]:

@@ -10,7 +10,7 @@ import typer
 from mcplan.cli.terminal import printable, say
 
 if TYPE_CHECKING:
-    from mcplan import PlanResult, Violation
+    from mcplan._core import PlanResult, Violation
 
 #: The paper's four scenes.
 SCENES = ("flat", "stairs", "gap", "gap_with_rail")

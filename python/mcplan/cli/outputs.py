@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from mcplan import Plan, Report, WholeBodyPlan
+    from mcplan._core import Plan, Report, WholeBodyPlan
 
 
 #: What --strip can be, by the ending of its name.

@@ -12,7 +12,7 @@ import typer
 from mcplan.cli.contacts_text import contact_rows
 
 if TYPE_CHECKING:
-    from mcplan import PlanResult
+    from mcplan._core import PlanResult
 
 
 def plan(

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from mcplan import Plan, Robot, Scene
     from mcplan import rhp as engine
+    from mcplan._core import Plan, Robot, Scene
 
 
 def rhp(

@@ -12,7 +12,7 @@ import typer
 from mcplan.cli.terminal import say
 
 if TYPE_CHECKING:
-    from mcplan import Robot
+    from mcplan._core import Robot
     from mcplan.files.urdf_setups import End
 
 

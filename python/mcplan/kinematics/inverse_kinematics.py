@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from .rotations import quat_xyzw
 
 if TYPE_CHECKING:
-    from mcplan import EndEffector
+    from mcplan._core import EndEffector
 
     from .samples import Samples
     from .urdf_model import UrdfModel

@@ -2,15 +2,28 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
+from .measures import Measures
 from .options import Options, Push
+from .recording import Recording
 
-if TYPE_CHECKING:
-    from .recording import Recording
-    from .result import TrackingResult
+
+class TrackingResult(Protocol):
+    """What a report reads of mcplan.tracking.TrackingResult."""
+
+    @property
+    def recording(self) -> Recording: ...
+    @property
+    def measures(self) -> Measures: ...
+    @property
+    def options(self) -> Options: ...
+    @property
+    def interrupted(self) -> bool: ...
+    @property
+    def completed(self) -> bool: ...
 
 
 def report(result: TrackingResult) -> str:

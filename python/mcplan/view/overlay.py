@@ -15,8 +15,7 @@ from .scene_drawing import is_pad
 from .stage import node
 
 if TYPE_CHECKING:
-    from mcplan import Robot, Scene
-    from mcplan._core import PlanarMotion, PlanarRobot
+    from mcplan._core import PlanarMotion, PlanarRobot, Robot, Scene
 
 
 #: Buttons below the timeline.

@@ -24,7 +24,7 @@ from .sheets import save_figure
 from .viewpoint import camera_direction, sun_direction, view_points
 
 if TYPE_CHECKING:
-    from mcplan import Plan, Robot, Scene
+    from mcplan._core import Plan, Robot, Scene
 
 Array = NDArray[np.float64]
 

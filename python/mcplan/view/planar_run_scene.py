@@ -15,7 +15,7 @@ from .planar_figure import shapes_of, size_of
 from .planar_ground import slabs_of
 from .planar_run_samples import sample_planar_run
 from .planar_samples import turned
-from .run_scene import RunScene, force_arrow
+from .run_layout import RunScene, force_arrow
 from .scene_drawing import SurfaceDrawing, raised
 
 if TYPE_CHECKING:

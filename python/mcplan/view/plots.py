@@ -19,7 +19,7 @@ from .sheets import save_figure
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from mcplan import Plan, Report
+    from mcplan._core import Plan, Report
 
 __all__ = [
     "film_strip",

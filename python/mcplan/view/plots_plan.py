@@ -16,7 +16,7 @@ from .sheets import QUIET, label, legend, shade_support, sheet, support_patches
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from mcplan import Plan
+    from mcplan._core import Plan
 
 Array = NDArray[np.float64]
 

@@ -15,7 +15,7 @@ from .sheets import QUIET, label, legend, shade_support, sheet
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from mcplan import Plan
+    from mcplan._core import Plan
 
 #: Colour of phases on all feet, in the timing bars.
 MANY = "#C3CAD2"

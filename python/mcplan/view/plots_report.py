@@ -12,7 +12,7 @@ from .sheets import label, sheet
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from mcplan import Plan, Report
+    from mcplan._core import Plan, Report
 
 
 def has_sequences(report: Report) -> bool:

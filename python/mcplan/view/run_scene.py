@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,64 +12,23 @@ from mcplan.kinematics.urdf_model import load_model
 from mcplan.tracking import Recording
 from mcplan.tracking.planar import PlanarRecording
 
-from .colours import FORCE_BRIGHT, PUSH, end_effector_colours
+from .colours import PUSH, end_effector_colours
 from .extent import extent_of
-from .figure import Figure
-from .plan_drawing import WEIGHT_ARROW
-from .rendering import Arrow, Eye
+from .rendering import Arrow
 from .robot_urdf import mesh_figure
+from .run_layout import RunScene, force_arrow
 from .run_samples import RunFrames, frames_of
 from .runs import Run, ground_shift_of, recording_of
-from .scene_drawing import SurfaceDrawing, raised, surface_drawings
+from .scene_drawing import raised, surface_drawings
 from .viewpoint import sun_direction
 
 if TYPE_CHECKING:
-    from mcplan import Robot
+    from mcplan._core import Robot
 
 Array = NDArray[np.float64]
 
 #: [m] of ground around the motion.
 MARGIN = 4.0
-
-
-@dataclass(frozen=True)
-class RunScene:
-    """What pictures of a run are made from: n instants that may be drawn.
-
-    Attributes:
-        times_s: (n,).
-        com_W: (n, 3) [m].
-        reach_W: (n, k, 3) [m] points that a picture of an instant should hold.
-        figure: The robot at those instants.
-        arrows: For each instant: contact forces, and the push.
-        drawings: The terrain as simulated.
-        footholds: Outlines of the planned contacts: segments (m, 2, 3) [m] and their colour.
-        forward: (2,) unit vector of travel.
-        sun_W: (3,) from the scene towards the light.
-        height_m: Of the CoM when the robot stands: what distances are scaled by.
-    """
-
-    times_s: Array
-    com_W: Array
-    reach_W: Array
-    figure: Figure
-    arrows: list[list[Arrow]]
-    drawings: list[SurfaceDrawing]
-    footholds: list[tuple[Array, str]]
-    forward: Array
-    sun_W: Array
-    height_m: float
-
-    def nearest(self, time_s: float) -> int:
-        """Index of the instant nearest to a time."""
-        return int(np.argmin(np.abs(self.times_s - time_s)))
-
-    def eye(self, target_W: Array, distance_m: float, ahead: float = 0.45) -> Eye:
-        """From the right of the path; `ahead` 0: square to it, 1: by 45 degrees from ahead."""
-        left = np.array([-self.forward[1], self.forward[0]])
-        towards = left - ahead * self.forward
-        azimuth = float(np.degrees(np.arctan2(towards[1], towards[0])))
-        return Eye(np.asarray(target_W, float), distance_m, azimuth, -12.0)
 
 
 def scene_of(run: Run, rate_hz: float) -> RunScene:
@@ -106,14 +64,6 @@ def scene_of(run: Run, rate_hz: float) -> RunScene:
         sun_W=sun_direction(extent),
         height_m=height,
     )
-
-
-def force_arrow(start_W: Array, force_W: Array, weight_N: float, height_m: float) -> list[Arrow]:
-    """The arrow of a contact force; none for one of less than a hundredth of the weight."""
-    if not np.linalg.norm(force_W) > 0.01 * weight_N:  # NaN: no contact
-        return []
-    tip = start_W + WEIGHT_ARROW * height_m * force_W / weight_N
-    return [Arrow(start_W, tip, FORCE_BRIGHT, 0.012 * height_m)]
 
 
 def _arrows(frames: RunFrames, n: int, weight_N: float, height_m: float) -> list[Arrow]:

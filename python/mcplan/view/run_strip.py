@@ -17,7 +17,8 @@ from mcplan.files.outputs import whole_file
 from .colours import COM
 from .rendering import FIELD, Eye, Renderer
 from .rendering import Path as Line
-from .run_scene import RunScene, scene_of
+from .run_layout import RunScene
+from .run_scene import scene_of
 from .runs import Run, recording_of
 
 Array = NDArray[np.float64]

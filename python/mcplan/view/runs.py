@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from mcplan.tracking import Recording, TrackingResult
-from mcplan.tracking.planar import PlanarRecording
-
-if TYPE_CHECKING:
-    from mcplan.tracking.planar.run import PlanarResult
+from mcplan.tracking.planar import PlanarRecording, PlanarResult
 
 #: A recording, or the result that carries one; of a robot with a URDF or of a planar robot.
-Run: TypeAlias = "Recording | TrackingResult | PlanarRecording | PlanarResult"
+Run: TypeAlias = Recording | TrackingResult | PlanarRecording | PlanarResult
 
 
 def recording_of(run: Run) -> Recording | PlanarRecording:

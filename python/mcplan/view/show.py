@@ -26,7 +26,7 @@ from .stances import draw_stances
 from .viewpoint import camera_direction, sun_direction, view_points
 
 if TYPE_CHECKING:
-    from mcplan import Plan, Report, Robot, Scene
+    from mcplan._core import Plan, Report, Robot, Scene
 
 Array = NDArray[np.float64]
 

@@ -32,7 +32,7 @@ from .stage import Stage, node
 from .viewpoint import camera_direction, sun_direction, view_points
 
 if TYPE_CHECKING:
-    from mcplan import Robot
+    from mcplan._core import Robot
 
 Array = NDArray[np.float64]
 

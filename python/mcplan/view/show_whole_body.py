@@ -29,8 +29,7 @@ from .planar_samples import frame_times, sample_whole_body, turned
 from .stage import Stage, node
 
 if TYPE_CHECKING:
-    from mcplan import Report
-    from mcplan._core import WholeBodyPlan
+    from mcplan._core import Report, WholeBodyPlan
 
 Array = NDArray[np.float64]
 

@@ -18,7 +18,7 @@ from .plan_drawing import contact_plate, draw_standing
 from .shapes import disc
 
 if TYPE_CHECKING:
-    from mcplan import Robot, Scene, Stance
+    from mcplan._core import Robot, Scene, Stance
 
     from .stage import Stage
 

@@ -12,7 +12,8 @@ from mcplan.errors import InvalidInput
 from mcplan.extras import require
 
 from .rendering import Renderer
-from .run_scene import RunScene, scene_of
+from .run_layout import RunScene
+from .run_scene import scene_of
 from .runs import Run
 from .video_files import check_target, write_video
 

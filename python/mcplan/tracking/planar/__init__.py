@@ -13,7 +13,8 @@ from __future__ import annotations
 from .measures import PlanarMeasures
 from .prepare import PLANNING, trackable, with_clearances
 from .recording import PlanarRecording
-from .run import DEFAULT_OPTIONS, PlanarResult, track_whole_body
+from .result import PlanarResult
+from .run import DEFAULT_OPTIONS, track_whole_body
 from .settings import ContactSettings, Feedback
 from .suitability import Suitability, suitability
 

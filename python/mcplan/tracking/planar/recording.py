@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+from mcplan.files.whole_body_plans import plan_from_bytes
+
+from ..run_files import PLANAR_RUN, Arrays, Header, columns_of, load_run
 
 if TYPE_CHECKING:
     from mcplan._core import WholeBodyPlan
@@ -72,3 +77,25 @@ class PlanarRecording:
     def within_plan(self) -> NDArray[np.bool_]:
         """(n,) instants that the plan is about: those after its end hold its last posture."""
         return self.times_s <= self.plan.duration()
+
+    @staticmethod
+    def load(path: str | Path) -> PlanarRecording:
+        """The recording of a run that ``PlanarResult.save`` or ``mcplan track --save`` wrote.
+
+        Raises:
+            InvalidInput: No such file; the message names file, field and rule.
+            FileNotFoundError: There is no such file.
+        """
+        return load_run(path, {PLANAR_RUN: recording_from})
+
+
+def recording_from(header: Header, arrays: Arrays) -> PlanarRecording:
+    """The recording that the file of a run holds."""
+    columns = columns_of(PlanarRecording, arrays)
+    return PlanarRecording(
+        plan=plan_from_bytes(arrays["plan"].tobytes()),
+        joints=tuple(header["joints"]),
+        ends=tuple(header["ends"]),
+        left_plan_at_s=float(header["ended_at_s"]),
+        **columns,
+    )

@@ -2,16 +2,30 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
+from ..options import Options
 from ..report import disturbances_text, length
+from .measures import PlanarMeasures
+from .recording import PlanarRecording
 from .suitability import suitability
 
-if TYPE_CHECKING:
-    from .recording import PlanarRecording
-    from .run import PlanarResult
+
+class PlanarResult(Protocol):
+    """What a report reads of mcplan.tracking.planar.PlanarResult."""
+
+    @property
+    def recording(self) -> PlanarRecording: ...
+    @property
+    def measures(self) -> PlanarMeasures: ...
+    @property
+    def options(self) -> Options: ...
+    @property
+    def interrupted(self) -> bool: ...
+    @property
+    def followed(self) -> bool: ...
 
 
 def report(result: PlanarResult) -> str:

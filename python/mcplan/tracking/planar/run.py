@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mcplan.errors import InvalidInput, InvalidOptions
+from mcplan.errors import InvalidOptions
 
 from ..interruption import Interruption
 from ..options import Options
-from .measures import PlanarMeasures, measure
+from .measures import measure
 from .mjcf import build
 from .recording import Array, PlanarRecording
+from .result import PlanarResult
 from .settings import ContactSettings, Feedback
 from .simulation import PlanarSimulation
 
@@ -26,64 +25,9 @@ if TYPE_CHECKING:
 #: A robot that is further than this from its plan has left it: base [m], base and joints [rad].
 LEFT_PLAN_M = 0.1
 LEFT_PLAN_RAD = 0.3
-#: Contact forces that are further than this share off the plan's are others: the run then proves nothing about the plan.
-OTHER_FORCES = 0.25
 
 #: Half the simulation step changes force_rms by at most 0.011 (docs/tracking_planar.md); 1 ms doubles or triples it.
 DEFAULT_OPTIONS = Options(simulation_step_s=2e-4, control_step_s=4e-4)
-
-
-@dataclass(frozen=True)
-class PlanarResult:
-    """What came of tracking a whole-body plan. As text: a report of some lines.
-
-    Attributes:
-        recording: What the robot did.
-        measures: How well, and how near its contact forces were to the planned ones.
-        options: What was asked for.
-        interrupted: Ctrl-C ended the run.
-    """
-
-    recording: PlanarRecording
-    measures: PlanarMeasures
-    options: Options
-    interrupted: bool = False
-
-    @property
-    def completed(self) -> bool:
-        """Whether the run went to its end and the robot was where the plan wants it."""
-        return self.measures.completed and not self.interrupted
-
-    @property
-    def followed(self) -> bool:
-        """Whether it was completed with the plan's contact forces: less than a quarter off, rms over rms."""
-        return self.completed and self.measures.force_rms <= OTHER_FORCES
-
-    def save(self, path: str | Path) -> None:
-        """Write everything, the plan included, to an .npz file, which is complete or not there at all."""
-        from ..run_files import save_run
-
-        save_run(self, path)
-
-    @staticmethod
-    def load(path: str | Path) -> PlanarResult:
-        """Read what save() wrote.
-
-        Raises:
-            InvalidInput: No such file of a planar robot; the message names file, field and rule.
-            FileNotFoundError: There is no such file.
-        """
-        from ..run_files import load_run
-
-        result = load_run(path)
-        if not isinstance(result, PlanarResult):
-            raise InvalidInput("header.kind", "must be that of a planar robot; see TrackingResult.load", "", str(path))
-        return result
-
-    def __str__(self) -> str:
-        from .report import report
-
-        return report(self)
 
 
 def track_whole_body(
