@@ -68,9 +68,10 @@ from mcplan.errors import (
 Walk = rhp.Walk
 
 if TYPE_CHECKING:
+    from mcplan.planar.tracking import PlanarResult
+    from mcplan.showing import Shown
     from mcplan.tracking import TrackingResult
-    from mcplan.tracking.planar import PlanarResult
-    from mcplan.view import Page
+    from mcplan.view.pages.page import Page
 
 __all__ = [
     "CheckResult",
@@ -401,7 +402,7 @@ def whole_body(
         InvalidPlan: The warm start has other phases or joints, or is malformed.
         UnknownMotion, UnknownRobot: No such name and no such file.
     """
-    from mcplan.whole_body_planning import whole_body as solve
+    from mcplan.planar.planning import whole_body as solve
 
     given: dict[str, Any] = {"forces": forces, "contact": contact, "order": order, "neq": neq, "free_flyer": free_flyer}
     given |= {"free_durations": free_durations, "time_limit": time_limit}
@@ -444,29 +445,28 @@ def track(
     from mcplan.extras import require
 
     require("mcplan.track", "sim", "mujoco", "pinocchio", "proxsuite")
-    from mcplan.tracking.choice import track_any
+    from mcplan.following import track_any
 
     return track_any(plan, robot, options)
 
 
-def show(
-    plan: Plan | WholeBodyPlan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None
-) -> Page:
-    """Draw a plan in the browser; the result has ``save_html(path)``.
+def show(plan: Shown, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
+    """Draw a plan or a run in the browser; the result has ``save_html(path)``.
 
     Args:
-        plan: The plan; a whole-body plan is drawn with its own motion, and takes no scene and no robot.
+        plan: The plan, or what track() found of one. A whole-body plan is drawn with its own motion, a run with its own
+            plan; they take no scene and no robot.
         scene: Drawn around it; None: the plan's own.
         robot: Drawn along it; None: the plan's own. With a URDF its meshes are drawn, else a stick robot.
         report: How the plan was found, for the caption.
 
     Raises:
-        InvalidInput: A scene or a robot for a whole-body plan.
+        InvalidInput: A scene or a robot for a whole-body plan or a run.
         MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
     """
     from mcplan.extras import require
 
     require("mcplan.show", "view", "meshcat")
-    from mcplan.view import show as draw
+    from mcplan.showing import show as draw
 
     return draw(plan, scene, robot, report)

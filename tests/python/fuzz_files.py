@@ -354,7 +354,7 @@ def read(kind: str, file: Path, number: int) -> None:
         case "plan" | "whole_body_plan":
             load_any_plan(file)
         case "run":
-            from mcplan.tracking.planar.result import result_from as planar_result_from
+            from mcplan.planar.tracking.result import result_from as planar_result_from
             from mcplan.tracking.result import result_from
             from mcplan.tracking.run_files import PLANAR_RUN, RUN, load_run
 

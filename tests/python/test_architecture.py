@@ -30,6 +30,9 @@ OPENMP_ROOMS = {"ddp", "rhp", "sip"}
 # room (a module or folder of the package) -> the rooms that it may import, beside itself; "" is the package's
 # front, which others import for annotations only
 _GROUND = {"_core", "errors", "extras", "options"}
+_ENGINES = {"solve", "walking"}
+_LOOKED_AT = {"files", "kinematics", "tracking", "view", "planar"}
+_FRONT = _ENGINES | _LOOKED_AT | {"showing", "following"}
 PYTHON_ROOMS = {
     "__main__": {"cli"},
     "_core": set(),
@@ -40,28 +43,21 @@ PYTHON_ROOMS = {
     "files": _GROUND,
     "solve": _GROUND | {"files"},
     "walking": _GROUND | {"files", "solve"},
-    "whole_body_planning": _GROUND | {"files"},
     "kinematics": _GROUND | {"files"},
     "tracking": _GROUND | {"files", "kinematics"},
     "view": _GROUND | {"files", "kinematics", "tracking"},
-    "bench": _GROUND | {"files", "solve", "walking", "whole_body_planning", "kinematics", "tracking", ""},
-    "reproduce": _GROUND
-    | {"files", "solve", "walking", "whole_body_planning", "kinematics", "tracking", "view", "bench", ""},
-    "cli": _GROUND
-    | {
-        "starting",
-        "files",
-        "solve",
-        "walking",
-        "whole_body_planning",
-        "kinematics",
-        "tracking",
-        "view",
-        "bench",
-        "reproduce",
-        "",
-    },
-    "": _GROUND | {"starting", "files", "solve", "walking", "whole_body_planning", "kinematics", "tracking", "view"},
+    "planar": _GROUND | {"files", "kinematics", "tracking", "view"},
+    "showing": _GROUND | _LOOKED_AT,
+    "following": _GROUND | _LOOKED_AT - {"view"},
+    "bench": _GROUND | _FRONT - {"showing"} | {""},
+    "reproduce": _GROUND | _FRONT | {"bench", ""},
+    "cli": _GROUND | _FRONT | {"starting", "bench", "reproduce", ""},
+    "": _GROUND | _FRONT | {"starting"},
+}
+# The same inside of rooms; "" is what lies in the room's own folder, except for its __init__, which may import them all.
+INNER_ROOMS = {
+    "view": {"": set(), "pages": {""}, "pictures": {""}, "plots": {"", "pictures"}, "video": {"", "pictures"}},
+    "planar": {"": set(), "tracking": set(), "view": {"tracking"}},
 }
 HEAVY = {"crocoddyl", "example_robot_data", "imageio", "matplotlib", "meshcat", "mink", "mujoco"}
 HEAVY |= {"PIL", "pink", "pinocchio", "proxsuite", "scipy"}
@@ -266,6 +262,26 @@ def test_python_rooms_import_only_what_they_may() -> None:
         package = ".".join(("mcplan", *inside.parts[:-1]))
         assert forbidden_imports(room, path.read_text(), package) == [], inside
     assert modules
+
+
+@pytest.mark.parametrize("room", INNER_ROOMS)
+def test_folders_of_a_room_import_only_what_they_may(room: str) -> None:
+    sources, packages = modules_of(PACKAGE)
+    graph = import_graph(sources, packages, typing=True)
+    folders = INNER_ROOMS[room]
+    seen = set()
+
+    def folder_of(module: str) -> str:
+        parts = module.split(".")[2:]
+        return parts[0] if f"mcplan.{room}.{parts[0]}" in packages else ""
+
+    for module in (name for name in graph if name.startswith(f"mcplan.{room}.")):
+        own = folder_of(module)
+        assert own in folders, f"{module}: give the folder its place in INNER_ROOMS"
+        inside = {folder_of(other) for other in graph[module] if other.startswith(f"mcplan.{room}.")}
+        assert inside <= folders[own] | {own}, module
+        seen.add(own)
+    assert seen == set(folders)
 
 
 def test_an_import_in_the_wrong_direction_is_seen() -> None:

@@ -32,7 +32,7 @@ def made_up(config, status="solved", message="converged", cost=None, **numbers):
 
 def planner(config):
     """The planner that a row is run with."""
-    from mcplan.whole_body_planning import make_options
+    from mcplan.planar.planning import make_options
 
     options = config.options()
     return mcplan.sip.Planner(mcplan.load_motion(config.motion), make_options(options.pop("minimise"), options))

@@ -17,8 +17,8 @@ from mcplan.errors import InvalidInput
 
 if TYPE_CHECKING:
     from mcplan import EndEffector, Plan, Scene, WholeBodyPlan
+    from mcplan.planar.tracking import PlanarResult
     from mcplan.tracking import Options, Recording, TrackingResult
-    from mcplan.tracking.planar import PlanarResult
 
 #: What is done with a run in the process in which it was made, e.g. draw it.
 Keep = Callable[[Case, "TrackingResult | PlanarResult"], None]
@@ -168,7 +168,7 @@ def plan_of(case: Case) -> Planned:
     """
     import mcplan
     from mcplan.files.scenes import scaled
-    from mcplan.tracking.planar import with_clearances
+    from mcplan.planar.tracking import with_clearances
 
     began = time.perf_counter()
     found: Any
@@ -235,8 +235,8 @@ def track_plan(case: Case, plan: Any, options: Options | None = None) -> Trackin
         InvalidInput: The robot cannot take up the plan's first posture.
         KeyboardInterrupt: Ctrl-C was pressed meanwhile.
     """
+    from mcplan.planar.tracking import track_whole_body
     from mcplan.tracking.options import Options
-    from mcplan.tracking.planar import track_whole_body
     from mcplan.tracking.runner import track
 
     result: TrackingResult | PlanarResult

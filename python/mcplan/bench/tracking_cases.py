@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from math import inf
 from typing import Any
 
-from mcplan.tracking.planar import PLANNING
+from mcplan.planar.tracking import PLANNING
 
 #: Limits that walks of humanoids are held to [m].
 COM_RMS_M, FINAL_BASE_M = 0.015, 0.05

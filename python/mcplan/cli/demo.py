@@ -37,7 +37,7 @@ def demo(
 
     require("mcplan demo", "view", "meshcat", "matplotlib")
     from mcplan.files.outputs import require_folder
-    from mcplan.view.picture import picture
+    from mcplan.view.pictures.picture import picture
 
     require_folder("--out", out)
     scenes = [mcplan.load_scene(name) for name in scene or SCENES]

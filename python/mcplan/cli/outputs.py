@@ -65,14 +65,11 @@ def write_outputs(
     if html is not None:
         mcplan.show(plan, report=report).save_html(html)
     if plots is not None:
-        from mcplan.view.plots import save_plots
+        from mcplan.showing import save_plots
 
         save_plots(plan, report, plots)
     if strip is not None:
-        from mcplan._core import WholeBodyPlan
-        from mcplan.view.film_strip import film_strip
-        from mcplan.view.sheets import save_figure
+        from mcplan.showing import save_picture
 
-        assert isinstance(plan, WholeBodyPlan)
-        save_figure(film_strip(plan), strip)
+        save_picture(plan, strip)
     return [path for path in (output, html, plots, strip) if path is not None]

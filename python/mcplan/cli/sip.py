@@ -90,10 +90,10 @@ def sip(
     Example: mcplan sip cartwheel --trackable -o wheel.npz && mcplan track wheel.npz
     """
     from mcplan import sip as engine
-    from mcplan import whole_body_planning as planning
     from mcplan.cli.interrupts import CODE, as_far_as_it_came
     from mcplan.cli.outputs import require_outputs, write_outputs
     from mcplan.cli.sip_text import Progress, summary_text
+    from mcplan.planar import planning
 
     require_outputs("sip", output, html, plots, strip)
     given = {"forces": forces, "contact": contact, "tube_m": tube, "tube_rad": None if tube is None else 5.0 * tube}
@@ -102,7 +102,7 @@ def sip(
     given |= {"hessian": hessian, "max_iterations": max_iterations, "time_limit": time_limit}
     model = planning.motion_of(motion)
     if trackable:
-        from mcplan.tracking.planar import trackable as ask_for
+        from mcplan.planar.tracking import trackable as ask_for
 
         model, more = ask_for(model)
         given = more | {name: value for name, value in given.items() if value is not None}

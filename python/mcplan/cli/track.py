@@ -11,8 +11,8 @@ import typer
 
 if TYPE_CHECKING:
     from mcplan._core import Plan, Robot, WholeBodyPlan
+    from mcplan.planar.tracking import Suitability
     from mcplan.tracking.findings import Feasibility
-    from mcplan.tracking.planar import Suitability
 
 
 def track(
@@ -89,7 +89,8 @@ def track(
 
     from mcplan._core import WholeBodyPlan
     from mcplan.files.whole_body_plans import load_any_plan
-    from mcplan.tracking.choice import make_options, track_any
+    from mcplan.following import track_any
+    from mcplan.tracking.choice import make_options
 
     options: Options = make_options(values)
     loaded = load_any_plan(plan)
@@ -124,8 +125,8 @@ def track(
 def _feasibility(plan: Plan | WholeBodyPlan, robot: Robot | None) -> Feasibility | Suitability:
     """What is known of a plan and a robot before simulating them."""
     from mcplan._core import Plan
+    from mcplan.planar.tracking.suitability import suitability
     from mcplan.tracking.feasibility import assess
-    from mcplan.tracking.planar.suitability import suitability
     from mcplan.tracking.runner import robot_for
 
     return assess(plan, robot_for(plan, robot)) if isinstance(plan, Plan) else suitability(plan)

@@ -26,7 +26,7 @@ DPI = 90
 def strips(out: Path, motions: Sequence[str]) -> list[Path]:
     """Film strips of the solutions of Table IV, case 3; motions without one are left out."""
     from mcplan.files.whole_body_plans import load_whole_body_plan
-    from mcplan.view import film_strip
+    from mcplan.planar.view import film_strip
 
     written = []
     for motion, number in FIGURES.items():

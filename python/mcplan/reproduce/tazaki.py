@@ -100,8 +100,8 @@ def table_2_row(name: str, robot: Any, repeats: int, threads: int) -> dict[str, 
 
 def figures(out: Path, name: str, method: str, result: PlanResult) -> list[Path]:
     """Figures 1, 3 and 4 of one scene."""
-    from mcplan.view.picture import picture
-    from mcplan.view.plots_report import has_sequences, plot_contact_sequence, plot_cost
+    from mcplan.view.pictures.picture import picture
+    from mcplan.view.plots.report import has_sequences, plot_contact_sequence, plot_cost
     from mcplan.view.sheets import save_figure
 
     written = []

@@ -26,7 +26,7 @@ Chart = tuple[list[int], list[float]]
 def pictures(out: Path) -> list[Path]:
     """Pictures of the terrains with the walk saved for each; terrains without one are left out."""
     from mcplan import Plan
-    from mcplan.view.picture import picture
+    from mcplan.view.pictures.picture import picture
 
     written = []
     for terrain in TERRAINS:

@@ -90,12 +90,17 @@ def save_run(parts: RunParts, path: str | Path) -> None:
     write_whole(buffer.getvalue(), path)
 
 
-def load_run(path: str | Path, makers: Mapping[str, Callable[[Header, Arrays], T]]) -> T:
+def load_run(
+    path: str | Path,
+    makers: Mapping[str, Callable[[Header, Arrays], T]],
+    otherwise: Callable[[str | Path], T] | None = None,
+) -> T:
     """Read a run written by save_run.
 
     Args:
         path: The file.
         makers: By kind: what makes the run of the header and the arrays.
+        otherwise: Called for a file that is of no run; None: it is refused.
 
     Raises:
         InvalidInput: Not such a file, or its content does not fit together; the message names file, field and rule.
@@ -109,6 +114,8 @@ def load_run(path: str | Path, makers: Mapping[str, Callable[[Header, Arrays], T
         header = read_header(arrays)
         kind = header.get("kind")
         if not isinstance(kind, str) or kind not in (RUN, PLANAR_RUN):
+            if otherwise is not None:
+                return otherwise(path)
             raise InvalidInput("header.kind", f"must be {RUN!r} or {PLANAR_RUN!r}: no file of a run", shown(kind))
         if header.get("format") != FORMAT:
             raise InvalidInput(
