@@ -13,6 +13,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 HEADERS, SOURCES, PACKAGE = ROOT / "cpp/include/mcplan", ROOT / "cpp/src", ROOT / "python/mcplan"
+BENCH = ROOT / "bench/mcplan_bench"  # a distribution of its own, that imports the package
 
 # room -> the rooms that it may include, beside itself
 CPP_ROOMS = {
@@ -49,9 +50,7 @@ PYTHON_ROOMS = {
     "planar": _GROUND | {"files", "kinematics", "tracking", "view"},
     "showing": _GROUND | _LOOKED_AT,
     "following": _GROUND | _LOOKED_AT - {"view"},
-    "bench": _GROUND | _FRONT - {"showing"} | {""},
-    "reproduce": _GROUND | _FRONT | {"bench", ""},
-    "cli": _GROUND | _FRONT | {"starting", "bench", "reproduce", ""},
+    "cli": _GROUND | _FRONT | {"starting", ""},
     "": _GROUND | _FRONT | {"starting"},
 }
 # The same inside of rooms; "" is what lies in the room's own folder, except for its __init__, which may import them all.
@@ -225,7 +224,7 @@ def modules_of(top: Path) -> tuple[dict[str, str], set[str]]:
 
 @pytest.mark.parametrize("typing", [False, True], ids=["what runs", "annotations too"])
 def test_modules_import_each_other_in_no_circle(typing: bool) -> None:
-    sources, packages = modules_of(PACKAGE)
+    sources, packages = (known[0] | known[1] for known in zip(modules_of(PACKAGE), modules_of(BENCH), strict=True))
     assert len(sources) > 100
     assert circles(import_graph(sources, packages, typing)) == []
 
@@ -242,6 +241,25 @@ def test_a_circle_is_seen() -> None:
     sources["p.c"] = "if TYPE_CHECKING:\n    import p.a"
     assert circles(import_graph(sources, {"p"}, False)) == []
     assert circles(import_graph(sources, {"p"}, True)) == [["p.a", "p.b", "p.c"]]
+
+
+def test_the_package_knows_nothing_of_the_bench() -> None:
+    for module, text in modules_of(PACKAGE)[0].items():
+        assert not [name for name in imported(ast.parse(text), module, True) if name.startswith("mcplan_bench")], module
+
+
+def test_of_the_bench_its_commands_alone_import_those_of_mcplan() -> None:
+    graph = import_graph(*modules_of(BENCH), True)
+    order = {"mcplan_bench.cli": 2, "mcplan_bench.reproduce": 1}
+
+    def height(module: str) -> int:
+        return order.get(".".join(module.split(".")[:2]), 0)
+
+    for module, others in graph.items():
+        assert all(height(other) <= height(module) for other in others), module
+    for module, text in modules_of(BENCH)[0].items():
+        verbs = [name for name in imported(ast.parse(text), module) if name.startswith("mcplan.cli")]
+        assert not verbs or height(module) == 2, module
 
 
 def forbidden_imports(room: str, text: str, package: str) -> list[str]:

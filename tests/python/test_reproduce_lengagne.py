@@ -1,4 +1,4 @@
-"""mcplan.reproduce.lengagne: the published tables, runs, tables, page."""
+"""mcplan_bench.reproduce.lengagne: the published tables, runs, tables, page."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import pytest
 
 import mcplan
 from mcplan.cli import main
-from mcplan.reproduce import lengagne_paper as paper
-from mcplan.reproduce import lengagne_runs, lengagne_settings, lengagne_tables, lengagne_text
-from mcplan.reproduce.lengagne_runs import Run
-from mcplan.reproduce.lengagne_settings import Config
+from mcplan_bench.reproduce import lengagne_paper as paper
+from mcplan_bench.reproduce import lengagne_runs, lengagne_settings, lengagne_tables, lengagne_text
+from mcplan_bench.reproduce.lengagne_runs import Run
+from mcplan_bench.reproduce.lengagne_settings import Config
 
 pytest.importorskip("matplotlib")
 

@@ -6,19 +6,19 @@ Needs ``pip install 'mcplan[view]'``, and for rendering runs ``mcplan[sim]``; bo
 
 from __future__ import annotations
 
-from .pages.page import Page
-from .pages.show import show, show_scene
-from .pages.show_run import show_run
-from .pictures.picture import picture
-from .pictures.rendering import NoGraphics
-from .pictures.run_strip import save_run_postures, save_run_strip
-from .plots.plan import plot_com, plot_forces, plot_friction, plot_gait, plot_momentum, plot_turning
-from .plots.points import plot_pressure, plot_timing
-from .plots.report import plot_contact_sequence, plot_cost
-from .plots.run import plot_run_assist, plot_run_com, plot_run_errors, plot_run_momentum, save_run_plots
-from .plots.run_forces import plot_run_forces, plot_run_torques
-from .plots.save import save_plots
-from .video.film import save_video
+from mcplan.view.pages.page import Page
+from mcplan.view.pages.show import show, show_scene
+from mcplan.view.pages.show_run import show_run
+from mcplan.view.pictures.picture import picture
+from mcplan.view.pictures.rendering import NoGraphics
+from mcplan.view.pictures.run_strip import save_run_postures, save_run_strip
+from mcplan.view.plots.plan import plot_com, plot_forces, plot_friction, plot_gait, plot_momentum, plot_turning
+from mcplan.view.plots.points import plot_pressure, plot_timing
+from mcplan.view.plots.report import plot_contact_sequence, plot_cost
+from mcplan.view.plots.run import plot_run_assist, plot_run_com, plot_run_errors, plot_run_momentum, save_run_plots
+from mcplan.view.plots.run_forces import plot_run_forces, plot_run_torques
+from mcplan.view.plots.save import save_plots
+from mcplan.view.video.film import save_video
 
 __all__ = [
     "NoGraphics",

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mcplan.bench import SCENES
+from . import SCENES
 
 if TYPE_CHECKING:
     from mcplan import PlanResult, Report, Robot, Scene

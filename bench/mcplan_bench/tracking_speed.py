@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from mcplan.bench.processes import apart
-from mcplan.bench.tracking import plan_of, track_plan
-from mcplan.bench.tracking_cases import CONTROL_MS, REALTIME_FACTOR, named
+from .processes import apart
+from .tracking import plan_of, track_plan
+from .tracking_cases import CONTROL_MS, REALTIME_FACTOR, named
 
 #: What is timed: level ground, where a robot stands on one foot and on two in turn.
 CASE = "flat/talos"

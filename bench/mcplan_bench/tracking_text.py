@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from mcplan.bench.sections import ABSENT, Section, between_marks, section_lines
-from mcplan.bench.sections import holds as _holds
-from mcplan.bench.sections import number as _number
-from mcplan.bench.tracking import TRACKED, Row
-from mcplan.bench.tracking_cases import CONTROL_MS, REALTIME_FACTOR
+from .sections import ABSENT, Section, between_marks, section_lines
+from .sections import holds as _holds
+from .sections import number as _number
+from .tracking import TRACKED, Row
+from .tracking_cases import CONTROL_MS, REALTIME_FACTOR
 
 #: Between these lines of a page the tables are put.
 BEGIN, END = "<!-- begin: mcplan bench tracking -->", "<!-- end: mcplan bench tracking -->"
@@ -149,7 +149,7 @@ def _planar(rows: Sequence[Row]) -> Section:
 
 
 def _robustness(found: dict[str, Any]) -> Section:
-    from mcplan.bench.tracking_robustness import line
+    from .tracking_robustness import line
 
     head = ["plan", "stay up", "fell with seeds", "largest CoM rms", "QP failures", "warnings", "holds"]
     cells = [

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mcplan.bench.criteria import flights
-from mcplan.bench.processes import each
-from mcplan.bench.tracking_cases import Case, Demand
 from mcplan.errors import InvalidInput
+
+from .criteria import flights
+from .processes import each
+from .tracking_cases import Case, Demand
 
 if TYPE_CHECKING:
     from mcplan import EndEffector, Plan, Scene, WholeBodyPlan

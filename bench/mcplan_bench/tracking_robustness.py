@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
-from mcplan.bench.processes import each
-from mcplan.bench.tracking import TRACKED, plan_of, track_plan
-from mcplan.bench.tracking_cases import DISTURBED, SURVIVING, Case
+from .processes import each
+from .tracking import TRACKED, plan_of, track_plan
+from .tracking_cases import DISTURBED, SURVIVING, Case
 
 if TYPE_CHECKING:
     from mcplan import Plan

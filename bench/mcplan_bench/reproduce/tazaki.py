@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mcplan.bench import SCENES, records
-from mcplan.bench.speed import PAPER, iterations, searching_iterations
 from mcplan.extras import require
 from mcplan.files.outputs import write_whole
-from mcplan.reproduce import tazaki_models
+from mcplan_bench import SCENES, records
+from mcplan_bench.speed import PAPER, iterations, searching_iterations
+
+from . import tazaki_models
 
 if TYPE_CHECKING:
     from mcplan import PlanResult

@@ -56,7 +56,8 @@ def overruns(quick: bool = False, progress: Progress | None = None) -> list[dict
 def cases() -> Iterator[tuple[str, str, Solve]]:
     """Engine, case, and a solve of it under a limit [s] that returns its status."""
     import mcplan as mp
-    from mcplan.bench.growth import long_floor
+
+    from .growth import long_floor
 
     for name in ("stairs", "gap_with_rail", "random_patches"):
         yield "ddp", name, _plan(mp.load_scene(name))

@@ -24,8 +24,8 @@ def deadlines(
 
     Example: mcplan bench deadlines --quick
     """
-    from mcplan.bench import deadlines as bench
-    from mcplan.bench import records
+    from mcplan_bench import deadlines as bench
+    from mcplan_bench import records
 
     rows = bench.overruns(quick, _say)
     idle = bench.idle_surfaces(quick, _say)

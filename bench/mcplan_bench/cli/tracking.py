@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from mcplan.bench.tracking import Keep
-    from mcplan.bench.tracking_cases import Case
+    from mcplan_bench.tracking import Keep
+    from mcplan_bench.tracking_cases import Case
 
 PACKAGES = ("mujoco", "pin", "proxsuite", "numpy")
 
@@ -64,10 +64,10 @@ def tracking(
     from mcplan.extras import require
 
     require("mcplan bench tracking", "sim", "mujoco", "pinocchio", "proxsuite")
-    from mcplan.bench import records, tracking_robustness, tracking_speed
-    from mcplan.bench import tracking as bench
-    from mcplan.bench.tracking_cases import DISTURBED
     from mcplan.files.outputs import require_folder
+    from mcplan_bench import records, tracking_robustness, tracking_speed
+    from mcplan_bench import tracking as bench
+    from mcplan_bench.tracking_cases import DISTURBED
 
     for option, folder in (("--out", out), ("--html", html), ("--strips", strips)):
         require_folder(option, folder)
@@ -108,8 +108,8 @@ def tracking(
 
 
 def _chosen(short: bool, names: list[str]) -> list[Case]:
-    from mcplan.bench.tracking_cases import CASES, SHORT
     from mcplan.errors import InvalidInput
+    from mcplan_bench.tracking_cases import CASES, SHORT
 
     cases = SHORT if short else CASES
     for name in names:
@@ -128,19 +128,19 @@ def _keep(html: Path | None, strips: Path | None) -> Keep | None:
 
 
 def _draw(html: Path | None, strips: Path | None, case: Case, run: Any) -> None:
-    from mcplan.view import save_run_strip, show_run
+    from mcplan.showing import save_strip, show
 
     name = case.name.replace("/", "_")
     if html is not None:
-        show_run(run).save_html(html / f"{name}.html")
+        show(run).save_html(html / f"{name}.html")
     if strips is not None:
-        save_run_strip(run, strips / f"{name}.png")
+        save_strip(run, strips / f"{name}.png")
 
 
 def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Path]:
-    from mcplan.bench import records
-    from mcplan.bench.tracking_text import markdown as page
     from mcplan.files.outputs import write_whole
+    from mcplan_bench import records
+    from mcplan_bench.tracking_text import markdown as page
 
     plain = _plain(result)
     written = [records.write_json(out / "tracking.json", plain)]
@@ -158,7 +158,7 @@ def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Pat
 
 def _plain(result: dict[str, Any]) -> dict[str, Any]:
     """The result with rows and outcomes as dicts, and nothing in it that JSON cannot hold."""
-    from mcplan.bench import records
+    from mcplan_bench import records
 
     out = dict(result)
     if "rows" in out:
@@ -171,8 +171,8 @@ def _plain(result: dict[str, Any]) -> dict[str, Any]:
 
 
 def _print(result: dict[str, Any]) -> None:
-    from mcplan.bench.tracking_text import sections
     from mcplan.cli.table import print_table
+    from mcplan_bench.tracking_text import sections
 
     for section in sections(result):
         print(section.title)

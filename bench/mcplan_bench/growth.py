@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mcplan.bench.speed import iterations
+from .speed import iterations
 
 if TYPE_CHECKING:
     from mcplan import Robot, Scene

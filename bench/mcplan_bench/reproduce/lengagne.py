@@ -8,10 +8,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from mcplan.bench import records
 from mcplan.errors import InvalidInput
 from mcplan.extras import require
 from mcplan.files.outputs import write_whole
+from mcplan_bench import records
 
 from . import lengagne_figures, lengagne_tables
 from .lengagne_runs import FILE, Run, collect

@@ -9,9 +9,9 @@ from typing import Annotated, Any
 
 import typer
 
-from mcplan.cli.bench_contacts import contacts
-from mcplan.cli.bench_deadlines import deadlines
-from mcplan.cli.bench_tracking import tracking
+from .contacts import contacts
+from .deadlines import deadlines
+from .tracking import tracking
 
 app = typer.Typer(
     invoke_without_command=True,
@@ -44,9 +44,9 @@ def speed(
     """
     if context.invoked_subcommand is not None:
         return 0
-    from mcplan.bench import growth, records
-    from mcplan.bench import speed as bench
     from mcplan.files.outputs import require_folder
+    from mcplan_bench import growth, records
+    from mcplan_bench import speed as bench
 
     require_folder("--out", out)
     rows = bench.compare(repeats=repeats, threads=threads, progress=_say)
@@ -102,9 +102,9 @@ def robustness(
 
     Example: mcplan bench robustness --model lipm
     """
-    from mcplan.bench import records
-    from mcplan.bench import robustness as bench
     from mcplan.files.outputs import require_folder
+    from mcplan_bench import records
+    from mcplan_bench import robustness as bench
 
     require_folder("--out", out)
     options: dict[str, Any] = {"robot": robot, "time_limit_s": time_limit, "model": model or ""}
@@ -200,8 +200,8 @@ def _print_growth(rows: list[dict[str, Any]], exponents: dict[str, float]) -> No
 
 
 def _print_part(part: str, rows: list[dict[str, Any]], outcomes: list[Any]) -> None:
-    from mcplan.bench.robustness import line
     from mcplan.cli.table import print_table
+    from mcplan_bench.robustness import line
 
     good = sum(outcome.good for outcome in outcomes)
     print(

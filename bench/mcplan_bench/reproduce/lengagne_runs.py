@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mcplan.bench import records
 from mcplan.errors import InvalidInput
+from mcplan_bench import records
 
 from .lengagne_paper import CASES
 from .lengagne_settings import Config

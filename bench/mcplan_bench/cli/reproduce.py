@@ -46,7 +46,7 @@ def reproduce(
     """
     from mcplan.errors import InvalidInput
     from mcplan.files.outputs import require_folder
-    from mcplan.reproduce import PAPERS
+    from mcplan_bench.reproduce import PAPERS
 
     if paper not in PAPERS:
         raise InvalidInput("PAPER", f"must be one of {', '.join(PAPERS)}", repr(paper))
@@ -62,15 +62,15 @@ def reproduce(
             raise InvalidInput(f"--{name.replace('_', '-')}", f"must be left out: it is for {owners}", paper)
     written: list[Path]
     if paper == "lengagne":
-        from mcplan.reproduce import lengagne
+        from mcplan_bench.reproduce import lengagne
 
         written = lengagne.reproduce(folder, quick, _say_aside, **options)
     elif paper == "wang":
-        from mcplan.reproduce import wang
+        from mcplan_bench.reproduce import wang
 
         written = wang.reproduce(folder, quick, _say, **options)
     else:
-        from mcplan.reproduce import tazaki
+        from mcplan_bench.reproduce import tazaki
 
         written = tazaki.reproduce(folder, quick, _say)
     print(f"Wrote {written[0]} and {len(written) - 1} files beside it")

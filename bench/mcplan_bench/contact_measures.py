@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mcplan.bench.contact_replay import Array, Contacts, Replay, ReplayErrors, contacts, replay, replay_errors
-from mcplan.bench.criteria import alternate, flights
 from mcplan.kinematics.rotations import polygon_normal, with_axis_z
+
+from .contact_replay import Array, Contacts, Replay, ReplayErrors, contacts, replay, replay_errors
+from .criteria import alternate, flights
 
 if TYPE_CHECKING:
     from mcplan import Plan

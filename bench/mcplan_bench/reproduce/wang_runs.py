@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mcplan.bench import records
 from mcplan.errors import InvalidInput
+from mcplan_bench import records
 
 if TYPE_CHECKING:
     from mcplan import Plan

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
-from mcplan.bench import SCENES
-from mcplan.bench.criteria import shortcoming
-from mcplan.bench.processes import each
+from . import SCENES
+from .criteria import shortcoming
+from .processes import each
 
 if TYPE_CHECKING:
     from mcplan import PlanResult

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from mcplan.bench.contacts import Row
-from mcplan.bench.contacts_cases import (
+from .contacts import Row
+from .contacts_cases import (
     HAND_PEAK,
     ITERATION_MS,
     MOMENTUM_NMS,
@@ -21,7 +21,7 @@ from mcplan.bench.contacts_cases import (
     SWING_STIFFNESS,
     TANGENT,
 )
-from mcplan.bench.sections import ABSENT, Section, between_marks, holds, number, section_lines
+from .sections import ABSENT, Section, between_marks, holds, number, section_lines
 
 #: Between these lines of a page the tables are put.
 BEGIN, END = "<!-- begin: mcplan bench contacts -->", "<!-- end: mcplan bench contacts -->"

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from mcplan.bench.contacts_cases import Case
+    from mcplan_bench.contacts_cases import Case
 
 
 def contacts(
@@ -51,10 +51,10 @@ def contacts(
 
     Example: mcplan bench contacts --markdown contacts.md
     """
-    from mcplan.bench import contacts as bench
-    from mcplan.bench import records
-    from mcplan.bench.contacts_cases import setting_cases
     from mcplan.files.outputs import require_folder
+    from mcplan_bench import contacts as bench
+    from mcplan_bench import records
+    from mcplan_bench.contacts_cases import setting_cases
 
     require_folder("--out", out)
     chosen = _chosen(case or [])
@@ -88,8 +88,8 @@ def contacts(
 
 
 def _chosen(names: list[str]) -> list[Case]:
-    from mcplan.bench.contacts_cases import CASES
     from mcplan.errors import InvalidInput
+    from mcplan_bench.contacts_cases import CASES
 
     for name in names:
         if not any(fnmatchcase(case.name, name) for case in CASES):
@@ -98,9 +98,9 @@ def _chosen(names: list[str]) -> list[Case]:
 
 
 def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Path]:
-    from mcplan.bench import records
-    from mcplan.bench.contacts_text import markdown as page
     from mcplan.files.outputs import write_whole
+    from mcplan_bench import records
+    from mcplan_bench.contacts_text import markdown as page
 
     plain = _plain(result)
     written = [records.write_json(out / "contacts.json", plain)]
@@ -120,7 +120,7 @@ def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Pat
 
 def _plain(result: dict[str, Any]) -> dict[str, Any]:
     """The result with its rows as plain data."""
-    from mcplan.bench import records
+    from mcplan_bench import records
 
     plain = dict(result)
     if "rows" in result:
@@ -131,8 +131,8 @@ def _plain(result: dict[str, Any]) -> dict[str, Any]:
 
 
 def _print(result: dict[str, Any]) -> None:
-    from mcplan.bench.contacts_text import sections
     from mcplan.cli.table import print_table
+    from mcplan_bench.contacts_text import sections
 
     for section in sections(result):
         print(section.title)

@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from mcplan._core import may_touch
-from mcplan.bench import SCENES
-from mcplan.bench.contact_measures import ContactMeasures, hands_only_phases, measure_contacts
-from mcplan.bench.contacts_cases import HAND_MEAN, ITERATION_MS, RAIL_COST, RAIL_GOOD, RATIO, Case, Demand
-from mcplan.bench.criteria import comparable_cost
-from mcplan.bench.processes import each
-from mcplan.bench.speed import iterations, searching_iterations
 from mcplan.errors import InvalidOptions, UnknownScene
+
+from . import SCENES
+from .contact_measures import ContactMeasures, hands_only_phases, measure_contacts
+from .contacts_cases import HAND_MEAN, ITERATION_MS, RAIL_COST, RAIL_GOOD, RATIO, Case, Demand
+from .criteria import comparable_cost
+from .processes import each
+from .speed import iterations, searching_iterations
 
 if TYPE_CHECKING:
     from mcplan import EndEffector, Plan, PlanResult, Robot, Scene

@@ -8,10 +8,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from mcplan.bench import records
 from mcplan.errors import InvalidInput
 from mcplan.extras import require
 from mcplan.files.outputs import write_whole
+from mcplan_bench import records
 
 from . import wang_figures, wang_size, wang_tables
 from .wang_runs import FILE, NOISE, ROBOT, TERRAINS, collect, configs

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mcplan._core import may_touch
-from mcplan.bench.contact_measures import ContactMeasures, measure_contacts
-from mcplan.bench.contact_replay import Array, contacts, replay
-from mcplan.bench.criteria import comparable_cost
-from mcplan.bench.sections import ABSENT, number, table_lines
 from mcplan.kinematics.rotations import polygon_normal
+from mcplan_bench.contact_measures import ContactMeasures, measure_contacts
+from mcplan_bench.contact_replay import Array, contacts, replay
+from mcplan_bench.criteria import comparable_cost
+from mcplan_bench.sections import ABSENT, number, table_lines
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
