@@ -24,7 +24,7 @@ from mcplan.files.toml import toml_text
 from standing import standing_plan
 from wrenches import standing_wrenches
 
-VERBS = ("bench", "check", "demo", "motions", "plan", "reproduce", "rhp", "robots", "scenes", "sip", "version")
+VERBS = ("bench", "check", "demo", "motions", "plan", "reproduce", "rhp", "robots", "scenes", "show", "sip", "version")
 
 
 def run(capsys, *words) -> tuple[int, str, str]:

@@ -6,7 +6,7 @@ from importlib import metadata
 
 import typer
 
-from mcplan.cli import check, demo, motions, plan, rhp, robots, scenes, sip, track, version
+from mcplan.cli import check, demo, motions, plan, rhp, robots, scenes, show, sip, track, version
 from mcplan.errors import MissingExtra
 
 app = typer.Typer(
@@ -23,6 +23,7 @@ verbs = (
     sip.sip,
     check.check,
     track.track,
+    show.show,
     scenes.scenes,
     robots.robots,
     motions.motions,

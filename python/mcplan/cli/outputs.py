@@ -73,3 +73,20 @@ def write_outputs(
 
         save_picture(plan, strip)
     return [path for path in (output, html, plots, strip) if path is not None]
+
+
+def require_rendering(what: str) -> None:
+    """Say before a run is loaded or simulated, not after, that it cannot be rendered.
+
+    Raises:
+        MissingExtra: Packages or a graphics context are missing; the message begins with what asks for them.
+    """
+    from mcplan.errors import MissingExtra
+    from mcplan.extras import require
+    from mcplan.view.pictures.rendering import NoGraphics, require_graphics
+
+    require(what, "sim", "mujoco", "pinocchio", "PIL")
+    try:
+        require_graphics()
+    except NoGraphics as found:
+        raise MissingExtra(f"{what}: {found}") from None

@@ -30,8 +30,7 @@ class RunOutputs:
                 other way round, or a name has the wrong ending.
             MissingExtra: What draws is not installed.
         """
-        from mcplan.cli.outputs import require_outputs
-        from mcplan.extras import require
+        from mcplan.cli.outputs import require_outputs, require_rendering
         from mcplan.files.outputs import ARCHIVE, require_target
 
         require_target("--save", self.save, ARCHIVE)
@@ -44,9 +43,7 @@ class RunOutputs:
             check_target(self.video)
         for option, path in (("--video", self.video), ("--strip", self.strip)):
             if path is not None:
-                require(f"mcplan track {option}", "sim", "PIL")
-        if self.video is not None or self.strip is not None:
-            _require_graphics("--video" if self.video is not None else "--strip")
+                require_rendering(f"mcplan track {option}")
 
     def write(self, result: TrackingResult | PlanarResult, progress: Progress) -> list[str]:
         """Write what was asked for, the quick ones first.
@@ -72,13 +69,3 @@ class RunOutputs:
             save_video(result, self.video, progress=progress.drawn)
         progress.end()
         return [str(path) for path in (self.save, self.plots, self.html, self.strip, self.video) if path is not None]
-
-
-def _require_graphics(option: str) -> None:
-    from mcplan.errors import MissingExtra
-    from mcplan.view.pictures.rendering import NoGraphics, require_graphics
-
-    try:
-        require_graphics()
-    except NoGraphics as found:
-        raise MissingExtra(f"mcplan track {option}: {found}") from None
