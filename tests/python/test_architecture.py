@@ -33,7 +33,7 @@ OPENMP_ROOMS = {"ddp", "rhp", "sip"}
 _GROUND = {"_core", "errors", "extras", "options"}
 _ENGINES = {"solve", "walking"}
 _LOOKED_AT = {"files", "kinematics", "tracking", "view", "planar"}
-_FRONT = _ENGINES | _LOOKED_AT | {"showing", "following"}
+_FRONT = _ENGINES | _LOOKED_AT | {"loading", "showing", "following"}
 PYTHON_ROOMS = {
     "__main__": {"cli"},
     "_core": set(),
@@ -42,6 +42,7 @@ PYTHON_ROOMS = {
     "extras": {"errors"},
     "options": {"errors"},
     "files": _GROUND,
+    "loading": _GROUND | {"files"},
     "solve": _GROUND | {"files"},
     "walking": _GROUND | {"files", "solve"},
     "kinematics": _GROUND | {"files"},

@@ -14,31 +14,41 @@ if TYPE_CHECKING:
     from mcplan_bench.contacts_cases import Case
 
 
+CaseOption = Annotated[
+    list[str] | None,
+    typer.Option("--case", metavar="NAME", help="Only this one; may have * in it, and be repeated."),
+]
+TableOption = Annotated[bool, typer.Option("--table/--no-table", help="Plan the cases.")]
+SettingsOption = Annotated[
+    bool | None,
+    typer.Option("--settings/--no-settings", help="gap_with_rail from 16 settings. Default: unless --case."),
+]
+SpeedOption = Annotated[
+    bool | None,
+    typer.Option("--speed/--no-speed", help="Time iterations of both models. Default: unless --case."),
+]
+RepeatsOption = Annotated[int, typer.Option("--repeats", metavar="N", min=1, help="Solves behind each time.")]
+JobsOption = Annotated[int, typer.Option("--jobs", metavar="N", min=1, help="Processes.")]
+ListCasesOption = Annotated[bool, typer.Option("--list", help="Print the names of the cases.")]
+MarkdownOption = Annotated[
+    Path | None,
+    typer.Option("--markdown", metavar="FILE", help="Write the tables as a page, or between the marks for them."),
+]
+OutOption = Annotated[Path, typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written.")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
+
+
 def contacts(
-    case: Annotated[
-        list[str] | None,
-        typer.Option("--case", metavar="NAME", help="Only this one; may have * in it, and be repeated."),
-    ] = None,
-    table: Annotated[bool, typer.Option("--table/--no-table", help="Plan the cases.")] = True,
-    settings: Annotated[
-        bool | None,
-        typer.Option("--settings/--no-settings", help="gap_with_rail from 16 settings. Default: unless --case."),
-    ] = None,
-    speed: Annotated[
-        bool | None,
-        typer.Option("--speed/--no-speed", help="Time iterations of both models. Default: unless --case."),
-    ] = None,
-    repeats: Annotated[int, typer.Option("--repeats", metavar="N", min=1, help="Solves behind each time.")] = 5,
-    jobs: Annotated[int, typer.Option("--jobs", metavar="N", min=1, help="Processes.")] = 1,
-    list_cases: Annotated[bool, typer.Option("--list", help="Print the names of the cases.")] = False,
-    markdown: Annotated[
-        Path | None,
-        typer.Option("--markdown", metavar="FILE", help="Write the tables as a page, or between the marks for them."),
-    ] = None,
-    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written.")] = Path(
-        "out/contacts"
-    ),
-    json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+    case: CaseOption = None,
+    table: TableOption = True,
+    settings: SettingsOption = None,
+    speed: SpeedOption = None,
+    repeats: RepeatsOption = 5,
+    jobs: JobsOption = 1,
+    list_cases: ListCasesOption = False,
+    markdown: MarkdownOption = None,
+    out: OutOption = Path("out/contacts"),
+    json: JsonOption = False,
 ) -> int:
     """Hold plans to what real contacts give, measured at 1 kHz from their forces alone.
 

@@ -7,34 +7,45 @@ from typing import Annotated, Any
 
 import typer
 
+PaperArgument = Annotated[str, typer.Argument(metavar="PAPER", help="lengagne, tazaki or wang")]
+OutOption = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Default: out/PAPER.")]
+QuickOption = Annotated[bool, typer.Option("--quick", help="One scene, little of each, to see that it works.")]
+CyclesOption = Annotated[
+    int | None, typer.Option("--cycles", metavar="N", help="wang: steps of each walk; default 14.")
+]
+LookaheadMaxOption = Annotated[
+    int | None,
+    typer.Option("--lookahead-max", metavar="N", help="wang: longest horizon, 2 to 10 steps; default 5."),
+]
+SeedsOption = Annotated[
+    int | None, typer.Option("--seeds", metavar="K", help="wang: noisy starts beside the scene's; default 0.")
+]
+TablesOption = Annotated[
+    str | None, typer.Option("--tables", metavar="LIST", help="lengagne: which of 1,2,3,4; default all.")
+]
+MotionsOption = Annotated[
+    str | None,
+    typer.Option("--motions", metavar="LIST", help="lengagne: of cartwheel,climbing,walking,climbing_steep."),
+]
+RepeatsOption = Annotated[
+    int | None, typer.Option("--repeats", metavar="N", help="lengagne: runs of quick rows; default 3.")
+]
+ResumeOption = Annotated[
+    bool, typer.Option("--resume", help="lengagne, wang: take the runs that DIR has, run the rest, draw all again.")
+]
+
 
 def reproduce(
-    paper: Annotated[str, typer.Argument(metavar="PAPER", help="lengagne, tazaki or wang")],
-    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Default: out/PAPER.")] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="One scene, little of each, to see that it works.")] = False,
-    cycles: Annotated[
-        int | None, typer.Option("--cycles", metavar="N", help="wang: steps of each walk; default 14.")
-    ] = None,
-    lookahead_max: Annotated[
-        int | None,
-        typer.Option("--lookahead-max", metavar="N", help="wang: longest horizon, 2 to 10 steps; default 5."),
-    ] = None,
-    seeds: Annotated[
-        int | None, typer.Option("--seeds", metavar="K", help="wang: noisy starts beside the scene's; default 0.")
-    ] = None,
-    tables: Annotated[
-        str | None, typer.Option("--tables", metavar="LIST", help="lengagne: which of 1,2,3,4; default all.")
-    ] = None,
-    motions: Annotated[
-        str | None,
-        typer.Option("--motions", metavar="LIST", help="lengagne: of cartwheel,climbing,walking,climbing_steep."),
-    ] = None,
-    repeats: Annotated[
-        int | None, typer.Option("--repeats", metavar="N", help="lengagne: runs of quick rows; default 3.")
-    ] = None,
-    resume: Annotated[
-        bool, typer.Option("--resume", help="lengagne, wang: take the runs that DIR has, run the rest, draw all again.")
-    ] = False,
+    paper: PaperArgument,
+    out: OutOption = None,
+    quick: QuickOption = False,
+    cycles: CyclesOption = None,
+    lookahead_max: LookaheadMaxOption = None,
+    seeds: SeedsOption = None,
+    tables: TablesOption = None,
+    motions: MotionsOption = None,
+    repeats: RepeatsOption = None,
+    resume: ResumeOption = False,
 ) -> int:
     """Reproduce a paper's tables and figures on this machine: a Markdown page with CSV and PNG beside it.
 

@@ -18,36 +18,49 @@ if TYPE_CHECKING:
 PACKAGES = ("mujoco", "pin", "proxsuite", "numpy")
 
 
+ShortOption = Annotated[
+    bool, typer.Option("--short", help="Three quick cases and no timing, for continuous integration.")
+]
+CaseOption = Annotated[
+    list[str] | None,
+    typer.Option("--case", metavar="NAME", help="Only this one; may have * in it, and be repeated."),
+]
+TableOption = Annotated[bool, typer.Option("--table/--no-table", help="Track the cases.")]
+RobustnessOption = Annotated[
+    bool, typer.Option("--robustness", help="Disturbed runs of flat, stairs and rubbles, too.")
+]
+SeedsOption = Annotated[int, typer.Option("--seeds", metavar="N", min=1, help="Disturbed runs of each plan.")]
+SpeedOption = Annotated[
+    bool | None, typer.Option("--speed/--no-speed", help="Time control steps on one core. Default: unless short.")
+]
+JobsOption = Annotated[
+    int, typer.Option("--jobs", metavar="N", min=1, help="Processes; times of runs are then longer.")
+]
+ListCasesOption = Annotated[bool, typer.Option("--list", help="Print the names of the cases.")]
+HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="DIR", help="Draw each run on a page.")]
+StripsOption = Annotated[Path | None, typer.Option("--strips", metavar="DIR", help="Snapshots of each run.")]
+MarkdownOption = Annotated[
+    Path | None,
+    typer.Option("--markdown", metavar="FILE", help="Write the tables as a page, or between the marks for them."),
+]
+OutOption = Annotated[Path, typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written.")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
+
+
 def tracking(
-    short: Annotated[
-        bool, typer.Option("--short", help="Three quick cases and no timing, for continuous integration.")
-    ] = False,
-    case: Annotated[
-        list[str] | None,
-        typer.Option("--case", metavar="NAME", help="Only this one; may have * in it, and be repeated."),
-    ] = None,
-    table: Annotated[bool, typer.Option("--table/--no-table", help="Track the cases.")] = True,
-    robustness: Annotated[
-        bool, typer.Option("--robustness", help="Disturbed runs of flat, stairs and rubbles, too.")
-    ] = False,
-    seeds: Annotated[int, typer.Option("--seeds", metavar="N", min=1, help="Disturbed runs of each plan.")] = 20,
-    speed: Annotated[
-        bool | None, typer.Option("--speed/--no-speed", help="Time control steps on one core. Default: unless short.")
-    ] = None,
-    jobs: Annotated[
-        int, typer.Option("--jobs", metavar="N", min=1, help="Processes; times of runs are then longer.")
-    ] = 1,
-    list_cases: Annotated[bool, typer.Option("--list", help="Print the names of the cases.")] = False,
-    html: Annotated[Path | None, typer.Option("--html", metavar="DIR", help="Draw each run on a page.")] = None,
-    strips: Annotated[Path | None, typer.Option("--strips", metavar="DIR", help="Snapshots of each run.")] = None,
-    markdown: Annotated[
-        Path | None,
-        typer.Option("--markdown", metavar="FILE", help="Write the tables as a page, or between the marks for them."),
-    ] = None,
-    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written.")] = Path(
-        "out/tracking"
-    ),
-    json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+    short: ShortOption = False,
+    case: CaseOption = None,
+    table: TableOption = True,
+    robustness: RobustnessOption = False,
+    seeds: SeedsOption = 20,
+    speed: SpeedOption = None,
+    jobs: JobsOption = 1,
+    list_cases: ListCasesOption = False,
+    html: HtmlOption = None,
+    strips: StripsOption = None,
+    markdown: MarkdownOption = None,
+    out: OutOption = Path("out/tracking"),
+    json: JsonOption = False,
 ) -> int:
     """Make plans with all three planners, track them in simulation, and hold the runs against what is demanded of them.
 

@@ -17,20 +17,27 @@ if TYPE_CHECKING:
 OTHERS = 3
 
 
+PlanArgument = Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")]
+CertifyOption = Annotated[
+    bool,
+    typer.Option("--certify", help="Of a whole-body plan: prove its constraints at every instant, too."),
+]
+SelfCollisionOption = Annotated[
+    bool, typer.Option("--self-collision", help="Of a whole-body plan: look at its robot's collision pairs, too.")
+]
+RobotOption = Annotated[
+    str | None,
+    typer.Option("--robot", metavar="ROBOT", help="Tell whether a robot with a URDF can follow the plan, too."),
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
+
+
 def check(
-    plan: Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")],
-    certify: Annotated[
-        bool,
-        typer.Option("--certify", help="Of a whole-body plan: prove its constraints at every instant, too."),
-    ] = False,
-    self_collision: Annotated[
-        bool, typer.Option("--self-collision", help="Of a whole-body plan: look at its robot's collision pairs, too.")
-    ] = False,
-    robot: Annotated[
-        str | None,
-        typer.Option("--robot", metavar="ROBOT", help="Tell whether a robot with a URDF can follow the plan, too."),
-    ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+    plan: PlanArgument,
+    certify: CertifyOption = False,
+    self_collision: SelfCollisionOption = False,
+    robot: RobotOption = None,
+    json: JsonOption = False,
 ) -> int:
     """Check a plan against the scene and robot, or the motion, it carries; exit code 1 if it violates a constraint.
 

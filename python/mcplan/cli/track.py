@@ -15,48 +15,58 @@ if TYPE_CHECKING:
     from mcplan.tracking.findings import Feasibility
 
 
+PlanArgument = Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")]
+RobotOption = Annotated[
+    str | None,
+    typer.Option("--robot", metavar="R", help="With a URDF. Default: the plan's own."),
+]
+AssistOption = Annotated[bool, typer.Option("--assist", help="Hold the base with a clipped wrench; it is reported.")]
+PushOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--push",
+        metavar="N,seconds,at,direction",
+        help="Push the base: newtons, how long [s], when [s], direction [deg] (0 forward, 90 left). May be repeated.",
+    ),
+]
+MassScaleOption = Annotated[float, typer.Option("--mass-scale", metavar="X", help="Factor on all masses and inertias.")]
+FrictionOption = Annotated[float, typer.Option("--friction", metavar="X", help="Factor on all friction.")]
+GroundShiftOption = Annotated[
+    float, typer.Option("--ground-shift", metavar="M", help="The ground lies higher than planned by so much.")
+]
+SeedOption = Annotated[
+    int, typer.Option("--seed", metavar="K", help="Draw mass, friction, ground and a push; 0: none.")
+]
+CheckOption = Annotated[
+    bool,
+    typer.Option("--check/--no-check", help="Say beforehand if the robot cannot follow the plan."),
+]
+VideoOption = Annotated[Path | None, typer.Option("--video", metavar="FILE", help="Film the run (.mp4, .webp, .gif).")]
+HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the run on a page.")]
+StripOption = Annotated[Path | None, typer.Option("--strip", metavar="FILE", help="Snapshots side by side (.png).")]
+PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")]
+SaveOption = Annotated[Path | None, typer.Option("--save", metavar="FILE", help="Save the run (.npz).")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
+QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Nothing on stderr on the way.")]
+
+
 def track(
-    plan: Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")],
-    robot: Annotated[
-        str | None,
-        typer.Option("--robot", metavar="R", help="With a URDF. Default: the plan's own."),
-    ] = None,
-    assist: Annotated[
-        bool, typer.Option("--assist", help="Hold the base with a clipped wrench; it is reported.")
-    ] = False,
-    push: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--push",
-            metavar="N,seconds,at,direction",
-            help="Push the base: newtons, how long [s], when [s], direction [deg] (0 forward, 90 left). May be repeated.",
-        ),
-    ] = None,
-    mass_scale: Annotated[
-        float, typer.Option("--mass-scale", metavar="X", help="Factor on all masses and inertias.")
-    ] = 1.0,
-    friction: Annotated[float, typer.Option("--friction", metavar="X", help="Factor on all friction.")] = 1.0,
-    ground_shift: Annotated[
-        float, typer.Option("--ground-shift", metavar="M", help="The ground lies higher than planned by so much.")
-    ] = 0.0,
-    seed: Annotated[
-        int, typer.Option("--seed", metavar="K", help="Draw mass, friction, ground and a push; 0: none.")
-    ] = 0,
-    check: Annotated[
-        bool,
-        typer.Option("--check/--no-check", help="Say beforehand if the robot cannot follow the plan."),
-    ] = True,
-    video: Annotated[
-        Path | None, typer.Option("--video", metavar="FILE", help="Film the run (.mp4, .webp, .gif).")
-    ] = None,
-    html: Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the run on a page.")] = None,
-    strip: Annotated[
-        Path | None, typer.Option("--strip", metavar="FILE", help="Snapshots side by side (.png).")
-    ] = None,
-    plots: Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")] = None,
-    save: Annotated[Path | None, typer.Option("--save", metavar="FILE", help="Save the run (.npz).")] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Nothing on stderr on the way.")] = False,
+    plan: PlanArgument,
+    robot: RobotOption = None,
+    assist: AssistOption = False,
+    push: PushOption = None,
+    mass_scale: MassScaleOption = 1.0,
+    friction: FrictionOption = 1.0,
+    ground_shift: GroundShiftOption = 0.0,
+    seed: SeedOption = 0,
+    check: CheckOption = True,
+    video: VideoOption = None,
+    html: HtmlOption = None,
+    strip: StripOption = None,
+    plots: PlotsOption = None,
+    save: SaveOption = None,
+    json: JsonOption = False,
+    quiet: QuietOption = False,
 ) -> int:
     """Let a simulated robot follow a plan with its torques alone, and measure how well it does.
 
