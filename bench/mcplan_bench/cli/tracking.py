@@ -77,35 +77,24 @@ def tracking(
     from mcplan.extras import require
 
     require("mcplan bench tracking", "sim", "mujoco", "pinocchio", "proxsuite")
-    from mcplan.files.outputs import require_folder
-    from mcplan_bench import records, tracking_robustness, tracking_speed
+    from mcplan_bench import records, tracking_speed
     from mcplan_bench import tracking as bench
-    from mcplan_bench.tracking_cases import DISTURBED
 
-    for option, folder in (("--out", out), ("--html", html), ("--strips", strips)):
-        require_folder(option, folder)
+    _require_folders({"--out": out, "--html": html, "--strips": strips})
     chosen = _chosen(short, case or [])
     if list_cases:
         print("\n".join(entry.name for entry in chosen))
         return 0
-    if html is not None:
-        require("pages of runs", "view", "meshcat")
-    if strips is not None:
-        require("rendering a run", "sim", "PIL")
+    _require_drawing(html, strips)
     result: dict[str, Any] = {"machine": records.machine(), "packages": records.versions(*PACKAGES), "jobs": jobs}
-    words = ["--short"] * short + [f"--case '{name}'" for name in case or []] + ["--no-table"] * (not table)
-    words += [f"--robustness --seeds {seeds}"] * robustness + [f"--jobs {jobs}"] * (jobs > 1)
-    result["command"] = " ".join(["mcplan bench tracking", *words])
+    result["command"] = _command(short, case or [], table, seeds if robustness else None, jobs)
     holds: list[bool | None] = []
     if table:
         result["rows"] = bench.table(chosen, jobs, _say, _keep(html, strips))
         holds += [row.holds for row in result["rows"]]
     if robustness:
-        disturbed = [entry for entry in DISTURBED if not case or any(fnmatchcase(entry.name, name) for name in case)]
-        outcomes = tracking_robustness.run(seeds, jobs, _say, disturbed)
-        summary = tracking_robustness.summary(outcomes, disturbed)
-        result["robustness"] = {"seeds": seeds, "summary": summary, "outcomes": outcomes}
-        holds += [row["holds"] for row in summary]
+        result["robustness"] = _robustness(seeds, jobs, case)
+        holds += [row["holds"] for row in result["robustness"]["summary"]]
     if speed if speed is not None else not (short or case):
         _say("speed: on one core")
         result["speed"] = tracking_speed.measure()
@@ -115,9 +104,40 @@ def tracking(
     if json:
         print(json_module.dumps(_plain(result)))
     else:
-        _print(result)
-        print(f"Wrote {', '.join(str(path) for path in written)}")
+        _print(result, written)
     return 0 if result["holds"] else 1
+
+
+def _robustness(seeds: int, jobs: int, case: list[str] | None) -> dict[str, Any]:
+    from mcplan_bench import tracking_robustness
+    from mcplan_bench.tracking_cases import DISTURBED
+
+    disturbed = [entry for entry in DISTURBED if not case or any(fnmatchcase(entry.name, name) for name in case)]
+    outcomes = tracking_robustness.run(seeds, jobs, _say, disturbed)
+    return {"seeds": seeds, "summary": tracking_robustness.summary(outcomes, disturbed), "outcomes": outcomes}
+
+
+def _require_folders(folders: dict[str, Path | None]) -> None:
+    from mcplan.files.outputs import require_folder
+
+    for option, folder in folders.items():
+        require_folder(option, folder)
+
+
+def _require_drawing(html: Path | None, strips: Path | None) -> None:
+    from mcplan.extras import require
+
+    if html is not None:
+        require("pages of runs", "view", "meshcat")
+    if strips is not None:
+        require("rendering a run", "sim", "PIL")
+
+
+def _command(short: bool, case: list[str], table: bool, seeds: int | None, jobs: int) -> str:
+    """What was typed, as far as it says what is measured."""
+    words = ["--short"] * short + [f"--case '{name}'" for name in case] + ["--no-table"] * (not table)
+    words += [f"--robustness --seeds {seeds}"] * (seeds is not None) + [f"--jobs {jobs}"] * (jobs > 1)
+    return " ".join(["mcplan bench tracking", *words])
 
 
 def _chosen(short: bool, names: list[str]) -> list[Case]:
@@ -183,7 +203,7 @@ def _plain(result: dict[str, Any]) -> dict[str, Any]:
     return plain
 
 
-def _print(result: dict[str, Any]) -> None:
+def _print(result: dict[str, Any], written: list[Path]) -> None:
     from mcplan.cli.table import print_table
     from mcplan_bench.tracking_text import sections
 
@@ -193,6 +213,7 @@ def _print(result: dict[str, Any]) -> None:
         for note in section.notes:
             print(f"  {note}")
         print()
+    print(f"Wrote {', '.join(str(path) for path in written)}")
 
 
 def _say(text: str) -> None:

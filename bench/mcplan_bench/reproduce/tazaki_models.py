@@ -91,13 +91,8 @@ def row_of(scene: str, pads: str, model: str, result: PlanResult) -> dict[str, A
     return row
 
 
-def section_lines(rows: Sequence[dict[str, Any]], figure: str = "") -> list[str]:
-    """The part of the page: table, what it shows, and the figure of that name.
-
-    Args:
-        rows: Of ``compare_models``.
-        figure: File beside the page; "": none.
-    """
+def _tables(rows: Sequence[dict[str, Any]]) -> list[str]:
+    """Friction and forces, then how the body moves."""
     head = ["scene", "model", "ended", "J", "friction needed, feet", "hands", "peak force, foot", "hand", "hands only"]
     cells = [
         [
@@ -126,6 +121,16 @@ def section_lines(rows: Sequence[dict[str, Any]], figure: str = "") -> list[str]
         ]
         for row in rows
     ]
+    return [*table_lines(head, cells), "", *table_lines(body_head, body_cells)]
+
+
+def section_lines(rows: Sequence[dict[str, Any]], figure: str = "") -> list[str]:
+    """The part of the page: table, what it shows, and the figure of that name.
+
+    Args:
+        rows: Of ``compare_models``.
+        figure: File beside the page; "": none.
+    """
     lines = [
         "## The paper's model of contacts against ours",
         "",
@@ -133,9 +138,7 @@ def section_lines(rows: Sequence[dict[str, Any]], figure: str = "") -> list[str]
         "default, where it acts inside the sole and may pass the CoM at a distance. Both by our search, with a friction of",
         f"{FRICTION:g} everywhere.",
         "",
-        *table_lines(head, cells),
-        "",
-        *table_lines(body_head, body_cells),
+        *_tables(rows),
         "",
         "J is the cost without the constants for flights and changes of contacts; the two models weigh different things, so",
         "that a difference by a few hundredths says little and one by thousands that limits are violated. All else is measured",

@@ -14,7 +14,7 @@ from mcplan.files.outputs import write_whole
 from mcplan_bench import records
 
 from . import wang_figures, wang_size, wang_tables
-from .wang_runs import FILE, NOISE, ROBOT, TERRAINS, collect, configs
+from .wang_runs import FILE, NOISE, ROBOT, TERRAINS, Run, collect, configs
 from .wang_runs import rows as cycle_rows
 
 
@@ -47,11 +47,7 @@ def reproduce(
         KeyboardInterrupt: Ctrl-C; what was done by then is written.
     """
     require("mcplan reproduce wang", "view", "matplotlib")
-    for name, value, low, high in (("cycles", cycles, 1, None), ("lookahead_max", lookahead_max, 2, 10)):
-        if value < low or (high is not None and value > high):
-            raise InvalidInput(name, f"must be {low} to {high}" if high else f"must be at least {low}", str(value))
-    if seeds < 0:
-        raise InvalidInput("seeds", "must be at least 0", str(seeds))
+    _require_numbers(cycles, lookahead_max, seeds)
     say = progress or (lambda text: None)
     out.mkdir(parents=True, exist_ok=True)
     if quick:
@@ -75,7 +71,32 @@ def reproduce(
         wang_figures.figure_5(out, figure_5),
     ]
     page = out / "wang.md"
-    lines = [
+    lines = _page(about, runs, sizes, table_2, table_3, figure_4, figure_5)
+    write_whole("\n".join(lines) + "\n", page)
+    if about["interrupted"]:
+        raise KeyboardInterrupt
+    return [page, *written]
+
+
+def _require_numbers(cycles: int, lookahead_max: int, seeds: int) -> None:
+    for name, value, low, high in (("cycles", cycles, 1, None), ("lookahead_max", lookahead_max, 2, 10)):
+        if value < low or (high is not None and value > high):
+            raise InvalidInput(name, f"must be {low} to {high}" if high else f"must be at least {low}", str(value))
+    if seeds < 0:
+        raise InvalidInput("seeds", "must be at least 0", str(seeds))
+
+
+def _page(
+    about: dict[str, Any],
+    runs: list[Run],
+    sizes: list[dict[str, Any]],
+    table_2: list[dict[str, Any]],
+    table_3: list[dict[str, Any]],
+    figure_4: list[dict[str, Any]],
+    figure_5: list[dict[str, Any]],
+) -> list[str]:
+    """Lines of wang.md."""
+    return [
         *_head(about, wang_tables.seeds(runs), table_3),
         "## Table I: variables and constraints of an instant",
         "",
@@ -105,10 +126,6 @@ def reproduce(
         "",
         *_margin(figure_5),
     ]
-    write_whole("\n".join(lines) + "\n", page)
-    if about["interrupted"]:
-        raise KeyboardInterrupt
-    return [page, *written]
 
 
 def _head(about: dict[str, Any], seeds: list[int], table_3: list[dict[str, Any]]) -> list[str]:

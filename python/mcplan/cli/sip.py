@@ -10,6 +10,7 @@ import typer
 
 if TYPE_CHECKING:
     from mcplan import sip as engine
+    from mcplan._core import PlanarMotion
 
 
 MotionArgument = Annotated[str, typer.Argument(metavar="MOTION", help="Built-in motion or TOML file.")]
@@ -110,10 +111,9 @@ def sip(
 
     Example: mcplan sip cartwheel --trackable -o wheel.npz && mcplan track wheel.npz
     """
-    from mcplan import sip as engine
-    from mcplan.cli.interrupts import CODE, as_far_as_it_came
+    from mcplan.cli.interrupts import CODE
     from mcplan.cli.outputs import require_outputs, write_outputs
-    from mcplan.cli.sip_text import Progress, summary_text
+    from mcplan.cli.sip_text import summary_text
     from mcplan.planar import planning
 
     require_outputs("sip", output, html, plots, strip)
@@ -121,33 +121,53 @@ def sip(
     given |= {"order": order, "neq": neq, "free_flyer": free_flyer, "free_durations": free_durations}
     given |= {"continuous": continuous, "dynamics": not kinematics, "self_collision": self_collision}
     given |= {"hessian": hessian, "max_iterations": max_iterations, "time_limit": time_limit}
+    model, options = _asked(motion, trackable, minimise, given)
+    if certify:
+        planning.require_provable(options)
+    silent = quiet or (json and not verbose)
+    result, interrupted = _search(model, options, warm_start, certify, None if silent else verbose)
+    written = write_outputs(result.plan, result.report, output, html, plots, strip, drawn=not interrupted)
+    print(json_module.dumps(summary(result), allow_nan=False) if json else summary_text(result, options, written))
+    if interrupted:
+        return CODE
+    proved = result.certificate is None or result.certificate.proved()
+    return 0 if str(result.report.status) == "solved" and proved else 1
+
+
+def _asked(
+    motion: Any, trackable: bool, minimise: str | None, given: dict[str, Any]
+) -> tuple[PlanarMotion, engine.Options]:
+    """The motion, and the planner's options; those of --trackable give way to what was typed."""
+    from mcplan.planar import planning
+
     model = planning.motion_of(motion)
     if trackable:
         from mcplan.planar.tracking import trackable as ask_for
 
         model, more = ask_for(model)
         given = more | {name: value for name, value in given.items() if value is not None}
-    options = planning.make_options(minimise, given)
-    if certify:
-        planning.require_provable(options)
-    progress = None if quiet or (json and not verbose) else Progress(model.name, verbose)
+    return model, planning.make_options(minimise, given)
+
+
+def _search(
+    motion: PlanarMotion, options: engine.Options, warm_start: Path | None, certify: bool, verbose: bool | None
+) -> tuple[engine.Result, bool]:
+    """What was found, and whether Ctrl-C ended the search; `verbose` None: nothing is told on the way."""
+    from mcplan import sip as engine
+    from mcplan.cli.interrupts import as_far_as_it_came
+    from mcplan.cli.sip_text import Progress
+    from mcplan.planar import planning
+
+    progress = None if verbose is None else Progress(motion.name, verbose)
     if progress is not None:
         options.logger = progress
-    planner = engine.Planner(model, options)
-    result, interrupted = as_far_as_it_came(
+    planner = engine.Planner(motion, options)
+    found = as_far_as_it_came(
         lambda: planning.solve(planner, warm_start, certify=certify, self_collision=options.self_collision)
     )
     if progress is not None:
         progress.end()
-    written = write_outputs(result.plan, result.report, output, html, plots, strip, drawn=not interrupted)
-    if json:
-        print(json_module.dumps(summary(result), allow_nan=False))
-    else:
-        print(summary_text(result, options, written))
-    if interrupted:
-        return CODE
-    proved = result.certificate is None or result.certificate.proved()
-    return 0 if str(result.report.status) == "solved" and proved else 1
+    return found
 
 
 def summary(result: engine.Result) -> dict[str, Any]:

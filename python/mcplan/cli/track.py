@@ -83,63 +83,63 @@ def track(
     Example: mcplan track plan.npz --push 40,0.2,3,90 --mass-scale 1.1 --json
     """
     from mcplan.cli.interrupts import CODE, as_far_as_it_came
-    from mcplan.cli.pushes import parse_pushes, require_within
+    from mcplan.cli.pushes import parse_pushes
     from mcplan.cli.terminal import printable
     from mcplan.cli.track_outputs import RunOutputs
     from mcplan.cli.track_text import Progress, summary
     from mcplan.extras import require
-    from mcplan.tracking.options import Options
+    from mcplan.following import track_any
 
     require("mcplan track", "sim", "mujoco", "pinocchio", "proxsuite")
     outputs = RunOutputs(video, html, strip, plots, save)
     outputs.require()
     pushes = parse_pushes(push or [])
-    values: dict[str, Any] = {"assist": assist, "pushes": pushes, "seed": seed}
-    values |= {"mass_scale": mass_scale, "friction_scale": friction, "ground_shift_m": ground_shift}
-
-    from mcplan._core import WholeBodyPlan
-    from mcplan.files.whole_body_plans import load_any_plan
-    from mcplan.following import track_any
-    from mcplan.tracking.choice import make_options
-
-    options: Options = make_options(values)
-    loaded = load_any_plan(plan)
-    require_within(pushes, loaded.duration() + options.hold_s)
-    body: Robot | None = None
-    if isinstance(loaded, WholeBodyPlan):
-        _require_planar(robot, assist, pushes, seed)
-    elif robot is not None:
-        from mcplan.files.robots import load_robot
-
-        body = load_robot(robot)
-    feasibility = _feasibility(loaded, body) if check else None
-    if feasibility is not None and not feasibility.ok() and not (quiet or json):
-        print(printable(f"warning: {feasibility.verdict}"), file=sys.stderr)
+    values: dict[str, Any] = {"assist": assist, "pushes": pushes, "seed": seed, "mass_scale": mass_scale}
+    values |= {"friction_scale": friction, "ground_shift_m": ground_shift}
+    loaded, body = _loaded(plan, robot, values)
+    feasibility = _feasibility(loaded, body, quiet or json) if check else None
     progress = Progress(quiet or json)
     result, interrupted = as_far_as_it_came(lambda: track_any(loaded, body, values, progress.simulated))
     progress.end()
-    if json:
-        print(json_module.dumps(summary(result, plan, feasibility), allow_nan=False), flush=True)
-    else:
-        print(result, flush=True)
-    if interrupted:
-        outputs = RunOutputs(save=save)
-    written = outputs.write(result, progress)
+    print(json_module.dumps(summary(result, plan, feasibility), allow_nan=False) if json else result, flush=True)
+    written = (RunOutputs(save=save) if interrupted else outputs).write(result, progress)
     if written and not json:
         print(printable(f"Saved {', '.join(written)}"))
-    if interrupted:
-        return CODE
-    return 0 if result.followed else 1
+    return CODE if interrupted else 0 if result.followed else 1
 
 
-def _feasibility(plan: Plan | WholeBodyPlan, robot: Robot | None) -> Feasibility | Suitability:
-    """What is known of a plan and a robot before simulating them."""
+def _loaded(plan: Path, robot: str | None, values: dict[str, Any]) -> tuple[Plan | WholeBodyPlan, Robot | None]:
+    """The plan and the robot, if one is named.
+
+    Raises:
+        InvalidInput, InvalidOptions: An option out of range, or one that does not go with the plan.
+    """
+    from mcplan._core import WholeBodyPlan
+    from mcplan.cli.pushes import require_within
+    from mcplan.files.robots import load_robot
+    from mcplan.files.whole_body_plans import load_any_plan
+    from mcplan.tracking.choice import make_options
+
+    options = make_options(values)
+    loaded = load_any_plan(plan)
+    require_within(values["pushes"], loaded.duration() + options.hold_s)
+    if isinstance(loaded, WholeBodyPlan):
+        _require_planar(robot, values["assist"], values["pushes"], values["seed"])
+    return loaded, None if robot is None else load_robot(robot)
+
+
+def _feasibility(plan: Plan | WholeBodyPlan, robot: Robot | None, silent: bool) -> Feasibility | Suitability:
+    """What is known of a plan and a robot before simulating them; a warning where the one cannot follow the other."""
     from mcplan._core import Plan
+    from mcplan.cli.terminal import printable
     from mcplan.planar.tracking.suitability import suitability
     from mcplan.tracking.feasibility import assess
     from mcplan.tracking.runner import robot_for
 
-    return assess(plan, robot_for(plan, robot)) if isinstance(plan, Plan) else suitability(plan)
+    found = assess(plan, robot_for(plan, robot)) if isinstance(plan, Plan) else suitability(plan)
+    if not (found.ok() or silent):
+        print(printable(f"warning: {found.verdict}"), file=sys.stderr)
+    return found
 
 
 def _require_planar(robot: str | None, assist: bool, pushes: list[Any], seed: int) -> None:

@@ -91,15 +91,7 @@ def build(
     feedback = feedback or Feedback()
     feedback.validate()
     gains = feedback.gains(motion.robot)
-    spec = mujoco.MjSpec()
-    spec.modelname = motion.robot.name or "planar"
-    spec.option.gravity = [0.0, 0.0, -motion.robot.gravity]
-    spec.option.timestep = step_s
-    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
-    spec.option.impratio = contacts.friction_impedance
-    spec.option.tolerance = 1e-12
-    spec.option.iterations = 200
+    spec = _empty(motion.robot, step_s, contacts)
     _add_ground(spec, motion, contacts, friction_scale, ground_shift_m)
     _add_bodies(spec, motion.robot, gains, mass_scale)
     model = spec.compile()
@@ -128,6 +120,22 @@ def set_state(model: PlanarModel, data: mujoco.MjData, configuration: PlanarConf
     data.qpos[model.dofs] = np.r_[configuration.base, configuration.q]
     data.qvel[model.dofs] = np.r_[configuration.base_velocity, configuration.velocity]
     data.qacc[model.dofs] = np.r_[configuration.base_acceleration, configuration.acceleration]
+
+
+def _empty(robot: PlanarRobot, step_s: float, contacts: ContactSettings) -> Any:
+    """A model's specification with its settings, and nothing in it."""
+    import mujoco
+
+    spec = mujoco.MjSpec()
+    spec.modelname = robot.name or "planar"
+    spec.option.gravity = [0.0, 0.0, -robot.gravity]
+    spec.option.timestep = step_s
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.option.impratio = contacts.friction_impedance
+    spec.option.tolerance = 1e-12
+    spec.option.iterations = 200
+    return spec
 
 
 def _add_ground(

@@ -25,12 +25,13 @@ from .drawing import (
     into_space,
     side_direction,
 )
-from .figure import end_colours, shapes_of, size_of
-from .ground import slabs_of
-from .samples import frame_times, sample_whole_body, turned
+from .figure import Shape, end_colours, shapes_of, size_of
+from .ground import Slab, slabs_of
+from .samples import PlanarSamples, frame_times, sample_whole_body, turned
 
 if TYPE_CHECKING:
-    from mcplan._core import Report, WholeBodyPlan
+    from mcplan._core import PlanarRobot, Report, WholeBodyPlan
+    from mcplan.view.pages.annotations import Label
 
 Array = NDArray[np.float64]
 
@@ -59,14 +60,7 @@ def show_whole_body(plan: WholeBodyPlan, report: Report | None = None) -> Page:
     shapes = shapes_of(robot)
     duration = float(plan.duration())
     samples = sample_whole_body(plan, frame_times(duration, FRAME_RATE))
-    reached = np.vstack(
-        [
-            samples.positions_W[:, s.body] + turned(samples.angles[:, s.body], disc[:2]) + edge
-            for s in shapes
-            for disc in s.discs
-            for edge in disc[2] * np.array([[-1.0, -1.0], [1.0, 1.0]])
-        ]
-    )
+    reached = reached_by(samples, shapes)
     slabs = slabs_of(motion, reached, 0.12 * size, 0.09 * size)
     intervals = contact_intervals(plan)
     draw_ground(stage, slabs, size)
@@ -81,25 +75,56 @@ def show_whole_body(plan: WholeBodyPlan, report: Report | None = None) -> Page:
         lines.append(f"{report.status}: {report.iterations} iterations, {report.time_s:.2f} s of planning")
         lines.append(f"cost {report.cost:.4g}")
     legend = [entry("com paths/com", "ball", COM, "centre of mass")]
-    for end, colour in zip(robot.end_effectors, colours, strict=True):
-        legend.append(entry(f"paths/{node(end.name)}", "line", colour, end.name.replace("_", " ")))
-    per_metre = weight / (WEIGHT_ARROW * size)
-    legend.append(entry("forces", "arrow", "", force_text("contact forces", per_metre)))
+    legend += common_legend(robot, colours, weight / (WEIGHT_ARROW * size))
+    view = seen_on(stage, slabs, reached, size)
+    overlay = caption(motion.name, lines, legend) + timeline(motion, robot, intervals, colours, duration)
+    return planar_page(f"{motion.name}, {robot.name}", stage, overlay, view, plan, duration)
+
+
+def reached_by(samples: PlanarSamples, shapes: list[Shape]) -> Array:
+    """(n, 2) [m] corners of boxes around all that a robot's limbs cover at the samples."""
+    return np.vstack(
+        [
+            samples.positions_W[:, s.body] + turned(samples.angles[:, s.body], disc[:2]) + edge
+            for s in shapes
+            for disc in s.discs
+            for edge in disc[2] * np.array([[-1.0, -1.0], [1.0, 1.0]])
+        ]
+    )
+
+
+def common_legend(robot: PlanarRobot, colours: list[str], newton_per_metre: float) -> list[str]:
+    """Entries of paths, forces, cones, robot and space."""
+    legend = [
+        entry(f"paths/{node(end.name)}", "line", colour, end.name.replace("_", " "))
+        for end, colour in zip(robot.end_effectors, colours, strict=True)
+    ]
+    legend.append(entry("forces", "arrow", "", force_text("contact forces", newton_per_metre)))
     legend.append(entry("cones", "", "#c3cad2", "friction cones"))
     legend.append(entry("robot", "", "#98a2ae", "robot"))
-    legend += planar_legend()
+    return legend + planar_legend()
+
+
+def seen_on(stage: Stage, slabs: list[Slab], reached: Array, size: float) -> tuple[Array, list[Label]]:
+    """Put axes and a scale bar onto a page; the points (n, 3) [m] to be seen with them, and all labels."""
     ground = [ground_solid(slab, size).vertices for slab in slabs if len(slab.outline_W)]
-    seen = np.vstack([*ground, into_space(corners_of(reached))])
-    points, labels = annotated_planar(stage, slabs, seen, size)
+    return annotated_planar(stage, slabs, np.vstack([*ground, into_space(corners_of(reached))]), size)
+
+
+def planar_page(
+    title: str, stage: Stage, overlay: str, view: tuple[Array, list[Label]], plan: WholeBodyPlan, duration_s: float
+) -> Page:
+    """The page of a stage that is looked at from the side."""
+    points, labels = view
     return Page(
-        title=f"{motion.name}, {robot.name}",
+        title=title,
         payload=stage.payload(),
-        overlay=caption(motion.name, lines, legend) + timeline(motion, robot, intervals, colours, duration),
+        overlay=overlay,
         points_W=points,
         direction_W=side_direction(),
         sun_W=np.array([0.5, -0.8, 1.5]),
-        duration_s=duration,
-        knots_s=[t for t in plan.knot_times() if t < duration] + [duration],
+        duration_s=duration_s,
+        knots_s=[t for t in plan.knot_times() if t < duration_s] + [duration_s],
         labels=labels,
         axes=PLANAR_AXES,
         rate_hz=FRAME_RATE,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mcplan.kinematics.samples import Interval
 from mcplan.view.colours import COM, PLANNED, TEXT
-from mcplan.view.pages.overlay import caption, entry, force_text, timeline
+from mcplan.view.pages.overlay import caption, entry, timeline
 from mcplan.view.pages.page import Page
 from mcplan.view.plan_drawing import WEIGHT_ARROW
 from mcplan.view.run_samples import joined_stretches
@@ -18,7 +18,6 @@ from mcplan.view.runs import ground_shift_of
 from mcplan.view.shapes import tube
 from mcplan.view.stage import Stage, node
 
-from .annotations import PLANAR_AXES, annotated_planar, corners_of, planar_legend
 from .drawing import (
     contact_intervals,
     draw_body,
@@ -26,24 +25,22 @@ from .drawing import (
     draw_forces,
     draw_ground,
     draw_paths,
-    ground_solid,
     into_space,
     lanes_of,
-    side_direction,
 )
 from .figure import end_colours, shapes_of, size_of
 from .ground import slabs_of
+from .pages import FRAME_RATE, common_legend, planar_page, reached_by, seen_on
 from .plots_run import force_error, joint_error_deg, point_drift
 from .run_samples import sample_planar_run
 from .runs import PlanarRun, planar_recording_of
-from .samples import frame_times, sample_whole_body, turned
+from .samples import PlanarSamples, frame_times, sample_whole_body
 
 if TYPE_CHECKING:
+    from mcplan._core import PlanarRobot
     from mcplan.planar.tracking import PlanarRecording
 
 Array = NDArray[np.float64]
-
-FRAME_RATE = 60.0
 
 
 def show_planar_run(run: PlanarRun) -> Page:
@@ -69,25 +66,14 @@ def show_planar_run(run: PlanarRun) -> Page:
     samples = sample_planar_run(recording, FRAME_RATE)
     planned = sample_whole_body(plan, frame_times(float(plan.duration()), FRAME_RATE))
     duration = float(samples.times_s[-1])
-    reached = np.vstack(
-        [
-            run.positions_W[:, s.body] + turned(run.angles[:, s.body], disc[:2]) + edge
-            for run in (samples, planned)
-            for s in shapes
-            for disc in s.discs
-            for edge in disc[2] * np.array([[-1.0, -1.0], [1.0, 1.0]])
-        ]
-    )
+    reached = np.vstack([reached_by(samples, shapes), reached_by(planned, shapes)])
     slabs = slabs_of(motion, reached, 0.12 * size, 0.09 * size)
     slabs = [replace(slab, outline_W=slab.outline_W + [0.0, shift_m]) for slab in slabs]
     expected = contact_intervals(plan)
     draw_ground(stage, slabs, size)
     draw_body(stage, samples, robot, shapes, size)
     draw_paths(stage, samples, robot, colours, size)
-    stage.mesh("planned/com", tube(into_space(planned.com_W), 0.02 * size), PLANNED, 0.4, glow=0.2)
-    for end, lane in enumerate(lanes_of(robot, size)):
-        path = tube(into_space(planned.soles_W[:, end], lane), 0.011 * size, sides=6)
-        stage.mesh(f"planned/paths/{node(robot.end_effectors[end].name)}", path, PLANNED, 0.35, glow=0.2)
+    _draw_planned(stage, planned, robot, size)
     draw_cones(stage, plan, expected, colours, size)
     draw_forces(stage, samples, robot, weight, size)
 
@@ -95,36 +81,27 @@ def show_planar_run(run: PlanarRun) -> Page:
         entry("com paths/com", "ball", COM, "centre of mass"),
         entry("planned", "line", PLANNED, "as planned: paths"),
     ]
-    for end, colour in zip(robot.end_effectors, colours, strict=True):
-        legend.append(entry(f"paths/{node(end.name)}", "line", colour, end.name.replace("_", " ")))
-    per_metre = weight / (WEIGHT_ARROW * size)
-    legend.append(entry("forces", "arrow", "", force_text("contact forces", per_metre)))
-    legend.append(entry("cones", "", "#c3cad2", "friction cones"))
-    legend.append(entry("robot", "", "#98a2ae", "robot"))
-    legend += planar_legend()
-    ground = [ground_solid(slab, size).vertices for slab in slabs if len(slab.outline_W)]
-    seen = np.vstack([*ground, into_space(corners_of(reached))])
-    points, labels = annotated_planar(stage, slabs, seen, size)
-    marks = []
-    if recording.left_plan_at_s <= duration:
-        marks.append(
-            (float(recording.left_plan_at_s), duration, TEXT, f"off its plan at {recording.left_plan_at_s:.2f} s")
-        )
+    legend += common_legend(robot, colours, weight / (WEIGHT_ARROW * size))
+    view = seen_on(stage, slabs, reached, size)
     within = [replace(i, end_s=min(i.end_s, duration)) for i in expected if i.start_s < duration]
-    bars = timeline(motion, robot, _touching(recording), colours, duration, planned=within, marks=marks)
-    return Page(
-        title=f"{motion.name}, {robot.name}, simulated",
-        payload=stage.payload(),
-        overlay=caption(f"{motion.name}, simulated", _lines(recording), legend) + bars,
-        points_W=points,
-        direction_W=side_direction(),
-        sun_W=np.array([0.5, -0.8, 1.5]),
-        duration_s=duration,
-        knots_s=[t for t in plan.knot_times() if t < duration] + [duration],
-        labels=labels,
-        axes=PLANAR_AXES,
-        rate_hz=FRAME_RATE,
+    bars = timeline(
+        motion, robot, _touching(recording), colours, duration, planned=within, marks=_marks(recording, duration)
     )
+    overlay = caption(f"{motion.name}, simulated", _lines(recording), legend) + bars
+    return planar_page(f"{motion.name}, {robot.name}, simulated", stage, overlay, view, plan, duration)
+
+
+def _draw_planned(stage: Stage, planned: PlanarSamples, robot: PlanarRobot, size: float) -> None:
+    stage.mesh("planned/com", tube(into_space(planned.com_W), 0.02 * size), PLANNED, 0.4, glow=0.2)
+    for end, lane in enumerate(lanes_of(robot, size)):
+        path = tube(into_space(planned.soles_W[:, end], lane), 0.011 * size, sides=6)
+        stage.mesh(f"planned/paths/{node(robot.end_effectors[end].name)}", path, PLANNED, 0.35, glow=0.2)
+
+
+def _marks(recording: PlanarRecording, duration_s: float) -> list[tuple[float, float, str, str]]:
+    """For the timeline: where the robot left its plan."""
+    left = float(recording.left_plan_at_s)
+    return [(left, duration_s, TEXT, f"off its plan at {left:.2f} s")] if left <= duration_s else []
 
 
 def _lines(recording: PlanarRecording) -> list[str]:

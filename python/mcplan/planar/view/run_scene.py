@@ -15,7 +15,7 @@ from mcplan.view.scene_drawing import SurfaceDrawing, raised
 
 from .drawing import ground_solid, into_space, lanes_of, limb_solid, turns
 from .figure import shapes_of, size_of
-from .ground import slabs_of
+from .ground import Slab, slabs_of
 from .run_samples import sample_planar_run
 from .runs import PlanarRun, planar_recording_of
 from .samples import turned
@@ -52,22 +52,6 @@ def planar_scene_of(run: PlanarRun, rate_hz: float) -> RunScene:
     ]
     reached = np.stack(middles, axis=1)
     slabs = slabs_of(motion, reached.reshape(-1, 2), 0.5 * size, 0.09 * size)
-    drawings = []
-    for slab in slabs:
-        if len(slab.outline_W):
-            solid = ground_solid(slab, size)
-            # The side towards the camera carries the outline that is drawn.
-            drawings.append(
-                SurfaceDrawing(
-                    slab.name,
-                    solid.vertices[: len(slab.outline_W)],
-                    np.array([0.0, -1.0, 0.0]),
-                    solid,
-                    WALL if slab.is_wall else GROUND,
-                    1.0,
-                    np.zeros((0, 2, 3)),
-                )
-            )
     lanes = lanes_of(robot, size)
     arrows = [
         [
@@ -84,9 +68,17 @@ def planar_scene_of(run: PlanarRun, rate_hz: float) -> RunScene:
         reach_W=into_space(reached),
         figure=Figure("planar", parts),
         arrows=arrows,
-        drawings=[raised(drawing, shift_m) for drawing in drawings],
+        drawings=[raised(_drawing(slab, size), shift_m) for slab in slabs if len(slab.outline_W)],
         footholds=[],
         forward=np.array([1.0, 0.0]),
         sun_W=np.array([0.5, -0.8, 1.5]),
         height_m=size,
     )
+
+
+def _drawing(slab: Slab, size: float) -> SurfaceDrawing:
+    """The side towards the camera carries the outline that is drawn."""
+    solid = ground_solid(slab, size)
+    outline = solid.vertices[: len(slab.outline_W)]
+    colour = WALL if slab.is_wall else GROUND
+    return SurfaceDrawing(slab.name, outline, np.array([0.0, -1.0, 0.0]), solid, colour, 1.0, np.zeros((0, 2, 3)))

@@ -75,19 +75,9 @@ def show_run(run: Run) -> Page:
     legend[1:1] = [entry("planned", "line", PLANNED, "as planned: paths, footholds")]
     legend += _draw_helpers(stage, frames, robot)
     duration = float(samples.times_s[-1])
-    bars = timeline(
-        scene,
-        robot,
-        samples.intervals,
-        colours,
-        duration,
-        planned=[
-            replace(i, end_s=min(i.end_s, duration))
-            for i in contact_intervals(plan, scene, robot)
-            if i.start_s < duration
-        ],
-        marks=_events(recording),
-    )
+    expected = contact_intervals(plan, scene, robot)
+    within = [replace(i, end_s=min(i.end_s, duration)) for i in expected if i.start_s < duration]
+    bars = timeline(scene, robot, samples.intervals, colours, duration, planned=within, marks=_events(recording))
     direction = camera_direction(extent)
     points, labels = annotated(stage, drawings, view_points(drawings, samples, robot), direction)
     return Page(

@@ -68,8 +68,7 @@ def picture(
     _paint_surfaces(canvas, drawings)
     _paint_plan(canvas, samples, robot, colours)
     chosen = pose_indices(samples, robot, poses)
-    figure = stick_robot(samples, robot, colours)
-    weight = float(robot.mass) * float(scene.gravity)
+    figure, weight = stick_robot(samples, robot, colours), float(robot.mass) * float(scene.gravity)
     for rank, n in enumerate(chosen):
         # The past is pale; the last pose stands in full colour.
         fade = 0.62 * (1.0 - rank / max(len(chosen) - 1, 1)) ** 0.8
@@ -91,7 +90,6 @@ def picture(
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
     _legend(sheet, scene, robot, colours)
-    path = Path(path)
     return save_figure(sheet, path)
 
 
