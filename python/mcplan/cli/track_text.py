@@ -96,7 +96,7 @@ def summary(
 
 
 def _planar(result: PlanarResult) -> dict[str, Any]:
-    from mcplan.planar.tracking.report import nearest_to_torque_limit
+    from mcplan.tracking.report import nearest_to_torque_limit
 
     plan, measures = result.recording.plan, result.measures
     return {

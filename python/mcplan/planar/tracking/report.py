@@ -7,15 +7,15 @@ from typing import Protocol
 import numpy as np
 
 from mcplan.tracking.options import Options
-from mcplan.tracking.report import disturbances_text, length
+from mcplan.tracking.report import as_text, disturbances_text, length, nearest_to_torque_limit
 
 from .measures import PlanarMeasures
 from .recording import PlanarRecording
 from .suitability import suitability
 
 
-class PlanarResult(Protocol):
-    """What a report reads of mcplan.planar.tracking.PlanarResult."""
+class Reported(Protocol):
+    """What a report reads of a PlanarResult, which lies above: it prints itself by this."""
 
     @property
     def recording(self) -> PlanarRecording: ...
@@ -29,20 +29,18 @@ class PlanarResult(Protocol):
     def followed(self) -> bool: ...
 
 
-def report(result: PlanarResult) -> str:
+def report(result: Reported) -> str:
     """The headline, and below it a line for each measure."""
-    rows = rows_of(result)
-    width = max(len(name) for name, _ in rows)
-    return "\n".join([headline(result), *(f"  {name:{width}}  {value}" for name, value in rows)])
+    return as_text(headline(result), rows_of(result))
 
 
-def headline(result: PlanarResult) -> str:
+def headline(result: Reported) -> str:
     """Motion, robot, and how the run ended."""
     motion, lasts = result.recording.plan.motion, result.recording.plan.duration()
     return f"{motion.name}  {motion.robot.name}  {ending(result)} (plan of {lasts:.2f} s, unassisted)"
 
 
-def ending(result: PlanarResult) -> str:
+def ending(result: Reported) -> str:
     """How the run ended."""
     measures = result.measures
     if not measures.completed:
@@ -54,7 +52,7 @@ def ending(result: PlanarResult) -> str:
     return f"followed to the end: {measures.completed_s:.2f} s"
 
 
-def rows_of(result: PlanarResult) -> list[tuple[str, str]]:
+def rows_of(result: Reported) -> list[tuple[str, str]]:
     """What was measured, and its value."""
     m = result.measures
     joint, time_s = nearest_to_torque_limit(result.recording)
@@ -76,10 +74,3 @@ def rows_of(result: PlanarResult) -> list[tuple[str, str]]:
         rows.append(("to be followed", planned.verdict))
     warned = f"{m.simulator_warnings or 'no'} warning{'' if m.simulator_warnings == 1 else 's'}"
     return [*rows, ("simulator", f"{warned}, {m.realtime_factor:.2f} times real time")]
-
-
-def nearest_to_torque_limit(recording: PlanarRecording) -> tuple[str, float]:
-    """The joint whose torque came nearest to its limit, and when [s]."""
-    use = np.abs(recording.torques) / recording.torque_limits
-    n, joint = np.unravel_index(int(np.argmax(use)), use.shape)
-    return recording.joints[joint], float(recording.times_s[n])
