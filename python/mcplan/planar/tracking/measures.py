@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from mcplan.tracking.measures import rms
+
 from .recording import Array, PlanarRecording
 
 
@@ -80,8 +82,8 @@ def measure(recording: PlanarRecording, simulator_warnings: int, wall_clock_s: f
         force_rms_robot=_relative(ends.sum(axis=1) - ends_plan.sum(axis=1), ends_plan.sum(axis=1)),
         drift_m=_largest(np.linalg.norm(off, axis=-1)),
         slip_m=_slip(r),
-        joint_rms_rad=_rms(r.q[n] - r.q_plan[n]),
-        base_rms_m=_rms(np.linalg.norm(r.base[n, :2] - r.base_plan[n, :2], axis=1)),
+        joint_rms_rad=rms(r.q[n] - r.q_plan[n]),
+        base_rms_m=rms(np.linalg.norm(r.base[n, :2] - r.base_plan[n, :2], axis=1)),
         torque_feedback_share=_relative(r.feedback[n], r.feedforward[n]),
         torque_use=float((np.abs(r.torques) / r.torque_limits).max()),
         early_contact_N_s=float((air * step[:, None]).sum()),
@@ -90,14 +92,10 @@ def measure(recording: PlanarRecording, simulator_warnings: int, wall_clock_s: f
     )
 
 
-def _rms(values: Array) -> float:
-    return float(np.sqrt(np.mean(values**2)))
-
-
 def _relative(error: Array, reference: Array) -> float:
     """Rms of an error over the rms of what it is an error of; infinite: that is zero throughout."""
-    size = _rms(reference)
-    return _rms(error) / size if size > 0 else float("inf")
+    size = rms(reference)
+    return rms(error) / size if size > 0 else float("inf")
 
 
 def _largest(values: Array) -> float:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.tracking.measures import rms
 from mcplan.view.colours import BODY, PLANNED, TEXT, mix
 from mcplan.view.sheets import QUIET, label, legend, save_figures, sheet
 
@@ -61,7 +62,7 @@ def plot_planar_run_forces(recording: PlanarRecording) -> Figure:
     for row, end in enumerate(used):
         error = np.linalg.norm(simulated[:, end] - planned[:, end], axis=1)[recording.within_plan]
         scale = np.linalg.norm(planned[:, end], axis=1)[recording.within_plan]
-        off, share = _rms(error), _rms(error) / max(_rms(scale), 1e-9)
+        off, share = rms(error), rms(error) / max(rms(scale), 1e-9)
         for column, (direction, name) in enumerate(((normals, "normal"), (tangents, "tangential"))):
             chart = axes[row, column]
             shade_phases(chart, recording.plan)
@@ -108,7 +109,7 @@ def plot_planar_run_joints(recording: PlanarRecording) -> Figure:
     worst = int(np.argmax(np.abs(errors[inside]).max(axis=0)))
     largest = float(np.abs(errors[inside, worst]).max())
     worst_name = recording.joints[worst].replace("_", " ")
-    title = f"joints off the plan: {_rms(errors[inside]):.2f} degrees rms, {largest:.2f} at most ({worst_name})"
+    title = f"joints off the plan: {rms(errors[inside]):.2f} degrees rms, {largest:.2f} at most ({worst_name})"
     label(joints, y="[degree]", title=title)
     label(joints, x="time [s]")
     joints.set_xlim(0.0, recording.times_s[-1])
@@ -189,8 +190,8 @@ def force_error(recording: PlanarRecording) -> tuple[float, float]:
     """Root mean square [N] of the error of the end-effectors' forces, and its share of the planned forces'."""
     simulated, planned = _sums(recording)
     inside = recording.within_plan
-    off = _rms(np.linalg.norm(simulated - planned, axis=2)[inside])
-    return off, off / max(_rms(np.linalg.norm(planned, axis=2)[inside]), 1e-9)
+    off = rms(np.linalg.norm(simulated - planned, axis=2)[inside])
+    return off, off / max(rms(np.linalg.norm(planned, axis=2)[inside]), 1e-9)
 
 
 def joint_error_deg(recording: PlanarRecording) -> Array:
@@ -226,7 +227,3 @@ def _finish(figure: Figure, axes: Any, recording: PlanarRecording) -> None:
     axes[0, 0].set_xlim(0.0, recording.times_s[-1])
     handles = axes[0, 0].get_legend_handles_labels()[0] + [Patch(color=PHASE, label="every second phase")]
     legend(figure, handles=handles, loc="outside lower center", ncol=len(handles))
-
-
-def _rms(values: Array) -> float:
-    return float(np.sqrt(np.mean(np.square(values)))) if np.size(values) else 0.0

@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan.tracking import Recording
+from mcplan.tracking.measures import rms
 from mcplan.view.colours import COM, PLANNED, PUSH, TEXT, end_effector_colours, plain
 from mcplan.view.runs import Run, recording_of
 from mcplan.view.sheets import QUIET, label, legend, save_figures, sheet
 
-from .run_axes import finish, rms, shade_run
+from .run_axes import finish, shade_run
 from .run_forces import plot_run_forces, plot_run_torques
 
 if TYPE_CHECKING:

@@ -51,8 +51,3 @@ def finish(figure: Figure, axes: Any, recording: Recording, lines: Any = None) -
         handles.append(Line2D([], [], color=TEXT, linewidth=1.6, label="fall"))
     if handles:
         legend(figure, handles=handles, loc="outside lower center", ncol=len(handles))
-
-
-def rms(values: Array) -> float:
-    """Root of the mean square."""
-    return float(np.sqrt(np.mean(np.square(values))))

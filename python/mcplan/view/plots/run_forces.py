@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from mcplan.kinematics.rotations import polygon_normal
 from mcplan.tracking import Recording
+from mcplan.tracking.measures import rms
 from mcplan.view.colours import PLANNED, TEXT, end_effector_colours, plain
 from mcplan.view.sheets import QUIET, label, sheet
 
-from .run_axes import finish, rms, shade_run
+from .run_axes import finish, shade_run
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
