@@ -31,7 +31,7 @@ def faults(page: Page) -> list[str]:
 def source_faults() -> list[str]:
     """Pages, and headings of them, that comments and docstrings send the reader to and that do not exist."""
     out = []
-    for folder in ("cpp", "python", "scripts", "examples", "benchmarks", "tests/cpp"):
+    for folder in ("cpp", "python", "bench", "scripts", "examples", "benchmarks", "tests/cpp"):
         for path in sorted((ROOT / folder).rglob("*")):
             if path.suffix not in (".cpp", ".hpp", ".py", ".toml", ".txt"):
                 continue
