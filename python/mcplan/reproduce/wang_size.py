@@ -122,7 +122,7 @@ def table(sizes: list[dict[str, Any]]) -> list[str]:
         "  three variables instead of 24 forces: 39 = 36 + 3.",
         "- The 12 non-convex rows are the same in both: the Euler steps of c, v and L, bilinear in the duration, and the",
         "  definition of the rate of L.",
-        "- psi is eliminated: 48 and 12 variables less, with the same number of rows,",
+        r"- $\psi$ is eliminated: 48 and 12 variables less, with the same number of rows,",
         r"  $\lvert \alpha \pm \delta \rvert^2 \le \psi_{max}$ instead of $\lvert \alpha \pm \delta \rvert^2 \le \psi$. The",
         "  optimum is the same (docs/theory/rhp.md).",
         "- The levers p - c are no variables in either; here footholds are two coordinates of their surface.",
