@@ -21,7 +21,7 @@ from .contacts_cases import (
     SWING_STIFFNESS,
     TANGENT,
 )
-from .sections import ABSENT, Section, between_marks, holds, number, section_lines
+from .sections import ABSENT, Section, between_marks, holds, number, section_lines, text_lines
 
 #: Between these lines of a page the tables are put.
 BEGIN, END = "<!-- begin: mcplan bench contacts -->", "<!-- end: mcplan bench contacts -->"
@@ -57,7 +57,9 @@ def markdown(result: dict[str, Any], page: str = "") -> str:
 def _body(result: dict[str, Any], heading: str) -> str:
     machine = result["machine"]
     lines = [
-        f"Written by `{result['command']}`. Rows that do not hold what is demanded say why below their table.",
+        *text_lines(
+            f"Written by `{result['command']}`. Rows that do not hold what is demanded say why below their table."
+        ),
         "",
         f"{machine['date']}, {machine['cpu']}, {machine['cores']} cores; mcplan {machine['version']}, "
         f"Python {machine['python']}. "

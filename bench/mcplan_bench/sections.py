@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+#: Longest line of text of a page.
+WIDTH = 130
 #: Cell of a number that there is not.
 ABSENT = "-"
 
@@ -22,7 +25,19 @@ class Section:
 def section_lines(section: Section, heading: str) -> list[str]:
     """A section as lines of Markdown: blank, title, table, notes as a list."""
     lines = ["", f"{heading} {section.title}", "", *table_lines(section.head, section.rows)]
-    return lines + [""] * bool(section.notes) + [f"- {note}" for note in section.notes]
+    return lines + [""] * bool(section.notes) + [line for note in section.notes for line in text_lines(note, "- ")]
+
+
+def text_lines(text: str, lead: str = "") -> list[str]:
+    """A paragraph, or with a lead the entry of a list, as lines that are not too long."""
+    return textwrap.wrap(
+        text,
+        WIDTH,
+        initial_indent=lead,
+        subsequent_indent=" " * len(lead),
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
 
 
 def table_lines(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:

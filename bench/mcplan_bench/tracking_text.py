@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .sections import ABSENT, Section, between_marks, section_lines
+from .sections import ABSENT, Section, between_marks, section_lines, text_lines
 from .sections import holds as _holds
 from .sections import number as _number
 from .tracking import TRACKED, Row
@@ -53,7 +53,9 @@ def _body(result: dict[str, Any], heading: str) -> str:
     machine, packages = result["machine"], result["packages"]
     with_what = ", ".join(f"{name} {version}" for name, version in packages.items())
     lines = [
-        f"Written by `{result['command']}`. Rows that do not hold what is demanded say why below their table.",
+        *text_lines(
+            f"Written by `{result['command']}`. Rows that do not hold what is demanded say why below their table."
+        ),
         "",
         f"{machine['date']}, {machine['cpu']}, {machine['cores']} cores; mcplan {machine['version']}, "
         f"Python {machine['python']},",

@@ -73,8 +73,8 @@ def equalities(name: str, table: int, neq: int) -> int:
 def kinematic_table(rows: list[Row]) -> list[str]:
     """Table I or II as Markdown."""
     lines = [
-        "| motion | N_eq | N: paper | here | rows: paper | here | iterations: paper | here | time [s]: paper | here | processor "
-        "| status: paper | here | drift [mm] | [mrad] | strict: equalities | status | iterations |",
+        "| motion | $N_{eq}$ | N: paper | here | rows: paper | here | iterations: paper | here | time [s]: paper | here "
+        "| processor | status: paper | here | drift [mm] | [mrad] | strict: equalities | status | iterations |",
         "|---" * 18 + "|",
     ]
     for row in rows:
@@ -208,7 +208,7 @@ def full_table(rows: list[Row]) -> list[str]:
     """Table IV as Markdown."""
     lines = [
         "| motion | case | start | N | rows | iterations: paper | here | time [s]: paper | here | processor "
-        "| criterion: paper | here [N^2 m^2 s] | status: paper | here | checker | certified | drift [mm] | duration [s] |",
+        "| criterion: paper | here [N² m² s] | status: paper | here | checker | certified | drift [mm] | duration [s] |",
         "|---" * 18 + "|",
     ]
     for row in rows:

@@ -56,7 +56,7 @@ def head(about: Row, runs: list[Run]) -> list[str]:
         "Bernstein coefficients has one.",
         "*status*: OK, as in the paper: the solver converged within the constraints that it was given. What contacts do then "
         "is *drift*, their largest distance and angle from their places, at 1 kHz by exact kinematics.",
-        "All start from P = 0, the robot's zero posture, and one second, unless said.",
+        "All start from $P=0$, the robot's zero posture, and one second, unless said.",
     ):
         lines += bullet(text)
     if about["interrupted"]:
@@ -81,7 +81,8 @@ def differences_kinematics(parts: Parts) -> list[str]:
     refused = [row for row in bands if row["strict_status"] == "REFUSED"]
     strict = [row for row in bands if row["strict_status"] == "OK"]
     lines = paragraph(
-        "Order 5, one duration, no clearance; coefficients 0 to N_eq of each contact's error within 1e-3 m and 1e-3 rad. "
+        "Order 5, one duration, no clearance; coefficients 0 to $N_{eq}$ of each contact's error within 1e-3 m and "
+        "1e-3 rad. "
         "*tube*: its Bernstein coefficients within 1 mm and 5 mrad, as mcplan does by default. *strict*: coefficients zero."
     )
     lines.append("")
@@ -95,20 +96,21 @@ def differences_kinematics(parts: Parts) -> list[str]:
         )
     lines += bullet(
         f"Strict equalities: Ipopt refuses {len(refused)} of {len(bands)} rows at once, for they have more equalities than free "
-        f"variables; {len(strict)} converge. The paper's cartwheel with N_eq = 1 has 96 equalities for 82 parameters when all "
-        "contacts are counted, and climbing 516 for 298, so that its equalities must have had a tolerance. Here one contact of "
-        "a phase is left out where the free-flyer is computed, its error being that of the others; this is why some of these "
+        f"variables; {len(strict)} converge. The paper's cartwheel with $N_{{eq}}=1$ has 96 equalities for 82 parameters when "
+        "all contacts are counted, and climbing 516 for 298, so that its equalities must have had a tolerance. Here one contact "
+        "of a phase is left out where the free-flyer is computed, its error being that of the others; this is why some of these "
         "rows can be solved at all."
     )
     lines += bullet(
-        "N_eq = 0 holds contacts in the middles of intervals alone: in between they drift by up to "
-        f"{largest([row for row in bands if row['neq'] == 0], 'drift_mm'):.0f} mm. With N_eq of 1 to 3 by up to "
+        "$N_{eq}=0$ holds contacts in the middles of intervals alone: in between they drift by up to "
+        f"{largest([row for row in bands if row['neq'] == 0], 'drift_mm'):.0f} mm. With $N_{{eq}}$ of 1 to 3 by up to "
         f"{largest([row for row in bands if row['neq'] != 0], 'drift_mm'):.1f} mm; in the tube by "
         f"{largest([row for row in rows if row['neq'] == 'tube'], 'drift_mm'):.1f} mm (1 mm in x and 1 mm in y). The checker "
         "accepts 1.5 mm: its verdict on each row is in the CSV."
     )
     return lines + bullet(
-        "The paper prints 108 parameters for the cartwheel in Table I: 12 x 9, without the duration that its other rows count."
+        "The paper prints 108 parameters for the cartwheel in Table I: $12 \\cdot 9$, without the duration that its other rows "
+        "count."
     )
 
 
@@ -167,7 +169,7 @@ def differences_3(parts: Parts) -> list[str]:
     tubes = [row for row in rows if row["contacts"] == "tube"]
     lines = paragraph(
         "Order 8, one duration of at least 1 s, forces in their cones; no torque limits, no clearance. *band*: coefficients 0 to "
-        "2 within 1e-3 m and 1e-3 rad; that the paper's N_eq is 2 follows from its numbers of rows. *tube*: 1 mm, 5 mrad."
+        "2 within 1e-3 m and 1e-3 rad; that the paper's $N_{eq}$ is 2 follows from its numbers of rows. *tube*: 1 mm, 5 mrad."
     )
     lines.append("")
     lines += bullet(f"{converged(bands)} converge with the band, {converged(tubes)} with the tube.")
@@ -190,7 +192,7 @@ def differences_3(parts: Parts) -> list[str]:
     for band, tube in paired(parts["table_3"]):
         if band["forces"] == "parameters":
             lines += bullet(
-                "Forces as parameters (section III-C), N = 338 as in the paper, which does not converge in 1000 iterations. "
+                "Forces as parameters (section III-C), $N=338$ as in the paper, which does not converge in 1000 iterations. "
                 f"Here: {band['status']} with the band after {band['iterations']} iterations, {tube['status']} with the tube "
                 f"after {tube['iterations']}. But balance is asked of coefficients 0 to 2 of each interval (the paper's 90 "
                 f"rows), and in between nothing carries up to {band['balance_N']:.0f} N and {tube['balance_N']:.0f} N: these are "
