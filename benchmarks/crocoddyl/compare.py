@@ -49,7 +49,7 @@ def crocoddyl_ms(python: Path, nx: int, nu: int, repeats: int) -> dict[str, floa
 def mcplan_ms(scene: str, repeats: int) -> dict[str, float]:
     """Medians of mcplan's parts of an iteration with the sequence free [ms]."""
     import mcplan
-    from mcplan.bench.speed import iterations, searching_iterations
+    from mcplan_bench.speed import iterations, searching_iterations
 
     model, robot = mcplan.load_scene(scene), mcplan.load_robot("humanoid44")
     first = searching_iterations(mcplan.plan(model, robot).report)

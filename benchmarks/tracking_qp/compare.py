@@ -77,10 +77,10 @@ def provide(folder: Path) -> None:
 
 def recorded(name: str, seconds: float) -> list:
     """Programs and structures of all control steps of the first seconds of a tracked plan."""
-    from mcplan.bench.tracking import plan_of, track_plan
-    from mcplan.bench.tracking_cases import named
     from mcplan.tracking.options import Options
     from mcplan.tracking.quadratic_program import QuadraticProgram
+    from mcplan_bench.tracking import plan_of, track_plan
+    from mcplan_bench.tracking_cases import named
 
     found = []
     solve = QuadraticProgram.solve

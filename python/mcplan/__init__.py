@@ -65,13 +65,15 @@ from mcplan.errors import (
     UnknownRobot,
     UnknownScene,
 )
+from mcplan.loading import load_motion, load_planar_robot, load_robot, load_scene
 
 Walk = rhp.Walk
 
 if TYPE_CHECKING:
+    from mcplan.planar.tracking import PlanarResult
+    from mcplan.showing import Shown
     from mcplan.tracking import TrackingResult
-    from mcplan.tracking.planar import PlanarResult
-    from mcplan.view import Page
+    from mcplan.view.pages.page import Page
 
 __all__ = [
     "CheckResult",
@@ -127,79 +129,6 @@ __all__ = [
     "walk",
     "whole_body",
 ]
-
-
-def load_scene(source: str | Path) -> Scene:
-    """Load a scene by its built-in name or from a TOML file.
-
-    Args:
-        source: Name listed by ``mcplan scenes``, or path of a file.
-
-    Returns:
-        The scene: surfaces (vertices in [m], world frame W, z up), start and goal.
-
-    Raises:
-        InvalidScene: A field is missing or out of range; the message names file, field, value and rule.
-        UnknownScene: No such name and no such file; the message lists the names that exist.
-    """
-    from mcplan.files.scenes import load_scene as load
-
-    return load(source)
-
-
-def load_robot(source: str | Path) -> Robot:
-    """Load a robot by its built-in name or from a TOML file.
-
-    Args:
-        source: Name listed by ``mcplan robots``, or path of a file.
-
-    Returns:
-        The robot: mass [kg], inertia [kg m^2], end-effectors with reach boxes relative to the CoM [m].
-
-    Raises:
-        InvalidRobot: A field is missing or out of range; the message names file, field, value and rule.
-        UnknownRobot: No such name and no such file; the message lists the names that exist.
-    """
-    from mcplan.files.robots import load_robot as load
-
-    return load(source)
-
-
-def load_planar_robot(source: str | Path) -> PlanarRobot:
-    """Load a planar robot by its built-in name or from a TOML file.
-
-    Args:
-        source: Name listed by ``mcplan robots`` as planar, or path of a file.
-
-    Returns:
-        The robot: a tree of rigid bodies (masses [kg], lengths [m], angles [rad]) and its end-effectors.
-
-    Raises:
-        InvalidRobot: A field is missing or out of range; the message names file, field, value and rule.
-        UnknownRobot: No such name and no such file; the message lists the names that exist.
-    """
-    from mcplan.files.planar_robots import load_planar_robot as load
-
-    return load(source)
-
-
-def load_motion(source: str | Path) -> PlanarMotion:
-    """Load a motion of a planar robot by its built-in name or from a TOML file.
-
-    Args:
-        source: Name listed by ``mcplan motions``, or path of a file.
-
-    Returns:
-        The motion: its planar robot, surfaces (world frame W, x forward, y up, [m]) and one stance for each phase.
-
-    Raises:
-        InvalidMotion: A field is missing or out of range; the message names file, field, value and rule.
-        InvalidRobot: The same of its robot.
-        UnknownMotion, UnknownRobot: No such name and no such file; the message lists the names that exist.
-    """
-    from mcplan.files.motions import load_motion as load
-
-    return load(source)
 
 
 def plan(
@@ -409,7 +338,7 @@ def whole_body(
         InvalidPlan: The warm start has other phases or joints, or is malformed.
         UnknownMotion, UnknownRobot: No such name and no such file.
     """
-    from mcplan.whole_body_planning import whole_body as solve
+    from mcplan.planar.planning import whole_body as solve
 
     given: dict[str, Any] = {"forces": forces, "contact": contact, "order": order, "neq": neq, "free_flyer": free_flyer}
     given |= {"free_durations": free_durations, "time_limit": time_limit}
@@ -453,30 +382,29 @@ def track(
     from mcplan.extras import require
 
     require("mcplan.track", "sim", "mujoco", "pinocchio", "proxsuite")
-    from mcplan.tracking.choice import track_any
+    from mcplan.following import track_any
 
     return track_any(plan, robot, options)
 
 
-def show(
-    plan: Plan | WholeBodyPlan, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None
-) -> Page:
-    """Draw a plan in the browser; the result has ``save_html(path)``.
+def show(plan: Shown, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
+    """Draw a plan or a run in the browser; the result has ``save_html(path)``.
 
     Args:
-        plan: The plan; a whole-body plan is drawn with its own motion, and takes no scene and no robot.
+        plan: The plan, or what track() found of one. A whole-body plan is drawn with its own motion, a run with its own
+            plan; they take no scene and no robot.
         scene: Drawn around it; None: the plan's own.
         robot: Drawn along it; None: the plan's own. With a URDF its meshes are drawn, else a stick robot.
         report: How the plan was found, for the caption.
 
     Raises:
         InvalidArgument: An argument is of another type, such as the result that has the plan.
-        InvalidInput: A scene or a robot for a whole-body plan.
+        InvalidInput: A scene or a robot for a whole-body plan or a run.
         MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
     """
     from mcplan.extras import require
 
     require("mcplan.show", "view", "meshcat")
-    from mcplan.view import show as draw
+    from mcplan.showing import show as draw
 
     return draw(plan, scene, robot, report)

@@ -11,8 +11,8 @@ from typing import Any
 
 import typer.main
 
-from mcplan.cli.app import app
-from mcplan.reproduce import PAPERS
+from mcplan.cli.app import app, complete
+from mcplan_bench.reproduce import PAPERS
 from pages import known
 from pages.page import Page
 
@@ -132,4 +132,5 @@ def _unknown_name(verb: str, positional: list[str]) -> str | None:
 
 @cache
 def _root() -> Any:
+    complete("--help")
     return typer.main.get_command(app)

@@ -38,12 +38,13 @@ def found(file: str, pattern: str) -> Any:
 
 
 def py(file: str, name: str) -> Any:
-    """The constant of this name in a file of `python/mcplan/`, which is read and not imported.
+    """The constant of this name in a file of `python/mcplan/` or `bench/`, which is read and not imported.
 
     Raises:
         LookupError: There is none.
     """
-    tree = ast.parse((ROOT / "python/mcplan" / file).read_text(encoding="utf-8"))
+    folder = next(folder for folder in ("python/mcplan", "bench") if (ROOT / folder / file).exists())
+    tree = ast.parse((ROOT / folder / file).read_text(encoding="utf-8"))
     for node in tree.body:
         if isinstance(node, (ast.Assign, ast.AnnAssign)) and node.value is not None:
             for target in node.targets if isinstance(node, ast.Assign) else [node.target]:
@@ -55,7 +56,7 @@ def py(file: str, name: str) -> Any:
 
 
 def _source(file: str) -> str:
-    for folder in ("cpp/src", "cpp/include/mcplan", "python/mcplan", "."):
+    for folder in ("cpp/src", "cpp/include/mcplan", "python/mcplan", "bench", "."):
         if (path := ROOT / folder / file).exists():
             return path.read_text(encoding="utf-8")
     raise LookupError(f"there is no {file}")

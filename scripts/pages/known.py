@@ -56,6 +56,13 @@ def _sip_json() -> list[str]:
         return list(json.loads(made.run("mcplan sip walking --kinematics --minimise none --json -q", Path(folder))))
 
 
+@cache
+def _plan_json() -> list[str]:
+    """Keys of `mcplan plan --json`."""
+    with tempfile.TemporaryDirectory() as folder:
+        return list(json.loads(made.run("mcplan plan flat --json", Path(folder))))
+
+
 def _track_json() -> list[str]:
     """Keys of `mcplan track --json` for plans of humanoids, from what prints them; a run takes too long."""
     text = (ROOT / "python/mcplan/cli/track_text.py").read_text(encoding="utf-8")
@@ -89,6 +96,7 @@ LISTS: dict[str, Callable[[], list[str]]] = {
     "planar robots": list_planar_robots,
     "motions": list_motions,
     "fidelities": _fidelities,
+    "keys of mcplan plan": _plan_json,
     "keys of mcplan sip": _sip_json,
     "keys of mcplan track": _track_json,
     "fields of a plan": _plan_fields,

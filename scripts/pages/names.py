@@ -11,10 +11,10 @@ from types import ModuleType
 from pages.page import ROOT, Page
 
 _CODE = re.compile(r"`([^`\n]+)`")
-_FILE = re.compile(r"(?:cpp|python|tests|docs|scripts|benchmarks|examples)/[\w./-]+$")
+_FILE = re.compile(r"(?:cpp|python|bench|tests|docs|scripts|benchmarks|examples)/[\w./-]+$")
 #: Files in blocks; what lies in build/ or out/ is made by the reader.
-_IN_BLOCK = re.compile(r"(?<![\w/.])(?:cpp|python|tests|scripts|benchmarks|examples)/[\w./-]*\w")
-_DOTTED = re.compile(r"(?:mcplan|mp)(?:\.\w+)+(?=\(|$)")
+_IN_BLOCK = re.compile(r"(?<![\w/.])(?:cpp|python|bench|tests|scripts|benchmarks|examples)/[\w./-]*\w")
+_DOTTED = re.compile(r"(?:mcplan|mcplan_bench|mp)(?:\.\w+)+(?=\(|$)")
 _TEST = re.compile(r"test_\w+$")
 
 
@@ -65,11 +65,12 @@ def wrong_block(block: str) -> list[str]:
 @cache
 def _resolves(dotted: str) -> bool:
     first, *rest = dotted.split(".")
-    at: object = importlib.import_module("mcplan")
+    top = "mcplan" if first == "mp" else first
+    at: object = importlib.import_module(top)
     for i, name in enumerate(rest):
         if not hasattr(at, name) and isinstance(at, ModuleType):
             try:
-                at = importlib.import_module(".".join(["mcplan", *rest[: i + 1]]))
+                at = importlib.import_module(".".join([top, *rest[: i + 1]]))
                 continue
             except ImportError as found:
                 # A package that is not installed here says nothing about ours.

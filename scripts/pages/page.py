@@ -65,5 +65,5 @@ class Page:
 
 def all_pages() -> list[Page]:
     """Every page of the repository that speaks of the product, README first."""
-    top = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "third_party_notes.md", ROOT / "benchmarks/README.md"]
-    return [Page.read(path) for path in [*top, *sorted((ROOT / "docs").rglob("*.md"))]]
+    top = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "third_party_notes.md", "benchmarks/README.md"]
+    return [Page.read(path) for path in [*(ROOT / name for name in top), *sorted((ROOT / "docs").rglob("*.md"))]]

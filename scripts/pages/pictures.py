@@ -1,4 +1,4 @@
-"""The table of docs/pictures.md: which command makes which picture."""
+"""The list of docs/pictures.md: which command makes which picture."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from pathlib import Path
 from pages import commands
 from pages.page import ROOT, Page
 
-TABLE = ROOT / "docs/pictures.md"
-_ROW = re.compile(r"^\| \[(?P<file>[\w./]+)\]\([^)]+\) \| (?P<commands>`.+`) \| `(?P<made>[\w./]+)` \|$", re.M)
+LIST = ROOT / "docs/pictures.md"
+_ITEM = re.compile(r"^- \[(?P<file>[\w./]+)\]\([^)]+\): `(?P<made>[\w./]+)` of\n(?P<commands>(?:  - `.+`\n)+)", re.M)
 
 
 @dataclass(frozen=True)
@@ -28,17 +28,17 @@ class Picture:
 
 
 def listed(text: str) -> list[Picture]:
-    """Pictures of the table."""
-    return [Picture(m["file"], tuple(re.findall(r"`([^`]+)`", m["commands"])), m["made"]) for m in _ROW.finditer(text)]
+    """Pictures of the list."""
+    return [Picture(m["file"], tuple(re.findall(r"`([^`]+)`", m["commands"])), m["made"]) for m in _ITEM.finditer(text)]
 
 
 def faults(pages: Sequence[Page]) -> list[str]:
     """Pictures that no command makes, that no page shows, or whose command the product would refuse."""
-    text = TABLE.read_text(encoding="utf-8")
+    text = LIST.read_text(encoding="utf-8")
     table = listed(text)
     there = {path.relative_to(ROOT / "docs").as_posix() for path in (ROOT / "docs").rglob("*.png")}
     named = {picture.file for picture in table}
-    out = [f"docs/pictures.md: no row for {file}" for file in sorted(there - named)]
+    out = [f"docs/pictures.md: no entry for {file}" for file in sorted(there - named)]
     out += [f"docs/pictures.md: there is no {file}" for file in sorted(named - there)]
     for picture in table:
         for command in picture.commands:
@@ -47,14 +47,14 @@ def faults(pages: Sequence[Page]) -> list[str]:
     shown = {
         (page.path.parent / link).resolve()
         for page in pages
-        for link in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", page.text)
+        for link in re.findall(r"(?:!\[[^\]]*\]\(|^\[[^\]]+\]: )([^)\n]+)", page.text, re.M)
     }
     return out + [f"docs/{f}: no page shows it" for f in sorted(there) if (ROOT / "docs" / f).resolve() not in shown]
 
 
 def draw(names: Sequence[str]) -> int:
     """Draw pictures again, by their names or all (`all`), commands that they share once; returns the exit code."""
-    table = listed(TABLE.read_text(encoding="utf-8"))
+    table = listed(LIST.read_text(encoding="utf-8"))
     chosen = [p for p in table if {"all", p.file, Path(p.file).name, Path(p.file).stem} & set(names)]
     if not chosen:
         print(f"no picture {' or '.join(names)}; there are: {', '.join(p.file for p in table)}", file=sys.stderr)

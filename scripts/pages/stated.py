@@ -22,10 +22,10 @@ import mcplan
 from mcplan import Tolerances, WholeBodyTolerances, rhp, sip
 from mcplan._core import ddp
 from mcplan.files.toml import tomllib
+from mcplan.planar.tracking.run import DEFAULT_OPTIONS as PLANAR_TRACKING
+from mcplan.planar.tracking.settings import ContactSettings, Feedback
 from mcplan.tracking.options import Gains
 from mcplan.tracking.options import Options as TrackingOptions
-from mcplan.tracking.planar.run import DEFAULT_OPTIONS as PLANAR_TRACKING
-from mcplan.tracking.planar.settings import ContactSettings, Feedback
 from pages import constants
 from pages.page import ROOT, Page
 

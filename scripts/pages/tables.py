@@ -76,6 +76,8 @@ def _defaults(page: Page, what: str, table: str, faults: list[str]) -> str:
     for i, line in enumerate(lines[2:], 2):
         cells = line.split("|")
         names = _NAME.findall(cells[1])
+        if not names:  # goes on with the row above it
+            continue
         values = []
         for name in names:
             try:
@@ -155,7 +157,7 @@ def robots() -> str:
             [f"`{name}`", f"{r.mass:.1f}", f"{r.com_height:.2f}", limbs, f"{low:g} to {high:g}", f"{r.swing_height:g}"]
             + [f"{r.sole_support:g}", f"{r.pressure_share:g}"]
         )
-    head = ["robot", "mass [kg]", "CoM height [m]", "end-effectors", "`phase_duration` [s]", "`swing_height` [m]"]
+    head = ["robot", "mass [kg]", "CoM at [m]", "end-effectors", "`phase_duration` [s]", "`swing_height` [m]"]
     return table([*head, "`sole_support`", "`pressure_share`"], rows)
 
 

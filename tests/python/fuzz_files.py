@@ -358,9 +358,11 @@ def read(kind: str, file: Path, number: int) -> None:
         case "plan" | "whole_body_plan":
             load_any_plan(file)
         case "run":
-            from mcplan.tracking.run_files import load_run
+            from mcplan.planar.tracking.result import result_from as planar_result_from
+            from mcplan.tracking.result import result_from
+            from mcplan.tracking.run_files import PLANAR_RUN, RUN, load_run
 
-            load_run(file)
+            load_run(file, {RUN: result_from, PLANAR_RUN: planar_result_from})
         case "urdf":
             _read_urdf(file, number)
 

@@ -7,8 +7,8 @@ import functools
 import numpy as np
 
 from mcplan._core import WholeBodyPlan
-from mcplan.tracking.planar import PlanarRecording
-from mcplan.view.planar_samples import body_frames, sample_whole_body, turned
+from mcplan.planar.tracking import PlanarRecording
+from mcplan.planar.view.samples import body_frames, sample_whole_body, turned
 from reference_solutions import reference_plan
 
 #: [m], [rad] by which base and first joint are off the plan; factor on the contact forces; share of the feedback.

@@ -13,6 +13,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 HEADERS, SOURCES, PACKAGE = ROOT / "cpp/include/mcplan", ROOT / "cpp/src", ROOT / "python/mcplan"
+BENCH = ROOT / "bench/mcplan_bench"  # a distribution of its own, that imports the package
 
 # room -> the rooms that it may include, beside itself
 CPP_ROOMS = {
@@ -31,6 +32,9 @@ OPENMP_ROOMS = {"ddp", "rhp", "planar/sip"}
 # room (a module or folder of the package) -> the rooms that it may import, beside itself; "" is the package's
 # front, which others import for annotations only
 _GROUND = {"_core", "errors", "extras", "options", "arguments"}
+_ENGINES = {"solve", "walking"}
+_LOOKED_AT = {"files", "kinematics", "tracking", "view", "planar"}
+_FRONT = _ENGINES | _LOOKED_AT | {"loading", "checking", "showing", "following"}
 PYTHON_ROOMS = {
     "__main__": {"cli"},
     "_core": set(),
@@ -41,31 +45,22 @@ PYTHON_ROOMS = {
     "arguments": {"_core", "errors"},
     "checking": {"_core", "errors", "arguments"},
     "files": _GROUND,
+    "loading": _GROUND | {"files"},
     "solve": _GROUND | {"files"},
     "walking": _GROUND | {"files", "solve"},
-    "whole_body_planning": _GROUND | {"files"},
     "kinematics": _GROUND | {"files"},
     "tracking": _GROUND | {"files", "kinematics"},
     "view": _GROUND | {"files", "kinematics", "tracking"},
-    "bench": _GROUND | {"files", "solve", "walking", "whole_body_planning", "kinematics", "tracking", ""},
-    "reproduce": _GROUND
-    | {"files", "solve", "walking", "whole_body_planning", "kinematics", "tracking", "view", "bench", ""},
-    "cli": _GROUND
-    | {
-        "starting",
-        "files",
-        "solve",
-        "walking",
-        "whole_body_planning",
-        "kinematics",
-        "tracking",
-        "view",
-        "bench",
-        "reproduce",
-        "",
-    },
-    "": _GROUND
-    | {"starting", "checking", "files", "solve", "walking", "whole_body_planning", "kinematics", "tracking", "view"},
+    "planar": _GROUND | {"files", "kinematics", "tracking", "view"},
+    "showing": _GROUND | _LOOKED_AT,
+    "following": _GROUND | _LOOKED_AT - {"view"},
+    "cli": _GROUND | _FRONT | {"starting", ""},
+    "": _GROUND | _FRONT | {"starting"},
+}
+# The same inside of rooms; "" is what lies in the room's own folder, except for its __init__, which may import them all.
+INNER_ROOMS = {
+    "view": {"": set(), "pages": {""}, "pictures": {""}, "plots": {"", "pictures"}, "video": {"", "pictures"}},
+    "planar": {"": set(), "tracking": set(), "view": {"tracking"}},
 }
 HEAVY = {"crocoddyl", "example_robot_data", "imageio", "matplotlib", "meshcat", "mink", "mujoco"}
 HEAVY |= {"PIL", "pink", "pinocchio", "proxsuite", "scipy"}
@@ -169,10 +164,10 @@ def room_of(module: str) -> str:
     return name if name in PYTHON_ROOMS else ""
 
 
-def imported(tree: ast.AST, package: str) -> Iterator[str]:
-    """Dotted names that a module of `package` imports anywhere, except under `if TYPE_CHECKING:`."""
+def imported(tree: ast.AST, package: str, typing: bool = False) -> Iterator[str]:
+    """Dotted names that a module of `package` imports anywhere; those under `if TYPE_CHECKING:` only if `typing`."""
     for node in ast.iter_child_nodes(tree):
-        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
+        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test) and not typing:
             continue
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
@@ -181,7 +176,103 @@ def imported(tree: ast.AST, package: str) -> Iterator[str]:
             origin = ".".join(base + ([node.module] if node.module else []))
             yield from (f"{origin}.{alias.name}" for alias in node.names)
         else:
-            yield from imported(node, package)
+            yield from imported(node, package, typing)
+
+
+def import_graph(sources: dict[str, str], packages: set[str], typing: bool) -> dict[str, set[str]]:
+    """For each module, by dotted name and text, the other modules that it names in imports, lazy ones included.
+
+    A package stands for its `__init__`, which is counted where something is imported from it by name; that a module in it
+    loads it on the way is not.
+    """
+    graph: dict[str, set[str]] = {}
+    for module, text in sources.items():
+        package = module if module in packages else module.rpartition(".")[0]
+        graph[module] = set()
+        for name in imported(ast.parse(text), package, typing):
+            while name and name not in sources:
+                name = name.rpartition(".")[0] if not name.startswith("mcplan._core") else ""
+            graph[module] |= {name} - {"", module}
+    return graph
+
+
+def circles(graph: dict[str, set[str]]) -> list[list[str]]:
+    """The modules of each circle: those that can be reached from each other (Tarjan's strong components)."""
+    order: dict[str, int] = {}
+    lowest: dict[str, int] = {}
+    path: list[str] = []
+    found = []
+
+    def visit(module: str) -> None:
+        order[module] = lowest[module] = len(order)
+        path.append(module)
+        for other in graph[module]:
+            if other not in order:
+                visit(other)
+            if other in path:
+                lowest[module] = min(lowest[module], lowest[other])
+        if lowest[module] == order[module]:
+            start = path.index(module)
+            if len(path) - start > 1:
+                found.append(sorted(path[start:]))
+            del path[start:]
+
+    for module in graph:
+        if module not in order:
+            visit(module)
+    return found
+
+
+def modules_of(top: Path) -> tuple[dict[str, str], set[str]]:
+    """Text of each module below the folder of a package, by dotted name; and those that are packages."""
+    sources, packages = {}, set()
+    for path in sorted(top.rglob("*.py")):
+        parts = [top.name, *path.relative_to(top).with_suffix("").parts]
+        if parts[-1] == "__init__":
+            parts.pop()
+            packages.add(".".join(parts))
+        sources[".".join(parts)] = path.read_text()
+    return sources, packages
+
+
+@pytest.mark.parametrize("typing", [False, True], ids=["what runs", "annotations too"])
+def test_modules_import_each_other_in_no_circle(typing: bool) -> None:
+    sources, packages = (known[0] | known[1] for known in zip(modules_of(PACKAGE), modules_of(BENCH), strict=True))
+    assert len(sources) > 100
+    assert circles(import_graph(sources, packages, typing)) == []
+
+
+def test_a_circle_is_seen() -> None:
+    sources = {
+        "p": "from p.a import f",
+        "p.a": "def f():\n    from .b import g",
+        "p.b": "class C:\n    def m(self):\n        from . import c",
+        "p.c": "import p.a, numpy",
+        "p.d": "from p import f\nfrom p.a import f",
+    }
+    assert circles(import_graph(sources, {"p"}, False)) == [["p.a", "p.b", "p.c"]]
+    sources["p.c"] = "if TYPE_CHECKING:\n    import p.a"
+    assert circles(import_graph(sources, {"p"}, False)) == []
+    assert circles(import_graph(sources, {"p"}, True)) == [["p.a", "p.b", "p.c"]]
+
+
+def test_the_package_knows_nothing_of_the_bench() -> None:
+    for module, text in modules_of(PACKAGE)[0].items():
+        assert not [name for name in imported(ast.parse(text), module, True) if name.startswith("mcplan_bench")], module
+
+
+def test_of_the_bench_its_commands_alone_import_those_of_mcplan() -> None:
+    graph = import_graph(*modules_of(BENCH), True)
+    order = {"mcplan_bench.cli": 2, "mcplan_bench.reproduce": 1}
+
+    def height(module: str) -> int:
+        return order.get(".".join(module.split(".")[:2]), 0)
+
+    for module, others in graph.items():
+        assert all(height(other) <= height(module) for other in others), module
+    for module, text in modules_of(BENCH)[0].items():
+        verbs = [name for name in imported(ast.parse(text), module) if name.startswith("mcplan.cli")]
+        assert not verbs or height(module) == 2, module
 
 
 def forbidden_imports(room: str, text: str, package: str) -> list[str]:
@@ -204,6 +295,26 @@ def test_python_rooms_import_only_what_they_may() -> None:
     assert modules
 
 
+@pytest.mark.parametrize("room", INNER_ROOMS)
+def test_folders_of_a_room_import_only_what_they_may(room: str) -> None:
+    sources, packages = modules_of(PACKAGE)
+    graph = import_graph(sources, packages, typing=True)
+    folders = INNER_ROOMS[room]
+    seen = set()
+
+    def folder_of(module: str) -> str:
+        parts = module.split(".")[2:]
+        return parts[0] if f"mcplan.{room}.{parts[0]}" in packages else ""
+
+    for module in (name for name in graph if name.startswith(f"mcplan.{room}.")):
+        own = folder_of(module)
+        assert own in folders, f"{module}: give the folder its place in INNER_ROOMS"
+        inside = {folder_of(other) for other in graph[module] if other.startswith(f"mcplan.{room}.")}
+        assert inside <= folders[own] | {own}, module
+        seen.add(own)
+    assert seen == set(folders)
+
+
 def test_an_import_in_the_wrong_direction_is_seen() -> None:
     lazy = "def f():\n    from mcplan.cli import main"
     assert forbidden_imports("files", lazy, "mcplan.files") == ["mcplan.cli.main"]
@@ -212,6 +323,21 @@ def test_an_import_in_the_wrong_direction_is_seen() -> None:
     assert forbidden_imports("files", "import mcplan", "mcplan.files") == ["mcplan"]
     assert forbidden_imports("view", "from .page import Page\nimport numpy", "mcplan.view") == []
     assert forbidden_imports("view", "if TYPE_CHECKING:\n    from mcplan import Plan", "mcplan.view") == []
+
+
+#: Functions that are longer, and by how much they may be: readers of files that are to be rewritten.
+LONGER = {"plan_from_bytes": 89, "robot_from_urdf": 71}
+
+
+def test_files_and_functions_can_be_taken_in() -> None:
+    for top in (PACKAGE, BENCH):
+        for path in top.rglob("*.py"):
+            text = path.read_text()
+            assert text.count("\n") <= 400, path
+            for node in ast.walk(ast.parse(text)):
+                if isinstance(node, ast.FunctionDef):
+                    lines = node.end_lineno - node.lineno + 1
+                    assert lines <= LONGER.get(node.name, 60), f"{path}: {node.name} has {lines} lines"
 
 
 @pytest.mark.parametrize("module", ["mcplan", "mcplan.cli"])

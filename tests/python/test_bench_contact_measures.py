@@ -1,4 +1,4 @@
-"""mcplan.bench.contact_measures: numbers of plans whose forces are known."""
+"""mcplan_bench.contact_measures: numbers of plans whose forces are known."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import mcplan as mp
-from mcplan.bench.contact_measures import measure_contacts
+from mcplan_bench.contact_measures import measure_contacts
 from standing import standing_plan
 from stepping import stepping_plan
 from wrench_plans import (

@@ -1,4 +1,4 @@
-"""mcplan.bench.contact_replay: what forces alone make of a plan, against closed forms."""
+"""mcplan_bench.contact_replay: what forces alone make of a plan, against closed forms."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mcplan as mp
-from mcplan.bench.contact_replay import replay, replay_errors
+from mcplan_bench.contact_replay import replay, replay_errors
 from stepping import stepping_plan
 from wrench_plans import leaning_plan, spinning_plan, tipping_plan, with_contact, with_knot
 

@@ -1,4 +1,4 @@
-"""mcplan.bench.contacts: what is planned, what rows say and what they have to hold."""
+"""mcplan_bench.contacts: what is planned, what rows say and what they have to hold."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import mcplan as mp
-from mcplan.bench import contacts as bench
-from mcplan.bench.contact_measures import measure_contacts
-from mcplan.bench.contacts_cases import CASES, RAIL, SETTINGS, Case, Demand, setting_cases
-from mcplan.bench.contacts_text import BEGIN, END, markdown, sections
+from mcplan_bench import contacts as bench
+from mcplan_bench.contact_measures import measure_contacts
+from mcplan_bench.contacts_cases import CASES, RAIL, SETTINGS, Case, Demand, setting_cases
+from mcplan_bench.contacts_text import BEGIN, END, markdown, sections
 from wrench_plans import RIGHT_HAND, hanging_plan, leaning_plan, with_contact
 
 #: A plan that holds everything that is demanded on the rail.

@@ -1,4 +1,4 @@
-"""mcplan.bench.criteria: what a plan must show beyond passing the checker."""
+"""mcplan_bench.criteria: what a plan must show beyond passing the checker."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import mcplan as mp
-from mcplan.bench.criteria import alternate, apex_m, comparable_cost, flights, shortcoming, swings
+from mcplan_bench.criteria import alternate, apex_m, comparable_cost, flights, shortcoming, swings
 
 RIGHT, LEFT = 0, 1
 BOTH, ON_LEFT, ON_RIGHT, NONE = [0, 0], [-1, 0], [0, -1], [-1, -1]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mcplan.bench import deadlines
+from mcplan_bench import deadlines
 
 
 def test_every_engine_is_measured_beyond_its_limit():

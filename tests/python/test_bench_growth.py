@@ -1,4 +1,4 @@
-"""mcplan.bench.growth: the scenes and robots that are measured, and slopes."""
+"""mcplan_bench.growth: the scenes and robots that are measured, and slopes."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mcplan as mp
-from mcplan.bench import growth
+from mcplan_bench import growth
 
 
 @pytest.mark.parametrize("tiles", [1, 2, 5, 32])

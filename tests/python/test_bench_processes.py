@@ -1,4 +1,4 @@
-"""mcplan.bench.processes: results come back, from processes on one thread and one core."""
+"""mcplan_bench.processes: results come back, from processes on one thread and one core."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import os
 
 import pytest
 
-from mcplan.bench import processes
+from mcplan_bench import processes
 
 
 def test_outcomes_carry_the_index_of_their_task():

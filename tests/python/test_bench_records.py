@@ -1,4 +1,4 @@
-"""mcplan.bench.records: tables as files."""
+"""mcplan_bench.records: tables as files."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import csv
 import datetime
 import json
 
-from mcplan.bench import records
+from mcplan_bench import records
 
 
 def test_csv_gives_back_its_rows(tmp_path):

@@ -1,4 +1,4 @@
-"""mcplan.bench.robustness: tasks, judging and counting."""
+"""mcplan_bench.robustness: tasks, judging and counting."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 import mcplan as mp
-from mcplan.bench import robustness as bench
+from mcplan_bench import robustness as bench
 from standing import standing_plan
 
 

@@ -1,11 +1,11 @@
-"""mcplan.bench.speed: times by part. Nothing here depends on how fast the machine is."""
+"""mcplan_bench.speed: times by part. Nothing here depends on how fast the machine is."""
 
 from __future__ import annotations
 
 import pytest
 
 import mcplan as mp
-from mcplan.bench import speed
+from mcplan_bench import speed
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""mcplan.bench.tracking: what rows say, what they have to hold, and the short table that continuous integration runs."""
+"""mcplan_bench.tracking: what rows say, what they have to hold, and the short table that continuous integration runs."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import pytest
 
 import mcplan as mp
 import plans_by_hand as by_hand
-from mcplan.bench import tracking as bench
-from mcplan.bench.tracking_cases import CASES, DISTURBED, SHORT, Demand, named
 from mcplan.cli import main
+from mcplan_bench import tracking as bench
+from mcplan_bench.tracking_cases import CASES, DISTURBED, SHORT, Demand, named
 from recordings import recorded
 
 pytest.importorskip("mujoco")

@@ -1,4 +1,4 @@
-"""mcplan.bench.tracking_robustness: what is drawn, and which runs stay upright."""
+"""mcplan_bench.tracking_robustness: what is drawn, and which runs stay upright."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import pytest
 
-from mcplan.bench import tracking_robustness as bench
-from mcplan.bench.tracking import Planned
-from mcplan.bench.tracking_cases import named
 from mcplan.cli import main
+from mcplan_bench import tracking_robustness as bench
+from mcplan_bench.tracking import Planned
+from mcplan_bench.tracking_cases import named
 
 pytest.importorskip("mujoco")
 pytest.importorskip("proxsuite")

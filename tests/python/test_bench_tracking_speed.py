@@ -1,4 +1,4 @@
-"""mcplan.bench.tracking_speed: stopwatches, and that the parts of a control step make up the whole."""
+"""mcplan_bench.tracking_speed: stopwatches, and that the parts of a control step make up the whole."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from mcplan.bench import tracking_speed as bench
+from mcplan_bench import tracking_speed as bench
 
 
 class Sleeper:

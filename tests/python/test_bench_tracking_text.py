@@ -1,4 +1,4 @@
-"""mcplan.bench.tracking_text: what the tables show, and where they go in a page."""
+"""mcplan_bench.tracking_text: what the tables show, and where they go in a page."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import pytest
 
-from mcplan.bench.tracking import Row
-from mcplan.bench.tracking_robustness import Outcome
-from mcplan.bench.tracking_text import BEGIN, END, markdown, sections
+from mcplan_bench.tracking import Row
+from mcplan_bench.tracking_robustness import Outcome
+from mcplan_bench.tracking_text import BEGIN, END, markdown, sections
 
 WALK = Row("flat/talos", "ddp", "talos", 1.0, False, planned="solved", steps=12, fell=False, completed_s=11.5)
 WALK = replace(WALK, com_rms_m=0.0012, com_max_m=0.0034, final_base_error_m=0.0051, torque_use=1.0, leg_torque_use=0.61)

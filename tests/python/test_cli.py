@@ -14,7 +14,7 @@ import pytest
 import malformed
 import mcplan as mp
 from command_line import one_line_error
-from mcplan.cli import main
+from mcplan.cli import app, main
 from mcplan.files.motions import list_motions, load_motion
 from mcplan.files.planar_robots import list_planar_robots, load_planar_robot
 from mcplan.files.robots import list_robots, load_robot
@@ -24,7 +24,7 @@ from mcplan.files.toml import toml_text
 from standing import standing_plan
 from wrenches import standing_wrenches
 
-VERBS = ("bench", "check", "demo", "motions", "plan", "reproduce", "rhp", "robots", "scenes", "sip", "version")
+VERBS = ("bench", "check", "demo", "motions", "plan", "reproduce", "rhp", "robots", "scenes", "show", "sip", "version")
 
 
 def run(capsys, *words) -> tuple[int, str, str]:
@@ -44,6 +44,23 @@ def test_no_words_print_the_verbs(capsys):
     code, out, _ = run(capsys)
     assert code == 0
     assert all(f"  {verb} " in out for verb in VERBS)
+
+
+@pytest.mark.parametrize("verb", ["bench", "reproduce"])
+def test_verbs_of_a_distribution_that_is_not_there_say_what_to_install(verb, capsys, monkeypatch):
+    for kind in ("registered_commands", "registered_groups"):
+        own = [each for each in getattr(app.app, kind) if each.name not in app.APART]
+        monkeypatch.setattr(app.app, kind, own)
+    monkeypatch.setattr("importlib.metadata.entry_points", lambda **_: ())
+    message = one_line_error(run(capsys, verb, "--help"))
+    assert message == f"mcplan {verb} needs mcplan-bench: pip install ./bench in the source tree of mcplan"
+    assert run(capsys, "version")[0] == 0
+
+
+def test_verbs_of_other_distributions_are_looked_for_only_when_asked_for(capsys, monkeypatch):
+    monkeypatch.setattr("importlib.metadata.entry_points", lambda **_: pytest.fail("looked for"))
+    assert run(capsys, "version")[0] == 0
+    assert run(capsys, "scenes")[0] == 0
 
 
 def test_version(capsys):

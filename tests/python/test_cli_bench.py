@@ -7,8 +7,8 @@ import json
 from dataclasses import replace
 
 from command_line import strict
-from mcplan.bench import contacts, contacts_cases, robustness
 from mcplan.cli import main
+from mcplan_bench import contacts, contacts_cases, robustness
 
 
 def test_robustness_writes_its_outcomes_and_lists_failures(tmp_path, capsys):

@@ -111,8 +111,8 @@ def test_an_interrupt_while_what_draws_is_loaded(tmp_path, module):
         "mcplan.solve:scene_of",
         "mcplan.cli.outputs:write_outputs",
         "mcplan.files.plans:plan_to_bytes",
-        "mcplan.view.plots:save_plots",
-        "mcplan.view.plots:save_figure",
+        "mcplan.view.plots.save:save_plots",
+        "mcplan.view.sheets:save_figure",
         "mcplan.cli.plan:report_text",
     ],
 )

@@ -12,8 +12,8 @@ import tracked_cartwheel
 from command_line import one_line_error, strict
 from mcplan.cli import main
 from mcplan.cli.track_text import Progress
+from mcplan.planar.tracking import PlanarMeasures
 from mcplan.tracking import Measures, Recording, TrackingResult
-from mcplan.tracking.planar import PlanarMeasures
 from reference_solutions import reference_plan
 from standing import standing_plan
 
@@ -267,5 +267,5 @@ def test_forces_off_by_more_than_a_quarter_are_other_forces(capsys, wheel, monke
     result = tracked_cartwheel.tracked()
     for share, code in ((0.24, 0), (0.26, 1)):
         told = replace(result, measures=replace(result.measures, force_rms=share))
-        monkeypatch.setattr("mcplan.tracking.choice.track_any", lambda *_, told=told: told)
+        monkeypatch.setattr("mcplan.following.track_any", lambda *_, told=told: told)
         assert run(capsys, wheel)[0] == code

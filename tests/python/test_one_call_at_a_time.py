@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import mcplan as mp
-from mcplan.whole_body_planning import make_options
+from mcplan.planar.planning import make_options
 
 Logger = Callable[[Any, str], None]
 

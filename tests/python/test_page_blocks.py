@@ -21,8 +21,8 @@ BEFORE = {
     "docs/feasibility.md": 'mp.plan("stairs", "talos").plan.save("stairs.npz")',
     "docs/motions.md": 'mp.files.motions.save_motion(mp.load_motion("walking"), "my_motion.toml")',
     "docs/plans_and_checker.md": 'scene, robot = mp.load_scene("flat"), mp.load_robot("humanoid44")\n'
-    "first = mp.plan(scene, robot)\nplan, measured = first.plan, first.plan.knots[0]",
-    "docs/receding_horizon.md": "follow, estimate = print, [0.1, 0.0, 0.0]",
+    "scenes = [scene]\nfirst = mp.plan(scene, robot)\nplan, measured = first.plan, first.plan.knots[0]",
+    "docs/rhp.md": "follow, estimate = print, [0.1, 0.0, 0.0]",
     "docs/theory/sip_certificate.md": 'plan = mp.whole_body("cartwheel", minimise="none").plan',
     "docs/tracking.md": STAIRS,
 }

@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 
 pytest.importorskip("mcplan.tracking.options")
-from pages import commands, links, made, names, stated, tables  # noqa: E402
+from pages import commands, links, made, names, pictures, stated, tables  # noqa: E402
 from pages.page import Page  # noqa: E402
 
 
@@ -62,6 +62,21 @@ def test_a_default_that_the_code_has_otherwise_is_put_right():
 def test_an_option_that_does_not_exist_is_reported():
     found = page("<!-- defaults of: rhp.Options -->\n| option | default |\n|---|---|\n| `lokahead` | 3 |\n")
     assert "no lokahead" in tables.refresh(found)[0]
+
+
+def test_a_row_that_goes_on_with_the_one_above_it_has_no_default():
+    head = "<!-- defaults of: rhp.Options -->\n| option | default | what |\n|---|---|---|\n"
+    found = page(head + "| `lookahead` | 3 | steps, |\n| | | the executed one too |\n")
+    assert tables.refresh(found) == [] and found.text == found.on_disk
+
+
+def test_pictures_are_listed_with_their_commands():
+    text = (
+        "- [images/a.png](images/a.png): `out/b.png` of\n  - `mcplan demo --out out`\n  - `python -m x out b`\n- else\n"
+    )
+    picture = pictures.Picture("images/a.png", ("mcplan demo --out out", "python -m x out b"), "out/b.png")
+    assert pictures.listed(text) == [picture]
+    assert pictures.listed(pictures.LIST.read_text(encoding="utf-8"))
 
 
 def test_a_table_names_all_and_nothing_else():
@@ -150,11 +165,18 @@ def test_commands_are_read_from_blocks_and_from_sentences():
 @pytest.mark.parametrize("link", ["nowhere.md", "#no-such-heading", "tracking.md#no-such-heading"])
 def test_a_link_that_leads_nowhere_is_reported(link):
     assert links.faults(page(f"# A page\n\n[see]({link})\n"))
+    assert links.faults(page(f"# A page\n\n[see][it]\n\n[it]: {link}\n"))
 
 
-def test_links_that_lead_somewhere_and_long_tables_are_not_reported():
-    text = f"# A page\n\n[see](tracking.md#quick-start), [it](index.md)\n\n| {'x' * 200} |\n"
-    assert links.faults(page(text)) == []
+def test_links_that_lead_somewhere_are_not_reported():
+    assert links.faults(page("# A page\n\n[see](tracking.md#quick-start), [it][index]\n\n[index]: index.md\n")) == []
+
+
+def test_a_table_may_be_wide_where_a_benchmark_writes_it_and_nowhere_else():
+    wide = f"| {'x' * 200} |\n"
+    assert links.faults(page(f"<!-- begin: mcplan bench -->\n{wide}<!-- end: mcplan bench -->\n")) == []
+    assert "204 columns" in links.faults(page(wide))[0]
+    assert "204 columns" in links.faults(page(f"<!-- begin: mcplan bench -->\n<!-- end: mcplan bench -->\n{wide}"))[0]
 
 
 def test_headings_that_sources_name_are_found():

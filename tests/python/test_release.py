@@ -18,11 +18,12 @@ def test_module_has_the_version_of_the_header():
     assert mcplan.__version__ == VERSION
 
 
-def test_installed_distribution_has_the_version_of_the_header():
+@pytest.mark.parametrize("name", ["mcplan", "mcplan-bench"])
+def test_installed_distributions_have_the_version_of_the_header(name):
     try:
-        version = importlib.metadata.version("mcplan")
+        version = importlib.metadata.version(name)
     except importlib.metadata.PackageNotFoundError:
-        pytest.skip("mcplan is imported from the source tree, not installed")
+        pytest.skip(f"{name} is imported from the source tree, not installed")
     assert version == VERSION
 
 
@@ -37,7 +38,8 @@ def test_citation_does_not_repeat_the_version():
 
 def test_every_dependency_is_noted_with_its_licence():
     notes = (ROOT / "third_party_notes.md").read_text(encoding="utf-8").lower()
-    lists = re.findall(r"^\w+ = \[(.*?)\]$", (ROOT / "pyproject.toml").read_text(encoding="utf-8"), re.M | re.S)
+    both = "".join((ROOT / file).read_text(encoding="utf-8") for file in ("pyproject.toml", "bench/pyproject.toml"))
+    lists = re.findall(r"^\w+ = \[(.*?)\]$", both, re.M | re.S)
     names = {match for text in lists for match in re.findall(r'"([\w-]+)[><=~]+[\d.]+', text)}
     assert {"numpy", "meshcat", "pytest"} <= names
     aliases = {"example-robot-data-loaders": "example-robot-data"}

@@ -1,4 +1,4 @@
-"""mcplan.reproduce.lengagne: the published tables, runs, tables, page."""
+"""mcplan_bench.reproduce.lengagne: the published tables, runs, tables, page."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import pytest
 
 import mcplan
 from mcplan.cli import main
-from mcplan.reproduce import lengagne_paper as paper
-from mcplan.reproduce import lengagne_runs, lengagne_settings, lengagne_tables, lengagne_text
-from mcplan.reproduce.lengagne_runs import Run
-from mcplan.reproduce.lengagne_settings import Config
+from mcplan_bench.reproduce import lengagne_paper as paper
+from mcplan_bench.reproduce import lengagne_runs, lengagne_settings, lengagne_tables, lengagne_text
+from mcplan_bench.reproduce.lengagne_runs import Run
+from mcplan_bench.reproduce.lengagne_settings import Config
 
 pytest.importorskip("matplotlib")
 
@@ -32,7 +32,7 @@ def made_up(config, status="solved", message="converged", cost=None, **numbers):
 
 def planner(config):
     """The planner that a row is run with."""
-    from mcplan.whole_body_planning import make_options
+    from mcplan.planar.planning import make_options
 
     options = config.options()
     return mcplan.sip.Planner(mcplan.load_motion(config.motion), make_options(options.pop("minimise"), options))

@@ -1,4 +1,4 @@
-"""mcplan.reproduce.tazaki: the page with its table and figures."""
+"""mcplan_bench.reproduce.tazaki: the page with its table and figures."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 
 import mcplan as mp
 from mcplan.cli import main
-from mcplan.reproduce import tazaki, tazaki_models
+from mcplan_bench.reproduce import tazaki, tazaki_models
 from wrench_plans import LEFT_HAND, RIGHT_HAND, hanging_plan, leaning_plan, with_contact
 
 pytest.importorskip("matplotlib")

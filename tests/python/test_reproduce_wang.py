@@ -1,4 +1,4 @@
-"""mcplan.reproduce.wang: runs, tables, figures, page."""
+"""mcplan_bench.reproduce.wang: runs, tables, figures, page."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ import pytest
 
 from mcplan.cli import main
 from mcplan.errors import InvalidInput
-from mcplan.reproduce import wang_figures, wang_runs, wang_size, wang_tables
-from mcplan.reproduce.wang_runs import Config, Run
+from mcplan_bench.reproduce import wang_figures, wang_runs, wang_size, wang_tables
+from mcplan_bench.reproduce.wang_runs import Config, Run
 
 pytest.importorskip("matplotlib")
 

@@ -1,4 +1,4 @@
-"""mp.track's options by name."""
+"""Options of a run by name."""
 
 from __future__ import annotations
 
@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 import mcplan as mp
-import tracked_cartwheel
+from mcplan.planar.tracking import DEFAULT_OPTIONS
 from mcplan.tracking import Gains, Options, Push
 from mcplan.tracking.choice import make_options
-from mcplan.tracking.planar import DEFAULT_OPTIONS
 
 
 def test_names_become_fields_and_the_rest_stays():
@@ -48,13 +47,3 @@ def test_what_is_no_option_is_told_by_name(values, message):
     with pytest.raises(mp.InvalidOptions) as found:
         make_options(values)
     assert str(found.value).startswith(message)
-
-
-def test_whole_body_plans_are_tracked_by_their_own_robot():
-    pytest.importorskip("mujoco")
-    plan = tracked_cartwheel.cartwheel()
-    result = mp.track(plan, hold_s=0.0, control_step_s=1e-3)
-    assert result.recording.plan is plan and result.completed
-    assert result.options.simulation_step_s == DEFAULT_OPTIONS.simulation_step_s
-    with pytest.raises(mp.InvalidInput, match="robot: must not be given with a whole-body plan, .* got 'talos'"):
-        mp.track(plan, "talos")

@@ -13,9 +13,9 @@ import recordings
 import tracked_cartwheel
 from mcplan.files.plans import plan_to_bytes
 from mcplan.files.whole_body_plans import plan_to_bytes as planar_bytes
+from mcplan.planar.tracking import PlanarResult
 from mcplan.tracking import Options, Push, Recording, TrackingResult
 from mcplan.tracking.options import Gains
-from mcplan.tracking.planar import PlanarResult
 
 pytest.importorskip("pinocchio")
 pytest.importorskip("example_robot_data")

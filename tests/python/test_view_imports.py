@@ -33,8 +33,9 @@ sys.meta_path.insert(0, Hide())
 
 
 def test_import_loads_nothing_heavy():
-    heavy = ("matplotlib", "meshcat", "pinocchio", "zmq", "umsgpack")
-    loaded = run(f"import mcplan.view, sys; print([m for m in {heavy} if m in sys.modules])")
+    heavy = ("matplotlib", "meshcat", "mujoco", "pinocchio", "zmq", "umsgpack")
+    rooms = "mcplan.view, mcplan.planar.view, mcplan.planar.tracking, mcplan.showing, mcplan.following"
+    loaded = run(f"import {rooms}, sys; print([m for m in {heavy} if m in sys.modules])")
     assert loaded == "[]"
 
 
@@ -70,18 +71,18 @@ except mp.errors.MissingExtra as error:
     ("call", "hidden", "message"),
     [
         ("mp.show(plan)", ["meshcat", "umsgpack"], "mcplan.show needs meshcat"),
-        ("view.film_strip(plan)", ["matplotlib"], "mcplan.view.film_strip needs matplotlib"),
-        ("view.stroboscope(plan)", ["matplotlib"], "mcplan.view.stroboscope needs matplotlib"),
-        ("view.plot_torques(plan)", ["matplotlib"], "mcplan.view.plots needs matplotlib"),
-        ("view.plot_cones(plan)", ["matplotlib"], "mcplan.view.plots needs matplotlib"),
-        ("view.save_plots(plan, None, '.')", ["matplotlib"], "mcplan.view.film_strip needs matplotlib"),
+        ("planar.film_strip(plan)", ["matplotlib"], "mcplan.planar.view.film_strip needs matplotlib"),
+        ("planar.stroboscope(plan)", ["matplotlib"], "mcplan.planar.view.stroboscope needs matplotlib"),
+        ("planar.plot_torques(plan)", ["matplotlib"], "mcplan.view.plots needs matplotlib"),
+        ("planar.plot_cones(plan)", ["matplotlib"], "mcplan.view.plots needs matplotlib"),
+        ("planar.save_whole_body_plots(plan, '.')", ["matplotlib"], "mcplan.planar.view.film_strip needs matplotlib"),
     ],
 )
 def test_pictures_of_whole_body_plans_name_what_they_miss(call, hidden, message):
     script = (
         HIDE.format(hidden=hidden)
         + f"""
-import mcplan as mp, mcplan.view as view
+import mcplan as mp, mcplan.planar.view as planar
 from reference_solutions import reference_plan
 plan = reference_plan("walking", "optimised_uniform")
 try:

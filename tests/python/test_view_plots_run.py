@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import recordings
-from mcplan.view.plots_run import base_angle_deg, plot_run_com, plot_run_errors, save_run_plots, swings
-from mcplan.view.plots_run_forces import contact_normals, plot_run_forces, plot_run_torques
+from mcplan.view.plots.run import base_angle_deg, plot_run_com, plot_run_errors, save_run_plots, swings
+from mcplan.view.plots.run_forces import contact_normals, plot_run_forces, plot_run_torques
 
 pytest.importorskip("matplotlib")
 pin = pytest.importorskip("pinocchio")

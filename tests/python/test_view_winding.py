@@ -7,7 +7,7 @@ import pytest
 
 from mcplan.kinematics.rotations import pose
 from mcplan.view.figure import Figure, Part
-from mcplan.view.rendering import Eye, Renderer
+from mcplan.view.pictures.rendering import Eye, Renderer
 from mcplan.view.shapes import Mesh, box, capsule
 from mcplan.view.winding import both_sides, whole
 

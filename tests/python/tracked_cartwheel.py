@@ -6,8 +6,8 @@ import functools
 from dataclasses import replace
 
 import mcplan as mp
+from mcplan.planar.tracking import DEFAULT_OPTIONS, PLANNING, PlanarResult, track_whole_body
 from mcplan.tracking.options import Options
-from mcplan.tracking.planar import DEFAULT_OPTIONS, PLANNING, PlanarResult, track_whole_body
 
 #: Longer control steps than the default, for speed; the last posture is held for a moment.
 QUICK: Options = replace(DEFAULT_OPTIONS, control_step_s=1e-3, hold_s=0.1)

@@ -37,8 +37,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(words: list[str]) -> int:
     try:
-        from mcplan.cli.app import app
+        from mcplan.cli.app import app, complete
 
+        complete(words[0])
         with _warnings_as_lines():
             code = app(args=words, prog_name="mcplan", standalone_mode=False)
         if sys.stdout is not None:

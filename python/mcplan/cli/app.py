@@ -1,10 +1,13 @@
-"""The verbs put together."""
+"""The verbs put together: those of mcplan, and those that other distributions plug in."""
 
 from __future__ import annotations
 
+from importlib import metadata
+
 import typer
 
-from mcplan.cli import bench, check, demo, motions, plan, reproduce, rhp, robots, scenes, sip, track, version
+from mcplan.cli import check, demo, motions, plan, rhp, robots, scenes, show, sip, track, version
+from mcplan.errors import MissingExtra
 
 app = typer.Typer(
     help="Multi-contact motion planning: which limb touches what, when and where.",
@@ -20,12 +23,43 @@ verbs = (
     sip.sip,
     check.check,
     track.track,
+    show.show,
     scenes.scenes,
     robots.robots,
     motions.motions,
-    reproduce.reproduce,
     version.version,
 )
 for verb in verbs:
     app.command(verb.__name__)(verb)
-app.add_typer(bench.app, name="bench")
+
+#: Entry points that are verbs: a function or a Typer application each.
+GROUP = "mcplan.commands"
+#: Verbs of a distribution of their own, and what installs it.
+APART = dict.fromkeys(("bench", "reproduce"), "mcplan-bench: pip install ./bench in the source tree of mcplan")
+
+
+def complete(word: str) -> None:
+    """Plug in the verbs of other distributions, unless the word is a verb of ours: looking for them takes time.
+
+    Args:
+        word: The first one after ``mcplan``.
+
+    Raises:
+        MissingExtra: The word is a verb that comes with a distribution that is not installed.
+    """
+    known = _names()
+    if word in known:
+        return
+    for point in sorted(metadata.entry_points(group=GROUP), key=lambda point: point.name):
+        if point.name not in known:
+            plugged = point.load()
+            if isinstance(plugged, typer.Typer):
+                app.add_typer(plugged, name=point.name)
+            else:
+                app.command(point.name)(plugged)
+    if word in APART and word not in _names():
+        raise MissingExtra(f"mcplan {word} needs {APART[word]}")
+
+
+def _names() -> set[str | None]:
+    return {verb.name for verb in app.registered_commands} | {verb.name for verb in app.registered_groups}

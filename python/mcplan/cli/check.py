@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from mcplan._core import Plan
+    from mcplan._core import CheckResult, Plan, WholeBodyPlan
     from mcplan._core.sip import Certificate
     from mcplan.tracking.findings import Feasibility, Finding
 
@@ -17,20 +17,27 @@ if TYPE_CHECKING:
 OTHERS = 3
 
 
+PlanArgument = Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")]
+CertifyOption = Annotated[
+    bool,
+    typer.Option("--certify", help="Of a whole-body plan: prove its constraints at every instant, too."),
+]
+SelfCollisionOption = Annotated[
+    bool, typer.Option("--self-collision", help="Of a whole-body plan: look at its robot's collision pairs, too.")
+]
+RobotOption = Annotated[
+    str | None,
+    typer.Option("--robot", metavar="ROBOT", help="Tell whether a robot with a URDF can follow the plan, too."),
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
+
+
 def check(
-    plan: Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")],
-    certify: Annotated[
-        bool,
-        typer.Option("--certify", help="Of a whole-body plan: prove its constraints at every instant, too."),
-    ] = False,
-    self_collision: Annotated[
-        bool, typer.Option("--self-collision", help="Of a whole-body plan: look at its robot's collision pairs, too.")
-    ] = False,
-    robot: Annotated[
-        str | None,
-        typer.Option("--robot", metavar="ROBOT", help="Tell whether a robot with a URDF can follow the plan, too."),
-    ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+    plan: PlanArgument,
+    certify: CertifyOption = False,
+    self_collision: SelfCollisionOption = False,
+    robot: RobotOption = None,
+    json: JsonOption = False,
 ) -> int:
     """Check a plan against the scene and robot, or the motion, it carries; exit code 1 if it violates a constraint.
 
@@ -41,9 +48,6 @@ def check(
     from mcplan._core import WholeBodyPlan
     from mcplan._core import check as run
     from mcplan._core.sip import certify as prove
-    from mcplan.cli.loads_text import all_lines
-    from mcplan.cli.table import print_table
-    from mcplan.cli.terminal import printable
     from mcplan.errors import InvalidInput
     from mcplan.files.whole_body_plans import load_any_plan
 
@@ -78,18 +82,10 @@ def check(
             "feasibility": None if feasibility is None else feasibility_dict(feasibility),
         }
         print(json_module.dumps(report))
-    elif result.ok():
-        print(printable(f"{plan}: ok. Closest to its limit: {result.worst()}"))
     else:
-        print(printable(f"{plan}: {len(result.violations())} constraints violated"))
-        print_table([[str(violation)] for violation in result.violations()])
-    if not json and not isinstance(loaded, WholeBodyPlan):
-        for line in all_lines(loaded):
-            print(printable(line))
-    if certificate is not None and not json:
-        print("\n".join(printable(line) for line in str(certificate).rstrip().splitlines()))
-    if feasibility is not None and not json:
-        _print_feasibility(feasibility)
+        _print_result(plan, loaded, result, certificate)
+        if feasibility is not None:
+            _print_feasibility(feasibility)
     proved, followed = certificate is None or certificate.proved(), feasibility is None or feasibility.ok()
     return 0 if result.ok() and proved and followed else 1
 
@@ -99,6 +95,25 @@ def _feasibility(plan: Plan, robot: str) -> Feasibility:
     from mcplan.tracking.feasibility import assess
 
     return assess(plan, load_robot(robot))
+
+
+def _print_result(path: Path, plan: Plan | WholeBodyPlan, result: CheckResult, certificate: Certificate | None) -> None:
+    """What was checked and proved, and the loads of a plan of contacts and CoM."""
+    from mcplan._core import Plan
+    from mcplan.cli.loads_text import all_lines
+    from mcplan.cli.table import print_table
+    from mcplan.cli.terminal import printable
+
+    if result.ok():
+        print(printable(f"{path}: ok. Closest to its limit: {result.worst()}"))
+    else:
+        print(printable(f"{path}: {len(result.violations())} constraints violated"))
+        print_table([[str(violation)] for violation in result.violations()])
+    if isinstance(plan, Plan):
+        for line in all_lines(plan):
+            print(printable(line))
+    if certificate is not None:
+        print("\n".join(printable(line) for line in str(certificate).rstrip().splitlines()))
 
 
 def _print_feasibility(feasibility: Feasibility) -> None:

@@ -10,7 +10,7 @@ import typer
 from mcplan.cli.terminal import printable, say
 
 if TYPE_CHECKING:
-    from mcplan import PlanResult, Violation
+    from mcplan._core import PlanResult, Violation
 
 #: The paper's four scenes.
 SCENES = ("flat", "stairs", "gap", "gap_with_rail")
@@ -37,7 +37,7 @@ def demo(
 
     require("mcplan demo", "view", "meshcat", "matplotlib")
     from mcplan.files.outputs import require_folder
-    from mcplan.view.picture import picture
+    from mcplan.view.pictures.picture import picture
 
     require_folder("--out", out)
     scenes = [mcplan.load_scene(name) for name in scene or SCENES]

@@ -12,8 +12,7 @@ import typer
 from mcplan.cli.terminal import say
 
 if TYPE_CHECKING:
-    from mcplan import PlanarMotion
-    from mcplan._core import PlanarClearance, PlanarContact, PlanarPhase, PlanarPose
+    from mcplan._core import PlanarClearance, PlanarContact, PlanarMotion, PlanarPhase, PlanarPose
 
 
 def motions(

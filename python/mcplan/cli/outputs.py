@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from mcplan import Plan, Report, WholeBodyPlan
+    from mcplan._core import Plan, Report, WholeBodyPlan
 
 
 #: What --strip can be, by the ending of its name.
@@ -65,14 +65,28 @@ def write_outputs(
     if html is not None:
         mcplan.show(plan, report=report).save_html(html)
     if plots is not None:
-        from mcplan.view.plots import save_plots
+        from mcplan.showing import save_plots
 
         save_plots(plan, report, plots)
     if strip is not None:
-        from mcplan._core import WholeBodyPlan
-        from mcplan.view.film_strip import film_strip
-        from mcplan.view.sheets import save_figure
+        from mcplan.showing import save_picture
 
-        assert isinstance(plan, WholeBodyPlan)
-        save_figure(film_strip(plan), strip)
+        save_picture(plan, strip)
     return [path for path in (output, html, plots, strip) if path is not None]
+
+
+def require_rendering(what: str) -> None:
+    """Say before a run is loaded or simulated, not after, that it cannot be rendered.
+
+    Raises:
+        MissingExtra: Packages or a graphics context are missing; the message begins with what asks for them.
+    """
+    from mcplan.errors import MissingExtra
+    from mcplan.extras import require
+    from mcplan.view.pictures.rendering import NoGraphics, require_graphics
+
+    require(what, "sim", "mujoco", "pinocchio", "PIL")
+    try:
+        require_graphics()
+    except NoGraphics as found:
+        raise MissingExtra(f"{what}: {found}") from None

@@ -12,49 +12,67 @@ import typer
 from mcplan.cli.contacts_text import contact_rows
 
 if TYPE_CHECKING:
-    from mcplan import PlanResult
+    from mcplan._core import PlanResult
+
+
+SceneArgument = Annotated[str, typer.Argument(metavar="SCENE", help="Built-in name or TOML file.")]
+RobotOption = Annotated[str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")]
+ScaleOption = Annotated[float, typer.Option("--scale", metavar="X", help="Factor on all lengths of the scene.")]
+SoleInsideOption = Annotated[
+    float | None,
+    typer.Option(
+        "--sole-inside", metavar="X", help="Share of soles kept on their surface, 0 to 1; default: the robot's."
+    ),
+]
+MinFlightOption = Annotated[
+    float | None, typer.Option("--min-flight", metavar="S", help="Shortest phase without any contact.")
+]
+PhasesOption = Annotated[
+    int | None,
+    typer.Option("--phases", metavar="N", help="Number of phases; default: what the way takes, 18 at least."),
+]
+ModelOption = Annotated[
+    str | None,
+    typer.Option("--model", metavar="M", help="Model of contacts: wrench (default) or lipm, the paper's."),
+]
+MethodOption = Annotated[str | None, typer.Option("--method", metavar="M", help="standard or paper.")]
+TimeLimitOption = Annotated[
+    float | None,
+    typer.Option("--time-limit", metavar="S", help="Return the best plan after so many seconds."),
+]
+ThreadsOption = Annotated[
+    int | None,
+    typer.Option("--threads", metavar="N", help="Threads for pricing; the plan does not depend on their number."),
+]
+SeedOption = Annotated[
+    int | None, typer.Option("--seed", metavar="K", help="Seed of the random order in which restarts are tried.")
+]
+OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")]
+HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")]
+PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
+VerboseOption = Annotated[
+    bool, typer.Option("-v", "--verbose", help="Print the iteration table on the way (to stderr).")
+]
 
 
 def plan(
-    scene: Annotated[str, typer.Argument(metavar="SCENE", help="Built-in name or TOML file.")],
-    robot: Annotated[str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")] = "humanoid44",
-    scale: Annotated[float, typer.Option("--scale", metavar="X", help="Factor on all lengths of the scene.")] = 1.0,
-    sole_inside: Annotated[
-        float | None,
-        typer.Option(
-            "--sole-inside", metavar="X", help="Share of soles kept on their surface, 0 to 1; default: the robot's."
-        ),
-    ] = None,
-    min_flight: Annotated[
-        float | None, typer.Option("--min-flight", metavar="S", help="Shortest phase without any contact.")
-    ] = None,
-    phases: Annotated[
-        int | None,
-        typer.Option("--phases", metavar="N", help="Number of phases; default: what the way takes, 18 at least."),
-    ] = None,
-    model: Annotated[
-        str | None,
-        typer.Option("--model", metavar="M", help="Model of contacts: wrench (default) or lipm, the paper's."),
-    ] = None,
-    method: Annotated[str | None, typer.Option("--method", metavar="M", help="standard or paper.")] = None,
-    time_limit: Annotated[
-        float | None,
-        typer.Option("--time-limit", metavar="S", help="Return the best plan after so many seconds."),
-    ] = None,
-    threads: Annotated[
-        int | None,
-        typer.Option("--threads", metavar="N", help="Threads for pricing; the plan does not depend on their number."),
-    ] = None,
-    seed: Annotated[
-        int | None, typer.Option("--seed", metavar="K", help="Seed of the random order in which restarts are tried.")
-    ] = None,
-    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")] = None,
-    html: Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")] = None,
-    plots: Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
-    verbose: Annotated[
-        bool, typer.Option("-v", "--verbose", help="Print the iteration table on the way (to stderr).")
-    ] = False,
+    scene: SceneArgument,
+    robot: RobotOption = "humanoid44",
+    scale: ScaleOption = 1.0,
+    sole_inside: SoleInsideOption = None,
+    min_flight: MinFlightOption = None,
+    phases: PhasesOption = None,
+    model: ModelOption = None,
+    method: MethodOption = None,
+    time_limit: TimeLimitOption = None,
+    threads: ThreadsOption = None,
+    seed: SeedOption = None,
+    output: OutputOption = None,
+    html: HtmlOption = None,
+    plots: PlotsOption = None,
+    json: JsonOption = False,
+    verbose: VerboseOption = False,
 ) -> int:
     """Find a contact sequence and a motion; exit code 0 only if the plan is solved, 1 otherwise.
 

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 from mcplan.cli.terminal import say
 
 if TYPE_CHECKING:
-    from mcplan import PlanarRobot
-    from mcplan._core import PlanarBody
+    from mcplan._core import PlanarBody, PlanarRobot
     from mcplan.files.planar_urdf import PlanarEnd
 
 

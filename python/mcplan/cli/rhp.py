@@ -9,47 +9,62 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from mcplan import Plan, Robot, Scene
     from mcplan import rhp as engine
+    from mcplan._core import Plan, Robot, Scene
+
+
+TerrainArgument = Annotated[str, typer.Argument(metavar="TERRAIN", help="Built-in scene or TOML file.")]
+RobotOption = Annotated[
+    str | None,
+    typer.Option("--robot", metavar="R", help="Default: the sequence's robot, else talos_wang."),
+]
+FidelityOption = Annotated[
+    str,
+    typer.Option("--fidelity", metavar="F", help="Model of predicted steps: single, com, rectangle or point."),
+]
+LookaheadOption = Annotated[
+    int, typer.Option("--lookahead", metavar="N", help="Steps in a horizon, the executed one included.")
+]
+ScaleOption = Annotated[float, typer.Option("--scale", metavar="X", help="Factor on all lengths of the terrain.")]
+CyclesOption = Annotated[int, typer.Option("--cycles", metavar="N", help="Steps to execute.")]
+TranscriptionOption = Annotated[str, typer.Option("--transcription", metavar="T", help="trapezoidal or euler.")]
+PaperOption = Annotated[bool, typer.Option("--paper", help="CoM box and friction pyramid as published.")]
+LiftedPsiOption = Annotated[bool, typer.Option("--lifted-psi", help="Keep the relaxation's bounds as variables.")]
+SequenceOption = Annotated[
+    Path | None,
+    typer.Option("--sequence", metavar="PLAN", help="Take start and contact sequence of a plan (.npz)."),
+]
+TimeLimitOption = Annotated[
+    float | None, typer.Option("--time-limit", metavar="S", help="Longest time of each cycle; none by default.")
+]
+OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")]
+HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")]
+PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
+VerboseOption = Annotated[
+    bool, typer.Option("-v", "--verbose", help="Print sizes, drift and where the time goes, too.")
+]
+QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="No line per cycle (to stderr) on the way.")]
 
 
 def rhp(
-    terrain: Annotated[str, typer.Argument(metavar="TERRAIN", help="Built-in scene or TOML file.")],
-    robot: Annotated[
-        str | None,
-        typer.Option("--robot", metavar="R", help="Default: the sequence's robot, else talos_wang."),
-    ] = None,
-    fidelity: Annotated[
-        str,
-        typer.Option("--fidelity", metavar="F", help="Model of predicted steps: single, com, rectangle or point."),
-    ] = "point",
-    lookahead: Annotated[
-        int, typer.Option("--lookahead", metavar="N", help="Steps in a horizon, the executed one included.")
-    ] = 3,
-    scale: Annotated[float, typer.Option("--scale", metavar="X", help="Factor on all lengths of the terrain.")] = 1.0,
-    cycles: Annotated[int, typer.Option("--cycles", metavar="N", help="Steps to execute.")] = 14,
-    transcription: Annotated[
-        str, typer.Option("--transcription", metavar="T", help="trapezoidal or euler.")
-    ] = "trapezoidal",
-    paper: Annotated[bool, typer.Option("--paper", help="CoM box and friction pyramid as published.")] = False,
-    lifted_psi: Annotated[
-        bool, typer.Option("--lifted-psi", help="Keep the relaxation's bounds as variables.")
-    ] = False,
-    sequence: Annotated[
-        Path | None,
-        typer.Option("--sequence", metavar="PLAN", help="Take start and contact sequence of a plan (.npz)."),
-    ] = None,
-    time_limit: Annotated[
-        float | None, typer.Option("--time-limit", metavar="S", help="Longest time of each cycle; none by default.")
-    ] = None,
-    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")] = None,
-    html: Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")] = None,
-    plots: Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
-    verbose: Annotated[
-        bool, typer.Option("-v", "--verbose", help="Print sizes, drift and where the time goes, too.")
-    ] = False,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="No line per cycle (to stderr) on the way.")] = False,
+    terrain: TerrainArgument,
+    robot: RobotOption = None,
+    fidelity: FidelityOption = "point",
+    lookahead: LookaheadOption = 3,
+    scale: ScaleOption = 1.0,
+    cycles: CyclesOption = 14,
+    transcription: TranscriptionOption = "trapezoidal",
+    paper: PaperOption = False,
+    lifted_psi: LiftedPsiOption = False,
+    sequence: SequenceOption = None,
+    time_limit: TimeLimitOption = None,
+    output: OutputOption = None,
+    html: HtmlOption = None,
+    plots: PlotsOption = None,
+    json: JsonOption = False,
+    verbose: VerboseOption = False,
+    quiet: QuietOption = False,
 ) -> int:
     """Walk over given surfaces, planning a few steps ahead and executing one, again and again.
 

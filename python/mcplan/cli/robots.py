@@ -12,41 +12,54 @@ import typer
 from mcplan.cli.terminal import say
 
 if TYPE_CHECKING:
-    from mcplan import Robot
+    from mcplan._core import Robot
     from mcplan.files.urdf_setups import End
 
 
+NameArgument = Annotated[str | None, typer.Argument(metavar="[NAME]", help="Built-in name or TOML file.")]
+FromUrdfOption = Annotated[
+    str | None,
+    typer.Option("--from-urdf", metavar="URDF", help="Work out a robot: a URDF file, or talos, anymal or g1."),
+]
+EndOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--end",
+        metavar="NAME=FRAME[:KIND[:LxW[:X,Y,Z]]]",
+        help="End-effector: URDF link, kind, half size, contact point; with --planar NAME=FRAME[:POINT,...].",
+    ),
+]
+PlanarOption = Annotated[
+    bool, typer.Option("--planar", help="With --from-urdf: a planar robot, of joints about one axis, for sip.")
+]
+SrdfOption = Annotated[Path | None, typer.Option("--srdf", metavar="FILE", help="Nominal posture: its first one.")]
+PostureOption = Annotated[
+    list[str] | None,
+    typer.Option("--posture", metavar="JOINT=ANGLE", help="Angle of a joint [rad] in the nominal posture."),
+]
+ReachPolytopesOption = Annotated[
+    bool, typer.Option("--reach-polytopes", help="With --from-urdf: the reach of feet as polytopes too, for rhp.")
+]
+FacesOption = Annotated[int, typer.Option("--faces", metavar="N", help="Largest number of faces of a polytope.")]
+StrengthOption = Annotated[
+    bool, typer.Option("--strength", help="With NAME: what its arms can push, over random postures.")
+]
+SeedOption = Annotated[int, typer.Option("--seed", metavar="SEED", help="Seed of the random postures.")]
+OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file to write.")]
+
+
 def robots(
-    name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Built-in name or TOML file.")] = None,
-    from_urdf: Annotated[
-        str | None,
-        typer.Option("--from-urdf", metavar="URDF", help="Work out a robot: a URDF file, or talos, anymal or g1."),
-    ] = None,
-    end: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--end",
-            metavar="NAME=FRAME[:KIND[:LxW[:X,Y,Z]]]",
-            help="End-effector: URDF link, kind, half size, contact point; with --planar NAME=FRAME[:POINT,...].",
-        ),
-    ] = None,
-    planar: Annotated[
-        bool, typer.Option("--planar", help="With --from-urdf: a planar robot, of joints about one axis, for sip.")
-    ] = False,
-    srdf: Annotated[Path | None, typer.Option("--srdf", metavar="FILE", help="Nominal posture: its first one.")] = None,
-    posture: Annotated[
-        list[str] | None,
-        typer.Option("--posture", metavar="JOINT=ANGLE", help="Angle of a joint [rad] in the nominal posture."),
-    ] = None,
-    reach_polytopes: Annotated[
-        bool, typer.Option("--reach-polytopes", help="With --from-urdf: the reach of feet as polytopes too, for rhp.")
-    ] = False,
-    faces: Annotated[int, typer.Option("--faces", metavar="N", help="Largest number of faces of a polytope.")] = 30,
-    strength: Annotated[
-        bool, typer.Option("--strength", help="With NAME: what its arms can push, over random postures.")
-    ] = False,
-    seed: Annotated[int, typer.Option("--seed", metavar="SEED", help="Seed of the random postures.")] = 0,
-    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file to write.")] = None,
+    name: NameArgument = None,
+    from_urdf: FromUrdfOption = None,
+    end: EndOption = None,
+    planar: PlanarOption = False,
+    srdf: SrdfOption = None,
+    posture: PostureOption = None,
+    reach_polytopes: ReachPolytopesOption = False,
+    faces: FacesOption = 30,
+    strength: StrengthOption = False,
+    seed: SeedOption = 0,
+    output: OutputOption = None,
 ) -> None:
     """List the built-in robots, print one, or work one out from a URDF.
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from mcplan.cli.terminal import say
 
 if TYPE_CHECKING:
-    from mcplan import Robot
+    from mcplan._core import Robot
     from mcplan.tracking.arm_strength import Strength
 
 SAMPLES = 2000

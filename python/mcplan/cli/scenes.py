@@ -10,7 +10,7 @@ import typer
 from mcplan.cli.terminal import say
 
 if TYPE_CHECKING:
-    from mcplan import Scene, Stance
+    from mcplan._core import Scene, Stance
     from mcplan.view import Page
 
 

@@ -11,52 +11,62 @@ import typer
 
 if TYPE_CHECKING:
     from mcplan._core import Plan, Robot, WholeBodyPlan
+    from mcplan.planar.tracking import Suitability
     from mcplan.tracking.findings import Feasibility
-    from mcplan.tracking.planar import Suitability
+
+
+PlanArgument = Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")]
+RobotOption = Annotated[
+    str | None,
+    typer.Option("--robot", metavar="R", help="With a URDF. Default: the plan's own."),
+]
+AssistOption = Annotated[bool, typer.Option("--assist", help="Hold the base with a clipped wrench; it is reported.")]
+PushOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--push",
+        metavar="N,seconds,at,direction",
+        help="Push the base: newtons, how long [s], when [s], direction [deg] (0 forward, 90 left). May be repeated.",
+    ),
+]
+MassScaleOption = Annotated[float, typer.Option("--mass-scale", metavar="X", help="Factor on all masses and inertias.")]
+FrictionOption = Annotated[float, typer.Option("--friction", metavar="X", help="Factor on all friction.")]
+GroundShiftOption = Annotated[
+    float, typer.Option("--ground-shift", metavar="M", help="The ground lies higher than planned by so much.")
+]
+SeedOption = Annotated[
+    int, typer.Option("--seed", metavar="K", help="Draw mass, friction, ground and a push; 0: none.")
+]
+CheckOption = Annotated[
+    bool,
+    typer.Option("--check/--no-check", help="Say beforehand if the robot cannot follow the plan."),
+]
+VideoOption = Annotated[Path | None, typer.Option("--video", metavar="FILE", help="Film the run (.mp4, .webp, .gif).")]
+HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the run on a page.")]
+StripOption = Annotated[Path | None, typer.Option("--strip", metavar="FILE", help="Snapshots side by side (.png).")]
+PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")]
+SaveOption = Annotated[Path | None, typer.Option("--save", metavar="FILE", help="Save the run (.npz).")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
+QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Nothing on stderr on the way.")]
 
 
 def track(
-    plan: Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")],
-    robot: Annotated[
-        str | None,
-        typer.Option("--robot", metavar="R", help="With a URDF. Default: the plan's own."),
-    ] = None,
-    assist: Annotated[
-        bool, typer.Option("--assist", help="Hold the base with a clipped wrench; it is reported.")
-    ] = False,
-    push: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--push",
-            metavar="N,seconds,at,direction",
-            help="Push the base: newtons, how long [s], when [s], direction [deg] (0 forward, 90 left). May be repeated.",
-        ),
-    ] = None,
-    mass_scale: Annotated[
-        float, typer.Option("--mass-scale", metavar="X", help="Factor on all masses and inertias.")
-    ] = 1.0,
-    friction: Annotated[float, typer.Option("--friction", metavar="X", help="Factor on all friction.")] = 1.0,
-    ground_shift: Annotated[
-        float, typer.Option("--ground-shift", metavar="M", help="The ground lies higher than planned by so much.")
-    ] = 0.0,
-    seed: Annotated[
-        int, typer.Option("--seed", metavar="K", help="Draw mass, friction, ground and a push; 0: none.")
-    ] = 0,
-    check: Annotated[
-        bool,
-        typer.Option("--check/--no-check", help="Say beforehand if the robot cannot follow the plan."),
-    ] = True,
-    video: Annotated[
-        Path | None, typer.Option("--video", metavar="FILE", help="Film the run (.mp4, .webp, .gif).")
-    ] = None,
-    html: Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the run on a page.")] = None,
-    strip: Annotated[
-        Path | None, typer.Option("--strip", metavar="FILE", help="Snapshots side by side (.png).")
-    ] = None,
-    plots: Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")] = None,
-    save: Annotated[Path | None, typer.Option("--save", metavar="FILE", help="Save the run (.npz).")] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Nothing on stderr on the way.")] = False,
+    plan: PlanArgument,
+    robot: RobotOption = None,
+    assist: AssistOption = False,
+    push: PushOption = None,
+    mass_scale: MassScaleOption = 1.0,
+    friction: FrictionOption = 1.0,
+    ground_shift: GroundShiftOption = 0.0,
+    seed: SeedOption = 0,
+    check: CheckOption = True,
+    video: VideoOption = None,
+    html: HtmlOption = None,
+    strip: StripOption = None,
+    plots: PlotsOption = None,
+    save: SaveOption = None,
+    json: JsonOption = False,
+    quiet: QuietOption = False,
 ) -> int:
     """Let a simulated robot follow a plan with its torques alone, and measure how well it does.
 
@@ -73,62 +83,63 @@ def track(
     Example: mcplan track plan.npz --push 40,0.2,3,90 --mass-scale 1.1 --json
     """
     from mcplan.cli.interrupts import CODE, as_far_as_it_came
-    from mcplan.cli.pushes import parse_pushes, require_within
+    from mcplan.cli.pushes import parse_pushes
     from mcplan.cli.terminal import printable
     from mcplan.cli.track_outputs import RunOutputs
     from mcplan.cli.track_text import Progress, summary
     from mcplan.extras import require
-    from mcplan.tracking.options import Options
+    from mcplan.following import track_any
 
     require("mcplan track", "sim", "mujoco", "pinocchio", "proxsuite")
     outputs = RunOutputs(video, html, strip, plots, save)
     outputs.require()
     pushes = parse_pushes(push or [])
-    values: dict[str, Any] = {"assist": assist, "pushes": pushes, "seed": seed}
-    values |= {"mass_scale": mass_scale, "friction_scale": friction, "ground_shift_m": ground_shift}
-
-    from mcplan._core import WholeBodyPlan
-    from mcplan.files.whole_body_plans import load_any_plan
-    from mcplan.tracking.choice import make_options, track_any
-
-    options: Options = make_options(values)
-    loaded = load_any_plan(plan)
-    require_within(pushes, loaded.duration() + options.hold_s)
-    body: Robot | None = None
-    if isinstance(loaded, WholeBodyPlan):
-        _require_planar(robot, assist, pushes, seed)
-    elif robot is not None:
-        from mcplan.files.robots import load_robot
-
-        body = load_robot(robot)
-    feasibility = _feasibility(loaded, body) if check else None
-    if feasibility is not None and not feasibility.ok() and not (quiet or json):
-        print(printable(f"warning: {feasibility.verdict}"), file=sys.stderr)
+    values: dict[str, Any] = {"assist": assist, "pushes": pushes, "seed": seed, "mass_scale": mass_scale}
+    values |= {"friction_scale": friction, "ground_shift_m": ground_shift}
+    loaded, body = _loaded(plan, robot, values)
+    feasibility = _feasibility(loaded, body, quiet or json) if check else None
     progress = Progress(quiet or json)
     result, interrupted = as_far_as_it_came(lambda: track_any(loaded, body, values, progress.simulated))
     progress.end()
-    if json:
-        print(json_module.dumps(summary(result, plan, feasibility), allow_nan=False), flush=True)
-    else:
-        print(result, flush=True)
-    if interrupted:
-        outputs = RunOutputs(save=save)
-    written = outputs.write(result, progress)
+    print(json_module.dumps(summary(result, plan, feasibility), allow_nan=False) if json else result, flush=True)
+    written = (RunOutputs(save=save) if interrupted else outputs).write(result, progress)
     if written and not json:
         print(printable(f"Saved {', '.join(written)}"))
-    if interrupted:
-        return CODE
-    return 0 if result.followed else 1
+    return CODE if interrupted else 0 if result.followed else 1
 
 
-def _feasibility(plan: Plan | WholeBodyPlan, robot: Robot | None) -> Feasibility | Suitability:
-    """What is known of a plan and a robot before simulating them."""
+def _loaded(plan: Path, robot: str | None, values: dict[str, Any]) -> tuple[Plan | WholeBodyPlan, Robot | None]:
+    """The plan and the robot, if one is named.
+
+    Raises:
+        InvalidInput, InvalidOptions: An option out of range, or one that does not go with the plan.
+    """
+    from mcplan._core import WholeBodyPlan
+    from mcplan.cli.pushes import require_within
+    from mcplan.files.robots import load_robot
+    from mcplan.files.whole_body_plans import load_any_plan
+    from mcplan.tracking.choice import make_options
+
+    options = make_options(values)
+    loaded = load_any_plan(plan)
+    require_within(values["pushes"], loaded.duration() + options.hold_s)
+    if isinstance(loaded, WholeBodyPlan):
+        _require_planar(robot, values["assist"], values["pushes"], values["seed"])
+    return loaded, None if robot is None else load_robot(robot)
+
+
+def _feasibility(plan: Plan | WholeBodyPlan, robot: Robot | None, silent: bool) -> Feasibility | Suitability:
+    """What is known of a plan and a robot before simulating them; a warning where the one cannot follow the other."""
     from mcplan._core import Plan
+    from mcplan.cli.terminal import printable
+    from mcplan.planar.tracking.suitability import suitability
     from mcplan.tracking.feasibility import assess
-    from mcplan.tracking.planar.suitability import suitability
     from mcplan.tracking.runner import robot_for
 
-    return assess(plan, robot_for(plan, robot)) if isinstance(plan, Plan) else suitability(plan)
+    found = assess(plan, robot_for(plan, robot)) if isinstance(plan, Plan) else suitability(plan)
+    if not (found.ok() or silent):
+        print(printable(f"warning: {found.verdict}"), file=sys.stderr)
+    return found
 
 
 def _require_planar(robot: str | None, assist: bool, pushes: list[Any], seed: int) -> None:

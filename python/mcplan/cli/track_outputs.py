@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from mcplan.cli.track_text import Progress
+    from mcplan.planar.tracking import PlanarResult
     from mcplan.tracking import TrackingResult
-    from mcplan.tracking.planar import PlanarResult
 
 
 @dataclass(frozen=True)
@@ -30,23 +30,20 @@ class RunOutputs:
                 other way round, or a name has the wrong ending.
             MissingExtra: What draws is not installed.
         """
-        from mcplan.cli.outputs import require_outputs
-        from mcplan.extras import require
+        from mcplan.cli.outputs import require_outputs, require_rendering
         from mcplan.files.outputs import ARCHIVE, require_target
 
         require_target("--save", self.save, ARCHIVE)
         require_target("--strip", self.strip, (".png",))
         require_outputs("track", None, self.html, self.plots)
         if self.video is not None:
-            from mcplan.view.video_files import SUFFIXES, check_target
+            from mcplan.view.video.files import SUFFIXES, check_target
 
             require_target("--video", self.video, SUFFIXES)
             check_target(self.video)
         for option, path in (("--video", self.video), ("--strip", self.strip)):
             if path is not None:
-                require(f"mcplan track {option}", "sim", "PIL")
-        if self.video is not None or self.strip is not None:
-            _require_graphics("--video" if self.video is not None else "--strip")
+                require_rendering(f"mcplan track {option}")
 
     def write(self, result: TrackingResult | PlanarResult, progress: Progress) -> list[str]:
         """Write what was asked for, the quick ones first.
@@ -54,44 +51,21 @@ class RunOutputs:
         Returns:
             Names of what was written.
         """
-        from mcplan.tracking import TrackingResult
+        from mcplan.showing import save_plots, save_strip, save_video, show
 
         if self.save is not None:
             progress.working("saving the run")
             result.save(self.save)
         if self.plots is not None:
             progress.working("plotting")
-            if isinstance(result, TrackingResult):
-                from mcplan.view.plots_run import save_run_plots
-
-                save_run_plots(result.recording, self.plots)
-            else:
-                from mcplan.view.plots_planar_run import save_planar_run_plots
-
-                save_planar_run_plots(result.recording, self.plots)
+            save_plots(result, None, self.plots)
         if self.html is not None:
-            from mcplan.view.show_run import show_run
-
             progress.working("drawing the page")
-            show_run(result).save_html(self.html)
+            show(result).save_html(self.html)
         if self.strip is not None:
-            from mcplan.view.run_strip import save_run_strip
-
             progress.working("taking snapshots")
-            save_run_strip(result, self.strip)
+            save_strip(result, self.strip)
         if self.video is not None:
-            from mcplan.view.video import save_video
-
             save_video(result, self.video, progress=progress.drawn)
         progress.end()
         return [str(path) for path in (self.save, self.plots, self.html, self.strip, self.video) if path is not None]
-
-
-def _require_graphics(option: str) -> None:
-    from mcplan.errors import MissingExtra
-    from mcplan.view.rendering import NoGraphics, require_graphics
-
-    try:
-        require_graphics()
-    except NoGraphics as found:
-        raise MissingExtra(f"mcplan track {option}: {found}") from None

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 from mcplan.cli.terminal import control, printable
 
 if TYPE_CHECKING:
+    from mcplan.planar.tracking import PlanarResult, Suitability
     from mcplan.tracking import TrackingResult
     from mcplan.tracking.findings import Feasibility
-    from mcplan.tracking.planar import PlanarResult, Suitability
 
 #: [s] between two states of the line: in a terminal, where it is written over, and in a file.
 _TERMINAL_S, _FILE_S = 0.1, 5.0
@@ -96,7 +96,7 @@ def summary(
 
 
 def _planar(result: PlanarResult) -> dict[str, Any]:
-    from mcplan.tracking.planar.report import nearest_to_torque_limit
+    from mcplan.tracking.report import nearest_to_torque_limit
 
     plan, measures = result.recording.plan, result.measures
     return {

@@ -1,6 +1,7 @@
 """Postures of a URDF's model that follow a plan: damped least squares over CoM, base and end-effectors.
 
-Each sample starts from the posture of the one before, so that the motion stays on one branch.
+Each sample starts from the posture of the one before, so that the motion stays on one branch. Why pink does not do this:
+docs/architecture.md, "Libraries that are not used".
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 from .rotations import quat_xyzw
 
 if TYPE_CHECKING:
-    from mcplan import EndEffector
+    from mcplan._core import EndEffector
 
     from .samples import Samples
     from .urdf_model import UrdfModel

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from mcplan._core import ForceLaw, plan_loads
 
 if TYPE_CHECKING:
-    from mcplan import Plan
+    from mcplan._core import Plan
 
 #: [s] between the instants that are looked at, at most; both ends of every phase are among them.
 STEP_S = 0.005

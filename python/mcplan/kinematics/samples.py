@@ -13,8 +13,7 @@ from mcplan._core import ForceLaw
 from .rotations import about_z, between, from_rpy, polygon_normal, sole_frame
 
 if TYPE_CHECKING:
-    from mcplan import Plan, Robot, Scene
-    from mcplan._core import PlanState, ResolvedStance
+    from mcplan._core import Plan, PlanState, ResolvedStance, Robot, Scene
 
 Array = NDArray[np.float64]
 

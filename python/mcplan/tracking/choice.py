@@ -1,54 +1,14 @@
-"""mp.track: a plan of any planner, options by name."""
+"""Options of a run by name."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import fields, replace
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from mcplan._core import Plan, Robot, WholeBodyPlan
-from mcplan.arguments import require_or_path
-from mcplan.errors import InvalidInput, InvalidOptions, did_you_mean
+from mcplan.errors import InvalidOptions, did_you_mean
 
 from .options import Gains, Options, Push
-
-if TYPE_CHECKING:
-    from .planar import PlanarResult
-    from .result import TrackingResult
-
-
-def track_any(
-    plan: Plan | WholeBodyPlan | str | Path,
-    robot: Robot | str | Path | None,
-    values: Mapping[str, Any],
-    progress: Callable[[float, float], None] | None = None,
-) -> TrackingResult | PlanarResult:
-    """Track a plan of any planner; see mcplan.track.
-
-    Args:
-        plan: The plan, or the path of one.
-        robot: Of a plan of ddp or rhp; None: the plan's own.
-        values: Fields of Options by name.
-        progress: Called now and then with the time simulated and the time to simulate [s].
-    """
-    if not isinstance(robot, Robot):
-        require_or_path("robot", robot, "a Robot", "a name", optional=True)
-    if not isinstance(plan, (Plan, WholeBodyPlan)):
-        require_or_path("plan", plan, "a Plan", "a WholeBodyPlan")
-        from mcplan.files.whole_body_plans import load_any_plan
-
-        plan = load_any_plan(plan)
-    if isinstance(plan, Plan):
-        from .runner import track
-
-        return track(plan, robot, make_options(values), progress)
-    if robot is not None:
-        name = robot if isinstance(robot, (str, Path)) else robot.name
-        raise InvalidInput("robot", "must not be given with a whole-body plan, which has its own", repr(str(name)))
-    from .planar import DEFAULT_OPTIONS, track_whole_body
-
-    return track_whole_body(plan, make_options(values, DEFAULT_OPTIONS), progress=progress)
 
 
 def make_options(values: Mapping[str, Any], base: Options | None = None) -> Options:

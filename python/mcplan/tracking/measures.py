@@ -74,15 +74,15 @@ def measure(recording: Recording, final_configuration: Array) -> Measures:
     return Measures(
         fell=fell,
         completed_s=float(r.times_s[-1]),
-        com_rms_m=_rms(com_error),
+        com_rms_m=rms(com_error),
         com_max_m=float(com_error.max()),
-        orientation_rms_deg=float(np.degrees(_rms(_angles(r.configurations[:, 3:7], r.base_quat_xyzw_plan)))),
-        swing_rms_m=_rms(np.linalg.norm(r.ends_W - r.ends_plan_W, axis=2)[swinging(r.contacts_plan)]),
+        orientation_rms_deg=float(np.degrees(rms(_angles(r.configurations[:, 3:7], r.base_quat_xyzw_plan)))),
+        swing_rms_m=rms(np.linalg.norm(r.ends_W - r.ends_plan_W, axis=2)[swinging(r.contacts_plan)]),
         slip_m=_slip(r),
         # A joint whose URDF gives it no effort has no motor to use.
         torque_use=float((np.abs(r.torques) / np.where(r.torque_limits > 0.0, r.torque_limits, np.inf)).max()),
-        assist_force_rms_N=_rms(np.linalg.norm(r.assist[:, :3], axis=1)),
-        assist_moment_rms_Nm=_rms(np.linalg.norm(r.assist[:, 3:], axis=1)),
+        assist_force_rms_N=rms(np.linalg.norm(r.assist[:, :3], axis=1)),
+        assist_moment_rms_Nm=rms(np.linalg.norm(r.assist[:, 3:], axis=1)),
         final_base_error_m=float(np.linalg.norm(final)),
         qp_failures=0,
         simulator_warnings=0,
@@ -97,7 +97,8 @@ def swinging(contacts_plan: NDArray[np.int64]) -> NDArray[np.bool_]:
     return (contacts_plan < 0) & later
 
 
-def _rms(values: Array) -> float:
+def rms(values: Array) -> float:
+    """Root of the mean square; 0 of nothing."""
     return float(np.sqrt(np.mean(np.square(values)))) if values.size else 0.0
 
 

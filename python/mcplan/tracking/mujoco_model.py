@@ -103,14 +103,7 @@ def build(robot: Robot, scene: Scene, options: Options | None = None, visual: bo
         raise InvalidRobot("urdf", "must be a URDF that MuJoCo can simulate", f"{robot.urdf!r} ({error})") from error
 
     dofs = np.array([mj.joint(name).dofadr[0] for name in joints], dtype=np.int64)
-    mj.geom_solref[:] = CONTACT_SOLREF
-    mj.dof_damping[:] = 0.0
-    mj.dof_frictionloss[:] = 0.0
-    mj.dof_armature[:6] = 0.0
-    mj.dof_armature[dofs] = model.armature[6:]
-    mj.body_mass[:] *= options.mass_scale
-    mj.body_inertia[:] *= options.mass_scale
-    mujoco.mj_setConst(mj, mujoco.MjData(mj))
+    _set_constants(mj, dofs, model.armature[6:], options.mass_scale)
     return SimulationModel(
         loaded=loaded,
         mj=mj,
@@ -123,6 +116,20 @@ def build(robot: Robot, scene: Scene, options: Options | None = None, visual: bo
         end_geoms=tuple((mj.geom(f"end/{end.name}").id,) for end in robot.end_effectors),
         surface_geoms=tuple(mj.geom(f"surface/{i}").id for i in range(len(scene.surfaces))),
     )
+
+
+def _set_constants(mj: Any, dofs: NDArray[np.int64], armature: Array, mass_scale: float) -> None:
+    """Hardness of contacts, inertia of rotors, and the factor on masses and inertias."""
+    import mujoco
+
+    mj.geom_solref[:] = CONTACT_SOLREF
+    mj.dof_damping[:] = 0.0
+    mj.dof_frictionloss[:] = 0.0
+    mj.dof_armature[:6] = 0.0
+    mj.dof_armature[dofs] = armature
+    mj.body_mass[:] *= mass_scale
+    mj.body_inertia[:] *= mass_scale
+    mujoco.mj_setConst(mj, mujoco.MjData(mj))
 
 
 def _only_look(spec: Any) -> None:

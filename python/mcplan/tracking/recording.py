@@ -9,6 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.files.plans import plan_from_bytes
+from mcplan.files.robots import robot_from_dict
+
+from .run_files import RUN, Arrays, Header, columns_of, load_run
+
 if TYPE_CHECKING:
     from mcplan._core import Plan, Robot
 
@@ -78,6 +83,14 @@ class Recording:
             InvalidInput: No such file; the message names file, field and rule.
             FileNotFoundError: There is no such file.
         """
-        from .result import TrackingResult
+        return load_run(path, {RUN: recording_from})
 
-        return TrackingResult.load(path).recording
+
+def recording_from(header: Header, arrays: Arrays) -> Recording:
+    """The recording that the file of a run holds."""
+    plan = plan_from_bytes(arrays["plan"].tobytes())
+    robot = None if header["robot"] is None else robot_from_dict(header["robot"])
+    columns = columns_of(Recording, arrays)
+    return Recording(
+        plan=plan, joints=tuple(header["joints"]), fell_at_s=float(header["ended_at_s"]), robot=robot, **columns
+    )

@@ -2,25 +2,42 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
+from .measures import Measures
 from .options import Options, Push
-
-if TYPE_CHECKING:
-    from .recording import Recording
-    from .result import TrackingResult
+from .recording import Array, Recording
 
 
-def report(result: TrackingResult) -> str:
+class Reported(Protocol):
+    """What a report reads of a TrackingResult, which lies above: it prints itself by this."""
+
+    @property
+    def recording(self) -> Recording: ...
+    @property
+    def measures(self) -> Measures: ...
+    @property
+    def options(self) -> Options: ...
+    @property
+    def interrupted(self) -> bool: ...
+    @property
+    def completed(self) -> bool: ...
+
+
+def report(result: Reported) -> str:
     """The headline, and below it a line for each measure."""
-    rows = rows_of(result)
+    return as_text(headline(result), rows_of(result))
+
+
+def as_text(title: str, rows: list[tuple[str, str]]) -> str:
+    """A title, and below it names and values in two columns."""
     width = max(len(name) for name, _ in rows)
-    return "\n".join([headline(result), *(f"  {name:{width}}  {value}" for name, value in rows)])
+    return "\n".join([title, *(f"  {name:{width}}  {value}" for name, value in rows)])
 
 
-def headline(result: TrackingResult) -> str:
+def headline(result: Reported) -> str:
     """Scene, robot, and how the run ended."""
     recording = result.recording
     plan, lasts = recording.plan, recording.plan.duration()
@@ -28,7 +45,7 @@ def headline(result: TrackingResult) -> str:
     return f"{plan.scene.name}  {recording.body.name}  {ending(result)} (plan of {lasts:.2f} s, {assisted})"
 
 
-def ending(result: TrackingResult) -> str:
+def ending(result: Reported) -> str:
     """How the run ended."""
     measures = result.measures
     if measures.fell:
@@ -38,7 +55,7 @@ def ending(result: TrackingResult) -> str:
     return f"followed to the end: {measures.completed_s:.2f} s without a fall"
 
 
-def rows_of(result: TrackingResult) -> list[tuple[str, str]]:
+def rows_of(result: Reported) -> list[tuple[str, str]]:
     """What was measured, and its value."""
     m, options = result.measures, result.options
     joint, time_s = nearest_to_torque_limit(result.recording)
@@ -61,14 +78,27 @@ def rows_of(result: TrackingResult) -> list[tuple[str, str]]:
     return [*rows, ("controller", controller_text(result)), ("simulator", simulator_text(result))]
 
 
-def nearest_to_torque_limit(recording: Recording) -> tuple[str, float]:
+class Torques(Protocol):
+    """What recordings of robots in space and of planar ones have in common."""
+
+    @property
+    def joints(self) -> tuple[str, ...]: ...
+    @property
+    def times_s(self) -> Array: ...
+    @property
+    def torques(self) -> Array: ...
+    @property
+    def torque_limits(self) -> Array: ...
+
+
+def nearest_to_torque_limit(recording: Torques) -> tuple[str, float]:
     """The joint whose torque came nearest to its limit, and when [s]."""
     use = np.abs(recording.torques) / recording.torque_limits
     n, joint = np.unravel_index(int(np.argmax(use)), use.shape)
     return recording.joints[joint], float(recording.times_s[n])
 
 
-def assistance_text(result: TrackingResult) -> str:
+def assistance_text(result: Reported) -> str:
     if not result.options.assist:
         return "none"
     m = result.measures
@@ -95,13 +125,13 @@ def push_text(push: Push) -> str:
     return f"push of {push.force_N:.0f} N for {push.duration_s:.2g} s at {push.at_s:.2f} s {where}"
 
 
-def controller_text(result: TrackingResult) -> str:
+def controller_text(result: Reported) -> str:
     m = result.measures
     solved = "every step solved" if m.qp_failures == 0 else f"{m.qp_failures} steps not solved"
     return f"{solved}, {m.control_ms:.2f} ms a step"
 
 
-def simulator_text(result: TrackingResult) -> str:
+def simulator_text(result: Reported) -> str:
     m = result.measures
     count = m.simulator_warnings
     warned = "no warnings" if count == 0 else f"{count} warning{'' if count == 1 else 's'}"

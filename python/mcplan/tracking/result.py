@@ -5,9 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from mcplan.files.plans import plan_to_bytes
+from mcplan.files.robots import robot_to_dict
+
 from .measures import Measures
 from .options import Options
-from .recording import Recording
+from .recording import Recording, recording_from
+from .report import report
+from .run_files import RUN, Arrays, Header, RunParts, load_run, measures_of, options_of, save_run
 
 
 @dataclass(frozen=True)
@@ -38,9 +43,18 @@ class TrackingResult:
 
     def save(self, path: str | Path) -> None:
         """Write everything, the plan included, to an .npz file, which is complete or not there at all."""
-        from .run_files import save_run
-
-        save_run(self, path)
+        run = self.recording
+        parts = RunParts(
+            RUN,
+            run,
+            plan_to_bytes(run.plan),
+            self.measures,
+            self.options,
+            self.interrupted,
+            run.fell_at_s,
+            {"joints": list(run.joints), "robot": None if run.robot is None else robot_to_dict(run.robot)},
+        )
+        save_run(parts, path)
 
     @staticmethod
     def load(path: str | Path) -> TrackingResult:
@@ -50,18 +64,14 @@ class TrackingResult:
             InvalidInput: No such file of a robot with a URDF; the message names file, field and rule.
             FileNotFoundError: There is no such file.
         """
-        from .run_files import load_run
-
-        result = load_run(path)
-        if not isinstance(result, TrackingResult):
-            from mcplan.errors import InvalidInput
-
-            raise InvalidInput(
-                "header.kind", "must be that of a robot with a URDF; see PlanarResult.load", "", str(path)
-            )
-        return result
+        return load_run(path, {RUN: result_from})
 
     def __str__(self) -> str:
-        from .report import report
-
         return report(self)
+
+
+def result_from(header: Header, arrays: Arrays) -> TrackingResult:
+    """The result that the file of a run holds."""
+    recording = recording_from(header, arrays)
+    measures = Measures(**measures_of(header))
+    return TrackingResult(recording, measures, options_of(header), bool(header["interrupted"]))

@@ -2,7 +2,9 @@
 
 The header (bytes of UTF-8 JSON) holds the kind "run" or "planar_run", the format's version, the version of mcplan, the
 options, the measures, how the run ended, the names of joints, and the robot if it is not the plan's. The arrays are those
-of Recording or PlanarRecording under their names, and `plan`, the bytes of the plan's file. Arrays are compressed.
+of the recording under their names, and `plan`, the bytes of the plan's file. Arrays are compressed.
+
+What is of one kind alone stands beside its recording and its result: they hand it to save_run and load_run.
 """
 
 from __future__ import annotations
@@ -11,69 +13,94 @@ import errno
 import io
 import json
 import os
-from collections.abc import Mapping
-from dataclasses import asdict, fields
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, Protocol, TypeVar, cast
 
 import numpy as np
 
 from mcplan._core import __version__
 from mcplan.errors import InvalidInput, shown
-from mcplan.files import plans, whole_body_plans
+from mcplan.files import whole_body_plans
 from mcplan.files.archives import read_arrays, read_header
 from mcplan.files.builtin import exists
 from mcplan.files.outputs import ARCHIVE, require_suffix, write_whole
 from mcplan.files.reading import MOST_PLAN_INFLATED, MOST_RUN, MOST_RUN_INFLATED, MOST_RUN_RATIO, read_file
-from mcplan.files.robots import robot_from_dict, robot_to_dict
 
-from .measures import Measures
 from .options import Gains, Options, Push
-from .planar.measures import PlanarMeasures
-from .planar.recording import PlanarRecording
-from .recording import Recording
-from .result import TrackingResult
-
-if TYPE_CHECKING:
-    from .planar import PlanarResult
 
 FORMAT = 1
 RUN, PLANAR_RUN = whole_body_plans.RUN_KINDS
-#: How a run ended, by kind: the time of it, infinite in most.
-_ENDS = {RUN: "fell_at_s", PLANAR_RUN: "left_plan_at_s"}
-_NAMES = {RUN: ("joints",), PLANAR_RUN: ("joints", "ends")}
+#: Fields of recordings that hold no arrays: those of the header, and what the plan's file holds.
+_OTHERS = {"plan", "robot", "joints", "ends", "fell_at_s", "left_plan_at_s"}
+
+T = TypeVar("T")
+Header = Mapping[str, Any]
+Arrays = Mapping[str, np.ndarray]
 
 
-def save_run(result: TrackingResult | PlanarResult, path: str | Path) -> None:
+class _Measures(Protocol):
+    def as_dict(self) -> dict[str, Any]: ...
+
+
+@dataclass(frozen=True)
+class RunParts:
+    """What the file of a run holds.
+
+    Attributes:
+        kind: RUN or PLANAR_RUN.
+        recording: A dataclass; its arrays are saved under their names.
+        plan: Bytes of the plan's file.
+        measures: Of the run.
+        options: As they were used.
+        interrupted: Ctrl-C ended the run.
+        ended_at_s: When the run ended before its time; infinite in most.
+        more: What else the header holds: names of joints, the robot.
+    """
+
+    kind: str
+    recording: Any
+    plan: bytes
+    measures: _Measures
+    options: Options
+    interrupted: bool
+    ended_at_s: float
+    more: dict[str, Any]
+
+
+def save_run(parts: RunParts, path: str | Path) -> None:
     """Write a run to a file, which is complete or not there at all."""
     require_suffix("path", path, (*ARCHIVE, ""))
-    recording = result.recording
-    kind = RUN if isinstance(recording, Recording) else PLANAR_RUN
     header: dict[str, Any] = {
-        "kind": kind,
+        "kind": parts.kind,
         "format": FORMAT,
         "mcplan": __version__,
-        "options": asdict(result.options),
-        "measures": _plain(result.measures.as_dict()),
-        "interrupted": result.interrupted,
-        "ended_at_s": _plain(getattr(recording, _ENDS[kind])),
+        "options": asdict(parts.options),
+        "measures": _plain(parts.measures.as_dict()),
+        "interrupted": parts.interrupted,
+        "ended_at_s": _plain(parts.ended_at_s),
+        **parts.more,
     }
-    header |= {name: list(getattr(recording, name)) for name in _NAMES[kind]}
-    if isinstance(recording, Recording):
-        header["robot"] = None if recording.robot is None else robot_to_dict(recording.robot)
-        plan = plans.plan_to_bytes(recording.plan)
-    else:
-        plan = whole_body_plans.plan_to_bytes(recording.plan)
-    content = {name: getattr(recording, name) for name in _array_names(type(recording))}
+    content = {name: getattr(parts.recording, name) for name in _array_names(type(parts.recording))}
     content["header"] = np.frombuffer(json.dumps(header, allow_nan=False).encode(), dtype=np.uint8)
-    content["plan"] = np.frombuffer(plan, dtype=np.uint8)
+    content["plan"] = np.frombuffer(parts.plan, dtype=np.uint8)
     buffer = io.BytesIO()
     np.savez_compressed(buffer, **cast(Any, content))
     write_whole(buffer.getvalue(), path)
 
 
-def load_run(path: str | Path) -> TrackingResult | PlanarResult:
+def load_run(
+    path: str | Path,
+    makers: Mapping[str, Callable[[Header, Arrays], T]],
+    otherwise: Callable[[str | Path], T] | None = None,
+) -> T:
     """Read a run written by save_run.
+
+    Args:
+        path: The file.
+        makers: By kind: what makes the run of the header and the arrays.
+        otherwise: Called for a file that is of no run; None: it is refused.
 
     Raises:
         InvalidInput: Not such a file, or its content does not fit together; the message names file, field and rule.
@@ -86,14 +113,22 @@ def load_run(path: str | Path) -> TrackingResult | PlanarResult:
         arrays = read_arrays(data, min(MOST_RUN_INFLATED, MOST_RUN_RATIO * len(data) + MOST_PLAN_INFLATED))
         header = read_header(arrays)
         kind = header.get("kind")
-        if not isinstance(kind, str) or kind not in _ENDS:
+        if not isinstance(kind, str) or kind not in (RUN, PLANAR_RUN):
+            if otherwise is not None:
+                return otherwise(path)
             raise InvalidInput("header.kind", f"must be {RUN!r} or {PLANAR_RUN!r}: no file of a run", shown(kind))
         if header.get("format") != FORMAT:
             raise InvalidInput(
                 "header.format", f"must be {FORMAT} for this version of mcplan", shown(header.get("format"))
             )
+        if kind not in makers:
+            others = {
+                RUN: "that of a planar robot; see TrackingResult.load",
+                PLANAR_RUN: "that of a robot with a URDF; see PlanarResult.load",
+            }
+            raise InvalidInput("header.kind", f"must be {others[kind]}", "")
         try:
-            return _planar_result(header, arrays) if kind == PLANAR_RUN else _result(header, arrays)
+            return makers[kind](header, arrays)
         except InvalidInput:
             raise
         except (KeyError, TypeError, AttributeError, ValueError, OverflowError) as found:
@@ -102,39 +137,7 @@ def load_run(path: str | Path) -> TrackingResult | PlanarResult:
         raise found.moved(InvalidInput, str(path)) from None
 
 
-def _result(header: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> TrackingResult:
-    plan = plans.plan_from_bytes(arrays["plan"].tobytes())
-    robot = None if header["robot"] is None else robot_from_dict(header["robot"])
-    columns = _columns(Recording, arrays)
-    recording = Recording(
-        plan=plan, joints=tuple(header["joints"]), fell_at_s=float(header["ended_at_s"]), robot=robot, **columns
-    )
-    measures = Measures(**_measures(header["measures"]))
-    return TrackingResult(recording, measures, _options(header["options"]), bool(header["interrupted"]))
-
-
-def _planar_result(header: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> PlanarResult:
-    from .planar import PlanarResult
-
-    columns = _columns(PlanarRecording, arrays)
-    recording = PlanarRecording(
-        plan=whole_body_plans.plan_from_bytes(arrays["plan"].tobytes()),
-        joints=tuple(header["joints"]),
-        ends=tuple(header["ends"]),
-        left_plan_at_s=float(header["ended_at_s"]),
-        **columns,
-    )
-    measures = PlanarMeasures(**_measures(header["measures"]))
-    return PlanarResult(recording, measures, _options(header["options"]), bool(header["interrupted"]))
-
-
-def _array_names(recording: type) -> list[str]:
-    """Fields that hold arrays: all but those of the header."""
-    others = {"plan", "robot", *_ENDS.values(), *_NAMES[PLANAR_RUN]}
-    return [item.name for item in fields(recording) if item.name not in others]
-
-
-def _columns(recording: type, arrays: Mapping[str, np.ndarray]) -> dict[str, Any]:
+def columns_of(recording: type, arrays: Arrays) -> dict[str, Any]:
     """The arrays of a recording.
 
     Raises:
@@ -150,9 +153,20 @@ def _columns(recording: type, arrays: Mapping[str, np.ndarray]) -> dict[str, Any
     return {name: arrays[name] for name in names}
 
 
-def _options(data: Mapping[str, Any]) -> Options:
+def options_of(header: Header) -> Options:
+    """The options of the run."""
+    data = header["options"]
     pushes = tuple(Push(**push) for push in data["pushes"])
     return Options(**{**data, "pushes": pushes, "gains": Gains(**data["gains"])})
+
+
+def measures_of(header: Header) -> dict[str, Any]:
+    """The measures of the run, by name."""
+    return {key: float(value) if isinstance(value, str) else value for key, value in header["measures"].items()}
+
+
+def _array_names(recording: type) -> list[str]:
+    return [item.name for item in fields(recording) if item.name not in _OTHERS]
 
 
 def _plain(value: Any) -> Any:
@@ -160,7 +174,3 @@ def _plain(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _plain(item) for key, item in value.items()}
     return str(value) if isinstance(value, float) and not np.isfinite(value) else value
-
-
-def _measures(data: Mapping[str, Any]) -> dict[str, Any]:
-    return {key: float(value) if isinstance(value, str) else value for key, value in data.items()}

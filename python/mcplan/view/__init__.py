@@ -1,66 +1,36 @@
-"""Pages for the browser, plots, videos and snapshots of plans and runs.
+"""Pages for the browser, pictures, plots and videos of plans and runs of robots in space; ``mcplan.planar.view`` has those of
+planar robots, ``mcplan.showing`` what takes either.
 
 Needs ``pip install 'mcplan[view]'``, and for rendering runs ``mcplan[sim]``; both are imported when used.
 """
 
 from __future__ import annotations
 
-from .page import Page
-from .picture import picture
-from .plots import (
-    film_strip,
-    plot_base,
-    plot_com,
-    plot_cones,
-    plot_contact_sequence,
-    plot_cost,
-    plot_drift,
-    plot_forces,
-    plot_friction,
-    plot_gait,
-    plot_joint_velocities,
-    plot_joints,
-    plot_momentum,
-    plot_point_forces,
-    plot_pressure,
-    plot_timing,
-    plot_torques,
-    plot_turning,
-    save_plots,
-    stroboscope,
-)
-from .plots_run import (
-    plot_run_assist,
-    plot_run_com,
-    plot_run_errors,
-    plot_run_momentum,
-    save_run_plots,
-)
-from .plots_run_forces import plot_run_forces, plot_run_torques
-from .rendering import NoGraphics
-from .run_strip import save_run_postures, save_run_strip
-from .show import show, show_scene
-from .show_run import show_run
-from .video import save_video
+from mcplan.view.pages.page import Page
+from mcplan.view.pages.show import show, show_scene
+from mcplan.view.pages.show_run import show_run
+from mcplan.view.pictures.picture import picture
+from mcplan.view.pictures.rendering import NoGraphics
+from mcplan.view.pictures.run_strip import save_run_postures, save_run_strip
+from mcplan.view.plots.plan import plot_com, plot_forces, plot_friction, plot_gait, plot_momentum, plot_turning
+from mcplan.view.plots.points import plot_pressure, plot_timing
+from mcplan.view.plots.report import plot_contact_sequence, plot_cost
+from mcplan.view.plots.run import plot_run_assist, plot_run_com, plot_run_errors, plot_run_momentum, save_run_plots
+from mcplan.view.plots.run_forces import plot_run_forces, plot_run_torques
+from mcplan.view.plots.save import save_plots
+from mcplan.view.video.film import save_video
 
 __all__ = [
     "NoGraphics",
     "Page",
-    "film_strip",
     "picture",
-    "plot_base",
     "plot_com",
-    "plot_cones",
     "plot_contact_sequence",
     "plot_cost",
-    "plot_drift",
     "plot_forces",
     "plot_friction",
     "plot_gait",
-    "plot_joint_velocities",
-    "plot_joints",
     "plot_momentum",
-    "plot_point_forces",
     "plot_pressure",
     "plot_timing",
     "plot_run_assist",
@@ -69,7 +39,6 @@ __all__ = [
     "plot_run_forces",
     "plot_run_momentum",
     "plot_run_torques",
-    "plot_torques",
     "plot_turning",
     "save_plots",
     "save_run_plots",
@@ -79,5 +48,4 @@ __all__ = [
     "show",
     "show_run",
     "show_scene",
-    "stroboscope",
 ]

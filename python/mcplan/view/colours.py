@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from mcplan import Robot, Scene
+    from mcplan._core import Robot, Scene
 
 COOL = ("#0072B2", "#56B4E9", "#009E73", "#7FB7A3")
 WARM = ("#D55E00", "#E69F00", "#CC79A7", "#A8563A")

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from mcplan import Robot, Scene
+    from mcplan._core import Robot, Scene
     from mcplan.kinematics.samples import Samples
 
 Array = NDArray[np.float64]

@@ -11,7 +11,7 @@ from .figure import Figure
 from .robot_stick import stick_robot
 
 if TYPE_CHECKING:
-    from mcplan import Robot
+    from mcplan._core import Robot
 
 
 def figure_of(samples: Samples, robot: Robot, colours: list[str]) -> Figure:

@@ -17,7 +17,7 @@ from .shapes import Mesh, circle, cone, disc, ellipsoid, loft, plate, tube
 from .stage import node
 
 if TYPE_CHECKING:
-    from mcplan import Robot, Scene
+    from mcplan._core import Robot, Scene
 
     from .stage import Stage
 

@@ -21,7 +21,7 @@ from .shapes import Mesh, capsule, ellipsoid, rounded_stack
 from .stage import node
 
 if TYPE_CHECKING:
-    from mcplan import Robot
+    from mcplan._core import Robot
 
 Array = NDArray[np.float64]
 

@@ -19,7 +19,7 @@ from .shapes import Mesh, box, capsule, circle, ellipsoid, loft
 from .winding import whole
 
 if TYPE_CHECKING:
-    from mcplan import Robot
+    from mcplan._core import Robot
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from mcplan.kinematics.rotations import polygon_normal, with_axis_z
 from mcplan.kinematics.samples import Interval, Samples
 
 if TYPE_CHECKING:
-    from mcplan import Scene
+    from mcplan._core import Scene
     from mcplan.kinematics.urdf_model import UrdfModel
     from mcplan.tracking import Recording
 

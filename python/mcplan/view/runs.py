@@ -1,24 +1,48 @@
-"""What counts as a run for pictures and plots."""
+"""What counts as a run: of a robot with a URDF, and for rendered pictures and videos of any robot."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
-from mcplan.tracking import Recording, TrackingResult
-from mcplan.tracking.planar import PlanarRecording
+import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from mcplan.tracking.planar.run import PlanarResult
-
-#: A recording, or the result that carries one; of a robot with a URDF or of a planar robot.
-Run: TypeAlias = "Recording | TrackingResult | PlanarRecording | PlanarResult"
+from mcplan.tracking import Options, Recording, TrackingResult
 
 
-def recording_of(run: Run) -> Recording | PlanarRecording:
+class AnyRecording(Protocol):
+    """What a robot did, sampled."""
+
+    @property
+    def times_s(self) -> NDArray[np.float64]: ...
+
+
+class AnyResult(Protocol):
+    """A recording, and how the run was made."""
+
+    @property
+    def recording(self) -> AnyRecording: ...
+    @property
+    def options(self) -> Options: ...
+
+
+#: A recording, or the result that carries one.
+Run: TypeAlias = Recording | TrackingResult
+AnyRun: TypeAlias = AnyRecording | AnyResult
+
+
+def recording_of(run: Run) -> Recording:
     """The recording itself."""
-    return run if isinstance(run, (Recording, PlanarRecording)) else run.recording
+    return run if isinstance(run, Recording) else run.recording
 
 
-def ground_shift_of(run: Run) -> float:
+def last_time_s(run: AnyRun) -> float:
+    """The last instant of a run."""
+    recording: Any = getattr(run, "recording", run)
+    return float(recording.times_s[-1])
+
+
+def ground_shift_of(run: AnyRun) -> float:
     """Height [m] by which the simulated ground lay above the planned one; 0 where only the recording is known."""
-    return 0.0 if isinstance(run, (Recording, PlanarRecording)) else float(run.options.ground_shift_m)
+    options = getattr(run, "options", None)
+    return 0.0 if options is None else float(options.ground_shift_m)

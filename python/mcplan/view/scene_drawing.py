@@ -16,7 +16,7 @@ from .shapes import Mesh, prism
 from .stage import node
 
 if TYPE_CHECKING:
-    from mcplan import Scene, Surface
+    from mcplan._core import Scene, Surface
 
     from .stage import Stage
 

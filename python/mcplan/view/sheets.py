@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -39,6 +40,13 @@ def save_figure(figure: Figure, path: str | Path, **options: Any) -> Path:
     with whole_file(path) as temporary:
         figure.savefig(temporary, format=kind, metadata=about, **options)
     return Path(path)
+
+
+def save_figures(figures: Mapping[str, Figure], folder: str | Path) -> list[Path]:
+    """Write each figure to NAME.png in a folder, which is made if it does not exist; the files written."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    return [save_figure(figure, folder / f"{name}.png") for name, figure in figures.items()]
 
 
 def sheet(rows: int, columns: int = 1, size: tuple[float, float] = (9.0, 4.0), **options: Any) -> tuple[Figure, Array]:

@@ -13,7 +13,7 @@ from .extent import SMALL, Extent, scale_of
 from .scene_drawing import SurfaceDrawing
 
 if TYPE_CHECKING:
-    from mcplan import Robot
+    from mcplan._core import Robot
 
 Array = NDArray[np.float64]
 

@@ -1,0 +1,228 @@
+"""mcplan bench"""
+
+from __future__ import annotations
+
+import json as json_module
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .contacts import contacts
+from .deadlines import deadlines
+from .tracking import tracking
+
+app = typer.Typer(
+    invoke_without_command=True,
+    rich_markup_mode=None,
+)
+app.command()(contacts)
+app.command()(deadlines)
+app.command()(tracking)
+
+_OUT = typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written.")
+
+
+@app.callback()
+def speed(
+    context: typer.Context,
+    repeats: Annotated[int, typer.Option("--repeats", metavar="N", min=1, help="Solves behind each median.")] = 7,
+    threads: Annotated[int, typer.Option("--threads", metavar="N", min=1, help="Threads of our search.")] = 1,
+    quick: Annotated[bool, typer.Option("--quick", help="Few sizes in the growth.")] = False,
+    out: Annotated[Path, _OUT] = Path("out/bench"),
+    json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+) -> int:
+    """Time ours against the paper's form on the four scenes, and how it grows with phases, end-effectors and surfaces.
+
+    Medians over repeats, in one run. An iteration is what both methods repeat: linearise, value functions, pricing,
+    line search; of ours those with the sequence free (`iteration`) and all with the later, frozen ones (`all`).
+
+    Example: mcplan bench --repeats 5
+
+    Example: mcplan bench robustness --scenes 40
+    """
+    if context.invoked_subcommand is not None:
+        return 0
+    from mcplan.files.outputs import require_folder
+    from mcplan_bench import growth, records
+    from mcplan_bench import speed as bench
+
+    require_folder("--out", out)
+    rows = bench.compare(repeats=repeats, threads=threads, progress=_say)
+    grown = growth.measure(quick, max(1, repeats - 2), threads, _say)
+    result: dict[str, Any] = {
+        "machine": records.machine(),
+        "threads": threads,
+        "repeats": repeats,
+        "scenes": rows,
+        "growth": grown,
+        "exponents": growth.exponents(grown),
+    }
+    records.write_csv(out / "speed.csv", rows)
+    records.write_csv(out / "growth.csv", grown)
+    records.write_json(out / "bench.json", result)
+    if json:
+        print(json_module.dumps(records.plain(result)))
+        return 0
+    _print_speed(rows)
+    _print_growth(grown, result["exponents"])
+    print(f"Wrote {out}/bench.json, speed.csv, growth.csv")
+    return 0
+
+
+@app.command()
+def robustness(
+    scenes: Annotated[int, typer.Option("--scenes", metavar="N", min=0, help="Random scenes.")] = 300,
+    seed: Annotated[int, typer.Option("--seed", metavar="K", min=0, help="Seed of the first random scene.")] = 0,
+    settings: Annotated[
+        bool, typer.Option("--settings/--no-settings", help="The 15 settings on the paper's four scenes.")
+    ] = True,
+    robot: Annotated[str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")] = "humanoid44",
+    model: Annotated[
+        str | None,
+        typer.Option("--model", metavar="M", help="Model of contacts: wrench (default) or lipm, the paper's."),
+    ] = None,
+    time_limit: Annotated[
+        float | None, typer.Option("--time-limit", metavar="S", help="Longest time of each solve; none by default.")
+    ] = None,
+    jobs: Annotated[int, typer.Option("--jobs", metavar="N", min=1, help="Processes.")] = 1,
+    out: Annotated[Path, _OUT] = Path("out/robustness"),
+    json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
+) -> int:
+    """Count good plans over 15 settings on the paper's four scenes and over random scenes that can be crossed.
+
+    Settings: proximal_weight 10, 30, 100 x duration_initial_s 0.30, 0.35, 0.40, 0.45, 0.50. What is good there:
+    flat: solved, no flight, feet alternate; stairs: the same and every tread touched; gap: solved with one flight, apex
+    0.15 m over take-off; gap_with_rail: solved with both hands on the pads while both feet are off. A random scene is
+    good when solved. Every solved plan is checked again. Exit code 1 unless 14 of 15 settings of every scene and 90 % of
+    the random scenes are good. Repeat a failure: python -m mcplan.files.generate random SEED > scene.toml
+
+    Example: mcplan bench robustness --scenes 40 --seed 100 --jobs 2
+
+    Example: mcplan bench robustness --model lipm
+    """
+    from mcplan.files.outputs import require_folder
+    from mcplan_bench import records
+    from mcplan_bench import robustness as bench
+
+    require_folder("--out", out)
+    options: dict[str, Any] = {"robot": robot, "time_limit_s": time_limit, "model": model or ""}
+    result: dict[str, Any] = {"machine": records.machine(), "seed": seed, "model": model}
+    enough = True
+    for part, tasks, share in (
+        ("settings", bench.setting_tasks(**options) if settings else [], 14 / 15),
+        ("random", bench.random_tasks(scenes, seed, **options), 0.9),
+    ):
+        if not tasks:
+            continue
+        outcomes = bench.run(tasks, jobs, _say)
+        rows = bench.summary(outcomes)
+        result[part] = {"summary": rows, "outcomes": [outcome.row() for outcome in outcomes]}
+        records.write_csv(out / f"{part}.csv", result[part]["outcomes"])
+        good = sum(outcome.good for outcome in outcomes)
+        if part == "settings":
+            enough = enough and all(row["good"] >= share * row["runs"] for row in rows)
+        else:
+            enough = enough and good >= share * len(outcomes)
+        if not json:
+            _print_part(part, rows, outcomes)
+    records.write_json(out / "robustness.json", result)
+    print(json_module.dumps(records.plain(result)) if json else f"Wrote {out}/robustness.json and CSV beside it")
+    return 0 if enough else 1
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
+
+
+def _print_speed(rows: list[dict[str, Any]]) -> None:
+    from mcplan.cli.table import print_table
+
+    print("Time per iteration, and of a whole plan")
+    print_table(
+        [
+            [
+                row["scene"],
+                f"{row['iteration_ms']:.3f} ms",
+                f"{row['iteration_all_ms']:.3f} ms",
+                f"{row['paper_iteration_ms']:.3f} ms",
+                f"{row['ratio']:.1f}",
+                f"{100 * row['pricing_share']:.0f} / {100 * row['pricing_share_all']:.0f} %",
+                f"{row['pricing_us']:.2f} us",
+                f"{row['paper_pricing_us']:.2f} us",
+                f"{row['plan_ms']:.0f} ms",
+                f"{row['paper_plan_ms']:.0f} ms",
+                f"{row['status']} / {row['paper_status']}",
+            ]
+            for row in rows
+        ],
+        [
+            "scene",
+            "iteration",
+            "all",
+            "paper's",
+            "ratio",
+            "pricing",
+            "a neighbour",
+            "paper's",
+            "plan",
+            "paper's",
+            "ended",
+        ],
+    )
+    print()
+
+
+def _print_growth(rows: list[dict[str, Any]], exponents: dict[str, float]) -> None:
+    from mcplan.cli.table import print_table
+
+    print("Growth of an iteration")
+    print_table(
+        [
+            [
+                row["varied"],
+                str(row["amount"]),
+                f"{row['neighbours']:.0f}",
+                f"{row['iteration_ms']:.3f} ms",
+                f"{row['iteration_per_phase_us']:.1f} us",
+                f"{row['linearise_ms']:.3f} ms",
+                f"{row['value_functions_ms']:.3f} ms",
+                f"{row['pricing_ms']:.3f} ms",
+            ]
+            for row in rows
+        ],
+        ["varied", "amount", "neighbours", "iteration", "per phase", "linearise", "value functions", "pricing"],
+    )
+    print()
+    print_table([[name.replace("_", " "), f"{value:.2f}"] for name, value in exponents.items()], ["exponent of", ""])
+    print()
+
+
+def _print_part(part: str, rows: list[dict[str, Any]], outcomes: list[Any]) -> None:
+    from mcplan.cli.table import print_table
+    from mcplan_bench.robustness import line
+
+    good = sum(outcome.good for outcome in outcomes)
+    print(
+        {"settings": "15 settings on each scene", "random": f"{len(outcomes)} random scenes"}[part] + f": {good} good"
+    )
+    head = ["scene" if part == "settings" else "kind", "good", "median cost", "median time", "longest", "statuses"]
+    print_table(
+        [
+            [
+                row["kind"],
+                f"{row['good']}/{row['runs']}",
+                f"{row['median_cost']:.3f}",
+                f"{row['median_time_s']:.2f} s",
+                f"{row['largest_time_s']:.2f} s",
+                ", ".join(f"{count} {status}" for status, count in row["statuses"].items()),
+            ]
+            for row in rows
+        ],
+        head,
+    )
+    failures = [outcome for outcome in outcomes if not outcome.good]
+    for outcome in failures:
+        print(f"  {line(outcome)}")
+    print()

@@ -1,0 +1,157 @@
+"""mcplan bench contacts"""
+
+from __future__ import annotations
+
+import json as json_module
+import sys
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from mcplan_bench.contacts_cases import Case
+
+
+CaseOption = Annotated[
+    list[str] | None,
+    typer.Option("--case", metavar="NAME", help="Only this one; may have * in it, and be repeated."),
+]
+TableOption = Annotated[bool, typer.Option("--table/--no-table", help="Plan the cases.")]
+SettingsOption = Annotated[
+    bool | None,
+    typer.Option("--settings/--no-settings", help="gap_with_rail from 16 settings. Default: unless --case."),
+]
+SpeedOption = Annotated[
+    bool | None,
+    typer.Option("--speed/--no-speed", help="Time iterations of both models. Default: unless --case."),
+]
+RepeatsOption = Annotated[int, typer.Option("--repeats", metavar="N", min=1, help="Solves behind each time.")]
+JobsOption = Annotated[int, typer.Option("--jobs", metavar="N", min=1, help="Processes.")]
+ListCasesOption = Annotated[bool, typer.Option("--list", help="Print the names of the cases.")]
+MarkdownOption = Annotated[
+    Path | None,
+    typer.Option("--markdown", metavar="FILE", help="Write the tables as a page, or between the marks for them."),
+]
+OutOption = Annotated[Path, typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written.")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
+
+
+def contacts(
+    case: CaseOption = None,
+    table: TableOption = True,
+    settings: SettingsOption = None,
+    speed: SpeedOption = None,
+    repeats: RepeatsOption = 5,
+    jobs: JobsOption = 1,
+    list_cases: ListCasesOption = False,
+    markdown: MarkdownOption = None,
+    out: OutOption = Path("out/contacts"),
+    json: JsonOption = False,
+) -> int:
+    """Hold plans to what real contacts give, measured at 1 kHz from their forces alone.
+
+    The paper's four scenes with a friction of 0.7 everywhere and nothing to hold on to: cost, tangential forces, centre of
+    pressure, slip, reach, angular momentum, forces of the hands. The same without offsets of the lines of force, which must
+    fail. Slopes, walls, turns, four legs. Talos, whose hands bear 0.15 of its weight: no plan on hands alone may be claimed.
+    16 settings on gap_with_rail. Times of an iteration beside those of the paper's model. Exit code 1 unless all holds.
+
+    Example: mcplan bench contacts --case flat --case 'gap*'
+
+    Example: mcplan bench contacts --markdown contacts.md
+    """
+    from mcplan.files.outputs import require_folder
+    from mcplan_bench import contacts as bench
+    from mcplan_bench import records
+    from mcplan_bench.contacts_cases import setting_cases
+
+    require_folder("--out", out)
+    chosen = _chosen(case or [])
+    if list_cases:
+        print("\n".join(entry.name for entry in chosen))
+        return 0
+    words = [f"--case '{name}'" for name in case or []] + ["--no-table"] * (not table)
+    words += ["--settings" if settings else "--no-settings"] * (settings is not None)
+    words += ["--speed" if speed else "--no-speed"] * (speed is not None) + [f"--jobs {jobs}"] * (jobs > 1)
+    result: dict[str, Any] = {"machine": records.machine(), "jobs": jobs}
+    result["command"] = " ".join(["mcplan bench contacts", *words])
+    verdicts: list[bool | None] = []
+    if table:
+        result["rows"] = bench.run(chosen, jobs, _say)
+        verdicts += [row.holds for row in result["rows"]]
+    if settings if settings is not None else not case:
+        rows = bench.run(setting_cases(), jobs, _say)
+        result["settings"] = {"rows": rows, "summary": bench.settings_summary(rows)}
+        verdicts.append(result["settings"]["summary"]["holds"])
+    if speed if speed is not None else not case:
+        result["speed"] = bench.compare_speed(repeats, progress=_say)
+        verdicts += [row["holds"] for row in result["speed"]]
+    result["holds"] = False not in verdicts
+    written = _write(result, out, markdown)
+    if json:
+        print(json_module.dumps(_plain(result)))
+    else:
+        _print(result)
+        print(f"Wrote {', '.join(str(path) for path in written)}")
+    return 0 if result["holds"] else 1
+
+
+def _chosen(names: list[str]) -> list[Case]:
+    from mcplan.errors import InvalidInput
+    from mcplan_bench.contacts_cases import CASES
+
+    for name in names:
+        if not any(fnmatchcase(case.name, name) for case in CASES):
+            raise InvalidInput("--case", f"must name one of {', '.join(case.name for case in CASES)}", repr(name))
+    return [case for case in CASES if not names or any(fnmatchcase(case.name, name) for name in names)]
+
+
+def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Path]:
+    from mcplan.files.outputs import write_whole
+    from mcplan_bench import records
+    from mcplan_bench.contacts_text import markdown as page
+
+    plain = _plain(result)
+    written = [records.write_json(out / "contacts.json", plain)]
+    if "rows" in result:
+        written.append(records.write_csv(out / "contacts.csv", plain["rows"]))
+    if "settings" in result:
+        written.append(records.write_csv(out / "settings.csv", plain["settings"]["rows"]))
+    if "speed" in result:
+        written.append(records.write_csv(out / "speed.csv", plain["speed"]))
+    if markdown is not None:
+        markdown.parent.mkdir(parents=True, exist_ok=True)
+        before = markdown.read_text(encoding="utf-8") if markdown.is_file() else ""
+        write_whole(page(result, before), markdown)
+        written.append(markdown)
+    return written
+
+
+def _plain(result: dict[str, Any]) -> dict[str, Any]:
+    """The result with its rows as plain data."""
+    from mcplan_bench import records
+
+    plain = dict(result)
+    if "rows" in result:
+        plain["rows"] = [row.as_dict() for row in result["rows"]]
+    if "settings" in result:
+        plain["settings"] = {**result["settings"], "rows": [row.as_dict() for row in result["settings"]["rows"]]}
+    return dict(records.plain(plain))
+
+
+def _print(result: dict[str, Any]) -> None:
+    from mcplan.cli.table import print_table
+    from mcplan_bench.contacts_text import sections
+
+    for section in sections(result):
+        print(section.title)
+        if section.rows:
+            print_table(section.rows, section.head)
+        for note in section.notes:
+            print(f"  {note}")
+        print()
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)

@@ -1,0 +1,183 @@
+"""For those who only look: plans and runs of both kinds, of robots in space and planar ones, in pages, pictures, plots, videos.
+
+Both kinds of plan answer to ``duration()``, ``at(t)`` and ``save(path)``, and mcplan.check, mcplan.show and mcplan.track take
+either.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+
+from mcplan._core import Plan, Report, Robot, Scene, WholeBodyPlan
+from mcplan.arguments import require
+from mcplan.errors import InvalidInput
+
+if TYPE_CHECKING:
+    from typing_extensions import TypeIs
+
+    from mcplan.planar.tracking import PlanarRecording, PlanarResult
+    from mcplan.tracking import Recording, TrackingResult
+    from mcplan.view.pages.page import Page
+
+
+class AnyPlan(Protocol):
+    """What both kinds of plan answer."""
+
+    def duration(self) -> float:
+        """[s]"""
+        ...
+
+    def at(self, t: float) -> Any:
+        """The state at a time [s] in 0 to duration()."""
+        ...
+
+    def save(self, path: str) -> None:
+        """Write an .npz file."""
+        ...
+
+
+Run: TypeAlias = "Recording | TrackingResult | PlanarRecording | PlanarResult"
+Shown: TypeAlias = "Plan | WholeBodyPlan | Run"
+
+
+def load(path: str | Path) -> Plan | WholeBodyPlan | TrackingResult | PlanarResult:
+    """Read a saved plan or run of either kind.
+
+    Raises:
+        InvalidInput: Neither, or its content does not fit together; the message names file, field and rule.
+        FileNotFoundError: There is no such file.
+    """
+    from mcplan.files.whole_body_plans import load_any_plan
+    from mcplan.planar.tracking.result import result_from as planar_result_from
+    from mcplan.tracking.result import result_from
+    from mcplan.tracking.run_files import PLANAR_RUN, RUN, load_run
+
+    makers: dict[str, Callable[..., Any]] = {RUN: result_from, PLANAR_RUN: planar_result_from}
+    loaded: Plan | WholeBodyPlan | TrackingResult | PlanarResult = load_run(path, makers, load_any_plan)
+    return loaded
+
+
+def show(what: Shown, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
+    """See mcplan.show."""
+    if not is_run(what):
+        require("plan", what, Plan, WholeBodyPlan)
+    require("scene", scene, Scene, optional=True)
+    require("robot", robot, Robot, optional=True)
+    require("report", report, Report, optional=True)
+    if isinstance(what, WholeBodyPlan):
+        _require_own("a whole-body plan is drawn with its own motion", scene=scene, robot=robot)
+        from mcplan.planar.view.pages import show_whole_body
+
+        return show_whole_body(what, report)
+    if is_run(what):
+        _require_own("a run is drawn with its own plan", scene=scene, robot=robot)
+        if _is_planar_run(what):
+            from mcplan.planar.view.run_pages import show_planar_run
+
+            return show_planar_run(what)
+        from mcplan.view.pages.show_run import show_run
+
+        return show_run(what)
+    from mcplan.view.pages.show import show as show_plan
+
+    return show_plan(what, scene, robot, report)
+
+
+def save_plots(what: Shown, report: Report | None, folder: str | Path) -> list[Path]:
+    """Write all plots of a plan or run into a folder, which is made if it does not exist.
+
+    Args:
+        what: The plan, or the run.
+        report: How a plan was found, for the plots of the search; None: without them.
+        folder: Where to.
+
+    Returns:
+        The files written.
+
+    Raises:
+        MissingExtra: matplotlib is not installed.
+        InvalidPlan: The plan's arrays do not fit together.
+        OSError: The folder cannot be written to.
+    """
+    if isinstance(what, WholeBodyPlan):
+        from mcplan.planar.view.save_plots import save_whole_body_plots
+
+        return save_whole_body_plots(what, folder)
+    if _is_planar_run(what):
+        from mcplan.planar.view.plots_run import save_planar_run_plots
+
+        return save_planar_run_plots(what, folder)
+    if is_run(what):
+        from mcplan.view.plots.run import save_run_plots
+
+        return save_run_plots(what, folder)
+    from mcplan.view.plots.save import save_plots as save_plan_plots
+
+    return save_plan_plots(what, report, folder)
+
+
+def save_picture(what: Shown, path: str | Path) -> Path:
+    """Write one picture: the postures of a plan in its scene, the film strip of a whole-body plan, snapshots of a run.
+
+    Args:
+        what: The plan, or the run.
+        path: .png, or of a plan .pdf or .svg.
+
+    Raises:
+        InvalidInput: Another ending.
+        MissingExtra: What draws is not installed: matplotlib, and for runs MuJoCo, Pinocchio and Pillow.
+        OSError: The file cannot be written.
+    """
+    if isinstance(what, WholeBodyPlan):
+        from mcplan.planar.view.film_strip import film_strip
+        from mcplan.view.sheets import save_figure
+
+        return save_figure(film_strip(what), path)
+    if is_run(what):
+        return save_strip(what, path)
+    from mcplan.view.pictures.picture import picture
+
+    return picture(what, path=path)
+
+
+def save_strip(run: Run, path: str | Path, **options: Any) -> Path:
+    """Write snapshots of a run side by side; see mcplan.view.save_run_strip."""
+    from mcplan.view.pictures.run_strip import save_run_strip
+
+    return save_run_strip(run, path, **_laid_out(run), **options)
+
+
+def save_video(run: Run, path: str | Path, **options: Any) -> Path:
+    """Film a run; see mcplan.view.save_video."""
+    from mcplan.view.video.film import save_video as film
+
+    return film(run, path, **_laid_out(run), **options)
+
+
+def is_run(what: object) -> TypeIs[Run]:
+    """Whether it is a recording or the result that carries one, not a plan."""
+    from mcplan.tracking import Recording, TrackingResult
+
+    return isinstance(what, (Recording, TrackingResult)) or _is_planar_run(what)
+
+
+def _is_planar_run(what: object) -> TypeIs[PlanarRecording | PlanarResult]:
+    from mcplan.planar.tracking import PlanarRecording, PlanarResult
+
+    return isinstance(what, (PlanarRecording, PlanarResult))
+
+
+def _laid_out(run: Run) -> dict[str, Any]:
+    if not _is_planar_run(run):
+        return {}
+    from mcplan.planar.view.run_scene import planar_scene_of
+
+    return {"lay_out": planar_scene_of}
+
+
+def _require_own(rule: str, **given: Scene | Robot | None) -> None:
+    for name, value in given.items():
+        if value is not None:
+            raise InvalidInput(name, rule, repr(value.name))

@@ -1,0 +1,1 @@
+"""Pictures: plans painted, runs rendered."""

@@ -1,0 +1,182 @@
+"""One still picture of a plan: scene, paths and the robot at several instants. Needs no browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan.extras import require
+from mcplan.kinematics.rotations import pose, with_axis_z
+from mcplan.kinematics.samples import Samples, sample
+from mcplan.view.colours import COM, FORCE, GRASP, OUTLINE, PAD, TEXT, end_effector_colours, mix, plain
+from mcplan.view.extent import extent_of
+from mcplan.view.figure import Figure
+from mcplan.view.plan_drawing import WEIGHT_ARROW, contact_plate
+from mcplan.view.robot_stick import stick_robot
+from mcplan.view.scene_drawing import SurfaceDrawing, edges, is_pad, surface_drawings
+from mcplan.view.shapes import cone, ellipsoid
+from mcplan.view.sheets import save_figure
+from mcplan.view.viewpoint import camera_direction, sun_direction, view_points
+
+from .canvas import Canvas
+
+if TYPE_CHECKING:
+    from mcplan._core import Plan, Robot, Scene
+
+Array = NDArray[np.float64]
+
+#: Layers of the canvas, back to front.
+SOLIDS, LINES, MARKS, BODIES, COM_PATH = range(1, 6)
+
+
+def picture(
+    plan: Plan,
+    scene: Scene | None = None,
+    robot: Robot | None = None,
+    path: str | Path = "plan.png",
+    poses: int | None = None,
+) -> Path:
+    """Write a PNG of a plan.
+
+    Args:
+        plan: The plan.
+        scene: Drawn around it; None: the plan's own.
+        robot: Drawn along it as a stick robot; None: the plan's own.
+        path: File to write.
+        poses: How often the robot is drawn, at equal ways of its CoM; None: as often as there is room.
+
+    Raises:
+        MissingExtra: matplotlib is not installed.
+        InvalidPlan: The plan's arrays do not fit together.
+    """
+    require("mcplan.view.picture", "view", "matplotlib")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure as Sheet
+
+    scene = scene if scene is not None else plan.scene
+    robot = robot if robot is not None else plan.robot
+    plan.validate()
+    colours = end_effector_colours(robot)
+    samples = sample(plan, scene, robot, 60.0)
+    extent = extent_of(scene, robot, samples, length=0.45, width=0.45)
+    drawings = surface_drawings(scene, extent)
+    points = view_points(drawings, samples, robot)
+    canvas = Canvas(points, camera_direction(extent), sun_direction(extent))
+    _paint_surfaces(canvas, drawings)
+    _paint_plan(canvas, samples, robot, colours)
+    chosen = pose_indices(samples, robot, poses)
+    figure, weight = stick_robot(samples, robot, colours), float(robot.mass) * float(scene.gravity)
+    for rank, n in enumerate(chosen):
+        # The past is pale; the last pose stands in full colour.
+        fade = 0.62 * (1.0 - rank / max(len(chosen) - 1, 1)) ** 0.8
+        _paint_robot(canvas, figure, samples, robot, n, fade, weight)
+
+    flat, _ = canvas.project(np.vstack([points, *[d.mesh.vertices for d in drawings]]))
+    need, _ = canvas.project(points)
+    low, high = need.min(axis=0), need.max(axis=0)
+    # Solids that reach a little beyond what must be seen are shown whole.
+    low = np.maximum(flat.min(axis=0), low - 0.25 * (high - low)) - 0.04
+    high = np.minimum(flat.max(axis=0), high + 0.25 * (high - low)) + 0.04
+    width = 11.0
+    height = width * float((high[1] - low[1]) / (high[0] - low[0]))
+    band = 0.42  # inches for the legend
+    sheet = Sheet(figsize=(width, height + band), dpi=150, facecolor="white")
+    FigureCanvasAgg(sheet)
+    axes = sheet.add_axes((0.0, band / (height + band), 1.0, height / (height + band)))
+    canvas.paint(axes)
+    axes.set_xlim(low[0], high[0])
+    axes.set_ylim(low[1], high[1])
+    _legend(sheet, scene, robot, colours)
+    return save_figure(sheet, path)
+
+
+def pose_indices(samples: Samples, robot: Robot, poses: int | None = None) -> list[int]:
+    """Samples at which the robot is drawn: first, last, and equal ways of the CoM between."""
+    way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(samples.com_W, axis=0), axis=1))])
+    if poses is None:
+        poses = int(np.clip(round(way[-1] / (0.5 * float(robot.com_height))) + 1, 2, 9))
+    return sorted({int(np.argmin(np.abs(way - share * way[-1]))) for share in np.linspace(0.0, 1.0, poses)})
+
+
+def _paint_surfaces(canvas: Canvas, drawings: list[SurfaceDrawing]) -> None:
+    for drawing in drawings:
+        # What robots walk on lies below them; pads and walls may stand before or behind a limb.
+        floor = drawing.normal[2] > 0.3 and drawing.colour not in (GRASP, PAD)
+        layer = SOLIDS if floor else BODIES
+        canvas.mesh(drawing.mesh, drawing.colour, layer, opacity=1.0 if floor else max(drawing.opacity, 0.3))
+        rim = edges(drawing)[: len(drawing.outline)]
+        canvas.segments(rim, mix(OUTLINE, "#ffffff", 0.3), 0.004, LINES if floor else BODIES)
+        canvas.segments(drawing.grid, mix(drawing.colour, "#ffffff", 0.6), 0.004, LINES)
+
+
+def _paint_plan(canvas: Canvas, samples: Samples, robot: Robot, colours: list[str]) -> None:
+    scale = float(robot.com_height) / 0.7
+    for interval in samples.intervals:
+        mark = contact_plate(robot, interval.end_effector).moved(pose(interval.rotation_W, interval.position_W))
+        up = interval.rotation_W[2, 2] > 0.3
+        canvas.mesh(
+            mark,
+            mix(colours[interval.end_effector], "#ffffff", 0.25),
+            MARKS if up else BODIES,
+            lift=0.0 if up else 0.05,
+        )
+    for end, colour in enumerate(colours):
+        canvas.line(samples.positions_W[:, end], colour, 0.011 * scale, BODIES)
+    canvas.line(samples.com_W, COM, 0.024 * scale, COM_PATH)
+
+
+def _paint_robot(
+    canvas: Canvas, figure: Figure, samples: Samples, robot: Robot, n: int, fade: float, weight: float
+) -> None:
+    scale = float(robot.com_height) / 0.7
+    for part in figure.parts:
+        canvas.mesh(part.mesh.moved(part.poses[n]), part.colour, BODIES, fade=fade, whole=True)
+    ball = ellipsoid((0.030 * scale,) * 3).moved(pose(np.eye(3), samples.com_W[n]))
+    canvas.mesh(ball, COM, COM_PATH, whole=True, lift=0.1)
+    for end in range(len(robot.end_effectors)):
+        force = samples.forces_W[n, end]
+        size = float(np.linalg.norm(force))
+        length = WEIGHT_ARROW * float(robot.com_height) * size / weight
+        if length < 0.05 * scale:
+            continue
+        direction = force / size
+        head = min(0.055 * scale, 0.5 * length)
+        start = samples.pressure_W[n, end]
+        shade = mix(FORCE, "#ffffff", fade)
+        canvas.line(
+            np.linspace(start, start + (length - head) * direction, 6),
+            shade,
+            0.012 * scale,
+            BODIES,
+            lift=0.15,
+        )
+        tip = pose(with_axis_z(direction, np.array([1.0, 0.0, 0.0])), start + (length - head) * direction)
+        canvas.mesh(cone(0.022 * scale, head).moved(tip), FORCE, BODIES, fade=fade, lift=0.15)
+
+
+def _legend(sheet, scene: Scene, robot: Robot, colours: list[str]) -> None:  # type: ignore[no-untyped-def]
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    entries: list[Line2D | Patch] = [Line2D([], [], color=COM, linewidth=4, label="centre of mass")]
+    for end, colour in zip(robot.end_effectors, colours, strict=True):
+        entries.append(Line2D([], [], color=colour, linewidth=2.2, label=plain(end.name)))
+    entries.append(Line2D([], [], color=FORCE, linewidth=1.6, marker=">", markevery=[1], label="contact force"))
+    if any(s.grasp for s in scene.surfaces):
+        entries.append(Patch(color=GRASP, label="may be held"))
+    if any(is_pad(s) for s in scene.surfaces):
+        entries.append(Patch(color=PAD, label="for hands"))
+    sheet.legend(
+        handles=entries,
+        loc="lower center",
+        ncol=len(entries),
+        frameon=False,
+        fontsize=11,
+        labelcolor=TEXT,
+        handlelength=1.5,
+        columnspacing=1.6,
+        bbox_to_anchor=(0.5, 0.0),
+    )

@@ -1,0 +1,1 @@
+"""Plots of plans, of how they were found, and of runs."""
