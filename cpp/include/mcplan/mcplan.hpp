@@ -10,6 +10,7 @@
 #include "mcplan/base/status.hpp"
 #include "mcplan/base/turning.hpp"
 #include "mcplan/ddp/best_plan.hpp"
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/contact_sequence.hpp"
 #include "mcplan/ddp/costs/costs.hpp"
 #include "mcplan/ddp/edits.hpp"

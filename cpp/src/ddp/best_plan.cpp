@@ -4,23 +4,15 @@
 #include <limits>
 #include <utility>
 
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/plan_conversion.hpp"
 #include "mcplan/ddp/reachable_surfaces.hpp"
 
 namespace mcplan::ddp {
 namespace {
 
-/// Instants at which iterates are looked at: so many in all, and so many a phase.
-constexpr double kInstants = 400.0, kInstantsPerPhase = 3.0;
-/// The first iterate may be made exact for so long after the limit [s]: the only plan there is.
-constexpr double kGrace_s = 0.01;
-/// The search goes on for this many times as long as looking took, a time more after each look.
-constexpr int kMostPause = 8;
-/// Once there is a plan that the checker accepts, only one of so much less merit is looked at.
-constexpr double kCheaper = 0.9;
-
 double coarse_sample_s(const Plan& plan) {
-  const double instants = std::max(kInstants, kInstantsPerPhase * static_cast<double>(plan.phases.size()));
+  const double instants = std::max(kLookInstants, kLookInstantsPerPhase * static_cast<double>(plan.phases.size()));
   return std::max(Tolerances().sample_s, plan.duration() / instants);
 }
 
@@ -88,7 +80,7 @@ void BestPlan::keep(Search& search, const Problem& problem, const std::vector<in
   take(std::move(finished));
   const double end_s = deadline_->elapsed_s();
   cost_s_ = end_s - begin_s;
-  next_s_ = end_s + std::min(++kept_, kMostPause) * cost_s_;
+  next_s_ = end_s + std::min(++kept_, kPauseMax) * cost_s_;
 }
 
 void BestPlan::settle(const Problem& problem, Report& report) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "mcplan/ddp/constants.hpp"
+
 namespace mcplan::ddp {
 namespace {
 
@@ -39,8 +41,7 @@ ContactSequence initial_sequence(LocalModel& model, std::size_t beam, const Stop
   for (int k = 0; k < n; ++k) {
     std::map<ContactState, Node>& next = layers[k + 1];
     for (const auto& [state, node] : layers[k]) {
-      constexpr int kOften = 32;
-      if (stop && ++looked_at % kOften == 0 && stop()) return {};
+      if (stop && ++looked_at % kStatesPerPoll == 0 && stop()) return {};
       for (ContactState& follower : problem.rules.successors(state, k + 1)) {
         // Leave out what can no longer reach the goal's contacts in the steps that remain.
         if (one_switch && distance(follower, problem.goal_contacts) > n - (k + 1)) continue;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mcplan/ddp/constants.hpp"
+
 namespace mcplan::ddp {
 
 using Eigen::VectorXd;
@@ -37,15 +39,9 @@ void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const Ve
 
 namespace {
 
-/// Weight on what is held: far above all others (1e6 at most), low enough to leave the factorisation its digits.
-constexpr double kHeld = 1e10;
-
 /// Turn the quadratic of step k into the metric of the least change.
 void hold_inputs(const Problem& problem, int k, const std::vector<char>* held, Quadratic& q) {
   const int nx = problem.layout.nx(), held_states = nx - (problem.model == Model::wrench ? 0 : Layout::angle());
-  // The stiff costs count a little, so that the change avoids the limits, but not so much that it runs through the
-  // inputs that are soft (durations above all) beyond where the linear model holds.
-  constexpr double kCostShare = 1e-3;
   q.g.setZero();
   q.h *= kCostShare;
   q.h.diagonal().array() += 1.0;

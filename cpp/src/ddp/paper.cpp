@@ -2,15 +2,10 @@
 #include <cmath>
 #include <limits>
 
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/search.hpp"
 
 namespace mcplan::ddp {
-namespace {
-
-/// Deviation: without a proximal term the published algorithm diverges on every scene (docs/theory/ddp.md).
-constexpr double kPaperProximal = 10.0;
-
-}  // namespace
 
 /// Algorithm 2, lines 1-16: V and U anew for every switch, each neighbour by one Riccati step and eq. (31), J* from
 /// infinity. The first pass therefore always switches, whether or not that pays: the paper's persistent chattering.

@@ -5,6 +5,7 @@
 
 #include "mcplan/base/rotation.hpp"
 #include "mcplan/base/turning.hpp"
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/plan/swings.hpp"
 
 namespace mcplan::ddp {
@@ -12,10 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-/// Durations have a soft bound only: an iterate that is stopped early may have one below zero, which no plan can have
-/// [s], for a robot of human size.
-constexpr double kShortestPhase = 1e-3;
 
 Knot make_knot(const Problem& problem, const VectorXd& x) {
   const Layout& at = problem.layout;
@@ -96,7 +93,7 @@ Plan to_plan(const Problem& problem, const Incumbent& incumbent) {
   for (int k = 0; k < problem.steps; ++k) {
     const VectorXd& u = incumbent.trajectory.u[k];
     Phase phase;
-    phase.duration = std::max(u[at.duration()] * units.time, kShortestPhase * problem.similarity.time);
+    phase.duration = std::max(u[at.duration()] * units.time, kPhaseMin_s * problem.similarity.time);
     phase.contacts.resize(ends);
     if (wrench) phase.law = ForceLaw::wrench;
     for (int l = 0; l < at.ends(); ++l) {

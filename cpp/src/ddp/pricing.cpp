@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mcplan/base/fork.hpp"
+#include "mcplan/ddp/constants.hpp"
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -145,8 +146,6 @@ const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctio
     price_s += seconds_since(start) - prepared;
   };
 #ifdef _OPENMP
-  // Below this many candidates the threads cost more than they save (measured; the paper found the same).
-  constexpr std::size_t kWorthThreads = 400;
   if (steps_.size() > 1 && neighbours_.size() >= kWorthThreads && !forked()) {
     // Steps are independent and each writes its own prices: the same numbers for any number of threads.
 #pragma omp parallel for num_threads(static_cast<int>(steps_.size())) schedule(static) reduction(+ : prepare_s, price_s)

@@ -8,6 +8,7 @@
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/base/rotation.hpp"
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/plan/clearance.hpp"
 
 namespace mcplan::ddp {
@@ -16,11 +17,6 @@ namespace {
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-/// Soft constraints settle slightly beyond their bound, so friction is planned a little tighter than the surface's.
-constexpr double kFrictionMargin = 0.02;
-/// Footholds likewise [m], for a robot of human size.
-constexpr double kEdgeMargin = 0.002;
 
 std::vector<int> addressed(const std::vector<std::string>& who, const Robot& robot, const std::vector<int>& active) {
   std::vector<int> out;
@@ -47,7 +43,6 @@ std::optional<Vector3d> common_normal(const std::vector<Polygon>& polygons, cons
 /// another stiffness. Where it may touch surfaces that it meets at an angle, walls above all, the line goes anywhere.
 Matrix3Xd force_line_directions(const Vector3d& nominal, const std::vector<Polygon>& polygons,
                                 const std::vector<int>& surfaces) {
-  constexpr double kFacing = 0.7;
   const bool facing = std::all_of(surfaces.begin(), surfaces.end(), [&](int i) {
     return std::abs(polygons[i].normal_W().dot(nominal)) > kFacing * nominal.norm();
   });
@@ -119,7 +114,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   units.mass = robot.mass;
   similarity = similarity_of(robot, scene.gravity);
   inertia = robot.inertia / (units.mass * units.length * units.length);
-  edge_margin = pressure_margin = kEdgeMargin * similarity.length / units.length;
+  edge_margin = pressure_margin = kEdgeMargin_m * similarity.length / units.length;
   const Eigen::Vector2d usual_s = phase_duration_of(robot, similarity);
   const double shortest_s = options.duration_min_s > 0.0 ? options.duration_min_s : usual_s[0];
   const double longest_s = options.duration_max_s > 0.0 ? options.duration_max_s : usual_s[1];
@@ -135,8 +130,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   duration_max = longest_s / units.time;
   const double flight_s = by_size(options.flight_duration_min_s, Options().flight_duration_min_s, similarity.time);
   flight_duration_min = std::min(flight_s, longest_s) / units.time;
-  // The paper's model was measured from its author's 0.45 s.
-  const double middle_s = model == Model::wrench ? 0.5 * (shortest_s + longest_s) : 0.45 * similarity.time;
+  const double middle_s = model == Model::wrench ? 0.5 * (shortest_s + longest_s) : kLipmDuration_s * similarity.time;
   duration_initial = (options.duration_initial_s > 0.0 ? options.duration_initial_s : middle_s) / units.time;
 
   const int robot_ends = static_cast<int>(robot.end_effectors.size());
@@ -153,10 +147,10 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     std::vector<Vector3d> scaled;
     for (const Vector3d& v : surface.vertices_W) scaled.push_back(v / units.length);
     polygons.emplace_back(scaled);
-    // Twice the solid: an end-effector that crossed it between two knots is still noticed.
-    keep_out_depth.push_back(2.0 * surface.thickness / units.length);
-    friction.push_back(surface.grasp ? std::numeric_limits<double>::infinity()
-                                     : std::max(surface.friction - kFrictionMargin, 0.5 * surface.friction));
+    keep_out_depth.push_back(kKeepOutDepth * surface.thickness / units.length);
+    friction.push_back(surface.grasp
+                           ? std::numeric_limits<double>::infinity()
+                           : std::max(surface.friction - kFrictionMargin, kFrictionRatioMin * surface.friction));
     pyramid.push_back(pyramid_tangents(polygons.back().normal_W(), options.friction_sides));
   }
   if (options.friction_sides > 0) pyramid_share = std::cos(M_PI / options.friction_sides);
@@ -170,8 +164,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     const Vector3d middle = 0.5 * (end.reach_min_B + end.reach_max_B);
     l.reach_min = (end.reach_min_B + margin).cwiseMin(middle) / units.length;
     l.reach_max = (end.reach_max_B - margin).cwiseMax(middle) / units.length;
-    // A cap above ten times the weight would not bind; it also stands for "no cap".
-    l.force_max = std::min(end.max_force / units.force(), 10.0);
+    l.force_max = std::min(end.max_force / units.force(), kForceCapMax);
     l.half_size = end.half_size / units.length;
     l.half_width = l.half_size.minCoeff();
     l.pressure_half = robot.pressure_share * l.half_size;
@@ -234,7 +227,6 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
 /// a phase of full support each; at least the paper's 18. The stride is what the reach box allows, in the paper's model
 /// inside the friction cone, since forces point at the CoM there.
 int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const {
-  constexpr int kPaper = 18, kMost = 400;
   double strides = 0.0;
   for (std::size_t l = 0; l < active.size(); ++l) {
     const int e = active[l];
@@ -242,7 +234,7 @@ int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& t
     double tangent = 0.0;
     for (int surface : rules.surfaces(static_cast<int>(l))) tangent = std::max(tangent, friction[surface]);
     const EndLimits& limit = limits[l];
-    const double spread = std::min(tangent, 10.0) * std::abs(limit.nominal.z());
+    const double spread = std::min(tangent, kStrideFrictionMax) * std::abs(limit.nominal.z());
     const double ahead = model == Model::wrench
                              ? std::numeric_limits<double>::infinity()
                              : std::sqrt(std::max(spread * spread - limit.nominal.y() * limit.nominal.y(), 0.0));
@@ -252,7 +244,7 @@ int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& t
     const double up = std::abs(way.z()) / (limit.reach_max.z() - limit.reach_min.z());
     strides += std::ceil(std::min(std::max(level, up) - 1e-9, 1e3));
   }
-  return std::clamp(2 * static_cast<int>(strides) + 2, kPaper, kMost);
+  return std::clamp(2 * static_cast<int>(strides) + 2, kPaperPhases, kPhasesMax);
 }
 
 /// Cubic from start to goal, at rest at both ends (Tazaki, sec. III-A), tied to the step index. End-effectors keep

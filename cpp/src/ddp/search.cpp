@@ -5,22 +5,12 @@
 #include <cstdio>
 #include <limits>
 
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/edits.hpp"
 #include "mcplan/ddp/whole_sequence.hpp"
 
 namespace mcplan::ddp {
 namespace {
-
-constexpr double kProximalMin = 0.1, kProximalMax = 1e6;
-/// A switch must lower the cost by this fraction, so that two sequences of equal cost do not alternate.
-constexpr double kSwitchGain = 1e-4;
-constexpr int kSwitchesPerIteration = 6;
-/// Iterations of discovery after the contact weight has reached its maximum.
-constexpr int kFreeAtFullWeight = 25;
-/// A trial of refine(): iterations, and changed sequences tried before a local optimum is declared.
-constexpr int kTrialIterations = 20, kTrials = 10, kRefineRounds = 30;
-constexpr double kTrialProximal = 3.0;
-constexpr std::size_t kWholeSequenceBudget = 1000;
 
 int differences(const ContactSequence& a, const ContactSequence& b) {
   int count = 0;
@@ -86,7 +76,7 @@ bool Search::line_search(const Incumbent& now, const ContactSequence& sequence, 
   const Stopwatch watch(report_->timing_s, "line_search");
   values_.state_forward(dx_, du_);
   best.trajectory = now.trajectory;
-  for (double step = 1.0; step > 1.0 / 64.0; step *= 0.5) {
+  for (double step = 1.0; step > kStepEnd; step *= 0.5) {
     for (std::size_t k = 0; k < dx_.size(); ++k) best.trajectory.x[k] = now.trajectory.x[k] + step * dx_[k];
     for (std::size_t k = 0; k < du_.size(); ++k) best.trajectory.u[k] = now.trajectory.u[k] + step * du_[k];
     best.evaluation = evaluate_(best.trajectory, sequence, schedule);
@@ -137,7 +127,7 @@ Status Search::iterate(Incumbent& now, Schedule& schedule, bool free_sequence) {
     }
     const Stopwatch watch(report_->timing_s, "value_backward");
     if (values_.backward(now.sequence, problem_->steps)) break;
-    schedule.proximal_weight *= 10.0;
+    schedule.proximal_weight *= kProximalRetry;
     if (schedule.proximal_weight > kProximalMax) return Status::numerical_failure;
   }
   const bool moved = line_search(now, now.sequence, schedule, before, stay_);
@@ -163,10 +153,10 @@ Status Search::iterate(Incumbent& now, Schedule& schedule, bool free_sequence) {
     row.step = taken.step;
   }
   if (!free_sequence) {
-    if (row.step >= 0.99)
-      schedule.proximal_weight = std::max(0.7 * schedule.proximal_weight, kProximalMin);
-    else if (row.step < 0.2)
-      schedule.proximal_weight = std::min(4.0 * schedule.proximal_weight, kProximalMax);
+    if (row.step >= kFullStep)
+      schedule.proximal_weight = std::max(kProximalFall * schedule.proximal_weight, kProximalMin);
+    else if (row.step < kShortStep)
+      schedule.proximal_weight = std::min(kProximalRise * schedule.proximal_weight, kProximalMax);
   }
   record(std::move(row), now, schedule);
   return Status::solved;
@@ -204,10 +194,7 @@ Status Search::polish(Incumbent& now, int iterations, double calm, double give_u
     if (watcher_) watcher_(now);
     const double merit = now.evaluation.merit();
     calm_iterations = std::abs(last - merit) < calm * std::abs(merit) ? calm_iterations + 1 : 0;
-    if (calm_iterations >= 3 && now.evaluation.defect_max < 1e-4) return Status::solved;
-    // Progress comes in bursts, so it is judged over several iterations.
-    constexpr int kWindow = 5;
-    constexpr double kWindowsAhead = 3.0;
+    if (calm_iterations >= kCalmIterations && now.evaluation.defect_max < kCalmDefect) return Status::solved;
     if (i % kWindow == kWindow - 1) {
       if (i > kWindow && merit - kWindowsAhead * (window_start - merit) > give_up_above) return Status::solved;
       window_start = merit;
@@ -263,8 +250,8 @@ Status Search::refine(Incumbent& now) {
       Incumbent trial = now;
       trial.sequence = changes[i];
       const double merit = now.evaluation.merit();
-      status = polish(trial, kTrialIterations, 1e-3, merit);
-      improved = trial.evaluation.merit() < merit * (1.0 - 2e-3);
+      status = polish(trial, kTrialIterations, kRoughCalm, merit);
+      improved = trial.evaluation.merit() < merit * (1.0 - kTrialGain);
       if (improved) {
         const int switches = differences(trial.sequence, now.sequence);
         report_->switches += switches;

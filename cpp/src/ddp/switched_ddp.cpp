@@ -11,6 +11,7 @@
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/ddp/best_plan.hpp"
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/initial_sequence.hpp"
 #include "mcplan/ddp/plan_conversion.hpp"
 #include "mcplan/ddp/reachable_surfaces.hpp"
@@ -21,25 +22,6 @@
 
 namespace mcplan::ddp {
 namespace {
-
-constexpr int kPolishIterations = 60, kFinalIterations = 120;
-constexpr double kRoughCalm = 1e-3, kFinalCalm = 1e-4;
-/// Limits are penalties; this much harder ones at the end leave a fraction of the violation.
-constexpr double kHardening = 4.0;
-/// Proximal weight of the second discovery over the first one's.
-constexpr double kSecondDiscovery = 4.0;
-/// How much further inside footholds go, each time a swing has caught an edge: a share of the longest half sole, so
-/// that the second time the whole sole stands clear of the next riser. Lengths are those of a robot of human size.
-constexpr double kClearanceShare = 0.6, kClearanceLeast_m = 0.04;
-// Where soles are kept on their surface anyway, a toe's room is enough.
-constexpr double kToeRoom_m = 0.03;
-/// A violation within this factor of its tolerance is called acceptable, beyond it infeasible.
-constexpr double kAcceptable = 10.0;
-/// Iterations of Method::paper: the paper counts about 50 to convergence and reports averages over 100.
-constexpr int kPaperIterations = 60;
-
-/// Share of what is left of the time limit that the first contact sequence may take; after that a walk in turns does.
-constexpr double kInitialShare = 0.3;
 
 /// Whether a search that ended so may have missed what it did not look at.
 bool ended_by_itself(Status status) {
@@ -176,10 +158,8 @@ ContactSequence SwitchedDdp::Impl::Run::initial(Status& status) {
   bool stopped = false;
   int looks = 0;
   const double until_s = deadline.elapsed_s() + kInitialShare * std::max(deadline.remaining_s(), 0.0);
-  constexpr std::size_t kBeam = 4000;
   ContactSequence found = initial_sequence(search.model(), kBeam, [&] {
-    constexpr int kPoll = 16;  // a stop request may take longer than a look at the clock
-    if (++looks % kPoll == 0 && options.stop && options.stop()) status = Status::interrupted;
+    if (++looks % kPollsPerRequest == 0 && options.stop && options.stop()) status = Status::interrupted;
     return stopped = status == Status::interrupted || deadline.elapsed_s() >= until_s;
   });
   for (int mover : {0, 1})
@@ -207,8 +187,7 @@ std::vector<SwitchedDdp::Impl::Run::Guess> SwitchedDdp::Impl::Run::guesses(const
 Status SwitchedDdp::Impl::Run::restart(Status status, const ContactSequence& initial) {
   const Problem& p = problem;
   const Options& options = p.options;
-  std::vector<std::pair<double, double>> settings{{10.0, 0.30}, {100.0, 0.40}, {30.0, 0.35},
-                                                  {10.0, 0.45}, {100.0, 0.30}, {30.0, 0.50}};
+  std::vector<RestartSetting> settings(std::begin(kRestarts), std::end(kRestarts));
   std::mt19937_64 random(options.seed);
   for (std::size_t i = settings.size(); i > 1; --i) std::swap(settings[i - 1], settings[random() % i]);
   for (int i = 0; i < options.restarts && !best.ok(); ++i) {
@@ -222,7 +201,7 @@ Status SwitchedDdp::Impl::Run::restart(Status status, const ContactSequence& ini
     // A foot too close to the next step catches it with its toe: the same motion with footholds further inside.
     if (best.best() && best.best()->worst.name == "clearance" && !last.sequence.empty()) {
       const double on_surface = options.sole_inside < 0.0 ? p.robot.sole_support : options.sole_inside;
-      double further_m = (on_surface >= 1.0 ? kToeRoom_m : kClearanceLeast_m) * p.similarity.length;
+      double further_m = (on_surface >= 1.0 ? kToeRoom_m : kClearanceMin_m) * p.similarity.length;
       for (const EndEffector& end : p.robot.end_effectors)
         if (on_surface < 1.0) further_m = std::max(further_m, kClearanceShare * end.half_size.maxCoeff());
       problem.toe_room += further_m / p.units.length;
@@ -429,7 +408,7 @@ PlanResult SwitchedDdp::replan(const Plan& previous, double t, const Knot& measu
   int first = now.phase;
   double remaining = times[first + 1] - t;
   // What is left of the phase is too short to be planned: the next one starts now.
-  const double shortest = 0.02 * similarity_of(impl_->robot, impl_->scene.gravity).time;
+  const double shortest = kReplanRest_s * similarity_of(impl_->robot, impl_->scene.gravity).time;
   const int phases = static_cast<int>(previous.phases.size());
   if (remaining < shortest && first + 1 < phases) {
     ++first;

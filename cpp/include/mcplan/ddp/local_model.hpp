@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/contact_sequence.hpp"
 #include "mcplan/ddp/costs/costs.hpp"
 #include "mcplan/ddp/pendulum.hpp"
@@ -95,7 +96,7 @@ struct Evaluation {
   CostTerms terms{};
 
   /// Exact penalty: cost + rho |defect|.
-  double merit() const { return cost + 30.0 * defect_sum; }
+  double merit() const { return cost + kDefectPenalty * defect_sum; }
 };
 
 class Evaluator {

@@ -9,6 +9,7 @@
 
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/base/status.hpp"
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/local_model.hpp"
 #include "mcplan/ddp/pricing.hpp"
 #include "mcplan/ddp/value_functions.hpp"
@@ -100,7 +101,7 @@ class Search {
   Evaluator evaluate_;
   std::vector<Eigen::VectorXd> dx_, du_;
   Candidate stay_, moved_;
-  double polish_proximal_ = 10.0;
+  double polish_proximal_ = kPolishProximal;
   std::function<void(const Incumbent&)> watcher_;
 };
 

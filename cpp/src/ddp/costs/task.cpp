@@ -1,3 +1,4 @@
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/costs/costs.hpp"
 
 namespace mcplan::ddp {
@@ -9,15 +10,13 @@ void task_cost(const Problem& problem, int k, const Eigen::VectorXd& x, const Ei
   const bool first = k == 0, last = k == problem.steps;
   // The robot starts as it is. Only in the paper's model the CoM's position is held no harder than there: on point feet
   // side by side nothing can move it forward, and a few millimetres off balance are how it starts to walk.
-  constexpr double kPinned = 1000.0;
   const bool paper = problem.options.method == Method::paper, wrench = problem.model == Model::wrench;
   const int first_pinned = paper ? at.nx() : wrench ? 0 : at.velocity();
   // A robot that leaves room to its controller has limbs whose momentum the plan does not know of: it stays upright and
   // on the middle of its soles. (Measured on g1, stepping_stones: falls with the weights of the paper's robot.)
   const bool tracked = problem.robot.pressure_share < 1.0, firm = discovering || tracked;
-  constexpr double kAngle = 10.0, kStiffer = 10.0 / 3.0, kCentred = 4.0;
-  const double stiffer = firm ? kStiffer : 1.0, centred = tracked ? kCentred : 1.0;
-  const double angle = wrench ? (firm ? kAngle : 1.0) * w.angle : w.rotation;
+  const double stiffer = firm ? kFirm : 1.0, centred = tracked ? kCentred : 1.0;
+  const double angle = wrench ? (firm ? kFirmAngle : 1.0) * w.angle : w.rotation;
   const auto weight = [&](double inside, double end) { return first || last ? end : inside; };
   // In the paper's model it is the rates that are weighted, omega = I^-1 L.
   const auto momentum_weight = [&](int a) {
