@@ -23,13 +23,13 @@ double violation_ratio(const Violation& v) {
   return v.value > 0.0 ? 1e9 * (1.0 + v.value) : 0.0;
 }
 
-BestPlan::Finished BestPlan::converted(Search& search, const Problem& problem, const std::vector<int>& surfaces,
-                                       Incumbent& now) const {
+BestPlan::Finished BestPlan::converted(Search& search, const std::vector<int>& surfaces, const Incumbent& now,
+                                       const Tuning& tuning) const {
   Finished out;
-  out.plan = to_plan(problem, now);
+  out.plan = to_plan(search.problem(), now);
   out.plan.measured_start = measured_start_;
   put_back(out.plan, *scene_, surfaces);
-  out.evaluation = search.evaluate(now);
+  out.evaluation = search.evaluate(now, tuning);
   return out;
 }
 
@@ -53,30 +53,30 @@ void BestPlan::take(Finished&& finished) {
   if (better) best_ = std::move(finished);
 }
 
-bool BestPlan::finish(Search& search, const Problem& problem, const std::vector<int>& surfaces, Incumbent now) {
+bool BestPlan::finish(Search& search, const std::vector<int>& surfaces, Incumbent now, const Tuning& tuning) {
   // If the contacts cannot be met exactly, the plan is kept as it is, and the checker says what is wrong with it.
-  search.make_exact(now);
+  search.make_exact(now, tuning);
   const Stopwatch watch(search.report().timing_s, "check");
-  Finished finished = converted(search, problem, surfaces, now);
-  judge(finished, problem, false);
+  Finished finished = converted(search, surfaces, now, tuning);
+  judge(finished, search.problem(), false);
   take(std::move(finished));
   return best_->ok;
 }
 
-void BestPlan::keep(Search& search, const Problem& problem, const std::vector<int>& surfaces, const Incumbent& now) {
+void BestPlan::keep(Search& search, const std::vector<int>& surfaces, const Incumbent& now, const Tuning& tuning) {
   if (!deadline_->limited()) return;
   const double begin_s = deadline_->elapsed_s();
   if (best_ && (begin_s < next_s_ || deadline_->remaining_s() < cost_s_)) return;
-  if (ok() && !(search.evaluate(now).merit() < kCheaper * best_->evaluation.merit())) return;
+  if (ok() && !(search.evaluate(now, tuning).merit() < kCheaper * best_->evaluation.merit())) return;
   Incumbent iterate = now;
   const double until_s = begin_s + std::max(deadline_->remaining_s(), 0.0) + (best_ ? 0.0 : kGrace_s);
-  search.make_exact(iterate, [&] { return deadline_->elapsed_s() >= until_s; });
+  search.make_exact(iterate, tuning, [&] { return deadline_->elapsed_s() >= until_s; });
   const Stopwatch watch(search.report().timing_s, "check");
-  Finished finished = converted(search, problem, surfaces, iterate);
+  Finished finished = converted(search, surfaces, iterate, tuning);
   const double converted_s = deadline_->elapsed_s();
-  const bool accepted = judge(finished, problem, true);
+  const bool accepted = judge(finished, search.problem(), true);
   look_s_ = deadline_->elapsed_s() - converted_s;
-  if (accepted && full_look_s(finished.plan) <= deadline_->remaining_s()) judge(finished, problem, false);
+  if (accepted && full_look_s(finished.plan) <= deadline_->remaining_s()) judge(finished, search.problem(), false);
   take(std::move(finished));
   const double end_s = deadline_->elapsed_s();
   cost_s_ = end_s - begin_s;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "mcplan/ddp/constants.hpp"
+#include "mcplan/ddp/moment_limits.hpp"
 #include "mcplan/ddp/search.hpp"
 
 namespace mcplan::ddp {
@@ -97,14 +98,12 @@ void snap_forces(const Problem& problem, const Pendulum& pendulum, const Contact
 
 }  // namespace
 
-bool Search::make_exact(Incumbent& now, const StopRequest& give_up) {
+bool Search::make_exact(Incumbent& now, const Tuning& tuning, const StopRequest& give_up) {
   const Stopwatch watch(report_->timing_s, "make_exact");
   const Layout& at = problem_->layout;
   Held held(problem_->steps, std::vector<char>(at.nu(), 0));
   for (auto& inputs : held) std::fill_n(inputs.begin(), 3 * at.ends(), 1);
-  Schedule schedule;
-  schedule.contact_weight = problem_->options.weights.contact_max;
-  schedule.interior_weight = problem_->options.weights.limit;
+  Schedule schedule = full_schedule(tuning);
   schedule.proximal_weight = 0.0;
   schedule.held_inputs = &held;
   Trajectory trajectory = now.trajectory;

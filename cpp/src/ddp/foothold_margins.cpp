@@ -12,7 +12,7 @@ namespace mcplan::ddp {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-double Problem::foothold_margin(int l, int surface, int edge) const {
+double Problem::foothold_margin(int l, int surface, int edge, double toe_room) const {
   const double margin = foothold_margins_[l][surface][edge];
   double further = margin + edge_margin;
   if (toe_room > 0.0 && limits[l].half_width > 0.0)

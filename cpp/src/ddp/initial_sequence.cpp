@@ -28,7 +28,7 @@ ContactSequence initial_sequence(LocalModel& model, std::size_t beam, const Stop
   const int n = problem.steps, ends = problem.layout.ends();
   const bool one_switch = problem.options.one_switch_per_step;
   const auto cost_of = [&](int k, const ContactState& state) {
-    double cost = flight_cost(problem, state);
+    double cost = state_cost(problem, state);
     if (const Rows* rows = model.state_block(k, state)) cost += rows->cost();
     for (int l = 0; l < ends; ++l) cost += model.block(k, l, state[l]).cost();
     return cost;

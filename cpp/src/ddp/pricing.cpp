@@ -114,7 +114,7 @@ double StepPricing::price(const ContactState& state) {
   }
   small_factor_.compute(small_);
   small_factor_.matrixL().solveInPlace(y_);
-  return base_cost_ + flight_cost(*problem_, state) + 0.5 * y_.squaredNorm();
+  return base_cost_ + state_cost(*problem_, state) + 0.5 * y_.squaredNorm();
 }
 
 const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctions& values,

@@ -30,14 +30,17 @@ Search::Search(const Problem& problem, const Deadline& deadline, Report& report)
       pricing_(problem.options.threads),
       evaluate_(problem) {}
 
-Schedule Search::full_schedule() const {
+Schedule Search::full_schedule(const Tuning& tuning) const {
   Schedule schedule;
+  schedule.tuning = tuning;
   schedule.contact_weight = problem_->options.weights.contact_max;
-  schedule.interior_weight = problem_->options.weights.limit;
+  schedule.interior_weight = tuning.limit_weight;
   return schedule;
 }
 
-Evaluation Search::evaluate(const Incumbent& at) { return evaluate_(at.trajectory, at.sequence, full_schedule()); }
+Evaluation Search::evaluate(const Incumbent& at, const Tuning& tuning) {
+  return evaluate_(at.trajectory, at.sequence, full_schedule(tuning));
+}
 
 bool Search::should_stop(Status& status) const {
   if (problem_->options.stop && problem_->options.stop())
@@ -162,9 +165,10 @@ Status Search::iterate(Incumbent& now, Schedule& schedule, bool free_sequence) {
   return Status::solved;
 }
 
-Status Search::discover(Incumbent& now, double proximal_weight) {
+Status Search::discover(Incumbent& now, double proximal_weight, const Tuning& tuning) {
   const Weights& w = problem_->options.weights;
   Schedule schedule;
+  schedule.tuning = tuning;
   schedule.contact_weight = w.contact_min;
   schedule.proximal_weight = proximal_weight;
   schedule.discovering = true;
@@ -173,15 +177,15 @@ Status Search::discover(Incumbent& now, double proximal_weight) {
     if (should_stop(status)) return status;
     status = iterate(now, schedule, true);
     if (status != Status::solved) return status;
-    if (watcher_) watcher_(now);
+    if (watcher_) watcher_(now, tuning);
     at_full += schedule.contact_weight >= w.contact_max;
     schedule.contact_weight = std::min(w.contact_growth * schedule.contact_weight, w.contact_max);
   }
   return Status::solved;
 }
 
-Status Search::polish(Incumbent& now, int iterations, double calm, double give_up_above) {
-  Schedule schedule = full_schedule();
+Status Search::polish(Incumbent& now, int iterations, double calm, double give_up_above, const Tuning& tuning) {
+  Schedule schedule = full_schedule(tuning);
   schedule.proximal_weight = polish_proximal_;
   double last = std::numeric_limits<double>::infinity();
   double window_start = last;
@@ -191,7 +195,7 @@ Status Search::polish(Incumbent& now, int iterations, double calm, double give_u
     if (should_stop(status)) return status;
     status = iterate(now, schedule, false);
     if (status != Status::solved) return status;
-    if (watcher_) watcher_(now);
+    if (watcher_) watcher_(now, tuning);
     const double merit = now.evaluation.merit();
     calm_iterations = std::abs(last - merit) < calm * std::abs(merit) ? calm_iterations + 1 : 0;
     if (calm_iterations >= kCalmIterations && now.evaluation.defect_max < kCalmDefect) return Status::solved;
@@ -204,12 +208,12 @@ Status Search::polish(Incumbent& now, int iterations, double calm, double give_u
   return Status::solved;
 }
 
-std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now) {
+std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now, const Tuning& tuning) {
   struct Change {
     double cost;
     ContactSequence sequence;
   };
-  Schedule schedule = full_schedule();
+  Schedule schedule = full_schedule(tuning);
   schedule.proximal_weight = kTrialProximal;
   std::vector<Change> changes;
   model_.expand(now.trajectory, schedule);
@@ -219,7 +223,7 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now) {
     for (const Neighbour& n : pricing_.all(model_, values_, now.sequence)) {
       changes.push_back({n.cost, now.sequence});
       changes.back().sequence[n.step] = n.state;
-      changes.back().cost += contact_change_cost(*problem_, changes.back().sequence);
+      changes.back().cost += change_cost(*problem_, changes.back().sequence);
     }
   }
   const Stopwatch watch(report_->timing_s, "whole_sequence");
@@ -231,7 +235,7 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now) {
     if (deadline_->passed()) break;  // the trials will not come to them
     const double cost = values_.minimum_with(edited, now.sequence);
     if (!std::isfinite(cost)) continue;
-    const double changing = contact_change_cost(*problem_, edited);
+    const double changing = change_cost(*problem_, edited);
     changes.push_back({cost + changing, std::move(edited)});
   }
   std::stable_sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.cost < b.cost; });
@@ -240,17 +244,17 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now) {
   return out;
 }
 
-Status Search::refine(Incumbent& now) {
+Status Search::refine(Incumbent& now, const Tuning& tuning) {
   Status status = Status::solved;
   polish_proximal_ = kTrialProximal;
   for (int round = 0; round < kRefineRounds; ++round) {
-    const std::vector<ContactSequence> changes = ranked_changes(now);
+    const std::vector<ContactSequence> changes = ranked_changes(now, tuning);
     bool improved = false;
     for (std::size_t i = 0; i < changes.size() && i < kTrials && !improved; ++i) {
       Incumbent trial = now;
       trial.sequence = changes[i];
       const double merit = now.evaluation.merit();
-      status = polish(trial, kTrialIterations, kRoughCalm, merit);
+      status = polish(trial, kTrialIterations, kRoughCalm, merit, tuning);
       improved = trial.evaluation.merit() < merit * (1.0 - kTrialGain);
       if (improved) {
         const int switches = differences(trial.sequence, now.sequence);

@@ -5,10 +5,12 @@
 
 #include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/contact_sequence.hpp"
-#include "mcplan/ddp/costs/costs.hpp"
+#include "mcplan/ddp/cost_terms.hpp"
+#include "mcplan/ddp/instants.hpp"
 #include "mcplan/ddp/pendulum.hpp"
 #include "mcplan/ddp/problem.hpp"
 #include "mcplan/ddp/rows.hpp"
+#include "mcplan/ddp/schedule.hpp"
 
 namespace mcplan::ddp {
 
@@ -17,19 +19,6 @@ struct Quadratic {
   double c = 0.0;
   Eigen::VectorXd g;
   Eigen::MatrixXd h;
-};
-
-/// Weights that change from iteration to iteration.
-struct Schedule {
-  double contact_weight = 0.01;   ///< w_compl
-  double interior_weight = 0.0;   ///< on reach, friction and force inside the phases
-  bool discovering = false;       ///< the weights that Model::wrench has in discovery
-  double proximal_weight = 30.0;  ///< on the change of the input: 1/2 r |du|^2, a part of the model's cost
-
-  /// Not null: only the least change that closes the dynamics defects is sought, whatever it costs. Held (by a
-  /// weight so large that their change is rounding) are the base and the end-effectors at the start and, at every step,
-  /// the inputs that are marked here.
-  const std::vector<std::vector<char>>* held_inputs = nullptr;
 };
 
 /// The problem about a trajectory: dynamics to first order, costs to second order (Gauss-Newton), one stage a step.
@@ -64,6 +53,8 @@ class LocalModel {
   void add_contacts(int k, const ContactState& state, Quadratic& q);
 
  private:
+  StepView view(int k) const;
+
   struct Stage {
     PendulumStep dynamics;
     Eigen::VectorXd defect;
@@ -93,7 +84,7 @@ struct Evaluation {
   double defect_sum =
       0.0;  ///< over the knots, vectors by their Euclidean norm: the same wherever the scene is turned to
   double defect_max = 0.0;
-  CostTerms terms{};
+  std::vector<double> terms;  ///< by cost_terms()
 
   /// Exact penalty: cost + rho |defect|.
   double merit() const { return cost + kDefectPenalty * defect_sum; }
@@ -111,12 +102,5 @@ class Evaluator {
   std::vector<Instant> instants_;
   Eigen::VectorXd next_;
 };
-
-/// All rows of one step and contact state into `rows` (shared by model and evaluation). `u` null at k = N.
-void add_base_rows(const Problem& problem, int k, const Eigen::VectorXd& x, const Eigen::VectorXd* u,
-                   const Schedule& schedule, Rows& rows);
-void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x,
-                      const Eigen::VectorXd* u, const std::vector<Instant>& instants, int l, int contact,
-                      double sole_yaw, const Schedule& schedule, Rows& rows);
 
 }  // namespace mcplan::ddp

@@ -5,9 +5,9 @@ namespace {
 using namespace support;
 
 Writer task_at(const ddp::Problem& problem, int k, bool discovering = false) {
-  return [&problem, k, discovering](const VectorXd& x, const VectorXd& u, Rows& rows) {
-    task_cost(problem, k, x, k == problem.steps ? nullptr : &u, discovering, rows);
-  };
+  About about{k};
+  about.discovering = discovering;
+  return term(problem, "task", about);
 }
 
 /// Weights that can be told apart.
