@@ -13,9 +13,9 @@ class Task final : public CostTerm {
   Task() : CostTerm("task", Scope::step, 10) {}
 
   void write(const StepView& step, Rows& rows) const override {
-    // A robot that leaves room to its controller has limbs whose momentum the plan does not know of: it stays upright
-    // and on the middle of its soles. (Measured on g1, stepping_stones: falls with the weights of the paper's robot.)
-    const bool tracked = step.problem.robot.pressure_share < 1.0, firm = step.schedule.discovering || tracked;
+    // The limbs of a robot that is tracked have momentum that the plan does not know of: it stays upright and on the
+    // middle of its soles. (Measured on g1, stepping_stones: falls with the weights of the paper's robot.)
+    const bool tracked = step.problem.robot.tracked, firm = step.schedule.discovering || tracked;
     write_state(step, firm, rows);
     if (step.u) write_input(step, firm ? kFirm : 1.0, tracked ? kCentred : 1.0, rows);
   }

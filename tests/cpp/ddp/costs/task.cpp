@@ -107,3 +107,20 @@ TEST_CASE("contact wrenches are held near the paper's model, harder while the se
       CHECK(weight.input(at.duration()) <= 1e-10);
     }
 }
+
+TEST_CASE("plans that a controller follows keep upright and centred, however much of the sole they may use") {
+  const ddp::Options options = distinct(ddp::Model::wrench);
+  for (double share : {1.0, 0.999999, 0.75})
+    for (bool tracked : {false, true}) {
+      mcplan::Robot robot = scenes::humanoid44();
+      robot.pressure_share = share;
+      robot.tracked = tracked;
+      const ddp::Problem problem(scenes::flat(), robot, options);
+      const ddp::Layout& at = problem.layout;
+      const Weighed weight{problem, 3};
+      CHECK(weight.state(at.angle(1)) == doctest::Approx(tracked ? 370 : 37));
+      CHECK(weight.state(at.momentum(2)) == doctest::Approx(tracked ? 410.0 / 3.0 : 41));
+      CHECK(weight.input(at.pressure(1)) == doctest::Approx(tracked ? 172 : 43));
+      CHECK(weight.input(at.force_line(1)) == doctest::Approx(tracked ? 470.0 / 3.0 : 47));
+    }
+}
