@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <stdexcept>
 
 namespace mcplan::ddp {
 
@@ -16,7 +17,13 @@ namespace cost {
 namespace {
 
 constexpr int kScopes = 6;
-using Indices = std::vector<int>;
+
+/// A term with its index in cost_terms().
+struct Entry {
+  int index;
+  const CostTerm* term;
+};
+using Entries = std::vector<Entry>;
 
 std::vector<const CostTerm*> sorted_terms() {
   std::vector<const CostTerm*> terms{
@@ -28,15 +35,16 @@ std::vector<const CostTerm*> sorted_terms() {
     if (a->scope() != b->scope()) return a->scope() < b->scope();
     return a->order() != b->order() ? a->order() < b->order() : std::strcmp(a->name(), b->name()) < 0;
   });
+  if (terms.size() > kCostTermsMax) throw std::logic_error("more cost terms than kCostTermsMax");
   return terms;
 }
 
-/// Indices of the terms of a scope.
-const Indices& terms_of(Scope scope) {
-  static const std::array<Indices, kScopes> by_scope = [] {
-    std::array<Indices, kScopes> out;
+/// The terms of a scope, in their order.
+const Entries& terms_of(Scope scope) {
+  static const std::array<Entries, kScopes> by_scope = [] {
+    std::array<Entries, kScopes> out;
     for (std::size_t i = 0; i < cost_terms().size(); ++i)
-      out[static_cast<std::size_t>(cost_terms()[i]->scope())].push_back(static_cast<int>(i));
+      out[static_cast<std::size_t>(cost_terms()[i]->scope())].push_back({static_cast<int>(i), cost_terms()[i]});
     return out;
   }();
   return by_scope[static_cast<std::size_t>(scope)];
@@ -65,23 +73,22 @@ int cost_term_index(const std::string& name) {
 }
 
 void write_terms(Scope scope, const StepView& step, Rows& rows) {
-  for (int i : terms_of(scope)) {
-    const CostTerm& term = *cost_terms()[static_cast<std::size_t>(i)];
-    if (!term.applies(step)) continue;
-    rows.begin(i);
-    term.write(step, rows);
+  for (const auto& [index, term] : terms_of(scope)) {
+    if (!term->applies(step)) continue;
+    rows.begin(index);
+    term->write(step, rows);
   }
 }
 
 double state_cost(const Problem& problem, const ContactState& state) {
   double cost = 0.0;
-  for (int i : terms_of(Scope::state)) cost += cost_terms()[static_cast<std::size_t>(i)]->of_state(problem, state);
+  for (const Entry& entry : terms_of(Scope::state)) cost += entry.term->of_state(problem, state);
   return cost;
 }
 
 double change_cost(const Problem& problem, const ContactState& from, const ContactState& to) {
   double cost = 0.0;
-  for (int i : terms_of(Scope::change)) cost += cost_terms()[static_cast<std::size_t>(i)]->of_change(problem, from, to);
+  for (const Entry& entry : terms_of(Scope::change)) cost += entry.term->of_change(problem, from, to);
   return cost;
 }
 
@@ -92,18 +99,17 @@ double change_cost(const Problem& problem, const ContactSequence& sequence) {
 }
 
 void write_state_cost(const Problem& problem, const ContactState& state, Rows& rows) {
-  for (int i : terms_of(Scope::state)) {
-    rows.begin(i);
-    rows.add_constant(cost_terms()[static_cast<std::size_t>(i)]->of_state(problem, state));
+  for (const auto& [index, term] : terms_of(Scope::state)) {
+    rows.begin(index);
+    rows.add_constant(term->of_state(problem, state));
   }
 }
 
 void write_change_cost(const Problem& problem, const ContactSequence& sequence, Rows& rows) {
-  for (int i : terms_of(Scope::change)) {
+  for (const auto& [index, term] : terms_of(Scope::change)) {
     double cost = 0.0;
-    for (std::size_t k = 1; k < sequence.size(); ++k)
-      cost += cost_terms()[static_cast<std::size_t>(i)]->of_change(problem, sequence[k - 1], sequence[k]);
-    rows.begin(i);
+    for (std::size_t k = 1; k < sequence.size(); ++k) cost += term->of_change(problem, sequence[k - 1], sequence[k]);
+    rows.begin(index);
     rows.add_constant(cost);
   }
 }

@@ -173,7 +173,6 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
   if (schedule.interior_weight > 0.0) write_change_cost(*problem_, sequence, rows_);
   out.cost = rows_.cost();
   out.terms = rows_.terms();
-  out.terms.resize(cost_terms().size(), 0.0);
   return out;
 }
 

@@ -23,7 +23,7 @@ int nonzeros(const Eigen::Ref<const Eigen::VectorXd>& gradient, std::array<int, 
 
 void Rows::clear() {
   cost_ = 0.0;
-  std::fill(terms_.begin(), terms_.end(), 0.0);
+  terms_.fill(0.0);
   precision_.clear();
   value_.clear();
   single_.clear();

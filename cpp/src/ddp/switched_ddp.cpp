@@ -136,8 +136,8 @@ PlanResult SwitchedDdp::Impl::conclude(Status status, int steps, const BestPlan&
     report.friction_use = friction_use(out.plan);
     report.worst_violation = best->worst;
     report.cost = best->evaluation.cost;
-    const std::vector<double>& terms = best->evaluation.terms;
-    for (std::size_t i = 0; i < terms.size(); ++i)
+    const CostTerms& terms = best->evaluation.terms;
+    for (std::size_t i = 0; i < cost_terms().size(); ++i)
       if (terms[i] > 0.0) report.cost_terms[cost_terms()[i]->name()] = terms[i];
     if (best->ok)
       status = Status::solved;

@@ -64,7 +64,7 @@ TEST_CASE("every neighbour is priced like a full recompute, and the best one is 
     const Schedule weights = schedule(s.weight, s.interior, s.proximal);
     model.expand(trajectory, weights);
     Evaluator evaluate(problem);
-    const std::vector<double> terms = evaluate(trajectory, sequence, weights).terms;
+    const CostTerms terms = evaluate(trajectory, sequence, weights).terms;
     with_friction += terms[cost_term_index("friction")] > 0.0;
     with_reach += terms[cost_term_index("interior_reach")] > 0.0;
     ValueFunctions values(model);

@@ -84,7 +84,7 @@ struct Evaluation {
   double defect_sum =
       0.0;  ///< over the knots, vectors by their Euclidean norm: the same wherever the scene is turned to
   double defect_max = 0.0;
-  std::vector<double> terms;  ///< by cost_terms()
+  CostTerms terms{};
 
   /// Exact penalty: cost + rho |defect|.
   double merit() const { return cost + kDefectPenalty * defect_sum; }

@@ -1,10 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <vector>
 
 namespace mcplan::ddp {
+
+/// Cost by term, in the order of cost_terms(); there may be this many of them.
+constexpr int kCostTermsMax = 32;
+using CostTerms = std::array<double, kCostTermsMax>;
 
 /// A sum of squares 1/2 sum_r w_r^2 e_r(z)^2, row by row: value e_r and gradient de_r/dz (z = [x, u]). Every cost and
 /// constraint of the planner writes itself into one of these; satisfied inequalities write nothing (active set).
@@ -19,10 +24,7 @@ class Rows {
   void clear();
 
   /// What is added from now on belongs to this term of cost_terms().
-  void begin(int term) {
-    term_ = static_cast<std::size_t>(term);
-    if (terms_.size() <= term_) terms_.resize(term_ + 1, 0.0);
-  }
+  void begin(int term) { term_ = static_cast<std::size_t>(term); }
 
   /// A row that depends on one variable: e = value, de/dz_index = 1.
   void add_single(double weight, double value, int index);
@@ -44,8 +46,8 @@ class Rows {
 
   int count() const { return static_cast<int>(value_.size()); }
   double cost() const { return cost_; }
-  const std::vector<double>& terms() const { return terms_; }  ///< cost by term, as far as one was begun
-  double precision(int r) const { return precision_[r]; }      ///< w_r^2
+  const CostTerms& terms() const { return terms_; }
+  double precision(int r) const { return precision_[r]; }  ///< w_r^2
   double value(int r) const { return value_[r]; }
   int single(int r) const { return single_[r]; }           ///< its one variable, or -1
   auto gradient(int r) const { return gradient_.col(r); }  ///< zeros but for the one variable of a single row
@@ -60,7 +62,7 @@ class Rows {
   bool with_gradient_ = true;
   std::size_t term_ = 0;
   double cost_ = 0.0;
-  std::vector<double> terms_{0.0};
+  CostTerms terms_{};
   std::vector<double> precision_, value_;
   std::vector<int> single_;
   Eigen::MatrixXd gradient_;  ///< nz x capacity, a column a row
