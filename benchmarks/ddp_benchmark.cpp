@@ -90,7 +90,7 @@ void measure(const mcplan::Scene& scene, int phases, int repeats) {
   const double low_rank_us = median_us(repeats, [&] { pricing.all(model, values, sequence); });
   const double mincost_us = median_us(repeats, [&] {
     for (const Neighbour& n : neighbours) {
-      values.backward_step(n.step, n.state, values.V(n.step + 1), value, nullptr, nullptr, nullptr);
+      values.backward_step(n.step, n.state, values.V(n.step + 1), value);
       const Quadratic& before = values.U(n.step);
       compare(n.cost, minimum(value.c + before.c, value.g + before.g, value.h + before.h, factor), mincost_error);
     }

@@ -169,7 +169,8 @@ def values_of(result: PlanResult) -> dict[str, Any]:
     if values["status"] != "solved":
         values["message"] = report.message or (str(worst) if worst.name else "")
     if plan.phases:
-        values |= {"cost": comparable_cost(report), "cost_duration": report.cost_terms.get("duration", 0.0)}
+        durations = (report.cost_terms.get(name, 0.0) for name in ("duration", "flight_duration"))
+        values |= {"cost": comparable_cost(report), "cost_duration": float(sum(durations))}
         values |= measured(plan, measure_contacts(plan))
     return values
 

@@ -217,6 +217,7 @@ ROBOT_BREAKS: list[Break] = [
     (("sole_support",), 1.1, "sole_support", "must be"),
     (("sole_support",), NAN, "sole_support", "must be at most 1"),
     (("sole_support",), "all", "sole_support", "must be a number"),
+    (("tracked",), 1, "tracked", "must be true or false"),
     (("urdf",), 1, "urdf", "must be a string"),
     (("posture", "knee"), NAN, "posture.knee", "must be a finite number"),
     (("posture", "knee"), "bent", "posture.knee", "must be a number"),

@@ -109,6 +109,20 @@ def test_phase_durations_and_sole_support_are_written_where_they_are_not_the_def
     assert tomllib.loads((tmp_path / "slow.toml").read_text())["phase_duration"] == [0.25, 0.75]
 
 
+def test_that_plans_are_tracked_survives_file_dict_pickle_and_repr_and_is_left_out_where_they_are_not(tmp_path):
+    assert [load_robot(name).tracked for name in ("humanoid44", "talos", "g1", "anymal")] == [False, True, True, False]
+    robot = load_robot("humanoid44")
+    assert "tracked" not in robot_to_dict(robot)
+    robot.tracked = True
+    save_robot(robot, tmp_path / "followed.toml")
+    for other in (
+        load_robot(tmp_path / "followed.toml"),
+        pickle.loads(pickle.dumps(robot)),
+        eval(repr(robot), vars(mp)),
+    ):
+        assert other.tracked and robot_to_dict(other) == robot_to_dict(robot)
+
+
 def test_the_range_of_a_soles_heading_survives_file_dict_pickle_and_repr_and_is_left_out_where_it_is_any(tmp_path):
     robot = load_robot("humanoid44")
     foot, hand = robot.end_effectors[0], robot.end_effectors[2]

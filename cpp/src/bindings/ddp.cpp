@@ -1,6 +1,7 @@
 #include <pybind11/functional.h>
 
 #include "bindings.hpp"
+#include "mcplan/ddp/cost_terms.hpp"
 #include "mcplan/ddp/options.hpp"
 #include "mcplan/ddp/switched_ddp.hpp"
 #include "signals.hpp"
@@ -43,9 +44,12 @@ void bind_weights(py::module_& m) {
   c.def_readwrite("contact_min", &Weights::contact_min, "First complementarity weight.");
   c.def_readwrite("contact_max", &Weights::contact_max, "Last complementarity weight.");
   c.def_readwrite("contact_growth", &Weights::contact_growth, "Factor between iterations, above 1.");
-  c.def_readwrite("flight", &Weights::flight, "On every phase without any contact.");
-  c.def_readwrite("contact_change", &Weights::contact_change, "On every contact made or broken.");
   c.def_readwrite("overshoot_factor", &Weights::overshoot_factor, "On leaving a polygon sideways, at least 1.");
+  for (const ddp::CostTerm* term : ddp::cost_terms())
+    if (term->has_own_weight())
+      c.def_property(
+          term->name(), [term](const Weights& self) { return term->weight(self); },
+          [term](Weights& self, double weight) { self.own[term->name()] = weight; }, term->own_weight().meaning);
 }
 
 void bind_options(py::module_& m) {

@@ -112,16 +112,26 @@ void bind_robot(py::module_& m) {
   const Robot d;
   c.def(py::init([](std::string name, std::string description, double mass, const Vector3d& inertia, double com_height,
                     double swing_height, const Vector2d& phase_duration, double sole_support, double pressure_share,
-                    std::vector<EndEffector> end_effectors, std::string urdf, Posture posture) {
-          return Robot{std::move(name), std::move(description), mass,         inertia,        com_height,
-                       swing_height,    phase_duration,         sole_support, pressure_share, std::move(end_effectors),
-                       std::move(urdf), std::move(posture)};
+                    bool tracked, std::vector<EndEffector> end_effectors, std::string urdf, Posture posture) {
+          return Robot{std::move(name),
+                       std::move(description),
+                       mass,
+                       inertia,
+                       com_height,
+                       swing_height,
+                       phase_duration,
+                       sole_support,
+                       pressure_share,
+                       tracked,
+                       std::move(end_effectors),
+                       std::move(urdf),
+                       std::move(posture)};
         }),
         py::kw_only(), py::arg("name") = "", py::arg("description") = "", py::arg("mass") = d.mass,
         py::arg("inertia") = d.inertia, py::arg("com_height") = d.com_height, py::arg("swing_height") = d.swing_height,
         py::arg("phase_duration") = d.phase_duration, py::arg("sole_support") = d.sole_support,
-        py::arg("pressure_share") = d.pressure_share, py::arg("end_effectors") = std::vector<EndEffector>(),
-        py::arg("urdf") = "", py::arg("posture") = Posture());
+        py::arg("pressure_share") = d.pressure_share, py::arg("tracked") = d.tracked,
+        py::arg("end_effectors") = std::vector<EndEffector>(), py::arg("urdf") = "", py::arg("posture") = Posture());
   c.def_readwrite("name", &Robot::name);
   c.def_readwrite("description", &Robot::description);
   c.def_readwrite("mass", &Robot::mass, "[kg]");
@@ -135,6 +145,9 @@ void bind_robot(py::module_& m) {
                   "Share of a sole that a contact sequence keeps on its surface; 0: its centre.");
   c.def_readwrite("pressure_share", &Robot::pressure_share,
                   "Share of a sole's half size within which a plan keeps the centre of pressure.");
+  c.def_readwrite("tracked", &Robot::tracked,
+                  "Whether a controller follows the plans with limbs whose momentum they do not know of: contact "
+                  "sequences then keep the base upright and the centre of pressure near the middle of the sole.");
   def_items(c, "end_effectors", &Robot::end_effectors, "Tuple of EndEffector; assign a list to add or remove.");
   c.def_readwrite("urdf", &Robot::urdf, "Path, or 'example-robot-data:NAME'; empty: none.");
   def_names(c, "posture", &Robot::posture,
@@ -143,7 +156,7 @@ void bind_robot(py::module_& m) {
   c.def("validate", &Robot::validate, "Raise InvalidRobot naming the first field out of its range.");
   def_value(c, "Robot",
             {"name", "description", "mass", "inertia", "com_height", "swing_height", "phase_duration", "sole_support",
-             "pressure_share", "end_effectors", "urdf", "posture"});
+             "pressure_share", "tracked", "end_effectors", "urdf", "posture"});
   def_pickle(c, "mcplan.files.robots", "robot_to_dict", "rebuild_robot");
 
   m.def("addresses", &addresses, py::arg("who"), py::arg("end_effector"),

@@ -4,30 +4,16 @@
 #include <limits>
 #include <utility>
 
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/plan_conversion.hpp"
 #include "mcplan/ddp/reachable_surfaces.hpp"
 
 namespace mcplan::ddp {
-namespace {
-
-/// Instants at which iterates are looked at: so many in all, and so many a phase.
-constexpr double kInstants = 400.0, kInstantsPerPhase = 3.0, kInstantsPerPhaseLate = 1.0;
-/// The first iterate may be made exact for so long after the limit [s]: the only plan there is.
-constexpr double kGrace_s = 0.01;
-/// Rounds that Newton's method takes at least to make the first iterate exact, from a defect of a tenth to rounding:
-/// 1e-1, 1e-2, 1e-4, 1e-8, 1e-16.
-constexpr double kLeastRounds = 4.0;
-/// The search goes on for this many times as long as looking took, a time more after each look.
-constexpr int kMostPause = 8;
-/// Once there is a plan that the checker accepts, only one of so much less merit is looked at.
-constexpr double kCheaper = 0.9;
-
-}  // namespace
 
 double BestPlan::sample_s(const Plan& plan, Look look) {
   if (look == Look::full) return Tolerances().sample_s;
-  const double per_phase = look == Look::late ? kInstantsPerPhaseLate : kInstantsPerPhase;
-  const double instants = std::max(kInstants, per_phase * static_cast<double>(plan.phases.size()));
+  const double per_phase = look == Look::late ? kLookInstantsPerPhaseLate : kLookInstantsPerPhase;
+  const double instants = std::max(kLookInstants, per_phase * static_cast<double>(plan.phases.size()));
   return std::max(Tolerances().sample_s, plan.duration() / instants);
 }
 
@@ -36,13 +22,13 @@ double violation_ratio(const Violation& v) {
   return v.value > 0.0 ? 1e9 * (1.0 + v.value) : 0.0;
 }
 
-BestPlan::Finished BestPlan::converted(Search& search, const Problem& problem, const std::vector<int>& surfaces,
-                                       Incumbent& now) const {
+BestPlan::Finished BestPlan::converted(Search& search, const std::vector<int>& surfaces, const Incumbent& now,
+                                       const Tuning& tuning) const {
   Finished out;
-  out.plan = to_plan(problem, now);
+  out.plan = to_plan(search.problem(), now);
   out.plan.measured_start = measured_start_;
   put_back(out.plan, *scene_, surfaces);
-  out.evaluation = search.evaluate(now);
+  out.evaluation = search.evaluate(now, tuning);
   return out;
 }
 
@@ -66,40 +52,40 @@ void BestPlan::take(Finished&& finished) {
   if (better) best_ = std::move(finished);
 }
 
-bool BestPlan::finish(Search& search, const Problem& problem, const std::vector<int>& surfaces, Incumbent now) {
+bool BestPlan::finish(Search& search, const std::vector<int>& surfaces, Incumbent now, const Tuning& tuning) {
   // If the contacts cannot be met exactly, the plan is kept as it is, and the checker says what is wrong with it.
-  search.make_exact(now);
+  search.make_exact(now, tuning);
   const Stopwatch watch(search.report().timing_s, "check");
-  Finished finished = converted(search, problem, surfaces, now);
-  judge(finished, problem, Look::full);
+  Finished finished = converted(search, surfaces, now, tuning);
+  judge(finished, search.problem(), Look::full);
   take(std::move(finished));
   return best_->ok;
 }
 
-void BestPlan::keep(Search& search, const Problem& problem, const std::vector<int>& surfaces, const Incumbent& now) {
+void BestPlan::keep(Search& search, const std::vector<int>& surfaces, const Incumbent& now, const Tuning& tuning) {
   if (!deadline_->limited()) return;
   const double begin_s = deadline_->elapsed_s();
   if (best_ && (begin_s < next_s_ || deadline_->remaining_s() < cost_s_)) return;
-  if (ok() && !(search.evaluate(now).merit() < kCheaper * best_->evaluation.merit())) return;
+  if (ok() && !(search.evaluate(now, tuning).merit() < kCheaper * best_->evaluation.merit())) return;
   Incumbent iterate = now;
   const double until_s = begin_s + std::max(deadline_->remaining_s(), 0.0) + (best_ ? 0.0 : kGrace_s);
   int rounds = 0;
-  search.make_exact(iterate, [&] {
+  search.make_exact(iterate, tuning, [&] {
     const double now_s = deadline_->elapsed_s();
-    const bool hopeless = !best_ && ++rounds == 2 && begin_s + kLeastRounds * (now_s - begin_s) > until_s;
+    const bool hopeless = !best_ && ++rounds == 2 && begin_s + kExactRoundsMin * (now_s - begin_s) > until_s;
     return hopeless || now_s >= until_s;
   });
   const Stopwatch watch(search.report().timing_s, "check");
-  Finished finished = converted(search, problem, surfaces, iterate);
+  Finished finished = converted(search, surfaces, iterate, tuning);
   const double converted_s = deadline_->elapsed_s();
   const Look look = deadline_->passed() ? Look::late : Look::few;
-  const bool accepted = judge(finished, problem, look);
+  const bool accepted = judge(finished, search.problem(), look);
   instant_s_ = (deadline_->elapsed_s() - converted_s) * sample_s(finished.plan, look) / finished.plan.duration();
-  if (accepted && full_look_s(finished.plan) <= deadline_->remaining_s()) judge(finished, problem, Look::full);
+  if (accepted && full_look_s(finished.plan) <= deadline_->remaining_s()) judge(finished, search.problem(), Look::full);
   take(std::move(finished));
   const double end_s = deadline_->elapsed_s();
   cost_s_ = end_s - begin_s;
-  next_s_ = end_s + std::min(++kept_, kMostPause) * cost_s_;
+  next_s_ = end_s + std::min(++kept_, kPauseMax) * cost_s_;
 }
 
 void BestPlan::settle(const Problem& problem, Report& report) {

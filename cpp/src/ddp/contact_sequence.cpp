@@ -125,6 +125,10 @@ std::vector<ContactState> ContactRules::neighbours(const ContactSequence& sequen
   return out;
 }
 
+bool in_flight(const ContactState& state) {
+  return std::all_of(state.begin(), state.end(), [](int contact) { return contact == kFree; });
+}
+
 int switch_count(const ContactSequence& sequence) {
   int count = 0;
   for (std::size_t k = 1; k < sequence.size(); ++k)

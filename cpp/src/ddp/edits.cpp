@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "mcplan/ddp/constants.hpp"
+
 namespace mcplan::ddp {
 namespace {
 
@@ -62,7 +64,7 @@ std::vector<ContactSequence> swing_edits(const ContactRules& rules, const Contac
   const std::vector<SwingSpan> swings = swing_spans(sequence);
   Editor editor(rules, sequence);
   for (const SwingSpan& s : swings) {
-    for (int by : {-2, -1, 1, 2})
+    for (int by : kSwingShifts)
       if (s.first + by > 0 && s.last + by < n) editor.keep(editor.moved(s, s.first + by, s.last + by));
     if (s.before == s.after) {
       ContactSequence without = sequence;
@@ -82,7 +84,7 @@ std::vector<ContactSequence> swing_edits(const ContactRules& rules, const Contac
     }
     for (const SwingSpan& t : swings) {
       if (t.end <= s.end || s.before != s.after || t.before != t.after || s.before != t.before) continue;
-      if (t.last < s.first - 6 || t.first > s.last + 6) continue;
+      if (t.last < s.first - kExchangeSteps || t.first > s.last + kExchangeSteps) continue;
       ContactSequence exchanged = sequence;
       for (int k = s.first; k <= s.last; ++k) exchanged[k][s.end] = s.before;
       for (int k = t.first; k <= t.last; ++k) exchanged[k][t.end] = t.before;

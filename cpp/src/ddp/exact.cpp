@@ -2,6 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mcplan/ddp/constants.hpp"
+#include "mcplan/ddp/moment_limits.hpp"
 #include "mcplan/ddp/search.hpp"
 
 namespace mcplan::ddp {
@@ -60,7 +62,6 @@ void snap_pressure(const Problem& problem, int l, int surface, double sole_yaw, 
 
 /// What torsion an end-effector can have all through phase k, with a little to spare for what the steps still change.
 double least_torsion(const Problem& problem, const Pendulum& pendulum, const Trajectory& t, int k, int l, int surface) {
-  constexpr double kSpare = 0.9;
   const Vector3d& n = problem.polygons[surface].normal_W();
   const Vector3d s = problem.layout.line_point(t.x[k], t.u[k], l);
   std::vector<Instant> instants;
@@ -68,7 +69,7 @@ double least_torsion(const Problem& problem, const Pendulum& pendulum, const Tra
   double normal = std::numeric_limits<double>::infinity();
   for (const Instant& instant : instants) normal = std::min(normal, n.dot(instant.com - s));
   const double arm = torsion_arm(problem, l, surface);
-  return std::isinf(arm) ? arm : kSpare * arm * pendulum.mu(t.u[k], l) * std::max(normal, 0.0);
+  return std::isinf(arm) ? arm : kTorsionSpare * arm * pendulum.mu(t.u[k], l) * std::max(normal, 0.0);
 }
 
 /// Bring forces and moments into their bounds and hold those that were outside; free end-effectors have none.
@@ -97,29 +98,26 @@ void snap_forces(const Problem& problem, const Pendulum& pendulum, const Contact
 
 }  // namespace
 
-bool Search::make_exact(Incumbent& now, const StopRequest& give_up) {
+bool Search::make_exact(Incumbent& now, const Tuning& tuning, const StopRequest& give_up) {
   const Stopwatch watch(report_->timing_s, "make_exact");
   const Layout& at = problem_->layout;
   Held held(problem_->steps, std::vector<char>(at.nu(), 0));
   for (auto& inputs : held) std::fill_n(inputs.begin(), 3 * at.ends(), 1);
-  Schedule schedule;
-  schedule.contact_weight = problem_->options.weights.contact_max;
-  schedule.interior_weight = problem_->options.weights.limit;
+  Schedule schedule = full_schedule(tuning);
   schedule.proximal_weight = 0.0;
   schedule.held_inputs = &held;
   Trajectory trajectory = now.trajectory;
   problem_->set_sole_yaw(now.sequence, trajectory);
   snap_positions(*problem_, now.sequence, trajectory);
-  // Newton on the defects: quadratic from 1e-3 on, but every input that meets its bound costs a step.
-  constexpr double kRounding = 1e-13;
-  for (int i = 0; i < 30; ++i) {
+  // Newton on the defects.
+  for (int i = 0; i < kExactSteps; ++i) {
     if (give_up && give_up()) return false;
     snap_forces(*problem_, model_.pendulum(), now.sequence, trajectory, held);
     model_.expand(trajectory, schedule);
     double defect = 0.0;
     for (int k = 0; k < problem_->steps; ++k) defect = std::max(defect, model_.defect(k).lpNorm<Eigen::Infinity>());
     if (!std::isfinite(defect)) return false;
-    if (defect < kRounding) {
+    if (defect < kExactDefect) {
       now.trajectory = trajectory;
       schedule.held_inputs = nullptr;
       now.evaluation = evaluate_(trajectory, now.sequence, schedule);

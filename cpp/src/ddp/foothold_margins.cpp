@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/problem.hpp"
 
 /// How far inside their surfaces footholds are planned.
@@ -11,11 +12,7 @@ namespace mcplan::ddp {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// A sole that finds no room is kept to the middle of its surface, down to this share of the width from either edge,
-/// the less the wider it is: less would leave it on its toes, half would leave no choice.
-constexpr double kNarrow = 0.35;
-
-double Problem::foothold_margin(int l, int surface, int edge) const {
+double Problem::foothold_margin(int l, int surface, int edge, double toe_room) const {
   const double margin = foothold_margins_[l][surface][edge];
   double further = margin + edge_margin;
   if (toe_room > 0.0 && limits[l].half_width > 0.0)

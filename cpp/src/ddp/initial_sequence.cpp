@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "mcplan/ddp/constants.hpp"
+
 namespace mcplan::ddp {
 namespace {
 
@@ -26,7 +28,7 @@ ContactSequence initial_sequence(LocalModel& model, std::size_t beam, const Stop
   const int n = problem.steps, ends = problem.layout.ends();
   const bool one_switch = problem.options.one_switch_per_step;
   const auto cost_of = [&](int k, const ContactState& state) {
-    double cost = flight_cost(problem, state);
+    double cost = state_cost(problem, state);
     if (const Rows* rows = model.state_block(k, state)) cost += rows->cost();
     for (int l = 0; l < ends; ++l) cost += model.block(k, l, state[l]).cost();
     return cost;
@@ -39,8 +41,7 @@ ContactSequence initial_sequence(LocalModel& model, std::size_t beam, const Stop
   for (int k = 0; k < n; ++k) {
     std::map<ContactState, Node>& next = layers[k + 1];
     for (const auto& [state, node] : layers[k]) {
-      constexpr int kOften = 32;
-      if (stop && ++looked_at % kOften == 0 && stop()) return {};
+      if (stop && ++looked_at % kStatesPerPoll == 0 && stop()) return {};
       for (ContactState& follower : problem.rules.successors(state, k + 1)) {
         // Leave out what can no longer reach the goal's contacts in the steps that remain.
         if (one_switch && distance(follower, problem.goal_contacts) > n - (k + 1)) continue;

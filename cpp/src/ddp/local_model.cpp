@@ -3,49 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mcplan/ddp/constants.hpp"
+
 namespace mcplan::ddp {
 
 using Eigen::VectorXd;
 
-void add_base_rows(const Problem& problem, int k, const VectorXd& x, const VectorXd* u, const Schedule& schedule,
-                   Rows& rows) {
-  task_cost(problem, k, x, u, schedule.discovering, rows);
-  reach_cost(problem, x, rows);
-  if (!u) return;
-  duration_cost(problem, k, *u, rows);
-  bounds_cost(problem, *u, rows);
-}
-
-void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const VectorXd& x, const VectorXd* u,
-                      const std::vector<Instant>& instants, int l, int contact, double sole_yaw,
-                      const Schedule& schedule, Rows& rows) {
-  if (contact == kFree) {
-    if (u) free_cost(problem, *u, l, schedule.contact_weight, rows);
-    if (schedule.interior_weight > 0.0) keep_out_cost(problem, x, l, schedule.interior_weight, rows);
-    return;
-  }
-  contact_cost(problem, x, u, l, contact, schedule.contact_weight, rows);
-  if (!u) return;
-  pressure_cost(problem, x, *u, l, contact, sole_yaw, schedule.contact_weight, rows);
-  if (schedule.interior_weight == 0.0) return;
-  interior_reach_cost(problem, x, instants, l, schedule.interior_weight, rows);
-  sole_turn_cost(problem, instants, l, sole_yaw, schedule.interior_weight, rows);
-  if (problem.options.friction) friction_cost(problem, x, *u, instants, l, contact, schedule.interior_weight, rows);
-  force_cap_cost(problem, pendulum, x, *u, instants, l, schedule.interior_weight, rows);
-  torsion_cost(problem, pendulum, x, *u, instants, l, contact, schedule.interior_weight, rows);
-}
-
 namespace {
-
-/// Weight on what is held: far above all others (1e6 at most), low enough to leave the factorisation its digits.
-constexpr double kHeld = 1e10;
 
 /// Turn the quadratic of step k into the metric of the least change.
 void hold_inputs(const Problem& problem, int k, const std::vector<char>* held, Quadratic& q) {
   const int nx = problem.layout.nx(), held_states = nx - (problem.model == Model::wrench ? 0 : Layout::angle());
-  // The stiff costs count a little, so that the change avoids the limits, but not so much that it runs through the
-  // inputs that are soft (durations above all) beyond where the linear model holds.
-  constexpr double kCostShare = 1e-3;
   q.g.setZero();
   q.h *= kCostShare;
   q.h.diagonal().array() += 1.0;
@@ -88,7 +56,7 @@ void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) 
     const VectorXd& x = trajectory.x[k];
     const VectorXd* u = last ? nullptr : &trajectory.u[k];
     base_rows_.clear();
-    add_base_rows(*problem_, k, x, u, schedule, base_rows_);
+    write_terms(Scope::step, view(k), base_rows_);
     stage.base.c = 0.0;
     stage.base.g.setZero(at.nz());
     stage.base.h.setZero(at.nz(), at.nz());
@@ -114,6 +82,11 @@ void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) 
   }
 }
 
+StepView LocalModel::view(int k) const {
+  return {*problem_,          pendulum_, schedule_, k, trajectory_->x[k], k < steps() ? &trajectory_->u[k] : nullptr,
+          stages_[k].instants};
+}
+
 const Rows& LocalModel::block(int k, int l, int contact) {
   Stage& stage = stages_[k];
   const int choice = contact == kFree ? 0 : choice_[l][contact];
@@ -121,8 +94,11 @@ const Rows& LocalModel::block(int k, int l, int contact) {
   if (stage.made[l][choice] != expansion_) {
     if (!rows.sized()) rows = Rows(problem_->layout.nz(), true);
     rows.clear();
-    add_contact_rows(*problem_, pendulum_, trajectory_->x[k], k < steps() ? &trajectory_->u[k] : nullptr,
-                     stage.instants, l, contact, trajectory_->sole_yaw[k][l], schedule_, rows);
+    StepView about = view(k);
+    about.l = l;
+    about.surface = contact;
+    about.sole_yaw = trajectory_->sole_yaw[k][l];
+    write_terms(contact == kFree ? Scope::free : Scope::contact, about, rows);
     stage.made[l][choice] = expansion_;
   }
   return rows;
@@ -133,7 +109,7 @@ const Rows* LocalModel::state_block(int k, const ContactState& state) {
   Stage& stage = stages_[k];
   if (!stage.flight_made) {
     stage.flight.clear();
-    flight_duration_cost(*problem_, trajectory_->u[k], stage.flight);
+    write_terms(Scope::flight, view(k), stage.flight);
     stage.flight_made = true;
   }
   return &stage.flight;
@@ -155,7 +131,7 @@ void LocalModel::add_contacts(int k, const ContactState& state, Quadratic& q) {
     }
     return;
   }
-  q.c += flight_cost(*problem_, state);
+  q.c += state_cost(*problem_, state);
   if (const Rows* rows = state_block(k, state)) rows->accumulate(q.c, q.g, q.h, scratch_);
   for (int l = 0; l < problem_->layout.ends(); ++l) block(k, l, state[l]).accumulate(q.c, q.g, q.h, scratch_);
 }
@@ -173,15 +149,18 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
     const bool last = k == problem_->steps;
     const VectorXd& x = trajectory.x[k];
     const VectorXd* u = last ? nullptr : &trajectory.u[k];
-    add_base_rows(*problem_, k, x, u, schedule, rows_);
-    if (u && schedule.interior_weight > 0.0) make_instants(*problem_, pendulum_, x, *u, instants_);
-    for (int l = 0; l < problem_->layout.ends(); ++l)
-      add_contact_rows(*problem_, pendulum_, x, u, instants_, l, sequence[k][l], trajectory.sole_yaw[k][l], schedule,
-                       rows_);
+    StepView about{*problem_, pendulum_, schedule, k, x, u, instants_};
+    write_terms(Scope::step, about, rows_);
+    if (about.between_knots()) make_instants(*problem_, pendulum_, x, *u, instants_);
+    for (int l = 0; l < problem_->layout.ends(); ++l) {
+      about.l = l;
+      about.surface = sequence[k][l];
+      about.sole_yaw = trajectory.sole_yaw[k][l];
+      write_terms(about.surface == kFree ? Scope::free : Scope::contact, about, rows_);
+    }
     if (last) break;
-    if (in_flight(sequence[k])) flight_duration_cost(*problem_, *u, rows_);
-    rows_.begin(Term::flight);
-    rows_.add_constant(flight_cost(*problem_, sequence[k]));
+    if (in_flight(sequence[k])) write_terms(Scope::flight, about, rows_);
+    write_state_cost(*problem_, sequence[k], rows_);
     pendulum_.next(x, *u, next_);
     next_ -= trajectory.x[k + 1];
     const Layout& at = problem_->layout;
@@ -191,10 +170,7 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
     for (int l = 0; l < at.ends(); ++l) out.defect_sum += next_.segment<3>(at.end(l)).norm();
     out.defect_max = std::max(out.defect_max, next_.lpNorm<Eigen::Infinity>());
   }
-  if (schedule.interior_weight > 0.0) {
-    rows_.begin(Term::contact_change);
-    rows_.add_constant(contact_change_cost(*problem_, sequence));
-  }
+  if (schedule.interior_weight > 0.0) write_change_cost(*problem_, sequence, rows_);
   out.cost = rows_.cost();
   out.terms = rows_.terms();
   return out;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mcplan/base/error.hpp"
+#include "mcplan/ddp/cost_terms.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -17,6 +18,16 @@ void require_positive(const char* field, double value) {
 
 void require_weight(const char* field, double value) {
   if (!(std::isfinite(value) && value >= 0.0)) throw InvalidOptions(field, "must be a number >= 0", text(value));
+}
+
+void require_own_weight(const std::string& name) {
+  std::string names;
+  for (const CostTerm* term : cost_terms()) {
+    if (!term->has_own_weight()) continue;
+    if (term->name() == name) return;
+    names += (names.empty() ? "" : ", ") + std::string(term->name());
+  }
+  throw InvalidOptions("weights." + name, "must be the weight of one term: " + names, name);
 }
 
 }  // namespace
@@ -62,8 +73,6 @@ void Options::validate() const {
   require_weight("weights.stiffness", weights.stiffness);
   require_weight("weights.moment", weights.moment);
   require_weight("weights.limit", weights.limit);
-  require_weight("weights.flight", weights.flight);
-  require_weight("weights.contact_change", weights.contact_change);
   require_weight("weights.duration", weights.duration);
   require_positive("weights.contact_min", weights.contact_min);
   require_positive("weights.contact_max", weights.contact_max);
@@ -71,6 +80,10 @@ void Options::validate() const {
     throw InvalidOptions("weights.contact_max",
                          "must be at least weights.contact_min (" + text(weights.contact_min) + ")",
                          text(weights.contact_max));
+  for (const auto& [name, weight] : weights.own) {
+    require_own_weight(name);
+    require_weight(("weights." + name).c_str(), weight);
+  }
   if (!(weights.contact_growth > 1.0 && std::isfinite(weights.contact_growth)))
     throw InvalidOptions("weights.contact_growth", "must be above 1", text(weights.contact_growth));
   if (!(weights.overshoot_factor >= 1.0 && std::isfinite(weights.overshoot_factor)))

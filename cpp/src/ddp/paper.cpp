@@ -2,15 +2,10 @@
 #include <cmath>
 #include <limits>
 
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/search.hpp"
 
 namespace mcplan::ddp {
-namespace {
-
-/// Deviation: without a proximal term the published algorithm diverges on every scene (docs/theory/ddp.md).
-constexpr double kPaperProximal = 10.0;
-
-}  // namespace
 
 /// Algorithm 2, lines 1-16: V and U anew for every switch, each neighbour by one Riccati step and eq. (31), J* from
 /// infinity. The first pass therefore always switches, whether or not that pays: the paper's persistent chattering.
@@ -34,7 +29,7 @@ bool Search::paper_switches(Incumbent& now, Iteration& row) {
     for (int k = 1; k < problem_->steps; ++k)
       for (const ContactState& state : problem_->rules.neighbours(now.sequence, k)) {
         ++row.neighbours;
-        if (!values_.backward_step(k, state, values_.V(k + 1), value, nullptr, nullptr, nullptr)) continue;
+        if (!values_.backward_step(k, state, values_.V(k + 1), value)) continue;
         factor.compute(value.h + values_.U(k).h);
         const Eigen::VectorXd g = value.g + values_.U(k).g;
         const double cost = value.c + values_.U(k).c - 0.5 * g.dot(factor.solve(g));
@@ -47,9 +42,10 @@ bool Search::paper_switches(Incumbent& now, Iteration& row) {
   }
 }
 
-Status Search::run_paper(Incumbent& now, int iterations) {
+Status Search::run_paper(Incumbent& now, int iterations, const Tuning& tuning) {
   const Weights& w = problem_->options.weights;
   Schedule schedule;
+  schedule.tuning = tuning;
   schedule.contact_weight = w.contact_min;
   schedule.proximal_weight = kPaperProximal;
   Status status = Status::solved;
@@ -71,7 +67,7 @@ Status Search::run_paper(Incumbent& now, int iterations) {
     now.evaluation = evaluate_(now.trajectory, now.sequence, schedule);
     if (!std::isfinite(now.evaluation.merit())) return Status::numerical_failure;
     record(std::move(row), now, schedule);
-    if (watcher_) watcher_(now);
+    if (watcher_) watcher_(now, tuning);
     schedule.contact_weight = std::min(w.contact_growth * schedule.contact_weight, w.contact_max);
   }
   return Status::solved;

@@ -75,9 +75,11 @@ void Pendulum::Course::at(double t, Vector3d& com, Vector3d& angle) const {
   angle = turning_.rpy(pendulum_->momentum_at(d, half, 0.5 * t), pendulum_->momentum_at(d, f, t), t);
 }
 
-/// dL(t)/dz at t = slope h.
-void Pendulum::momentum_jacobian(const Drive& d, const VectorXd& x, const VectorXd& u, const EntireFunctions& f,
-                                 double t, double slope, Eigen::Ref<Eigen::Matrix3Xd> out) const {
+/// dL(t)/dz.
+void Pendulum::momentum_jacobian(const Drive& d, const VectorXd& x, const VectorXd& u, const Time& time,
+                                 Eigen::Ref<Eigen::Matrix3Xd> out) const {
+  const EntireFunctions& f = time.f;
+  const double t = time.t, slope = time.slope;
   const int nx = layout_.nx();
   const double t2 = t * t, t3 = t2 * t;
   const double end = -t3 * f(3);  // dP/ds_l = end * mu_l
@@ -143,8 +145,8 @@ void Pendulum::turn_rows(const Drive& d, const VectorXd& x, const VectorXd& u, c
   auto momentum = s.turn.bottomRows<3>();
   if (by_middle_.cols() != layout_.nz()) by_middle_.setZero(3, layout_.nz());
   if (by_end_.cols() != layout_.nz()) by_end_.setZero(3, layout_.nz());
-  momentum_jacobian(d, x, u, half, 0.5 * t, 0.5 * s.slope, by_middle_);
-  momentum_jacobian(d, x, u, f, t, s.slope, by_end_);
+  momentum_jacobian(d, x, u, {half, 0.5 * t, 0.5 * s.slope}, by_middle_);
+  momentum_jacobian(d, x, u, {f, t, s.slope}, by_end_);
   momentum = by_end_;
   angle.noalias() = turned.d_middle * by_middle_;
   angle.noalias() += turned.d_end * by_end_;

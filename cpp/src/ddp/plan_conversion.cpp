@@ -5,6 +5,7 @@
 
 #include "mcplan/base/rotation.hpp"
 #include "mcplan/base/turning.hpp"
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/plan/swings.hpp"
 
 namespace mcplan::ddp {
@@ -12,10 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-/// Durations have a soft bound only: an iterate that is stopped early may have one below zero, which no plan can have
-/// [s], for a robot of human size.
-constexpr double kShortestPhase = 1e-3;
 
 Knot make_knot(const Problem& problem, const VectorXd& x) {
   const Layout& at = problem.layout;
@@ -80,6 +77,33 @@ void set_sole_yaw(const Problem& problem, const Trajectory& trajectory, Plan& pl
   }
 }
 
+/// The input of a phase that goes from x to x_next.
+VectorXd input_of(const Problem& problem, const Phase& phase, const VectorXd& x, const VectorXd& x_next) {
+  const Layout& at = problem.layout;
+  const Units& units = problem.units;
+  VectorXd u = VectorXd::Zero(at.nu());
+  for (int l = 0; l < at.ends(); ++l) {
+    u.segment<3>(at.stride(l)) = x_next.segment<3>(at.end(l)) - x.segment<3>(at.end(l));
+    const double mu = phase.contacts[problem.active[l]].stiffness / units.stiffness();
+    u[at.stiffness(l)] = problem.options.stiffness_input == StiffnessInput::lambda ? std::sqrt(std::max(mu, 0.0)) : mu;
+  }
+  for (int l = 0; l < at.ends(); ++l) {
+    const Contact& contact = phase.contacts[problem.active[l]];
+    if (contact.surface == kFree || phase.law != ForceLaw::wrench) continue;
+    const Vector3d acting = contact.center_of_pressure_W / units.length;
+    u.segment(at.pressure(l), at.pressure_count(l)) =
+        at.offsets(l).pressure.transpose() * (acting - x.segment<3>(at.end(l)));
+    u.segment(at.force_line(l), at.force_line_count(l)) =
+        at.offsets(l).force_line.transpose() * (contact.anchor_W / units.length - acting);
+  }
+  for (int i = 0; i < at.moment_count(); ++i) {
+    const Layout::Moment& m = at.moments()[i];
+    u[at.moment(i)] = m.direction_W.dot(phase.contacts[problem.active[m.end_effector]].moment_W) / units.moment();
+  }
+  u[at.duration()] = phase.duration / units.time;
+  return u;
+}
+
 }  // namespace
 
 Plan to_plan(const Problem& problem, const Incumbent& incumbent) {
@@ -96,7 +120,7 @@ Plan to_plan(const Problem& problem, const Incumbent& incumbent) {
   for (int k = 0; k < problem.steps; ++k) {
     const VectorXd& u = incumbent.trajectory.u[k];
     Phase phase;
-    phase.duration = std::max(u[at.duration()] * units.time, kShortestPhase * problem.similarity.time);
+    phase.duration = std::max(u[at.duration()] * units.time, kPhaseMin_s * problem.similarity.time);
     phase.contacts.resize(ends);
     if (wrench) phase.law = ForceLaw::wrench;
     for (int l = 0; l < at.ends(); ++l) {
@@ -150,32 +174,8 @@ Incumbent from_plan(const Problem& problem, const Plan& plan, int first) {
     out.trajectory.x.push_back(x);
     out.sequence.push_back(state);
   }
-  for (int k = 0; k < problem.steps; ++k) {
-    const Phase& phase = plan.phases[first + k];
-    VectorXd u = VectorXd::Zero(at.nu());
-    for (int l = 0; l < at.ends(); ++l) {
-      u.segment<3>(at.stride(l)) =
-          out.trajectory.x[k + 1].segment<3>(at.end(l)) - out.trajectory.x[k].segment<3>(at.end(l));
-      const double mu = phase.contacts[problem.active[l]].stiffness / units.stiffness();
-      u[at.stiffness(l)] =
-          problem.options.stiffness_input == StiffnessInput::lambda ? std::sqrt(std::max(mu, 0.0)) : mu;
-    }
-    for (int l = 0; l < at.ends(); ++l) {
-      const Contact& contact = phase.contacts[problem.active[l]];
-      if (contact.surface == kFree || phase.law != ForceLaw::wrench) continue;
-      const Vector3d acting = contact.center_of_pressure_W / units.length;
-      u.segment(at.pressure(l), at.pressure_count(l)) =
-          at.offsets(l).pressure.transpose() * (acting - out.trajectory.x[k].segment<3>(at.end(l)));
-      u.segment(at.force_line(l), at.force_line_count(l)) =
-          at.offsets(l).force_line.transpose() * (contact.anchor_W / units.length - acting);
-    }
-    for (int i = 0; i < at.moment_count(); ++i) {
-      const Layout::Moment& m = at.moments()[i];
-      u[at.moment(i)] = m.direction_W.dot(phase.contacts[problem.active[m.end_effector]].moment_W) / units.moment();
-    }
-    u[at.duration()] = phase.duration / units.time;
-    out.trajectory.u.push_back(u);
-  }
+  for (int k = 0; k < problem.steps; ++k)
+    out.trajectory.u.push_back(input_of(problem, plan.phases[first + k], out.trajectory.x[k], out.trajectory.x[k + 1]));
   out.sequence.front() = problem.start_contacts;
   out.sequence.back() = problem.goal_contacts;
   problem.set_sole_yaw(out.sequence, out.trajectory);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mcplan/base/fork.hpp"
+#include "mcplan/ddp/constants.hpp"
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -114,7 +115,7 @@ double StepPricing::price(const ContactState& state) {
   }
   small_factor_.compute(small_);
   small_factor_.matrixL().solveInPlace(y_);
-  return base_cost_ + flight_cost(*problem_, state) + 0.5 * y_.squaredNorm();
+  return base_cost_ + state_cost(*problem_, state) + 0.5 * y_.squaredNorm();
 }
 
 const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctions& values,
@@ -147,8 +148,6 @@ const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctio
     pricing_s += seconds_since(start) - prepared;
   };
 #ifdef _OPENMP
-  // Below this many candidates the threads cost more than they save (measured; the paper found the same).
-  constexpr std::size_t kWorthThreads = 400;
   // More threads than processors gain nothing, and OpenMP ends the process where the system denies it a thread.
   const int team = std::min(static_cast<int>(steps_.size()), omp_get_num_procs());
   if (team > 1 && neighbours_.size() >= kWorthThreads && !forked()) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/scene/polygon.hpp"
 
 namespace mcplan::ddp {
@@ -19,8 +20,8 @@ double distance_to_segment(const Vector3d& point, const Vector3d& from, const Ve
 }  // namespace
 
 Outlook outlook(int level) {
-  constexpr Outlook kLevels[kOutlooks] = {{1.0, 32}, {4.0, 128}, {0.0, 0}};
-  return kLevels[std::clamp(level, 0, kOutlooks - 1)];
+  if (level >= kOutlooks - 1) return {};
+  return {kOutlookReach[std::max(level, 0)], kOutlookNearest[std::max(level, 0)]};
 }
 
 double reach_of(const Robot& robot) {

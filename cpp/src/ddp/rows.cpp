@@ -1,6 +1,7 @@
 #include "mcplan/ddp/rows.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace mcplan::ddp {
 
@@ -20,12 +21,6 @@ int nonzeros(const Eigen::Ref<const Eigen::VectorXd>& gradient, std::array<int, 
 
 }  // namespace
 
-const char* to_string(Term term) {
-  constexpr const char* kNames[kTermCount] = {"task", "duration", "reach",     "bounds", "contact",
-                                              "free", "friction", "force_cap", "flight", "contact_change"};
-  return kNames[static_cast<int>(term)];
-}
-
 void Rows::clear() {
   cost_ = 0.0;
   terms_.fill(0.0);
@@ -37,7 +32,7 @@ void Rows::clear() {
 void Rows::add_value(double weight, double value) {
   const double cost = 0.5 * weight * weight * value * value;
   cost_ += cost;
-  terms_[static_cast<int>(term_)] += cost;
+  terms_[term_] += cost;
 }
 
 void Rows::push(double weight, double value, int single) {

@@ -5,22 +5,12 @@
 #include <cstdio>
 #include <limits>
 
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/edits.hpp"
 #include "mcplan/ddp/whole_sequence.hpp"
 
 namespace mcplan::ddp {
 namespace {
-
-constexpr double kProximalMin = 0.1, kProximalMax = 1e6;
-/// A switch must lower the cost by this fraction, so that two sequences of equal cost do not alternate.
-constexpr double kSwitchGain = 1e-4;
-constexpr int kSwitchesPerIteration = 6;
-/// Iterations of discovery after the contact weight has reached its maximum.
-constexpr int kFreeAtFullWeight = 25;
-/// A trial of refine(): iterations, and changed sequences tried before a local optimum is declared.
-constexpr int kTrialIterations = 20, kTrials = 10, kRefineRounds = 30;
-constexpr double kTrialProximal = 3.0;
-constexpr std::size_t kWholeSequenceBudget = 1000;
 
 int differences(const ContactSequence& a, const ContactSequence& b) {
   int count = 0;
@@ -40,14 +30,17 @@ Search::Search(const Problem& problem, const Deadline& deadline, Report& report)
       pricing_(problem.options.threads),
       evaluate_(problem) {}
 
-Schedule Search::full_schedule() const {
+Schedule Search::full_schedule(const Tuning& tuning) const {
   Schedule schedule;
+  schedule.tuning = tuning;
   schedule.contact_weight = problem_->options.weights.contact_max;
-  schedule.interior_weight = problem_->options.weights.limit;
+  schedule.interior_weight = tuning.limit_weight;
   return schedule;
 }
 
-Evaluation Search::evaluate(const Incumbent& at) { return evaluate_(at.trajectory, at.sequence, full_schedule()); }
+Evaluation Search::evaluate(const Incumbent& at, const Tuning& tuning) {
+  return evaluate_(at.trajectory, at.sequence, full_schedule(tuning));
+}
 
 bool Search::should_stop(Status& status) const {
   if (problem_->options.stop && problem_->options.stop())
@@ -86,7 +79,7 @@ bool Search::line_search(const Incumbent& now, const ContactSequence& sequence, 
   const Stopwatch watch(report_->timing_s, "line_search");
   values_.state_forward(dx_, du_);
   best.trajectory = now.trajectory;
-  for (double step = 1.0; step > 1.0 / 64.0; step *= 0.5) {
+  for (double step = 1.0; step > kStepEnd; step *= 0.5) {
     for (std::size_t k = 0; k < dx_.size(); ++k) best.trajectory.x[k] = now.trajectory.x[k] + step * dx_[k];
     for (std::size_t k = 0; k < du_.size(); ++k) best.trajectory.u[k] = now.trajectory.u[k] + step * du_[k];
     best.evaluation = evaluate_(best.trajectory, sequence, schedule);
@@ -137,7 +130,7 @@ Status Search::iterate(Incumbent& now, Schedule& schedule, bool free_sequence) {
     }
     const Stopwatch watch(report_->timing_s, "value_backward");
     if (values_.backward(now.sequence, problem_->steps)) break;
-    schedule.proximal_weight *= 10.0;
+    schedule.proximal_weight *= kProximalRetry;
     if (schedule.proximal_weight > kProximalMax) return Status::numerical_failure;
   }
   const bool moved = line_search(now, now.sequence, schedule, before, stay_);
@@ -163,18 +156,19 @@ Status Search::iterate(Incumbent& now, Schedule& schedule, bool free_sequence) {
     row.step = taken.step;
   }
   if (!free_sequence) {
-    if (row.step >= 0.99)
-      schedule.proximal_weight = std::max(0.7 * schedule.proximal_weight, kProximalMin);
-    else if (row.step < 0.2)
-      schedule.proximal_weight = std::min(4.0 * schedule.proximal_weight, kProximalMax);
+    if (row.step >= kFullStep)
+      schedule.proximal_weight = std::max(kProximalFall * schedule.proximal_weight, kProximalMin);
+    else if (row.step < kShortStep)
+      schedule.proximal_weight = std::min(kProximalRise * schedule.proximal_weight, kProximalMax);
   }
   record(std::move(row), now, schedule);
   return Status::solved;
 }
 
-Status Search::discover(Incumbent& now, double proximal_weight) {
+Status Search::discover(Incumbent& now, double proximal_weight, const Tuning& tuning) {
   const Weights& w = problem_->options.weights;
   Schedule schedule;
+  schedule.tuning = tuning;
   schedule.contact_weight = w.contact_min;
   schedule.proximal_weight = proximal_weight;
   schedule.discovering = true;
@@ -183,15 +177,15 @@ Status Search::discover(Incumbent& now, double proximal_weight) {
     if (should_stop(status)) return status;
     status = iterate(now, schedule, true);
     if (status != Status::solved) return status;
-    if (watcher_) watcher_(now);
+    if (watcher_) watcher_(now, tuning);
     at_full += schedule.contact_weight >= w.contact_max;
     schedule.contact_weight = std::min(w.contact_growth * schedule.contact_weight, w.contact_max);
   }
   return Status::solved;
 }
 
-Status Search::polish(Incumbent& now, int iterations, double calm, double give_up_above) {
-  Schedule schedule = full_schedule();
+Status Search::polish(Incumbent& now, int iterations, double calm, double give_up_above, const Tuning& tuning) {
+  Schedule schedule = full_schedule(tuning);
   schedule.proximal_weight = polish_proximal_;
   double last = std::numeric_limits<double>::infinity();
   double window_start = last;
@@ -201,13 +195,10 @@ Status Search::polish(Incumbent& now, int iterations, double calm, double give_u
     if (should_stop(status)) return status;
     status = iterate(now, schedule, false);
     if (status != Status::solved) return status;
-    if (watcher_) watcher_(now);
+    if (watcher_) watcher_(now, tuning);
     const double merit = now.evaluation.merit();
     calm_iterations = std::abs(last - merit) < calm * std::abs(merit) ? calm_iterations + 1 : 0;
-    if (calm_iterations >= 3 && now.evaluation.defect_max < 1e-4) return Status::solved;
-    // Progress comes in bursts, so it is judged over several iterations.
-    constexpr int kWindow = 5;
-    constexpr double kWindowsAhead = 3.0;
+    if (calm_iterations >= kCalmIterations && now.evaluation.defect_max < kCalmDefect) return Status::solved;
     if (i % kWindow == kWindow - 1) {
       if (i > kWindow && merit - kWindowsAhead * (window_start - merit) > give_up_above) return Status::solved;
       window_start = merit;
@@ -217,12 +208,12 @@ Status Search::polish(Incumbent& now, int iterations, double calm, double give_u
   return Status::solved;
 }
 
-std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now) {
+std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now, const Tuning& tuning) {
   struct Change {
     double cost;
     ContactSequence sequence;
   };
-  Schedule schedule = full_schedule();
+  Schedule schedule = full_schedule(tuning);
   schedule.proximal_weight = kTrialProximal;
   std::vector<Change> changes;
   model_.expand(now.trajectory, schedule);
@@ -232,7 +223,7 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now) {
     for (const Neighbour& n : pricing_.all(model_, values_, now.sequence)) {
       changes.push_back({n.cost, now.sequence});
       changes.back().sequence[n.step] = n.state;
-      changes.back().cost += contact_change_cost(*problem_, changes.back().sequence);
+      changes.back().cost += change_cost(*problem_, changes.back().sequence);
     }
   }
   const Stopwatch watch(report_->timing_s, "whole_sequence");
@@ -244,7 +235,7 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now) {
     if (deadline_->passed()) break;  // the trials will not come to them
     const double cost = values_.minimum_with(edited, now.sequence);
     if (!std::isfinite(cost)) continue;
-    const double changing = contact_change_cost(*problem_, edited);
+    const double changing = change_cost(*problem_, edited);
     changes.push_back({cost + changing, std::move(edited)});
   }
   std::stable_sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) { return a.cost < b.cost; });
@@ -253,18 +244,18 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now) {
   return out;
 }
 
-Status Search::refine(Incumbent& now) {
+Status Search::refine(Incumbent& now, const Tuning& tuning) {
   Status status = Status::solved;
   polish_proximal_ = kTrialProximal;
   for (int round = 0; round < kRefineRounds; ++round) {
-    const std::vector<ContactSequence> changes = ranked_changes(now);
+    const std::vector<ContactSequence> changes = ranked_changes(now, tuning);
     bool improved = false;
     for (std::size_t i = 0; i < changes.size() && i < kTrials && !improved; ++i) {
       Incumbent trial = now;
       trial.sequence = changes[i];
       const double merit = now.evaluation.merit();
-      status = polish(trial, kTrialIterations, 1e-3, merit);
-      improved = trial.evaluation.merit() < merit * (1.0 - 2e-3);
+      status = polish(trial, kTrialIterations, kRoughCalm, merit, tuning);
+      improved = trial.evaluation.merit() < merit * (1.0 - kTrialGain);
       if (improved) {
         const int switches = differences(trial.sequence, now.sequence);
         report_->switches += switches;

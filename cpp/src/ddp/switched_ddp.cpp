@@ -1,45 +1,23 @@
 #include "mcplan/ddp/switched_ddp.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
-#include <random>
 #include <set>
 #include <sstream>
 #include <utility>
 
 #include "mcplan/base/error.hpp"
+#include "mcplan/ddp/attempts.hpp"
 #include "mcplan/ddp/best_plan.hpp"
-#include "mcplan/ddp/initial_sequence.hpp"
+#include "mcplan/ddp/constants.hpp"
+#include "mcplan/ddp/cost_terms.hpp"
 #include "mcplan/ddp/plan_conversion.hpp"
 #include "mcplan/ddp/reachable_surfaces.hpp"
-#include "mcplan/ddp/search.hpp"
-#include "mcplan/ddp/stepping_sequence.hpp"
 #include "mcplan/plan/friction_use.hpp"
 #include "mcplan/version.hpp"
 
 namespace mcplan::ddp {
 namespace {
-
-constexpr int kPolishIterations = 60, kFinalIterations = 120;
-constexpr double kRoughCalm = 1e-3, kFinalCalm = 1e-4;
-/// Limits are penalties; this much harder ones at the end leave a fraction of the violation.
-constexpr double kHardening = 4.0;
-/// Proximal weight of the second discovery over the first one's.
-constexpr double kSecondDiscovery = 4.0;
-/// How much further inside footholds go, each time a swing has caught an edge: a share of the longest half sole, so
-/// that the second time the whole sole stands clear of the next riser. Lengths are those of a robot of human size.
-constexpr double kClearanceShare = 0.6, kClearanceLeast_m = 0.04;
-// Where soles are kept on their surface anyway, a toe's room is enough.
-constexpr double kToeRoom_m = 0.03;
-/// A violation within this factor of its tolerance is called acceptable, beyond it infeasible.
-constexpr double kAcceptable = 10.0;
-/// Iterations of Method::paper: the paper counts about 50 to convergence and reports averages over 100.
-constexpr int kPaperIterations = 60;
-
-/// Share of what is left of the time limit that the first contact sequence may take; after that a walk in turns does.
-constexpr double kInitialShare = 0.3;
 
 /// Whether a search that ended so may have missed what it did not look at.
 bool ended_by_itself(Status status) {
@@ -61,193 +39,11 @@ struct SwitchedDdp::Impl {
     double remaining_s = 0.0;        ///< of the first phase, when measured
   };
 
-  /// One search: the problem on some of the scene's surfaces, and what is known of it.
-  struct Run {
-    Run(Problem&& problem_in, std::vector<int> surfaces_in, const Deadline& deadline_in, BestPlan& best_in,
-        Report& report_in)
-        : problem(std::move(problem_in)),
-          surfaces(std::move(surfaces_in)),
-          deadline(deadline_in),
-          best(best_in),
-          report(report_in),
-          search(problem, deadline, report) {
-      if (deadline.limited()) search.watch([this](const Incumbent& now) { best.keep(search, problem, surfaces, now); });
-    }
-    Problem problem;
-    std::vector<int> surfaces;
-    const Deadline& deadline;
-    BestPlan& best;
-    Report& report;
-    Search search;
-    Incumbent last;  ///< of the last attempt, before its contacts were made exact
-
-    struct Guess {
-      Incumbent start;
-      double discover_with = 0.0;  ///< proximal weight of a discovery before the polish; 0: the sequence is kept
-    };
-    Incumbent first_guess(const ContactSequence& sequence) const;
-    Incumbent at_once(const ContactSequence& sequence);
-    ContactSequence initial(Status& status);
-    Status attempt(std::vector<Guess> guesses);
-    std::vector<Guess> guesses(const Incumbent& start, const Incumbent* warm) const;
-    Status restart(Status status, const ContactSequence& initial);
-    Status run(const Incumbent* warm);
-    void finish(Incumbent now) { best.finish(search, problem, surfaces, std::move(now)); }
-  };
-
   std::vector<int> surfaces_of(const Request& request, const Outlook& outlook) const;
   Problem pose(const Request& request, const std::vector<int>& surfaces) const;
   PlanResult solve(const Request& request);
   PlanResult conclude(Status status, int steps, const BestPlan& best, Report&& report, double time_s) const;
 };
-
-/// Polish every guess, those without a sequence of their own after a discovery; refine the cheapest and finish it.
-Status SwitchedDdp::Impl::Run::attempt(std::vector<Guess> guesses) {
-  Incumbent chosen;
-  double lowest = std::numeric_limits<double>::infinity();
-  Status status = Status::solved;
-  bool stepping_ahead = false;
-  for (std::size_t i = 0; i < guesses.size() && status == Status::solved; ++i) {
-    const bool discover = guesses[i].discover_with > 0.0;
-    // The stepping sequences differ in who begins: when the first of them is ahead, the other is no better.
-    if (!discover && stepping_ahead) break;
-    Incumbent& now = guesses[i].start;
-    if (discover) status = search.discover(now, guesses[i].discover_with);
-    if (status == Status::solved) status = search.polish(now, kPolishIterations, kRoughCalm, lowest);
-    // A guess that breaks down numerically is dropped, the others may still do.
-    if (status == Status::numerical_failure) {
-      status = Status::solved;
-      continue;
-    }
-    const double merit = search.evaluate(now).merit();
-    if (!std::isfinite(merit) || merit >= lowest) continue;
-    lowest = merit;
-    stepping_ahead = !discover;
-    chosen = std::move(now);
-  }
-  if (chosen.sequence.empty()) return status == Status::solved ? Status::numerical_failure : status;
-  if (status == Status::solved) status = search.refine(chosen);
-  if (status == Status::solved) {
-    // Limits are penalties: harder ones at the end bring what is left of a violation below the checker's tolerance.
-    const double limit = problem.options.weights.limit;
-    problem.options.weights.limit *= kHardening;
-    status = search.polish(chosen, kFinalIterations, kFinalCalm, std::numeric_limits<double>::infinity());
-    problem.options.weights.limit = limit;
-  }
-  last = chosen;
-  // Out of time there is a plan already, and none for another one.
-  if (status != Status::time_limit || !best.best()) finish(std::move(chosen));
-  return status;
-}
-
-Incumbent SwitchedDdp::Impl::Run::first_guess(const ContactSequence& sequence) const {
-  Incumbent guess;
-  guess.trajectory = problem.initial_guess(sequence);
-  guess.sequence = sequence;
-  return guess;
-}
-
-/// What there is when time is up before the first iteration: end-effectors where they are due and the weight on those
-/// that stand, by the sequence or in turns.
-Incumbent SwitchedDdp::Impl::Run::at_once(const ContactSequence& sequence) {
-  Incumbent best_guess = first_guess(sequence);
-  if (!problem.options.initial_sequence.empty()) return best_guess;
-  double lowest = search.evaluate(best_guess).merit();
-  for (int mover : {0, 1}) {
-    const ContactSequence stepping = stepping_sequence(problem, mover);
-    if (stepping.empty()) continue;
-    Incumbent guess = first_guess(stepping);
-    const double merit = search.evaluate(guess).merit();
-    if (!(merit < lowest)) continue;
-    lowest = merit;
-    best_guess = std::move(guess);
-  }
-  return best_guess;
-}
-
-/// The contact sequence that the search begins with; where finding it takes too long, end-effectors in turns.
-ContactSequence SwitchedDdp::Impl::Run::initial(Status& status) {
-  const Options& options = problem.options;
-  if (!options.initial_sequence.empty()) return problem.to_active(options.initial_sequence);
-  const Trajectory guess = problem.initial_guess({});
-  Schedule schedule;
-  schedule.contact_weight = options.weights.contact_min;
-  search.model().expand(guess, schedule);
-  bool stopped = false;
-  int looks = 0;
-  const double until_s = deadline.elapsed_s() + kInitialShare * std::max(deadline.remaining_s(), 0.0);
-  constexpr std::size_t kBeam = 4000;
-  ContactSequence found = initial_sequence(search.model(), kBeam, [&] {
-    constexpr int kPoll = 16;  // a stop request may take longer than a look at the clock
-    if (++looks % kPoll == 0 && options.stop && options.stop()) status = Status::interrupted;
-    return stopped = status == Status::interrupted || deadline.elapsed_s() >= until_s;
-  });
-  for (int mover : {0, 1})
-    if (stopped && found.empty()) found = stepping_sequence(problem, mover);
-  if (!found.empty()) return found;
-  if (status != Status::interrupted) status = stopped ? Status::time_limit : Status::no_sequence;
-  return {};
-}
-
-std::vector<SwitchedDdp::Impl::Run::Guess> SwitchedDdp::Impl::Run::guesses(const Incumbent& start,
-                                                                           const Incumbent* warm) const {
-  const Options& options = problem.options;
-  if (warm) return {{*warm}};
-  if (!options.initial_sequence.empty()) return {{first_guess(start.sequence)}};
-  // Shorter and longer steps lead to other sequences; the better one goes on.
-  std::vector<Guess> out{{start, options.proximal_weight}, {start, kSecondDiscovery * options.proximal_weight}};
-  for (int mover : {0, 1}) {
-    const ContactSequence stepping = stepping_sequence(problem, mover);
-    if (!stepping.empty()) out.push_back({first_guess(stepping)});
-  }
-  return out;
-}
-
-/// Other settings of what the outcome depends on most, in an order drawn from the seed, until a plan is accepted.
-Status SwitchedDdp::Impl::Run::restart(Status status, const ContactSequence& initial) {
-  const Problem& p = problem;
-  const Options& options = p.options;
-  std::vector<std::pair<double, double>> settings{{10.0, 0.30}, {100.0, 0.40}, {30.0, 0.35},
-                                                  {10.0, 0.45}, {100.0, 0.30}, {30.0, 0.50}};
-  std::mt19937_64 random(options.seed);
-  for (std::size_t i = settings.size(); i > 1; --i) std::swap(settings[i - 1], settings[random() % i]);
-  for (int i = 0; i < options.restarts && !best.ok(); ++i) {
-    if (status != Status::solved && status != Status::numerical_failure) break;
-    const auto [proximal, duration_s] = settings[static_cast<std::size_t>(i) % settings.size()];
-    problem.duration_initial =
-        std::clamp(duration_s * p.similarity.time / p.units.time, p.duration_min, p.duration_max);
-    Incumbent again = first_guess({});
-    again.sequence = initial;
-    std::vector<Guess> others{{again, proximal}};
-    // A foot too close to the next step catches it with its toe: the same motion with footholds further inside.
-    if (best.best() && best.best()->worst.name == "clearance" && !last.sequence.empty()) {
-      const double on_surface = options.sole_inside < 0.0 ? p.robot.sole_support : options.sole_inside;
-      double further_m = (on_surface >= 1.0 ? kToeRoom_m : kClearanceLeast_m) * p.similarity.length;
-      for (const EndEffector& end : p.robot.end_effectors)
-        if (on_surface < 1.0) further_m = std::max(further_m, kClearanceShare * end.half_size.maxCoeff());
-      problem.toe_room += further_m / p.units.length;
-      others.insert(others.begin(), Guess{last});
-    }
-    status = attempt(std::move(others));
-  }
-  return status;
-}
-
-Status SwitchedDdp::Impl::Run::run(const Incumbent* warm) {
-  Status status = Status::solved;
-  const ContactSequence sequence = initial(status);
-  if (sequence.empty()) return status;
-  Incumbent start = first_guess({});
-  start.sequence = sequence;
-  if (deadline.limited()) best.keep(search, problem, surfaces, warm ? *warm : at_once(sequence));
-  const Options& options = problem.options;
-  if (options.method == Method::paper) {
-    status = search.run_paper(start, std::min(kPaperIterations, options.max_iterations));
-    if (status != Status::numerical_failure && (status != Status::time_limit || !best.best())) finish(start);
-    return status;
-  }
-  return restart(attempt(guesses(start, warm)), sequence);
-}
 
 /// Surfaces that the search looks at: those near the way, and those that are named.
 std::vector<int> SwitchedDdp::Impl::surfaces_of(const Request& request, const Outlook& outlook) const {
@@ -317,14 +113,14 @@ PlanResult SwitchedDdp::Impl::solve(const Request& request) {
       warm->trajectory.x.front() = problem.start;
       warm->trajectory.u.front()[problem.layout.duration()] = problem.first_duration;
     }
-    Run run(std::move(problem), surfaces, deadline, best, report);
-    status = run.run(warm ? &*warm : nullptr);
+    Attempts attempts(std::move(problem), surfaces, deadline, best, report);
+    status = attempts.run(warm ? &*warm : nullptr);
     for (; rows < report.history.size(); ++rows)
       for (ContactState& state : report.history[rows].sequence)
         for (int& surface : state)
           if (surface != kFree) surface = surfaces[surface];
     if (best.ok() || !ended_by_itself(status) || all) {
-      best.settle(run.problem, report);
+      best.settle(attempts.problem(), report);
       break;
     }
   }
@@ -340,9 +136,9 @@ PlanResult SwitchedDdp::Impl::conclude(Status status, int steps, const BestPlan&
     report.friction_use = friction_use(out.plan);
     report.worst_violation = best->worst;
     report.cost = best->evaluation.cost;
-    for (int i = 0; i < kTermCount; ++i)
-      if (best->evaluation.terms[i] > 0.0)
-        report.cost_terms[to_string(static_cast<Term>(i))] = best->evaluation.terms[i];
+    const CostTerms& terms = best->evaluation.terms;
+    for (std::size_t i = 0; i < cost_terms().size(); ++i)
+      if (terms[i] > 0.0) report.cost_terms[cost_terms()[i]->name()] = terms[i];
     if (best->ok)
       status = Status::solved;
     else if (status == Status::solved)
@@ -429,7 +225,7 @@ PlanResult SwitchedDdp::replan(const Plan& previous, double t, const Knot& measu
   int first = now.phase;
   double remaining = times[first + 1] - t;
   // What is left of the phase is too short to be planned: the next one starts now.
-  const double shortest = 0.02 * similarity_of(impl_->robot, impl_->scene.gravity).time;
+  const double shortest = kReplanRest_s * similarity_of(impl_->robot, impl_->scene.gravity).time;
   const int phases = static_cast<int>(previous.phases.size());
   if (remaining < shortest && first + 1 < phases) {
     ++first;

@@ -10,18 +10,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 ValueFunctions::ValueFunctions(LocalModel& model)
-    : model_(&model),
-      V_(model.steps() + 1),
-      U_(model.steps() + 1),
-      without_contacts_(model.steps()),
-      gain_(model.steps()),
-      offset_(model.steps()) {
+    : model_(&model), V_(model.steps() + 1), U_(model.steps() + 1), feedback_(model.steps()) {
   const int nx = model.problem().layout.nx();
   U_[0] = {0.0, VectorXd::Zero(nx), MatrixXd::Zero(nx, nx)};
 }
 
 /// Minimise a quadratic over z = [x, u] in u: u = offset - gain x, value over x.
-bool ValueFunctions::solve(Quadratic& z, Quadratic& value, MatrixXd* gain, VectorXd* offset) {
+bool ValueFunctions::solve(Quadratic& z, Quadratic& value, Feedback* feedback) {
   const Layout& at = model_->problem().layout;
   const int nx = at.nx(), nu = at.nu();
   factor_.compute(z.h.bottomRightCorner(nu, nu));
@@ -38,19 +33,17 @@ bool ValueFunctions::solve(Quadratic& z, Quadratic& value, MatrixXd* gain, Vecto
   value.h.noalias() -= k_.transpose() * k_;
   // The unstable pendulum amplifies an asymmetry of rounding size from step to step: mirror one half.
   value.h.triangularView<Eigen::StrictlyUpper>() = value.h.transpose();
-  if (gain) {
-    *gain = k_;
-    factor_.matrixU().solveInPlace(*gain);
-  }
-  if (offset) {
-    *offset = -o_;
-    factor_.matrixU().solveInPlace(*offset);
+  if (feedback) {
+    feedback->gain = k_;
+    factor_.matrixU().solveInPlace(feedback->gain);
+    feedback->offset = -o_;
+    factor_.matrixU().solveInPlace(feedback->offset);
   }
   return std::isfinite(value.c) && value.g.allFinite();
 }
 
 bool ValueFunctions::backward_step(int k, const ContactState& state, const Quadratic& next, Quadratic& value,
-                                   MatrixXd* gain, VectorXd* offset, Quadratic* without_contacts) {
+                                   Feedback* feedback) {
   const Pendulum& pendulum = model_->pendulum();
   const PendulumStep& dynamics = model_->dynamics(k);
   const VectorXd& defect = model_->defect(k);
@@ -64,9 +57,9 @@ bool ValueFunctions::backward_step(int k, const ContactState& state, const Quadr
   w_.noalias() += next.h * defect;
   q_.c += next.c + 0.5 * defect.dot(next.g + w_);
   pendulum.add_transposed(dynamics, w_, q_.g);
-  if (without_contacts) *without_contacts = q_;
+  if (feedback) feedback->without_contacts = q_;
   model_->add_contacts(k, state, q_);
-  return solve(q_, value, gain, offset);
+  return solve(q_, value, feedback);
 }
 
 bool ValueFunctions::backward(const ContactSequence& sequence, int last) {
@@ -77,7 +70,7 @@ bool ValueFunctions::backward(const ContactSequence& sequence, int last) {
     --last;
   }
   for (int k = last; k >= 0; --k)
-    if (!backward_step(k, sequence[k], V_[k + 1], V_[k], &gain_[k], &offset_[k], &without_contacts_[k])) return false;
+    if (!backward_step(k, sequence[k], V_[k + 1], V_[k], &feedback_[k])) return false;
   return true;
 }
 
@@ -103,7 +96,7 @@ bool ValueFunctions::forward(const ContactSequence& sequence, int first) {
     m_ = q_.g.transpose();
     pendulum.substitute_inverse(dynamics, m_);
     q_.g = m_.row(0).transpose();
-    if (!solve(q_, U_[k + 1], nullptr, nullptr)) return false;
+    if (!solve(q_, U_[k + 1], nullptr)) return false;
   }
   return true;
 }
@@ -121,8 +114,7 @@ double ValueFunctions::minimum_with(const ContactSequence& changed, const Contac
   while (last > first && changed[last] == sequence[last]) --last;
   from_ = V_[last + 1];
   for (int k = last; k >= first; --k) {
-    if (!backward_step(k, changed[k], from_, to_, nullptr, nullptr, nullptr))
-      return std::numeric_limits<double>::infinity();
+    if (!backward_step(k, changed[k], from_, to_)) return std::numeric_limits<double>::infinity();
     std::swap(from_, to_);
   }
   from_.h += U_[first].h;
@@ -140,8 +132,8 @@ void ValueFunctions::state_forward(std::vector<VectorXd>& dx, std::vector<Vector
   factor_.compute(V_[0].h);
   dx[0] = -factor_.solve(V_[0].g);
   for (int k = 0; k < n; ++k) {
-    du[k] = offset_[k];
-    du[k].noalias() -= gain_[k] * dx[k];
+    du[k] = feedback_[k].offset;
+    du[k].noalias() -= feedback_[k].gain * dx[k];
     model_->pendulum().apply(model_->dynamics(k), dx[k], du[k], dx[k + 1]);
     dx[k + 1] += model_->defect(k);
   }

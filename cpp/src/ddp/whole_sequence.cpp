@@ -67,8 +67,8 @@ PricedSequence best_whole_sequence(LocalModel& model, ValueFunctions& values, st
         const auto follower = later.find(next);
         if (follower == later.end()) continue;
         if (static_cast<std::size_t>(++out.riccati_steps) > max_riccati_steps) return {};
-        if (!values.backward_step(k, state, follower->second.value, candidate, nullptr, nullptr, nullptr)) continue;
-        candidate.c += contact_change_cost(problem, state, next);
+        if (!values.backward_step(k, state, follower->second.value, candidate)) continue;
+        candidate.c += change_cost(problem, state, next);
         h = candidate.h + values.U(k).h;
         g = candidate.g + values.U(k).g;
         factor.compute(h);

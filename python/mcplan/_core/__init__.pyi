@@ -599,6 +599,7 @@ class Robot:
         phase_duration: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
         sole_support: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         pressure_share: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        tracked: bool = False,
         end_effectors: collections.abc.Sequence[EndEffector] = [],
         urdf: str = "",
         posture: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {},
@@ -676,6 +677,13 @@ class Robot:
         """
     @swing_height.setter
     def swing_height(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def tracked(self) -> bool:
+        """
+        Whether a controller follows the plans with limbs whose momentum they do not know of: contact sequences then keep the base upright and the centre of pressure near the middle of the sole.
+        """
+    @tracked.setter
+    def tracked(self, arg0: bool) -> None: ...
     @property
     def urdf(self) -> str:
         """

@@ -45,7 +45,7 @@ class Weights:
         On every contact made or broken.
         """
     @contact_change.setter
-    def contact_change(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def contact_change(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def contact_growth(self) -> float:
         """
@@ -88,7 +88,7 @@ class Weights:
         On every phase without any contact.
         """
     @flight.setter
-    def flight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def flight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def force_line(self) -> float:
         """

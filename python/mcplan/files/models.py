@@ -138,6 +138,11 @@ class RobotModel(Table):
     pressure_share: Annotated[float, Field(gt=0, le=1)] = Field(
         1.0, description="[-] Share of a sole's half size within which a plan keeps the centre of pressure."
     )
+    tracked: bool = Field(
+        False,
+        description="Whether a controller follows the plans with limbs whose momentum they do not know of: contact sequences "
+        "keep the base upright and the centre of pressure near the middle of the sole.",
+    )
     urdf: str = Field("", description='Path, or "example-robot-data:NAME".')
     posture: dict[Name, Number] = Field({}, description="[rad] Nominal joint positions by URDF joint name.")
     end_effectors: list[EndEffectorModel] = Field(min_length=1, max_length=8)

@@ -88,6 +88,8 @@ def robot_to_dict(robot: Robot) -> dict[str, Any]:
         data["sole_support"] = robot.sole_support
     if robot.pressure_share != 1.0:
         data["pressure_share"] = robot.pressure_share
+    if robot.tracked:
+        data["tracked"] = True
     if robot.urdf:
         data["urdf"] = robot.urdf
     data["end_effectors"] = [_end_effector_to_dict(end) for end in robot.end_effectors]

@@ -135,6 +135,7 @@ def robot_from_urdf(
         phase_duration=PHASE_DURATION if any(any(end.half_size) for end in ends) else Robot().phase_duration,
         sole_support=1.0 if any(any(end.half_size) for end in ends) else 0.0,
         pressure_share=PRESSURE_SHARE if any(any(end.half_size) for end in ends) else 1.0,
+        tracked=any(any(end.half_size) for end in ends),
         end_effectors=[_end_effector(end, _same_strength(able, end), weight) for end in ends],
         urdf=urdf,
         posture={

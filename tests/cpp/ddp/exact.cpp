@@ -83,10 +83,10 @@ TEST_CASE("an exact plan has no defects, contacts at rest on their surfaces and 
         now.sequence = stepping_sequence(problem, 0);
         REQUIRE_FALSE(now.sequence.empty());
         now.trajectory = problem.initial_guess(now.sequence);
-        search.polish(now, 80, 1e-5, std::numeric_limits<double>::infinity());
+        search.polish(now, 80, 1e-5, std::numeric_limits<double>::infinity(), problem.tuning());
         const Evaluation soft = now.evaluation;
         const Trajectory before = now.trajectory;
-        REQUIRE(search.make_exact(now));
+        REQUIRE(search.make_exact(now, problem.tuning()));
         check_exact(problem, now);
         // A small correction, not another motion.
         for (int k = 0; k <= 18; ++k) CHECK((now.trajectory.x[k] - before.x[k]).cwiseAbs().maxCoeff() < 0.05);
@@ -105,7 +105,7 @@ TEST_CASE("what cannot be made exact is left as it is") {
   now.trajectory = problem.initial_guess(now.sequence);
   now.trajectory.u[1].setConstant(std::numeric_limits<double>::quiet_NaN());
   const Trajectory before = now.trajectory;
-  CHECK_FALSE(search.make_exact(now));
+  CHECK_FALSE(search.make_exact(now, problem.tuning()));
   CHECK(now.trajectory.x[2] == before.x[2]);
   CHECK(now.trajectory.u[2] == before.u[2]);
 }

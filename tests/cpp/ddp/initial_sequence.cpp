@@ -21,7 +21,7 @@ double cost_with(const Problem& problem, const Trajectory& trajectory, const Sch
 
 TEST_CASE("the cheapest valid sequence for a frozen trajectory, against all 183 of them") {
   Options options = phases(6);
-  options.weights.contact_change = 0.0;  // counts in the search's later stages only
+  options.weights.own["contact_change"] = 0.0;  // counts in the search's later stages only
   const Problem problem(scenes::flat(), scenes::humanoid44(), options);
   const std::vector<ContactSequence> all = every_sequence(problem);
   CHECK(all.size() == 183);

@@ -56,7 +56,7 @@ TEST_CASE("the model's cost at the point of expansion is the true cost, and its 
         }
         Evaluator evaluate(at.problem);
         const Evaluation truth = evaluate(at.trajectory, at.sequence, weights);
-        if (interior > 0.0) cost += contact_change_cost(at.problem, at.sequence);
+        if (interior > 0.0) cost += change_cost(at.problem, at.sequence);
         CHECK(cost == doctest::Approx(truth.cost).epsilon(1e-12));
         double terms = 0.0;
         for (double term : truth.terms) terms += term;
@@ -135,7 +135,7 @@ TEST_CASE("contact states enter as blocks: any sequence can be assembled without
         model.add_contacts(k, other[k], q);
         cost += q.c;
       }
-      cost += contact_change_cost(at.problem, other);
+      cost += change_cost(at.problem, other);
       CHECK(cost == doctest::Approx(evaluate(at.trajectory, other, weights).cost).epsilon(1e-12));
     }
   }

@@ -73,14 +73,20 @@ TEST_CASE("every weight must be a number that is not negative") {
                             {&Weights::stiffness, "stiffness"},
                             {&Weights::moment, "moment"},
                             {&Weights::limit, "limit"},
-                            {&Weights::duration, "duration"},
-                            {&Weights::flight, "flight"},
-                            {&Weights::contact_change, "contact_change"}};
+                            {&Weights::duration, "duration"}};
   for (const Weight& w : weights) {
     for (double bad : {-1.0, kNan, kInf})
       CHECK(refused([&](Options& o) { o.weights.*w.member = bad; }) == std::string("weights.") + w.name);
     CHECK(refused([&](Options& o) { o.weights.*w.member = 0.0; }) == "accepted");
   }
+  for (const char* name : {"flight", "contact_change"}) {
+    for (double bad : {-1.0, kNan, kInf})
+      CHECK(refused([&](Options& o) { o.weights.own[name] = bad; }) == std::string("weights.") + name);
+    CHECK(refused([&](Options& o) { o.weights.own[name] = 0.0; }) == "accepted");
+  }
+  // No term, and a term whose weights are shared.
+  for (const char* name : {"flite", "friction"})
+    CHECK(refused([&](Options& o) { o.weights.own[name] = 1.0; }) == std::string("weights.") + name);
 }
 
 TEST_CASE("numbers with a range of their own") {

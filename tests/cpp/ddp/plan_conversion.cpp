@@ -26,8 +26,8 @@ struct Walk {
     now.sequence = stepping_sequence(problem, 0);
     REQUIRE_FALSE(now.sequence.empty());
     now.trajectory = problem.initial_guess(now.sequence);
-    search.polish(now, 80, 1e-5, std::numeric_limits<double>::infinity());
-    REQUIRE(search.make_exact(now));
+    search.polish(now, 80, 1e-5, std::numeric_limits<double>::infinity(), problem.tuning());
+    REQUIRE(search.make_exact(now, problem.tuning()));
   }
   static Options options(Model model, StiffnessInput input) {
     Options out = phases(18, model);

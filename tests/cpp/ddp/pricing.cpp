@@ -65,8 +65,8 @@ TEST_CASE("every neighbour is priced like a full recompute, and the best one is 
     model.expand(trajectory, weights);
     Evaluator evaluate(problem);
     const CostTerms terms = evaluate(trajectory, sequence, weights).terms;
-    with_friction += terms[static_cast<int>(Term::friction)] > 0.0;
-    with_reach += s.interior > 0.0 && terms[static_cast<int>(Term::reach)] > 0.0;
+    with_friction += terms[cost_term_index("friction")] > 0.0;
+    with_reach += terms[cost_term_index("interior_reach")] > 0.0;
     ValueFunctions values(model);
     REQUIRE(values.backward(sequence, 18));
     REQUIRE(values.forward(sequence, 0));

@@ -41,7 +41,7 @@ struct Bench {
     weights.contact_weight = problem.options.weights.contact_min;
     search.model().expand(now.trajectory, weights);
     now.sequence = initial_sequence(search.model());
-    CHECK(search.discover(now, problem.options.proximal_weight) == Status::solved);
+    CHECK(search.discover(now, problem.options.proximal_weight, problem.tuning()) == Status::solved);
     return now;
   }
 };
@@ -66,9 +66,9 @@ TEST_CASE("polishing keeps the sequence and never lets the merit rise") {
     Bench bench(scene, phases(18, Model::lipm));
     Incumbent now = bench.discovered();
     const ContactSequence sequence = now.sequence;
-    const double before = bench.search.evaluate(now).merit();
+    const double before = bench.search.evaluate(now, bench.problem.tuning()).merit();
     const std::size_t first = bench.report.history.size();
-    CHECK(bench.search.polish(now, 30, 0.0, kForever) == Status::solved);
+    CHECK(bench.search.polish(now, 30, 0.0, kForever, bench.problem.tuning()) == Status::solved);
     CHECK(now.sequence == sequence);
     REQUIRE(bench.report.history.size() == first + 30);
     double last = before;
@@ -78,7 +78,7 @@ TEST_CASE("polishing keeps the sequence and never lets the merit rise") {
       CHECK(row.switches == 0);
       last = row.merit;
     }
-    CHECK(bench.search.evaluate(now).merit() == doctest::Approx(last));
+    CHECK(bench.search.evaluate(now, bench.problem.tuning()).merit() == doctest::Approx(last));
     CHECK(last < before);
   }
 }
@@ -89,15 +89,15 @@ TEST_CASE("with contact wrenches no iteration lets the merit rise but by what th
     Bench bench(scene, phases(18));
     Incumbent now = bench.discovered();
     const ContactSequence sequence = now.sequence;
-    const double first = bench.search.evaluate(now).merit();
+    const double first = bench.search.evaluate(now, bench.problem.tuning()).merit();
     for (int i = 0; i < 30; ++i) {
       Incumbent headed = now;
       bench.problem.set_sole_yaw(headed.sequence, headed.trajectory);
-      const double before = bench.search.evaluate(headed).merit();
-      CHECK(bench.search.polish(now, 1, 0.0, kForever) == Status::solved);
+      const double before = bench.search.evaluate(headed, bench.problem.tuning()).merit();
+      CHECK(bench.search.polish(now, 1, 0.0, kForever, bench.problem.tuning()) == Status::solved);
       CHECK(now.evaluation.merit() <= before * (1.0 + 1e-12));
       CHECK(now.trajectory.sole_yaw == headed.trajectory.sole_yaw);
-      CHECK(bench.search.evaluate(now).merit() == doctest::Approx(now.evaluation.merit()));
+      CHECK(bench.search.evaluate(now, bench.problem.tuning()).merit() == doctest::Approx(now.evaluation.merit()));
     }
     CHECK(now.sequence == sequence);
     CHECK(now.evaluation.merit() < first);
@@ -109,18 +109,18 @@ TEST_CASE("refining changes the sequence only for a lower true merit, and settle
   options.max_iterations = 1000000;
   Bench bench(scenes::flat(1.0), options);
   Incumbent now = bench.discovered();
-  bench.search.polish(now, 60, 1e-3, kForever);
+  bench.search.polish(now, 60, 1e-3, kForever, bench.problem.tuning());
   const double before = now.evaluation.merit();
-  CHECK(bench.search.refine(now) == Status::solved);
+  CHECK(bench.search.refine(now, bench.problem.tuning()) == Status::solved);
   CHECK(bench.problem.rules.valid(now.sequence));
   CHECK(now.evaluation.merit() <= before * (1.0 + 1e-12));
-  CHECK(bench.search.evaluate(now).merit() == doctest::Approx(now.evaluation.merit()));
+  CHECK(bench.search.evaluate(now, bench.problem.tuning()).merit() == doctest::Approx(now.evaluation.merit()));
   int switches = -1, rounds = 0;
   double last = now.evaluation.merit();
   for (; switches != bench.report.switches && rounds < 10; ++rounds) {
     switches = bench.report.switches;
-    bench.search.polish(now, 120, 1e-5, kForever);
-    CHECK(bench.search.refine(now) == Status::solved);
+    bench.search.polish(now, 120, 1e-5, kForever, bench.problem.tuning());
+    CHECK(bench.search.refine(now, bench.problem.tuning()) == Status::solved);
     CHECK(now.evaluation.merit() <= last * (1.0 + 1e-12));
     last = now.evaluation.merit();
   }
@@ -159,18 +159,18 @@ TEST_CASE("the stop request and the iteration limit end every stage") {
   Bench stopped(scenes::flat(), options);
   Incumbent now = stopped.guess({});
   now.sequence.assign(11, stopped.problem.start_contacts);
-  CHECK(stopped.search.discover(now, 30.0) == Status::interrupted);
+  CHECK(stopped.search.discover(now, 30.0, stopped.problem.tuning()) == Status::interrupted);
   CHECK(stopped.report.iterations == 5);
-  CHECK(stopped.search.polish(now, 10, 0.0, kForever) == Status::interrupted);
+  CHECK(stopped.search.polish(now, 10, 0.0, kForever, stopped.problem.tuning()) == Status::interrupted);
 
   options.stop = nullptr;
   options.max_iterations = 7;
   Bench limited(scenes::flat(), options);
   now = limited.guess({});
   now.sequence.assign(11, limited.problem.start_contacts);
-  CHECK(limited.search.discover(now, 30.0) == Status::iteration_limit);
+  CHECK(limited.search.discover(now, 30.0, limited.problem.tuning()) == Status::iteration_limit);
   CHECK(limited.report.iterations == 7);
-  CHECK(limited.search.run_paper(now, 10) == Status::iteration_limit);
+  CHECK(limited.search.run_paper(now, 10, limited.problem.tuning()) == Status::iteration_limit);
 }
 
 TEST_CASE("exhaustive enumeration of six steps: the search ends near the best of all 183 sequences") {
@@ -190,8 +190,8 @@ TEST_CASE("exhaustive enumeration of six steps: the search ends near the best of
   for (const ContactSequence& sequence : every_sequence(bench.problem)) {
     if (kSlowBuild && ++tried % 8 != 0 && sequence != found) continue;
     Incumbent now = bench.guess(sequence);
-    bench.search.polish(now, 300, 1e-6, kForever);
-    const double merit = bench.search.evaluate(now).merit();
+    bench.search.polish(now, 300, 1e-6, kForever, bench.problem.tuning());
+    const double merit = bench.search.evaluate(now, bench.problem.tuning()).merit();
     if (!std::isfinite(merit)) continue;
     if (sequence == found) best_of_found = merit;
     better += merit < result.report.cost;

@@ -8,7 +8,6 @@
 #include <map>
 #include <string>
 
-#include "clocks.hpp"
 #include "in_threads.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/checker.hpp"
@@ -250,45 +249,6 @@ TEST_CASE("a turned world gives the turned plan") {
   }
 }
 
-TEST_CASE("the time limit is kept, and gives a plan with its status") {
-  // Every look at the clock takes 1 ms: soon after the limit the clock must no longer be looked at. Making the first
-  // plan takes a dozen.
-  for (double limit_s : {0.001, 0.05}) {
-    CAPTURE(limit_s);
-    const CountingClock clock(0.001);
-    Options options;
-    options.phases = 60;
-    options.time_limit_s = limit_s;
-    options.clock = clock;
-    const PlanResult result = solve(scenes::gap_with_rail(), options);
-    CHECK(result.report.status == Status::time_limit);
-    CHECK(result.report.time_s <= limit_s + 0.02);
-    CHECK(result.plan.phases.size() == 60);
-    CHECK_NOTHROW(result.plan.validate());
-    CHECK(result.report.message.find("violates") != std::string::npos);
-    CHECK(result.report.worst_violation.value > result.report.worst_violation.tolerance);
-  }
-}
-
-TEST_CASE("a stop request interrupts, the iteration limit stops; both give a plan") {
-  int polls = 0;
-  Options options;
-  options.stop = [&] { return ++polls > 6; };
-  const PlanResult stopped = solve(scenes::stairs(), options);
-  CHECK(stopped.report.status == Status::interrupted);
-  CHECK(stopped.report.iterations == 6);
-  CHECK(stopped.plan.phases.size() == 18);
-
-  options.stop = nullptr;
-  for (int limit : {1, 9}) {
-    options.max_iterations = limit;
-    const PlanResult limited = solve(scenes::stairs(), options);
-    CHECK(limited.report.status == Status::iteration_limit);
-    CHECK(limited.report.iterations == limit);
-    CHECK_NOTHROW(limited.plan.validate());
-  }
-}
-
 TEST_CASE("a warm start from a solved plan keeps its sequence and takes fewer iterations") {
   const PlanResult& cold = solved("stairs");
   const PlanResult warm = SwitchedDdp(scenes::stairs(), scenes::humanoid44()).solve(cold.plan);
@@ -327,13 +287,6 @@ TEST_CASE("replanning starts from the measured state and arrives") {
   CHECK(refused_field<mcplan::InvalidPlan>([&] {
           SwitchedDdp(scenes::flat(), scenes::humanoid44()).replan(before.plan, 1.0, short_one);
         }) == "measured.end_effectors_W");
-}
-
-TEST_CASE("too few phases: no_sequence, with advice and without a plan") {
-  const PlanResult result = solve(scenes::gap(), phases(3));
-  CHECK(result.report.status == Status::no_sequence);
-  CHECK(result.report.message.find("phases") != std::string::npos);
-  CHECK(result.plan.phases.empty());
 }
 
 TEST_CASE("a goal out of reach gives an honest status, never solved") {

@@ -16,7 +16,7 @@ using namespace mcplan::ddp;
 double full_price(LocalModel& model, const ContactSequence& sequence) {
   ValueFunctions values(model);
   REQUIRE(values.backward(sequence, model.steps()));
-  return values.minimum(0) + contact_change_cost(model.problem(), sequence);
+  return values.minimum(0) + change_cost(model.problem(), sequence);
 }
 
 constexpr std::size_t kNoLimit = 1000000;

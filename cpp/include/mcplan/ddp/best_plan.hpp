@@ -30,10 +30,10 @@ class BestPlan {
   };
 
   /// Make exact, convert, check in full. True when any plan so far passes.
-  bool finish(Search& search, const Problem& problem, const std::vector<int>& surfaces, Incumbent now);
+  bool finish(Search& search, const std::vector<int>& surfaces, Incumbent now, const Tuning& tuning);
 
   /// Under a time limit: the same at few instants, if it is due and there is time for it.
-  void keep(Search& search, const Problem& problem, const std::vector<int>& surfaces, const Incumbent& now);
+  void keep(Search& search, const std::vector<int>& surfaces, const Incumbent& now, const Tuning& tuning);
 
   /// What is kept was perhaps looked at in few instants alone: check it in full if there is time.
   void settle(const Problem& problem, Report& report);
@@ -42,7 +42,8 @@ class BestPlan {
   bool ok() const { return best_ && best_->ok; }
 
  private:
-  Finished converted(Search& search, const Problem& problem, const std::vector<int>& surfaces, Incumbent& now) const;
+  Finished converted(Search& search, const std::vector<int>& surfaces, const Incumbent& now,
+                     const Tuning& tuning) const;
   enum class Look {
     late,  ///< at least at one instant a phase: the time is over, and nothing is compared with it any more
     few,   ///< at least at three instants a phase

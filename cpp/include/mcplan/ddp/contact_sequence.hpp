@@ -13,6 +13,9 @@ constexpr int kFree = -1;
 /// Contact state of every step k = 0..N (the paper's sigma).
 using ContactSequence = std::vector<ContactState>;
 
+/// Whether nothing is in contact.
+bool in_flight(const ContactState& state);
+
 /// "If none of `when_free` is in contact, all of `require` must be", by end-effector index.
 struct StateRule {
   std::vector<int> when_free, require;

@@ -3,11 +3,14 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/contact_sequence.hpp"
-#include "mcplan/ddp/costs/costs.hpp"
+#include "mcplan/ddp/cost_terms.hpp"
+#include "mcplan/ddp/instants.hpp"
 #include "mcplan/ddp/pendulum.hpp"
 #include "mcplan/ddp/problem.hpp"
 #include "mcplan/ddp/rows.hpp"
+#include "mcplan/ddp/schedule.hpp"
 
 namespace mcplan::ddp {
 
@@ -16,19 +19,6 @@ struct Quadratic {
   double c = 0.0;
   Eigen::VectorXd g;
   Eigen::MatrixXd h;
-};
-
-/// Weights that change from iteration to iteration.
-struct Schedule {
-  double contact_weight = 0.01;   ///< w_compl
-  double interior_weight = 0.0;   ///< on reach, friction and force inside the phases
-  bool discovering = false;       ///< the weights that Model::wrench has in discovery
-  double proximal_weight = 30.0;  ///< on the change of the input: 1/2 r |du|^2, a part of the model's cost
-
-  /// Not null: only the least change that closes the dynamics defects is sought, whatever it costs. Held (by a
-  /// weight so large that their change is rounding) are the base and the end-effectors at the start and, at every step,
-  /// the inputs that are marked here.
-  const std::vector<std::vector<char>>* held_inputs = nullptr;
 };
 
 /// The problem about a trajectory: dynamics to first order, costs to second order (Gauss-Newton), one stage a step.
@@ -63,6 +53,8 @@ class LocalModel {
   void add_contacts(int k, const ContactState& state, Quadratic& q);
 
  private:
+  StepView view(int k) const;
+
   struct Stage {
     PendulumStep dynamics;
     Eigen::VectorXd defect;
@@ -95,7 +87,7 @@ struct Evaluation {
   CostTerms terms{};
 
   /// Exact penalty: cost + rho |defect|.
-  double merit() const { return cost + 30.0 * defect_sum; }
+  double merit() const { return cost + kDefectPenalty * defect_sum; }
 };
 
 class Evaluator {
@@ -110,12 +102,5 @@ class Evaluator {
   std::vector<Instant> instants_;
   Eigen::VectorXd next_;
 };
-
-/// All rows of one step and contact state into `rows` (shared by model and evaluation). `u` null at k = N.
-void add_base_rows(const Problem& problem, int k, const Eigen::VectorXd& x, const Eigen::VectorXd* u,
-                   const Schedule& schedule, Rows& rows);
-void add_contact_rows(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x,
-                      const Eigen::VectorXd* u, const std::vector<Instant>& instants, int l, int contact,
-                      double sole_yaw, const Schedule& schedule, Rows& rows);
 
 }  // namespace mcplan::ddp

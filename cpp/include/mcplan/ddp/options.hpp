@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "mcplan/base/deadline.hpp"
@@ -45,9 +48,11 @@ struct Weights {
   double duration = 0.1;                                 ///< towards the middle of the duration box
   double contact_min = 0.01, contact_max = 100.0;        ///< w_compl
   double contact_growth = 2.0;                           ///< gamma
-  double flight = 1.0;                                   ///< on every phase without any contact
-  double contact_change = 0.1;                           ///< on every contact made or broken
   double overshoot_factor = 2.0;                         ///< on leaving a finite polygon sideways, times w_compl
+
+  /// Weights that belong to one term alone, by its name, where they are not the term's usual ones: "flight",
+  /// "contact_change" (cost_terms.hpp).
+  std::map<std::string, double, std::less<>> own;
 };
 
 /// Options of the contact-sequence search. Defaults serve all built-in scenes.

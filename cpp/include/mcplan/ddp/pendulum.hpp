@@ -107,8 +107,13 @@ class Pendulum {
 
  private:
   Eigen::Vector3d momentum_at(const Drive& drive, const EntireFunctions& f, double t) const;
-  void momentum_jacobian(const Drive& drive, const Eigen::VectorXd& x, const Eigen::VectorXd& u,
-                         const EntireFunctions& f, double t, double slope, Eigen::Ref<Eigen::Matrix3Xd> out) const;
+  /// A time t = slope h within a phase of duration h, with the entire functions of Lambda t^2.
+  struct Time {
+    const EntireFunctions& f;
+    double t, slope;
+  };
+  void momentum_jacobian(const Drive& drive, const Eigen::VectorXd& x, const Eigen::VectorXd& u, const Time& time,
+                         Eigen::Ref<Eigen::Matrix3Xd> out) const;
   void turn_rows(const Drive& drive, const Eigen::VectorXd& x, const Eigen::VectorXd& u, const EntireFunctions& f,
                  PendulumStep& s) const;
 

@@ -34,6 +34,13 @@ struct Trajectory {
   std::vector<std::vector<double>> sole_yaw;  ///< by step and end-effector [rad]: given, not optimised; see Problem
 };
 
+/// What the attempts of one search differ in; the problem is the same for all of them.
+struct Tuning {
+  double limit_weight = Weights().limit;  ///< on limits at the knots and, at the full weights, between them
+  double duration_initial = 0.0;          ///< first guess of all phases
+  double toe_room = 0.0;                  ///< further margin of soles, where one has caught an edge
+};
+
 /// Limits and nominal position of an end-effector, non-dimensional.
 struct EndLimits {
   Eigen::Vector3d nominal, reach_min, reach_max;
@@ -67,7 +74,6 @@ class Problem {
   double pyramid_share = 1.0;                         ///< of the cone's opening that lies inside every side
   double edge_margin = 0.0;                           ///< footholds are planned this much inside their polygon
   double pressure_margin = 0.0;                       ///< and centres of pressure
-  double toe_room = 0.0;                              ///< further margin of soles, where one has caught an edge
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<EndLimits> limits;       ///< by active end-effector
   Eigen::Vector3d inertia;             ///< in units of mass length^2
@@ -82,11 +88,14 @@ class Problem {
   Trajectory reference;           ///< x_ref by knot (u empty)
   Eigen::VectorXd start;          ///< x_0 as demanded
 
+  /// The tuning of the first attempt.
+  Tuning tuning() const { return {options.weights.limit, duration_initial, 0.0}; }
+
   /// How far inside edge i of a surface an end-effector's footholds are planned: edge_margin, and the share
   /// Options::sole_inside of how far its sole, headed anywhere from start to goal, extends towards that edge; for
-  /// soles toe_room as well. Never past the middle of a surface that is too narrow, and with toe_room no further than
-  /// where the end-effector has to stand at the start or the goal.
-  double foothold_margin(int l, int surface, int edge) const;
+  /// soles `toe_room` as well. Never past the middle of a surface that is too narrow, and with `toe_room` no further
+  /// than where the end-effector has to stand at the start or the goal.
+  double foothold_margin(int l, int surface, int edge, double toe_room = 0.0) const;
 
   /// Roll, pitch, yaw of a state.
   Eigen::Vector3d rpy(const Eigen::VectorXd& x) const;
@@ -102,7 +111,8 @@ class Problem {
   /// First guess: the reference at constant duration. Without a sequence the weight is spread over all end-effectors,
   /// which lets the search see what every one of them could do (measured: with the weight on the feet alone it never
   /// finds the hands of gap_with_rail); with one it rests on those in contact.
-  Trajectory initial_guess(const ContactSequence& sequence) const;
+  Trajectory initial_guess(const ContactSequence& sequence, const Tuning& tuning) const;
+  Trajectory initial_guess(const ContactSequence& sequence) const { return initial_guess(sequence, tuning()); }
 
   /// A sequence given by all end-effectors of the robot, for the active ones. Throws InvalidOptions when it does not
   /// fit: steps + 1 rows, valid, from the start's contacts to the goal's.
@@ -120,6 +130,12 @@ class Problem {
   std::vector<std::vector<std::vector<double>>> slack_;             // likewise: how far in it has to stand
   std::vector<std::vector<double>> widths_;                         // by surface, edge: from it to the farthest vertex
 
+  void make_durations();
+  void make_surfaces();
+  std::vector<std::vector<int>> make_ends();
+  EndLimits limits_of(const EndEffector& end) const;
+  std::vector<StateRule> make_state_rules() const;
+  Eigen::VectorXd state_of(const ResolvedStance& stance) const;
   void make_slack();
   void make_foothold_margins();
   int automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const;

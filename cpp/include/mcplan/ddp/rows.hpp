@@ -2,15 +2,14 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace mcplan::ddp {
 
-/// What a row belongs to, for the report's cost by term.
-enum class Term { task, duration, reach, bounds, contact, free, friction, force_cap, flight, contact_change };
-constexpr int kTermCount = 10;
-const char* to_string(Term term);
-using CostTerms = std::array<double, kTermCount>;
+/// Cost by term, in the order of cost_terms(); there may be this many of them.
+constexpr int kCostTermsMax = 32;
+using CostTerms = std::array<double, kCostTermsMax>;
 
 /// A sum of squares 1/2 sum_r w_r^2 e_r(z)^2, row by row: value e_r and gradient de_r/dz (z = [x, u]). Every cost and
 /// constraint of the planner writes itself into one of these; satisfied inequalities write nothing (active set).
@@ -23,7 +22,9 @@ class Rows {
   bool with_gradient() const { return with_gradient_; }
   bool sized() const { return nz_ > 0; }  ///< false: as made without arguments
   void clear();
-  void begin(Term term) { term_ = term; }
+
+  /// What is added from now on belongs to this term of cost_terms().
+  void begin(int term) { term_ = static_cast<std::size_t>(term); }
 
   /// A row that depends on one variable: e = value, de/dz_index = 1.
   void add_single(double weight, double value, int index);
@@ -40,7 +41,7 @@ class Rows {
   /// A constant, without a row.
   void add_constant(double cost) {
     cost_ += cost;
-    terms_[static_cast<int>(term_)] += cost;
+    terms_[term_] += cost;
   }
 
   int count() const { return static_cast<int>(value_.size()); }
@@ -59,7 +60,7 @@ class Rows {
 
   int nz_ = 0;
   bool with_gradient_ = true;
-  Term term_ = Term::task;
+  std::size_t term_ = 0;
   double cost_ = 0.0;
   CostTerms terms_{};
   std::vector<double> precision_, value_;

@@ -22,15 +22,23 @@ class ValueFunctions {
   /// U_k for k = first+1..N; U_first must be up to date (U_0 = 0).
   bool forward(const ContactSequence& sequence, int first);
 
-  /// One step of the backward recursion for any contact state: V_k from V_{k+1}. `gain`/`offset` may be null.
-  bool backward_step(int k, const ContactState& state, const Quadratic& next, Quadratic& value, Eigen::MatrixXd* gain,
-                     Eigen::VectorXd* offset, Quadratic* without_contacts);
+  /// What a step of the backward recursion leaves besides V_k: the feedback du = offset - gain dx, and the stage cost
+  /// of k plus V_{k+1} over z, without the rows of the contact state at k.
+  struct Feedback {
+    Eigen::MatrixXd gain;
+    Eigen::VectorXd offset;
+    Quadratic without_contacts;
+  };
+
+  /// One step of the backward recursion for any contact state: V_k from V_{k+1}.
+  bool backward_step(int k, const ContactState& state, const Quadratic& next, Quadratic& value,
+                     Feedback* feedback = nullptr);
 
   const Quadratic& V(int k) const { return V_[k]; }
   const Quadratic& U(int k) const { return U_[k]; }
 
   /// Stage cost of k plus V_{k+1} over z, without the rows of the contact state at k.
-  const Quadratic& without_contacts(int k) const { return without_contacts_[k]; }
+  const Quadratic& without_contacts(int k) const { return feedback_[k].without_contacts; }
 
   /// min over x of U_k + V_k (eq. 31).
   double minimum(int k) const;
@@ -44,12 +52,11 @@ class ValueFunctions {
   void state_forward(std::vector<Eigen::VectorXd>& dx, std::vector<Eigen::VectorXd>& du);
 
  private:
-  bool solve(Quadratic& z, Quadratic& value, Eigen::MatrixXd* gain, Eigen::VectorXd* offset);
+  bool solve(Quadratic& z, Quadratic& value, Feedback* feedback);
 
   LocalModel* model_;
-  std::vector<Quadratic> V_, U_, without_contacts_;
-  std::vector<Eigen::MatrixXd> gain_;  ///< K: du = offset - K dx
-  std::vector<Eigen::VectorXd> offset_;
+  std::vector<Quadratic> V_, U_;
+  std::vector<Feedback> feedback_;
   // Scratch.
   Quadratic q_, from_, to_;
   Eigen::MatrixXd m_, mt_, pushed_, k_;

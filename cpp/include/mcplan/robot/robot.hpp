@@ -52,6 +52,8 @@ struct Robot {
   Eigen::Vector2d phase_duration{0.15, 0.50};  ///< [s] shortest and longest phase of a contact sequence; likewise
   double sole_support = 0.0;                   ///< share of a sole that a contact sequence keeps on its surface
   double pressure_share = 1.0;  ///< share of a sole's half size within which a plan keeps the centre of pressure
+  bool tracked = false;         ///< a controller follows the plans with limbs whose momentum they do not know of:
+                                ///< contact sequences keep the base upright and the centre of pressure near the middle
   std::vector<EndEffector> end_effectors;
   std::string urdf;                       ///< path, or "example-robot-data:NAME"; empty: none
   std::map<std::string, double> posture;  ///< nominal joint positions [rad] by URDF joint name

@@ -1,27 +1,40 @@
 #include <algorithm>
 
-#include "mcplan/ddp/costs/costs.hpp"
+#include "mcplan/ddp/cost_terms.hpp"
 
 namespace mcplan::ddp {
+namespace {
 
-void duration_cost(const Problem& problem, int k, const Eigen::VectorXd& u, Rows& rows) {
-  const Weights& w = problem.options.weights;
-  const int i = problem.layout.duration(), iz = problem.layout.nx() + i;
-  // A phase that was under way when replanning has as long as was left of it.
-  const bool under_way = k == 0 && problem.first_duration > 0.0;
-  const double low = under_way ? std::min(problem.first_duration, problem.duration_min) : problem.duration_min;
-  const double middle = under_way ? problem.first_duration : 0.5 * (problem.duration_min + problem.duration_max);
-  rows.begin(Term::duration);
-  rows.add_single(w.duration, u[i] - middle, iz);
-  if (u[i] < low) rows.add_single(w.limit, u[i] - low, iz);
-  if (u[i] > problem.duration_max) rows.add_single(w.limit, u[i] - problem.duration_max, iz);
-}
+/// Durations: towards the middle of their box, and inside it (not in the paper, which leaves h unbounded; its author's
+/// program has the box).
+class Duration final : public CostTerm {
+ public:
+  Duration() : CostTerm("duration", Scope::step, 30) {}
 
-void flight_duration_cost(const Problem& problem, const Eigen::VectorXd& u, Rows& rows) {
-  const int i = problem.layout.duration();
-  rows.begin(Term::duration);
-  const double beyond = u[i] - problem.flight_duration_min;
-  if (beyond < 0.0) rows.add_single(problem.options.weights.limit, beyond, problem.layout.nx() + i);
+  bool applies(const StepView& step) const override { return step.u != nullptr; }
+
+  void write(const StepView& step, Rows& rows) const override {
+    const Problem& problem = step.problem;
+    const double limit = step.schedule.tuning.limit_weight;
+    const int i = problem.layout.duration(), iz = problem.layout.nx() + i;
+    const double h = (*step.u)[i];
+    // A phase that was under way when replanning has as long as was left of it.
+    const bool under_way = step.k == 0 && problem.first_duration > 0.0;
+    const double low = under_way ? std::min(problem.first_duration, problem.duration_min) : problem.duration_min;
+    const double middle = under_way ? problem.first_duration : 0.5 * (problem.duration_min + problem.duration_max);
+    rows.add_single(problem.options.weights.duration, h - middle, iz);
+    if (h < low) rows.add_single(limit, h - low, iz);
+    if (h > problem.duration_max) rows.add_single(limit, h - problem.duration_max, iz);
+  }
+};
+
+}  // namespace
+
+namespace cost {
+const CostTerm& duration() {
+  static const Duration term;
+  return term;
 }
+}  // namespace cost
 
 }  // namespace mcplan::ddp

@@ -4,16 +4,12 @@ namespace {
 
 using namespace support;
 
-Writer bounds_of(const ddp::Problem& problem) {
-  return [&problem](const VectorXd&, const VectorXd& u, Rows& rows) { bounds_cost(problem, u, rows); };
-}
-
 }  // namespace
 
 TEST_CASE("bounds: gradients") {
   for (ddp::Model model : kModels) {
     const ddp::Problem problem = workshop(phases(6, model));
-    check_rows(problem, bounds_of(problem), 43, 5.0, 20);
+    check_rows(problem, term(problem, "bounds"), 43, 5.0, 20);
   }
 }
 
@@ -30,7 +26,7 @@ TEST_CASE("stiffness lies between nothing and what gives the largest force; noth
       const auto price = [&](int i, double value) {
         VectorXd u = VectorXd::Zero(at.nu());
         u[i] = value;
-        return cost(problem, bounds_of(problem), VectorXd(), u) / (0.5 * 100.0 * 100.0);
+        return cost(problem, term(problem, "bounds"), VectorXd(), u) / (0.5 * 100.0 * 100.0);
       };
       CHECK(price(at.stiffness(1), 0.0) == 0.0);
       CHECK(price(at.stiffness(1), 0.999 * most) == 0.0);

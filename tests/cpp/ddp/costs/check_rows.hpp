@@ -4,9 +4,12 @@
 
 #include <cmath>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "ddp/support.hpp"
-#include "mcplan/ddp/costs/costs.hpp"
+#include "mcplan/base/rotation.hpp"
+#include "mcplan/ddp/cost_terms.hpp"
 
 namespace support {
 
@@ -14,6 +17,36 @@ using ddp::Rows;
 
 /// Writes a cost's rows at x and u.
 using Writer = std::function<void(const VectorXd& x, const VectorXd& u, Rows& rows)>;
+
+/// What a term is asked about besides x and u.
+struct About {
+  int k = 2, l = 1, surface = ddp::kFree;
+  double contact_weight = 3.0, interior_weight = 0.0, sole_yaw = 0.0;
+  bool discovering = false;
+};
+
+/// Writes the rows of the term of this name, where it applies. Keeps a reference to the problem. Without u it is asked
+/// about the last knot.
+inline Writer term(const ddp::Problem& problem, const std::string& name, const About& about = {}) {
+  const int index = ddp::cost_term_index(name);
+  REQUIRE(index >= 0);
+  const ddp::Pendulum pendulum(problem.layout, problem.inertia, problem.options.stiffness_input, problem.model);
+  return [&problem, pendulum, index, about](const VectorXd& x, const VectorXd& u, Rows& rows) {
+    ddp::Schedule schedule;
+    schedule.tuning = problem.tuning();
+    schedule.contact_weight = about.contact_weight;
+    schedule.interior_weight = about.interior_weight;
+    schedule.discovering = about.discovering;
+    std::vector<ddp::Instant> instants;
+    const bool last = u.size() == 0 || about.k == problem.steps;
+    const ddp::StepView step{problem,  pendulum, schedule,      about.k,       x, last ? nullptr : &u,
+                             instants, about.l,  about.surface, about.sole_yaw};
+    if (step.between_knots()) make_instants(problem, pendulum, x, u, instants);
+    const ddp::CostTerm& term = *ddp::cost_terms()[static_cast<std::size_t>(index)];
+    rows.begin(index);
+    if (term.applies(step)) term.write(step, rows);
+  };
+}
 
 /// The paper's robot with all base axes alive, on the paper's hardest scene with a slope of 30 degrees added.
 inline ddp::Problem workshop(ddp::Options options = phases(6), bool with_slope = true) {
@@ -86,6 +119,17 @@ inline double cost(const ddp::Problem& problem, const Writer& write, const Vecto
   Rows rows(problem.layout.nz(), false);
   write(x, u, rows);
   return rows.cost();
+}
+
+/// A base turned about all axes, every end-effector at its nominal place in the base's frame.
+inline VectorXd nominal(const ddp::Problem& problem) {
+  VectorXd x = VectorXd::Zero(problem.layout.nx());
+  const Eigen::Vector3d com(0.3, -0.2, 1.1), rpy(0.3, -0.2, 1.0);
+  x.segment<3>(problem.layout.com()) = com;
+  x.segment<3>(problem.layout.angle()) = rpy;
+  for (int l = 0; l < problem.layout.ends(); ++l)
+    x.segment<3>(problem.layout.end(l)) = com + mcplan::rotation_from_rpy(rpy) * problem.limits[l].nominal;
+  return x;
 }
 
 }  // namespace support

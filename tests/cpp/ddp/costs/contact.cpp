@@ -7,21 +7,14 @@ using Eigen::Vector3d;
 
 enum { before, after, right_pad, left_pad, slope };
 
-Writer contact_of(const ddp::Problem& problem, int l, int surface) {
-  return [&problem, l, surface](const VectorXd& x, const VectorXd& u, Rows& rows) {
-    contact_cost(problem, x, u.size() ? &u : nullptr, l, surface, 3.0, rows);
-  };
-}
+Writer contact_of(const ddp::Problem& problem, int l, int surface) { return term(problem, "contact", {2, l, surface}); }
 
 }  // namespace
 
-TEST_CASE("contact and free: gradients") {
+TEST_CASE("contact: gradients") {
   for (ddp::Model model : kModels) {
     const ddp::Problem problem = workshop(phases(6, model));
     for (int surface : {before, slope, right_pad}) check_rows(problem, contact_of(problem, 1, surface), 46, 0.8, 40);
-    check_rows(
-        problem, [&](const VectorXd&, const VectorXd& u, Rows& rows) { free_cost(problem, u, 1, 3.0, rows); }, 47, 0.5,
-        10);
   }
 }
 
@@ -92,59 +85,26 @@ TEST_CASE("contact: on a surface too small for the sole its place is near the mi
   }
 }
 
-TEST_CASE("free: no stiffness and no moment of this end-effector, whatever the others do") {
-  for (ddp::Model model : kModels) {
-    const ddp::Problem problem = workshop(phases(6, model));
-    const ddp::Layout& at = problem.layout;
-    VectorXd u = VectorXd::Ones(at.nu());
-    Rows rows(at.nz(), true);
-    free_cost(problem, u, 1, 3.0, rows);
-    CHECK(rows.cost() == doctest::Approx(0.5 * 9.0 * 4));  // one stiffness, three moments
-    u[at.stiffness(1)] = 0.0;
-    for (int i = 0; i < at.moment_count(); ++i)
-      if (at.moments()[i].end_effector == 1) u[at.moment(i)] = 0.0;
-    rows.clear();
-    free_cost(problem, u, 1, 3.0, rows);
-    CHECK(rows.cost() == 0.0);
-  }
-}
-
-TEST_CASE("a free end-effector is kept out of the solids, at their outline and down to twice their thickness") {
+TEST_CASE("contact: after a caught edge the soles of feet, not the points of hands, stand further inside") {
   const ddp::Problem problem = workshop();
   const ddp::Layout& at = problem.layout;
-  const Writer keep_out = [&](const VectorXd& x, const VectorXd&, Rows& rows) {
-    keep_out_cost(problem, x, 1, 3.0, rows);
-  };
-  check_rows(problem, keep_out, 52, 0.3, 10);
-  const auto price = [&](const Vector3d& position_W) {
+  const ddp::Pendulum pendulum(at, problem.inertia, problem.options.stiffness_input, problem.model);
+  const int index = ddp::cost_term_index("contact");
+  const std::vector<ddp::Instant> none;
+  const auto overstepped = [&](int l, int surface, double toe_room) {
+    ddp::Schedule schedule;
+    schedule.tuning.toe_room = toe_room;
     VectorXd x = VectorXd::Zero(at.nx());
-    x.segment<3>(at.end(1)) = position_W / 0.7;
-    return cost(problem, keep_out, x, VectorXd()) / (0.5 * 3.0 * 3.0);
+    const Vector3d edge = problem.scene.surfaces[surface].vertices_W[1] / 0.7;
+    x.segment<3>(at.end(l)) = edge + Vector3d(-0.01, l == 2 ? 0.1 : 1.0, 0.0);
+    Rows rows(at.nz(), false);
+    const ddp::StepView step{problem, pendulum, schedule, 2, x, nullptr, none, l, surface};
+    rows.begin(index);
+    ddp::cost_terms()[static_cast<std::size_t>(index)]->write(step, rows);
+    return rows.cost() > 0.0;
   };
-  CHECK(price({0.0, 0.0, 0.01}) == 0.0);
-  CHECK(price({0.0, 0.0, -0.07}) == doctest::Approx(0.01));
-  CHECK(price({0.0, 0.0, -0.11}) == 0.0);                    // below the solid
-  CHECK(price({0.9, 0.0, -0.07}) == 0.0);                    // in the gap
-  CHECK(price({0.9, -0.4, 0.43}) == doctest::Approx(0.01));  // a foot in a pad
-}
-
-TEST_CASE("a contact change costs a constant per end-effector, except in the paper's form") {
-  ddp::Options options = phases(6);
-  options.weights.contact_change = 3.0;
-  const ddp::Problem ours = workshop(options);
-  CHECK(contact_change_cost(ours, {0, 0, -1, -1}, {0, 0, -1, -1}) == 0.0);
-  CHECK(contact_change_cost(ours, {0, 0, -1, -1}, {0, -1, 2, -1}) == 9.0);
-  CHECK(contact_change_cost(ours, {{0, 0, -1, -1}, {0, -1, -1, -1}, {0, 1, -1, -1}}) == 9.0);
-  options.method = ddp::Method::paper;
-  CHECK(contact_change_cost(workshop(options), {0, 0, -1, -1}, {0, -1, 2, -1}) == 0.0);
-}
-
-TEST_CASE("flight costs a constant, except in the paper's form") {
-  ddp::Options options = phases(6);
-  options.weights.flight = 3.0;
-  const ddp::Problem ours = workshop(options);
-  CHECK(flight_cost(ours, {-1, -1, -1, -1}) == 4.5);
-  CHECK(flight_cost(ours, {-1, -1, -1, left_pad}) == 0.0);
-  options.method = ddp::Method::paper;
-  CHECK(flight_cost(workshop(options), {-1, -1, -1, -1}) == 0.0);
+  CHECK_FALSE(overstepped(0, before, 0.0));
+  CHECK(overstepped(0, before, 0.05));
+  CHECK_FALSE(overstepped(2, right_pad, 0.0));
+  CHECK_FALSE(overstepped(2, right_pad, 0.05));
 }

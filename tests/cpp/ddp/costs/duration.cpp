@@ -5,21 +5,17 @@ namespace {
 
 using namespace support;
 
-Writer duration_at(const ddp::Problem& problem, int k) {
-  return [&problem, k](const VectorXd&, const VectorXd& u, Rows& rows) { duration_cost(problem, k, u, rows); };
-}
-
 double price(const ddp::Problem& problem, int k, double h) {
   VectorXd u = VectorXd::Zero(problem.layout.nu());
   u[problem.layout.duration()] = h;
-  return cost(problem, duration_at(problem, k), VectorXd(), u);
+  return cost(problem, term(problem, "duration", {k}), VectorXd(), u);
 }
 
 }  // namespace
 
 TEST_CASE("duration cost: gradients") {
   const ddp::Problem problem = workshop();
-  check_rows(problem, duration_at(problem, 2), 42, 2.0, 20);
+  check_rows(problem, term(problem, "duration", {2}), 42, 2.0, 20);
 }
 
 TEST_CASE("durations tend to the middle of their box and are held inside it") {

@@ -14,9 +14,7 @@ enum { before, after, right_pad, left_pad, slope };
 constexpr double kContactWeight = 3.0, kYaw = 0.6;
 
 Writer pressure_of(const ddp::Problem& problem, int l, int surface) {
-  return [&problem, l, surface](const VectorXd& x, const VectorXd& u, Rows& rows) {
-    pressure_cost(problem, x, u, l, surface, kYaw, kContactWeight, rows);
-  };
+  return term(problem, "pressure", {2, l, surface, kContactWeight, 0.0, kYaw});
 }
 
 /// Price of a centre of pressure `offset` from the left foot, which stands at `foot` (non-dimensional).

@@ -5,9 +5,9 @@ namespace {
 using namespace support;
 
 Writer task_at(const ddp::Problem& problem, int k, bool discovering = false) {
-  return [&problem, k, discovering](const VectorXd& x, const VectorXd& u, Rows& rows) {
-    task_cost(problem, k, x, k == problem.steps ? nullptr : &u, discovering, rows);
-  };
+  About about{k};
+  about.discovering = discovering;
+  return term(problem, "task", about);
 }
 
 /// Weights that can be told apart.
@@ -105,5 +105,22 @@ TEST_CASE("contact wrenches are held near the paper's model, harder while the se
       CHECK(weight.input(at.force_line(2) + 2) == doctest::Approx(47 * stiffer));
       CHECK(weight.input(at.moment(1)) == doctest::Approx(31));
       CHECK(weight.input(at.duration()) <= 1e-10);
+    }
+}
+
+TEST_CASE("plans that a controller follows keep upright and centred, however much of the sole they may use") {
+  const ddp::Options options = distinct(ddp::Model::wrench);
+  for (double share : {1.0, 0.999999, 0.75})
+    for (bool tracked : {false, true}) {
+      mcplan::Robot robot = scenes::humanoid44();
+      robot.pressure_share = share;
+      robot.tracked = tracked;
+      const ddp::Problem problem(scenes::flat(), robot, options);
+      const ddp::Layout& at = problem.layout;
+      const Weighed weight{problem, 3};
+      CHECK(weight.state(at.angle(1)) == doctest::Approx(tracked ? 370 : 37));
+      CHECK(weight.state(at.momentum(2)) == doctest::Approx(tracked ? 410.0 / 3.0 : 41));
+      CHECK(weight.input(at.pressure(1)) == doctest::Approx(tracked ? 172 : 43));
+      CHECK(weight.input(at.force_line(1)) == doctest::Approx(tracked ? 470.0 / 3.0 : 47));
     }
 }

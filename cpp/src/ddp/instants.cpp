@@ -1,4 +1,4 @@
-#include "mcplan/ddp/costs/costs.hpp"
+#include "mcplan/ddp/instants.hpp"
 
 namespace mcplan::ddp {
 

@@ -1,4 +1,4 @@
-#include "check_rows.hpp"
+#include "costs/check_rows.hpp"
 
 namespace {
 

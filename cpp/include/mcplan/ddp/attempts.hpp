@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "mcplan/base/deadline.hpp"
+#include "mcplan/ddp/best_plan.hpp"
+#include "mcplan/ddp/problem.hpp"
+#include "mcplan/ddp/search.hpp"
+
+namespace mcplan::ddp {
+
+/// The attempts at one problem: from several first guesses, then with other tunings until the checker accepts a plan.
+/// What they find goes to a BestPlan. The problem itself does not change.
+class Attempts {
+ public:
+  /// `surfaces`: which of the user's scene the problem has. Keeps references to the others.
+  Attempts(Problem&& problem, std::vector<int> surfaces, const Deadline& deadline, BestPlan& best, Report& report);
+  Attempts(const Attempts&) = delete;
+  Attempts& operator=(const Attempts&) = delete;
+
+  const Problem& problem() const { return problem_; }
+
+  /// Attempt and restart; `warm` is an earlier plan to begin with, or null.
+  Status run(const Incumbent* warm);
+
+ private:
+  struct Guess {
+    Incumbent start;
+    double discover_with = 0.0;  ///< proximal weight of a discovery before the polish; 0: the sequence is kept
+  };
+  Incumbent first_guess(const ContactSequence& sequence, const Tuning& tuning) const;
+  Incumbent at_once(const ContactSequence& sequence);
+  ContactSequence initial(Status& status);
+  std::vector<Guess> guesses(const Incumbent& start, const Incumbent* warm) const;
+  Status attempt(std::vector<Guess> guesses, const Tuning& tuning);
+  Incumbent cheapest(std::vector<Guess>& guesses, const Tuning& tuning, Status& status);
+  Status restart(Status status, const ContactSequence& initial);
+  double further_inside() const;
+  void keep(const Incumbent& now, const Tuning& tuning) { best_->keep(search_, surfaces_, now, tuning); }
+  void finish(Incumbent now, const Tuning& tuning) { best_->finish(search_, surfaces_, std::move(now), tuning); }
+
+  const Problem problem_;
+  const std::vector<int> surfaces_;
+  const Tuning first_;  ///< tuning of the first attempt
+  const Deadline* deadline_;
+  BestPlan* best_;
+  Search search_;
+  Incumbent last_;  ///< of the last attempt, before its contacts were made exact
+};
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,179 @@
+#pragma once
+
+#include <cstddef>
+
+/// The numbers that steer the search and are no options, each with where it comes from: "measured" points to the page
+/// with the figures (docs/theory/ddp.md unless another one is named), "chosen" says that no other value was compared.
+/// Tolerances of rounding stay beside what they guard. Lengths and times that carry a unit are those of a robot of
+/// human size (robot/similarity.hpp).
+namespace mcplan::ddp {
+
+// The problem.
+
+/// Penalties settle slightly outside their bounds, so friction is planned smaller than the surface's by this, ...
+/// Measured: 0.67 for 0.7 costs nothing ("Deviations").
+constexpr double kFrictionMargin = 0.02;
+/// ... down to this ratio of the surface's coefficient. Chosen.
+constexpr double kFrictionRatioMin = 0.5;
+/// Footholds and centres of pressure are planned this far inside their polygon [m]. Chosen, for the same reason.
+constexpr double kEdgeMargin_m = 0.002;
+/// A sole that finds no room is kept to the middle of its surface, down to this ratio of the width from either edge,
+/// the less the wider it is: less would leave it on its toes, 0.5 would leave no choice. Chosen.
+constexpr double kNarrow = 0.35;
+/// An end-effector faces a surface when the cosine between its nominal position and the normal is larger. Chosen, about
+/// 45 degrees ("State and input").
+constexpr double kFacing = 0.7;
+/// A force cap above this many weights would not bind; it also stands for "no cap". Chosen.
+constexpr double kForceCapMax = 10.0;
+/// Depth below a surface down to which a free end-effector is pushed up, in thicknesses of the solid. Chosen: one that
+/// crossed the solid between two knots is still noticed.
+constexpr double kKeepOutDepth = 2.0;
+/// First guess of all durations with Model::lipm [s]: what the paper's model was measured from, of its author's box.
+constexpr double kLipmDuration_s = 0.45;
+/// Number of phases: the paper's, and the largest that is taken without being asked for (chosen).
+constexpr int kPaperPhases = 18, kPhasesMax = 400;
+/// Friction coefficient that stands for any larger one where a stride is judged. Chosen.
+constexpr double kStrideFrictionMax = 10.0;
+
+// Weights that are no options.
+
+/// On the state at the start, which is a fact. Chosen: above all weights of the paper.
+constexpr double kPinned = 1000.0;
+/// Factor on the weight of the base's angles while discovering, and of robots that are tracked. Measured ("Task").
+constexpr double kFirmAngle = 10.0;
+/// The same on angular momentum and force lines. Measured ("Task"): 0.3 becomes 1.
+constexpr double kFirm = 10.0 / 3.0;
+/// On centres of pressure of robots that are tracked. Measured on g1, stepping_stones: it falls with 1.
+constexpr double kCentred = 4.0;
+/// Merit = cost + this times the sum of the defects. Chosen: an exact penalty where it exceeds the multipliers.
+constexpr double kDefectPenalty = 30.0;
+/// Of the limits in the last polish, over Weights::limit: what is left of a violation comes below the checker's
+/// tolerance, since it falls with the square of the weight. Chosen.
+constexpr double kHardening = 4.0;
+
+// Iterations of all stages.
+
+/// Range of the proximal weight. Chosen; weights of 3 to 100 work, below 1 usually not (measured, "Deviations").
+constexpr double kProximalMin = 0.1, kProximalMax = 1e6;
+/// Factor on the proximal weight when a factorisation fails. Chosen.
+constexpr double kProximalRetry = 10.0;
+/// With the sequence frozen: times this after a step of at least that length, ... Chosen, as are the next two.
+constexpr double kProximalFall = 0.7, kFullStep = 0.99;
+/// ... times this after one shorter than that.
+constexpr double kProximalRise = 4.0, kShortStep = 0.2;
+/// The line search halves the step until it is no longer than this. Chosen.
+constexpr double kStepEnd = 1.0 / 64.0;
+/// A switch must lower the cost by this fraction, so that two sequences of equal cost do not alternate. Chosen.
+constexpr double kSwitchGain = 1e-4;
+constexpr int kSwitchesPerIteration = 6;  ///< chosen
+
+// Discovery.
+
+/// Iterations after the contact weight has reached its maximum. Chosen.
+constexpr int kFreeAtFullWeight = 25;
+/// Proximal weight of the second discovery over the first one's: shorter steps lead to other sequences. Chosen.
+constexpr double kSecondDiscovery = 4.0;
+/// States a step that the first sequence's dynamic programming keeps. Chosen: bounds it on large scenes.
+constexpr std::size_t kBeam = 4000;
+/// Ratio of what is left of the time limit that it may take; after that a walk in turns takes its place. Chosen.
+constexpr double kInitialShare = 0.3;
+/// States between two questions whether to stop, and such questions between two calls of the user's. Chosen: a stop
+/// request may take longer than a look at the clock.
+constexpr int kStatesPerPoll = 32, kPollsPerRequest = 16;
+
+// Polish.
+
+/// First proximal weight, before and from refinement on. Chosen.
+constexpr double kPolishProximal = 10.0, kTrialProximal = 3.0;
+/// Iterations of a guess, and of the last polish. Chosen.
+constexpr int kPolishIterations = 60, kFinalIterations = 120;
+/// Converged when the merit changes by less than this fraction, of a guess and in the last polish, ... Chosen, as are
+/// the next two.
+constexpr double kRoughCalm = 1e-3, kFinalCalm = 1e-4;
+/// ... so many times running with no defect above that.
+constexpr int kCalmIterations = 3;
+constexpr double kCalmDefect = 1e-4;
+/// Progress comes in bursts, so it is judged over so many iterations, and extrapolated by so many times as many.
+/// Chosen.
+constexpr int kWindow = 5;
+constexpr double kWindowsAhead = 3.0;
+
+// Refinement.
+
+/// Iterations of a trial, trials before a local optimum is declared, rounds. Chosen.
+constexpr int kTrialIterations = 20, kTrials = 10, kRefineRounds = 30;
+/// Fraction by which a trial must lower the merit. Chosen.
+constexpr double kTrialGain = 2e-3;
+/// Riccati steps beyond which the whole-sequence move is left out. Chosen.
+constexpr std::size_t kWholeSequenceBudget = 1000;
+/// Steps by which a swing is moved, and steps between two swings that may be exchanged. Chosen.
+constexpr int kSwingShifts[] = {-2, -1, 1, 2}, kExchangeSteps = 6;
+/// Candidates from which on threads save more than they cost. Measured; the paper found the same.
+constexpr std::size_t kWorthThreads = 400;
+
+// Exact contacts.
+
+/// Weight on what is held: far above all others (1e6 at most), low enough to leave the factorisation its digits.
+constexpr double kHeld = 1e10;
+/// The stiff costs count a little, so that the change avoids the limits, but not so much that it runs through the
+/// inputs that are soft (durations above all) beyond where the linear model holds. Chosen.
+constexpr double kCostShare = 1e-3;
+/// Ratio of the least torsion of a phase that moments are cut to: the steps still change it. Chosen.
+constexpr double kTorsionSpare = 0.9;
+/// Defects that count as closed, and Newton steps for it: quadratic from 1e-3 on, but every input that meets its bound
+/// costs a step. Chosen.
+constexpr double kExactDefect = 1e-13;
+constexpr int kExactSteps = 30;
+
+// Restarts and statuses.
+
+/// Proximal weight and first guess of the durations [s] of the restarts. Chosen: what the outcome depends on most
+/// (docs/robustness.md).
+struct RestartSetting {
+  double proximal_weight, duration_s;
+};
+constexpr RestartSetting kRestarts[] = {{10.0, 0.30}, {100.0, 0.40}, {30.0, 0.35},
+                                        {10.0, 0.45}, {100.0, 0.30}, {30.0, 0.50}};
+/// How much further inside footholds go, each time a swing has caught an edge: a ratio of the longest half sole, so
+/// that the second time the whole sole stands clear of the next riser, and at least so much [m]. Measured
+/// ("Deviations"): 300 random scenes solved, 289 without.
+constexpr double kClearanceShare = 0.6, kClearanceMin_m = 0.04;
+/// Where soles are kept on their surface anyway, a toe's room is enough [m]. Measured likewise.
+constexpr double kToeRoom_m = 0.03;
+/// A violation within this factor of its tolerance is called acceptable, beyond it infeasible. Chosen.
+constexpr double kAcceptable = 10.0;
+
+// Method::paper.
+
+/// Without a proximal term the published algorithm diverges on every scene. Measured ("Paper mode").
+constexpr double kPaperProximal = 10.0;
+/// The paper counts about 50 iterations to convergence and reports averages over 100.
+constexpr int kPaperIterations = 60;
+
+// Scenes of many surfaces.
+
+/// Of the first and the second search: surfaces within so many reaches of the way, and the nearest ones among which a
+/// contact is looked for. Chosen: all surfaces of the built-in scenes lie within the first ("Many surfaces").
+constexpr double kOutlookReach[] = {1.0, 4.0};
+constexpr int kOutlookNearest[] = {32, 128};
+
+// Time limits and plans.
+
+/// Instants at which iterates are checked: so many in all, and so many a phase, fewer once the time is over. Chosen.
+constexpr double kLookInstants = 400.0, kLookInstantsPerPhase = 3.0, kLookInstantsPerPhaseLate = 1.0;
+/// Rounds that Newton's method takes at least to make the first iterate exact, from a defect of a tenth to rounding:
+/// 1e-1, 1e-2, 1e-4, 1e-8, 1e-16.
+constexpr double kExactRoundsMin = 4.0;
+/// The first iterate may be made exact for so long after the limit [s]: the only plan there is. Chosen.
+constexpr double kGrace_s = 0.01;
+/// The search goes on for this many times as long as looking took, a time more after each look. Chosen.
+constexpr int kPauseMax = 8;
+/// Once there is a plan that the checker accepts, only one of so much less merit is looked at. Chosen.
+constexpr double kCheaper = 0.9;
+/// With less left of a phase [s] the next one starts at once. Chosen.
+constexpr double kReplanRest_s = 0.02;
+/// Durations have a soft bound only: an iterate that is stopped early may have one below zero, which no plan can have
+/// [s]. Chosen.
+constexpr double kPhaseMin_s = 1e-3;
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,185 @@
+#include "mcplan/ddp/attempts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <random>
+#include <utility>
+
+#include "mcplan/ddp/constants.hpp"
+#include "mcplan/ddp/initial_sequence.hpp"
+#include "mcplan/ddp/stepping_sequence.hpp"
+
+namespace mcplan::ddp {
+
+Attempts::Attempts(Problem&& problem, std::vector<int> surfaces, const Deadline& deadline, BestPlan& best,
+                   Report& report)
+    : problem_(std::move(problem)),
+      surfaces_(std::move(surfaces)),
+      first_(problem_.tuning()),
+      deadline_(&deadline),
+      best_(&best),
+      search_(problem_, deadline, report) {
+  if (deadline.limited()) search_.watch([this](const Incumbent& now, const Tuning& tuning) { keep(now, tuning); });
+}
+
+/// Polish every guess, those without a sequence of their own after a discovery. The cheapest, empty when all of them
+/// broke down.
+Incumbent Attempts::cheapest(std::vector<Guess>& guesses, const Tuning& tuning, Status& status) {
+  Incumbent chosen;
+  double lowest = std::numeric_limits<double>::infinity();
+  bool stepping_ahead = false;
+  for (std::size_t i = 0; i < guesses.size() && status == Status::solved; ++i) {
+    const bool discover = guesses[i].discover_with > 0.0;
+    // The stepping sequences differ in who begins: when the first of them is ahead, the other is no better.
+    if (!discover && stepping_ahead) break;
+    Incumbent& now = guesses[i].start;
+    if (discover) status = search_.discover(now, guesses[i].discover_with, tuning);
+    if (status == Status::solved) status = search_.polish(now, kPolishIterations, kRoughCalm, lowest, tuning);
+    // A guess that breaks down numerically is dropped, the others may still do.
+    if (status == Status::numerical_failure) {
+      status = Status::solved;
+      continue;
+    }
+    const double merit = search_.evaluate(now, tuning).merit();
+    if (!std::isfinite(merit) || merit >= lowest) continue;
+    lowest = merit;
+    stepping_ahead = !discover;
+    chosen = std::move(now);
+  }
+  return chosen;
+}
+
+/// Refine the cheapest of the guesses and finish it.
+Status Attempts::attempt(std::vector<Guess> guesses, const Tuning& tuning) {
+  Status status = Status::solved;
+  Incumbent chosen = cheapest(guesses, tuning, status);
+  if (chosen.sequence.empty()) return status == Status::solved ? Status::numerical_failure : status;
+  if (status == Status::solved) status = search_.refine(chosen, tuning);
+  if (status == Status::solved) {
+    // Limits are penalties: harder ones at the end bring what is left of a violation below the checker's tolerance.
+    Tuning hard = tuning;
+    hard.limit_weight *= kHardening;
+    const double never = std::numeric_limits<double>::infinity();
+    status = search_.polish(chosen, kFinalIterations, kFinalCalm, never, hard);
+  }
+  last_ = chosen;
+  // Out of time there is a plan already, and none for another one.
+  if (status != Status::time_limit || !best_->best()) finish(std::move(chosen), tuning);
+  return status;
+}
+
+Incumbent Attempts::first_guess(const ContactSequence& sequence, const Tuning& tuning) const {
+  Incumbent guess;
+  guess.trajectory = problem_.initial_guess(sequence, tuning);
+  guess.sequence = sequence;
+  return guess;
+}
+
+/// What there is when time is up before the first iteration: end-effectors where they are due and the weight on those
+/// that stand, by the sequence or in turns.
+Incumbent Attempts::at_once(const ContactSequence& sequence) {
+  Incumbent best_guess = first_guess(sequence, first_);
+  if (!problem_.options.initial_sequence.empty()) return best_guess;
+  double lowest = search_.evaluate(best_guess, first_).merit();
+  for (int mover : {0, 1}) {
+    const ContactSequence stepping = stepping_sequence(problem_, mover);
+    if (stepping.empty()) continue;
+    Incumbent guess = first_guess(stepping, first_);
+    const double merit = search_.evaluate(guess, first_).merit();
+    if (!(merit < lowest)) continue;
+    lowest = merit;
+    best_guess = std::move(guess);
+  }
+  return best_guess;
+}
+
+/// The contact sequence that the search begins with; where finding it takes too long, end-effectors in turns.
+ContactSequence Attempts::initial(Status& status) {
+  const Options& options = problem_.options;
+  if (!options.initial_sequence.empty()) return problem_.to_active(options.initial_sequence);
+  const Trajectory guess = problem_.initial_guess({}, first_);
+  Schedule schedule;
+  schedule.tuning = first_;
+  schedule.contact_weight = options.weights.contact_min;
+  search_.model().expand(guess, schedule);
+  bool stopped = false;
+  int looks = 0;
+  const double until_s = deadline_->elapsed_s() + kInitialShare * std::max(deadline_->remaining_s(), 0.0);
+  ContactSequence found = initial_sequence(search_.model(), kBeam, [&] {
+    if (++looks % kPollsPerRequest == 0 && options.stop && options.stop()) status = Status::interrupted;
+    return stopped = status == Status::interrupted || deadline_->elapsed_s() >= until_s;
+  });
+  for (int mover : {0, 1})
+    if (stopped && found.empty()) found = stepping_sequence(problem_, mover);
+  if (!found.empty()) return found;
+  if (status != Status::interrupted) status = stopped ? Status::time_limit : Status::no_sequence;
+  return {};
+}
+
+std::vector<Attempts::Guess> Attempts::guesses(const Incumbent& start, const Incumbent* warm) const {
+  const Options& options = problem_.options;
+  if (warm) return {{*warm}};
+  if (!options.initial_sequence.empty()) return {{first_guess(start.sequence, first_)}};
+  // Shorter and longer steps lead to other sequences; the better one goes on.
+  std::vector<Guess> out{{start, options.proximal_weight}, {start, kSecondDiscovery * options.proximal_weight}};
+  for (int mover : {0, 1}) {
+    const ContactSequence stepping = stepping_sequence(problem_, mover);
+    if (!stepping.empty()) out.push_back({first_guess(stepping, first_)});
+  }
+  return out;
+}
+
+/// How much further inside footholds go when a swing has caught an edge.
+double Attempts::further_inside() const {
+  const Options& options = problem_.options;
+  const Robot& robot = problem_.robot;
+  const double on_surface = options.sole_inside < 0.0 ? robot.sole_support : options.sole_inside;
+  double further_m = (on_surface >= 1.0 ? kToeRoom_m : kClearanceMin_m) * problem_.similarity.length;
+  for (const EndEffector& end : robot.end_effectors)
+    if (on_surface < 1.0) further_m = std::max(further_m, kClearanceShare * end.half_size.maxCoeff());
+  return further_m / problem_.units.length;
+}
+
+/// Other settings of what the outcome depends on most, in an order drawn from the seed, until a plan is accepted.
+Status Attempts::restart(Status status, const ContactSequence& initial) {
+  const Problem& p = problem_;
+  std::vector<RestartSetting> settings(std::begin(kRestarts), std::end(kRestarts));
+  std::mt19937_64 random(p.options.seed);
+  for (std::size_t i = settings.size(); i > 1; --i) std::swap(settings[i - 1], settings[random() % i]);
+  Tuning tuning = first_;
+  for (int i = 0; i < p.options.restarts && !best_->ok(); ++i) {
+    if (status != Status::solved && status != Status::numerical_failure) break;
+    const auto [proximal, duration_s] = settings[static_cast<std::size_t>(i) % settings.size()];
+    tuning.duration_initial = std::clamp(duration_s * p.similarity.time / p.units.time, p.duration_min, p.duration_max);
+    Incumbent again = first_guess({}, tuning);
+    again.sequence = initial;
+    std::vector<Guess> others{{again, proximal}};
+    // A foot too close to the next step catches it with its toe: the same motion with footholds further inside.
+    if (best_->best() && best_->best()->worst.name == "clearance" && !last_.sequence.empty()) {
+      tuning.toe_room += further_inside();
+      others.insert(others.begin(), Guess{last_});
+    }
+    status = attempt(std::move(others), tuning);
+  }
+  return status;
+}
+
+Status Attempts::run(const Incumbent* warm) {
+  Status status = Status::solved;
+  const ContactSequence sequence = initial(status);
+  if (sequence.empty()) return status;
+  Incumbent start = first_guess({}, first_);
+  start.sequence = sequence;
+  if (deadline_->limited()) keep(warm ? *warm : at_once(sequence), first_);
+  const Options& options = problem_.options;
+  if (options.method == Method::paper) {
+    status = search_.run_paper(start, std::min(kPaperIterations, options.max_iterations), first_);
+    if (status != Status::numerical_failure && (status != Status::time_limit || !best_->best())) finish(start, first_);
+    return status;
+  }
+  return restart(attempt(guesses(start, warm), first_), sequence);
+}
+
+}  // namespace mcplan::ddp

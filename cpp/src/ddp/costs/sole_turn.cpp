@@ -1,0 +1,40 @@
+#include "mcplan/ddp/cost_terms.hpp"
+
+namespace mcplan::ddp {
+namespace {
+
+/// Turn of the sole against the base within the end-effector's yaw_range at every instant: yaw_min <= yaw_l - yaw <=
+/// yaw_max. Not in the paper.
+class SoleTurn final : public CostTerm {
+ public:
+  SoleTurn() : CostTerm("sole_turn", Scope::contact, 40) {}
+
+  bool applies(const StepView& step) const override { return step.between_knots(); }
+
+  void write(const StepView& step, Rows& rows) const override {
+    const EndLimits& limit = step.problem.limits[step.l];
+    const double weight = step.schedule.interior_weight;
+    for (const Instant& instant : step.instants) {
+      const double turn = step.sole_yaw - instant.rpy.z();
+      const double beyond = turn < limit.yaw_min   ? turn - limit.yaw_min
+                            : turn > limit.yaw_max ? turn - limit.yaw_max
+                                                   : 0;
+      if (beyond == 0.0) continue;
+      if (!rows.with_gradient())
+        rows.add_value(weight, beyond);
+      else
+        instant.add_along(Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ(), rows.add_dense(weight, beyond));
+    }
+  }
+};
+
+}  // namespace
+
+namespace cost {
+const CostTerm& sole_turn() {
+  static const SoleTurn term;
+  return term;
+}
+}  // namespace cost
+
+}  // namespace mcplan::ddp

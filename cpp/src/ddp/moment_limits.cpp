@@ -1,0 +1,22 @@
+#include "mcplan/ddp/moment_limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mcplan::ddp {
+
+double torsion_arm(const Problem& problem, int l, int surface) {
+  const double friction = problem.friction[surface];
+  // Point contacts have no sole to judge by; their max_moment alone counts.
+  if (std::isinf(friction) || problem.limits[l].half_width <= 0.0) return std::numeric_limits<double>::infinity();
+  return std::min(friction, 1.0) * problem.limits[l].half_width;
+}
+
+bool about_normal(const Problem& problem, const Layout::Moment& moment, int surface) {
+  constexpr double kAlong = 1.0 - 1e-9;
+  return problem.model == Model::lipm ||
+         std::abs(moment.direction_W.dot(problem.polygons[surface].normal_W())) >= kAlong;
+}
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mcplan/base/rotation.hpp"
+#include "mcplan/ddp/constants.hpp"
+#include "mcplan/ddp/problem.hpp"
+
+/// What the search is to stay near, and what it begins with.
+namespace mcplan::ddp {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// As many steps as the end-effectors that stand need to cover the way, level and up, one after the other, a swing and
+/// a phase of full support each; at least the paper's 18. The stride is what the reach box allows, in the paper's model
+/// inside the friction cone, since forces point at the CoM there.
+int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const {
+  double strides = 0.0;
+  for (std::size_t l = 0; l < active.size(); ++l) {
+    const int e = active[l];
+    if (from.contacts[e] == kFree || to.contacts[e] == kFree) continue;
+    double tangent = 0.0;
+    for (int surface : rules.surfaces(static_cast<int>(l))) tangent = std::max(tangent, friction[surface]);
+    const EndLimits& limit = limits[l];
+    const double spread = std::min(tangent, kStrideFrictionMax) * std::abs(limit.nominal.z());
+    const double ahead = model == Model::wrench
+                             ? std::numeric_limits<double>::infinity()
+                             : std::sqrt(std::max(spread * spread - limit.nominal.y() * limit.nominal.y(), 0.0));
+    const double stride = std::min(limit.reach_max.x(), ahead) - std::max(limit.reach_min.x(), -ahead);
+    const Vector3d way = (to.end_effectors_W[e] - from.end_effectors_W[e]) / units.length;
+    const double level = stride > 0.0 ? way.head<2>().norm() / stride : 0.0;
+    const double up = std::abs(way.z()) / (limit.reach_max.z() - limit.reach_min.z());
+    strides += std::ceil(std::min(std::max(level, up) - 1e-9, 1e3));
+  }
+  return std::clamp(2 * static_cast<int>(strides) + 2, kPaperPhases, kPhasesMax);
+}
+
+/// Cubic from start to goal, at rest at both ends (Tazaki, sec. III-A), tied to the step index. End-effectors keep
+/// their place relative to the base where that turns.
+void Problem::make_reference(const VectorXd& goal) {
+  const double total = steps * duration_initial;
+  const double yaw_from = rpy(start).z(), yaw_to = rpy(goal).z();
+  const auto level = [](double yaw) { return rotation_from_rpy({0.0, 0.0, yaw}); };
+  const VectorXd way = goal - start;
+  reference.x.clear();
+  for (int k = 0; k <= steps; ++k) {
+    const double s = static_cast<double>(k) / steps, blend = s * s * (3.0 - 2.0 * s);
+    VectorXd x = start + blend * way;
+    const double rate = 6.0 * s * (1.0 - s) / total;
+    x.segment<3>(layout.velocity()) = rate * way.segment<3>(layout.com());
+    for (int a = 0; a < layout.axis_count(); ++a)
+      x[layout.momentum(a)] = inertia[layout.axes()[a]] * rate * way[layout.angle(a)];
+    if (yaw_from != yaw_to)
+      for (int l = 0; l < layout.ends(); ++l) {
+        const auto offset = [&](const VectorXd& at, double yaw) -> Vector3d {
+          return level(yaw).transpose() * (at.segment<3>(layout.end(l)) - at.segment<3>(layout.com()));
+        };
+        const Vector3d from = offset(start, yaw_from), to = offset(goal, yaw_to);
+        x.segment<3>(layout.end(l)) =
+            x.segment<3>(layout.com()) + level(yaw_from + blend * (yaw_to - yaw_from)) * (from + blend * (to - from));
+      }
+    reference.x.push_back(x);
+  }
+}
+
+void Problem::set_sole_yaw(const ContactSequence& sequence, Trajectory& t) const {
+  t.sole_yaw.assign(steps + 1, std::vector<double>(layout.ends()));
+  for (int l = 0; l < layout.ends(); ++l)
+    for (int k = 0; k <= steps; ++k) {
+      t.sole_yaw[k][l] = rpy(t.x[k]).z();
+      if (sequence[k][l] == kFree) continue;
+      // Phases first..k are one contact, which holds the knots first..last_knot.
+      const int first = k;
+      while (k < steps && sequence[k + 1][l] == sequence[first][l]) ++k;
+      const int last_knot = std::min(k + 1, steps);
+      double yaw = 0.0;
+      for (int j = first; j <= last_knot; ++j) yaw += rpy(t.x[j]).z() / (last_knot - first + 1);
+      if (k == steps) yaw = goal_yaw;
+      if (first == 0) yaw = start_yaw[l];
+      for (int j = first; j <= k; ++j) t.sole_yaw[j][l] = yaw;
+    }
+}
+
+/// Footholds where the reference is in the middle of each contact, straight lines between them.
+void Problem::place_footholds(const ContactSequence& sequence, Trajectory& guess) const {
+  for (int l = 0; l < layout.ends(); ++l) {
+    int known = 0;  // the last knot whose position stands
+    for (int k = 0; k <= steps; ++k) {
+      if (sequence[k][l] == kFree) continue;
+      const int first = k;
+      while (k < steps && sequence[k + 1][l] == sequence[k][l]) ++k;
+      const int last = std::min(k + 1, steps);
+      const int middle = last == steps ? steps : (first + last) / 2;
+      Vector3d foothold = guess.x[first].segment<3>(layout.end(l));
+      if (first > 0) foothold = polygons[sequence[k][l]].nearest(reference.x[middle].segment<3>(layout.end(l)));
+      const Vector3d before = guess.x[known].segment<3>(layout.end(l));
+      for (int j = known + 1; j < first; ++j)
+        guess.x[j].segment<3>(layout.end(l)) = before + (foothold - before) * (j - known) / (first - known);
+      for (int j = first; j <= last; ++j) guess.x[j].segment<3>(layout.end(l)) = foothold;
+      known = last;
+    }
+  }
+}
+
+Trajectory Problem::initial_guess(const ContactSequence& sequence, const Tuning& tuning) const {
+  Trajectory guess = reference;
+  if (!sequence.empty()) place_footholds(sequence, guess);
+  for (int k = 0; k < steps; ++k) {
+    VectorXd u = VectorXd::Zero(layout.nu());
+    int standing = 0;
+    if (!sequence.empty())
+      for (int contact : sequence[k]) standing += contact != kFree;
+    for (int l = 0; l < layout.ends(); ++l) {
+      u.segment<3>(layout.stride(l)) = guess.x[k + 1].segment<3>(layout.end(l)) - guess.x[k].segment<3>(layout.end(l));
+      double mu = 1.0 / layout.ends();
+      if (!sequence.empty()) mu = sequence[k][l] == kFree ? 0.0 : 1.0 / standing;
+      u[layout.stiffness(l)] = options.stiffness_input == StiffnessInput::lambda ? std::sqrt(mu) : mu;
+    }
+    u[layout.duration()] = k == 0 && first_duration > 0.0 ? first_duration : tuning.duration_initial;
+    guess.u.push_back(u);
+  }
+  // Without a sequence every sole goes with the base.
+  set_sole_yaw(sequence.empty() ? ContactSequence(steps + 1, ContactState(layout.ends(), kFree)) : sequence, guess);
+  return guess;
+}
+
+}  // namespace mcplan::ddp
