@@ -32,8 +32,9 @@ from mcplan.files.planar_robots import planar_robot_to_dict
 from mcplan.files.plans import plan_to_bytes
 from mcplan.files.robots import robot_to_dict
 from mcplan.files.scenes import scene_to_dict
-from mcplan.files.toml import toml_text, tomllib
+from mcplan.files.toml import toml_text
 from mcplan.files.whole_body_plans import load_any_plan
+from plain_toml import tomllib
 
 #: Of one mutation [s of the processor], and what all of them may add to the memory in use [KiB].
 MOST_CPU_S, MOST_GROWTH_KIB = 10.0, 600 * 1024

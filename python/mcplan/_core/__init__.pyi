@@ -63,10 +63,14 @@ __all__: list[str] = [
     "WholeBodyState",
     "WholeBodyTolerances",
     "addresses",
+    "built_in",
     "check",
+    "data_folder",
     "ddp",
     "largest_drift",
     "least_norm_gain",
+    "load_robot",
+    "load_scene",
     "may_touch",
     "moment_point_W",
     "nlp",
@@ -75,11 +79,21 @@ __all__: list[str] = [
     "planar_kinematics",
     "planar_point",
     "quat_wxyz_from_rpy",
+    "read_robot",
+    "read_scene",
+    "require_ground",
     "resolve_stance",
     "rhp",
+    "robot_from_dict",
+    "robot_to_dict",
     "rotation_derivative",
     "rotation_from_rpy",
+    "scene_from_dict",
+    "scene_to_dict",
+    "schema_text",
     "sip",
+    "toml_from",
+    "toml_text",
 ]
 
 class Status:
@@ -231,9 +245,11 @@ class Surface:
     A flat patch of the world that end-effectors may touch.
     """
 
-    name: str
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Surface: ...
     def __deepcopy__(self, memo: dict) -> Surface: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
     def __init__(
         self,
         *,
@@ -241,52 +257,64 @@ class Surface:
         vertices_W: typing.Any = (),
         friction: typing.SupportsFloat | typing.SupportsIndex = 0.7,
         grasp: bool = False,
-        end_effectors: collections.abc.Sequence[str] = [],
         thickness: typing.SupportsFloat | typing.SupportsIndex = 0.05,
+        end_effectors: collections.abc.Sequence[str] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def end_effectors(self) -> typing.Any:
         """
-        Names or kinds that may touch it; empty: all.
+        Names or kinds of those that may touch it; empty: all.
         """
     @end_effectors.setter
     def end_effectors(self, arg1: collections.abc.Sequence[str]) -> None: ...
     @property
     def friction(self) -> float:
         """
-        Coulomb coefficient [-].
+        [-] Coulomb coefficient.
         """
     @friction.setter
     def friction(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def grasp(self) -> bool:
         """
-        May be held: no friction cone, the force cap of the end-effector only.
+        May be held: no friction cone, only the end-effector's force cap.
         """
     @grasp.setter
     def grasp(self, arg0: bool) -> None: ...
     @property
+    def name(self) -> str:
+        """
+        Unique name.
+        """
+    @name.setter
+    def name(self, arg0: str) -> None: ...
+    @property
     def thickness(self) -> float:
         """
-        Solid below the surface that swinging end-effectors must clear [m].
+        [m] Solid below the surface that swings must clear.
         """
     @thickness.setter
     def thickness(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def vertices_W(self) -> numpy.ndarray:
         """
-        N x 3 [m], convex, coplanar, counter-clockwise about the outward normal.
+        N x 3 [m] Corners of a convex polygon, world frame, counter-clockwise about the outward normal.
         """
     @vertices_W.setter
     def vertices_W(self, arg1: typing.Any) -> None: ...
 
 class Stance:
     """
-    Where the robot is at the start or the goal; heights come from the robot.
+    Where the robot is at the start or the goal. Heights come from the robot.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Stance: ...
     def __deepcopy__(self, memo: dict) -> Stance: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, typing.Any, typing.Any]: ...
     def __init__(
         self,
         *,
@@ -295,6 +323,7 @@ class Stance:
         contacts: collections.abc.Mapping[str, str] = {},
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def contacts(self) -> typing.Any:
         """
@@ -305,14 +334,14 @@ class Stance:
     @property
     def position_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Point of the ground below the CoM [m].
+        [m] Point of the ground below the CoM, world frame.
         """
     @position_W.setter
     def position_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def yaw(self) -> float:
         """
-        Heading [rad].
+        [rad] Heading.
         """
     @yaw.setter
     def yaw(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -321,12 +350,17 @@ class ContactRule:
     """
     If none of `when_free` is in contact, all of `require` must be.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> ContactRule: ...
     def __deepcopy__(self, memo: dict) -> ContactRule: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, typing.Any]: ...
     def __init__(
         self, *, when_free: collections.abc.Sequence[str] = [], require: collections.abc.Sequence[str] = []
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def require(self) -> typing.Any:
         """
@@ -346,10 +380,15 @@ class Step:
     """
     One step of a walk: the foot that swings and the surface on which it lands.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Step: ...
     def __deepcopy__(self, memo: dict) -> Step: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, typing.Any]: ...
     def __init__(self, *, end_effector: str = "", surface: str = "") -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def end_effector(self) -> str:
         """
@@ -367,13 +406,16 @@ class Step:
 
 class Scene:
     """
-    The world: surfaces, start and goal. World frame W with z up.
+    The world: surfaces, start and goal. World frame W with z up, SI units.
     """
 
-    description: str
-    name: str
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Scene: ...
     def __deepcopy__(self, memo: dict) -> Scene: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(
+        self,
+    ) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
     def __init__(
         self,
         *,
@@ -386,16 +428,23 @@ class Scene:
         rules: collections.abc.Sequence[ContactRule] = [],
         steps: collections.abc.Sequence[Step] = [],
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def surface_index(self, surface_name: str) -> int:
         """
         Index into surfaces, or -1.
         """
     def validate(self) -> None:
         """
-        Raise InvalidScene naming the first field out of its range.
+        Raise InvalidScene naming all that is out of its range.
         """
+    @property
+    def description(self) -> str:
+        """
+        One line.
+        """
+    @description.setter
+    def description(self, arg0: str) -> None: ...
     @property
     def goal(self) -> Stance:
         """
@@ -406,14 +455,21 @@ class Scene:
     @property
     def gravity(self) -> float:
         """
-        [m/s^2]
+        [m/s^2] Acceleration, downwards.
         """
     @gravity.setter
     def gravity(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def name(self) -> str:
+        """
+        Name; of a file that says none, the file's.
+        """
+    @name.setter
+    def name(self, arg0: str) -> None: ...
+    @property
     def rules(self) -> tuple:
         """
-        Tuple of ContactRule; assign a list to add or remove.
+        Tuple: Rules of contacts; assign a list to add or remove.
         """
     @rules.setter
     def rules(self, arg1: collections.abc.Sequence[ContactRule]) -> None: ...
@@ -427,14 +483,14 @@ class Scene:
     @property
     def steps(self) -> tuple:
         """
-        Contact sequence of a walk, for planners that want it given: tuple of Step; assign a list to change it.
+        Tuple: Contact sequence of a walk, for planners that want it given; assign a list to change it.
         """
     @steps.setter
     def steps(self, arg1: collections.abc.Sequence[Step]) -> None: ...
     @property
     def surfaces(self) -> tuple:
         """
-        Tuple of Surface; assign a list to add or remove.
+        Tuple: Surfaces; assign a list to add or remove.
         """
     @surfaces.setter
     def surfaces(self, arg1: collections.abc.Sequence[Surface]) -> None: ...
@@ -443,10 +499,15 @@ class Polytope:
     """
     Convex set {x : A x <= b} [m], rows of A of unit length. Without rows: not given.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Polytope: ...
     def __deepcopy__(self, memo: dict) -> Polytope: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, typing.Any]: ...
     def __init__(self, *, A: typing.Any = (), b: typing.Any = ()) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def A(self) -> numpy.ndarray:
         """
@@ -465,12 +526,30 @@ class Polytope:
 
 class EndEffector:
     """
-    A contact link of the robot. Frame B sits at the CoM and turns with the base.
+    A contact link. Positions relative to the CoM, in axes that turn with the base (x forward, y left, z up).
     """
 
-    name: str
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> EndEffector: ...
     def __deepcopy__(self, memo: dict) -> EndEffector: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(
+        self,
+    ) -> tuple[
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+    ]: ...
     def __init__(
         self,
         *,
@@ -489,100 +568,124 @@ class EndEffector:
         partner_reach: collections.abc.Mapping[str, Polytope] = {},
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def com_reach(self) -> Polytope:
         """
-        Where the CoM may be relative to this end-effector while it is in contact; axes level, x along the heading.
+        [m] Where the CoM may be relative to the sole's centre. Axes: level, x along the heading.
         """
     @com_reach.setter
     def com_reach(self, arg1: Polytope) -> None: ...
     @property
     def frame(self) -> str:
         """
-        URDF frame, empty for robots without a URDF.
+        URDF frame; empty for robots without a URDF.
         """
     @frame.setter
     def frame(self, arg0: str) -> None: ...
     @property
     def frame_offset(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Contact point in the axes of the URDF frame [m].
+        [m] Contact point in the axes of the URDF frame.
         """
     @frame_offset.setter
     def frame_offset(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def half_size(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
-        Half length and half width of the sole [m]; 0: point contact.
+        [m] Half length and half width of the sole; zero: point contact.
         """
     @half_size.setter
     def half_size(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
     @property
     def kind(self) -> str:
         """
-        Group that scenes may address as a whole, e.g. 'foot', 'hand'.
+        Group that scenes may address as a whole, e.g. foot, hand.
         """
     @kind.setter
     def kind(self, arg0: str) -> None: ...
     @property
     def max_force(self) -> float:
         """
-        Largest norm of the contact force [N].
+        [N] Largest norm of the contact force.
         """
     @max_force.setter
     def max_force(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def max_moment(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Largest contact moment about each world axis [N m]; under ForceLaw.wrench the third about the surface's normal.
+        [N m] Largest contact moment about each world axis; under ForceLaw.wrench the third about the surface's normal.
         """
     @max_moment.setter
     def max_moment(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
+    def name(self) -> str:
+        """
+        Unique name.
+        """
+    @name.setter
+    def name(self, arg0: str) -> None: ...
+    @property
     def nominal_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Nominal position relative to the CoM [m].
+        [m] Position in the nominal stance.
         """
     @nominal_B.setter
     def nominal_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def partner_reach(self) -> typing.Any:
         """
-        Where other end-effectors may stand relative to it, by name; same axes. Assign a dict to change it.
+        [m] Where other end-effectors may stand relative to it, by name. Same axes. Assign a dict to change it.
         """
     @partner_reach.setter
     def partner_reach(self, arg1: collections.abc.Mapping[str, Polytope]) -> None: ...
     @property
     def reach_max_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Box of reachable positions relative to the CoM [m].
+        [m] Upper corner of the box of reachable positions.
         """
     @reach_max_B.setter
     def reach_max_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def reach_min_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Box of reachable positions relative to the CoM [m].
+        [m] Lower corner of the box of reachable positions.
         """
     @reach_min_B.setter
     def reach_min_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def yaw_range(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
-        How far the sole may be turned against the base about the vertical while in contact [rad].
+        [rad] How far the sole may be turned against the base, right and left; left out: any way.
         """
     @yaw_range.setter
     def yaw_range(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
 
 class Robot:
     """
-    What a planner needs to know of a robot: lumped inertia and where its limbs reach.
+    What a planner needs to know of a robot: lumped inertia and where its limbs reach. SI units.
     """
 
-    description: str
-    name: str
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Robot: ...
     def __deepcopy__(self, memo: dict) -> Robot: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(
+        self,
+    ) -> tuple[
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+    ]: ...
     def __init__(
         self,
         *,
@@ -595,80 +698,94 @@ class Robot:
         phase_duration: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
         sole_support: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         pressure_share: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        end_effectors: collections.abc.Sequence[EndEffector] = [],
         urdf: str = "",
+        end_effectors: collections.abc.Sequence[EndEffector] = [],
         posture: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {},
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def end_effector_index(self, end_effector_name: str) -> int:
         """
         Index, or -1.
         """
     def validate(self) -> None:
         """
-        Raise InvalidRobot naming the first field out of its range.
+        Raise InvalidRobot naming all that is out of its range.
         """
     @property
     def com_height(self) -> float:
         """
-        Of the CoM above the ground in the nominal stance [m].
+        [m] Of the CoM above the ground in the nominal stance.
         """
     @com_height.setter
     def com_height(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def description(self) -> str:
+        """
+        One line.
+        """
+    @description.setter
+    def description(self, arg0: str) -> None: ...
+    @property
     def end_effectors(self) -> tuple:
         """
-        Tuple of EndEffector; assign a list to add or remove.
+        Tuple: End-effectors; assign a list to add or remove.
         """
     @end_effectors.setter
     def end_effectors(self, arg1: collections.abc.Sequence[EndEffector]) -> None: ...
     @property
     def inertia(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Diagonal, about the CoM, nominal posture [kg m^2].
+        [kg m^2] Diagonal, about the CoM, in the nominal posture.
         """
     @inertia.setter
     def inertia(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def mass(self) -> float:
         """
-        [kg]
+        [kg] Total mass.
         """
     @mass.setter
     def mass(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def name(self) -> str:
+        """
+        Name; of a file that says none, the file's.
+        """
+    @name.setter
+    def name(self, arg0: str) -> None: ...
+    @property
     def phase_duration(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
-        Shortest and longest phase of a contact sequence [s]. The default goes with the size of the robot.
+        [s] Shortest and longest phase of a contact sequence. The default goes with the robot's size.
         """
     @phase_duration.setter
     def phase_duration(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
     @property
     def posture(self) -> typing.Any:
         """
-        Nominal joint positions [rad] by URDF joint name. Assign a dict to change it.
+        [rad] Nominal joint positions by URDF joint name. Assign a dict to change it.
         """
     @posture.setter
     def posture(self, arg1: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
     @property
     def pressure_share(self) -> float:
         """
-        Share of a sole's half size within which a plan keeps the centre of pressure.
+        [-] Share of a sole's half size within which a plan keeps the centre of pressure.
         """
     @pressure_share.setter
     def pressure_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def sole_support(self) -> float:
         """
-        Share of a sole that a contact sequence keeps on its surface; 0: its centre.
+        [-] Share of a sole that a contact sequence keeps on its surface; 0: its centre.
         """
     @sole_support.setter
     def sole_support(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def swing_height(self) -> float:
         """
-        Clearance of a swinging end-effector [m]. The default, 0.10, goes with the size of the robot.
+        [m] Clearance of a swinging end-effector. The default goes with the robot's size.
         """
     @swing_height.setter
     def swing_height(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -2748,6 +2865,11 @@ def addresses(who: str, end_effector: EndEffector) -> bool:
     Whether a name or kind addresses this end-effector.
     """
 
+def built_in(kind: str) -> list[str]:
+    """
+    Sorted names of the built-in 'scenes', 'robots', 'planar_robots' or 'motions'.
+    """
+
 @typing.overload
 def check(plan: Plan, scene: Scene = None, robot: Robot = None, tolerances: Tolerances = ...) -> CheckResult:
     """
@@ -2758,6 +2880,11 @@ def check(plan: Plan, scene: Scene = None, robot: Robot = None, tolerances: Tole
 def check(plan: WholeBodyPlan, tolerances: WholeBodyTolerances = ..., self_collision: bool = False) -> CheckResult:
     """
     Check a whole-body plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidMotion or InvalidRobot where it is malformed, and Interrupted with what was found by then.
+    """
+
+def data_folder() -> typing.Any:
+    """
+    The folder of the built-in scenes, robots and motions.
     """
 
 def largest_drift(plan: WholeBodyPlan, sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> Drift:
@@ -2772,6 +2899,16 @@ def least_norm_gain(
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
     """
     (2 points) x 3: gain from [m (a - g); moment about moment_point_W] to the forces (tangential, normal) of all points of a phase.
+    """
+
+def load_robot(source: typing.Any) -> Robot:
+    """
+    A built-in robot by its name, or one from a TOML file. Raises UnknownRobot, InvalidRobot.
+    """
+
+def load_scene(source: typing.Any) -> Scene:
+    """
+    A built-in scene by its name, or one from a TOML file. Raises UnknownScene, InvalidScene.
     """
 
 def may_touch(surface: Surface, end_effector: EndEffector) -> bool:
@@ -2819,9 +2956,34 @@ def quat_wxyz_from_rpy(
     Unit quaternion (w, x, y, z) of R_WB, w >= 0.
     """
 
+def read_robot(path: typing.Any) -> Robot:
+    """
+    A robot from a TOML file. Raises InvalidRobot.
+    """
+
+def read_scene(path: typing.Any) -> Scene:
+    """
+    A scene from a TOML file. Raises InvalidScene.
+    """
+
+def require_ground(scene: Scene) -> None:
+    """
+    Raise InvalidScene where start or goal hangs in the air, or lies under or far beside the surfaces it names.
+    """
+
 def resolve_stance(scene: Scene, robot: Robot, stance: Stance, field: str = "stance") -> ResolvedStance:
     """
     Work out a stance for a robot. Raises InvalidScene when contacts name an end-effector that the robot does not have, or one that may not touch the surface.
+    """
+
+def robot_from_dict(data: typing.Any, source: typing.Any = "", folder: typing.Any = None) -> Robot:
+    """
+    The robot of plain data with the keys of a robot file. Files that it names are looked for in `folder`; None: it may name none.
+    """
+
+def robot_to_dict(robot: Robot) -> dict:
+    """
+    Plain data with the keys of a robot file; what is at its default is left out, reach polytopes are inline.
     """
 
 def rotation_derivative(
@@ -2836,6 +2998,31 @@ def rotation_from_rpy(
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
     """
     R_WB = Rz(yaw) Ry(pitch) Rx(roll), angles in [rad]; 3 x 3.
+    """
+
+def scene_from_dict(data: typing.Any, source: typing.Any = "") -> Scene:
+    """
+    The scene of plain data with the keys of a scene file.
+    """
+
+def scene_to_dict(scene: Scene) -> dict:
+    """
+    Plain data with the keys of a scene file; what is at its default is left out.
+    """
+
+def schema_text(name: str) -> str:
+    """
+    The JSON schema of the files of a kind: 'scene' or 'robot'.
+    """
+
+def toml_from(content: bytes) -> dict:
+    """
+    The tables of a TOML file, dates as texts. Raises InvalidInput.
+    """
+
+def toml_text(data: typing.Any, header: typing.Any = "") -> typing.Any:
+    """
+    A mapping as TOML: plain values first, then tables and lists of tables. `header`: a comment to put on top.
     """
 
 __version__: str = "0.1.0"
