@@ -11,6 +11,8 @@ namespace mcplan::model {
 namespace {
 
 constexpr std::size_t max_json_depth = 100;
+/// Of a text, tables and lists among them: each takes 50 bytes.
+constexpr std::size_t max_json_values = 2'000'000;
 
 /// Takes what the parser finds, piece by piece, so that neither it nor this needs stack for what is nested.
 class ValueBuilder {
@@ -45,13 +47,20 @@ class ValueBuilder {
   std::string reason = "nested too deep";
 
  private:
+  /// Whether there are not too many yet.
+  bool counted() {
+    if (++count_ <= max_json_values) return true;
+    reason = "may have " + std::to_string(max_json_values) + " values at most";
+    return false;
+  }
+
   bool put(Value value) {
     add(std::move(value));
-    return true;
+    return counted();
   }
 
   bool open(Value value) {
-    if (open_.size() >= max_json_depth) return false;
+    if (open_.size() >= max_json_depth || !counted()) return false;
     open_.push_back({std::move(key_), std::move(value)});
     key_.clear();
     return true;
@@ -78,40 +87,50 @@ class ValueBuilder {
 
   std::vector<Entry> open_;
   std::string key_;
+  std::size_t count_ = 0;
 };
 
 void append_json_string(std::string& out, const std::string& text) {
   out += nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-void append_json(std::string& out, const Value& value, int indent, int level) {
+/// How JSON is laid out.
+struct Layout {
+  int indent, open_levels;
+};
+
+void append_json(std::string& out, const Value& value, const Layout& layout, int level) {
+  // A list of numbers or texts stands on one line, whatever the level.
+  const auto* const array = value.get<Value::Array>();
+  const bool flat = array && (array->empty() || !((*array)[0].get<Value::Table>() || (*array)[0].get<Value::Array>()));
+  const bool open = layout.indent > 0 && level < layout.open_levels && !flat;
   const auto line = [&](int at) {
-    if (indent > 0) out += "\n" + std::string(static_cast<std::size_t>(indent * at), ' ');
+    if (open) out += "\n" + std::string(static_cast<std::size_t>(layout.indent * at), ' ');
   };
+  const char* const comma = open ? "," : ", ";
   if (const auto* const flag = value.get<bool>()) out += *flag ? "true" : "false";
   if (const auto* const whole = value.get<std::int64_t>()) out += std::to_string(*whole);
   if (const auto* const number = value.get<double>()) out += std::isfinite(*number) ? number_text(*number) : "null";
   if (const auto* const text = value.get<std::string>()) append_json_string(out, *text);
   if (value.get<Value::Null>() || value.get<Value::Other>()) out += "null";
-  if (const auto* const array = value.get<Value::Array>()) {
-    const bool flat = array->empty() || !((*array)[0].get<Value::Table>() || (*array)[0].get<Value::Array>());
+  if (array) {
     out += '[';
     for (std::size_t i = 0; i < array->size(); ++i) {
-      if (i > 0) out += flat || indent == 0 ? ", " : ",";
-      if (!flat) line(level + 1);
-      append_json(out, (*array)[i], indent, level + 1);
+      if (i > 0) out += comma;
+      line(level + 1);
+      append_json(out, (*array)[i], layout, level + 1);
     }
-    if (!flat) line(level);
+    line(level);
     out += ']';
   }
   if (const auto* const table = value.get<Value::Table>()) {
     out += '{';
     for (std::size_t i = 0; i < table->size(); ++i) {
-      if (i > 0) out += indent == 0 ? ", " : ",";
+      if (i > 0) out += comma;
       line(level + 1);
       append_json_string(out, (*table)[i].key);
       out += ": ";
-      append_json(out, (*table)[i].value, indent, level + 1);
+      append_json(out, (*table)[i].value, layout, level + 1);
     }
     if (!table->empty()) line(level);
     out += '}';
@@ -126,9 +145,9 @@ Value parse_json(std::string_view text) {
   return std::move(builder.root);
 }
 
-std::string json_text(const Value& value, int indent) {
+std::string json_text(const Value& value, int indent, int open_levels) {
   std::string out;
-  append_json(out, value, indent, 0);
+  append_json(out, value, {indent, open_levels}, 0);
   return out;
 }
 

@@ -173,7 +173,7 @@ void check_value(const V& value, const Rules& rules, const Place& at, Findings& 
 
 template <class T>
 void check_struct(const T& value, const Place& at, Findings& found) {
-  static const T fresh{};
+  [[maybe_unused]] static const T fresh{};
   for_each_field<T>([&](const auto& f) {
     // What need not be given is at a default that means "none": a name, a limit that is infinite.
     if (f.is_required || !equal(value.*f.member, fresh.*f.member))

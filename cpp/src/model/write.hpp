@@ -54,7 +54,7 @@ Value written_value(const V& value) {
 /// where TOML has them.
 template <class T>
 Value written(const T& value) {
-  static const T fresh{};
+  [[maybe_unused]] static const T fresh{};
   Value out{Value::Table()};
   for (const bool last : {false, true})
     for_each_field<T>([&](const auto& f) {

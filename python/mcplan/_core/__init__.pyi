@@ -74,7 +74,9 @@ __all__: list[str] = [
     "may_touch",
     "moment_point_W",
     "nlp",
+    "plan_from_json",
     "plan_loads",
+    "plan_to_json",
     "planar_inverse_dynamics",
     "planar_kinematics",
     "planar_point",
@@ -875,8 +877,14 @@ class Contact:
     """
     What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor), acting at the anchor or, under ForceLaw.wrench, at center_of_pressure, or forces at points where the phase's law says so.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Contact: ...
     def __deepcopy__(self, memo: dict) -> Contact: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(
+        self,
+    ) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
     def __init__(
         self,
         *,
@@ -889,45 +897,46 @@ class Contact:
         center_of_pressure_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def anchor_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Point through which the line of force passes [m].
+        [m] Point through which the line of force passes.
         """
     @anchor_W.setter
     def anchor_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def center_of_pressure_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Where the force acts under ForceLaw.wrench [m].
+        [m] Where the force acts under ForceLaw.wrench.
         """
     @center_of_pressure_W.setter
     def center_of_pressure_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def moment_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Contact moment, constant over the phase [N m].
+        [N m] Contact moment, constant over the phase.
         """
     @moment_W.setter
     def moment_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def point_forces_W(self) -> numpy.ndarray:
         """
-        [N] node by node, a row for each point: (Phase.node_count() N) x 3.
+        N x 3 [N] Node by node, a row for each point: (Phase.node_count() N) x 3.
         """
     @point_forces_W.setter
     def point_forces_W(self, arg1: typing.Any) -> None: ...
     @property
     def points_W(self) -> numpy.ndarray:
         """
-        N x 3 [m], where forces act, e.g. the corners of the sole.
+        N x 3 [m] Where forces act, e.g. the corners of the sole.
         """
     @points_W.setter
     def points_W(self, arg1: typing.Any) -> None: ...
     @property
     def stiffness(self) -> float:
         """
-        mu [1/s^2], 0 when free.
+        [1/s^2] mu, 0 when free.
         """
     @stiffness.setter
     def stiffness(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -943,8 +952,12 @@ class Phase:
     """
     A stretch of time with constant contacts.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Phase: ...
     def __deepcopy__(self, memo: dict) -> Phase: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any]: ...
     def __init__(
         self,
         *,
@@ -954,6 +967,7 @@ class Phase:
         intervals: typing.SupportsInt | typing.SupportsIndex = 0,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def node_count(self) -> int:
         """
         Instants at which forces are given: `intervals` when held, one more when linear, 0 without such.
@@ -961,14 +975,14 @@ class Phase:
     @property
     def contacts(self) -> tuple:
         """
-        One Contact per end-effector.
+        Tuple: One Contact per end-effector.
         """
     @contacts.setter
     def contacts(self, arg1: collections.abc.Sequence[Contact]) -> None: ...
     @property
     def duration(self) -> float:
         """
-        [s]
+        [s] How long it lasts.
         """
     @duration.setter
     def duration(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -991,8 +1005,14 @@ class Knot:
     """
     State at the instant between two phases.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Knot: ...
     def __deepcopy__(self, memo: dict) -> Knot: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(
+        self,
+    ) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
     def __init__(
         self,
         *,
@@ -1006,59 +1026,60 @@ class Knot:
         end_effector_yaw: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def angular_momentum_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        About the CoM [kg m^2/s]; not looked at under ForceLaw.pendulum, whose base carries it.
+        [kg m^2/s] About the CoM; not looked at under ForceLaw.pendulum, whose base carries it.
         """
     @angular_momentum_W.setter
     def angular_momentum_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def base_rpy(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Roll, pitch, yaw of the base [rad].
+        [rad] Roll, pitch, yaw of the base.
         """
     @base_rpy.setter
     def base_rpy(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def base_rpy_rate(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        [rad/s]
+        [rad/s] Their rates.
         """
     @base_rpy_rate.setter
     def base_rpy_rate(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def com_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        [m]
+        [m] Position of the CoM.
         """
     @com_W.setter
     def com_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def com_velocity_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        [m/s]
+        [m/s] Velocity of the CoM.
         """
     @com_velocity_W.setter
     def com_velocity_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def end_effector_velocities_W(self) -> numpy.ndarray:
         """
-        [m/s], zero at contacts.
+        N x 3 [m/s] Velocities, zero at contacts.
         """
     @end_effector_velocities_W.setter
     def end_effector_velocities_W(self, arg1: typing.Any) -> None: ...
     @property
     def end_effector_yaw(self) -> typing.Any:
         """
-        Heading of each sole [rad], a tuple; empty: all head where the base does.
+        [rad] Heading of each sole; empty: all head where the base does.
         """
     @end_effector_yaw.setter
     def end_effector_yaw(self, arg1: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
     @property
     def end_effectors_W(self) -> numpy.ndarray:
         """
-        One row per end-effector [m].
+        N x 3 [m] Positions, one row per end-effector.
         """
     @end_effectors_W.setter
     def end_effectors_W(self, arg1: typing.Any) -> None: ...
@@ -1067,8 +1088,12 @@ class Swing:
     """
     A stretch of phases, first_phase to end_phase - 1, in which an end-effector is free.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Swing: ...
     def __deepcopy__(self, memo: dict) -> Swing: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
     def __init__(
         self,
         *,
@@ -1080,36 +1105,46 @@ class Swing:
         land_normal_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
-    def end_effector(self) -> int: ...
+    def end_effector(self) -> int:
+        """
+        Index of the end-effector.
+        """
     @end_effector.setter
     def end_effector(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
-    def end_phase(self) -> int: ...
+    def end_phase(self) -> int:
+        """
+        Index of the phase after the last of them.
+        """
     @end_phase.setter
     def end_phase(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
-    def first_phase(self) -> int: ...
+    def first_phase(self) -> int:
+        """
+        Index of the first of the phases.
+        """
     @first_phase.setter
     def first_phase(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def height(self) -> float:
         """
-        [m]
+        [m] How far it is lifted off the straight path.
         """
     @height.setter
     def height(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def land_normal_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Unit normal of the surface it reaches.
+        [-] Unit normal of the surface it reaches.
         """
     @land_normal_W.setter
     def land_normal_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def lift_normal_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Unit normal of the surface it leaves.
+        [-] Unit normal of the surface it leaves.
         """
     @lift_normal_W.setter
     def lift_normal_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
@@ -1228,6 +1263,8 @@ class Plan:
     """
     A motion: phases with constant contacts between knots. Carries its scene and robot.
     """
+
+    __hash__: typing.ClassVar[None] = None
     @staticmethod
     def load(path: typing.Any) -> Plan:
         """
@@ -1235,24 +1272,31 @@ class Plan:
         """
     def __copy__(self) -> Plan: ...
     def __deepcopy__(self, memo: dict) -> Plan: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(
+        self,
+    ) -> tuple[
+        typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any
+    ]: ...
     def __init__(
         self,
         *,
+        planner: str = "",
+        measured_start: bool = False,
+        open_end: bool = False,
         scene: Scene = ...,
         robot: Robot = ...,
-        planner: str = "",
         knots: collections.abc.Sequence[Knot] = [],
         phases: collections.abc.Sequence[Phase] = [],
         final_contacts: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
         swings: collections.abc.Sequence[Swing] = [],
-        measured_start: bool = False,
-        open_end: bool = False,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     @typing.overload
     def __repr__(self) -> str: ...
     @typing.overload
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def at(self, t: typing.SupportsFloat | typing.SupportsIndex) -> PlanState:
         """
         PlanState at time t [s] in [0, duration], in closed form. At a knot the phase that begins there is meant (the last one at the end). Raises InvalidInput outside, InvalidPlan where an edited plan does not fit together.
@@ -1278,7 +1322,7 @@ class Plan:
         """
     def save(self, path: typing.Any) -> None:
         """
-        Write the plan to an .npz file.
+        Write the plan to an .npz or a .json file; C++ reads the latter.
         """
     def validate(self) -> None:
         """
@@ -1294,7 +1338,7 @@ class Plan:
     @property
     def knots(self) -> tuple:
         """
-        Tuple of Knot, one more than phases.
+        Tuple: Knots, one more than phases.
         """
     @knots.setter
     def knots(self, arg1: collections.abc.Sequence[Knot]) -> None: ...
@@ -1315,14 +1359,14 @@ class Plan:
     @property
     def phases(self) -> tuple:
         """
-        Tuple of Phase.
+        Tuple: Phases.
         """
     @phases.setter
     def phases(self, arg1: collections.abc.Sequence[Phase]) -> None: ...
     @property
     def planner(self) -> str:
         """
-        E.g. 'ddp'.
+        Which planner made it, e.g. ddp.
         """
     @planner.setter
     def planner(self, arg0: str) -> None: ...
@@ -1343,7 +1387,7 @@ class Plan:
     @property
     def swings(self) -> tuple:
         """
-        Tuple of Swing.
+        Tuple: Swings.
         """
     @swings.setter
     def swings(self, arg1: collections.abc.Sequence[Swing]) -> None: ...
@@ -2923,9 +2967,19 @@ def moment_point_W(
     Mean of the phase's expected points [m].
     """
 
+def plan_from_json(content: bytes) -> Plan:
+    """
+    The plan of a JSON text. Raises InvalidPlan.
+    """
+
 def plan_loads(plan: Plan, sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.005) -> PlanLoads:
     """
     Largest values over the whole plan, looked at least every sample_s [s]. Raises InvalidPlan, InvalidOptions.
+    """
+
+def plan_to_json(plan: Plan) -> bytes:
+    """
+    A plan as JSON; numbers read back as the same. Raises InvalidPlan.
     """
 
 def planar_inverse_dynamics(
