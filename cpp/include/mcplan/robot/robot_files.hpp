@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "mcplan/model/data.hpp"  // which tells where the built-in robots lie
 #include "mcplan/robot/robot.hpp"
 
 namespace mcplan {

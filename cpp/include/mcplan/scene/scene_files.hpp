@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "mcplan/model/data.hpp"  // which tells where the built-in scenes lie
 #include "mcplan/scene/scene.hpp"
 
 namespace mcplan {
