@@ -15,29 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "models.hpp"
-
 namespace {
 
 using namespace mcplan::ddp;
-
-/// The gap with a pad on either side of it, for a hand each (python/mcplan/data/scenes/gap_with_rail.toml).
-mcplan::Scene gap_with_rail() {
-  mcplan::Scene scene = examples::gap();
-  scene.name = "gap_with_rail";
-  for (const auto& [name, hand, low] :
-       {std::tuple{"right_pad", "right_hand", -0.50}, {"left_pad", "left_hand", 0.25}}) {
-    mcplan::Surface pad = examples::rectangle(name, 0.85, 0.95, low, low + 0.25, 0.5);
-    pad.grasp = true;
-    pad.end_effectors = {hand};
-    scene.surfaces.push_back(pad);
-  }
-  mcplan::ContactRule rule;
-  rule.when_free = {"foot"};
-  rule.require = {"right_hand", "left_hand"};
-  scene.rules = {rule};
-  return scene;
-}
 
 /// Median wall clock of `repeats` calls [us].
 template <class Call>
@@ -61,7 +41,7 @@ double minimum(double c, const Eigen::VectorXd& g, const Eigen::MatrixXd& h, Eig
 void measure(const mcplan::Scene& scene, int phases, int repeats) {
   Options options;
   options.phases = phases;
-  const Problem problem(scene, examples::humanoid44(), options);
+  const Problem problem(scene, mcplan::load_robot("humanoid44"), options);
   const Trajectory guess = problem.initial_guess({});
   Schedule schedule;
   schedule.contact_weight = 1.0;
@@ -133,7 +113,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: ddp_benchmark [repeats]\n");
     return 2;
   }
-  for (const mcplan::Scene& scene : {examples::gap(), gap_with_rail()})
+  for (const mcplan::Scene& scene : {mcplan::load_scene("gap"), mcplan::load_scene("gap_with_rail")})
     for (const int phases : {18, 72}) measure(scene, phases, repeats);
   return 0;
 }

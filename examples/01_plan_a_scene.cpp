@@ -4,14 +4,11 @@
 #include <iostream>
 #include <mcplan/mcplan.hpp>
 
-#include "models.hpp"
-
 int main() {
-  const mcplan::Scene scene = examples::gap();
-  const mcplan::Robot robot = examples::humanoid44();
+  const mcplan::Scene scene = mcplan::load_scene("gap");
+  const mcplan::Robot robot = mcplan::load_robot("humanoid44");
 
-  auto planner = mcplan::ddp::SwitchedDdp(scene, robot);
-  const mcplan::PlanResult result = planner.solve();
+  const mcplan::PlanResult result = mcplan::ddp::plan(scene, robot);
   std::cout << mcplan::to_string(result.report.status) << ": " << result.report.message << '\n';
 
   const mcplan::Plan& plan = result.plan;

@@ -4,23 +4,27 @@
 #include <iostream>
 #include <mcplan/mcplan.hpp>
 
-#include "models.hpp"
+/// Rectangle at height z [m] with sides along x and y.
+mcplan::Surface rectangle(const std::string& name, double x_min, double x_max, double y_min, double y_max, double z) {
+  mcplan::Surface surface;
+  surface.name = name;
+  surface.vertices_W = {{x_min, y_min, z}, {x_max, y_min, z}, {x_max, y_max, z}, {x_min, y_max, z}};
+  return surface;
+}
 
 int main() {
   constexpr double kPi = 3.14159265358979323846;
 
   mcplan::Scene scene;
   scene.name = "platform";
-  scene.surfaces = {examples::rectangle("ground", -1.0, 0.5, -1.0, 1.0, 0.0),
-                    examples::rectangle("platform", 0.5, 2.0, -1.0, 1.0, 0.10)};
+  scene.surfaces = {rectangle("ground", -1.0, 0.5, -1.0, 1.0, 0.0), rectangle("platform", 0.5, 2.0, -1.0, 1.0, 0.10)};
   scene.start.contacts = {{"foot", "ground"}};
   scene.goal.position_W = {1.2, 0.0, 0.10};
   scene.goal.yaw = kPi / 6.0;
   scene.goal.contacts = {{"foot", "platform"}};
-  const mcplan::Robot robot = examples::humanoid44();
+  const mcplan::Robot robot = mcplan::load_robot("humanoid44");
 
-  auto planner = mcplan::ddp::SwitchedDdp(scene, robot);
-  const mcplan::PlanResult result = planner.solve();
+  const mcplan::PlanResult result = mcplan::ddp::plan(scene, robot);
   const mcplan::PlanState end = result.plan.at(result.plan.duration());
   std::printf("%s after %.3f s; heading at the end %.1f degrees\n",
               std::string(mcplan::to_string(result.report.status)).c_str(), result.report.time_s,

@@ -4,11 +4,9 @@
 #include <mcplan/mcplan.hpp>
 #include <string>
 
-#include "models.hpp"
-
 int main() {
-  const mcplan::Scene scene = examples::gap();
-  const mcplan::Robot robot = examples::humanoid44();
+  const mcplan::Scene scene = mcplan::load_scene("gap");
+  const mcplan::Robot robot = mcplan::load_robot("humanoid44");
   auto planner = mcplan::ddp::SwitchedDdp(scene, robot);
   const mcplan::PlanResult first = planner.solve();
 

@@ -5,11 +5,9 @@
 #include <random>
 #include <string>
 
-#include "models.hpp"
-
 int main() {
-  const mcplan::Scene scene = examples::rubbles();
-  const mcplan::Robot robot = examples::walker();
+  const mcplan::Scene scene = mcplan::load_scene("rubbles");
+  const mcplan::Robot robot = mcplan::load_robot("talos_wang");
   mcplan::rhp::Options options;
   options.fidelity = mcplan::rhp::Fidelity::point;
   options.lookahead = 3;

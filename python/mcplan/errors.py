@@ -33,6 +33,14 @@ def shown(value: Any, most: int = _MOST_TEXT) -> str:
     return text if len(text) <= most else text[: most - 3] + "..."
 
 
+def digits(number: int) -> str:
+    """A whole number as text; one of more digits than Python writes in words."""
+    try:
+        return str(number)
+    except ValueError:
+        return shown(number)
+
+
 class InvalidInput(ValueError):
     """Bad input. Reads "<source>: <field>: <rule>, got <value>"; the source (a file) and the field may be missing.
 

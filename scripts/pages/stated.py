@@ -20,8 +20,7 @@ from typing import Any
 
 import mcplan
 from mcplan import Tolerances, WholeBodyTolerances, rhp, sip
-from mcplan._core import ddp
-from mcplan.files.toml import tomllib
+from mcplan._core import ddp, toml_from
 from mcplan.planar.tracking.run import DEFAULT_OPTIONS as PLANAR_TRACKING
 from mcplan.planar.tracking.settings import ContactSettings, Feedback
 from mcplan.tracking.options import Gains
@@ -38,7 +37,7 @@ def refresh(pages: Sequence[Page]) -> list[str]:
     faults: list[str] = []
     by_name = {page.name: page for page in pages}
     for file in sorted((ROOT / "docs/stated").glob("*.toml")):
-        content = tomllib.loads(file.read_text(encoding="utf-8"))
+        content = toml_from(file.read_bytes())
         if content["page"] not in by_name:
             faults.append(f"docs/stated/{file.name}: there is no page {content['page']}")
             continue

@@ -23,17 +23,19 @@ from typing import Any
 import numpy as np
 
 from mcplan import load_motion, load_planar_robot, load_robot, load_scene
+from mcplan._core import plan_to_json
 from mcplan.cli import main as command
 from mcplan.errors import InvalidInput, UnknownName
 from mcplan.files.archives import read_arrays
 from mcplan.files.builtin import DATA
 from mcplan.files.motions import motion_to_dict
 from mcplan.files.planar_robots import planar_robot_to_dict
-from mcplan.files.plans import plan_to_bytes
+from mcplan.files.plans import plan_from_bytes, plan_to_bytes
 from mcplan.files.robots import robot_to_dict
 from mcplan.files.scenes import scene_to_dict
-from mcplan.files.toml import toml_text, tomllib
+from mcplan.files.toml import toml_text
 from mcplan.files.whole_body_plans import load_any_plan
+from plain_toml import tomllib
 
 #: Of one mutation [s of the processor], and what all of them may add to the memory in use [KiB].
 MOST_CPU_S, MOST_GROWTH_KIB = 10.0, 600 * 1024
@@ -99,6 +101,10 @@ def _plans() -> list[bytes]:
     return [plan_to_bytes(plan) for plan in (walk, stepping_plan(), standing_on_wrenches())]
 
 
+def _plans_in_json() -> list[bytes]:
+    return [plan_to_json(plan_from_bytes(data)) for data in _plans()]
+
+
 def _whole_body_plan() -> bytes:
     from mcplan.files.whole_body_plans import plan_to_bytes as to_bytes
     from reference_solutions import reference_plan
@@ -140,11 +146,19 @@ VALID: dict[str, Callable[[], list[bytes]]] = {
         [(DATA / "motions" / f"{name}.toml").read_bytes() for name in ("cartwheel", "stairs", "walking")] + [_inline()]
     ),
     "plan": _plans,
+    "plan_in_json": _plans_in_json,
     "whole_body_plan": lambda: [_whole_body_plan()],
     "run": lambda: [_run()],
     "urdf": lambda: [_urdf()],
 }
-ENDINGS = {"polytopes": ".json", "plan": ".npz", "whole_body_plan": ".npz", "run": ".npz", "urdf": ".urdf"}
+ENDINGS = {
+    "polytopes": ".json",
+    "plan_in_json": ".json",
+    "plan": ".npz",
+    "whole_body_plan": ".npz",
+    "run": ".npz",
+    "urdf": ".urdf",
+}
 _content: dict[str, list[bytes]] = {}
 
 
@@ -164,7 +178,7 @@ def _mutated(kind: str, data: bytes, rng: Random) -> bytes:
     if rng.random() < 0.5:
         return _lines(data, rng) if rng.random() < 0.6 else _bytes(data, rng)
     try:
-        if kind == "polytopes":
+        if ENDINGS.get(kind) == ".json":
             return json.dumps(_tree(json.loads(data), rng)).encode("utf-8", "surrogatepass")
         if kind == "urdf":
             return _words(data, rng)
@@ -355,7 +369,7 @@ def read(kind: str, file: Path, number: int) -> None:
             toml_text(planar_robot_to_dict(load_planar_robot(file)))
         case "motion":
             toml_text(motion_to_dict(load_motion(file)))
-        case "plan" | "whole_body_plan":
+        case "plan" | "plan_in_json" | "whole_body_plan":
             load_any_plan(file)
         case "run":
             from mcplan.planar.tracking.result import result_from as planar_result_from
@@ -390,6 +404,7 @@ COMMANDS = {
     "planar_robot": ("robots",),
     "motion": ("motions",),
     "plan": ("check",),
+    "plan_in_json": ("check",),
     "whole_body_plan": ("check",),
     "urdf": ("robots", "--planar", "--end", "foot=sole", "--from-urdf"),
 }

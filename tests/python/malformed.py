@@ -315,7 +315,7 @@ NOT_SCENE_FILES: list[tuple[bytes, str]] = [
     (b"  \n\t\n", "is empty"),
     (b"# only a comment\n", "surfaces: is required"),
     (b"gravity = 9.8\ngravity = 9.8\n", "is not TOML: "),
-    (b"gravity = \n", "is not TOML: invalid value (at line 1"),
+    (b"gravity = \n", "is not TOML: error while parsing key-value pair: expected value, saw '\\n' (at line 1"),
     (b'{"gravity": 9.8}', "is not TOML: "),
     (b"[[surfaces]\n", "is not TOML: "),
     (b'name = "\xff\xfe"\n', "must be UTF-8 text, got byte 0xff at offset 8"),

@@ -18,15 +18,18 @@ BENCH = ROOT / "bench/mcplan_bench"  # a distribution of its own, that imports t
 # room -> the rooms that it may include, beside itself
 CPP_ROOMS = {
     "base": set(),
-    "scene": {"base"},
-    "robot": {"base", "scene"},
-    "plan": {"base", "scene", "robot"},  # the checker with it: it sees no planner
-    "ddp": {"base", "scene", "robot", "plan"},
+    "model": {"base"},
+    "scene": {"base", "model"},
+    "robot": {"base", "model", "scene"},
+    "plan": {"base", "model", "scene", "robot"},  # the checker with it: it sees no planner
+    "ddp": {"base", "model", "scene", "robot", "plan"},
     "nlp": {"base"},
-    "rhp": {"base", "scene", "robot", "plan", "nlp"},
-    "planar": {"base", "plan"},  # robot, task, plan and checker, which sees no planner either
+    "rhp": {"base", "model", "scene", "robot", "plan", "nlp"},
+    "planar": {"base", "model", "plan"},  # robot, task, plan and checker, which sees no planner either
     "planar/sip": {"base", "plan", "nlp", "planar"},
 }
+#: Sources that know a parser: nobody else includes one, and no public header.
+PARSERS = {"toml++": "model/toml.cpp", "nlohmann": "model/json.cpp"}
 OPENMP_ROOMS = {"ddp", "rhp", "planar/sip"}
 
 # room (a module or folder of the package) -> the rooms that it may import, beside itself; "" is the package's
@@ -94,9 +97,23 @@ def forbidden_includes(room: str, text: str) -> list[str]:
             other = cpp_room(tuple(parts[1:]))
             if other != room and other not in CPP_ROOMS[room]:
                 bad.append(include)
+        elif len(parts) == 2 and parts[0] in CPP_ROOMS:  # internal headers: cpp/src/<room>
+            if parts[0] != room and parts[0] not in CPP_ROOMS[room]:
+                bad.append(include)
         elif include != "mcplan/version.hpp" and len(parts) > 1:
             bad.append(include)
     return bad
+
+
+def test_public_headers_include_no_internal_ones() -> None:
+    for path in HEADERS.rglob("*.hpp"):
+        assert all(include.startswith("mcplan/") for include in quoted_includes(path.read_text())), path
+
+
+def test_each_parser_is_known_to_one_source() -> None:
+    for parser, source in PARSERS.items():
+        users = [path for _, path in cpp_files() if re.search(rf"#\s*include\s*<{re.escape(parser)}", path.read_text())]
+        assert [str(path.relative_to(SOURCES)) for path in users] == [source]
 
 
 def test_cpp_rooms_include_only_what_they_may() -> None:
@@ -116,7 +133,8 @@ def test_an_include_in_the_wrong_direction_is_seen() -> None:
     assert forbidden_includes("planar/sip", '#include "mcplan/planar/plan.hpp"') == []
     assert forbidden_includes("nlp", '#include "mcplan/ddp/costs/a.hpp"') == ["mcplan/ddp/costs/a.hpp"]
     assert forbidden_includes("base", '#include "mcplan/mcplan.hpp"') == ["mcplan/mcplan.hpp"]
-    legal = '#include <vector>\n#include "mcplan/scene/scene.hpp"\n#include "beside.hpp"\n'
+    assert forbidden_includes("model", '#include "scene/scene_fields.hpp"') == ["scene/scene_fields.hpp"]
+    legal = '#include <vector>\n#include "mcplan/scene/scene.hpp"\n#include "beside.hpp"\n#include "model/read.hpp"\n'
     assert forbidden_includes("robot", legal) == []
 
 

@@ -17,7 +17,8 @@ import mcplan as mp
 from mcplan.files.builtin import DATA
 from mcplan.files.motions import list_motions, load_motion, motion_from_dict, motion_to_dict, save_motion
 from mcplan.files.planar_robots import planar_robot_from_dict
-from mcplan.files.toml import toml_text, tomllib
+from mcplan.files.toml import toml_text
+from plain_toml import tomllib
 from planar_statics import stand
 from reference_solutions import reference_motion
 

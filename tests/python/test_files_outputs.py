@@ -145,8 +145,8 @@ def test_what_can_be_written_passes_without_a_trace(tmp_path):
         require_folder("--out", tmp_path / "pipe")
 
 
-@pytest.mark.parametrize("name", ["plan.csv", "plan.json", "plan.npz.zip"])
+@pytest.mark.parametrize("name", ["plan.csv", "plan.yaml", "plan.npz.zip", "plan.json.gz"])
 def test_a_plan_is_not_saved_under_another_kinds_name(tmp_path, name):
-    with pytest.raises(InvalidInput, match=r"path: must end in \.npz, got .*" + name.replace(".", r"\.")):
+    with pytest.raises(InvalidInput, match=r"path: must end in \.npz, \.json, got .*" + name.replace(".", r"\.")):
         standing_plan().save(tmp_path / name)
     assert names(tmp_path) == []

@@ -19,7 +19,8 @@ from mcplan.files.planar_robots import (
     planar_robot_to_dict,
     save_planar_robot,
 )
-from mcplan.files.toml import toml_text, tomllib
+from mcplan.files.toml import toml_text
+from plain_toml import tomllib
 from reference_solutions import reference_motion
 
 NEAR = {"rtol": 0.0, "atol": 1e-12}

@@ -7,6 +7,7 @@ import io
 import json
 import os
 import pickle
+import re
 import stat
 
 import numpy as np
@@ -14,6 +15,7 @@ import pytest
 
 import mcplan as mp
 from mcplan.files.plans import load_plan, plan_from_bytes, plan_to_bytes
+from mcplan.files.whole_body_plans import load_any_plan
 from standing import standing_plan
 from stepping import stepping_plan
 from turning import turning_plan
@@ -49,6 +51,28 @@ def test_a_plan_comes_back_exactly(plan, tmp_path):
         assert repr(other.swings) == repr(plan.swings) and other.final_contacts == plan.final_contacts
         assert other.planner == "by hand"
         assert plan_to_bytes(other) == plan_to_bytes(plan)
+
+
+@pytest.mark.parametrize("make", [standing_plan, stepping_plan, turning_plan])
+def test_a_plan_comes_back_exactly_from_json(make, tmp_path):
+    plan = make()
+    plan.knots[1].com_velocity_W[1] = 1 / 3
+    plan.save(tmp_path / "plan.json")
+    for other in (mp.Plan.load(tmp_path / "plan.json"), load_any_plan(tmp_path / "plan.json")):
+        assert other == plan and states(other) == states(plan)
+        assert plan_to_bytes(other) == plan_to_bytes(plan)
+    header = json.loads((tmp_path / "plan.json").read_text())
+    assert (header["kind"], header["format"], header["mcplan"]) == ("plan", 4, mp.__version__)
+    assert header["knots"][1]["com_velocity_W"][1] == 1 / 3
+
+
+def test_a_damaged_plan_in_json_is_named_with_its_file(plan, tmp_path):
+    file = tmp_path / "plan.json"
+    plan.save(file)
+    file.write_text(re.sub('"gravity": [0-9.]+', '"gravity": "x"', file.read_text()))
+    with pytest.raises(mp.InvalidPlan) as found:
+        mp.Plan.load(file)
+    assert str(found.value) == f"{file}: scene.gravity: must be a number, got 'x'"
 
 
 def test_a_deep_copy_shares_nothing(plan):

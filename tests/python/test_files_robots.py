@@ -14,7 +14,8 @@ import malformed
 import mcplan as mp
 from mcplan.files.builtin import DATA
 from mcplan.files.robots import list_robots, load_robot, robot_from_dict, robot_to_dict, save_robot
-from mcplan.files.toml import toml_text, tomllib
+from mcplan.files.toml import toml_text
+from plain_toml import tomllib
 from standing import standing_plan
 
 
@@ -155,14 +156,14 @@ def test_a_plan_keeps_phase_durations_and_sole_support_of_its_robot(tmp_path):
     ("field", "value", "rule"),
     [
         ("phase_duration", [0.5, 0.3], "must be two positive numbers, the shorter first"),
-        ("phase_duration", [0.0, 0.3], "must be two positive numbers"),
-        ("sole_support", 1.5, "must lie in"),
-        ("sole_support", -0.5, "must lie in"),
+        ("phase_duration[0]", [0.0, 0.3], "must be a positive number"),
+        ("sole_support", 1.5, "must be at most 1"),
+        ("sole_support", -0.5, "must be at least 0"),
     ],
 )
 def test_a_robot_made_in_python_is_held_to_the_same_ranges(field, value, rule):
     robot = load_robot("humanoid44")
-    setattr(robot, field, value)
+    setattr(robot, field.split("[")[0], value)
     with pytest.raises(mp.InvalidRobot, match=rule) as found:
         robot.validate()
     assert found.value.field == field

@@ -18,7 +18,8 @@ import mcplan as mp
 from mcplan._core import Polygon, resolve_stance
 from mcplan.files.builtin import DATA
 from mcplan.files.scenes import list_scenes, load_scene, save_scene, scaled, scene_from_dict, scene_to_dict
-from mcplan.files.toml import toml_text, tomllib
+from mcplan.files.toml import toml_text
+from plain_toml import tomllib
 
 
 def write(path: Path, data: dict) -> Path:

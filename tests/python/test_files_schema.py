@@ -1,19 +1,23 @@
-"""mcplan.files.schema: the checked-in JSON schemas are those of the models."""
+"""mcplan.files.schema: the checked-in JSON schemas are those of the tables of fields, and say what the reader says."""
 
 from __future__ import annotations
 
 import json
+import math
 
 import jsonschema
 import pytest
 
 import malformed
 import malformed_planar
+from mcplan.errors import InvalidInput
 from mcplan.files.builtin import DATA
-from mcplan.files.schema import MODELS, schema_text
+from mcplan.files.robots import robot_from_dict
+from mcplan.files.scenes import scene_from_dict
+from mcplan.files.schema import MODELS, TABLES, schema_text
 
 
-@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("name", [*TABLES, *MODELS])
 def test_schemas_are_current(name):
     current = (DATA / "schema" / f"{name}.json").read_text()
     assert current == schema_text(name), "run: python -m mcplan.files.schema"
@@ -33,3 +37,41 @@ def test_a_schema_accepts_valid_data_and_rejects_an_unknown_key(name, data):
     jsonschema.validate(data, schema)
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.validate({**data, "colour": "red"}, schema)
+
+
+#: Rules that relate fields, or ask for files: a schema knows them not.
+RELATIONS = (
+    "must be unique", "must lie", "must name", "must put", "must hold", "must exceed", "must have", "must span", "must run",
+    "must be more than", "must be a corner", "must be two", "more than 0.1 mm", "area of", "corner of", "strictly convex",
+    "the first <= 0", "is required, or file", "must stand alone", "cannot be read",
+)  # fmt: skip
+
+
+def can_be_said(case: malformed.Break) -> bool:
+    """Whether a JSON schema can reject it: a relation it does not know, and JSON has no numbers that are not finite."""
+    path, value, _, rule = case
+    finite = not (isinstance(value, float) and not math.isfinite(value)) and not (
+        isinstance(value, list) and any(isinstance(x, float) and not math.isfinite(x) for x in value)
+    )
+    return bool(rule) and finite and not rule.startswith(RELATIONS)
+
+
+@pytest.mark.parametrize(
+    ("name", "valid", "read", "case"),
+    [
+        (name, valid, read, case)
+        for name, valid, read, breaks in (
+            ("scene", malformed.SCENE, scene_from_dict, malformed.SCENE_BREAKS),
+            ("robot", malformed.ROBOT, robot_from_dict, malformed.ROBOT_BREAKS),
+        )
+        for case in breaks
+        if can_be_said(case)
+    ],
+    ids=lambda value: malformed.label(value) if isinstance(value, tuple) else None,
+)
+def test_what_the_reader_rejects_its_schema_rejects(name, valid, read, case):
+    data = malformed.broken(valid, case[0], case[1])
+    with pytest.raises(InvalidInput):
+        read(data)
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(data, json.loads(schema_text(name)))

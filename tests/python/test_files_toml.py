@@ -5,7 +5,8 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mcplan.files.toml import toml_text, tomllib
+from mcplan.files.toml import toml_text
+from plain_toml import tomllib
 
 text = st.text(st.characters(codec="utf-8"))
 plain = text | st.booleans() | st.integers(-(2**63), 2**63 - 1) | st.floats(allow_nan=False)

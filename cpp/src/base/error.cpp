@@ -5,11 +5,38 @@
 
 namespace mcplan {
 
-InvalidInput::InvalidInput(std::string field, std::string rule, std::string value)
-    : std::invalid_argument(field + ": " + rule + ", got " + value),
+namespace {
+
+constexpr std::size_t max_listed = 20;
+
+/// "<source>: <field>: <rule>, got <value>" without the parts that are missing.
+std::string line(const InvalidInput& found) {
+  std::string out;
+  for (const std::string& part : {found.source(), found.field(), found.rule()})
+    if (!part.empty()) out += (out.empty() ? "" : ": ") + part;
+  return out + (found.value().empty() ? "" : ", got " + found.value());
+}
+
+}  // namespace
+
+InvalidInput::InvalidInput(std::string field, std::string rule, std::string value, std::string source)
+    : std::invalid_argument(rule),
       field_(std::move(field)),
       rule_(std::move(rule)),
-      value_(std::move(value)) {}
+      value_(std::move(value)),
+      source_(std::move(source)) {
+  text_ = line(*this);
+}
+
+void InvalidInput::add(const InvalidInput& other) {
+  others_.push_back(other);
+  if (others_.size() < max_listed) {
+    text_ += "\n" + line(other);
+  } else {
+    if (others_.size() > max_listed) text_.erase(text_.rfind('\n'));
+    text_ += "\nand " + std::to_string(others_.size() + 1 - max_listed) + " more";
+  }
+}
 
 std::string text(double value) {
   std::ostringstream out;

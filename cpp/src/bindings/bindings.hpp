@@ -19,6 +19,7 @@ namespace mcplan::bindings {
 namespace py = pybind11;
 
 void bind_base(py::module_& m);
+void bind_model(py::module_& m);
 void bind_scene(py::module_& m);
 void bind_robot(py::module_& m);
 void bind_plan(py::module_& m);

@@ -3,23 +3,44 @@
 #include "bindings.hpp"
 #include "mcplan/planar/task.hpp"
 #include "mcplan/version.hpp"
+#include "model.hpp"
 
 namespace mcplan::bindings {
 namespace {
 
-/// Raises the class of that name from mcplan.errors with the three parts of the C++ error, and what else it has found.
+/// Raises the class of that name from mcplan.errors with the parts of the C++ error, and what else it has found.
 void raise(const char* name, const InvalidInput& error) {
   const py::object type = py::module_::import("mcplan.errors").attr(name);
-  const py::object value = type(error.field(), error.rule(), error.value());
+  const auto text_to = [](const std::string& text) {
+    return py::reinterpret_steal<py::object>(
+        PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "surrogateescape"));
+  };
+  const auto made = [&](const InvalidInput& each) {
+    return type(text_to(each.field()), text_to(each.rule()), text_to(each.value()), path_text(each.source()));
+  };
+  const py::object value = made(error);
   py::list others;
-  for (const InvalidInput& other : error.others()) others.append(type(other.field(), other.rule(), other.value()));
+  for (const InvalidInput& other : error.others()) others.append(made(other));
   value.attr("others") = py::tuple(others);
+  PyErr_SetObject(type.ptr(), value.ptr());
+}
+
+/// Raises the class of that name with the name that is not known, and those that are.
+void raise_unknown(const char* name, const UnknownName& error) {
+  const py::object type = py::module_::import("mcplan.errors").attr(name);
+  const py::object value = type(path_text(error.name()), error.legal());
   PyErr_SetObject(type.ptr(), value.ptr());
 }
 
 void translate(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(pointer);
+  } catch (const UnknownScene& error) {
+    raise_unknown("UnknownScene", error);
+  } catch (const UnknownRobot& error) {
+    raise_unknown("UnknownRobot", error);
+  } catch (const UnknownMotion& error) {
+    raise_unknown("UnknownMotion", error);
   } catch (const InvalidScene& error) {
     raise("InvalidScene", error);
   } catch (const InvalidRobot& error) {
@@ -132,6 +153,7 @@ PYBIND11_MODULE(_core, m) {
   bind_base(m);
   bind_scene(m);
   bind_robot(m);
+  bind_model(m);
   bind_plan(m);
   bind_planar(m);
   bind_planar_plan(m);

@@ -1,9 +1,11 @@
 #include "mcplan/plan/plan.hpp"
 
-#include "bindings.hpp"
+#include "fields.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "mcplan/plan/loads.hpp"
+#include "mcplan/plan/plan_files.hpp"
 #include "mcplan/plan/report.hpp"
+#include "plan/plan_fields.hpp"
 #include "signals.hpp"
 
 namespace mcplan::bindings {
@@ -23,104 +25,13 @@ void bind_force_law(py::module_& m) {
           py::prepend());
 }
 
-void bind_phases(py::module_& m) {
-  py::class_<Contact> contact(
-      m, "Contact",
-      "What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor), acting at the anchor or, "
-      "under ForceLaw.wrench, at center_of_pressure, or forces at points where the phase's law says so.");
-  contact.def(
-      py::init([](int surface, double stiffness, const Vector3d& anchor_W, const Vector3d& moment_W,
-                  const py::object& points_W, const py::object& point_forces_W, const Vector3d& center_of_pressure_W) {
-        return Contact{surface,
-                       stiffness,
-                       anchor_W,
-                       moment_W,
-                       points_from(points_W, "points_W"),
-                       points_from(point_forces_W, "point_forces_W"),
-                       center_of_pressure_W};
-      }),
-      py::kw_only(), py::arg("surface") = -1, py::arg("stiffness") = 0.0,
-      py::arg("anchor_W") = Vector3d(Vector3d::Zero()), py::arg("moment_W") = Vector3d(Vector3d::Zero()),
-      py::arg("points_W") = py::tuple(), py::arg("point_forces_W") = py::tuple(),
-      py::arg("center_of_pressure_W") = Vector3d(Vector3d::Zero()));
-  contact.def_readwrite("surface", &Contact::surface, "Index into scene.surfaces, -1: free.");
-  contact.def_readwrite("stiffness", &Contact::stiffness, "mu [1/s^2], 0 when free.");
-  def_vector(contact, "anchor_W", &Contact::anchor_W, "Point through which the line of force passes [m].");
-  def_vector(contact, "moment_W", &Contact::moment_W, "Contact moment, constant over the phase [N m].");
-  def_points(contact, "points_W", &Contact::points_W, "N x 3 [m], where forces act, e.g. the corners of the sole.");
-  def_points(contact, "point_forces_W", &Contact::point_forces_W,
-             "[N] node by node, a row for each point: (Phase.node_count() N) x 3.");
-  def_vector(contact, "center_of_pressure_W", &Contact::center_of_pressure_W,
-             "Where the force acts under ForceLaw.wrench [m].");
-  def_value(contact, "Contact",
-            {"surface", "stiffness", "anchor_W", "moment_W", "points_W", "point_forces_W", "center_of_pressure_W"});
-
-  py::class_<Phase> phase(m, "Phase", "A stretch of time with constant contacts.");
-  phase.def(py::init([](double duration, std::vector<Contact> contacts, ForceLaw law, int intervals) {
-              return Phase{duration, std::move(contacts), law, intervals};
-            }),
-            py::kw_only(), py::arg("duration") = 0.0, py::arg("contacts") = std::vector<Contact>(),
-            py::arg("law") = ForceLaw::pendulum, py::arg("intervals") = 0);
-  phase.def_readwrite("duration", &Phase::duration, "[s]");
-  def_items(phase, "contacts", &Phase::contacts, "One Contact per end-effector.");
-  phase.def_readwrite("law", &Phase::law, "How forces depend on time.");
-  phase.def_readwrite("intervals", &Phase::intervals, "Of the forces at points, equally long; 0 where there are none.");
-  phase.def("node_count", &Phase::node_count,
-            "Instants at which forces are given: `intervals` when held, one more when linear, 0 without such.");
-  def_value(phase, "Phase", {"duration", "contacts", "law", "intervals"});
-}
-
-void bind_knot(py::module_& m) {
-  py::class_<Knot> knot(m, "Knot", "State at the instant between two phases.");
-  const Vector3d zero = Vector3d::Zero();
-  knot.def(py::init([](const Vector3d& com_W, const Vector3d& com_velocity_W, const Vector3d& base_rpy,
-                       const Vector3d& base_rpy_rate, const py::object& end_effectors_W, const py::object& velocities_W,
-                       const Vector3d& angular_momentum_W, std::vector<double> end_effector_yaw) {
-             return Knot{com_W,
-                         com_velocity_W,
-                         base_rpy,
-                         base_rpy_rate,
-                         points_from(end_effectors_W, "end_effectors_W"),
-                         points_from(velocities_W, "end_effector_velocities_W"),
-                         angular_momentum_W,
-                         std::move(end_effector_yaw)};
-           }),
-           py::kw_only(), py::arg("com_W") = zero, py::arg("com_velocity_W") = zero, py::arg("base_rpy") = zero,
-           py::arg("base_rpy_rate") = zero, py::arg("end_effectors_W") = py::tuple(),
-           py::arg("end_effector_velocities_W") = py::tuple(), py::arg("angular_momentum_W") = zero,
-           py::arg("end_effector_yaw") = std::vector<double>());
-  def_vector(knot, "com_W", &Knot::com_W, "[m]");
-  def_vector(knot, "com_velocity_W", &Knot::com_velocity_W, "[m/s]");
-  def_vector(knot, "base_rpy", &Knot::base_rpy, "Roll, pitch, yaw of the base [rad].");
-  def_vector(knot, "base_rpy_rate", &Knot::base_rpy_rate, "[rad/s]");
-  def_points(knot, "end_effectors_W", &Knot::end_effectors_W, "One row per end-effector [m].");
-  def_points(knot, "end_effector_velocities_W", &Knot::end_effector_velocities_W, "[m/s], zero at contacts.");
-  def_vector(knot, "angular_momentum_W", &Knot::angular_momentum_W,
-             "About the CoM [kg m^2/s]; not looked at under ForceLaw.pendulum, whose base carries it.");
-  def_names(knot, "end_effector_yaw", &Knot::end_effector_yaw,
-            "Heading of each sole [rad], a tuple; empty: all head where the base does.");
-  def_value(knot, "Knot",
-            {"com_W", "com_velocity_W", "base_rpy", "base_rpy_rate", "end_effectors_W", "end_effector_velocities_W",
-             "angular_momentum_W", "end_effector_yaw"});
-}
-
-void bind_swing(py::module_& m) {
-  py::class_<Swing> swing(m, "Swing",
-                          "A stretch of phases, first_phase to end_phase - 1, in which an end-effector is free.");
-  const Vector3d up = Vector3d::UnitZ();
-  swing.def(py::init([](int end_effector, int first_phase, int end_phase, double height, const Vector3d& lift_normal_W,
-                        const Vector3d& land_normal_W) {
-              return Swing{end_effector, first_phase, end_phase, height, lift_normal_W, land_normal_W};
-            }),
-            py::kw_only(), py::arg("end_effector") = 0, py::arg("first_phase") = 0, py::arg("end_phase") = 0,
-            py::arg("height") = 0.0, py::arg("lift_normal_W") = up, py::arg("land_normal_W") = up);
-  swing.def_readwrite("end_effector", &Swing::end_effector);
-  swing.def_readwrite("first_phase", &Swing::first_phase);
-  swing.def_readwrite("end_phase", &Swing::end_phase);
-  swing.def_readwrite("height", &Swing::height, "[m]");
-  def_vector(swing, "lift_normal_W", &Swing::lift_normal_W, "Unit normal of the surface it leaves.");
-  def_vector(swing, "land_normal_W", &Swing::land_normal_W, "Unit normal of the surface it reaches.");
-  def_value(swing, "Swing", {"end_effector", "first_phase", "end_phase", "height", "lift_normal_W", "land_normal_W"});
+void bind_parts(py::module_& m) {
+  bind_fields<Contact>(m);
+  bind_fields<Phase>(m).def(
+      "node_count", &Phase::node_count,
+      "Instants at which forces are given: `intervals` when held, one more when linear, 0 without such.");
+  bind_fields<Knot>(m);
+  bind_fields<Swing>(m);
 }
 
 void bind_state(py::module_& m) {
@@ -172,38 +83,7 @@ std::string describe(const Plan& plan) {
 }
 
 void bind_plan_class(py::module_& m) {
-  using Ints = std::vector<int>;
-  py::class_<Plan> plan(m, "Plan",
-                        "A motion: phases with constant contacts between knots. Carries its scene and robot.");
-  plan.def(py::init([](const Scene& scene, const Robot& robot, std::string planner, std::vector<Knot> knots,
-                       std::vector<Phase> phases, Ints final_contacts, std::vector<Swing> swings, bool measured_start,
-                       bool open_end) {
-             Plan out;
-             out.scene = scene;
-             out.robot = robot;
-             out.planner = std::move(planner);
-             out.knots = std::move(knots);
-             out.phases = std::move(phases);
-             out.final_contacts = std::move(final_contacts);
-             out.swings = std::move(swings);
-             out.measured_start = measured_start;
-             out.open_end = open_end;
-             return out;
-           }),
-           py::kw_only(), py::arg("scene") = Scene(), py::arg("robot") = Robot(), py::arg("planner") = "",
-           py::arg("knots") = std::vector<Knot>(), py::arg("phases") = std::vector<Phase>(),
-           py::arg("final_contacts") = Ints(), py::arg("swings") = std::vector<Swing>(),
-           py::arg("measured_start") = false, py::arg("open_end") = false);
-  plan.def_readwrite("measured_start", &Plan::measured_start,
-                     "Starts from a measured state, not from the scene's start.");
-  plan.def_readwrite("open_end", &Plan::open_end, "Ends on the way, not at the scene's goal.");
-  def_member(plan, "scene", &Plan::scene, "The scene it was made for.");
-  def_member(plan, "robot", &Plan::robot, "The robot it was made for.");
-  plan.def_readwrite("planner", &Plan::planner, "E.g. 'ddp'.");
-  def_items(plan, "knots", &Plan::knots, "Tuple of Knot, one more than phases.");
-  def_items(plan, "phases", &Plan::phases, "Tuple of Phase.");
-  def_names(plan, "final_contacts", &Plan::final_contacts, "Surface index per end-effector after the last phase.");
-  def_items(plan, "swings", &Plan::swings, "Tuple of Swing.");
+  py::class_<Plan> plan = bind_fields<Plan>(m);  // its repr is not what could be pasted back, which would be pages long
   plan.def("duration", &Plan::duration, "[s]");
   plan.def("knot_times", &Plan::knot_times, "[s], phases + 1 entries, from 0.");
   plan.def("end_effector_count", &Plan::end_effector_count);
@@ -220,16 +100,21 @@ void bind_plan_class(py::module_& m) {
   plan.def(
       "save",
       [](py::object self, py::object path) { py::module_::import("mcplan.files.plans").attr("save_plan")(self, path); },
-      py::arg("path"), "Write the plan to an .npz file.");
+      py::arg("path"), "Write the plan to an .npz or a .json file; C++ reads the latter.");
   plan.def_static(
       "load",
       [](py::object path) -> Plan {
         return py::module_::import("mcplan.files.plans").attr("load_plan")(path).cast<Plan>();
       },
       py::arg("path"), "Read a plan written by save(). Raises InvalidPlan.");
-  def_value(plan, "Plan", {});  // for copies; a repr that can be pasted back would be pages long
   plan.def("__repr__", py::overload_cast<const Plan&>(&describe), py::prepend());
   def_pickle(plan, "mcplan.files.plans", "plan_to_bytes", "plan_from_bytes");
+  m.def(
+      "plan_to_json", [](const Plan& self) { return py::bytes(plan_to_json(self)); }, py::arg("plan"),
+      "A plan as JSON; numbers read back as the same. Raises InvalidPlan.");
+  m.def(
+      "plan_from_json", [](const py::bytes& content) { return plan_from_json(content); }, py::arg("content"),
+      "The plan of a JSON text. Raises InvalidPlan.");
 }
 
 std::string describe(const Report& report) {
@@ -402,9 +287,7 @@ void bind_loads(py::module_& m) {
 
 void bind_plan(py::module_& m) {
   bind_force_law(m);
-  bind_phases(m);
-  bind_knot(m);
-  bind_swing(m);
+  bind_parts(m);
   bind_state(m);
   bind_plan_class(m);
   bind_report(m);

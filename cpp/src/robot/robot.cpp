@@ -7,29 +7,16 @@
 #include "mcplan/base/error.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "mcplan/scene/polygon.hpp"
+#include "model/read.hpp"
+#include "robot_fields.hpp"
 
 namespace mcplan {
 namespace {
 
 using Eigen::Vector3d;
 
-void require_positive(const std::string& field, double value) {
-  if (!(std::isfinite(value) && value > 0.0)) throw InvalidRobot(field, "must be a positive number", text(value));
-}
-
-void require_finite(const std::string& field, const Vector3d& value) {
-  if (!value.allFinite()) throw InvalidRobot(field, "must be finite numbers", text(value));
-}
-
-void validate_end_effector(const EndEffector& e, const std::string& field) {
-  if (e.name.empty()) throw InvalidRobot(field + ".name", "must not be empty", "''");
-  if (e.kind.empty()) throw InvalidRobot(field + ".kind", "must not be empty", "''");
-  require_finite(field + ".frame_offset", e.frame_offset);
-  if (!(e.half_size.allFinite() && e.half_size.minCoeff() >= 0.0))
-    throw InvalidRobot(field + ".half_size", "must be two numbers >= 0", text(e.half_size));
-  require_finite(field + ".nominal", e.nominal_B);
-  require_finite(field + ".reach_min", e.reach_min_B);
-  require_finite(field + ".reach_max", e.reach_max_B);
+/// The nominal point must lie in the box, and the box must be one.
+void require_box(const EndEffector& e, const std::string& field) {
   const char axes[] = "xyz";
   for (int i = 0; i < 3; ++i) {
     if (!(e.reach_min_B[i] < e.reach_max_B[i]))
@@ -40,11 +27,10 @@ void validate_end_effector(const EndEffector& e, const std::string& field) {
           field + ".nominal", std::string("must lie in the reach box in ") + axes[i],
           text(e.nominal_B[i]) + " outside [" + text(e.reach_min_B[i]) + ", " + text(e.reach_max_B[i]) + "]");
   }
-  if (!(e.max_force > 0.0)) throw InvalidRobot(field + ".max_force", "must be a positive number", text(e.max_force));
-  if (!(e.max_moment.array() >= 0.0).all())
-    throw InvalidRobot(field + ".max_moment", "must be three numbers >= 0", text(e.max_moment));
-  const bool both = std::isfinite(e.yaw_range[0]) == std::isfinite(e.yaw_range[1]);  // files know no infinity
-  if (!(e.yaw_range[0] <= 0.0 && e.yaw_range[1] >= 0.0 && both))
+}
+
+void require_yaw_range(const EndEffector& e, const std::string& field) {
+  if (!(e.yaw_range[0] <= 0.0 && e.yaw_range[1] >= 0.0))
     throw InvalidRobot(field + ".yaw_range", "must be two finite numbers, the first <= 0, the second >= 0, or +-inf",
                        text(e.yaw_range));
 }
@@ -58,10 +44,11 @@ void validate_polytope(const Polytope& set, const Vector3d& nominal, const std::
   for (int i = 0; i < set.A.rows(); ++i) {
     const std::string row = "[" + std::to_string(i) + "]";
     const Vector3d normal = set.A.row(i);
-    require_finite(field + ".A" + row, normal);
+    if (!(normal.allFinite() && std::isfinite(set.b[i])))
+      throw InvalidRobot(field + (normal.allFinite() ? ".b" : ".A") + row, "must be finite numbers",
+                         normal.allFinite() ? text(set.b[i]) : text(normal));
     if (std::abs(normal.norm() - 1.0) > unit_tolerance)
       throw InvalidRobot(field + ".A" + row, "must have length 1 within 0.001", text(normal.norm()));
-    if (!std::isfinite(set.b[i])) throw InvalidRobot(field + ".b" + row, "must be a finite number", text(set.b[i]));
     const double outside = normal.dot(nominal) - set.b[i];
     if (outside > inside_tolerance_m)
       throw InvalidRobot(field, "must hold the nominal stance",
@@ -70,15 +57,8 @@ void validate_polytope(const Polytope& set, const Vector3d& nominal, const std::
 }
 
 void require_durations(const Eigen::Vector2d& range) {
-  if (!(range.allFinite() && range[0] > 0.0 && range[1] >= range[0]))
+  if (!(range[1] >= range[0]))
     throw InvalidRobot("phase_duration", "must be two positive numbers, the shorter first", text(range));
-}
-
-void require_shares(const Robot& robot) {
-  if (!(robot.sole_support >= 0.0 && robot.sole_support <= 1.0))
-    throw InvalidRobot("sole_support", "must lie in [0, 1]", text(robot.sole_support));
-  if (!(robot.pressure_share > 0.0 && robot.pressure_share <= 1.0))
-    throw InvalidRobot("pressure_share", "must lie in (0, 1]", text(robot.pressure_share));
 }
 
 void validate_reach(const Robot& robot, const EndEffector& e, const std::string& field) {
@@ -100,30 +80,29 @@ int Robot::end_effector_index(const std::string& end_effector_name) const {
 }
 
 void Robot::validate() const {
-  Validation<InvalidRobot> check;
-  check([&] { require_positive("mass", mass); });
-  for (int i = 0; i < 3; ++i) check([&] { require_positive("inertia[" + std::to_string(i) + "]", inertia[i]); });
-  check([&] { require_positive("com_height", com_height); });
-  check([&] { require_positive("swing_height", swing_height); });
-  check([&] { require_durations(phase_duration); });
-  check([&] { require_shares(*this); });
-  check([&] {
-    if (end_effectors.empty()) throw InvalidRobot("end_effectors", "needs at least one end-effector", "none");
-    if (end_effectors.size() > 8)
-      throw InvalidRobot("end_effectors", "may be 8 at most", text(static_cast<int>(end_effectors.size())));
-  });
+  model::Findings found;
+  model::check_struct(*this, model::Place(), found);
+  model::relations(*this, found);
+  found.raise<InvalidRobot>();
+}
+
+void model::relations(const Robot& robot, Findings& found) {
+  found.check({"phase_duration"}, [&] { require_durations(robot.phase_duration); });
   std::set<std::string> names;
-  bool sound = true;
-  for (std::size_t l = 0; l < end_effectors.size(); ++l)
-    sound &= check([&] {
-      const std::string field = "end_effectors[" + std::to_string(l) + "]";
-      validate_end_effector(end_effectors[l], field);
-      if (!names.insert(end_effectors[l].name).second)
-        throw InvalidRobot(field + ".name", "must be unique", text(end_effectors[l].name));
+  const auto field_of = [](std::size_t l) { return "end_effectors[" + std::to_string(l) + "]"; };
+  for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {
+    const EndEffector& e = robot.end_effectors[l];
+    const std::string field = field_of(l);
+    found.check({field + ".nominal", field + ".reach_min", field + ".reach_max"}, [&] { require_box(e, field); });
+    found.check({field + ".yaw_range"}, [&] { require_yaw_range(e, field); });
+    found.check({field + ".name"}, [&] {
+      if (!names.insert(e.name).second) throw InvalidRobot(field + ".name", "must be unique", text(e.name));
     });
-  for (std::size_t l = 0; sound && l < end_effectors.size(); ++l)
-    check([&] { validate_reach(*this, end_effectors[l], "end_effectors[" + std::to_string(l) + "]"); });
-  check.raise();
+  }
+  // What is wrong with the robot itself says nothing of its end-effectors, but names and nominal points must be right.
+  const bool sound = found.sound("end_effectors");
+  for (std::size_t l = 0; sound && l < robot.end_effectors.size(); ++l)
+    found.check({}, [&] { validate_reach(robot, robot.end_effectors[l], field_of(l)); });
 }
 
 bool addresses(const std::string& who, const EndEffector& end_effector) {

@@ -6,6 +6,8 @@
 #include <set>
 
 #include "mcplan/base/error.hpp"
+#include "model/read.hpp"
+#include "scene_fields.hpp"
 
 namespace mcplan {
 namespace {
@@ -14,19 +16,9 @@ using Eigen::Vector3d;
 
 std::string item(const std::string& list, std::size_t i) { return list + "[" + std::to_string(i) + "]"; }
 
-void require_finite(const std::string& field, const Vector3d& value) {
-  if (!value.allFinite()) throw InvalidScene(field, "must be finite numbers", text(value));
-}
-
-void require_positive(const std::string& field, double value) {
-  if (!(std::isfinite(value) && value > 0.0)) throw InvalidScene(field, "must be a positive number", text(value));
-}
-
 /// Bounds go with the polygon below a metre: the ground of a robot of 5 mm has treads of a millimetre.
 void validate_polygon(const std::string& field, const std::vector<Vector3d>& vertices) {
   const std::size_t n = vertices.size();
-  if (n < 3) throw InvalidScene(field, "needs at least 3 points", text(static_cast<int>(n)));
-  for (std::size_t i = 0; i < n; ++i) require_finite(item(field, i), vertices[i]);
   double size_m = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     if (vertices[i].cwiseAbs().maxCoeff() > 1e4)
@@ -70,29 +62,27 @@ std::string surface_names(const Scene& scene) {
   return names;
 }
 
-void validate_stance(const Scene& scene, const std::string& field, const Stance& stance) {
-  require_finite(field + ".position", stance.position_W);
-  if (!std::isfinite(stance.yaw)) throw InvalidScene(field + ".yaw", "must be a finite number", text(stance.yaw));
-  if (std::abs(stance.yaw) > 2.0 * M_PI)
-    throw InvalidScene(field + ".yaw", "must lie in [-2 pi, 2 pi] rad", text(stance.yaw));
-  if (stance.contacts.empty())
-    throw InvalidScene(field + ".contacts", "must put at least one end-effector on a surface", "{}");
-  for (const auto& [who, surface] : stance.contacts)
-    if (scene.surface_index(surface) < 0)
-      throw InvalidScene(field + ".contacts." + who, "must name a surface (" + surface_names(scene) + ")",
-                         text(surface));
+/// Says that a surface does not exist, once the names of all are known.
+void require_surface(const Scene& scene, const std::string& surface, const std::string& field, model::Findings& found) {
+  if (scene.surface_index(surface) >= 0) return;
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
+    if (!found.sound(item("surfaces", i) + ".name")) return;
+  if (!scene.surfaces.empty())
+    found.check({field}, [&] {
+      throw InvalidScene(field, "must name a surface (" + surface_names(scene) + ")", text(surface));
+    });
 }
 
-void validate_rule(const ContactRule& rule, const std::string& field) {
-  if (rule.when_free.empty())
-    throw InvalidScene(field + ".when_free", "must name at least one end-effector or kind", "[]");
-  if (rule.require.empty()) throw InvalidScene(field + ".require", "must name at least one end-effector or kind", "[]");
-}
-
-void validate_step(const Scene& scene, const Step& step, const std::string& field) {
-  if (step.end_effector.empty()) throw InvalidScene(field + ".end_effector", "must not be empty", "''");
-  if (scene.surface_index(step.surface) < 0)
-    throw InvalidScene(field + ".surface", "must name a surface (" + surface_names(scene) + ")", text(step.surface));
+void relate_stance(const Scene& scene, const std::string& field, const Stance& stance, model::Findings& found) {
+  found.check({field + ".yaw"}, [&] {
+    if (std::abs(stance.yaw) > 2.0 * M_PI)
+      throw InvalidScene(field + ".yaw", "must lie in [-2 pi, 2 pi] rad", text(stance.yaw));
+  });
+  found.check({field + ".contacts"}, [&] {
+    if (stance.contacts.empty())
+      throw InvalidScene(field + ".contacts", "must put at least one end-effector on a surface", "{}");
+  });
+  for (const auto& [who, surface] : stance.contacts) require_surface(scene, surface, field + ".contacts." + who, found);
 }
 
 }  // namespace
@@ -104,28 +94,26 @@ int Scene::surface_index(const std::string& surface_name) const {
 }
 
 void Scene::validate() const {
-  Validation<InvalidScene> check;
-  check([&] { require_positive("gravity", gravity); });
-  check([&] {
-    if (surfaces.empty()) throw InvalidScene("surfaces", "needs at least one surface", "none");
-  });
+  model::Findings found;
+  model::check_struct(*this, model::Place(), found);
+  model::relations(*this, found);
+  found.raise<InvalidScene>();
+}
+
+void model::relations(const Scene& scene, Findings& found) {
   std::set<std::string> names;
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    const Surface& surface = surfaces[i];
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+    const Surface& surface = scene.surfaces[i];
     const std::string field = item("surfaces", i);
-    check([&] {
-      if (surface.name.empty()) throw InvalidScene(field + ".name", "must not be empty", "''");
+    found.check({field + ".name"}, [&] {
       if (!names.insert(surface.name).second) throw InvalidScene(field + ".name", "must be unique", text(surface.name));
     });
-    check([&] { require_positive(field + ".friction", surface.friction); });
-    check([&] { require_positive(field + ".thickness", surface.thickness); });
-    check([&] { validate_polygon(field + ".vertices", surface.vertices_W); });
+    found.check({field + ".vertices"}, [&] { validate_polygon(field + ".vertices", surface.vertices_W); });
   }
-  check([&] { validate_stance(*this, "start", start); });
-  check([&] { validate_stance(*this, "goal", goal); });
-  for (std::size_t i = 0; i < rules.size(); ++i) check([&] { validate_rule(rules[i], item("rules", i)); });
-  for (std::size_t i = 0; i < steps.size(); ++i) check([&] { validate_step(*this, steps[i], item("steps", i)); });
-  check.raise();
+  relate_stance(scene, "start", scene.start, found);
+  relate_stance(scene, "goal", scene.goal, found);
+  for (std::size_t i = 0; i < scene.steps.size(); ++i)
+    require_surface(scene, scene.steps[i].surface, item("steps", i) + ".surface", found);
 }
 
 }  // namespace mcplan

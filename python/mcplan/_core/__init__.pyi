@@ -67,23 +67,39 @@ __all__: list[str] = [
     "WholeBodyState",
     "WholeBodyTolerances",
     "addresses",
+    "built_in",
     "check",
+    "data_folder",
     "ddp",
     "largest_drift",
     "least_norm_gain",
+    "load_robot",
+    "load_scene",
     "may_touch",
     "moment_point_W",
     "nlp",
+    "plan_from_json",
     "plan_loads",
+    "plan_to_json",
     "planar_inverse_dynamics",
     "planar_kinematics",
     "planar_point",
     "quat_wxyz_from_rpy",
+    "read_robot",
+    "read_scene",
+    "require_ground",
     "resolve_stance",
     "rhp",
+    "robot_from_dict",
+    "robot_to_dict",
     "rotation_derivative",
     "rotation_from_rpy",
+    "scene_from_dict",
+    "scene_to_dict",
+    "schema_text",
     "sip",
+    "toml_from",
+    "toml_text",
 ]
 
 class Status:
@@ -235,9 +251,11 @@ class Surface:
     A flat patch of the world that end-effectors may touch.
     """
 
-    name: str
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Surface: ...
     def __deepcopy__(self, memo: dict) -> Surface: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
     def __init__(
         self,
         *,
@@ -245,52 +263,64 @@ class Surface:
         vertices_W: typing.Any = (),
         friction: typing.SupportsFloat | typing.SupportsIndex = 0.7,
         grasp: bool = False,
-        end_effectors: collections.abc.Sequence[str] = [],
         thickness: typing.SupportsFloat | typing.SupportsIndex = 0.05,
+        end_effectors: collections.abc.Sequence[str] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def end_effectors(self) -> typing.Any:
         """
-        Names or kinds that may touch it; empty: all.
+        Names or kinds of those that may touch it; empty: all.
         """
     @end_effectors.setter
     def end_effectors(self, arg1: collections.abc.Sequence[str]) -> None: ...
     @property
     def friction(self) -> float:
         """
-        Coulomb coefficient [-].
+        [-] Coulomb coefficient.
         """
     @friction.setter
     def friction(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def grasp(self) -> bool:
         """
-        May be held: no friction cone, the force cap of the end-effector only.
+        May be held: no friction cone, only the end-effector's force cap.
         """
     @grasp.setter
     def grasp(self, arg0: bool) -> None: ...
     @property
+    def name(self) -> str:
+        """
+        Unique name.
+        """
+    @name.setter
+    def name(self, arg0: str) -> None: ...
+    @property
     def thickness(self) -> float:
         """
-        Solid below the surface that swinging end-effectors must clear [m].
+        [m] Solid below the surface that swings must clear.
         """
     @thickness.setter
     def thickness(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def vertices_W(self) -> numpy.ndarray:
         """
-        N x 3 [m], convex, coplanar, counter-clockwise about the outward normal.
+        N x 3 [m] Corners of a convex polygon, world frame, counter-clockwise about the outward normal.
         """
     @vertices_W.setter
     def vertices_W(self, arg1: typing.Any) -> None: ...
 
 class Stance:
     """
-    Where the robot is at the start or the goal; heights come from the robot.
+    Where the robot is at the start or the goal. Heights come from the robot.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Stance: ...
     def __deepcopy__(self, memo: dict) -> Stance: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, typing.Any, typing.Any]: ...
     def __init__(
         self,
         *,
@@ -299,6 +329,7 @@ class Stance:
         contacts: collections.abc.Mapping[str, str] = {},
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def contacts(self) -> typing.Any:
         """
@@ -309,14 +340,14 @@ class Stance:
     @property
     def position_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Point of the ground below the CoM [m].
+        [m] Point of the ground below the CoM, world frame.
         """
     @position_W.setter
     def position_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def yaw(self) -> float:
         """
-        Heading [rad].
+        [rad] Heading.
         """
     @yaw.setter
     def yaw(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -325,12 +356,17 @@ class ContactRule:
     """
     If none of `when_free` is in contact, all of `require` must be.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> ContactRule: ...
     def __deepcopy__(self, memo: dict) -> ContactRule: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, typing.Any]: ...
     def __init__(
         self, *, when_free: collections.abc.Sequence[str] = [], require: collections.abc.Sequence[str] = []
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def require(self) -> typing.Any:
         """
@@ -350,10 +386,15 @@ class Step:
     """
     One step of a walk: the foot that swings and the surface on which it lands.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Step: ...
     def __deepcopy__(self, memo: dict) -> Step: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, typing.Any]: ...
     def __init__(self, *, end_effector: str = "", surface: str = "") -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def end_effector(self) -> str:
         """
@@ -371,13 +412,16 @@ class Step:
 
 class Scene:
     """
-    The world: surfaces, start and goal. World frame W with z up.
+    The world: surfaces, start and goal. World frame W with z up, SI units.
     """
 
-    description: str
-    name: str
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Scene: ...
     def __deepcopy__(self, memo: dict) -> Scene: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(
+        self,
+    ) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
     def __init__(
         self,
         *,
@@ -390,16 +434,23 @@ class Scene:
         rules: collections.abc.Sequence[ContactRule] = [],
         steps: collections.abc.Sequence[Step] = [],
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def surface_index(self, surface_name: str) -> int:
         """
         Index into surfaces, or -1.
         """
     def validate(self) -> None:
         """
-        Raise InvalidScene naming the first field out of its range.
+        Raise InvalidScene naming all that is out of its range.
         """
+    @property
+    def description(self) -> str:
+        """
+        One line.
+        """
+    @description.setter
+    def description(self, arg0: str) -> None: ...
     @property
     def goal(self) -> Stance:
         """
@@ -410,14 +461,21 @@ class Scene:
     @property
     def gravity(self) -> float:
         """
-        [m/s^2]
+        [m/s^2] Acceleration, downwards.
         """
     @gravity.setter
     def gravity(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def name(self) -> str:
+        """
+        Name; of a file that says none, the file's.
+        """
+    @name.setter
+    def name(self, arg0: str) -> None: ...
+    @property
     def rules(self) -> tuple:
         """
-        Tuple of ContactRule; assign a list to add or remove.
+        Tuple: Rules of contacts; assign a list to add or remove.
         """
     @rules.setter
     def rules(self, arg1: collections.abc.Sequence[ContactRule]) -> None: ...
@@ -431,14 +489,14 @@ class Scene:
     @property
     def steps(self) -> tuple:
         """
-        Contact sequence of a walk, for planners that want it given: tuple of Step; assign a list to change it.
+        Tuple: Contact sequence of a walk, for planners that want it given; assign a list to change it.
         """
     @steps.setter
     def steps(self, arg1: collections.abc.Sequence[Step]) -> None: ...
     @property
     def surfaces(self) -> tuple:
         """
-        Tuple of Surface; assign a list to add or remove.
+        Tuple: Surfaces; assign a list to add or remove.
         """
     @surfaces.setter
     def surfaces(self, arg1: collections.abc.Sequence[Surface]) -> None: ...
@@ -447,10 +505,15 @@ class Polytope:
     """
     Convex set {x : A x <= b} [m], rows of A of unit length. Without rows: not given.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Polytope: ...
     def __deepcopy__(self, memo: dict) -> Polytope: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, typing.Any]: ...
     def __init__(self, *, A: typing.Any = (), b: typing.Any = ()) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def A(self) -> numpy.ndarray:
         """
@@ -469,12 +532,30 @@ class Polytope:
 
 class EndEffector:
     """
-    A contact link of the robot. Frame B sits at the CoM and turns with the base.
+    A contact link. Positions relative to the CoM, in axes that turn with the base (x forward, y left, z up).
     """
 
-    name: str
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> EndEffector: ...
     def __deepcopy__(self, memo: dict) -> EndEffector: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(
+        self,
+    ) -> tuple[
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+    ]: ...
     def __init__(
         self,
         *,
@@ -493,100 +574,125 @@ class EndEffector:
         partner_reach: collections.abc.Mapping[str, Polytope] = {},
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def com_reach(self) -> Polytope:
         """
-        Where the CoM may be relative to this end-effector while it is in contact; axes level, x along the heading.
+        [m] Where the CoM may be relative to the sole's centre. Axes: level, x along the heading.
         """
     @com_reach.setter
     def com_reach(self, arg1: Polytope) -> None: ...
     @property
     def frame(self) -> str:
         """
-        URDF frame, empty for robots without a URDF.
+        URDF frame; empty for robots without a URDF.
         """
     @frame.setter
     def frame(self, arg0: str) -> None: ...
     @property
     def frame_offset(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Contact point in the axes of the URDF frame [m].
+        [m] Contact point in the axes of the URDF frame.
         """
     @frame_offset.setter
     def frame_offset(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def half_size(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
-        Half length and half width of the sole [m]; 0: point contact.
+        [m] Half length and half width of the sole; zero: point contact.
         """
     @half_size.setter
     def half_size(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
     @property
     def kind(self) -> str:
         """
-        Group that scenes may address as a whole, e.g. 'foot', 'hand'.
+        Group that scenes may address as a whole, e.g. foot, hand.
         """
     @kind.setter
     def kind(self, arg0: str) -> None: ...
     @property
     def max_force(self) -> float:
         """
-        Largest norm of the contact force [N].
+        [N] Largest norm of the contact force.
         """
     @max_force.setter
     def max_force(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def max_moment(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Largest contact moment about each world axis [N m]; under ForceLaw.wrench the third about the surface's normal.
+        [N m] Largest contact moment about each world axis; under ForceLaw.wrench the third about the surface's normal.
         """
     @max_moment.setter
     def max_moment(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
+    def name(self) -> str:
+        """
+        Unique name.
+        """
+    @name.setter
+    def name(self, arg0: str) -> None: ...
+    @property
     def nominal_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Nominal position relative to the CoM [m].
+        [m] Position in the nominal stance.
         """
     @nominal_B.setter
     def nominal_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def partner_reach(self) -> typing.Any:
         """
-        Where other end-effectors may stand relative to it, by name; same axes. Assign a dict to change it.
+        [m] Where other end-effectors may stand relative to it, by name. Same axes. Assign a dict to change it.
         """
     @partner_reach.setter
     def partner_reach(self, arg1: collections.abc.Mapping[str, Polytope]) -> None: ...
     @property
     def reach_max_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Box of reachable positions relative to the CoM [m].
+        [m] Upper corner of the box of reachable positions.
         """
     @reach_max_B.setter
     def reach_max_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def reach_min_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Box of reachable positions relative to the CoM [m].
+        [m] Lower corner of the box of reachable positions.
         """
     @reach_min_B.setter
     def reach_min_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def yaw_range(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
-        How far the sole may be turned against the base about the vertical while in contact [rad].
+        [rad] How far the sole may be turned against the base, right and left; left out: any way.
         """
     @yaw_range.setter
     def yaw_range(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
 
 class Robot:
     """
-    What a planner needs to know of a robot: lumped inertia and where its limbs reach.
+    What a planner needs to know of a robot: lumped inertia and where its limbs reach. SI units.
     """
 
-    description: str
-    name: str
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Robot: ...
     def __deepcopy__(self, memo: dict) -> Robot: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(
+        self,
+    ) -> tuple[
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+        typing.Any,
+    ]: ...
     def __init__(
         self,
         *,
@@ -600,87 +706,101 @@ class Robot:
         sole_support: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         pressure_share: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         tracked: bool = False,
-        end_effectors: collections.abc.Sequence[EndEffector] = [],
         urdf: str = "",
+        end_effectors: collections.abc.Sequence[EndEffector] = [],
         posture: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {},
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def end_effector_index(self, end_effector_name: str) -> int:
         """
         Index, or -1.
         """
     def validate(self) -> None:
         """
-        Raise InvalidRobot naming the first field out of its range.
+        Raise InvalidRobot naming all that is out of its range.
         """
     @property
     def com_height(self) -> float:
         """
-        Of the CoM above the ground in the nominal stance [m].
+        [m] Of the CoM above the ground in the nominal stance.
         """
     @com_height.setter
     def com_height(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def description(self) -> str:
+        """
+        One line.
+        """
+    @description.setter
+    def description(self, arg0: str) -> None: ...
+    @property
     def end_effectors(self) -> tuple:
         """
-        Tuple of EndEffector; assign a list to add or remove.
+        Tuple: End-effectors; assign a list to add or remove.
         """
     @end_effectors.setter
     def end_effectors(self, arg1: collections.abc.Sequence[EndEffector]) -> None: ...
     @property
     def inertia(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Diagonal, about the CoM, nominal posture [kg m^2].
+        [kg m^2] Diagonal, about the CoM, in the nominal posture.
         """
     @inertia.setter
     def inertia(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def mass(self) -> float:
         """
-        [kg]
+        [kg] Total mass.
         """
     @mass.setter
     def mass(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def name(self) -> str:
+        """
+        Name; of a file that says none, the file's.
+        """
+    @name.setter
+    def name(self, arg0: str) -> None: ...
+    @property
     def phase_duration(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
-        Shortest and longest phase of a contact sequence [s]. The default goes with the size of the robot.
+        [s] Shortest and longest phase of a contact sequence. The default goes with the robot's size.
         """
     @phase_duration.setter
     def phase_duration(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
     @property
     def posture(self) -> typing.Any:
         """
-        Nominal joint positions [rad] by URDF joint name. Assign a dict to change it.
+        [rad] Nominal joint positions by URDF joint name. Assign a dict to change it.
         """
     @posture.setter
     def posture(self, arg1: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
     @property
     def pressure_share(self) -> float:
         """
-        Share of a sole's half size within which a plan keeps the centre of pressure.
+        [-] Share of a sole's half size within which a plan keeps the centre of pressure.
         """
     @pressure_share.setter
     def pressure_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def sole_support(self) -> float:
         """
-        Share of a sole that a contact sequence keeps on its surface; 0: its centre.
+        [-] Share of a sole that a contact sequence keeps on its surface; 0: its centre.
         """
     @sole_support.setter
     def sole_support(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def swing_height(self) -> float:
         """
-        Clearance of a swinging end-effector [m]. The default, 0.10, goes with the size of the robot.
+        [m] Clearance of a swinging end-effector. The default goes with the robot's size.
         """
     @swing_height.setter
     def swing_height(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def tracked(self) -> bool:
         """
-        Whether a controller follows the plans with limbs whose momentum they do not know of: contact sequences then keep the base upright and the centre of pressure near the middle of the sole.
+        Whether a controller follows the plans with limbs whose momentum they do not know of: contact sequences keep the base upright and the centre of pressure near the middle of the sole.
         """
     @tracked.setter
     def tracked(self, arg0: bool) -> None: ...
@@ -770,8 +890,14 @@ class Contact:
     """
     What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor), acting at the anchor or, under ForceLaw.wrench, at center_of_pressure, or forces at points where the phase's law says so.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Contact: ...
     def __deepcopy__(self, memo: dict) -> Contact: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(
+        self,
+    ) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
     def __init__(
         self,
         *,
@@ -784,45 +910,46 @@ class Contact:
         center_of_pressure_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def anchor_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Point through which the line of force passes [m].
+        [m] Point through which the line of force passes.
         """
     @anchor_W.setter
     def anchor_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def center_of_pressure_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Where the force acts under ForceLaw.wrench [m].
+        [m] Where the force acts under ForceLaw.wrench.
         """
     @center_of_pressure_W.setter
     def center_of_pressure_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def moment_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Contact moment, constant over the phase [N m].
+        [N m] Contact moment, constant over the phase.
         """
     @moment_W.setter
     def moment_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def point_forces_W(self) -> numpy.ndarray:
         """
-        [N] node by node, a row for each point: (Phase.node_count() N) x 3.
+        N x 3 [N] Node by node, a row for each point: (Phase.node_count() N) x 3.
         """
     @point_forces_W.setter
     def point_forces_W(self, arg1: typing.Any) -> None: ...
     @property
     def points_W(self) -> numpy.ndarray:
         """
-        N x 3 [m], where forces act, e.g. the corners of the sole.
+        N x 3 [m] Where forces act, e.g. the corners of the sole.
         """
     @points_W.setter
     def points_W(self, arg1: typing.Any) -> None: ...
     @property
     def stiffness(self) -> float:
         """
-        mu [1/s^2], 0 when free.
+        [1/s^2] mu, 0 when free.
         """
     @stiffness.setter
     def stiffness(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -838,8 +965,12 @@ class Phase:
     """
     A stretch of time with constant contacts.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Phase: ...
     def __deepcopy__(self, memo: dict) -> Phase: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any]: ...
     def __init__(
         self,
         *,
@@ -849,6 +980,7 @@ class Phase:
         intervals: typing.SupportsInt | typing.SupportsIndex = 0,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def node_count(self) -> int:
         """
         Instants at which forces are given: `intervals` when held, one more when linear, 0 without such.
@@ -856,14 +988,14 @@ class Phase:
     @property
     def contacts(self) -> tuple:
         """
-        One Contact per end-effector.
+        Tuple: One Contact per end-effector.
         """
     @contacts.setter
     def contacts(self, arg1: collections.abc.Sequence[Contact]) -> None: ...
     @property
     def duration(self) -> float:
         """
-        [s]
+        [s] How long it lasts.
         """
     @duration.setter
     def duration(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -886,8 +1018,14 @@ class Knot:
     """
     State at the instant between two phases.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Knot: ...
     def __deepcopy__(self, memo: dict) -> Knot: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(
+        self,
+    ) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
     def __init__(
         self,
         *,
@@ -901,59 +1039,60 @@ class Knot:
         end_effector_yaw: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def angular_momentum_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        About the CoM [kg m^2/s]; not looked at under ForceLaw.pendulum, whose base carries it.
+        [kg m^2/s] About the CoM; not looked at under ForceLaw.pendulum, whose base carries it.
         """
     @angular_momentum_W.setter
     def angular_momentum_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def base_rpy(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Roll, pitch, yaw of the base [rad].
+        [rad] Roll, pitch, yaw of the base.
         """
     @base_rpy.setter
     def base_rpy(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def base_rpy_rate(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        [rad/s]
+        [rad/s] Their rates.
         """
     @base_rpy_rate.setter
     def base_rpy_rate(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def com_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        [m]
+        [m] Position of the CoM.
         """
     @com_W.setter
     def com_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def com_velocity_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        [m/s]
+        [m/s] Velocity of the CoM.
         """
     @com_velocity_W.setter
     def com_velocity_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def end_effector_velocities_W(self) -> numpy.ndarray:
         """
-        [m/s], zero at contacts.
+        N x 3 [m/s] Velocities, zero at contacts.
         """
     @end_effector_velocities_W.setter
     def end_effector_velocities_W(self, arg1: typing.Any) -> None: ...
     @property
     def end_effector_yaw(self) -> typing.Any:
         """
-        Heading of each sole [rad], a tuple; empty: all head where the base does.
+        [rad] Heading of each sole; empty: all head where the base does.
         """
     @end_effector_yaw.setter
     def end_effector_yaw(self, arg1: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
     @property
     def end_effectors_W(self) -> numpy.ndarray:
         """
-        One row per end-effector [m].
+        N x 3 [m] Positions, one row per end-effector.
         """
     @end_effectors_W.setter
     def end_effectors_W(self, arg1: typing.Any) -> None: ...
@@ -962,8 +1101,12 @@ class Swing:
     """
     A stretch of phases, first_phase to end_phase - 1, in which an end-effector is free.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Swing: ...
     def __deepcopy__(self, memo: dict) -> Swing: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
     def __init__(
         self,
         *,
@@ -975,36 +1118,46 @@ class Swing:
         land_normal_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
-    def end_effector(self) -> int: ...
+    def end_effector(self) -> int:
+        """
+        Index of the end-effector.
+        """
     @end_effector.setter
     def end_effector(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
-    def end_phase(self) -> int: ...
+    def end_phase(self) -> int:
+        """
+        Index of the phase after the last of them.
+        """
     @end_phase.setter
     def end_phase(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
-    def first_phase(self) -> int: ...
+    def first_phase(self) -> int:
+        """
+        Index of the first of the phases.
+        """
     @first_phase.setter
     def first_phase(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def height(self) -> float:
         """
-        [m]
+        [m] How far it is lifted off the straight path.
         """
     @height.setter
     def height(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def land_normal_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Unit normal of the surface it reaches.
+        [-] Unit normal of the surface it reaches.
         """
     @land_normal_W.setter
     def land_normal_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def lift_normal_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        Unit normal of the surface it leaves.
+        [-] Unit normal of the surface it leaves.
         """
     @lift_normal_W.setter
     def lift_normal_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
@@ -1123,6 +1276,8 @@ class Plan:
     """
     A motion: phases with constant contacts between knots. Carries its scene and robot.
     """
+
+    __hash__: typing.ClassVar[None] = None
     @staticmethod
     def load(path: typing.Any) -> Plan:
         """
@@ -1130,24 +1285,31 @@ class Plan:
         """
     def __copy__(self) -> Plan: ...
     def __deepcopy__(self, memo: dict) -> Plan: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(
+        self,
+    ) -> tuple[
+        typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any
+    ]: ...
     def __init__(
         self,
         *,
+        planner: str = "",
+        measured_start: bool = False,
+        open_end: bool = False,
         scene: Scene = ...,
         robot: Robot = ...,
-        planner: str = "",
         knots: collections.abc.Sequence[Knot] = [],
         phases: collections.abc.Sequence[Phase] = [],
         final_contacts: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
         swings: collections.abc.Sequence[Swing] = [],
-        measured_start: bool = False,
-        open_end: bool = False,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     @typing.overload
     def __repr__(self) -> str: ...
     @typing.overload
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def at(self, t: typing.SupportsFloat | typing.SupportsIndex) -> PlanState:
         """
         PlanState at time t [s] in [0, duration], in closed form. At a knot the phase that begins there is meant (the last one at the end). Raises InvalidInput outside, InvalidPlan where an edited plan does not fit together.
@@ -1173,7 +1335,7 @@ class Plan:
         """
     def save(self, path: typing.Any) -> None:
         """
-        Write the plan to an .npz file.
+        Write the plan to an .npz or a .json file; C++ reads the latter.
         """
     def validate(self) -> None:
         """
@@ -1189,7 +1351,7 @@ class Plan:
     @property
     def knots(self) -> tuple:
         """
-        Tuple of Knot, one more than phases.
+        Tuple: Knots, one more than phases.
         """
     @knots.setter
     def knots(self, arg1: collections.abc.Sequence[Knot]) -> None: ...
@@ -1210,14 +1372,14 @@ class Plan:
     @property
     def phases(self) -> tuple:
         """
-        Tuple of Phase.
+        Tuple: Phases.
         """
     @phases.setter
     def phases(self, arg1: collections.abc.Sequence[Phase]) -> None: ...
     @property
     def planner(self) -> str:
         """
-        E.g. 'ddp'.
+        Which planner made it, e.g. ddp.
         """
     @planner.setter
     def planner(self, arg0: str) -> None: ...
@@ -1238,7 +1400,7 @@ class Plan:
     @property
     def swings(self) -> tuple:
         """
-        Tuple of Swing.
+        Tuple: Swings.
         """
     @swings.setter
     def swings(self, arg1: collections.abc.Sequence[Swing]) -> None: ...
@@ -2760,6 +2922,11 @@ def addresses(who: str, end_effector: EndEffector) -> bool:
     Whether a name or kind addresses this end-effector.
     """
 
+def built_in(kind: str) -> list[str]:
+    """
+    Sorted names of the built-in 'scenes', 'robots', 'planar_robots' or 'motions'.
+    """
+
 @typing.overload
 def check(plan: Plan, scene: Scene = None, robot: Robot = None, tolerances: Tolerances = ...) -> CheckResult:
     """
@@ -2770,6 +2937,11 @@ def check(plan: Plan, scene: Scene = None, robot: Robot = None, tolerances: Tole
 def check(plan: PlanarPlan, tolerances: PlanarTolerances = ..., self_collision: bool = False) -> CheckResult:
     """
     Check a planar plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidMotion or InvalidRobot where it is malformed, and Interrupted with what was found by then.
+    """
+
+def data_folder() -> typing.Any:
+    """
+    The folder of the built-in scenes, robots and motions.
     """
 
 def largest_drift(plan: PlanarPlan, sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> Drift:
@@ -2786,6 +2958,16 @@ def least_norm_gain(
     (2 points) x 3: gain from [m (a - g); moment about moment_point_W] to the forces (tangential, normal) of all points of a phase.
     """
 
+def load_robot(source: typing.Any) -> Robot:
+    """
+    A built-in robot by its name, or one from a TOML file. Raises UnknownRobot, InvalidRobot.
+    """
+
+def load_scene(source: typing.Any) -> Scene:
+    """
+    A built-in scene by its name, or one from a TOML file. Raises UnknownScene, InvalidScene.
+    """
+
 def may_touch(surface: Surface, end_effector: EndEffector) -> bool:
     """
     Whether the surface lists the end-effector, by name or kind, or lists nobody.
@@ -2798,9 +2980,19 @@ def moment_point_W(
     Mean of the phase's expected points [m].
     """
 
+def plan_from_json(content: bytes) -> Plan:
+    """
+    The plan of a JSON text. Raises InvalidPlan.
+    """
+
 def plan_loads(plan: Plan, sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.005) -> PlanLoads:
     """
     Largest values over the whole plan, looked at least every sample_s [s]. Raises InvalidPlan, InvalidOptions.
+    """
+
+def plan_to_json(plan: Plan) -> bytes:
+    """
+    A plan as JSON; numbers read back as the same. Raises InvalidPlan.
     """
 
 def planar_inverse_dynamics(
@@ -2831,9 +3023,34 @@ def quat_wxyz_from_rpy(
     Unit quaternion (w, x, y, z) of R_WB, w >= 0.
     """
 
+def read_robot(path: typing.Any) -> Robot:
+    """
+    A robot from a TOML file. Raises InvalidRobot.
+    """
+
+def read_scene(path: typing.Any) -> Scene:
+    """
+    A scene from a TOML file. Raises InvalidScene.
+    """
+
+def require_ground(scene: Scene) -> None:
+    """
+    Raise InvalidScene where start or goal hangs in the air, or lies under or far beside the surfaces it names.
+    """
+
 def resolve_stance(scene: Scene, robot: Robot, stance: Stance, field: str = "stance") -> ResolvedStance:
     """
     Work out a stance for a robot. Raises InvalidScene when contacts name an end-effector that the robot does not have, or one that may not touch the surface.
+    """
+
+def robot_from_dict(data: typing.Any, source: typing.Any = "", folder: typing.Any = None) -> Robot:
+    """
+    The robot of plain data with the keys of a robot file. Files that it names are looked for in `folder`; None: it may name none.
+    """
+
+def robot_to_dict(robot: Robot) -> dict:
+    """
+    Plain data with the keys of a robot file; what is at its default is left out, reach polytopes are inline.
     """
 
 def rotation_derivative(
@@ -2848,6 +3065,31 @@ def rotation_from_rpy(
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
     """
     R_WB = Rz(yaw) Ry(pitch) Rx(roll), angles in [rad]; 3 x 3.
+    """
+
+def scene_from_dict(data: typing.Any, source: typing.Any = "") -> Scene:
+    """
+    The scene of plain data with the keys of a scene file.
+    """
+
+def scene_to_dict(scene: Scene) -> dict:
+    """
+    Plain data with the keys of a scene file; what is at its default is left out.
+    """
+
+def schema_text(name: str) -> str:
+    """
+    The JSON schema of the files of a kind: 'scene' or 'robot'.
+    """
+
+def toml_from(content: bytes) -> dict:
+    """
+    The tables of a TOML file, dates as texts. Raises InvalidInput.
+    """
+
+def toml_text(data: typing.Any, header: typing.Any = "") -> typing.Any:
+    """
+    A mapping as TOML: plain values first, then tables and lists of tables. `header`: a comment to put on top.
     """
 
 __version__: str = "0.1.0"

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from mcplan import _core
 from mcplan.arguments import require_or_path
 from mcplan.errors import UnknownName
 
-DATA = Path(__file__).resolve().parent.parent / "data"
+DATA = Path(_core.data_folder()).resolve()
 
 
 def names(folder: str) -> list[str]:
-    """Sorted names of the built-in files of a folder of ``mcplan/data``."""
-    return sorted(path.stem for path in (DATA / folder).glob("*.toml"))
+    """Sorted names of the built-in files of a kind."""
+    return _core.built_in(folder)
 
 
 def find(source: str | Path, folder: str, unknown: type[UnknownName]) -> Path:
@@ -25,7 +26,7 @@ def find(source: str | Path, folder: str, unknown: type[UnknownName]) -> Path:
     require_or_path("source", source, "a name")
     legal = names(folder)
     if isinstance(source, str) and source in legal:
-        return DATA / folder / f"{source}.toml"
+        return Path(_core.data_folder()) / folder / f"{source}.toml"
     if exists(source):
         return Path(source)
     raise unknown(str(source), legal)

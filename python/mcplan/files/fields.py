@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import types
 import typing
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
@@ -15,7 +15,6 @@ Model = TypeVar("Model", bound=BaseModel)
 
 #: Of a table.
 MOST_KEYS = 1000
-_MOST_BESIDES = 100  # findings beside which others are looked for
 
 _TYPE_RULES = {
     "float_type": "must be a number",
@@ -29,13 +28,7 @@ _TYPE_RULES = {
 }
 
 
-#: Looks at the sound parts of data with findings at these locations, and returns what else is wrong.
-Besides = Callable[[Any, list[tuple[Any, ...]]], list[InvalidInput]]
-
-
-def validated(
-    model: type[Model], data: Any, error: type[InvalidInput], source: str = "", besides: Besides | None = None
-) -> Model:
+def validated(model: type[Model], data: Any, error: type[InvalidInput], source: str = "") -> Model:
     """Fill a model from plain data.
 
     Args:
@@ -43,7 +36,6 @@ def validated(
         data: Nested dicts, lists and values.
         error: Class raised, with all findings.
         source: File that the data come from, for the message.
-        besides: What else to look for where there are findings.
     """
     _require_few_keys(data, error, source)
     try:
@@ -52,8 +44,6 @@ def validated(
         raw = found.errors(include_url=False)
     findings = _without_misspelt(model, raw)
     errors = [error(path_text(f["loc"]), _rule(model, f), _value(f), source) for f in findings]
-    if besides is not None and len(raw) <= _MOST_BESIDES:
-        errors += [each.moved(source=source) for each in besides(data, [f["loc"] for f in raw])]
     raise together(errors)
 
 

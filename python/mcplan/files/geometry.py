@@ -12,11 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from mcplan._core import PlanarRobot, Polygon, Robot, Scene, Stance, resolve_stance
+from mcplan._core import PlanarRobot, Polygon, Robot, Scene, Stance, require_ground, resolve_stance
 from mcplan.errors import InvalidInput, InvalidScene, SuspiciousGeometry, together
 
-#: Where a stance may be off all its surfaces, in lengths of the scene: above or below one of them, and beside.
-MOST_ABOVE, MOST_BESIDE = 0.05, 0.25
 #: How far outside of its reach box an end-effector may stand at start and goal, in CoM heights.
 MOST_OUTSIDE = 0.25
 #: Lengths above which they are taken to be millimetres: of a scene [m], of a robot's CoM [m], in CoM heights.
@@ -37,13 +35,23 @@ def require_meant(scene: Scene, source: str) -> None:
     Raises:
         InvalidScene: Start or goal hangs in the air, under its ground, or far beside all surfaces that it names.
     """
-    size = scene_size(scene)
-    findings: list[InvalidInput] = []
+    try:
+        require_ground(scene)
+    except InvalidScene as found:
+        raise found.moved(source=source) from None
+    warn_of_geometry(scene, source)
+
+
+def warn_of_geometry(scene: Scene, source: str) -> None:
+    """Warn of what looks wrong in a scene that can be read.
+
+    Args:
+        scene: A valid one.
+        source: Its file, for messages.
+    """
     for field, stance in (("start", scene.start), ("goal", scene.goal)):
-        findings += _off_its_surfaces(scene, stance, field, size)
         _warn_of_ground_that_faces_down(scene, stance, field, source)
-    if findings:
-        raise together(findings).moved(source=source)
+    size = scene_size(scene)
     if size > LONG_SCENE_M and scene.gravity <= STRONG_GRAVITY:
         _warn(source, "surfaces", "lengths are in metres, and these look like millimetres", f"a scene of {size:.4g} m")
     if size <= LONG_SCENE_M and scene.gravity > STRONG_GRAVITY:
@@ -118,29 +126,6 @@ def holds_up(surface: Any) -> bool:
     """Whether some force in the friction cone of a surface points up, or the surface can be held."""
     up = Polygon(surface.vertices_W).normal_W[2]
     return bool(surface.grasp or up + surface.friction * math.sqrt(max(0.0, 1.0 - up * up)) > 0.0)
-
-
-def _off_its_surfaces(scene: Scene, stance: Stance, field: str, size: float) -> list[InvalidInput]:
-    """The ground below the CoM is far from every surface that the stance names."""
-    named = sorted(set(stance.contacts.values()))
-    nearest = min(named, key=lambda name: _distance(scene, name, stance)[0])
-    distance, over = _distance(scene, nearest, stance)
-    if distance <= (MOST_ABOVE if over else MOST_BESIDE) * size:
-        return []
-    where = "off" if over else "beside"
-    rule = "must be a point of the ground below the robot, near the surfaces that its contacts name"
-    return [
-        InvalidScene(f"{field}.position", rule, f"{_text(stance.position_W)}, {distance:.3g} m {where} {nearest!r}")
-    ]
-
-
-def _distance(scene: Scene, name: str, stance: Stance) -> tuple[float, bool]:
-    """Of the stance from a surface [m]; whether it lies straight above or below ground."""
-    polygon = Polygon(scene.surfaces[scene.surface_index(name)].vertices_W)
-    away = stance.position_W - polygon.nearest(stance.position_W)
-    distance = float(np.linalg.norm(away))
-    along = abs(float(away @ polygon.normal_W)) / distance if distance > 0.0 else 1.0
-    return distance, along > 0.999 and abs(polygon.normal_W[2]) > _WALKABLE
 
 
 def _warn_of_ground_that_faces_down(scene: Scene, stance: Stance, field: str, source: str) -> None:

@@ -20,6 +20,8 @@ from mcplan.errors import InvalidInput
 
 #: Names of plans and runs.
 ARCHIVE = (".npz",)
+#: Of plans that C++ reads, too.
+JSON = (".json",)
 PAGE = (".html", ".htm")
 TOML = (".toml",)
 

@@ -1,4 +1,4 @@
-"""Plans in .npz files: arrays and a JSON header, no pickles.
+"""Plans in .npz files: arrays and a JSON header, no pickles. In .json files, which C++ reads and writes, they have format 4.
 
 The header (bytes of UTF-8 JSON) holds the format's version, the units, the version of mcplan, the planner, and the scene
 and the robot with the keys of their files. N phases, L end-effectors and S swings give these arrays:
@@ -28,11 +28,21 @@ from typing import Any
 
 import numpy as np
 
-from mcplan._core import Contact, ForceLaw, Knot, Phase, Plan, Swing, __version__
+from mcplan._core import (
+    Contact,
+    ForceLaw,
+    Knot,
+    Phase,
+    Plan,
+    Swing,
+    __version__,
+    plan_from_json,
+    plan_to_json,
+)
 from mcplan.errors import InvalidInput, InvalidPlan, shown
 from mcplan.files.archives import archive_bytes, read_arrays, read_header
 from mcplan.files.builtin import exists
-from mcplan.files.outputs import ARCHIVE, require_suffix, write_whole
+from mcplan.files.outputs import ARCHIVE, JSON, require_suffix, write_whole
 from mcplan.files.reading import MOST_PLAN, read_file
 from mcplan.files.robots import robot_from_dict, robot_to_dict
 from mcplan.files.scenes import scene_from_dict, scene_to_dict
@@ -53,7 +63,7 @@ def save_plan(plan: Plan, path: str | Path) -> None:
 
     Args:
         plan: The plan.
-        path: Where to; used as it stands, no ending is added, and one other than .npz is refused. A device or a pipe is
+        path: Where to; used as it stands, no ending is added, and one other than .npz or .json is refused. A device or a pipe is
             written through, a link goes on pointing where it points.
 
     Raises:
@@ -61,21 +71,28 @@ def save_plan(plan: Plan, path: str | Path) -> None:
         OSError: The file cannot be written.
         InvalidPlan: Its sizes do not fit together or a number is not finite.
     """
-    require_suffix("path", path, (*ARCHIVE, ""))
-    write_whole(plan_to_bytes(plan), path)
+    require_suffix("path", path, (*ARCHIVE, *JSON, ""))
+    as_json = Path(path).suffix.lower() in JSON
+    write_whole(plan_to_json(plan) if as_json else plan_to_bytes(plan), path)
 
 
 def load_plan(path: str | Path) -> Plan:
-    """Read a plan written by save_plan.
+    """Read a plan written by save_plan, or by Plan::save in C++.
 
     Raises:
         InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
         FileNotFoundError: There is no such file.
     """
     try:
-        return plan_from_bytes(read_plan_file(path))
+        data = read_plan_file(path)
+        return plan_from_json(data) if is_json(data) else plan_from_bytes(data)
     except InvalidInput as found:
         raise found.moved(InvalidPlan, str(path)) from None
+
+
+def is_json(data: bytes) -> bool:
+    """Whether the content of a file is JSON: an object."""
+    return data[:100].lstrip().startswith(b"{")
 
 
 def read_plan_file(path: str | Path) -> bytes:

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from mcplan._core import Plan, PlanarForceLaw, PlanarMotion, WholeBodyPlan, __version__
+from mcplan._core import Plan, PlanarForceLaw, PlanarMotion, WholeBodyPlan, __version__, plan_from_json
 from mcplan.errors import InvalidInput, InvalidPlan, shown
 from mcplan.files import plans
 from mcplan.files.archives import archive_bytes, read_arrays, read_header
@@ -72,6 +72,8 @@ def load_any_plan(path: str | Path) -> Plan | WholeBodyPlan:
     """
     try:
         data = read_plan_file(path)
+        if plans.is_json(data):
+            return plan_from_json(data)
         kind = read_header(read_arrays(data)).get("kind")
         if kind in RUN_KINDS:
             raise InvalidPlan("", "must be a plan", "a run of one, which mcplan track saved")

@@ -117,8 +117,7 @@ def robot_for(plan: Plan, robot: Robot | str | Path | None) -> Robot:
             take = f" (--robot: {', '.join(others)})" if others else ""
             rule = f"must have the plan's {end.name!r}{take}"
             raise InvalidRobot("end_effectors", rule, ", ".join(own) or "none", robot.name)
-    body = Robot(**{key: getattr(robot, key) for key in ("name", "mass", "inertia", "com_height", "swing_height")})
-    body.urdf, body.posture = robot.urdf, dict(robot.posture)
+    body = robot.__copy__()
     body.end_effectors = [own[end.name] for end in plan.robot.end_effectors]
     return body
 

@@ -1,5 +1,5 @@
-// Uses the installed library the way another project does: a scene and a robot in code, checked, some mathematics, and
-// a nonlinear program.
+// Uses the installed library the way another project does: a built-in scene planned, saved, loaded and checked, a scene
+// and a robot in code, some mathematics, and a nonlinear program.
 
 #include <cmath>
 #include <cstdio>
@@ -46,9 +46,22 @@ void expect(bool condition, const std::string& what) {
   }
 }
 
+/// The ten lines of the README, with what they need to be a test.
+void plan_a_built_in_scene() {
+  auto scene = mcplan::load_scene("stairs_broad");
+  auto robot = mcplan::load_robot("talos");
+  auto result = mcplan::ddp::plan(scene, robot);
+  if (result.report.status == mcplan::Status::solved) result.plan.save("stairs.json");
+  const mcplan::Plan plan = mcplan::load_plan("stairs.json");
+  expect(plan == result.plan, "a plan does not come back as it was");
+  expect(mcplan::check(plan, mcplan::load_scene("stairs_broad"), mcplan::load_robot("talos")).ok(),
+         "the checker rejects the plan that came back");
+}
+
 }  // namespace
 
 int main() {
+  plan_a_built_in_scene();
   expect(std::string(MCPLAN_VERSION) == EXPECTED_VERSION, "the header and the CMake package give different versions");
 
   mcplan::Scene scene = one_floor();

@@ -64,8 +64,8 @@ TEST_CASE("degenerate polygons are named") {
   CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {0.2, 0.2, 0}, {0, 1, 0}}) == all + "[2]");  // dented
   CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}}) == all + "[1]");      // a corner of 180 degrees
   CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {1, 1, 0.1}, {0, 1, 0}}).find(all + "[") == 0);  // warped
-  CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {1, std::nan(""), 0}}) == all + "[2]");
-  CHECK(vertices({{0, 0, 0}, {INFINITY, 0, 0}, {1, 1, 0}}) == all + "[1]");
+  CHECK(vertices({{0, 0, 0}, {1, 0, 0}, {1, std::nan(""), 0}}) == all + "[2][1]");
+  CHECK(vertices({{0, 0, 0}, {INFINITY, 0, 0}, {1, 1, 0}}) == all + "[1][0]");
   CHECK(vertices({{0, 0, 0}, {1e5, 0, 0}, {1, 1, 0}}) == all + "[1]");
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("steps name surfaces that exist") {
 }
 
 TEST_CASE("stances out of range are named") {
-  CHECK(field([](Scene& s) { s.goal.position_W.y() = std::nan(""); }) == "goal.position");
+  CHECK(field([](Scene& s) { s.goal.position_W.y() = std::nan(""); }) == "goal.position[1]");
   CHECK(field([](Scene& s) { s.start.yaw = INFINITY; }) == "start.yaw");
   CHECK(field([](Scene& s) { s.start.yaw = 7.0; }) == "start.yaw");
 }

@@ -137,6 +137,10 @@ class Plan {
 
   /// Throws InvalidPlan when sizes or indices do not fit together or a number is not finite.
   void validate() const;
+
+  /// Writes a JSON file, which is complete or not there at all: load_plan() and Python read it. Throws InvalidInput for
+  /// another ending than .json, InvalidPlan, std::filesystem::filesystem_error.
+  void save(const std::string& path) const;
 };
 
 }  // namespace mcplan

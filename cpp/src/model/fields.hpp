@@ -1,0 +1,147 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <map>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace mcplan::model {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr std::size_t any_number = 1'000'000;
+
+/// What the numbers, names and lists of a field may be. Numbers are finite unless `may_be_infinite`.
+struct Rules {
+  double low = -unbounded, high = unbounded;
+  bool above_low = false;  ///< low itself is out
+  bool may_be_infinite = false;
+  bool not_empty = false;  ///< texts have a character at least
+  std::size_t min_entries = 0, max_entries = any_number;
+};
+
+/// A member of a struct: all that reading, writing, checking, binding and documenting it takes.
+template <class T, class M>
+struct Field {
+  using Owner = T;
+  using Member = M;
+
+  const char* name;  ///< of the member, in C++ and Python
+  M T::*member;
+  const char* unit;     ///< "" where it has none
+  const char* meaning;  ///< one line
+  const char* key;      ///< in files
+  Rules rules{};
+  bool is_required = false;  ///< files must have it
+  bool is_always = false;    ///< written also where it is at its default
+
+  constexpr Field required() const {
+    return with([](Field& f) { f.is_required = true; });
+  }
+  constexpr Field always_written() const {
+    return with([](Field& f) { f.is_always = true; });
+  }
+  constexpr Field positive() const { return above(0.0); }
+  constexpr Field not_negative() const { return at_least(0.0); }
+  constexpr Field above(double low) const {
+    return with([&](Field& f) { f.rules.low = low, f.rules.above_low = true; });
+  }
+  constexpr Field at_least(double low) const {
+    return with([&](Field& f) { f.rules.low = low; });
+  }
+  constexpr Field at_most(double high) const {
+    return with([&](Field& f) { f.rules.high = high; });
+  }
+  constexpr Field or_infinite() const {
+    return with([](Field& f) { f.rules.may_be_infinite = true; });
+  }
+  constexpr Field not_empty() const {
+    return with([](Field& f) { f.rules.not_empty = true; });
+  }
+  constexpr Field entries(std::size_t min, std::size_t max) const {
+    return with([&](Field& f) { f.rules.min_entries = min, f.rules.max_entries = max; });
+  }
+  constexpr Field in_files(const char* other) const {
+    return with([&](Field& f) { f.key = other; });
+  }
+
+ private:
+  template <class Change>
+  constexpr Field with(Change change) const {
+    Field out = *this;
+    change(out);
+    return out;
+  }
+};
+
+template <class T, class M>
+constexpr Field<T, M> field(const char* name, M T::*member, const char* unit, const char* meaning) {
+  return {name, member, unit, meaning, name};
+}
+
+/// The table of a struct, specialised beside it:
+///     static constexpr const char* name, * meaning;   of the struct
+///     static constexpr auto all = std::make_tuple(field(...), ...);
+template <class T>
+struct Fields;
+
+/// Names of the values of an enum: static constexpr std::pair<const char*, E> all[].
+template <class E>
+struct Names;
+
+template <class T, class = void>
+struct HasFields : std::false_type {};
+template <class T>
+struct HasFields<T, std::void_t<decltype(Fields<T>::all)>> : std::true_type {};
+
+template <class T>
+struct IsStructs : std::false_type {};
+template <class T>
+struct IsStructs<std::vector<T>> : HasFields<T> {};
+
+template <class T>
+struct IsMap : std::false_type {};
+template <class T>
+struct IsMap<std::map<std::string, T>> : std::true_type {};
+
+/// Calls visit(field) for each field of a struct, in the order of the table.
+template <class T, class Visit>
+void for_each_field(Visit&& visit) {
+  std::apply([&](const auto&... fields) { (visit(fields), ...); }, Fields<T>::all);
+}
+
+/// Keys of a struct in files.
+template <class T>
+std::vector<std::string> keys() {
+  std::vector<std::string> out;
+  for_each_field<T>([&](const auto& f) { out.push_back(f.key); });
+  return out;
+}
+
+/// Whether two values are the same, number by number.
+template <class V>
+bool equal(const V& a, const V& b) {
+  if constexpr (HasFields<V>::value) {
+    bool same = true;
+    for_each_field<V>([&](const auto& f) { same = same && equal(a.*f.member, b.*f.member); });
+    return same;
+  } else if constexpr (IsStructs<V>::value) {
+    bool same = a.size() == b.size();
+    for (std::size_t i = 0; same && i < a.size(); ++i) same = equal(a[i], b[i]);
+    return same;
+  } else if constexpr (IsMap<V>::value) {
+    bool same = a.size() == b.size();
+    for (auto i = a.begin(), j = b.begin(); same && i != a.end(); ++i, ++j)
+      same = i->first == j->first && equal(i->second, j->second);
+    return same;
+  } else if constexpr (std::is_base_of_v<Eigen::MatrixBase<V>, V>) {
+    return a.rows() == b.rows() && a.cols() == b.cols() && a == b;
+  } else {
+    return a == b;
+  }
+}
+
+}  // namespace mcplan::model

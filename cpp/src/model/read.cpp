@@ -1,0 +1,152 @@
+#include "read.hpp"
+
+#include <algorithm>
+#include <climits>
+#include <cstdio>
+
+namespace mcplan::model {
+namespace {
+
+constexpr std::size_t max_keys = 1000;
+
+std::string short_text(double value) {
+  char out[32];
+  std::snprintf(out, sizeof out, "%g", value);
+  return out;
+}
+
+}  // namespace
+
+std::string broken_rule(double value, const Rules& rules) {
+  if (!rules.may_be_infinite && !std::isfinite(value) && !(std::isnan(value) && rules.high < unbounded))
+    return "must be a finite number";
+  if (rules.high < unbounded && !(value <= rules.high)) return "must be at most " + short_text(rules.high);
+  if (std::isnan(value) && rules.low == -unbounded) return "must be a number";
+  if (rules.above_low && !(value > rules.low))
+    return rules.low == 0.0 ? "must be a positive number" : "must be greater than " + short_text(rules.low);
+  if (!rules.above_low && !(value >= rules.low)) return "must be at least " + short_text(rules.low);
+  return "";
+}
+
+bool require_entries(std::size_t count, const Rules& rules, const Place& at, Findings& found, bool points) {
+  if (count > rules.max_entries) {
+    found.add(at, "may have " + std::to_string(rules.max_entries) + " entries at most", std::to_string(count));
+    return false;
+  }
+  if (count < rules.min_entries) {
+    const std::string what = points ? " points" : rules.min_entries == 1 ? " entry" : " entries";
+    found.add(at, "needs at least " + std::to_string(rules.min_entries) + what, std::to_string(count));
+    return false;
+  }
+  return true;
+}
+
+void require_keys(const Value::Table& table, const std::vector<std::string>& legal,
+                  const std::vector<std::string>& required, const Place& at, Findings& found) {
+  std::vector<std::string> unknown, meant;
+  for (const Entry& entry : table)
+    if (std::find(legal.begin(), legal.end(), entry.key) == legal.end()) {
+      unknown.push_back(entry.key);
+      meant.push_back(nearest(entry.key, legal));
+    }
+  for (const std::string& key : required) {
+    const bool misspelt = std::find(meant.begin(), meant.end(), key) != meant.end();
+    if (misspelt)
+      found.lacks(Place(at, key).text());
+    else
+      found.add(Place(at, key), "is required", "");
+  }
+  for (const std::string& key : unknown)
+    found.add(Place(at, key), "no such key. " + did_you_mean(key, legal) + "Keys: " + joined(legal), "");
+}
+
+bool require_few_keys(const Value& value, Findings& found) {
+  struct Left {
+    std::string where;
+    const Value* value;
+  };
+  std::vector<Left> left = {{"", &value}};
+  while (!left.empty()) {
+    const Left at = left.back();
+    left.pop_back();
+    if (const auto* const table = at.value->get<Value::Table>()) {
+      if (table->size() > max_keys) {
+        found.add(at.where, "may have " + std::to_string(max_keys) + " keys at most", std::to_string(table->size()));
+        return false;
+      }
+      for (const Entry& entry : *table)
+        if (entry.value.get<Value::Table>() || entry.value.get<Value::Array>())
+          left.push_back({at.where + (at.where.empty() ? "" : ".") + printable(entry.key), &entry.value});
+    } else if (const auto* const array = at.value->get<Value::Array>()) {
+      for (std::size_t i = 0; i < array->size(); ++i)
+        if ((*array)[i].get<Value::Table>() || (*array)[i].get<Value::Array>())
+          left.push_back({at.where + "[" + std::to_string(i) + "]", &(*array)[i]});
+    }
+  }
+  return true;
+}
+
+bool read_value(const Value& value, bool& out, const Rules&, const Place& at, Reading& reading) {
+  if (const bool* const flag = value.get<bool>()) return out = *flag, true;
+  reading.found.add(at, "must be true or false", shown(value));
+  return false;
+}
+
+bool read_value(const Value& value, int& out, const Rules& rules, const Place& at, Reading& reading) {
+  const auto* const whole = value.get<std::int64_t>();
+  if (!whole || *whole < INT_MIN || *whole > INT_MAX) {
+    reading.found.add(at, whole ? "must be a whole number of 32 bits" : "must be a whole number", shown(value));
+    return false;
+  }
+  if (const std::string rule = broken_rule(static_cast<double>(*whole), rules); !rule.empty()) {
+    reading.found.add(at, rule, shown(value));
+    return false;
+  }
+  return out = static_cast<int>(*whole), true;
+}
+
+bool read_value(const Value& value, double& out, const Rules& rules, const Place& at, Reading& reading) {
+  const auto* const whole = value.get<std::int64_t>();
+  const auto* const number = value.get<double>();
+  if (!whole && !number) {
+    reading.found.add(at, "must be a number", shown(value));
+    return false;
+  }
+  const double found = number ? *number : static_cast<double>(*whole);
+  if (const std::string rule = broken_rule(found, rules); !rule.empty()) {
+    reading.found.add(at, rule, shown(value));
+    return false;
+  }
+  return out = found, true;
+}
+
+bool read_value(const Value& value, std::string& out, const Rules& rules, const Place& at, Reading& reading) {
+  const auto* const text = value.get<std::string>();
+  if (!text || (rules.not_empty && text->empty())) {
+    reading.found.add(at, text ? "must not be empty" : "must be a string", shown(value));
+    return false;
+  }
+  return out = *text, true;
+}
+
+bool read_value(const Value& value, Eigen::VectorXd& out, const Rules& rules, const Place& at, Reading& reading) {
+  std::vector<double> numbers;
+  if (!read_list(value, numbers, rules, at, reading)) return false;
+  out = Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+  return true;
+}
+
+bool read_value(const Value& value, Eigen::Matrix<double, Eigen::Dynamic, 3>& out, const Rules& rules, const Place& at,
+                Reading& reading) {
+  std::vector<Eigen::Vector3d> rows;
+  if (!read_list(value, rows, rules, at, reading)) return false;
+  out.resize(static_cast<Eigen::Index>(rows.size()), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i) out.row(static_cast<Eigen::Index>(i)) = rows[i];
+  return true;
+}
+
+void check_number(double value, const Rules& rules, const Place& at, Findings& found) {
+  if (const std::string rule = broken_rule(value, rules); !rule.empty()) found.add(at, rule, mcplan::text(value));
+}
+
+}  // namespace mcplan::model

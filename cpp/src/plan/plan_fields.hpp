@@ -1,0 +1,107 @@
+#pragma once
+
+#include <utility>
+
+#include "mcplan/plan/plan.hpp"
+#include "model/fields.hpp"
+#include "robot/robot_fields.hpp"
+#include "scene/scene_fields.hpp"
+
+namespace mcplan::model {
+
+// Of a plan in a file: each takes a hundred times the memory of its numbers once it is read.
+constexpr std::size_t max_phases = 10'000, max_swings = 40'000, max_points = 100'000;
+
+template <>
+struct Names<ForceLaw> {
+  static constexpr std::pair<const char*, ForceLaw> all[] = {{"pendulum", ForceLaw::pendulum},
+                                                             {"held", ForceLaw::held},
+                                                             {"linear", ForceLaw::linear},
+                                                             {"wrench", ForceLaw::wrench}};
+};
+
+template <>
+struct Fields<Contact> {
+  static constexpr const char* name = "Contact";
+  static constexpr const char* meaning =
+      "What one end-effector does during one phase: f(t) = mass stiffness (com(t) - anchor), acting at the anchor or, "
+      "under ForceLaw.wrench, at center_of_pressure, or forces at points where the phase's law says so.";
+  static constexpr auto all =
+      std::make_tuple(field("surface", &Contact::surface, "", "Index into scene.surfaces, -1: free.").always_written(),
+                      field("stiffness", &Contact::stiffness, "1/s^2", "mu, 0 when free."),
+                      field("anchor_W", &Contact::anchor_W, "m", "Point through which the line of force passes."),
+                      field("moment_W", &Contact::moment_W, "N m", "Contact moment, constant over the phase."),
+                      field("points_W", &Contact::points_W, "m", "Where forces act, e.g. the corners of the sole.")
+                          .entries(0, max_points),
+                      field("point_forces_W", &Contact::point_forces_W, "N",
+                            "Node by node, a row for each point: (Phase.node_count() N) x 3.")
+                          .entries(0, any_number),
+                      field("center_of_pressure_W", &Contact::center_of_pressure_W, "m",
+                            "Where the force acts under ForceLaw.wrench."));
+};
+
+template <>
+struct Fields<Phase> {
+  static constexpr const char* name = "Phase";
+  static constexpr const char* meaning = "A stretch of time with constant contacts.";
+  static constexpr auto all = std::make_tuple(
+      field("duration", &Phase::duration, "s", "How long it lasts.").required().positive(),
+      field("contacts", &Phase::contacts, "", "One Contact per end-effector.").required().entries(0, 8),
+      field("law", &Phase::law, "", "How forces depend on time."),
+      field("intervals", &Phase::intervals, "", "Of the forces at points, equally long; 0 where there are none.")
+          .at_least(0.0)
+          .at_most(Phase::max_intervals));
+};
+
+template <>
+struct Fields<Knot> {
+  static constexpr const char* name = "Knot";
+  static constexpr const char* meaning = "State at the instant between two phases.";
+  static constexpr auto all = std::make_tuple(
+      field("com_W", &Knot::com_W, "m", "Position of the CoM.").required(),
+      field("com_velocity_W", &Knot::com_velocity_W, "m/s", "Velocity of the CoM.").required(),
+      field("base_rpy", &Knot::base_rpy, "rad", "Roll, pitch, yaw of the base.").required(),
+      field("base_rpy_rate", &Knot::base_rpy_rate, "rad/s", "Their rates.").required(),
+      field("end_effectors_W", &Knot::end_effectors_W, "m", "Positions, one row per end-effector.").required(),
+      field("end_effector_velocities_W", &Knot::end_effector_velocities_W, "m/s", "Velocities, zero at contacts.")
+          .required(),
+      field("angular_momentum_W", &Knot::angular_momentum_W, "kg m^2/s",
+            "About the CoM; not looked at under ForceLaw.pendulum, whose base carries it."),
+      field("end_effector_yaw", &Knot::end_effector_yaw, "rad",
+            "Heading of each sole; empty: all head where the base does."));
+};
+
+template <>
+struct Fields<Swing> {
+  static constexpr const char* name = "Swing";
+  static constexpr const char* meaning =
+      "A stretch of phases, first_phase to end_phase - 1, in which an end-effector is free.";
+  static constexpr auto all = std::make_tuple(
+      field("end_effector", &Swing::end_effector, "", "Index of the end-effector.").required(),
+      field("first_phase", &Swing::first_phase, "", "Index of the first of the phases.").required(),
+      field("end_phase", &Swing::end_phase, "", "Index of the phase after the last of them.").required(),
+      field("height", &Swing::height, "m", "How far it is lifted off the straight path.").required(),
+      field("lift_normal_W", &Swing::lift_normal_W, "-", "Unit normal of the surface it leaves.").required(),
+      field("land_normal_W", &Swing::land_normal_W, "-", "Unit normal of the surface it reaches.").required());
+};
+
+template <>
+struct Fields<Plan> {
+  static constexpr const char* name = "Plan";
+  static constexpr const char* meaning =
+      "A motion: phases with constant contacts between knots. Carries its scene and robot.";
+  static constexpr auto all = std::make_tuple(
+      field("planner", &Plan::planner, "", "Which planner made it, e.g. ddp.").always_written(),
+      field("measured_start", &Plan::measured_start, "", "Starts from a measured state, not from the scene's start."),
+      field("open_end", &Plan::open_end, "", "Ends on the way, not at the scene's goal."),
+      field("scene", &Plan::scene, "", "The scene it was made for.").required(),
+      field("robot", &Plan::robot, "", "The robot it was made for.").required(),
+      field("knots", &Plan::knots, "", "Knots, one more than phases.").required().entries(0, max_phases + 1),
+      field("phases", &Plan::phases, "", "Phases.").required().entries(0, max_phases),
+      field("final_contacts", &Plan::final_contacts, "", "Surface index per end-effector after the last phase.")
+          .required()
+          .entries(0, 8),
+      field("swings", &Plan::swings, "", "Swings.").required().entries(0, max_swings));
+};
+
+}  // namespace mcplan::model
