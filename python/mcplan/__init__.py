@@ -66,14 +66,13 @@ from mcplan.errors import (
     UnknownScene,
 )
 from mcplan.loading import load_motion, load_planar_robot, load_robot, load_scene
+from mcplan.showing import show
 
 Walk = rhp.Walk
 
 if TYPE_CHECKING:
     from mcplan.planar.tracking import PlanarResult
-    from mcplan.showing import Shown
     from mcplan.tracking import TrackingResult
-    from mcplan.view.pages.page import Page
 
 __all__ = [
     "CheckResult",
@@ -385,26 +384,3 @@ def track(
     from mcplan.following import track_any
 
     return track_any(plan, robot, options)
-
-
-def show(plan: Shown, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
-    """Draw a plan or a run in the browser; the result has ``save_html(path)``.
-
-    Args:
-        plan: The plan, or what track() found of one. A whole-body plan is drawn with its own motion, a run with its own
-            plan; they take no scene and no robot.
-        scene: Drawn around it; None: the plan's own.
-        robot: Drawn along it; None: the plan's own. With a URDF its meshes are drawn, else a stick robot.
-        report: How the plan was found, for the caption.
-
-    Raises:
-        InvalidArgument: An argument is of another type, such as the result that has the plan.
-        InvalidInput: A scene or a robot for a whole-body plan or a run.
-        MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
-    """
-    from mcplan.extras import require
-
-    require("mcplan.show", "view", "meshcat")
-    from mcplan.showing import show as draw
-
-    return draw(plan, scene, robot, report)

@@ -59,30 +59,46 @@ def load(path: str | Path) -> Plan | WholeBodyPlan | TrackingResult | PlanarResu
     return loaded
 
 
-def show(what: Shown, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
-    """See mcplan.show."""
-    if not is_run(what):
-        require("plan", what, Plan, WholeBodyPlan)
+def show(plan: Shown, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
+    """Draw a plan or a run in the browser; the result has ``save_html(path)``.
+
+    Args:
+        plan: The plan, or what track() found of one. A whole-body plan is drawn with its own motion, a run with its own
+            plan; they take no scene and no robot.
+        scene: Drawn around it; None: the plan's own.
+        robot: Drawn along it; None: the plan's own. With a URDF its meshes are drawn, else a stick robot.
+        report: How the plan was found, for the caption.
+
+    Raises:
+        InvalidArgument: An argument is of another type, such as the result that has the plan.
+        InvalidInput: A scene or a robot for a whole-body plan or a run.
+        MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
+    """
+    from mcplan.extras import require as require_extra
+
+    require_extra("mcplan.show", "view", "meshcat")
+    if not is_run(plan):
+        require("plan", plan, Plan, WholeBodyPlan)
     require("scene", scene, Scene, optional=True)
     require("robot", robot, Robot, optional=True)
     require("report", report, Report, optional=True)
-    if isinstance(what, WholeBodyPlan):
+    if isinstance(plan, WholeBodyPlan):
         _require_own("a whole-body plan is drawn with its own motion", scene=scene, robot=robot)
         from mcplan.planar.view.pages import show_whole_body
 
-        return show_whole_body(what, report)
-    if is_run(what):
+        return show_whole_body(plan, report)
+    if is_run(plan):
         _require_own("a run is drawn with its own plan", scene=scene, robot=robot)
-        if _is_planar_run(what):
+        if _is_planar_run(plan):
             from mcplan.planar.view.run_pages import show_planar_run
 
-            return show_planar_run(what)
+            return show_planar_run(plan)
         from mcplan.view.pages.show_run import show_run
 
-        return show_run(what)
+        return show_run(plan)
     from mcplan.view.pages.show import show as show_plan
 
-    return show_plan(what, scene, robot, report)
+    return show_plan(plan, scene, robot, report)
 
 
 def save_plots(what: Shown, report: Report | None, folder: str | Path) -> list[Path]:

@@ -34,6 +34,13 @@ SOLE_FRICTION = 0.7  # surfaces' default; half of it is left for forces along th
 PHASE_DURATION = (0.3, 0.6)  # [s] of robots with soles: legs of such a weight follow no shorter swing
 #: Share of a sole for the planned centre of pressure: swinging legs need the rest, g1 fell without it.
 PRESSURE_SHARE = 0.75
+#: Fields of robots with soles.
+_SOLED: dict[str, Any] = {
+    "phase_duration": PHASE_DURATION,
+    "sole_support": 1.0,
+    "pressure_share": PRESSURE_SHARE,
+    "tracked": True,
+}
 _LEAST_STEP = 0.01  # of the grid of reach boxes, in CoM heights, so that its points can be counted
 _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
@@ -132,18 +139,18 @@ def robot_from_urdf(
         inertia=np.diag(data.Ig.inertia).round(3),
         com_height=round(com_height, 3),
         swing_height=setup.swing_height if setup else swing_height,
-        phase_duration=PHASE_DURATION if any(any(end.half_size) for end in ends) else Robot().phase_duration,
-        sole_support=1.0 if any(any(end.half_size) for end in ends) else 0.0,
-        pressure_share=PRESSURE_SHARE if any(any(end.half_size) for end in ends) else 1.0,
-        tracked=any(any(end.half_size) for end in ends),
         end_effectors=[_end_effector(end, _same_strength(able, end), weight) for end in ends],
         urdf=urdf,
-        posture={
-            model.names[j]: round(float(nominal[model.idx_qs[j]]), 4)
-            for j in range(2, model.njoints)
-            if model.nqs[j] == 1
-        },
+        posture=_posture_of(model, nominal),
+        **(_SOLED if any(any(end.half_size) for end in ends) else {}),
     )
+
+
+def _posture_of(model: Any, nominal: np.ndarray) -> dict[str, float]:
+    """Angles [rad] by joint."""
+    return {
+        model.names[j]: round(float(nominal[model.idx_qs[j]]), 4) for j in range(2, model.njoints) if model.nqs[j] == 1
+    }
 
 
 def _require_size(mass: float, com_height: float, inertia: np.ndarray) -> None:
