@@ -81,7 +81,7 @@ int main() {
   problem.add_cost(std::make_unique<mcplan::nlp::LinearPiece>("x", std::vector<int>{0}, Eigen::MatrixXd::Ones(1, 1)));
   problem.finish();
   const mcplan::nlp::Solution least = mcplan::nlp::solve(problem, Eigen::VectorXd::Constant(1, 2.0));
-  expect(least.status == mcplan::Status::solved && std::abs(least.x[0] - 1.0) < 1e-4,
+  expect(least.outcome == mcplan::nlp::Outcome::converged && std::abs(least.x[0] - 1.0) < 1e-4,
          "the least x is not at its bound");
 
   scene.surfaces[0].vertices_W.resize(2);
