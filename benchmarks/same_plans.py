@@ -30,7 +30,7 @@ ROBOTS = {
 WALKS = ("rubbles", "up_and_down", "v_shape", "stairs_up", "flat")
 
 
-def saved(plan: mp.Plan | mp.WholeBodyPlan) -> str:
+def saved(plan: mp.Plan | mp.PlanarPlan) -> str:
     """The hash of a plan's numbers, as it is saved."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "plan.npz"
@@ -43,7 +43,7 @@ def saved(plan: mp.Plan | mp.WholeBodyPlan) -> str:
     return digest.hexdigest()[:16]
 
 
-def page(plan: mp.Plan | mp.WholeBodyPlan) -> str:
+def page(plan: mp.Plan | mp.PlanarPlan) -> str:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "plan.html"
         mp.show(plan).save_html(path)
@@ -58,11 +58,11 @@ def rhp(scene: str, fidelity: str) -> mp.Plan:
     return mp.walk(scene, fidelity=fidelity, lookahead=2, cycles=4, sequence=None).plan
 
 
-def sip(motion: str, minimise: str) -> mp.WholeBodyPlan:
+def sip(motion: str, minimise: str) -> mp.PlanarPlan:
     return mp.whole_body(motion, minimise=minimise).plan
 
 
-def cases() -> Iterator[tuple[str, Callable[[], mp.Plan | mp.WholeBodyPlan]]]:
+def cases() -> Iterator[tuple[str, Callable[[], mp.Plan | mp.PlanarPlan]]]:
     """Name and maker of each plan, quick ones first."""
     from mcplan.files.builtin import names
 

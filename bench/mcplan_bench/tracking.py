@@ -17,7 +17,7 @@ from .processes import each
 from .tracking_cases import Case, Demand
 
 if TYPE_CHECKING:
-    from mcplan import EndEffector, Plan, Scene, WholeBodyPlan
+    from mcplan import EndEffector, Plan, PlanarPlan, Scene
     from mcplan.planar.tracking import PlanarResult
     from mcplan.tracking import Options, Recording, TrackingResult
 
@@ -35,7 +35,7 @@ TRACKED = ("solved", "acceptable")
 class Planned:
     """A plan and how it was found."""
 
-    plan: Plan | WholeBodyPlan
+    plan: Plan | PlanarPlan
     status: str
     message: str
     time_s: float
@@ -214,7 +214,7 @@ def _strong(end: EndEffector) -> EndEffector:
     return end
 
 
-def described(plan: Plan | WholeBodyPlan) -> dict[str, Any]:
+def described(plan: Plan | PlanarPlan) -> dict[str, Any]:
     """Fields of a row that a plan determines."""
     from mcplan import Plan
 

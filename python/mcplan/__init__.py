@@ -30,8 +30,10 @@ from mcplan._core import (
     Knot,
     Phase,
     Plan,
-    PlanarMotion,
+    PlanarPlan,
     PlanarRobot,
+    PlanarTask,
+    PlanarTolerances,
     PlanResult,
     Polytope,
     Report,
@@ -44,8 +46,6 @@ from mcplan._core import (
     Swing,
     Tolerances,
     Violation,
-    WholeBodyPlan,
-    WholeBodyTolerances,
     __version__,
     rhp,
     sip,
@@ -69,6 +69,8 @@ from mcplan.loading import load_motion, load_planar_robot, load_robot, load_scen
 from mcplan.showing import show
 
 Walk = rhp.Walk
+# As planar classes were called before.
+PlanarMotion, WholeBodyPlan, WholeBodyTolerances = PlanarTask, PlanarPlan, PlanarTolerances
 
 if TYPE_CHECKING:
     from mcplan.planar.tracking import PlanarResult
@@ -91,10 +93,12 @@ __all__ = [
     "Knot",
     "Phase",
     "Plan",
-    "PlanarMotion",
-    "PlanarRobot",
     "PlanResult",
     "PlanViolated",
+    "PlanarPlan",
+    "PlanarRobot",
+    "PlanarTask",
+    "PlanarTolerances",
     "Polytope",
     "Report",
     "Robot",
@@ -110,8 +114,6 @@ __all__ = [
     "UnknownScene",
     "Violation",
     "Walk",
-    "WholeBodyPlan",
-    "WholeBodyTolerances",
     "__version__",
     "check",
     "load_motion",
@@ -285,7 +287,7 @@ def receding_horizon(
 
 
 def whole_body(
-    motion: PlanarMotion | str | Path,
+    motion: PlanarTask | str | Path,
     *,
     forces: str | sip.Forces = "per_point",
     minimise: str | None = None,
@@ -295,7 +297,7 @@ def whole_body(
     free_flyer: str | sip.FreeFlyer = "computed",
     free_durations: bool | None = None,
     time_limit: float | None = None,
-    warm_start: WholeBodyPlan | str | Path | None = None,
+    warm_start: PlanarPlan | str | Path | None = None,
     certify: bool = False,
     **options: Any,
 ) -> sip.Result:
@@ -345,7 +347,7 @@ def whole_body(
 
 
 def track(
-    plan: Plan | WholeBodyPlan | str | Path,
+    plan: Plan | PlanarPlan | str | Path,
     robot: Robot | str | Path | None = None,
     **options: Any,
 ) -> TrackingResult | PlanarResult:

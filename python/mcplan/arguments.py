@@ -6,7 +6,7 @@ import contextlib
 import os
 from typing import Any
 
-from mcplan._core import Plan, WholeBodyPlan
+from mcplan._core import Plan, PlanarPlan
 from mcplan.errors import InvalidArgument, shown
 
 #: How messages speak of the types that a path may have.
@@ -67,7 +67,7 @@ def titled(kind: type) -> str:
 
 
 def expected(kinds: list[str], optional: bool = False) -> str:
-    """ "must be a Plan or a WholeBodyPlan"; the last of several after "or"."""
+    """ "must be a Plan or a PlanarPlan"; the last of several after "or"."""
     kinds = [*kinds, "None"] if optional else kinds
     return "must be " + " or ".join(part for part in (", ".join(kinds[:-1]), kinds[-1]) if part)
 
@@ -79,5 +79,5 @@ def found(value: Any) -> str:
     held = None
     with contextlib.suppress(Exception):  # an attribute of somebody else's class may raise what it likes
         held = getattr(value, "plan", None)
-    where = "; its plan is result.plan" if isinstance(held, Plan | WholeBodyPlan) else ""
+    where = "; its plan is result.plan" if isinstance(held, Plan | PlanarPlan) else ""
     return titled(type(value)) + where

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Any, overload
 
 from mcplan import _core
-from mcplan._core import CheckResult, Plan, Robot, Scene, Tolerances, WholeBodyPlan, WholeBodyTolerances
+from mcplan._core import CheckResult, Plan, PlanarPlan, PlanarTolerances, Robot, Scene, Tolerances
 from mcplan.arguments import require, titled
 from mcplan.errors import InvalidArgument
 
 _TAKES: dict[type, dict[str, tuple[type, ...]]] = {
     Plan: {"scene": (Scene, type(None)), "robot": (Robot, type(None)), "tolerances": (Tolerances,)},
-    WholeBodyPlan: {"tolerances": (WholeBodyTolerances,), "self_collision": (bool,)},
+    PlanarPlan: {"tolerances": (PlanarTolerances,), "self_collision": (bool,)},
 }
 
 
@@ -20,7 +20,7 @@ def check(
     plan: Plan, scene: Scene | None = None, robot: Robot | None = None, tolerances: Tolerances = ...
 ) -> CheckResult: ...
 @overload
-def check(plan: WholeBodyPlan, tolerances: WholeBodyTolerances = ..., self_collision: bool = False) -> CheckResult: ...
+def check(plan: PlanarPlan, tolerances: PlanarTolerances = ..., self_collision: bool = False) -> CheckResult: ...
 def check(plan: Any, *given: Any, **named: Any) -> CheckResult:
     """Check a plan from its positions, forces and polygons alone, a whole-body plan from its splines.
 
@@ -30,7 +30,7 @@ def check(plan: Any, *given: Any, **named: Any) -> CheckResult:
         plan: The plan.
         scene: What it is checked against; None: the plan's own. A whole-body plan takes no scene and no robot.
         robot: As `scene`.
-        tolerances: How far off is still right: ``Tolerances``, or ``WholeBodyTolerances`` of a whole-body plan.
+        tolerances: How far off is still right: ``Tolerances``, or ``PlanarTolerances`` of a whole-body plan.
         self_collision: Of a whole-body plan: whether parts of the robot must keep clear of each other.
 
     Returns:
@@ -51,8 +51,8 @@ def check(plan: Any, *given: Any, **named: Any) -> CheckResult:
 
 def _require_taken(plan: Any, given: tuple[Any, ...], named: dict[str, Any]) -> None:
     """Raises InvalidArgument for the first argument of another type, and for one that only the other kind of plan takes."""
-    require("plan", plan, Plan, WholeBodyPlan)
-    kind = Plan if isinstance(plan, Plan) else WholeBodyPlan
+    require("plan", plan, Plan, PlanarPlan)
+    kind = Plan if isinstance(plan, Plan) else PlanarPlan
     takes, others = _TAKES[kind], {name for legal in _TAKES.values() for name in legal}
     for name, value in [*zip(takes, given, strict=False), *named.items()]:
         if name in takes:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mcplan._core import Plan, Robot, WholeBodyPlan
+from mcplan._core import Plan, PlanarPlan, Robot
 from mcplan.arguments import require_or_path
 from mcplan.errors import InvalidInput
 from mcplan.tracking.choice import make_options
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def track_any(
-    plan: Plan | WholeBodyPlan | str | Path,
+    plan: Plan | PlanarPlan | str | Path,
     robot: Robot | str | Path | None,
     values: Mapping[str, Any],
     progress: Callable[[float, float], None] | None = None,
@@ -32,8 +32,8 @@ def track_any(
     """
     if not isinstance(robot, Robot):
         require_or_path("robot", robot, "a Robot", "a name", optional=True)
-    if not isinstance(plan, (Plan, WholeBodyPlan)):
-        require_or_path("plan", plan, "a Plan", "a WholeBodyPlan")
+    if not isinstance(plan, (Plan, PlanarPlan)):
+        require_or_path("plan", plan, "a Plan", "a PlanarPlan")
         from mcplan.files.whole_body_plans import load_any_plan
 
         plan = load_any_plan(plan)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mcplan._core import PlanarMotion, PlanarRobot, Robot, Scene
+from mcplan._core import PlanarRobot, PlanarTask, Robot, Scene
 
 
 def load_scene(source: str | Path) -> Scene:
@@ -61,7 +61,7 @@ def load_planar_robot(source: str | Path) -> PlanarRobot:
     return load(source)
 
 
-def load_motion(source: str | Path) -> PlanarMotion:
+def load_motion(source: str | Path) -> PlanarTask:
     """Load a motion of a planar robot by its built-in name or from a TOML file.
 
     Args:

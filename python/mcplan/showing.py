@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
-from mcplan._core import Plan, Report, Robot, Scene, WholeBodyPlan
+from mcplan._core import Plan, PlanarPlan, Report, Robot, Scene
 from mcplan.arguments import require
 from mcplan.errors import InvalidInput
 
@@ -39,10 +39,10 @@ class AnyPlan(Protocol):
 
 
 Run: TypeAlias = "Recording | TrackingResult | PlanarRecording | PlanarResult"
-Shown: TypeAlias = "Plan | WholeBodyPlan | Run"
+Shown: TypeAlias = "Plan | PlanarPlan | Run"
 
 
-def load(path: str | Path) -> Plan | WholeBodyPlan | TrackingResult | PlanarResult:
+def load(path: str | Path) -> Plan | PlanarPlan | TrackingResult | PlanarResult:
     """Read a saved plan or run of either kind.
 
     Raises:
@@ -55,7 +55,7 @@ def load(path: str | Path) -> Plan | WholeBodyPlan | TrackingResult | PlanarResu
     from mcplan.tracking.run_files import PLANAR_RUN, RUN, load_run
 
     makers: dict[str, Callable[..., Any]] = {RUN: result_from, PLANAR_RUN: planar_result_from}
-    loaded: Plan | WholeBodyPlan | TrackingResult | PlanarResult = load_run(path, makers, load_any_plan)
+    loaded: Plan | PlanarPlan | TrackingResult | PlanarResult = load_run(path, makers, load_any_plan)
     return loaded
 
 
@@ -78,11 +78,11 @@ def show(plan: Shown, scene: Scene | None = None, robot: Robot | None = None, re
 
     require_extra("mcplan.show", "view", "meshcat")
     if not is_run(plan):
-        require("plan", plan, Plan, WholeBodyPlan)
+        require("plan", plan, Plan, PlanarPlan)
     require("scene", scene, Scene, optional=True)
     require("robot", robot, Robot, optional=True)
     require("report", report, Report, optional=True)
-    if isinstance(plan, WholeBodyPlan):
+    if isinstance(plan, PlanarPlan):
         _require_own("a whole-body plan is drawn with its own motion", scene=scene, robot=robot)
         from mcplan.planar.view.pages import show_whole_body
 
@@ -117,7 +117,7 @@ def save_plots(what: Shown, report: Report | None, folder: str | Path) -> list[P
         InvalidPlan: The plan's arrays do not fit together.
         OSError: The folder cannot be written to.
     """
-    if isinstance(what, WholeBodyPlan):
+    if isinstance(what, PlanarPlan):
         from mcplan.planar.view.save_plots import save_whole_body_plots
 
         return save_whole_body_plots(what, folder)
@@ -146,7 +146,7 @@ def save_picture(what: Shown, path: str | Path) -> Path:
         MissingExtra: What draws is not installed: matplotlib, and for runs MuJoCo, Pinocchio and Pillow.
         OSError: The file cannot be written.
     """
-    if isinstance(what, WholeBodyPlan):
+    if isinstance(what, PlanarPlan):
         from mcplan.planar.view.film_strip import film_strip
         from mcplan.view.sheets import save_figure
 

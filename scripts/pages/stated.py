@@ -19,7 +19,7 @@ from functools import cache
 from typing import Any
 
 import mcplan
-from mcplan import Tolerances, WholeBodyTolerances, rhp, sip
+from mcplan import PlanarTolerances, Tolerances, rhp, sip
 from mcplan._core import ddp, toml_from
 from mcplan.planar.tracking.run import DEFAULT_OPTIONS as PLANAR_TRACKING
 from mcplan.planar.tracking.settings import ContactSettings, Feedback
@@ -124,7 +124,7 @@ def value(expression: str) -> Any:
             "contacts": ContactSettings(),
             "feedback": Feedback(),
             "tolerances": Tolerances(),
-            "whole_body": WholeBodyTolerances(),
+            "whole_body": PlanarTolerances(),
             "robot": mcplan.load_robot,
             "planar_robot": mcplan.load_planar_robot,
             "scene": mcplan.load_scene,

@@ -102,7 +102,7 @@ class VerbFuzzer(Fuzzer):
     def short(plan: Any) -> bool:
         """Whether a plan is drawn in a moment; what is no plan is refused in one."""
         try:
-            return not isinstance(plan, mp.Plan | mp.WholeBodyPlan) or plan.duration() < MOST_SHOWN_S
+            return not isinstance(plan, mp.Plan | mp.PlanarPlan) or plan.duration() < MOST_SHOWN_S
         except errors.InvalidInput:
             return True
 

@@ -6,7 +6,7 @@ import functools
 
 import numpy as np
 
-from mcplan._core import WholeBodyPlan
+from mcplan._core import PlanarPlan
 from mcplan.planar.tracking import PlanarRecording
 from mcplan.planar.view.samples import body_frames, sample_whole_body, turned
 from reference_solutions import reference_plan
@@ -16,7 +16,7 @@ OFFSET, TURN = np.array([0.004, -0.003, 0.0]), 0.01
 SCALE, FEEDBACK = 1.05, 0.1
 
 
-def recorded(plan: WholeBodyPlan, rate_hz: float = 200.0) -> PlanarRecording:
+def recorded(plan: PlanarPlan, rate_hz: float = 200.0) -> PlanarRecording:
     """A run in which the base is off by OFFSET, the first joint by TURN, forces and torques by their factors."""
     times = np.arange(0.0, plan.duration(), 1.0 / rate_hz)
     samples = sample_whole_body(plan, times)

@@ -51,7 +51,7 @@ def jacobian(robot: mp.PlanarRobot, body: int, point_W: np.ndarray, origins: lis
     return out
 
 
-def contact_error(motion: mp.PlanarMotion, phase: int, posture: np.ndarray) -> np.ndarray:
+def contact_error(motion: mp.PlanarTask, phase: int, posture: np.ndarray) -> np.ndarray:
     """x, y [m] and angle [rad] of each contact, actual minus expected."""
     origins, angles = frames(motion.robot, posture)
     out = []
@@ -62,7 +62,7 @@ def contact_error(motion: mp.PlanarMotion, phase: int, posture: np.ndarray) -> n
     return np.array(out)
 
 
-def stand(motion: mp.PlanarMotion, phase: int, posture: np.ndarray, rest: np.ndarray) -> Standing:
+def stand(motion: mp.PlanarTask, phase: int, posture: np.ndarray, rest: np.ndarray) -> Standing:
     """The posture of a phase near a given one, joints near `rest`, CoM over the contacts where it can be."""
     robot = motion.robot
     low = np.array([body.position_min for body in robot.bodies[1:]])
@@ -96,7 +96,7 @@ def com(robot: mp.PlanarRobot, posture: np.ndarray) -> np.ndarray:
     return np.sum(moments, axis=0) / robot.mass()
 
 
-def least_load(motion: mp.PlanarMotion, phase: int, posture: np.ndarray) -> float:
+def least_load(motion: mp.PlanarTask, phase: int, posture: np.ndarray) -> float:
     """Smallest largest |torque| / limit of all forces in their cones that hold the posture still; infinity: none do.
 
     A linear program over tangential and normal forces (share of the weight) and the load.

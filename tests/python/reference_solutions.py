@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from mcplan._core import PlanarMotion, WholeBodyPlan
+from mcplan._core import PlanarPlan, PlanarTask
 from mcplan.files.planar_data import motion_from_plain
 
 FILE = Path(__file__).resolve().parents[1] / "data/lengagne_reference.json"
@@ -38,17 +38,17 @@ def reference_names() -> list[tuple[str, str]]:
     return [(entry["motion"], entry["name"]) for entry in _content()["solutions"]]
 
 
-def reference_motion(name: str) -> PlanarMotion:
+def reference_motion(name: str) -> PlanarTask:
     """One of cartwheel, climbing, climbing_steep and walking."""
     plain = _content()["motions"][name]
     return motion_from_plain({**plain, "robot": _content()["robots"][plain["robot"]]})
 
 
-def reference_plan(motion: str, name: str) -> WholeBodyPlan:
+def reference_plan(motion: str, name: str) -> PlanarPlan:
     """A new plan of one of reference_names()."""
     entry = next(e for e in _content()["solutions"] if (e["motion"], e["name"]) == (motion, name))
     free = np.array(entry["free_control_points"])
-    return WholeBodyPlan(
+    return PlanarPlan(
         motion=reference_motion(motion),
         planner="reference",
         durations=entry["durations"],

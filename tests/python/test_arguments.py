@@ -22,7 +22,7 @@ def result() -> mp.PlanResult:
 
 
 WRONG: list[tuple[str, Callable[[Any], Any]]] = [
-    (f"plan: must be a Plan or a WholeBodyPlan, {RESULT_TEXT}", lambda r: mp.check(r)),
+    (f"plan: must be a Plan or a PlanarPlan, {RESULT_TEXT}", lambda r: mp.check(r)),
     ("scene: must be a Scene or None, got 'flat'", lambda r: mp.check(r.plan, "flat")),
     ("robot: must be a Robot or None, got a Scene", lambda r: mp.check(r.plan, robot=r.plan.scene)),
     ("tolerances: must be a Tolerances, got 0.1", lambda r: mp.check(r.plan, None, None, 0.1)),
@@ -38,17 +38,17 @@ WRONG: list[tuple[str, Callable[[Any], Any]]] = [
     ("robot: must be a Robot or None, got 0", lambda r: mp.replan(r.plan, 0.0, r.plan.knots[0], robot=0)),
     ("scene: must be a Scene, a name or a path, got b'flat'", lambda r: mp.walk(b"flat")),
     (f"sequence: must be a Plan or a path, {RESULT_TEXT}", lambda r: mp.receding_horizon("flat", sequence=r)),
-    ("motion: must be a PlanarMotion, a name or a path, got a Plan", lambda r: mp.whole_body(r.plan)),
+    ("motion: must be a PlanarTask, a name or a path, got a Plan", lambda r: mp.whole_body(r.plan)),
     (
-        "warm_start: must be a WholeBodyPlan or a path, got a Plan",
+        "warm_start: must be a PlanarPlan or a path, got a Plan",
         lambda r: mp.whole_body("chimney", warm_start=r.plan),
     ),
     ("minimise: must be one of torque, time, none, got []", lambda r: mp.whole_body("chimney", minimise=[])),
     ("dynamics: must be of type bool, got array", lambda r: mp.whole_body("chimney", dynamics=np.zeros(2))),
     ("certify: must be a bool, got an ndarray", lambda r: mp.whole_body("chimney", certify=np.zeros(2))),
-    (f"plan: must be a Plan or a WholeBodyPlan, {RESULT_TEXT}", lambda r: mp.show(r)),
+    (f"plan: must be a Plan or a PlanarPlan, {RESULT_TEXT}", lambda r: mp.show(r)),
     ("report: must be a Report or None, got 'solved'", lambda r: mp.show(r.plan, report="solved")),
-    (f"plan: must be a Plan, a WholeBodyPlan or a path, {RESULT_TEXT}", lambda r: mp.track(r)),
+    (f"plan: must be a Plan, a PlanarPlan or a path, {RESULT_TEXT}", lambda r: mp.track(r)),
     ("robot: must be a Robot, a name, a path or None, got 3", lambda r: mp.track(r.plan, 3)),
     ("source: must be a name or a path, got None", lambda r: mp.load_scene(None)),
     ("source: must be a name or a path, got 3", lambda r: mp.load_robot(3)),
@@ -63,10 +63,8 @@ def test_check_takes_of_each_kind_of_plan_what_goes_with_it(result):
     ):
         mp.check(result.plan, self_collision=True)
     whole_body = mp.whole_body("chimney", forces="uniform", minimise="none", max_iterations=1).plan
-    mp.check(whole_body, mp.WholeBodyTolerances(), True)
-    with pytest.raises(
-        mp.InvalidArgument, match="scene: must not be given with a WholeBodyPlan, which takes tolerances"
-    ):
+    mp.check(whole_body, mp.PlanarTolerances(), True)
+    with pytest.raises(mp.InvalidArgument, match="scene: must not be given with a PlanarPlan, which takes tolerances"):
         mp.check(whole_body, scene=result.plan.scene)
 
 

@@ -168,7 +168,7 @@ sys.exit(main())
     out, err = must_be_interrupted(start(tmp_path, words, {}))
     assert out.startswith("cartwheel  climber9  interrupted after ")
     assert out.splitlines()[-1] == "Saved a.npz, with status interrupted"
-    mp.WholeBodyPlan.load(tmp_path / "a.npz").validate()
+    mp.PlanarPlan.load(tmp_path / "a.npz").validate()
     assert not (tmp_path / "a.html").exists() and not (tmp_path / "a.png").exists()
 
 

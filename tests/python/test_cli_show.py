@@ -55,7 +55,7 @@ def test_a_page_and_plots_of_whatever_was_saved(name, folder, tmp_path, capsys):
 def test_the_page_of_a_plan_is_the_one_of_show_and_pictures_may_be_drawn_in_vectors(name, folder, tmp_path, capsys):
     page, picture = tmp_path / "page.html", tmp_path / "picture.svg"
     assert run(capsys, folder / f"{name}.npz", "-o", page, "-o", picture, "-q")[0] == 0
-    plan = mp.Plan.load(folder / "plan.npz") if name == "plan" else mp.WholeBodyPlan.load(folder / "whole_body.npz")
+    plan = mp.Plan.load(folder / "plan.npz") if name == "plan" else mp.PlanarPlan.load(folder / "whole_body.npz")
     assert page.read_text(encoding="utf-8") == mp.show(plan).html()
     assert "<svg" in picture.read_text(encoding="utf-8")
 

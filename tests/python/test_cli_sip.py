@@ -64,7 +64,7 @@ def test_json_holds_every_figure_and_nothing_else_is_printed(capsys, tmp_path):
     assert {name: report[name] for name in expected} == expected and report["version"] == mp.__version__
     assert 0.0 < report["evaluation_s"] + report["linear_solver_s"] < report["time_s"]
     assert set(report["worst_violation"]) == {"name", "phase", "end_effector", "time_s", "value", "tolerance", "unit"}
-    plan = mp.WholeBodyPlan.load(file)
+    plan = mp.PlanarPlan.load(file)
     assert list(plan.durations) == report["durations_s"] and mp.check(plan).ok()
     drift = mp._core.largest_drift(plan)
     assert (report["drift_m"], report["drift_rad"]) == (drift.position_m, drift.angle_rad)
@@ -135,7 +135,7 @@ def test_an_interrupt_keeps_what_was_found(capsys, monkeypatch, tmp_path):
     monkeypatch.setattr(Progress, "__call__", interrupt)
     code, out, _ = run(capsys, "cartwheel", "-o", tmp_path / "a.npz")
     assert code == 130 and out.startswith("cartwheel  climber9  interrupted after ") and len(calls) < 10
-    mp.WholeBodyPlan.load(tmp_path / "a.npz").validate()
+    mp.PlanarPlan.load(tmp_path / "a.npz").validate()
 
 
 def test_what_is_not_proved_gives_exit_code_1(capsys):
@@ -177,7 +177,7 @@ def test_check_proves_a_plan_on_request(capsys, plan_file):
 
 
 def test_check_refuses_a_plan_with_a_control_point_moved(capsys, plan_file, tmp_path):
-    plan = mp.WholeBodyPlan.load(plan_file)
+    plan = mp.PlanarPlan.load(plan_file)
     points = plan.control_points.copy()
     points[4, 6] += 0.05
     plan.control_points = points

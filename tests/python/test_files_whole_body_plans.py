@@ -20,11 +20,11 @@ from standing import standing_plan
 
 
 @pytest.fixture
-def plan() -> mp.WholeBodyPlan:
+def plan() -> mp.PlanarPlan:
     return reference_plan("cartwheel", "optimised_per_point")
 
 
-def given_forces() -> mp.WholeBodyPlan:
+def given_forces() -> mp.PlanarPlan:
     """A plan with forces and a base of its own."""
     plan, rng = reference_plan("walking", "feasible_uniform"), np.random.default_rng(1)
     plan.force_law = _core.PlanarForceLaw.polynomial
@@ -46,7 +46,7 @@ def bytes_of(arrays: dict) -> bytes:
     return buffer.getvalue()
 
 
-def states(plan: mp.WholeBodyPlan) -> list:
+def states(plan: mp.PlanarPlan) -> list:
     return [repr(plan.at(t)) for t in np.linspace(0.0, plan.duration(), 7)]
 
 
@@ -55,7 +55,7 @@ def test_a_plan_comes_back_exactly(make, tmp_path):
     plan = make()
     plan.motion.phases[1].poses = [_core.PlanarPose(body=3, fraction=1 / 3, max=[1.0, np.inf, 1e-17])]
     plan.save(tmp_path / "plan.npz")
-    loaded = mp.WholeBodyPlan.load(tmp_path / "plan.npz")
+    loaded = mp.PlanarPlan.load(tmp_path / "plan.npz")
     for other in (loaded, pickle.loads(pickle.dumps(plan)), copy.deepcopy(plan)):
         assert states(other) == states(plan)
         assert repr(other.motion) == repr(plan.motion)
@@ -206,10 +206,10 @@ def test_forces_of_the_wrong_shape_are_named():
 def test_files_of_the_two_kinds_are_told_apart(plan, tmp_path):
     plan.save(tmp_path / "whole.npz")
     standing_plan().save(tmp_path / "centroidal.npz")
-    assert isinstance(load_any_plan(tmp_path / "whole.npz"), mp.WholeBodyPlan)
+    assert isinstance(load_any_plan(tmp_path / "whole.npz"), mp.PlanarPlan)
     assert isinstance(load_any_plan(tmp_path / "centroidal.npz"), mp.Plan)
     with pytest.raises(mp.InvalidPlan, match="header.kind: must be 'whole_body', got None"):
-        mp.WholeBodyPlan.load(tmp_path / "centroidal.npz")
+        mp.PlanarPlan.load(tmp_path / "centroidal.npz")
     with pytest.raises(mp.InvalidPlan, match="header.kind: must be none: a plan of contacts and CoM, got 'whole_body'"):
         mp.Plan.load(tmp_path / "whole.npz")
     with pytest.raises(FileNotFoundError):

@@ -52,7 +52,7 @@ def assign_struct() -> Callable[[int], None]:
 
 
 def assign_matrix() -> Callable[[int], None]:
-    owner, matrices = mp.WholeBodyPlan(), [np.ones((9, n)) for n in (30, 31)]
+    owner, matrices = mp.PlanarPlan(), [np.ones((9, n)) for n in (30, 31)]
 
     def assign(i: int) -> None:
         owner.control_points = matrices[i % 2]
@@ -149,7 +149,7 @@ def test_a_matrix_outlives_its_replacement() -> None:
     state.q = np.zeros(3)
     churn()
     assert np.array_equal(q, [7.0, *range(1, 9)])
-    plan = mp.WholeBodyPlan(weights=[np.full(4, 1.0), np.full(4, 2.0)])
+    plan = mp.PlanarPlan(weights=[np.full(4, 1.0), np.full(4, 2.0)])
     weights = plan.weights
     plan.weights = []
     churn()

@@ -31,7 +31,7 @@ def state_of(model: PlanarModel, configuration: _core.PlanarConfiguration) -> mu
 @pytest.mark.parametrize("seed", range(20))
 def test_inverse_dynamics_of_mujoco_are_planar_inverse_dynamics(seed):
     robot, x, _ = random_case(seed)
-    model = build(_core.PlanarMotion(robot=robot))
+    model = build(_core.PlanarTask(robot=robot))
     model.mj.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
     data = mujoco.MjData(model.mj)
     set_state(model, data, x)
@@ -46,7 +46,7 @@ def test_inverse_dynamics_of_mujoco_are_planar_inverse_dynamics(seed):
 @pytest.mark.parametrize("seed", range(10))
 def test_bodies_are_where_planar_kinematics_puts_them(seed):
     robot, x, _ = random_case(seed)
-    model = build(_core.PlanarMotion(robot=robot))
+    model = build(_core.PlanarTask(robot=robot))
     data = state_of(model, x)
     for number, frame in enumerate(_core.planar_kinematics(robot, x)):
         body = mujoco.mj_name2id(model.mj, mujoco.mjtObj.mjOBJ_BODY, f"{number} {robot.bodies[number].name}")
@@ -62,7 +62,7 @@ def test_the_lowest_point_of_a_sphere_is_the_point_where_forces_act(seed):
         name="foot", body=0, position_B=rng.normal(size=2), angle_B=rng.normal(), points=[-0.3, 0.2]
     )
     robot.end_effectors = [end]
-    model = build(_core.PlanarMotion(robot=robot))
+    model = build(_core.PlanarTask(robot=robot))
     data = state_of(model, x)
     sole = _core.planar_point(_core.planar_kinematics(robot, x)[0], end.position_B, end.angle_B)
     along, into = np.array([[np.cos(sole.angle), np.sin(sole.angle)], [-np.sin(sole.angle), np.cos(sole.angle)]])
@@ -79,7 +79,7 @@ def test_motors_push_their_own_joints_up_to_their_limits(seed):
     for body, limit in zip(bodies, limits, strict=True):
         body.torque_max = limit
     robot.bodies = bodies
-    model = build(_core.PlanarMotion(robot=robot), feedback=PASSIVE)
+    model = build(_core.PlanarTask(robot=robot), feedback=PASSIVE)
     data = mujoco.MjData(model.mj)
     set_state(model, data, x)
     asked = rng.uniform(-8.0, 8.0, size=robot.joint_count())

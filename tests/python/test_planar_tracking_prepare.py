@@ -9,7 +9,7 @@ from mcplan.errors import InvalidMotion, InvalidOptions
 from mcplan.planar.tracking.prepare import PLANNING, trackable, with_clearances
 
 
-def swings(motion: _core.PlanarMotion) -> list[tuple[int, int, int, float]]:
+def swings(motion: _core.PlanarTask) -> list[tuple[int, int, int, float]]:
     """Phase, end-effector, surface and height of every clearance."""
     return [
         (k, c.end_effector, c.surface, c.middle_height)

@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-from mcplan._core import PlanarContact, PlanarMotion, PlanarPhase, PlanarSurface
+from mcplan._core import PlanarContact, PlanarPhase, PlanarSurface, PlanarTask
 from mcplan.planar.view.ground import cone_outline, slabs_of
 from reference_solutions import reference_motion
 
 
-def motion_on(*surfaces: PlanarSurface, contacts: dict[int, tuple[float, float]]) -> PlanarMotion:
+def motion_on(*surfaces: PlanarSurface, contacts: dict[int, tuple[float, float]]) -> PlanarTask:
     """Contacts at points by surface."""
     touching = [PlanarContact(end_effector=0, surface=s, position_W=at, angle=0.0) for s, at in contacts.items()]
     robot = reference_motion("walking").robot
     phases = [PlanarPhase(contacts=[contact]) for contact in touching]
-    return PlanarMotion(name="made", robot=robot, surfaces=list(surfaces), phases=phases)
+    return PlanarTask(name="made", robot=robot, surfaces=list(surfaces), phases=phases)
 
 
 POINTS = np.array([[-0.3, 0.0], [1.0, 1.5]])

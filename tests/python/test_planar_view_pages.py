@@ -8,6 +8,7 @@ import pytest
 
 import mcplan as mp
 from mcplan._core import planar_kinematics
+from mcplan.planar.view.pages import show_whole_body
 from mcplan.view.pages.snapshot import find_browser
 from page_contents import clips_of, commands_of, floats, track
 from reference_solutions import reference_plan
@@ -134,7 +135,7 @@ def test_ground_lies_under_the_feet(plan, html):
 
 def test_caption_tells_how_the_plan_was_found(plan):
     report = SimpleNamespace(status="solved", iterations=73, time_s=1.25, cost=808.51)
-    html = mp.show(plan, report=report).html()
+    html = show_whole_body(plan, report).html()
     robot, seconds = plan.motion.robot, f"{plan.duration():.2f} s"
     for text in (
         plan.motion.name,

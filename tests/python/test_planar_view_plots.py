@@ -117,7 +117,7 @@ def test_drift_is_that_of_the_contacts_and_stands_below_the_tolerance(plan):
     feet = [np.nanmax(line.get_ydata()) for line in distance.lines[:2]]
     assert max(feet) == pytest.approx(1e3 * largest_m, rel=0.02)
     assert max(np.nanmax(line.get_ydata()) for line in angle.lines[:2]) == pytest.approx(1e3 * largest_rad, rel=0.02)
-    assert distance.lines[2].get_ydata()[0] == pytest.approx(1e3 * mp.WholeBodyTolerances().drift)
+    assert distance.lines[2].get_ydata()[0] == pytest.approx(1e3 * mp.PlanarTolerances().drift)
     assert f"at most {max(feet):.2f} mm" in distance.get_title(loc="left")
 
 

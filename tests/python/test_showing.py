@@ -15,7 +15,7 @@ from mcplan.tracking import Options, TrackingResult
 from reference_solutions import reference_plan
 
 
-def plans() -> list[mp.Plan | mp.WholeBodyPlan]:
+def plans() -> list[mp.Plan | mp.PlanarPlan]:
     return [
         plans_by_hand.walk(plans_by_hand.flat(), plans_by_hand.humanoid()),
         reference_plan("walking", "optimised_uniform"),

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import mcplan
-from mcplan import WholeBodyTolerances, check, sip
+from mcplan import PlanarTolerances, check, sip
 from reference_solutions import reference_names, reference_plan
 
 # One solution leaves its 5 mrad tube by 1.1e-8 rad, within what its solver was asked for.
-TOLERANCES = WholeBodyTolerances(drift_angle=5.001e-3)
+TOLERANCES = PlanarTolerances(drift_angle=5.001e-3)
 NOT_CERTIFIED = {"finite", "collision"}
 
 OPTIMISED = [name for name in reference_names() if name[1].startswith("optimised")]
@@ -22,7 +22,7 @@ def by_name(certificate: sip.Certificate) -> dict[str, sip.ProvedConstraint]:
 
 def sampled(plan, sample_s: float = 1e-3) -> dict[str, float]:
     """Largest amount of every constraint at samples, from exact kinematics and dynamics."""
-    tolerances = WholeBodyTolerances(sample_s=sample_s)
+    tolerances = PlanarTolerances(sample_s=sample_s)
     return {v.name: v.value for v in check(plan, tolerances).constraints if v.name not in NOT_CERTIFIED}
 
 
@@ -80,7 +80,7 @@ def test_a_control_point_moved_by_three_degrees_is_refused(motion, name):
 def test_tolerances_just_below_the_sampled_maxima_are_violated(motion, name):
     plan = reference_plan(motion, name)
     most = sampled(plan, 1e-4)
-    below = WholeBodyTolerances(
+    below = PlanarTolerances(
         limit=most["torque"] - 1e-5 * (1.0 + abs(most["torque"])),
         drift=0.9999 * most["drift"],
         drift_angle=0.9999 * most["drift_angle"],
@@ -112,7 +112,7 @@ def test_nothing_is_proved_that_samples_contradict():
         plan.control_points = points
         plan.durations = np.array(plan.durations) * rng.uniform(0.8, 1.2, len(plan.durations))
         most = sampled(plan, 5e-3)
-        tolerances = WholeBodyTolerances(
+        tolerances = PlanarTolerances(
             limit=max(most["position"], most["torque"]) + 10.0 ** rng.uniform(-6, -1) * rng.choice([-1, 1]),
             drift=most["drift"] * (1.0 + 10.0 ** rng.uniform(-6, -1) * rng.choice([-1, 1])),
             moment=most["moment"] * (1.0 + 10.0 ** rng.uniform(-6, -1) * rng.choice([-1, 1])),

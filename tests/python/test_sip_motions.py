@@ -41,12 +41,12 @@ def cheapest_cartwheels() -> tuple[sip.Result, ...]:
     return tuple(results)
 
 
-def peer_of(plan: mp.WholeBodyPlan) -> Peer:
+def peer_of(plan: mp.PlanarPlan) -> Peer:
     plain = motion_to_plain(plan.motion)
     return Peer(plain["robot"], plain, plan.durations, plan.control_points, plan.weights)
 
 
-def assert_kept(plan: mp.WholeBodyPlan, tube_m: float = 1e-3, tube_rad: float = 5e-3) -> None:
+def assert_kept(plan: mp.PlanarPlan, tube_m: float = 1e-3, tube_rad: float = 5e-3) -> None:
     """Everything within its limits at 1 kHz, by the peer, to what is left out of polynomials of order 8."""
     peer = peer_of(plan)
     low, high = peer.limit("position_min"), peer.limit("position_max")

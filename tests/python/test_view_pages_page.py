@@ -136,13 +136,13 @@ def test_what_is_no_plan_is_named(plan):
     scene, robot = by_hand.stairs(), by_hand.humanoid()
     with pytest.raises(
         mp.InvalidArgument,
-        match=r"plan: must be a Plan or a WholeBodyPlan, got a SimpleNamespace; its plan is result\.plan",
+        match=r"plan: must be a Plan or a PlanarPlan, got a SimpleNamespace; its plan is result\.plan",
     ):
-        show(SimpleNamespace(plan=plan), scene, robot)
+        mp.show(SimpleNamespace(plan=plan), scene, robot)
     with pytest.raises(mp.InvalidArgument, match="scene: must be a Scene or None, got a Robot"):
-        show(plan, robot, scene)
+        mp.show(plan, robot, scene)
     with pytest.raises(mp.InvalidArgument, match="robot: must be a Robot or None, got 'humanoid44'"):
-        show(plan, scene, "humanoid44")
+        mp.show(plan, scene, "humanoid44")
 
 
 @pytest.mark.parametrize(("height", "length"), [(0.005, "1 mm"), (0.7, "10 cm"), (20.0, "10 m")])

@@ -16,13 +16,13 @@ from reference_solutions import TORQUE_INTEGRALS, reference_motion, reference_na
 PLANS = [("cartwheel", "optimised_per_point"), ("climbing", "feasible_per_body"), ("walking", "optimised_uniform")]
 
 
-def phase_and_time(plan: mp.WholeBodyPlan, t: float) -> tuple[int, float]:
+def phase_and_time(plan: mp.PlanarPlan, t: float) -> tuple[int, float]:
     times = plan.knot_times()
     k = min(int(np.searchsorted(times, t, side="right")) - 1, len(times) - 2)
     return k, t - times[k]
 
 
-def torque_integral(plan: mp.WholeBodyPlan, nodes: int = 12) -> float:
+def torque_integral(plan: mp.PlanarPlan, nodes: int = 12) -> float:
     """Of the squared torques, by Gauss-Legendre quadrature over each interval."""
     s, weights = np.polynomial.legendre.leggauss(nodes)
     total = 0.0
@@ -45,7 +45,7 @@ def test_reference_solutions_have_their_stated_cost(motion, name):
 @pytest.mark.parametrize(("motion", "name"), reference_names())
 def test_reference_solutions_are_accepted(motion, name):
     # One of them drifts by 1e-8 rad more than the 5 mrad it was allowed.
-    result = mp.check(reference_plan(motion, name), tolerances=mp.WholeBodyTolerances(drift_angle=5.001e-3))
+    result = mp.check(reference_plan(motion, name), tolerances=mp.PlanarTolerances(drift_angle=5.001e-3))
     assert result.ok(), str(result)
 
 
@@ -77,7 +77,7 @@ def test_velocities_and_accelerations_are_those_of_the_positions(motion, name):
         np.testing.assert_allclose(now.base_acceleration, derivative, atol=1e-4 * speed)
 
 
-def expected_points(motion: mp.PlanarMotion, phase: int) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+def expected_points(motion: mp.PlanarTask, phase: int) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Place, tangent and normal of every point, contact by contact."""
     out = []
     for contact in motion.phases[phase].contacts:
@@ -87,7 +87,7 @@ def expected_points(motion: mp.PlanarMotion, phase: int) -> list[tuple[np.ndarra
     return out
 
 
-def wrench_matrix(motion: mp.PlanarMotion, phase: int) -> np.ndarray:
+def wrench_matrix(motion: mp.PlanarTask, phase: int) -> np.ndarray:
     """From (tangential, normal) of all points to force and moment about the mean of the points."""
     points = expected_points(motion, phase)
     mean = np.mean([place for place, _, _ in points], axis=0)
@@ -148,7 +148,7 @@ def test_a_symmetric_stance_at_rest_shares_the_weight():
         assert abs(force.tangential) < 1e-10
 
 
-def moved(plan: mp.WholeBodyPlan, by: np.ndarray) -> mp.WholeBodyPlan:
+def moved(plan: mp.PlanarPlan, by: np.ndarray) -> mp.PlanarPlan:
     out = copy.deepcopy(plan)
     for surface in out.motion.surfaces:
         surface.origin_W += by
@@ -158,7 +158,7 @@ def moved(plan: mp.WholeBodyPlan, by: np.ndarray) -> mp.WholeBodyPlan:
     return out
 
 
-def turned(plan: mp.WholeBodyPlan, angle: float) -> mp.WholeBodyPlan:
+def turned(plan: mp.PlanarPlan, angle: float) -> mp.PlanarPlan:
     out = copy.deepcopy(plan)
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     for surface in out.motion.surfaces:
@@ -171,7 +171,7 @@ def turned(plan: mp.WholeBodyPlan, angle: float) -> mp.WholeBodyPlan:
     return out
 
 
-def mirrored(plan: mp.WholeBodyPlan) -> mp.WholeBodyPlan:
+def mirrored(plan: mp.PlanarPlan) -> mp.PlanarPlan:
     """x becomes -x. A contact frame's y axis is mirrored, its x axis then points the other way along the sole."""
     out, flip = copy.deepcopy(plan), np.array([-1.0, 1.0])
     for body in out.motion.robot.bodies:
@@ -195,7 +195,7 @@ def mirrored(plan: mp.WholeBodyPlan) -> mp.WholeBodyPlan:
     return out
 
 
-def along(plan: mp.WholeBodyPlan) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def along(plan: mp.PlanarPlan) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Torques, tangential and normal forces at some instants."""
     states = [plan.at(t) for t in np.linspace(0.0, plan.duration(), 29)]
     return (
@@ -243,7 +243,7 @@ def test_a_plan_that_is_pushed_out_of_shape_is_refused_by_name():
     with pytest.raises(mp.PlanViolated) as found:
         mp.check(plan).raise_if_violated()
     assert {"drift", "drift_angle", "friction"} <= {violation.name for violation in found.value.violations}
-    tight = mp.WholeBodyTolerances(drift=1e-4, drift_angle=1.0)
+    tight = mp.PlanarTolerances(drift=1e-4, drift_angle=1.0)
     names = [v.name for v in mp.check(reference_plan("walking", "optimised_per_point"), tolerances=tight).violations()]
     assert names == ["drift"]
 

@@ -14,7 +14,7 @@ QUICK: Options = replace(DEFAULT_OPTIONS, control_step_s=1e-3, hold_s=0.1)
 
 
 @functools.cache
-def cartwheel() -> mp.WholeBodyPlan:
+def cartwheel() -> mp.PlanarPlan:
     return mp.whole_body("cartwheel", minimise="none", **PLANNING).plan
 
 

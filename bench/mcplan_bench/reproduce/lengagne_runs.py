@@ -21,7 +21,7 @@ from .lengagne_paper import CASES
 from .lengagne_settings import Config
 
 if TYPE_CHECKING:
-    from mcplan import WholeBodyPlan, sip
+    from mcplan import PlanarPlan, sip
 
 #: A run that takes less [s of processor time] is repeated, and medians are kept.
 CHEAP_S = 1.0
@@ -77,7 +77,7 @@ class Run:
         return {"iteration_limit": "MAX ITER", "time_limit": "TIME LIMIT"}.get(self.status, "FAILED")
 
 
-def solve(config: Config, warm_start: WholeBodyPlan | None = None) -> tuple[sip.Result, float]:
+def solve(config: Config, warm_start: PlanarPlan | None = None) -> tuple[sip.Result, float]:
     """One run: its result, and the processor time of the thread [s]."""
     import mcplan
 
@@ -87,8 +87,8 @@ def solve(config: Config, warm_start: WholeBodyPlan | None = None) -> tuple[sip.
 
 
 def run(
-    config: Config, repeats: int = 1, warm_start: WholeBodyPlan | None = None, start: str = ""
-) -> tuple[Run, WholeBodyPlan]:
+    config: Config, repeats: int = 1, warm_start: PlanarPlan | None = None, start: str = ""
+) -> tuple[Run, PlanarPlan]:
     """Run a row, several times if it is quick; a solution of Table IV is certified.
 
     Args:
@@ -139,7 +139,7 @@ def run(
     )
 
 
-def without_heights(plan: WholeBodyPlan) -> WholeBodyPlan:
+def without_heights(plan: PlanarPlan) -> PlanarPlan:
     """A copy whose swinging limbs need not be high in the middle of a phase, only out of solids."""
     out = copy.deepcopy(plan)
     motion = out.motion
@@ -192,7 +192,7 @@ def collect(
     return runs, about
 
 
-def from_poorer(cold: Run, runs: list[Run], out: Path, say: Callable[[str], None]) -> list[tuple[Run, WholeBodyPlan]]:
+def from_poorer(cold: Run, runs: list[Run], out: Path, say: Callable[[str], None]) -> list[tuple[Run, PlanarPlan]]:
     """A second run of a richer case, from the poorer case's solution, where that is better than what P = 0 led to.
 
     The forces of a poorer case are among those of a richer one, so its solution can only be improved on.
@@ -208,7 +208,7 @@ def from_poorer(cold: Run, runs: list[Run], out: Path, say: Callable[[str], None
         if merit(cold) <= merit(poorer):
             return []
         say(f"{cold.config.title}: from P = 0 not better than {forces}; once more from there")
-        plan: mcplan.WholeBodyPlan = load_whole_body_plan(out / f"{poorer.config.key}.npz")
+        plan: mcplan.PlanarPlan = load_whole_body_plan(out / f"{poorer.config.key}.npz")
         return [run(cold.config, 1, plan, forces)]
     return []
 

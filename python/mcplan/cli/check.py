@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from mcplan._core import CheckResult, Plan, WholeBodyPlan
+    from mcplan._core import CheckResult, Plan, PlanarPlan
     from mcplan._core.sip import Certificate
     from mcplan.tracking.findings import Feasibility, Finding
 
@@ -45,7 +45,7 @@ def check(
 
     Example: mcplan check plan.npz --robot talos
     """
-    from mcplan._core import WholeBodyPlan
+    from mcplan._core import PlanarPlan
     from mcplan._core import check as run
     from mcplan._core.sip import certify as prove
     from mcplan.errors import InvalidInput
@@ -53,7 +53,7 @@ def check(
 
     loaded = load_any_plan(plan)
     certificate, feasibility = None, None
-    if isinstance(loaded, WholeBodyPlan):
+    if isinstance(loaded, PlanarPlan):
         if robot is not None:
             raise InvalidInput(
                 "--robot", "needs a plan of mcplan plan or mcplan rhp; a whole-body plan has its own joints"
@@ -97,7 +97,7 @@ def _feasibility(plan: Plan, robot: str) -> Feasibility:
     return assess(plan, load_robot(robot))
 
 
-def _print_result(path: Path, plan: Plan | WholeBodyPlan, result: CheckResult, certificate: Certificate | None) -> None:
+def _print_result(path: Path, plan: Plan | PlanarPlan, result: CheckResult, certificate: Certificate | None) -> None:
     """What was checked and proved, and the loads of a plan of contacts and CoM."""
     from mcplan._core import Plan
     from mcplan.cli.loads_text import all_lines

@@ -12,7 +12,7 @@ import typer
 from mcplan.cli.terminal import say
 
 if TYPE_CHECKING:
-    from mcplan._core import PlanarClearance, PlanarContact, PlanarMotion, PlanarPhase, PlanarPose
+    from mcplan._core import PlanarClearance, PlanarContact, PlanarPhase, PlanarPose, PlanarTask
 
 
 def motions(
@@ -45,7 +45,7 @@ def motions(
         say(f"Wrote {output}")
 
 
-def _print_motion(motion: PlanarMotion) -> None:
+def _print_motion(motion: PlanarTask) -> None:
     from mcplan.cli.table import print_table
 
     say(f"{motion.name}: {motion.description}" if motion.description else motion.name)
@@ -77,18 +77,18 @@ def _print_motion(motion: PlanarMotion) -> None:
     print_table(rows, ["phase", "intervals", "duration [s]", "contacts", "besides"])
 
 
-def _contact(contact: PlanarContact, motion: PlanarMotion) -> str:
+def _contact(contact: PlanarContact, motion: PlanarTask) -> str:
     who, surface = motion.robot.end_effectors[contact.end_effector].name, motion.surfaces[contact.surface].name
     return f"{who} on {surface} ({_numbers(contact.position_W)})"
 
 
-def _demands(phase: PlanarPhase, motion: PlanarMotion) -> list[str]:
+def _demands(phase: PlanarPhase, motion: PlanarTask) -> list[str]:
     return [_clearance(entry, phase, motion) for entry in phase.clearances] + [
         _pose(pose, motion) for pose in phase.poses
     ]
 
 
-def _clearance(entry: PlanarClearance, phase: PlanarPhase, motion: PlanarMotion) -> str:
+def _clearance(entry: PlanarClearance, phase: PlanarPhase, motion: PlanarTask) -> str:
     who, surface = motion.robot.end_effectors[entry.end_effector].name, motion.surfaces[entry.surface].name
     end = phase.intervals if entry.end_interval < 0 else entry.end_interval
     text = f"{who} clear of {surface}"
@@ -99,7 +99,7 @@ def _clearance(entry: PlanarClearance, phase: PlanarPhase, motion: PlanarMotion)
     return text
 
 
-def _pose(pose: PlanarPose, motion: PlanarMotion) -> str:
+def _pose(pose: PlanarPose, motion: PlanarTask) -> str:
     return f"{motion.robot.bodies[pose.body].name} held at {100 * pose.fraction:g} %"
 
 

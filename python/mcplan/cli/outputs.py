@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from mcplan._core import Plan, Report, WholeBodyPlan
+    from mcplan._core import Plan, PlanarPlan, Report
 
 
 #: What --strip can be, by the ending of its name.
@@ -38,7 +38,7 @@ def require_outputs(
 
 
 def write_outputs(
-    plan: Plan | WholeBodyPlan,
+    plan: Plan | PlanarPlan,
     report: Report,
     output: Path | None,
     html: Path | None,

@@ -10,7 +10,7 @@ import typer
 
 if TYPE_CHECKING:
     from mcplan import sip as engine
-    from mcplan._core import PlanarMotion
+    from mcplan._core import PlanarTask
 
 
 MotionArgument = Annotated[str, typer.Argument(metavar="MOTION", help="Built-in motion or TOML file.")]
@@ -136,7 +136,7 @@ def sip(
 
 def _asked(
     motion: Any, trackable: bool, minimise: str | None, given: dict[str, Any]
-) -> tuple[PlanarMotion, engine.Options]:
+) -> tuple[PlanarTask, engine.Options]:
     """The motion, and the planner's options; those of --trackable give way to what was typed."""
     from mcplan.planar import planning
 
@@ -150,7 +150,7 @@ def _asked(
 
 
 def _search(
-    motion: PlanarMotion, options: engine.Options, warm_start: Path | None, certify: bool, verbose: bool | None
+    motion: PlanarTask, options: engine.Options, warm_start: Path | None, certify: bool, verbose: bool | None
 ) -> tuple[engine.Result, bool]:
     """What was found, and whether Ctrl-C ended the search; `verbose` None: nothing is told on the way."""
     from mcplan import sip as engine

@@ -12,7 +12,7 @@ from mcplan.cli.terminal import control, printable
 
 if TYPE_CHECKING:
     from mcplan import sip
-    from mcplan._core import LogLevel, PlanarMotion, Violation
+    from mcplan._core import LogLevel, PlanarTask, Violation
 
 #: [s] between two states of the line: in a terminal, where it is written over, and in a file.
 _TERMINAL_S, _FILE_S = 0.1, 2.0
@@ -102,7 +102,7 @@ def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Pat
     return "\n".join(printable(line) for line in lines)
 
 
-def phase_rows(motion: PlanarMotion, durations: Sequence[float]) -> list[str]:
+def phase_rows(motion: PlanarTask, durations: Sequence[float]) -> list[str]:
     """A row per phase: when it starts, how long it lasts, what touches what."""
     robot, surfaces = motion.robot, motion.surfaces
     rows = ["  phase  start [s]  lasts [s]  contacts"]

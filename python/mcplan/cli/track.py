@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from mcplan._core import Plan, Robot, WholeBodyPlan
+    from mcplan._core import Plan, PlanarPlan, Robot
     from mcplan.planar.tracking import Suitability
     from mcplan.tracking.findings import Feasibility
 
@@ -108,13 +108,13 @@ def track(
     return CODE if interrupted else 0 if result.followed else 1
 
 
-def _loaded(plan: Path, robot: str | None, values: dict[str, Any]) -> tuple[Plan | WholeBodyPlan, Robot | None]:
+def _loaded(plan: Path, robot: str | None, values: dict[str, Any]) -> tuple[Plan | PlanarPlan, Robot | None]:
     """The plan and the robot, if one is named.
 
     Raises:
         InvalidInput, InvalidOptions: An option out of range, or one that does not go with the plan.
     """
-    from mcplan._core import WholeBodyPlan
+    from mcplan._core import PlanarPlan
     from mcplan.cli.pushes import require_within
     from mcplan.files.robots import load_robot
     from mcplan.files.whole_body_plans import load_any_plan
@@ -123,12 +123,12 @@ def _loaded(plan: Path, robot: str | None, values: dict[str, Any]) -> tuple[Plan
     options = make_options(values)
     loaded = load_any_plan(plan)
     require_within(values["pushes"], loaded.duration() + options.hold_s)
-    if isinstance(loaded, WholeBodyPlan):
+    if isinstance(loaded, PlanarPlan):
         _require_planar(robot, values["assist"], values["pushes"], values["seed"])
     return loaded, None if robot is None else load_robot(robot)
 
 
-def _feasibility(plan: Plan | WholeBodyPlan, robot: Robot | None, silent: bool) -> Feasibility | Suitability:
+def _feasibility(plan: Plan | PlanarPlan, robot: Robot | None, silent: bool) -> Feasibility | Suitability:
     """What is known of a plan and a robot before simulating them; a warning where the one cannot follow the other."""
     from mcplan._core import Plan
     from mcplan.cli.terminal import printable

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mcplan._core import PlanarClearance, PlanarMotion, PlanarPhase, PlanarPose, PlanarRobot, PlanarSurface
+from mcplan._core import PlanarClearance, PlanarPhase, PlanarPose, PlanarRobot, PlanarSurface, PlanarTask
 from mcplan.errors import InvalidInput, InvalidMotion, InvalidRobot, UnknownMotion, shown, together
 from mcplan.files import builtin
 from mcplan.files.geometry import require_planar_robot_meant
@@ -33,7 +33,7 @@ def list_motions() -> list[str]:
     return builtin.names("motions")
 
 
-def load_motion(source: str | Path) -> PlanarMotion:
+def load_motion(source: str | Path) -> PlanarTask:
     """Load a motion by its built-in name or from a TOML file; see mcplan.load_motion."""
     path = builtin.find(source, "motions", UnknownMotion)
     data = read_toml(path, InvalidMotion)
@@ -41,7 +41,7 @@ def load_motion(source: str | Path) -> PlanarMotion:
     return motion_from_dict(data, source=str(path), folder=path.parent)
 
 
-def save_motion(motion: PlanarMotion, path: str | Path, header: str = "") -> None:
+def save_motion(motion: PlanarTask, path: str | Path, header: str = "") -> None:
     """Write a motion with its robot to a TOML file.
 
     Args:
@@ -56,7 +56,7 @@ def save_motion(motion: PlanarMotion, path: str | Path, header: str = "") -> Non
     write_whole(toml_text(motion_to_dict(motion), header), path)
 
 
-def motion_to_dict(motion: PlanarMotion) -> dict[str, Any]:
+def motion_to_dict(motion: PlanarTask) -> dict[str, Any]:
     """Plain data with the keys of a motion file. The robot is inline, each phase has all its contacts; what is at its
     default is left out."""
     data: dict[str, Any] = {"name": motion.name}
@@ -68,7 +68,7 @@ def motion_to_dict(motion: PlanarMotion) -> dict[str, Any]:
     return data
 
 
-def motion_from_dict(data: Mapping[str, Any], source: str = "", folder: Path | None = None) -> PlanarMotion:
+def motion_from_dict(data: Mapping[str, Any], source: str = "", folder: Path | None = None) -> PlanarTask:
     """The motion of plain data with the keys of a motion file.
 
     Args:
@@ -125,7 +125,7 @@ def _load_robot(name: str, folder: Path | None, source: str) -> PlanarRobot:
     return load_planar_robot(path)
 
 
-def _validate(motion: PlanarMotion, stances: Stances) -> None:
+def _validate(motion: PlanarTask, stances: Stances) -> None:
     """validate() of the C++ class; its errors name fields as the file does."""
     try:
         motion.validate()
@@ -138,7 +138,7 @@ def _validate(motion: PlanarMotion, stances: Stances) -> None:
         raise InvalidMotion(field, rule, found.value) from None
 
 
-def _motion_from_plain(plain: Mapping[str, Any], robot: PlanarRobot, stances: Stances) -> PlanarMotion:
+def _motion_from_plain(plain: Mapping[str, Any], robot: PlanarRobot, stances: Stances) -> PlanarTask:
     phases = []
     for k, phase in enumerate(plain["phases"]):
         at_an_end = k in (0, len(plain["phases"]) - 1)
@@ -158,7 +158,7 @@ def _motion_from_plain(plain: Mapping[str, Any], robot: PlanarRobot, stances: St
                 ],
             )
         )
-    return PlanarMotion(
+    return PlanarTask(
         name=plain["name"] or "",
         description=plain["description"],
         robot=robot,
@@ -218,7 +218,7 @@ def _surface_to_dict(surface: PlanarSurface) -> dict[str, Any]:
     return data
 
 
-def _phase_to_dict(phase: PlanarPhase, motion: PlanarMotion) -> dict[str, Any]:
+def _phase_to_dict(phase: PlanarPhase, motion: PlanarTask) -> dict[str, Any]:
     data: dict[str, Any] = {"intervals": phase.intervals}
     if phase.min_duration:
         data["min_duration"] = phase.min_duration
@@ -232,7 +232,7 @@ def _phase_to_dict(phase: PlanarPhase, motion: PlanarMotion) -> dict[str, Any]:
     return data
 
 
-def _clearance_to_dict(entry: PlanarClearance, motion: PlanarMotion) -> dict[str, Any]:
+def _clearance_to_dict(entry: PlanarClearance, motion: PlanarTask) -> dict[str, Any]:
     data = {
         "end_effector": motion.robot.end_effectors[entry.end_effector].name,
         "surface": motion.surfaces[entry.surface].name,
@@ -245,7 +245,7 @@ def _clearance_to_dict(entry: PlanarClearance, motion: PlanarMotion) -> dict[str
     return {**data, **{key: value for key, (value, default) in rest.items() if value != default}}
 
 
-def _pose_to_dict(pose: PlanarPose, motion: PlanarMotion) -> dict[str, Any]:
+def _pose_to_dict(pose: PlanarPose, motion: PlanarTask) -> dict[str, Any]:
     data = {"body": motion.robot.bodies[pose.body].name, "fraction": pose.fraction}
     bounds = zip(("x", "y", "angle"), pose.min.tolist(), pose.max.tolist(), strict=True)
     return {**data, **{key: [low, high] for key, low, high in bounds if math.isfinite(low) or math.isfinite(high)}}

@@ -16,11 +16,11 @@ from mcplan._core import (
     PlanarClearance,
     PlanarContact,
     PlanarEndEffector,
-    PlanarMotion,
     PlanarPhase,
     PlanarPose,
     PlanarRobot,
     PlanarSurface,
+    PlanarTask,
 )
 from mcplan.errors import InvalidInput, InvalidMotion, shown
 
@@ -42,12 +42,12 @@ def robot_from_plain(data: Mapping[str, Any]) -> PlanarRobot:
     return _robot(data, "robot")
 
 
-def motion_to_plain(motion: PlanarMotion) -> dict[str, Any]:
+def motion_to_plain(motion: PlanarTask) -> dict[str, Any]:
     """All that a motion holds, its robot included."""
     return _write(motion, _MOTION)
 
 
-def motion_from_plain(data: Mapping[str, Any], field: str = "") -> PlanarMotion:
+def motion_from_plain(data: Mapping[str, Any], field: str = "") -> PlanarTask:
     """Inverse of motion_to_plain; says nothing of ranges.
 
     Args:
@@ -57,7 +57,7 @@ def motion_from_plain(data: Mapping[str, Any], field: str = "") -> PlanarMotion:
     Raises:
         InvalidMotion: A key is missing or unknown, or a value has the wrong type.
     """
-    return _object(PlanarMotion, _MOTION)(data, field)
+    return _object(PlanarTask, _MOTION)(data, field)
 
 
 def _write(value: Any, keys: Mapping[str, _Read]) -> dict[str, Any]:
@@ -204,5 +204,5 @@ _KEYS: dict[type[Any], Mapping[str, _Read]] = {
     PlanarClearance: _CLEARANCE,
     PlanarPose: _POSE,
     PlanarPhase: _PHASE,
-    PlanarMotion: _MOTION,
+    PlanarTask: _MOTION,
 }

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mcplan._core import PlanarContact, PlanarMotion, PlanarRobot
+from mcplan._core import PlanarContact, PlanarRobot, PlanarTask
 from mcplan.errors import InvalidMotion, shown
 from mcplan.files.planar_robots import index_of, require_unique
 
@@ -109,7 +109,7 @@ class Stances:
         return PlanarContact(end_effector=end, surface=index, position_W=position, angle=angle)
 
 
-def contact_to_dict(contact: PlanarContact, motion: PlanarMotion) -> dict[str, Any]:
+def contact_to_dict(contact: PlanarContact, motion: PlanarTask) -> dict[str, Any]:
     """A contact by `at` and `turns` if they give exactly the same numbers, else by `position` and `angle`."""
     surface = motion.surfaces[contact.surface]
     data: dict[str, Any] = {

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from mcplan._core import Plan, PlanarForceLaw, PlanarMotion, WholeBodyPlan, __version__, plan_from_json
+from mcplan._core import Plan, PlanarForceLaw, PlanarPlan, PlanarTask, __version__, plan_from_json
 from mcplan.errors import InvalidInput, InvalidPlan, shown
 from mcplan.files import plans
 from mcplan.files.archives import archive_bytes, read_arrays, read_header
@@ -36,7 +36,7 @@ UNITS = "SI: m, kg, s, N, rad; _W: world frame, x forward, y up; _B: frame of a 
 _LAWS = {"least_norm": PlanarForceLaw.least_norm, "polynomial": PlanarForceLaw.polynomial}
 
 
-def save_whole_body_plan(plan: WholeBodyPlan, path: str | Path) -> None:
+def save_whole_body_plan(plan: PlanarPlan, path: str | Path) -> None:
     """Write a plan to a file, which is complete or not there at all.
 
     Args:
@@ -50,7 +50,7 @@ def save_whole_body_plan(plan: WholeBodyPlan, path: str | Path) -> None:
     write_whole(plan_to_bytes(plan), path)
 
 
-def load_whole_body_plan(path: str | Path) -> WholeBodyPlan:
+def load_whole_body_plan(path: str | Path) -> PlanarPlan:
     """Read a plan written by save_whole_body_plan.
 
     Raises:
@@ -63,7 +63,7 @@ def load_whole_body_plan(path: str | Path) -> WholeBodyPlan:
         raise found.moved(InvalidPlan, str(path)) from None
 
 
-def load_any_plan(path: str | Path) -> Plan | WholeBodyPlan:
+def load_any_plan(path: str | Path) -> Plan | PlanarPlan:
     """Read a plan file of either kind.
 
     Raises:
@@ -82,7 +82,7 @@ def load_any_plan(path: str | Path) -> Plan | WholeBodyPlan:
         raise found.moved(InvalidPlan, str(path)) from None
 
 
-def plan_to_bytes(plan: WholeBodyPlan) -> bytes:
+def plan_to_bytes(plan: PlanarPlan) -> bytes:
     """The content of a plan file."""
     plan.validate()
     header = {
@@ -106,7 +106,7 @@ def plan_to_bytes(plan: WholeBodyPlan) -> bytes:
     return archive_bytes(header, arrays)
 
 
-def plan_from_bytes(data: bytes) -> WholeBodyPlan:
+def plan_from_bytes(data: bytes) -> PlanarPlan:
     """The plan of the content of a plan file.
 
     Raises:
@@ -128,7 +128,7 @@ def plan_from_bytes(data: bytes) -> WholeBodyPlan:
     intervals = [count for phase, count in zip(motion.phases, points, strict=True) for _ in range(phase.intervals)]
     weights = _cut(arrays, "weights", points if law == PlanarForceLaw.least_norm else [])
     columns = [2 * count for count in intervals] if law == PlanarForceLaw.polynomial else []
-    plan = WholeBodyPlan(
+    plan = PlanarPlan(
         motion=motion,
         planner=header["planner"],
         durations=arrays["durations"].tolist(),
@@ -142,7 +142,7 @@ def plan_from_bytes(data: bytes) -> WholeBodyPlan:
     return plan
 
 
-def _point_counts(motion: PlanarMotion) -> list[int]:
+def _point_counts(motion: PlanarTask) -> list[int]:
     """Points in contact, phase by phase."""
     ends = motion.robot.end_effectors
     return [sum(len(ends[contact.end_effector].points) for contact in phase.contacts) for phase in motion.phases]

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mcplan._core import PlanarMotion, WholeBodyPlan, sip
+from mcplan._core import PlanarPlan, PlanarTask, sip
 from mcplan.arguments import require, require_or_path
 from mcplan.errors import Interrupted, InvalidOptions, shown
 from mcplan.options import fill
@@ -23,8 +23,8 @@ _PROVED = ("dynamics", "torque_limits", "clearance")
 
 
 def whole_body(
-    motion: PlanarMotion | str | Path,
-    warm_start: WholeBodyPlan | str | Path | None,
+    motion: PlanarTask | str | Path,
+    warm_start: PlanarPlan | str | Path | None,
     certify: bool,
     minimise: str | None,
     options: Mapping[str, Any],
@@ -40,7 +40,7 @@ def whole_body(
 
 def solve(
     planner: sip.Planner,
-    warm_start: WholeBodyPlan | str | Path | None,
+    warm_start: PlanarPlan | str | Path | None,
     certify: bool = False,
     self_collision: bool = False,
 ) -> sip.Result:
@@ -49,8 +49,8 @@ def solve(
     Raises:
         Interrupted: Ctrl-C, also while it proves: the motion is there then, without a certificate.
     """
-    if warm_start is not None and not isinstance(warm_start, WholeBodyPlan):
-        require_or_path("warm_start", warm_start, "a WholeBodyPlan")
+    if warm_start is not None and not isinstance(warm_start, PlanarPlan):
+        require_or_path("warm_start", warm_start, "a PlanarPlan")
         from mcplan.files.whole_body_plans import load_whole_body_plan
 
         warm_start = load_whole_body_plan(warm_start)
@@ -88,11 +88,11 @@ def require_provable(options: sip.Options) -> None:
             raise InvalidOptions("certify", f"needs {name}, since a certificate is about all constraints", "True")
 
 
-def motion_of(motion: PlanarMotion | str | Path) -> PlanarMotion:
+def motion_of(motion: PlanarTask | str | Path) -> PlanarTask:
     """The motion, or what load_motion makes of its name."""
-    if isinstance(motion, PlanarMotion):
+    if isinstance(motion, PlanarTask):
         return motion
-    require_or_path("motion", motion, "a PlanarMotion", "a name")
+    require_or_path("motion", motion, "a PlanarTask", "a name")
     from mcplan.files.motions import load_motion
 
     return load_motion(motion)

@@ -20,7 +20,7 @@ from .settings import ContactSettings, Feedback
 if TYPE_CHECKING:
     import mujoco
 
-    from mcplan._core import PlanarConfiguration, PlanarMotion, PlanarRobot, PlanarSurface
+    from mcplan._core import PlanarConfiguration, PlanarRobot, PlanarSurface, PlanarTask
 
 Array = NDArray[np.float64]
 
@@ -49,7 +49,7 @@ class PlanarModel:
         surface_geoms: The geom of each surface of the motion.
     """
 
-    motion: PlanarMotion
+    motion: PlanarTask
     mj: mujoco.MjModel
     stiffness: float
     damping: float
@@ -59,7 +59,7 @@ class PlanarModel:
 
 
 def build(
-    motion: PlanarMotion,
+    motion: PlanarTask,
     *,
     step_s: float = 0.001,
     contacts: ContactSettings | None = None,
@@ -139,7 +139,7 @@ def _empty(robot: PlanarRobot, step_s: float, contacts: ContactSettings) -> Any:
 
 
 def _add_ground(
-    spec: mujoco.MjSpec, motion: PlanarMotion, contacts: ContactSettings, friction_scale: float, shift_m: float
+    spec: mujoco.MjSpec, motion: PlanarTask, contacts: ContactSettings, friction_scale: float, shift_m: float
 ) -> None:
     import mujoco
 

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 from mcplan.errors import InvalidMotion, InvalidOptions
 
 if TYPE_CHECKING:
-    from mcplan._core import PlanarMotion, PlanarPhase
+    from mcplan._core import PlanarPhase, PlanarTask
 
 #: Options of mp.whole_body for plans that are to be tracked. For motions of many steps add phase_duration_s=(0.3, 5.0).
 PLANNING: MappingProxyType[str, Any] = MappingProxyType(
@@ -36,7 +36,7 @@ PLANNING: MappingProxyType[str, Any] = MappingProxyType(
 SHORT_MOTION, PHASES_S = 5, (0.3, 5.0)
 
 
-def trackable(motion: PlanarMotion) -> tuple[PlanarMotion, dict[str, Any]]:
+def trackable(motion: PlanarTask) -> tuple[PlanarTask, dict[str, Any]]:
     """What ``mcplan sip --trackable`` plans: a motion with clearances, and options of mp.whole_body.
 
         motion, options = trackable(mp.load_motion("walking"))
@@ -55,7 +55,7 @@ def trackable(motion: PlanarMotion) -> tuple[PlanarMotion, dict[str, Any]]:
     return with_clearances(motion), {**PLANNING, **more}
 
 
-def with_clearances(motion: PlanarMotion, height_m: float = 0.02) -> PlanarMotion:
+def with_clearances(motion: PlanarTask, height_m: float = 0.02) -> PlanarTask:
     """The motion with the points of every swing kept in front of the surface that it leaves and lands on.
 
     Args:

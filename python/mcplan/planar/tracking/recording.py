@@ -13,7 +13,7 @@ from mcplan.files.whole_body_plans import plan_from_bytes
 from mcplan.tracking.run_files import PLANAR_RUN, Arrays, Header, columns_of, load_run
 
 if TYPE_CHECKING:
-    from mcplan._core import WholeBodyPlan
+    from mcplan._core import PlanarPlan
 
 Array = NDArray[np.float64]
 
@@ -48,7 +48,7 @@ class PlanarRecording:
         left_plan_at_s: Time at which the robot was no longer where the plan wants it; infinite: it always was.
     """
 
-    plan: WholeBodyPlan
+    plan: PlanarPlan
     joints: tuple[str, ...]
     ends: tuple[str, ...]
     times_s: Array

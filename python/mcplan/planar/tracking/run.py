@@ -20,7 +20,7 @@ from .settings import ContactSettings, Feedback
 from .simulation import PlanarSimulation
 
 if TYPE_CHECKING:
-    from mcplan._core import WholeBodyPlan, WholeBodyState
+    from mcplan._core import PlanarPlan, PlanarState
 
 #: A robot that is further than this from its plan has left it: base [m], base and joints [rad].
 LEFT_PLAN_M = 0.1
@@ -31,7 +31,7 @@ DEFAULT_OPTIONS = Options(simulation_step_s=2e-4, control_step_s=4e-4)
 
 
 def track_whole_body(
-    plan: WholeBodyPlan,
+    plan: PlanarPlan,
     options: Options | None = None,
     feedback: Feedback | None = None,
     contacts: ContactSettings | None = None,
@@ -93,7 +93,7 @@ def _require_supported(options: Options) -> None:
 
 def _run(
     simulation: PlanarSimulation,
-    plan: WholeBodyPlan,
+    plan: PlanarPlan,
     options: Options,
     stop: Interruption,
     progress: Callable[[float, float], None] | None,
@@ -117,7 +117,7 @@ def _run(
     return rows, float("inf")
 
 
-def _control(simulation: PlanarSimulation, state: WholeBodyState) -> dict[str, Any]:
+def _control(simulation: PlanarSimulation, state: PlanarState) -> dict[str, Any]:
     """Apply the torques of an instant; what is to be recorded of it."""
     asked = state.configuration
     at, velocity = simulation.positions, simulation.velocities
@@ -144,7 +144,7 @@ def _control(simulation: PlanarSimulation, state: WholeBodyState) -> dict[str, A
     }
 
 
-def _planned(simulation: PlanarSimulation, state: WholeBodyState, absent: Any) -> tuple[Array, Array, Any]:
+def _planned(simulation: PlanarSimulation, state: PlanarState, absent: Any) -> tuple[Array, Array, Any]:
     """Of the plan at an instant: forces (e, p, 2), points where contacts put them (e, p, 2), surfaces (e,)."""
     motion = simulation.model.motion
     forces = np.where(absent, np.nan, 0.0)
@@ -168,7 +168,7 @@ def _has_left(row: dict[str, Any]) -> bool:
     return not stays  # what is not a number has left, too
 
 
-def _recording(plan: WholeBodyPlan, rows: list[dict[str, Any]], left_plan_at_s: float) -> PlanarRecording:
+def _recording(plan: PlanarPlan, rows: list[dict[str, Any]], left_plan_at_s: float) -> PlanarRecording:
     robot = plan.motion.robot
     return PlanarRecording(
         plan=plan,

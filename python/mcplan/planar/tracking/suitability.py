@@ -10,7 +10,7 @@ import numpy as np
 from .prepare import PLANNING
 
 if TYPE_CHECKING:
-    from mcplan._core import WholeBodyPlan, WholeBodyState
+    from mcplan._core import PlanarPlan, PlanarState
 
 #: [1/s] instants at which a plan is looked at, beside those around its knots.
 RATE = 200.0
@@ -50,7 +50,7 @@ class Suitability:
         return f"the plan was not made to be tracked: {' and '.join(found)}; plan it by mcplan sip --trackable"
 
 
-def suitability(plan: WholeBodyPlan) -> Suitability:
+def suitability(plan: PlanarPlan) -> Suitability:
     """Look at the contacts of a plan.
 
     Args:
@@ -66,7 +66,7 @@ def suitability(plan: WholeBodyPlan) -> Suitability:
     return Suitability(drift, least)
 
 
-def _at(plan: WholeBodyPlan, state: WholeBodyState) -> tuple[float, float]:
+def _at(plan: PlanarPlan, state: PlanarState) -> tuple[float, float]:
     """Largest distance [m] of a loaded point from its place, and the smallest normal force [N], at an instant."""
     motion = plan.motion
     contacts = {contact.end_effector: contact for contact in motion.phases[state.phase].contacts}

@@ -19,7 +19,7 @@ from .ground import CONE, Slab, cone_outline
 from .samples import PlanarSamples
 
 if TYPE_CHECKING:
-    from mcplan._core import PlanarContact, PlanarRobot, WholeBodyPlan
+    from mcplan._core import PlanarContact, PlanarPlan, PlanarRobot
     from mcplan.view.stage import Stage
 
 Array = NDArray[np.float64]
@@ -97,7 +97,7 @@ def draw_paths(stage: Stage, samples: PlanarSamples, robot: PlanarRobot, colours
         stage.mesh(f"paths/{node(robot.end_effectors[end].name)}", path, colour, glow=0.25)
 
 
-def draw_cones(stage: Stage, plan: WholeBodyPlan, intervals: list[Interval], colours: list[str], size: float) -> None:
+def draw_cones(stage: Stage, plan: PlanarPlan, intervals: list[Interval], colours: list[str], size: float) -> None:
     """Put friction cones onto a page while they bind: a wedge at every point of a contact."""
     robot, duration = plan.motion.robot, float(plan.duration())
     lanes = lanes_of(robot, size)
@@ -135,7 +135,7 @@ def draw_forces(stage: Stage, samples: PlanarSamples, robot: PlanarRobot, weight
             )
 
 
-def contact_intervals(plan: WholeBodyPlan) -> list[Interval]:
+def contact_intervals(plan: PlanarPlan) -> list[Interval]:
     """Contacts of a plan by end-effector and time; phases in which one stays where it is are joined."""
     times = [float(t) for t in plan.knot_times()]
     intervals: list[Interval] = []

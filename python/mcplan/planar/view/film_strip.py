@@ -30,14 +30,14 @@ from .samples import sample_whole_body
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from mcplan._core import WholeBodyPlan
+    from mcplan._core import PlanarPlan
 
 #: [inch] height that a picture of postures may have.
 TALLEST = 7.5
 
 
 def film_strip(
-    plan: WholeBodyPlan,
+    plan: PlanarPlan,
     frames: int | Sequence[float] = 8,
     columns: int | None = None,
     forces: bool = True,
@@ -93,7 +93,7 @@ def film_strip(
 
 
 def stroboscope(
-    plan: WholeBodyPlan,
+    plan: PlanarPlan,
     postures: int | Sequence[float] = 6,
     forces: bool = True,
     cones: bool = True,
@@ -143,7 +143,7 @@ def stroboscope(
     return sheet
 
 
-def _instants(plan: WholeBodyPlan, name: str, chosen: int | Sequence[float]) -> list[float]:
+def _instants(plan: PlanarPlan, name: str, chosen: int | Sequence[float]) -> list[float]:
     plan.validate()
     last = float(plan.duration())
     if isinstance(chosen, int):

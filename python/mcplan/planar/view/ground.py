@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mcplan.view.extent import below
 
 if TYPE_CHECKING:
-    from mcplan._core import PlanarMotion, PlanarSurface
+    from mcplan._core import PlanarSurface, PlanarTask
 
 Array = NDArray[np.float64]
 
@@ -30,7 +30,7 @@ class Slab:
     is_wall: bool
 
 
-def slabs_of(motion: PlanarMotion, points_W: Array, margin: float, thickness: float) -> list[Slab]:
+def slabs_of(motion: PlanarTask, points_W: Array, margin: float, thickness: float) -> list[Slab]:
     """Solids of the surfaces near points, those that others stand on first.
 
     Args:
@@ -77,7 +77,7 @@ def cone_outline(angle: float, friction: float, radius: float) -> Array:
     return np.vstack([np.zeros((1, 2)), radius * np.column_stack([np.cos(turn), np.sin(turn)])])
 
 
-def _front(motion: PlanarMotion, i: int, points_W: Array, margin: float) -> tuple[Array, Array]:
+def _front(motion: PlanarTask, i: int, points_W: Array, margin: float) -> tuple[Array, Array]:
     """Ends (2, 2) [m] of what is seen of a surface, (0, 2) when nothing is; whether others cut it off there, (2,)."""
     surface = motion.surfaces[i]
     origin, tangent = np.asarray(surface.origin_W, float), np.asarray(surface.tangent_W, float)
@@ -115,7 +115,7 @@ def _within(slab: Slab, other: Slab) -> bool:
     return bool(np.all(edges[None, :, 0] * away[:, :, 1] - edges[None, :, 1] * away[:, :, 0] > -1e-9))
 
 
-def _before(motion: PlanarMotion, i: int) -> list[int]:
+def _before(motion: PlanarTask, i: int) -> list[int]:
     """Endless surfaces that cut surface i off: all of its contacts lie before them."""
     places = [np.asarray(c.position_W) for phase in motion.phases for c in phase.contacts if c.surface == i]
     cutting = []

@@ -30,7 +30,7 @@ from .ground import Slab, slabs_of
 from .samples import PlanarSamples, frame_times, sample_whole_body, turned
 
 if TYPE_CHECKING:
-    from mcplan._core import PlanarRobot, Report, WholeBodyPlan
+    from mcplan._core import PlanarPlan, PlanarRobot, Report
     from mcplan.view.pages.annotations import Label
 
 Array = NDArray[np.float64]
@@ -39,7 +39,7 @@ Array = NDArray[np.float64]
 FRAME_RATE = 60.0
 
 
-def show_whole_body(plan: WholeBodyPlan, report: Report | None = None) -> Page:
+def show_whole_body(plan: PlanarPlan, report: Report | None = None) -> Page:
     """Draw a whole-body plan for the browser, from the side: robot, ground, CoM, forces at their points, their cones.
 
     Args:
@@ -112,7 +112,7 @@ def seen_on(stage: Stage, slabs: list[Slab], reached: Array, size: float) -> tup
 
 
 def planar_page(
-    title: str, stage: Stage, overlay: str, view: tuple[Array, list[Label]], plan: WholeBodyPlan, duration_s: float
+    title: str, stage: Stage, overlay: str, view: tuple[Array, list[Label]], plan: PlanarPlan, duration_s: float
 ) -> Page:
     """The page of a stage that is looked at from the side."""
     points, labels = view

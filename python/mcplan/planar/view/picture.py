@@ -18,7 +18,7 @@ from .samples import PlanarSamples, frame_times, sample_whole_body, turned
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from mcplan._core import WholeBodyPlan
+    from mcplan._core import PlanarPlan
 
 Array = NDArray[np.float64]
 
@@ -30,7 +30,7 @@ RATE = 60.0
 class Drawing:
     """What all frames of a plan share."""
 
-    plan: WholeBodyPlan
+    plan: PlanarPlan
     size: float  # [m] of the robot
     weight: float  # [N]
     shapes: list[Shape]
@@ -41,7 +41,7 @@ class Drawing:
     window: Array  # (2, 2) [m] low and high corner
 
 
-def drawing_of(plan: WholeBodyPlan) -> Drawing:
+def drawing_of(plan: PlanarPlan) -> Drawing:
     """Robot, ground and window of a plan, sampled once for all frames."""
     robot = plan.motion.robot
     size = size_of(robot)
@@ -60,7 +60,7 @@ def drawing_of(plan: WholeBodyPlan) -> Drawing:
     return Drawing(plan, size, weight, shapes, outlines, end_colours(robot), path, slabs, np.array([low, high]))
 
 
-def _all_cones(plan: WholeBodyPlan, size: float) -> list[Array]:
+def _all_cones(plan: PlanarPlan, size: float) -> list[Array]:
     """Outlines (m, 2) [m] of the friction cones of all contacts, where they should be."""
     outlines = []
     for contact in (c for phase in plan.motion.phases for c in phase.contacts):

@@ -16,7 +16,7 @@ from .samples import PlanarSamples, sample_phases
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from mcplan._core import WholeBodyPlan
+    from mcplan._core import PlanarPlan
 
 Array = NDArray[np.float64]
 
@@ -27,28 +27,28 @@ FORBIDDEN = mix(LIMIT, "#ffffff", 0.86)
 PHASE = "#F1F3F6"
 
 
-def plot_joints(plan: WholeBodyPlan) -> Figure:
+def plot_joints(plan: PlanarPlan) -> Figure:
     """Position of every joint; what lies beyond its limits is shaded."""
     samples = sample_phases(plan, RATE)
     limits = {i: (float(b.position_min), float(b.position_max)) for i, b in enumerate(plan.motion.robot.bodies)}
     return _joint_panels(plan, samples, samples.q, limits, "position", "rad")
 
 
-def plot_joint_velocities(plan: WholeBodyPlan) -> Figure:
+def plot_joint_velocities(plan: PlanarPlan) -> Figure:
     """Velocity of every joint against its limits, with the share of them that is used."""
     samples = sample_phases(plan, RATE)
     limits = {i: (-float(b.velocity_max), float(b.velocity_max)) for i, b in enumerate(plan.motion.robot.bodies)}
     return _joint_panels(plan, samples, samples.velocity, limits, "velocity", "rad/s")
 
 
-def plot_torques(plan: WholeBodyPlan) -> Figure:
+def plot_torques(plan: PlanarPlan) -> Figure:
     """Torque of every joint against its limits, with the share of them that is used."""
     samples = sample_phases(plan, RATE)
     limits = {i: (-float(b.torque_max), float(b.torque_max)) for i, b in enumerate(plan.motion.robot.bodies)}
     return _joint_panels(plan, samples, samples.torque, limits, "torque", "N m")
 
 
-def plot_base(plan: WholeBodyPlan) -> Figure:
+def plot_base(plan: PlanarPlan) -> Figure:
     """Position and angle of the base, and the CoM beside it."""
     samples = sample_phases(plan, RATE)
     figure, axes = sheet(3, 1, size=(10.0, 6.0), sharex=True)
@@ -67,11 +67,11 @@ def plot_base(plan: WholeBodyPlan) -> Figure:
     return figure
 
 
-def plot_drift(plan: WholeBodyPlan) -> Figure:
+def plot_drift(plan: PlanarPlan) -> Figure:
     """How far every end-effector in contact is from where it should be; the checker's tolerances in red."""
-    from mcplan._core import WholeBodyTolerances
+    from mcplan._core import PlanarTolerances
 
-    tolerances = WholeBodyTolerances()
+    tolerances = PlanarTolerances()
     samples = sample_phases(plan, RATE)
     ends, colours = plan.motion.robot.end_effectors, end_colours(plan.motion.robot)
     figure, axes = sheet(2, 1, size=(10.0, 5.0), sharex=True)
@@ -98,7 +98,7 @@ def plot_drift(plan: WholeBodyPlan) -> Figure:
     return figure
 
 
-def shade_phases(axes: Any, plan: WholeBodyPlan) -> None:
+def shade_phases(axes: Any, plan: PlanarPlan) -> None:
     """Tint every second phase."""
     times = plan.knot_times()
     for k in range(1, len(times) - 1, 2):
@@ -112,7 +112,7 @@ def curve(samples: PlanarSamples, values: Array) -> tuple[Array, Array]:
 
 
 def _joint_panels(
-    plan: WholeBodyPlan,
+    plan: PlanarPlan,
     samples: PlanarSamples,
     values: Array,
     limits: dict[int, tuple[float, float]],
@@ -155,7 +155,7 @@ def _joint_panels(
     return figure
 
 
-def _joint_order(plan: WholeBodyPlan) -> tuple[list[int], dict[int, str]]:
+def _joint_order(plan: PlanarPlan) -> tuple[list[int], dict[int, str]]:
     """Bodies with joints, limb by limb, the longer limbs first, the trunk's last; and their colours."""
     robot = plan.motion.robot
     limbs = sorted(limbs_of(robot), key=lambda limb: -len(limb.bodies))

@@ -16,10 +16,10 @@ from .samples import sample_phases
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from mcplan._core import WholeBodyPlan
+    from mcplan._core import PlanarPlan
 
 
-def plot_point_forces(plan: WholeBodyPlan) -> Figure:
+def plot_point_forces(plan: PlanarPlan) -> Figure:
     """Normal and tangential force at every point of every end-effector; the tangential one stays in the band of plus and
     minus the coefficient of friction times the normal one."""
     samples = sample_phases(plan, RATE)
@@ -70,7 +70,7 @@ def plot_point_forces(plan: WholeBodyPlan) -> Figure:
     return figure
 
 
-def plot_cones(plan: WholeBodyPlan) -> Figure:
+def plot_cones(plan: PlanarPlan) -> Figure:
     """Normal over tangential force of every end-effector, a curve for each point, within the cone of what it touches."""
     samples = sample_phases(plan, RATE)
     ends, colours = plan.motion.robot.end_effectors, end_colours(plan.motion.robot)

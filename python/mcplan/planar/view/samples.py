@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from mcplan._core import PlanarRobot, WholeBodyPlan, WholeBodyState
+    from mcplan._core import PlanarPlan, PlanarRobot, PlanarState
 
 Array = NDArray[np.float64]
 
@@ -46,13 +46,13 @@ class PlanarSamples:
         return len(self.times_s)
 
 
-def sample_whole_body(plan: WholeBodyPlan, times_s: Array) -> PlanarSamples:
+def sample_whole_body(plan: PlanarPlan, times_s: Array) -> PlanarSamples:
     """The plan at the given times [s]; at a boundary the phase that begins there."""
     last = float(plan.duration())
     return _samples(plan, [plan.at(min(float(t), last)) for t in times_s])
 
 
-def sample_phases(plan: WholeBodyPlan, rate_hz: float) -> PlanarSamples:
+def sample_phases(plan: PlanarPlan, rate_hz: float) -> PlanarSamples:
     """Every phase at about `rate_hz` with both of its ends: boundaries come twice, once from either side."""
     states = []
     for k, duration in enumerate(plan.durations):
@@ -87,7 +87,7 @@ def turned(angles: Array, vector: Array) -> Array:
     return np.stack([cos * x - sin * y, sin * x + cos * y], axis=-1)
 
 
-def _samples(plan: WholeBodyPlan, states: list[WholeBodyState]) -> PlanarSamples:
+def _samples(plan: PlanarPlan, states: list[PlanarState]) -> PlanarSamples:
     robot, motion = plan.motion.robot, plan.motion
     ends, n = robot.end_effectors, len(states)
     base = np.array([s.configuration.base for s in states], float)

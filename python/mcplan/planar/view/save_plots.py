@@ -12,10 +12,10 @@ from .plots import plot_base, plot_drift, plot_joint_velocities, plot_joints, pl
 from .plots_point_forces import plot_cones, plot_point_forces
 
 if TYPE_CHECKING:
-    from mcplan._core import WholeBodyPlan
+    from mcplan._core import PlanarPlan
 
 
-def save_whole_body_plots(plan: WholeBodyPlan, directory: str | Path) -> list[Path]:
+def save_whole_body_plots(plan: PlanarPlan, directory: str | Path) -> list[Path]:
     """Write all plots of a whole-body plan.
 
     They are strip.png, postures.png, joints.png, velocities.png, torques.png, forces.png, cones.png, base.png and drift.png.

@@ -15,7 +15,7 @@ from mcplan.view.stage import node
 from .annotations import length_text
 
 if TYPE_CHECKING:
-    from mcplan._core import PlanarMotion, PlanarRobot, Robot, Scene
+    from mcplan._core import PlanarRobot, PlanarTask, Robot, Scene
 
 
 #: Buttons below the timeline.
@@ -90,7 +90,7 @@ def force_text(what: str, newton_per_metre: float, size_m: float | None = None) 
 
 
 def timeline(
-    scene: Scene | PlanarMotion,
+    scene: Scene | PlanarTask,
     robot: Robot | PlanarRobot,
     intervals: list[Interval],
     colours: list[str],
