@@ -271,6 +271,17 @@ def test_plan_scales_the_scene_and_keeps_soles_inside(capsys, monkeypatch):
     assert (scene.surfaces[1].vertices_W == 0.5 * whole.surfaces[1].vertices_W).all()
 
 
+def test_a_plan_saved_as_json_is_checked_and_drawn_like_one_saved_as_arrays(capsys, tmp_path, monkeypatch):
+    monkeypatch.setattr(mp, "plan", lambda *args, **options: solve_result())
+    assert run(capsys, "plan", "flat", "-o", tmp_path / "plan.json")[0] == 0
+    standing_plan().save(tmp_path / "plan.npz")
+    said = [run(capsys, "check", tmp_path / name)[1].replace(name, "") for name in ("plan.json", "plan.npz")]
+    assert said[0] == said[1]
+    for name in ("plan.json", "plan.npz"):
+        assert run(capsys, "show", tmp_path / name, "-o", tmp_path / f"{name}.png")[0] == 0
+    assert (tmp_path / "plan.json.png").read_bytes() == (tmp_path / "plan.npz.png").read_bytes()
+
+
 def test_plan_hands_its_options_on_and_prints_json(capsys, tmp_path, monkeypatch):
     given = []
     monkeypatch.setattr(mp, "plan", lambda *args, **options: given.append((args, options)) or solve_result())

@@ -135,7 +135,7 @@ def test_closed_streams_are_no_failure(stream):
 @pytest.mark.parametrize(
     ("words", "option", "legal"),
     [
-        (["plan", "flat", "-o", "plan.csv"], "--output", ".npz"),
+        (["plan", "flat", "-o", "plan.csv"], "--output", ".npz, .json"),
         (["plan", "flat", "--html", "page.png"], "--html", ".html, .htm"),
         (["sip", "cartwheel", "--strip", "a.mp4"], "--strip", ".png, .pdf, .svg"),
         (["scenes", "flat", "-o", "scene.npz"], "--output", ".toml"),

@@ -24,9 +24,9 @@ def require_outputs(
         MissingExtra: What draws is not installed.
     """
     from mcplan.extras import require
-    from mcplan.files.outputs import ARCHIVE, PAGE, require_folder, require_target
+    from mcplan.files.outputs import ARCHIVE, JSON, PAGE, require_folder, require_target
 
-    require_target("--output", output, ARCHIVE)
+    require_target("--output", output, ARCHIVE if verb == "sip" else (*ARCHIVE, *JSON))
     require_target("--html", html, PAGE)
     require_target("--strip", strip, PICTURES)
     require_folder("--plots", plots)

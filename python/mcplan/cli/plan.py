@@ -47,7 +47,9 @@ ThreadsOption = Annotated[
 SeedOption = Annotated[
     int | None, typer.Option("--seed", metavar="K", help="Seed of the random order in which restarts are tried.")
 ]
-OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")]
+OutputOption = Annotated[
+    Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz, .json).")
+]
 HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")]
 PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]

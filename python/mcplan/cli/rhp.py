@@ -32,12 +32,14 @@ PaperOption = Annotated[bool, typer.Option("--paper", help="CoM box and friction
 LiftedPsiOption = Annotated[bool, typer.Option("--lifted-psi", help="Keep the relaxation's bounds as variables.")]
 SequenceOption = Annotated[
     Path | None,
-    typer.Option("--sequence", metavar="PLAN", help="Take start and contact sequence of a plan (.npz)."),
+    typer.Option("--sequence", metavar="PLAN", help="Take start and contact sequence of a plan (.npz, .json)."),
 ]
 TimeLimitOption = Annotated[
     float | None, typer.Option("--time-limit", metavar="S", help="Longest time of each cycle; none by default.")
 ]
-OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")]
+OutputOption = Annotated[
+    Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz, .json).")
+]
 HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")]
 PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]

@@ -26,6 +26,7 @@ from mcplan.files import whole_body_plans
 from mcplan.files.archives import read_arrays, read_header
 from mcplan.files.builtin import exists
 from mcplan.files.outputs import ARCHIVE, require_suffix, write_whole
+from mcplan.files.plans import is_json
 from mcplan.files.reading import MOST_PLAN_INFLATED, MOST_RUN, MOST_RUN_INFLATED, MOST_RUN_RATIO, read_file
 
 from .options import Gains, Options, Push
@@ -109,6 +110,8 @@ def load_run(
     if not exists(path):
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path))
     data = read_file(path, MOST_RUN, InvalidInput)
+    if otherwise is not None and is_json(data):
+        return otherwise(path)
     try:
         arrays = read_arrays(data, min(MOST_RUN_INFLATED, MOST_RUN_RATIO * len(data) + MOST_PLAN_INFLATED))
         header = read_header(arrays)
