@@ -19,8 +19,9 @@ void add_acceleration(nlp::Problem& problem, int acceleration, const std::vector
 /// and with `outer` |f_t1|, |f_t2| <= mu f_n, the paper's pyramid of four sides around it.
 void add_friction(nlp::Problem& problem, const ContactPoint& point, double friction, int sides, bool outer);
 
-/// The edges of that pyramid in world axes, with unit normal component: f = sum of edges times factors that are not
-/// negative. The inner pyramid's edges lie on the circular cone, the first along t1.
+/// The edges of a friction pyramid in world axes, with unit normal component: f = sum of edges times factors that are
+/// not negative. With `outer` it is that of add_friction. Otherwise its edges lie on the circular cone, the first along
+/// t1: the pyramid of add_friction turned by pi / sides about the normal.
 Eigen::Matrix3Xd pyramid_edges(const Placement& placement, double friction, int sides, bool outer);
 
 /// Every world component of the point's force within +- limit [N]. On level ground these are bounds of the variables;
