@@ -169,7 +169,6 @@ double Planner::Impl::finishing_s(const Options& with, const Eigen::VectorXd& x)
 }
 
 /// All attempts in turn, until one solves the program; the best of them otherwise. `close`: x is nearly the solution.
-///
 /// Under a time limit none is begun whose first point would come too late, by those of the programs before.
 nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const Eigen::VectorXd& x, bool close) {
   const bool cost = cost_scale > 0.0;
