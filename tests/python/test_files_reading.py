@@ -357,6 +357,16 @@ def test_a_misspelt_required_key_is_named_once(wrong, right, tmp_path):
     assert found.value.others == ()
 
 
+def test_legal_keys_of_a_table_are_listed_once(tmp_path):
+    data = {**malformed.SCENE, "gravitiy": 9.8, "zzz": 1, "nmae": "x"}
+    (tmp_path / "bad.toml").write_text(toml_text(data))
+    with pytest.raises(mp.InvalidScene) as found:
+        load_scene(tmp_path / "bad.toml")
+    first, *others = (line.removeprefix(f"{tmp_path / 'bad.toml'}: ") for line in str(found.value).splitlines())
+    assert first.startswith("gravitiy: no such key. Did you mean 'gravity'? Keys: name, ")
+    assert others == ["zzz: no such key", "nmae: no such key. Did you mean 'name'?"]
+
+
 def test_twenty_findings_are_listed_and_the_rest_is_counted(tmp_path):
     data = {
         **malformed.SCENE,
