@@ -24,7 +24,21 @@ from mcplan.files.toml import toml_text
 from standing import standing_plan
 from wrenches import standing_wrenches
 
-VERBS = ("bench", "check", "demo", "motions", "plan", "reproduce", "rhp", "robots", "scenes", "show", "sip", "version")
+VERBS = (
+    "bench",
+    "check",
+    "demo",
+    "plan",
+    "reproduce",
+    "rhp",
+    "robots",
+    "scenes",
+    "show",
+    "sip",
+    "tasks",
+    "track",
+    "version",
+)
 
 
 def run(capsys, *words) -> tuple[int, str, str]:
@@ -44,6 +58,20 @@ def test_no_words_print_the_verbs(capsys):
     code, out, _ = run(capsys)
     assert code == 0
     assert all(f"  {verb} " in out for verb in VERBS)
+
+
+@pytest.mark.parametrize("words", [(), ("bench",)])
+def test_lists_of_verbs_show_whole_summaries_at_80_columns(words, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    code, out, _ = run(capsys, *words, "--help")
+    rows = out.partition("\nCommands:\n")[2].splitlines()
+    assert code == 0 and len(rows) >= (4 if words else len(VERBS))
+    assert [row for row in rows if len(row) > 80 or row.endswith("...") or not row.endswith(".")] == []
+
+
+def test_the_earlier_name_of_tasks_works_and_is_not_listed(capsys):
+    assert run(capsys, "motions") == run(capsys, "tasks")
+    assert "motions" not in run(capsys, "--help")[1]
 
 
 @pytest.mark.parametrize("verb", ["bench", "reproduce"])
@@ -82,7 +110,7 @@ def test_the_command_runs_as_a_process():
     [
         ("scenes", list_scenes()),
         ("robots", [*list_robots(), *list_planar_robots()]),
-        ("motions", list_motions()),
+        ("tasks", list_motions()),
     ],
 )
 def test_lists_have_a_described_line_each(verb, names, capsys):
@@ -156,7 +184,7 @@ def test_a_planar_robot_is_marked_and_printed_with_its_bodies(name, capsys):
 
 @pytest.mark.parametrize("name", list_motions())
 def test_a_motion_is_printed_with_a_line_for_each_phase(name, capsys):
-    code, out, _ = run(capsys, "motions", name)
+    code, out, _ = run(capsys, "tasks", name)
     motion = load_motion(name)
     assert code == 0 and out.startswith(f"{name}: ")
     head, *lines = out.split("\n\n")[-1].splitlines()
@@ -166,8 +194,8 @@ def test_a_motion_is_printed_with_a_line_for_each_phase(name, capsys):
 
 def test_a_motion_is_copied(capsys, tmp_path):
     file = tmp_path / "mine.toml"
-    assert run(capsys, "motions", "stairs", "-o", file) == (0, f"Wrote {file}\n", "")
-    assert file.read_text().startswith(f"# Made by: mcplan motions stairs -o {file}\n")
+    assert run(capsys, "tasks", "stairs", "-o", file) == (0, f"Wrote {file}\n", "")
+    assert file.read_text().startswith(f"# Made by: mcplan tasks stairs -o {file}\n")
     assert repr(load_motion(file)) == repr(load_motion("stairs"))
 
 
@@ -209,8 +237,8 @@ BAD_WORDS = [
     (("scenes", "--html", "x.html"), "--html: needs the NAME of a scene"),
     (("robots", "humanoid4"), "no robot 'humanoid4' and no file of that name. Did you mean 'humanoid44'?"),
     (("robots", "walker"), "no robot 'walker' and no file of that name. Did you mean 'walker9'? Built-in: anymal, "),
-    (("motions", "stare"), "no motion 'stare' and no file of that name. Did you mean 'stairs'? Built-in: cartwheel"),
-    (("motions", "-o", "x.toml"), "--output: needs the NAME of a motion"),
+    (("tasks", "stare"), "no motion 'stare' and no file of that name. Did you mean 'stairs'? Built-in: cartwheel"),
+    (("tasks", "-o", "x.toml"), "--output: needs the NAME of a task"),
     (("check",), "Missing argument 'PLAN'"),
     (("check", "none.npz"), "none.npz: No such file or directory"),
     (("plan",), "Missing argument 'SCENE'"),

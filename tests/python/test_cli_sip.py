@@ -81,7 +81,7 @@ def test_the_summary_names_phases_contacts_and_what_is_closest_to_its_limit(caps
     lines = out.splitlines()
     assert (code, err) == (0, "")
     assert lines[0].startswith("cartwheel  climber9  solved in ") and lines[0].endswith("kinematics alone")
-    assert "closest to its tolerance: " in out and "82 parameters, " in out
+    assert "closest to its limit: " in out and ", within tolerance (" in out and "82 parameters, " in out
     head = lines.index("  phase  start [s]  lasts [s]  contacts")
     rows = [line.split(maxsplit=3) for line in lines[head + 1 :]]
     assert [row[3] for row in rows] == ["A on ground, B on ground", "B on ground", "B on ground, C on ground"]
@@ -237,7 +237,7 @@ def test_switches_reach_the_planner(options_of):
 
 WRONG = [
     (("cartweel",), "no motion 'cartweel' and no file of that name. Did you mean 'cartwheel'?"),
-    ((), "Missing argument 'MOTION'"),
+    ((), "Missing argument 'TASK'"),
     (("cartwheel", "--forces", "most"), "forces: must be one of uniform, per_body, per_point, parameters, got 'most'"),
     (("cartwheel", "--minimise", "energy"), "minimise: must be one of torque, time, none, got 'energy'"),
     (("cartwheel", "--contact", "glue"), "contact: must be one of tube, band, strict, got 'glue'"),

@@ -44,7 +44,7 @@ def blocks() -> list[list[str]]:
 def test_the_blocks_are_found():
     verbs = {command.split()[1] for commands in blocks() for command in commands}
     assert len(blocks()) == 4
-    assert verbs >= {"plan", "check", "rhp", "sip", "track", "scenes", "robots", "motions", "demo", "bench"}
+    assert verbs >= {"plan", "check", "rhp", "sip", "track", "scenes", "robots", "tasks", "demo", "bench"}
 
 
 @pytest.fixture

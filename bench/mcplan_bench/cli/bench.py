@@ -21,22 +21,27 @@ app.command()(contacts)
 app.command()(deadlines)
 app.command()(tracking)
 
-_OUT = typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written.")
+_OUT = typer.Option("--out", metavar="DIR", help="Folder for JSON and CSV.")
 
 
 @app.callback()
 def speed(
     context: typer.Context,
-    repeats: Annotated[int, typer.Option("--repeats", metavar="N", min=1, help="Solves behind each median.")] = 7,
-    threads: Annotated[int, typer.Option("--threads", metavar="N", min=1, help="Threads of our search.")] = 1,
-    quick: Annotated[bool, typer.Option("--quick", help="Few sizes in the growth.")] = False,
+    repeats: Annotated[
+        int, typer.Option("--repeats", metavar="N", min=1, help="Number of solves of which a median is taken.")
+    ] = 7,
+    threads: Annotated[
+        int, typer.Option("--threads", metavar="N", min=1, help="Number of threads of this search.")
+    ] = 1,
+    quick: Annotated[bool, typer.Option("--quick", help="Measure the growth at few sizes only.")] = False,
     out: Annotated[Path, _OUT] = Path("out/bench"),
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
 ) -> int:
-    """Time ours against the paper's form on the four scenes, and how it grows with phases, end-effectors and surfaces.
+    """Time this search against the paper's, and its growth.
 
-    Medians over repeats, in one run. An iteration is what both methods repeat: linearise, value functions, pricing,
-    line search; of ours those with the sequence free (`iteration`) and all with the later, frozen ones (`all`).
+    Growth is with phases, end-effectors and surfaces. Times are medians over repeats, in one run. An iteration is what
+    both methods repeat: linearise, value functions, pricing, line search; of this search those with the sequence free
+    (`iteration`) and all with the later, frozen ones (`all`).
 
     Example: mcplan bench --repeats 5
 
@@ -73,30 +78,33 @@ def speed(
 
 @app.command()
 def robustness(
-    scenes: Annotated[int, typer.Option("--scenes", metavar="N", min=0, help="Random scenes.")] = 300,
+    scenes: Annotated[int, typer.Option("--scenes", metavar="N", min=0, help="Number of random scenes.")] = 300,
     seed: Annotated[int, typer.Option("--seed", metavar="K", min=0, help="Seed of the first random scene.")] = 0,
     settings: Annotated[
-        bool, typer.Option("--settings/--no-settings", help="The 15 settings on the paper's four scenes.")
+        bool, typer.Option("--settings/--no-settings", help="Plan the 15 settings on the paper's four scenes.")
     ] = True,
-    robot: Annotated[str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")] = "humanoid44",
+    robot: Annotated[
+        str, typer.Option("--robot", metavar="R", help="Robot: built-in name or TOML file.")
+    ] = "humanoid44",
     model: Annotated[
         str | None,
         typer.Option("--model", metavar="M", help="Model of contacts: wrench (default) or lipm, the paper's."),
     ] = None,
     time_limit: Annotated[
-        float | None, typer.Option("--time-limit", metavar="S", help="Longest time of each solve; none by default.")
+        float | None, typer.Option("--time-limit", metavar="S", help="Maximum time of each solve [s]; default: none.")
     ] = None,
-    jobs: Annotated[int, typer.Option("--jobs", metavar="N", min=1, help="Processes.")] = 1,
+    jobs: Annotated[int, typer.Option("--jobs", metavar="N", min=1, help="Number of processes.")] = 1,
     out: Annotated[Path, _OUT] = Path("out/robustness"),
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
 ) -> int:
-    """Count good plans over 15 settings on the paper's four scenes and over random scenes that can be crossed.
+    """Count good plans over settings and random scenes.
 
-    Settings: proximal_weight 10, 30, 100 x duration_initial_s 0.30, 0.35, 0.40, 0.45, 0.50. What is good there:
-    flat: solved, no flight, feet alternate; stairs: the same and every tread touched; gap: solved with one flight, apex
-    0.15 m over take-off; gap_with_rail: solved with both hands on the pads while both feet are off. A random scene is
-    good when solved. Every solved plan is checked again. Exit code 1 unless 14 of 15 settings of every scene and 90 % of
-    the random scenes are good. Repeat a failure: python -m mcplan.files.generate random SEED > scene.toml
+    There are 15 settings on the paper's four scenes, and random scenes that can be crossed. Settings: proximal_weight
+    10, 30, 100 x duration_initial_s 0.30, 0.35, 0.40, 0.45, 0.50. What is good there: flat: solved, no flight, feet
+    alternate; stairs: the same and a contact on every tread; gap: solved with one flight, apex 0.15 m over take-off;
+    gap_with_rail: solved with both hands on the pads while both feet are off. A random scene is good when solved. Every
+    solved plan is checked again. Exit code 1 unless 14 of 15 settings of every scene and 90 % of the random scenes are
+    good. Repeat a failure: python -m mcplan.files.generate random SEED > scene.toml
 
     Example: mcplan bench robustness --scenes 40 --seed 100 --jobs 2
 
@@ -110,7 +118,7 @@ def robustness(
     options: dict[str, Any] = {"robot": robot, "time_limit_s": time_limit, "model": model or ""}
     result: dict[str, Any] = {"machine": records.machine(), "seed": seed, "model": model}
     enough = True
-    for part, tasks, share in (
+    for part, tasks, ratio in (
         ("settings", bench.setting_tasks(**options) if settings else [], 14 / 15),
         ("random", bench.random_tasks(scenes, seed, **options), 0.9),
     ):
@@ -122,9 +130,9 @@ def robustness(
         records.write_csv(out / f"{part}.csv", result[part]["outcomes"])
         good = sum(outcome.good for outcome in outcomes)
         if part == "settings":
-            enough = enough and all(row["good"] >= share * row["runs"] for row in rows)
+            enough = enough and all(row["good"] >= ratio * row["runs"] for row in rows)
         else:
-            enough = enough and good >= share * len(outcomes)
+            enough = enough and good >= ratio * len(outcomes)
         if not json:
             _print_part(part, rows, outcomes)
     records.write_json(out / "robustness.json", result)

@@ -16,25 +16,25 @@ if TYPE_CHECKING:
 
 CaseOption = Annotated[
     list[str] | None,
-    typer.Option("--case", metavar="NAME", help="Only this one; may have * in it, and be repeated."),
+    typer.Option("--case", metavar="NAME", help="Case to run instead of all; may have * in it, and be repeated."),
 ]
 TableOption = Annotated[bool, typer.Option("--table/--no-table", help="Plan the cases.")]
 SettingsOption = Annotated[
     bool | None,
-    typer.Option("--settings/--no-settings", help="gap_with_rail from 16 settings. Default: unless --case."),
+    typer.Option("--settings/--no-settings", help="Plan gap_with_rail from 16 settings; default: unless --case."),
 ]
 SpeedOption = Annotated[
     bool | None,
-    typer.Option("--speed/--no-speed", help="Time iterations of both models. Default: unless --case."),
+    typer.Option("--speed/--no-speed", help="Time iterations of both models; default: unless --case."),
 ]
-RepeatsOption = Annotated[int, typer.Option("--repeats", metavar="N", min=1, help="Solves behind each time.")]
-JobsOption = Annotated[int, typer.Option("--jobs", metavar="N", min=1, help="Processes.")]
+RepeatsOption = Annotated[int, typer.Option("--repeats", metavar="N", min=1, help="Number of solves behind each time.")]
+JobsOption = Annotated[int, typer.Option("--jobs", metavar="N", min=1, help="Number of processes.")]
 ListCasesOption = Annotated[bool, typer.Option("--list", help="Print the names of the cases.")]
 MarkdownOption = Annotated[
     Path | None,
-    typer.Option("--markdown", metavar="FILE", help="Write the tables as a page, or between the marks for them."),
+    typer.Option("--markdown", metavar="FILE", help="File for the tables: a page, or between the marks for them."),
 ]
-OutOption = Annotated[Path, typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written.")]
+OutOption = Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for JSON and CSV.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 
 
@@ -50,12 +50,13 @@ def contacts(
     out: OutOption = Path("out/contacts"),
     json: JsonOption = False,
 ) -> int:
-    """Hold plans to what real contacts give, measured at 1 kHz from their forces alone.
+    """Measure the contacts of plans at 1 kHz, and judge them.
 
-    The paper's four scenes with a friction of 0.7 everywhere and nothing to hold on to: cost, tangential forces, centre of
-    pressure, slip, reach, angular momentum, forces of the hands. The same without offsets of the lines of force, which must
-    fail. Slopes, walls, turns, four legs. Talos, whose hands bear 0.15 of its weight: no plan on hands alone may be claimed.
-    16 settings on gap_with_rail. Times of an iteration beside those of the paper's model. Exit code 1 unless all holds.
+    All is measured from the plans' forces alone. The paper's four scenes with a friction of 0.7 everywhere and nothing
+    to hold on to: cost, tangential forces, centre of pressure, slip, reach, angular momentum, forces of the hands. The
+    same without offsets of the lines of force, which must fail. Slopes, walls, turns, four legs. Talos, whose hands
+    support 0.15 of its weight: no plan on hands alone may be claimed. 16 settings on gap_with_rail. Times of an
+    iteration beside those of the paper's model. Exit code 1 unless all holds.
 
     Example: mcplan bench contacts --case flat --case 'gap*'
 

@@ -7,28 +7,32 @@ from typing import Annotated, Any
 
 import typer
 
-PaperArgument = Annotated[str, typer.Argument(metavar="PAPER", help="lengagne, tazaki or wang")]
-OutOption = Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Default: out/PAPER.")]
-QuickOption = Annotated[bool, typer.Option("--quick", help="One scene, little of each, to see that it works.")]
+PaperArgument = Annotated[str, typer.Argument(metavar="PAPER", help="Paper: lengagne, tazaki or wang.")]
+OutOption = Annotated[
+    Path | None, typer.Option("--out", metavar="DIR", help="Folder for all that is written; default: out/PAPER.")
+]
+QuickOption = Annotated[bool, typer.Option("--quick", help="Run one scene and little of each, to see that it works.")]
 CyclesOption = Annotated[
-    int | None, typer.Option("--cycles", metavar="N", help="wang: steps of each walk; default 14.")
+    int | None, typer.Option("--cycles", metavar="N", help="wang: number of steps of each walk; default 14.")
 ]
 LookaheadMaxOption = Annotated[
     int | None,
-    typer.Option("--lookahead-max", metavar="N", help="wang: longest horizon, 2 to 10 steps; default 5."),
+    typer.Option("--lookahead-max", metavar="N", help="wang: maximum horizon, 2 to 10 steps; default 5."),
 ]
 SeedsOption = Annotated[
-    int | None, typer.Option("--seeds", metavar="K", help="wang: noisy starts beside the scene's; default 0.")
+    int | None, typer.Option("--seeds", metavar="K", help="wang: number of noisy starts beside the scene's; default 0.")
 ]
 TablesOption = Annotated[
-    str | None, typer.Option("--tables", metavar="LIST", help="lengagne: which of 1,2,3,4; default all.")
+    str | None, typer.Option("--tables", metavar="LIST", help="lengagne: tables among 1,2,3,4; default all.")
 ]
 MotionsOption = Annotated[
     str | None,
-    typer.Option("--motions", metavar="LIST", help="lengagne: of cartwheel,climbing,walking,climbing_steep."),
+    typer.Option(
+        "--motions", metavar="LIST", help="lengagne: motions among cartwheel,climbing,walking,climbing_steep."
+    ),
 ]
 RepeatsOption = Annotated[
-    int | None, typer.Option("--repeats", metavar="N", help="lengagne: runs of quick rows; default 3.")
+    int | None, typer.Option("--repeats", metavar="N", help="lengagne: number of runs of quick rows; default 3.")
 ]
 ResumeOption = Annotated[
     bool, typer.Option("--resume", help="lengagne, wang: take the runs that DIR has, run the rest, draw all again.")
@@ -47,7 +51,9 @@ def reproduce(
     repeats: RepeatsOption = None,
     resume: ResumeOption = False,
 ) -> int:
-    """Reproduce a paper's tables and figures on this machine: a Markdown page with CSV and PNG beside it.
+    """Reproduce a paper's tables and figures on this machine.
+
+    They are written as a Markdown page with CSV and PNG beside it.
 
     Example: mcplan reproduce tazaki
 

@@ -19,31 +19,31 @@ PACKAGES = ("mujoco", "pin", "proxsuite", "numpy")
 
 
 ShortOption = Annotated[
-    bool, typer.Option("--short", help="Three quick cases and no timing, for continuous integration.")
+    bool, typer.Option("--short", help="Run three quick cases without timing, for continuous integration.")
 ]
 CaseOption = Annotated[
     list[str] | None,
-    typer.Option("--case", metavar="NAME", help="Only this one; may have * in it, and be repeated."),
+    typer.Option("--case", metavar="NAME", help="Case to run instead of all; may have * in it, and be repeated."),
 ]
 TableOption = Annotated[bool, typer.Option("--table/--no-table", help="Track the cases.")]
 RobustnessOption = Annotated[
-    bool, typer.Option("--robustness", help="Disturbed runs of flat, stairs and rubbles, too.")
+    bool, typer.Option("--robustness", help="Simulate disturbed runs of flat, stairs and rubbles, too.")
 ]
-SeedsOption = Annotated[int, typer.Option("--seeds", metavar="N", min=1, help="Disturbed runs of each plan.")]
+SeedsOption = Annotated[int, typer.Option("--seeds", metavar="N", min=1, help="Number of disturbed runs of each plan.")]
 SpeedOption = Annotated[
-    bool | None, typer.Option("--speed/--no-speed", help="Time control steps on one core. Default: unless short.")
+    bool | None, typer.Option("--speed/--no-speed", help="Time control steps on one core; default: unless --short.")
 ]
 JobsOption = Annotated[
-    int, typer.Option("--jobs", metavar="N", min=1, help="Processes; times of runs are then longer.")
+    int, typer.Option("--jobs", metavar="N", min=1, help="Number of processes; with several, times of runs are longer.")
 ]
 ListCasesOption = Annotated[bool, typer.Option("--list", help="Print the names of the cases.")]
-HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="DIR", help="Draw each run on a page.")]
-StripsOption = Annotated[Path | None, typer.Option("--strips", metavar="DIR", help="Snapshots of each run.")]
+HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="DIR", help="Folder for a page of each run.")]
+StripsOption = Annotated[Path | None, typer.Option("--strips", metavar="DIR", help="Folder for snapshots of each run.")]
 MarkdownOption = Annotated[
     Path | None,
-    typer.Option("--markdown", metavar="FILE", help="Write the tables as a page, or between the marks for them."),
+    typer.Option("--markdown", metavar="FILE", help="File for the tables: a page, or between the marks for them."),
 ]
-OutOption = Annotated[Path, typer.Option("--out", metavar="DIR", help="Where JSON and CSV are written.")]
+OutOption = Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for JSON and CSV.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 
 
@@ -62,11 +62,12 @@ def tracking(
     out: OutOption = Path("out/tracking"),
     json: JsonOption = False,
 ) -> int:
-    """Make plans with all three planners, track them in simulation, and hold the runs against what is demanded of them.
+    """Track plans of all three planners in simulation.
 
-    Without help but for the cases named assisted, torque limits on. Walks: no fall, CoM within 15 mm rms, base within 50 mm
-    at the end, every QP solved, no warning of the simulator. Planar robots: contact forces within 10 % rms of the plan, drift
-    of 10 mm. Disturbed: 18 of 20 stay up. Speed: 1 ms for a control step, 1.5 times real time. Exit code 1 unless all holds.
+    The runs are compared with what is demanded of them. Without assistance but for the cases named assisted, torque
+    limits on. Walks: no fall, CoM within 15 mm rms, base within 50 mm at the end, every QP solved, no warning of the
+    simulator. Planar robots: contact forces within 10 % rms of the plan, drift of 10 mm. Disturbed: 18 of 20 stay up.
+    Speed: 1 ms for a control step, 1.5 times real time. Exit code 1 unless all holds.
 
     Example: mcplan bench tracking --short
 

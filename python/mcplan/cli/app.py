@@ -6,11 +6,11 @@ from importlib import metadata
 
 import typer
 
-from mcplan.cli import check, demo, motions, plan, rhp, robots, scenes, show, sip, track, version
+from mcplan.cli import check, demo, plan, rhp, robots, scenes, show, sip, tasks, track, version
 from mcplan.errors import MissingExtra
 
 app = typer.Typer(
-    help="Multi-contact motion planning: which limb touches what, when and where.",
+    help="Multi-contact motion planning: which limb is in contact with what, when and where.",
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
@@ -26,11 +26,13 @@ verbs = (
     show.show,
     scenes.scenes,
     robots.robots,
-    motions.motions,
+    tasks.tasks,
     version.version,
 )
 for verb in verbs:
     app.command(verb.__name__)(verb)
+#: An earlier name of `tasks`, for one release.
+app.command("motions", hidden=True)(tasks.tasks)
 
 #: Entry points that are verbs: a function or a Typer application each.
 GROUP = "mcplan.commands"

@@ -20,14 +20,16 @@ OTHERS = 3
 PlanArgument = Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")]
 CertifyOption = Annotated[
     bool,
-    typer.Option("--certify", help="Of a whole-body plan: prove its constraints at every instant, too."),
+    typer.Option("--certify", help="Prove the constraints of a whole-body plan at every instant, too."),
 ]
 SelfCollisionOption = Annotated[
-    bool, typer.Option("--self-collision", help="Of a whole-body plan: look at its robot's collision pairs, too.")
+    bool, typer.Option("--self-collision", help="Check the collision pairs of a whole-body plan's robot, too.")
 ]
 RobotOption = Annotated[
     str | None,
-    typer.Option("--robot", metavar="ROBOT", help="Tell whether a robot with a URDF can follow the plan, too."),
+    typer.Option(
+        "--robot", metavar="ROBOT", help="Robot with a URDF; checks whether its joints can follow the plan, too."
+    ),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 
@@ -39,9 +41,10 @@ def check(
     robot: RobotOption = None,
     json: JsonOption = False,
 ) -> int:
-    """Check a plan against the scene and robot, or the motion, it carries; exit code 1 if it violates a constraint.
+    """Check a saved plan against its own scene and robot, or task.
 
-    With --certify the exit code is 1, too, if a constraint is not proved, with --robot if the robot cannot follow.
+    The exit code is 1 if the plan violates a constraint, with --certify also if a constraint is not proved, and with
+    --robot also if the robot cannot follow.
 
     Example: mcplan check plan.npz --robot talos
     """
@@ -51,25 +54,25 @@ def check(
     from mcplan.errors import InvalidInput
     from mcplan.files.whole_body_plans import load_any_plan
 
-    loaded = load_any_plan(plan)
+    saved = load_any_plan(plan)
     certificate, feasibility = None, None
-    if isinstance(loaded, PlanarPlan):
+    if isinstance(saved, PlanarPlan):
         if robot is not None:
             raise InvalidInput(
                 "--robot", "needs a plan of mcplan plan or mcplan rhp; a whole-body plan has its own joints"
             )
-        result = run(loaded, self_collision=self_collision)
+        result = run(saved, self_collision=self_collision)
         if certify:
-            certificate = prove(loaded, self_collision=self_collision)
-        carried = {"motion": loaded.motion.name, "robot": loaded.motion.robot.name}
+            certificate = prove(saved, self_collision=self_collision)
+        carried = {"motion": saved.motion.name, "robot": saved.motion.robot.name}
     elif certify or self_collision:
         option = "--certify" if certify else "--self-collision"
         raise InvalidInput(option, "needs a whole-body plan, as mcplan sip makes them")
     else:
         if robot is not None:
-            feasibility = _feasibility(loaded, robot)
-        result = run(loaded)
-        carried = {"scene": loaded.scene.name, "robot": loaded.robot.name}
+            feasibility = _feasibility(saved, robot)
+        result = run(saved)
+        carried = {"scene": saved.scene.name, "robot": saved.robot.name}
     if json:
         report = {
             "plan": str(plan),
@@ -83,7 +86,7 @@ def check(
         }
         print(json_module.dumps(report))
     else:
-        _print_result(plan, loaded, result, certificate)
+        _print_result(plan, saved, result, certificate)
         if feasibility is not None:
             _print_feasibility(feasibility)
     proved, followed = certificate is None or certificate.proved(), feasibility is None or feasibility.ok()
@@ -172,7 +175,7 @@ def violation_dict(violation: object) -> dict[str, object]:
 
 
 def finite(value: object) -> object:
-    """The value, or None for a number that JSON cannot hold."""
+    """The value, or None for a number that JSON cannot represent."""
     import math
 
     return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,4 +1,4 @@
-"""What a plan's end-effectors touch, phase by phase, as a table that fits a terminal of 80 columns."""
+"""The contacts of a plan's end-effectors, phase by phase, as a table that fits a terminal of 80 columns."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _INDENT = "  "
 
 
 def contact_rows(plan: Plan) -> list[str]:
-    """One line per end-effector: what it touches over the phases, by number of the surface, "-" when free.
+    """One line per end-effector: its surface in each phase, by number, "-" when free.
 
     Where the phases do not fit into 80 columns, the table goes on below, each part under its phases. The surfaces that
-    are touched are named below it.
+    occur are named below it.
 
     Args:
         plan: Any plan; one without phases has no rows.
@@ -29,8 +29,8 @@ def contact_rows(plan: Plan) -> list[str]:
         return []
     names = [_cut(end.name) for end in plan.robot.end_effectors]
     width = max((len(name) for name in names), default=0)
-    touched = sorted({i for row in [*sequence, list(plan.final_contacts)] for i in row if i >= 0})
-    digits = len(str(max(touched, default=0)))
+    used = sorted({i for row in [*sequence, list(plan.final_contacts)] for i in row if i >= 0})
+    digits = len(str(max(used, default=0)))
     lead = len(_INDENT) + width + 2
     per_line = max((WIDTH - lead + 1) // (digits + 1), 1)
     rows: list[str] = []
@@ -41,7 +41,7 @@ def contact_rows(plan: Plan) -> list[str]:
         for number, name in enumerate(names):
             cells = [str(row[number]) if row[number] >= 0 else "-" for row in part]
             rows.append(f"{_INDENT}{name:{width}}  " + " ".join(f"{cell:>{digits}}" for cell in cells))
-    legend = ", ".join(f"{i} {plan.scene.surfaces[i].name}" for i in touched)
+    legend = ", ".join(f"{i} {plan.scene.surfaces[i].name}" for i in used)
     return [*rows, *wrapped(legend, " " * lead)]
 
 

@@ -17,18 +17,20 @@ SCENES = ("flat", "stairs", "gap", "gap_with_rail")
 
 
 def demo(
-    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Where plans, pages and pictures go.")] = Path(
-        "out"
-    ),
+    out: Annotated[
+        Path, typer.Option("--out", metavar="DIR", help="Folder in which plans, pages and pictures are written.")
+    ] = Path("out"),
     scene: Annotated[
         list[str] | None,
-        typer.Option("--scene", metavar="NAME", help="Instead of the four scenes; may be given several times."),
+        typer.Option("--scene", metavar="NAME", help="Scene to plan instead of the four; may be repeated."),
     ] = None,
-    robot: Annotated[str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")] = "humanoid44",
+    robot: Annotated[
+        str, typer.Option("--robot", metavar="R", help="Robot: built-in name or TOML file.")
+    ] = "humanoid44",
 ) -> int:
-    """Plan flat, stairs, gap and gap_with_rail: a table, and per scene a plan, a page and a picture.
+    """Plan four scenes; write a table, plans, pages and pictures.
 
-    Exit code 0 only if all of them are solved.
+    The scenes are flat, stairs, gap and gap_with_rail. The exit code is 0 only if all of them are solved.
 
     Example: mcplan demo --out out
     """
@@ -90,7 +92,7 @@ def print_results(results: list[PlanResult]) -> None:
 
 
 def margin(violation: Violation) -> str:
-    """The worst constraint as a share of what the checker accepts: "reach at left_foot, phase 7: 0.0004 of 0.001 m"."""
+    """The worst constraint beside its tolerance: "reach at left_foot, phase 7: 0.0004 of 0.001 m"."""
     if not violation.name:
         return "-"
     where = f" at {violation.end_effector}" if violation.end_effector else ""

@@ -15,47 +15,49 @@ if TYPE_CHECKING:
     from mcplan._core import PlanResult
 
 
-SceneArgument = Annotated[str, typer.Argument(metavar="SCENE", help="Built-in name or TOML file.")]
-RobotOption = Annotated[str, typer.Option("--robot", metavar="R", help="Built-in name or TOML file.")]
+SceneArgument = Annotated[str, typer.Argument(metavar="SCENE", help="Scene: built-in name or TOML file.")]
+RobotOption = Annotated[str, typer.Option("--robot", metavar="R", help="Robot: built-in name or TOML file.")]
 ScaleOption = Annotated[float, typer.Option("--scale", metavar="X", help="Factor on all lengths of the scene.")]
 SoleInsideOption = Annotated[
     float | None,
     typer.Option(
-        "--sole-inside", metavar="X", help="Share of soles kept on their surface, 0 to 1; default: the robot's."
+        "--sole-inside",
+        metavar="X",
+        help="Fraction of each sole that stays within its surface, 0 to 1; default: the robot's.",
     ),
 ]
 MinFlightOption = Annotated[
-    float | None, typer.Option("--min-flight", metavar="S", help="Shortest phase without any contact.")
+    float | None, typer.Option("--min-flight", metavar="S", help="Minimum duration of a phase without contacts [s].")
 ]
 PhasesOption = Annotated[
     int | None,
-    typer.Option("--phases", metavar="N", help="Number of phases; default: what the way takes, 18 at least."),
+    typer.Option("--phases", metavar="N", help="Number of phases; default: by the distance to the goal, at least 18."),
 ]
 ModelOption = Annotated[
     str | None,
     typer.Option("--model", metavar="M", help="Model of contacts: wrench (default) or lipm, the paper's."),
 ]
-MethodOption = Annotated[str | None, typer.Option("--method", metavar="M", help="standard or paper.")]
+MethodOption = Annotated[
+    str | None, typer.Option("--method", metavar="M", help="Method of the search: standard (default) or paper.")
+]
 TimeLimitOption = Annotated[
     float | None,
-    typer.Option("--time-limit", metavar="S", help="Return the best plan after so many seconds."),
+    typer.Option("--time-limit", metavar="S", help="Time [s] after which the best plan so far is returned."),
 ]
 ThreadsOption = Annotated[
     int | None,
-    typer.Option("--threads", metavar="N", help="Threads for pricing; the plan does not depend on their number."),
+    typer.Option("--threads", metavar="N", help="Number of threads for pricing; the plan does not depend on it."),
 ]
 SeedOption = Annotated[
     int | None, typer.Option("--seed", metavar="K", help="Seed of the random order in which restarts are tried.")
 ]
 OutputOption = Annotated[
-    Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz, .json).")
+    Path | None, typer.Option("-o", "--output", metavar="FILE", help="File for the plan (.npz, .json).")
 ]
-HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")]
-PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")]
+HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="File for a page that shows the plan.")]
+PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Folder for plots.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
-VerboseOption = Annotated[
-    bool, typer.Option("-v", "--verbose", help="Print the iteration table on the way (to stderr).")
-]
+VerboseOption = Annotated[bool, typer.Option("-v", "--verbose", help="Print the table of iterations on stderr.")]
 
 
 def plan(
@@ -76,9 +78,10 @@ def plan(
     json: JsonOption = False,
     verbose: VerboseOption = False,
 ) -> int:
-    """Find a contact sequence and a motion; exit code 0 only if the plan is solved, 1 otherwise.
+    """Plan a contact sequence and a motion through a scene.
 
-    Ctrl-C ends the search: the best plan so far is saved (-o), nothing is drawn, and the exit code is 130.
+    The exit code is 0 only if the plan is solved, 1 otherwise. Ctrl-C ends the search: the best plan so far is saved
+    (-o), nothing is drawn, and the exit code is 130.
 
     Example: mcplan plan stepping_stones --robot g1 --scale 0.8 -o plan.npz --html plan.html
     """

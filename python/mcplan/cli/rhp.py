@@ -13,40 +13,42 @@ if TYPE_CHECKING:
     from mcplan._core import Plan, Robot, Scene
 
 
-TerrainArgument = Annotated[str, typer.Argument(metavar="TERRAIN", help="Built-in scene or TOML file.")]
+TerrainArgument = Annotated[str, typer.Argument(metavar="TERRAIN", help="Scene: built-in name or TOML file.")]
 RobotOption = Annotated[
     str | None,
-    typer.Option("--robot", metavar="R", help="Default: the sequence's robot, else talos_wang."),
+    typer.Option("--robot", metavar="R", help="Robot; default: that of --sequence, else talos_wang."),
 ]
 FidelityOption = Annotated[
     str,
     typer.Option("--fidelity", metavar="F", help="Model of predicted steps: single, com, rectangle or point."),
 ]
 LookaheadOption = Annotated[
-    int, typer.Option("--lookahead", metavar="N", help="Steps in a horizon, the executed one included.")
+    int, typer.Option("--lookahead", metavar="N", help="Number of steps in a horizon, the executed one included.")
 ]
 ScaleOption = Annotated[float, typer.Option("--scale", metavar="X", help="Factor on all lengths of the terrain.")]
-CyclesOption = Annotated[int, typer.Option("--cycles", metavar="N", help="Steps to execute.")]
-TranscriptionOption = Annotated[str, typer.Option("--transcription", metavar="T", help="trapezoidal or euler.")]
-PaperOption = Annotated[bool, typer.Option("--paper", help="CoM box and friction pyramid as published.")]
+CyclesOption = Annotated[int, typer.Option("--cycles", metavar="N", help="Number of steps to execute.")]
+TranscriptionOption = Annotated[
+    str, typer.Option("--transcription", metavar="T", help="Integration rule: trapezoidal or euler.")
+]
+PaperOption = Annotated[bool, typer.Option("--paper", help="Use the CoM box and the friction pyramid as published.")]
 LiftedPsiOption = Annotated[bool, typer.Option("--lifted-psi", help="Keep the relaxation's bounds as variables.")]
 SequenceOption = Annotated[
     Path | None,
-    typer.Option("--sequence", metavar="PLAN", help="Take start and contact sequence of a plan (.npz, .json)."),
+    typer.Option("--sequence", metavar="PLAN", help="Plan whose start and contact sequence are taken (.npz, .json)."),
 ]
 TimeLimitOption = Annotated[
-    float | None, typer.Option("--time-limit", metavar="S", help="Longest time of each cycle; none by default.")
+    float | None, typer.Option("--time-limit", metavar="S", help="Maximum time of each cycle [s]; default: none.")
 ]
 OutputOption = Annotated[
-    Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz, .json).")
+    Path | None, typer.Option("-o", "--output", metavar="FILE", help="File for the plan (.npz, .json).")
 ]
-HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the plan on a page.")]
-PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")]
+HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="File for a page that shows the plan.")]
+PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Folder for plots.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 VerboseOption = Annotated[
-    bool, typer.Option("-v", "--verbose", help="Print sizes, drift and where the time goes, too.")
+    bool, typer.Option("-v", "--verbose", help="Print sizes, drift and the parts of the time, too.")
 ]
-QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="No line per cycle (to stderr) on the way.")]
+QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print no line per cycle on stderr.")]
 
 
 def rhp(
@@ -68,10 +70,11 @@ def rhp(
     verbose: VerboseOption = False,
     quiet: QuietOption = False,
 ) -> int:
-    """Walk over given surfaces, planning a few steps ahead and executing one, again and again.
+    """Plan a walk over given surfaces by a receding horizon.
 
-    Exit code 0 if every cycle found a step within its constraints, 1 otherwise; what was found is saved either way.
-    Ctrl-C ends the walk: what was walked is saved (-o), nothing is drawn, and the exit code is 130.
+    Each cycle plans a few steps ahead and executes one. The exit code is 0 if every cycle found a step within its
+    constraints, 1 otherwise; what was found is saved either way. Ctrl-C ends the walk: what was walked is saved (-o),
+    nothing is drawn, and the exit code is 130.
 
     Example: mcplan rhp rubbles --fidelity point --lookahead 3 -o walk.npz --html walk.html
     """

@@ -1,4 +1,4 @@
-"""What mcplan rhp prints: a row per cycle on the way, and a summary."""
+"""What mcplan rhp prints: a row per cycle, and a summary."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _MORE = (
 
 
 class Progress:
-    """Rows of a table on stderr, one a cycle as it ends; `verbose` adds sizes, share of the time and drift."""
+    """Rows of a table on stderr, one a cycle as it ends; `verbose` adds sizes, parts of the time and drift."""
 
     def __init__(self, verbose: bool) -> None:
         self.columns = _COLUMNS + (_MORE if verbose else ())

@@ -16,36 +16,39 @@ if TYPE_CHECKING:
     from mcplan.files.urdf_setups import End
 
 
-NameArgument = Annotated[str | None, typer.Argument(metavar="[NAME]", help="Built-in name or TOML file.")]
+NameArgument = Annotated[str | None, typer.Argument(metavar="[NAME]", help="Robot: built-in name or TOML file.")]
 FromUrdfOption = Annotated[
     str | None,
-    typer.Option("--from-urdf", metavar="URDF", help="Work out a robot: a URDF file, or talos, anymal or g1."),
+    typer.Option("--from-urdf", metavar="URDF", help="Source of a new robot: a URDF file, or talos, anymal or g1."),
 ]
 EndOption = Annotated[
     list[str] | None,
     typer.Option(
         "--end",
         metavar="NAME=FRAME[:KIND[:LxW[:X,Y,Z]]]",
-        help="End-effector: URDF link, kind, half size, contact point; with --planar NAME=FRAME[:POINT,...].",
+        help="End-effector of the new robot: URDF link, kind, half size, contact point; with --planar NAME=FRAME[:POINT,...].",
     ),
 ]
 PlanarOption = Annotated[
-    bool, typer.Option("--planar", help="With --from-urdf: a planar robot, of joints about one axis, for sip.")
+    bool, typer.Option("--planar", help="Make a planar robot, from the joints about one axis, for sip.")
 ]
-SrdfOption = Annotated[Path | None, typer.Option("--srdf", metavar="FILE", help="Nominal posture: its first one.")]
+SrdfOption = Annotated[
+    Path | None, typer.Option("--srdf", metavar="FILE", help="SRDF file whose first posture is the nominal one.")
+]
 PostureOption = Annotated[
     list[str] | None,
     typer.Option("--posture", metavar="JOINT=ANGLE", help="Angle of a joint [rad] in the nominal posture."),
 ]
 ReachPolytopesOption = Annotated[
-    bool, typer.Option("--reach-polytopes", help="With --from-urdf: the reach of feet as polytopes too, for rhp.")
+    bool, typer.Option("--reach-polytopes", help="Add the reach of feet as polytopes, for rhp.")
 ]
-FacesOption = Annotated[int, typer.Option("--faces", metavar="N", help="Largest number of faces of a polytope.")]
+FacesOption = Annotated[int, typer.Option("--faces", metavar="N", help="Maximum number of faces of a polytope.")]
 StrengthOption = Annotated[
-    bool, typer.Option("--strength", help="With NAME: what its arms can push, over random postures.")
+    bool,
+    typer.Option("--strength", help="Print the forces that the arms of robot NAME can exert, over random postures."),
 ]
 SeedOption = Annotated[int, typer.Option("--seed", metavar="SEED", help="Seed of the random postures.")]
-OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file to write.")]
+OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file for the robot.")]
 
 
 def robots(
@@ -61,7 +64,7 @@ def robots(
     seed: SeedOption = 0,
     output: OutputOption = None,
 ) -> None:
-    """List the built-in robots, print one, or work one out from a URDF.
+    """List or print robots, or make one from a URDF.
 
     Example: mcplan robots --from-urdf my.urdf --end left_foot=l_sole:foot:0.10x0.05 --end right_foot=r_sole -o my.toml
     """
@@ -233,7 +236,7 @@ def _print_robot(robot: Robot) -> None:
         "half size [m]",
         "force [N]",
         "moment [N m]",
-        "turn [rad]",
+        "yaw [rad]",
     ]
     print_table(rows, head)
     for e in robot.end_effectors:

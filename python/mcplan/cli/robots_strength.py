@@ -26,23 +26,23 @@ def strengths(robot: Robot, seed: int) -> list[tuple[Strength, float]]:
     from mcplan.kinematics.urdf_model import load_model
     from mcplan.tracking.arm_strength import random_strengths
 
-    loaded = load_model(robot)
+    urdf_model = load_model(robot)
     hands = [i for i, end in enumerate(robot.end_effectors) if end.kind == "hand"]
     if not hands:
         raise InvalidRobot("end_effectors", "must have one of kind 'hand' for --strength", source=robot.name)
-    half = 0.5 * GRAVITY * sum(inertia.mass for inertia in loaded.model.inertias)
-    return [(strength, half) for end in hands for strength in random_strengths(loaded, end, SAMPLES, seed)]
+    half = 0.5 * GRAVITY * sum(inertia.mass for inertia in urdf_model.model.inertias)
+    return [(strength, half) for end in hands for strength in random_strengths(urdf_model, end, SAMPLES, seed)]
 
 
 def print_strengths(found: list[tuple[Strength, float]]) -> None:
-    """Median and 90th percentile, and their parts of half the weight."""
+    """Median and 90th percentile, and their ratios to half the weight."""
     from mcplan.cli.table import print_table
 
     rows = []
     for strength, half in found:
-        median, most = strength.quantile_N(0.5), strength.quantile_N(0.9)
-        parts = [f"{median / half:.2f}", f"{most / half:.2f}"]
-        rows.append([strength.end_effector, strength.direction, f"{median:.0f}", f"{most:.0f}", *parts])
+        median, high = strength.quantile_N(0.5), strength.quantile_N(0.9)
+        parts = [f"{median / half:.2f}", f"{high / half:.2f}"]
+        rows.append([strength.end_effector, strength.direction, f"{median:.0f}", f"{high:.0f}", *parts])
     half = found[0][1]
     say()
     say(

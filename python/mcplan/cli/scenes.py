@@ -15,21 +15,25 @@ if TYPE_CHECKING:
 
 
 def scenes(
-    name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Built-in name or TOML file.")] = None,
-    html: Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the scene on a page.")] = None,
+    name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="Scene: built-in name or TOML file.")] = None,
+    html: Annotated[
+        Path | None, typer.Option("--html", metavar="FILE", help="File for a page that shows the scene.")
+    ] = None,
     robot: Annotated[
         str | None,
         typer.Option(
             "--robot",
             metavar="R",
-            help="With --html: who stands at start and goal, built-in name or TOML file. "
-            "Default: humanoid44, if it can stand there.",
+            help="With --html: robot drawn at start and goal, built-in name or TOML file; "
+            "default: humanoid44 where it is able to stand.",
         ),
     ] = None,
     seed: Annotated[
-        int | None, typer.Option("--seed", metavar="SEED", help="Other patches: for random_patches alone.")
+        int | None, typer.Option("--seed", metavar="SEED", help="Seed of the patches, for random_patches alone.")
     ] = None,
-    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file to write.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file for the scene.")
+    ] = None,
 ) -> None:
     """List the built-in scenes, or print, draw or copy one.
 
@@ -117,7 +121,7 @@ def _print_scene(scene: Scene) -> None:
                 ", ".join(surface.end_effectors) or "all",
             ]
         )
-    print_table(rows, ["surface", "centre [m]", "normal", "corners", "friction", "may be touched by"])
+    print_table(rows, ["surface", "centre [m]", "normal", "corners", "friction", "allowed contacts"])
 
 
 def _stance_line(field: str, stance: Stance) -> str:

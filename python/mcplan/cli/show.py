@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def show(
     file: Annotated[
-        Path, typer.Argument(metavar="FILE", help="A plan (mcplan plan, rhp or sip -o) or a run (track --save).")
+        Path, typer.Argument(metavar="FILE", help="Plan (mcplan plan, rhp or sip -o) or run (track --save).")
     ],
     output: Annotated[
         list[Path] | None,
@@ -22,17 +22,17 @@ def show(
             "-o",
             "--output",
             metavar="FILE",
-            help="A page (.html), a picture (.png; of a plan also .pdf or .svg), or of a run a video (.mp4, .webp, .gif). "
-            "May be repeated.",
+            help="File for a page (.html), a picture (.png; of a plan also .pdf or .svg), or a video of a run "
+            "(.mp4, .webp, .gif); may be repeated.",
         ),
     ] = None,
-    plots: Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")] = None,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Nothing on stderr on the way.")] = False,
+    plots: Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Folder for plots.")] = None,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print no progress on stderr.")] = False,
 ) -> int:
     """Draw a saved plan or run: a page, a picture, a video, plots.
 
-    The picture of a plan shows the robot on its way through the scene, that of a whole-body plan is a film strip, and that of
-    a run are snapshots side by side.
+    The picture of a plan shows the robot's postures along its path, that of a whole-body plan is a film strip, and that
+    of a run are snapshots side by side.
 
     Example: mcplan show plan.npz -o plan.html -o plan.png
 
@@ -75,7 +75,8 @@ def require(outputs: list[Path], plots: Path | None) -> None:
     """Say what cannot be written before anything is loaded.
 
     Raises:
-        InvalidInput: Nothing is asked for; a folder does not exist or cannot be written to, or a name has the wrong ending.
+        InvalidInput: Nothing is asked for; a folder does not exist or cannot be written to, or a name has the wrong
+            ending.
         MissingExtra: What draws is not installed.
     """
     from mcplan.cli.outputs import require_outputs

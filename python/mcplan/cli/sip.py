@@ -13,66 +13,84 @@ if TYPE_CHECKING:
     from mcplan._core import PlanarTask
 
 
-MotionArgument = Annotated[str, typer.Argument(metavar="MOTION", help="Built-in motion or TOML file.")]
-ForcesOption = Annotated[str, typer.Option("--forces", metavar="F", help="uniform, per-body, per-point or parameters.")]
+MotionArgument = Annotated[str, typer.Argument(metavar="TASK", help="Planar task: built-in name or TOML file.")]
+ForcesOption = Annotated[
+    str, typer.Option("--forces", metavar="F", help="Contact force law: uniform, per-body, per-point or parameters.")
+]
 MinimiseOption = Annotated[
     str | None,
-    typer.Option("--minimise", metavar="C", help="torque (default), time, or none: any motion that is possible."),
+    typer.Option("--minimise", metavar="C", help="Cost: torque (default), time, or none for any feasible motion."),
 ]
 ContactOption = Annotated[
-    str, typer.Option("--contact", metavar="M", help="How contacts are held: tube, band or strict.")
+    str, typer.Option("--contact", metavar="M", help="Form of the contact constraints: tube, band or strict.")
 ]
 TubeOption = Annotated[
     float | None,
-    typer.Option("--tube", metavar="M", help="Half width of tube or band [m] (0.001), and 5 rad/m times it."),
+    typer.Option("--tube", metavar="M", help="Half width of tube or band [m] (0.001); in angle 5 rad/m times it."),
 ]
 TrackableOption = Annotated[
-    bool, typer.Option("--trackable", help="Feet at rest, loaded and off the ground in swings, for mcplan track.")
+    bool,
+    typer.Option(
+        "--trackable",
+        help="Ask for a motion that mcplan track can follow: feet at rest, under load, and clear of the ground in swings.",
+    ),
 ]
 OrderOption = Annotated[int, typer.Option("--order", metavar="N", help="Order of the Taylor polynomials, 3 to 12.")]
-NeqOption = Annotated[int, typer.Option("--neq", metavar="N", help="Highest coefficient that band and strict hold.")]
+NeqOption = Annotated[
+    int, typer.Option("--neq", metavar="N", help="Highest coefficient that band and strict constrain.")
+]
 FreeFlyerOption = Annotated[
-    str, typer.Option("--free-flyer", metavar="F", help="The base: computed (from the joints) or parameterised.")
+    str,
+    typer.Option("--free-flyer", metavar="F", help="Motion of the base: computed (from the joints) or parameterised."),
 ]
 FreeDurationsOption = Annotated[
     bool | None,
     typer.Option(
         "--free-durations/--one-duration",
-        help="A duration for each phase, or one for all. Default: free if something is minimised.",
+        help="Optimise a duration for each phase, or one for all; default: each if there is a cost.",
     ),
 ]
 ContinuousOption = Annotated[
-    str, typer.Option("--continuous", metavar="C", help="Constraints between knots: hull, extremum or grid.")
+    str, typer.Option("--continuous", metavar="C", help="Form of constraints between knots: hull, extremum or grid.")
 ]
-KinematicsOption = Annotated[bool, typer.Option("--kinematics", help="Without dynamics: joints and contacts alone.")]
-SelfCollisionOption = Annotated[bool, typer.Option("--self-collision", help="Keep limbs apart, as the robot says.")]
+KinematicsOption = Annotated[
+    bool, typer.Option("--kinematics", help="Leave out dynamics: constrain joints and contacts alone.")
+]
+SelfCollisionOption = Annotated[bool, typer.Option("--self-collision", help="Constrain the robot's collision pairs.")]
 WarmStartOption = Annotated[
-    Path | None, typer.Option("--warm-start", metavar="PLAN", help="Start from an earlier plan (.npz).")
+    Path | None, typer.Option("--warm-start", metavar="PLAN", help="Plan to start the search from (.npz).")
 ]
 HessianOption = Annotated[
-    str, typer.Option("--hessian", metavar="H", help="automatic, exact, gauss-newton or limited-memory.")
+    str,
+    typer.Option(
+        "--hessian", metavar="H", help="Second derivatives: automatic, exact, gauss-newton or limited-memory."
+    ),
 ]
 MaxIterationsOption = Annotated[
     int | None,
-    typer.Option("--max-iterations", metavar="N", help="Most iterations of each run of the solver (1000)."),
+    typer.Option(
+        "--max-iterations", metavar="N", help="Maximum number of iterations of each run of the solver (1000)."
+    ),
 ]
 CertifyOption = Annotated[
-    bool, typer.Option("--certify", help="Prove the constraints at every instant; exit code 0 then needs that too.")
+    bool,
+    typer.Option("--certify", help="Prove the constraints at every instant; exit code 0 then needs the proof, too."),
 ]
 TimeLimitOption = Annotated[
-    float | None, typer.Option("--time-limit", metavar="S", help="Return the best motion after so many seconds.")
+    float | None,
+    typer.Option("--time-limit", metavar="S", help="Time [s] after which the best motion so far is returned."),
 ]
-OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")]
-HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the motion on a page.")]
-PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")]
+OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="File for the plan (.npz).")]
+HtmlOption = Annotated[
+    Path | None, typer.Option("--html", metavar="FILE", help="File for a page that shows the motion.")
+]
+PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Folder for plots.")]
 StripOption = Annotated[
-    Path | None, typer.Option("--strip", metavar="FILE", help="Draw a film strip (.png, .pdf or .svg).")
+    Path | None, typer.Option("--strip", metavar="FILE", help="File for a film strip (.png, .pdf or .svg).")
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
-VerboseOption = Annotated[
-    bool, typer.Option("-v", "--verbose", help="Print the iteration table on the way (to stderr).")
-]
-QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Nothing on stderr on the way.")]
+VerboseOption = Annotated[bool, typer.Option("-v", "--verbose", help="Print the table of iterations on stderr.")]
+QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print no progress on stderr.")]
 
 
 def sip(
@@ -102,10 +120,11 @@ def sip(
     verbose: VerboseOption = False,
     quiet: QuietOption = False,
 ) -> int:
-    """Find a planar robot's whole-body motion through a sequence of contacts, within its limits at every instant.
+    """Plan a planar robot's whole-body motion for given stances.
 
-    Exit code 0 if the motion is solved (and, with --certify, proved), 1 otherwise; what was found is saved either way.
-    Ctrl-C ends the search: the best motion so far is saved (-o), nothing is drawn, and the exit code is 130.
+    The robot's limits hold at every instant. The exit code is 0 if the motion is solved (and, with --certify, proved),
+    1 otherwise; what was found is saved either way. Ctrl-C ends the search: the best motion so far is saved (-o),
+    nothing is drawn, and the exit code is 130.
 
     Example: mcplan sip walking --forces per-point --minimise torque -o walk.npz --strip walk.png
 
@@ -152,7 +171,7 @@ def _asked(
 def _search(
     motion: PlanarTask, options: engine.Options, warm_start: Path | None, certify: bool, verbose: bool | None
 ) -> tuple[engine.Result, bool]:
-    """What was found, and whether Ctrl-C ended the search; `verbose` None: nothing is told on the way."""
+    """What was found, and whether Ctrl-C ended the search; `verbose` None: no progress is printed."""
     from mcplan import sip as engine
     from mcplan.cli.interrupts import as_far_as_it_came
     from mcplan.cli.sip_text import Progress

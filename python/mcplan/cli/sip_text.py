@@ -12,7 +12,7 @@ from mcplan.cli.terminal import control, printable
 
 if TYPE_CHECKING:
     from mcplan import sip
-    from mcplan._core import LogLevel, PlanarTask, Violation
+    from mcplan._core import LogLevel, PlanarTask
 
 #: [s] between two states of the line: in a terminal, where it is written over, and in a file.
 _TERMINAL_S, _FILE_S = 0.1, 2.0
@@ -48,7 +48,7 @@ class Progress:
         self._show(f"{lead}, constraints to {violation}, optimality to {optimality}")
 
     def end(self) -> None:
-        """Make room for the summary."""
+        """Clear the line for the summary."""
         if self.width > 0 and self.terminal:
             self._show("")
             control(sys.stderr, "\r")
@@ -84,12 +84,13 @@ def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Pat
         lines.append(indent + (report.message or "no motion that the checker accepts"))
     worst = report.worst_violation
     if worst.name and (solved or str(worst) not in report.message):
-        lines.append(indent + (f"worst: {worst}" if worst.value > worst.tolerance else _closest(worst)))
+        label = "worst" if worst.value > worst.tolerance else "closest to its limit"
+        lines.append(f"{indent}{label}: {worst}")
     terms = ", ".join(f"{name} {value:.4g}" for name, value in report.cost_terms.items())
     cost = f"cost {report.cost:.4g} ({terms})" if options.has_cost() else f"no cost ({terms})"
     lines.append(f"{indent}{cost}; drift of contacts {1e3 * result.drift_m:.2g} mm, {1e3 * result.drift_rad:.2g} mrad")
-    shares = [(report.timing_s.get(part, 0.0), part) for part in ("evaluation", "linear_solver")]
-    parts = ", ".join(f"{100.0 * used / max(report.time_s, 1e-9):.0f} % {part}" for used, part in shares)
+    times = [(report.timing_s.get(part, 0.0), part) for part in ("evaluation", "linear_solver")]
+    parts = ", ".join(f"{100.0 * used / max(report.time_s, 1e-9):.0f} % {part}" for used, part in times)
     size = f"{result.parameters} parameters, {result.constraints} constraints"
     lines.append(f"{indent}{size}; time: {parts.replace('_', ' ')}")
     lines += phase_rows(motion, plan.durations)
@@ -103,7 +104,7 @@ def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Pat
 
 
 def phase_rows(motion: PlanarTask, durations: Sequence[float]) -> list[str]:
-    """A row per phase: when it starts, how long it lasts, what touches what."""
+    """A row per phase: start, duration and contacts."""
     robot, surfaces = motion.robot, motion.surfaces
     rows = ["  phase  start [s]  lasts [s]  contacts"]
     start = 0.0
@@ -115,15 +116,7 @@ def phase_rows(motion: PlanarTask, durations: Sequence[float]) -> list[str]:
     return rows
 
 
-def _closest(worst: Violation) -> str:
-    """The constraint nearest to what the checker accepts, when all are within it."""
-    who = f" at {worst.end_effector}" if worst.end_effector else ""
-    unit = f" {worst.unit}" if worst.unit else ""
-    used = f"{worst.value:.3g} of the {worst.tolerance:.3g}{unit} that are accepted"
-    return f"closest to its tolerance: {worst.name}{who} at t = {worst.time_s:.3g} s, {used}"
-
-
 def _criterion(options: sip.Options) -> str:
     weights = {"torque": options.torque_weight, "time": options.duration_weight, "jerk": options.jerk_weight}
     names = [name for name, weight in weights.items() if weight > 0.0]
-    return f"least {' and '.join(names)}" if names else "nothing minimised"
+    return f"minimum {' and '.join(names)}" if names else "nothing minimised"

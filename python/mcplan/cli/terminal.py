@@ -11,7 +11,7 @@ from typing import Any, TextIO
 
 from mcplan.errors import printable as printable  # where the command looks for it
 
-#: All that moves a cursor, colours, rings, or turns the direction of writing; line ends and tabs are ours.
+#: All that moves a cursor, colours, rings, or reverses the direction of writing; line ends and tabs are ours.
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
 
 

@@ -18,36 +18,47 @@ if TYPE_CHECKING:
 PlanArgument = Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")]
 RobotOption = Annotated[
     str | None,
-    typer.Option("--robot", metavar="R", help="With a URDF. Default: the plan's own."),
+    typer.Option("--robot", metavar="R", help="Robot with a URDF; default: the plan's own."),
 ]
-AssistOption = Annotated[bool, typer.Option("--assist", help="Hold the base with a clipped wrench; it is reported.")]
+AssistOption = Annotated[
+    bool, typer.Option("--assist", help="Assist the base with a bounded wrench, which is reported.")
+]
 PushOption = Annotated[
     list[str] | None,
     typer.Option(
         "--push",
         metavar="N,seconds,at,direction",
-        help="Push the base: newtons, how long [s], when [s], direction [deg] (0 forward, 90 left). May be repeated.",
+        help="Push of the base: force [N], duration [s], instant [s], direction [deg] (0 forward, 90 left); may be repeated.",
     ),
 ]
 MassScaleOption = Annotated[float, typer.Option("--mass-scale", metavar="X", help="Factor on all masses and inertias.")]
-FrictionOption = Annotated[float, typer.Option("--friction", metavar="X", help="Factor on all friction.")]
+FrictionOption = Annotated[float, typer.Option("--friction", metavar="X", help="Factor on all friction coefficients.")]
 GroundShiftOption = Annotated[
-    float, typer.Option("--ground-shift", metavar="M", help="The ground lies higher than planned by so much.")
+    float, typer.Option("--ground-shift", metavar="M", help="Height of the ground above the planned one [m].")
 ]
 SeedOption = Annotated[
-    int, typer.Option("--seed", metavar="K", help="Draw mass, friction, ground and a push; 0: none.")
+    int,
+    typer.Option(
+        "--seed", metavar="K", help="Seed of random changes of mass, friction and ground and of a random push; 0: none."
+    ),
 ]
 CheckOption = Annotated[
     bool,
-    typer.Option("--check/--no-check", help="Say beforehand if the robot cannot follow the plan."),
+    typer.Option("--check/--no-check", help="Warn before the run if the robot cannot follow the plan."),
 ]
-VideoOption = Annotated[Path | None, typer.Option("--video", metavar="FILE", help="Film the run (.mp4, .webp, .gif).")]
-HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the run on a page.")]
-StripOption = Annotated[Path | None, typer.Option("--strip", metavar="FILE", help="Snapshots side by side (.png).")]
-PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")]
-SaveOption = Annotated[Path | None, typer.Option("--save", metavar="FILE", help="Save the run (.npz).")]
+VideoOption = Annotated[
+    Path | None, typer.Option("--video", metavar="FILE", help="File for a video of the run (.mp4, .webp, .gif).")
+]
+HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="File for a page that shows the run.")]
+StripOption = Annotated[
+    Path | None, typer.Option("--strip", metavar="FILE", help="File for snapshots side by side (.png).")
+]
+PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Folder for plots.")]
+SaveOption = Annotated[Path | None, typer.Option("--save", metavar="FILE", help="File for the run (.npz).")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
-QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Nothing on stderr on the way.")]
+QuietOption = Annotated[
+    bool, typer.Option("-q", "--quiet", help="Print no progress on stderr, nor the warning of --check.")
+]
 
 
 def track(
@@ -68,13 +79,13 @@ def track(
     json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> int:
-    """Let a simulated robot follow a plan with its torques alone, and measure how well it does.
+    """Simulate a robot that follows a plan, and measure the errors.
 
-    What the options say of mass, friction, ground and pushes is not known to the controller. Whole-body plans are followed
-    by their planar robots, without pushes, assistance and seed. Exit code 0 if the robot came to the end of the plan, 1 if
-    it fell, left the plan, or followed a whole-body plan by contact forces that are over a quarter off; the run is drawn
-    and saved either way. Ctrl-C ends the run: what was simulated is saved (--save), nothing is drawn, and the exit code
-    is 130.
+    Its joint torques alone drive the robot. What the options say of mass, friction, ground and pushes is not known to
+    the controller. Whole-body plans are followed by their planar robots, without pushes, assistance and seed. The exit
+    code is 0 if the robot came to the end of the plan, 1 if it fell, left the plan, or followed a whole-body plan by
+    contact forces that are over a quarter off; the run is drawn and saved either way. Ctrl-C ends the run: what was
+    simulated is saved (--save), nothing is drawn, and the exit code is 130.
 
     Example: mcplan plan flat --robot talos --sole-inside 0.9 -o plan.npz
 
@@ -96,10 +107,10 @@ def track(
     pushes = parse_pushes(push or [])
     values: dict[str, Any] = {"assist": assist, "pushes": pushes, "seed": seed, "mass_scale": mass_scale}
     values |= {"friction_scale": friction, "ground_shift_m": ground_shift}
-    loaded, body = _loaded(plan, robot, values)
-    feasibility = _feasibility(loaded, body, quiet or json) if check else None
+    chosen, own_robot = _chosen(plan, robot, values)
+    feasibility = _feasibility(chosen, own_robot, quiet or json) if check else None
     progress = Progress(quiet or json)
-    result, interrupted = as_far_as_it_came(lambda: track_any(loaded, body, values, progress.simulated))
+    result, interrupted = as_far_as_it_came(lambda: track_any(chosen, own_robot, values, progress.simulated))
     progress.end()
     print(json_module.dumps(summary(result, plan, feasibility), allow_nan=False) if json else result, flush=True)
     written = (RunOutputs(save=save) if interrupted else outputs).write(result, progress)
@@ -108,7 +119,7 @@ def track(
     return CODE if interrupted else 0 if result.followed else 1
 
 
-def _loaded(plan: Path, robot: str | None, values: dict[str, Any]) -> tuple[Plan | PlanarPlan, Robot | None]:
+def _chosen(plan: Path, robot: str | None, values: dict[str, Any]) -> tuple[Plan | PlanarPlan, Robot | None]:
     """The plan and the robot, if one is named.
 
     Raises:
@@ -121,11 +132,11 @@ def _loaded(plan: Path, robot: str | None, values: dict[str, Any]) -> tuple[Plan
     from mcplan.tracking.choice import make_options
 
     options = make_options(values)
-    loaded = load_any_plan(plan)
-    require_within(values["pushes"], loaded.duration() + options.hold_s)
-    if isinstance(loaded, PlanarPlan):
+    chosen = load_any_plan(plan)
+    require_within(values["pushes"], chosen.duration() + options.hold_s)
+    if isinstance(chosen, PlanarPlan):
         _require_planar(robot, values["assist"], values["pushes"], values["seed"])
-    return loaded, None if robot is None else load_robot(robot)
+    return chosen, None if robot is None else load_robot(robot)
 
 
 def _feasibility(plan: Plan | PlanarPlan, robot: Robot | None, silent: bool) -> Feasibility | Suitability:

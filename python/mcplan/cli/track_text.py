@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 #: [s] between two states of the line: in a terminal, where it is written over, and in a file.
 _TERMINAL_S, _FILE_S = 0.1, 5.0
-#: What of a run in space has no counterpart in the plane: no such body is controlled, or it is measured otherwise.
+#: What of a run in space has no counterpart in the plane: no such quantity is controlled, or it is measured otherwise.
 _NOT_PLANAR = ("com_rms_m", "com_max_m", "orientation_rms_deg", "swing_rms_m", "final_base_error_m", "control_ms")
 
 
@@ -41,11 +41,11 @@ class Progress:
         self._show(f"video: picture {count} of {of}")
 
     def working(self, what: str) -> None:
-        """Something without steps is under way."""
+        """Show a task whose progress has no steps."""
         self._show(what, at_once=True)
 
     def end(self) -> None:
-        """Make room for what is printed next."""
+        """Clear the line for what is printed next."""
         if self.width > 0 and self.terminal:
             control(sys.stderr, f"\r{'':{self.width}}\r")
         self.width = 0
