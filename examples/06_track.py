@@ -29,7 +29,7 @@ for name, run in (("disturbed", disturbed), ("pushed hard", pushed)):
     )
 
 recording = as_planned.recording  # what the robot did, sampled at each control step
-left = [end.name for end in recording.body.end_effectors].index("left_foot")
+left = [end.name for end in recording.simulated_robot.end_effectors].index("left_foot")
 print(f"the left foot bears {recording.forces_W[:, left, 2].max():.0f} N at most")
 as_planned.save("run.npz")  # for a report; mcplan.tracking.TrackingResult.load reads it
 if as_planned.measures.fell or disturbed.measures.fell:

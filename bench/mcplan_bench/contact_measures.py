@@ -1,4 +1,4 @@
-"""What a plan asks of its contacts and of the robot's body, measured from its forces alone."""
+"""What a plan asks of its contacts and of the robot's base, measured from its forces alone."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ _NO_FORCE = 1e-3
 
 @dataclass(frozen=True)
 class ContactLoad:
-    """What one end-effector does with its contacts. Zeros if it never touches anything.
+    """Measures of one end-effector's contacts. Zeros if it is never in contact.
 
     Attributes:
-        name, kind: Of the end-effector.
-        surfaces: Names of those that it touches, in their order in the scene.
+        name, kind: Name and kind of the end-effector.
+        surfaces: Names of the surfaces of its contacts, in their order in the scene.
         peak_N, peak: Largest force, and over the weight.
         tangent: Largest |F_t1| / F_n or |F_t2| / F_n, the surface's two tangents apart: a cone as a pyramid of four sides.
         tangent_circle: Largest |F_t| / F_n. Both are infinite where the contact pulls.
         pull_N: Largest force towards the surface; 0: none.
         pressure_off_sole_m: Largest distance of the centre of pressure beyond the sole's rectangle.
         pressure_off_surface_m: Largest distance of the centre of pressure from the surface's polygon.
-        slip_m: Largest way of a point of the sole since it touched down, at the knots.
+        slip_m: Largest displacement of a point of the sole since touch-down, at the knots.
         reach_m: Largest amount beyond the reach box while in contact.
         swing_stiffness: Largest modulus of the stiffness while free, in g / com_height.
     """
@@ -70,17 +70,17 @@ class ContactMeasures:
 
     Attributes:
         replay: Differences of the integrated plan from its knots.
-        ends: A row for each end-effector.
+        end_effectors: A row for each end-effector.
         momentum_peak_Nms: Largest |L| about the CoM.
         roll_deg, pitch_deg: Largest moduli.
         com_height_knots_m, com_height_m: Lowest and highest CoM at the knots and at all samples.
         flights: Stretches without any contact.
         hands_only: The phases on hands alone.
-        feet_alternate: No foot swings twice in a row.
+        feet_alternate: Whether no foot swings twice in a row.
     """
 
     replay: ReplayErrors
-    ends: tuple[ContactLoad, ...]
+    end_effectors: tuple[ContactLoad, ...]
     momentum_peak_Nms: float
     roll_deg: float
     pitch_deg: float
@@ -92,11 +92,11 @@ class ContactMeasures:
 
     def largest(self, name: str, kind: str = "") -> float:
         """Largest value of a field of ContactLoad among the end-effectors of a kind ("": all); 0 if there are none."""
-        return max((getattr(end, name) for end in self.ends if kind in ("", end.kind)), default=0.0)
+        return max((getattr(end, name) for end in self.end_effectors if kind in ("", end.kind)), default=0.0)
 
     def surfaces(self, kind: str = "") -> set[str]:
-        """Names of the surfaces that the end-effectors of a kind ("": all) touch."""
-        return {name for end in self.ends if kind in ("", end.kind) for name in end.surfaces}
+        """Names of the surfaces with which the end-effectors of a kind ("": all) are in contact."""
+        return {name for end in self.end_effectors if kind in ("", end.kind) for name in end.surfaces}
 
     def to_dict(self) -> dict[str, Any]:
         """Nested dicts and lists of plain values."""
@@ -107,7 +107,7 @@ def measure_contacts(plan: Plan, sample_s: float = 1e-3) -> ContactMeasures:
     """Measure a plan under ForceLaw.pendulum or ForceLaw.wrench.
 
     Args:
-        plan: With at least one phase.
+        plan: A plan of at least one phase.
         sample_s: Longest time between samples [s].
 
     Raises:
@@ -121,7 +121,7 @@ def measure_contacts(plan: Plan, sample_s: float = 1e-3) -> ContactMeasures:
     heights = [float(knot.com_W[2]) for knot in plan.knots]
     return ContactMeasures(
         replay=replay_errors(plan, replayed),
-        ends=tuple(_load(plan, given, replayed, e) for e in range(plan.end_effector_count())),
+        end_effectors=tuple(_load(plan, given, replayed, e) for e in range(plan.end_effector_count())),
         momentum_peak_Nms=float(np.linalg.norm(replayed.momentum_W, axis=-1).max()),
         roll_deg=float(np.rad2deg(np.abs(roll).max())),
         pitch_deg=float(np.rad2deg(np.abs(pitch).max())),
@@ -157,11 +157,11 @@ def _load(plan: Plan, given: Contacts, replayed: Replay, e: int) -> ContactLoad:
         off_sole = max(off_sole, _off_sole(plan, given, k, e, polygon_normal(vertices)))
     peak = float(np.linalg.norm(forces[phases], axis=-1).max(initial=0.0))
     rigidity = float(plan.scene.gravity) / float(plan.robot.com_height)
-    touched = sorted(set(given.surfaces[phases, e].tolist()))
+    down = sorted(set(given.surfaces[phases, e].tolist()))
     return ContactLoad(
         name=end.name,
         kind=end.kind,
-        surfaces=tuple(plan.scene.surfaces[i].name for i in touched),
+        surfaces=tuple(plan.scene.surfaces[i].name for i in down),
         peak_N=peak,
         peak=peak / weight,
         tangent=tangent,
@@ -198,8 +198,8 @@ def _off_polygon(point: Array, vertices: Array) -> float:
     edges = np.roll(vertices, -1, axis=0) - vertices
     if np.all(np.cross(edges, flat - vertices) @ normal >= 0.0):
         return abs(height)
-    share = np.clip(np.sum(edges * (flat - vertices), axis=1) / np.sum(edges**2, axis=1), 0.0, 1.0)
-    beside = np.linalg.norm(vertices + share[:, None] * edges - flat, axis=1).min()
+    fraction = np.clip(np.sum(edges * (flat - vertices), axis=1) / np.sum(edges**2, axis=1), 0.0, 1.0)
+    beside = np.linalg.norm(vertices + fraction[:, None] * edges - flat, axis=1).min()
     return float(np.hypot(beside, height))
 
 
@@ -220,22 +220,22 @@ def _yaws(plan: Plan, k: int) -> Array:
 
 
 def _slip(plan: Plan, given: Contacts, e: int) -> float:
-    """Way of the sole's centre and of its corners by turning, from where it touched down to each later knot of the contact.
+    """Displacement of the sole's centre, and of its corners by yaw, from touch-down to each later knot of the contact.
 
-    Soles of plans that do not say where they head turn with the base, of which no slip is made here.
+    Soles of plans that do not say where they head yaw with the base, of which no slip is made here.
     """
     corner = float(np.linalg.norm(plan.robot.end_effectors[e].half_size))
     says = all(len(knot.end_effector_yaw) > 0 for knot in plan.knots)
-    most, touched = 0.0, 0
+    largest, down = 0.0, 0
     for k, surface in enumerate(given.surfaces[:, e]):
         if k == 0 or surface != given.surfaces[k - 1, e]:
-            touched = k
+            down = k
         if surface < 0:
             continue
-        way = float(np.linalg.norm(plan.knots[k + 1].end_effectors_W[e] - plan.knots[touched].end_effectors_W[e]))
-        turn = float(abs(_yaws(plan, k + 1)[e] - _yaws(plan, touched)[e])) if says else 0.0
-        most = max(most, way + corner * turn)
-    return most
+        displacement = float(np.linalg.norm(plan.knots[k + 1].end_effectors_W[e] - plan.knots[down].end_effectors_W[e]))
+        rotation = float(abs(_yaws(plan, k + 1)[e] - _yaws(plan, down)[e])) if says else 0.0
+        largest = max(largest, displacement + corner * rotation)
+    return largest
 
 
 def _beyond_reach(plan: Plan, replayed: Replay, phases: list[int], e: int) -> float:

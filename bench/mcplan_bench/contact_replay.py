@@ -53,7 +53,7 @@ class ReplayErrors:
     """Largest difference between a knot and the integration of the phase before it.
 
     `orientation_from_start_deg` is that of one integration over the whole plan, with the angular momentum of each phase from its
-    own knot. For the CoM there is no such number: a pendulum that stands on its head multiplies any rounding by e every 0.27 s.
+    own knot. For the CoM there is no such number: an inverted pendulum multiplies any rounding by e every 0.27 s.
     """
 
     com_m: float
@@ -102,7 +102,7 @@ def replay(plan: Plan, sample_s: float = 1e-3) -> Replay:
     given = contacts(plan)
     mass, gravity = float(plan.robot.mass), np.array([0.0, 0.0, float(plan.scene.gravity)])
     inertia = np.asarray(plan.robot.inertia)
-    # An even number of intervals: the turning of the whole plan takes two at a time.
+    # An even number of intervals: the rotation of the whole plan takes two at a time.
     intervals = 2 * int(np.ceil(0.5 * given.durations_s.max() / sample_s))
     steps = int(np.ceil(np.sqrt(np.abs(given.stiffness).sum(axis=1).max()) * sample_s / _STEP)) or 1
     h = (given.durations_s / (intervals * steps))[:, None]
@@ -140,7 +140,7 @@ def replay(plan: Plan, sample_s: float = 1e-3) -> Replay:
 
 
 def replay_errors(plan: Plan, replayed: Replay) -> ReplayErrors:
-    """How far the ends of the phases are from the knots that follow them."""
+    """Distance of the last state of each phase from the knot that follows it."""
     knots = _knots(plan)
     difference = np.linalg.norm(
         np.stack([replayed.com_W[:, -1], replayed.velocity_W[:, -1], replayed.momentum_W[:, -1]], axis=1)
@@ -160,7 +160,7 @@ def replay_errors(plan: Plan, replayed: Replay) -> ReplayErrors:
 def _knots(plan: Plan) -> Array:
     """CoM, velocity, angular momentum and rotation of each knot in a row (N + 1, 18).
 
-    The base of ForceLaw.pendulum turns by small angles, I theta'' = sum tau_l: its momentum is I theta'.
+    The base of ForceLaw.pendulum rotates by small angles, I theta'' = sum tau_l: its momentum is I theta'.
     """
     from mcplan import ForceLaw
 
@@ -194,7 +194,7 @@ def _runge_kutta(slope: Callable[[Array], Array], state: Array, h: Array) -> Arr
 
 
 def _turned_from_start(plan: Plan, replayed: Replay, rotation: Array) -> Array:
-    """Rotations at the ends of the phases (P, 3, 3), one after the other from the first; steps of two samples."""
+    """Rotations at the last instants of the phases (P, 3, 3), one after the other from the first; steps of two samples."""
     inertia = np.asarray(plan.robot.inertia)
     out = []
     for times, momentum in zip(replayed.times_s, replayed.momentum_W, strict=True):

@@ -1,4 +1,4 @@
-"""Plans whose contacts are held to what real ones give (``mcplan bench contacts``): made, measured, judged, timed."""
+"""Plans whose contacts are compared with real ones (``mcplan bench contacts``): made, measured, judged, timed."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ def run(cases: Sequence[Case], jobs: int = 1, progress: Callable[[str], None] | 
 
 
 def solve(case: Case) -> Row:
-    """Plan a case, measure and judge it. A scene or an option that does not exist is a row that does not hold."""
+    """Plan a case, measure and judge it. A scene or an option that does not exist is a row that fails."""
     head: dict[str, Any] = {"case": case.name, "scene": case.scene, "robot": case.robot, "model": case.model}
     try:
         result = plan_of(case)
@@ -215,14 +215,14 @@ _BY_KIND = (("tangent", "tangent"), ("circle", "tangent_circle"), ("peak", "peak
 
 
 def _of(found: ContactMeasures, name: str, kind: str) -> float | None:
-    """Largest value of a field among the end-effectors of a kind; None where none of them touches anything."""
+    """Largest value of a field among the end-effectors of a kind; None where none of them is in contact."""
     return found.largest(name, kind) if found.surfaces(kind) else None
 
 
 #: Statuses of plans that are handed out as such.
 _CLAIMED = ("solved", "acceptable")
 
-#: Fields of a row, the field of a demand that they are held to, and how they are called.
+#: Fields of a row, the field of a demand that limits them, and how they are called.
 _LIMITED = (
     ("cost", "cost", "J"),
     ("tangent_foot", "tangent", "tangential over normal force of a foot"),
@@ -231,7 +231,7 @@ _LIMITED = (
     ("pressure_off_surface_m", "pressure_m", "centre of pressure off the surface [m]"),
     ("slip_m", "slip_m", "slip [m]"),
     ("reach_m", "reach_m", "reach in contact exceeded by [m]"),
-    ("swing_stiffness", "swing_stiffness", "stiffness of a swinging end"),
+    ("swing_stiffness", "swing_stiffness", "stiffness of a swinging end-effector"),
     ("momentum_Nms", "momentum_Nms", "angular momentum [N m s]"),
     ("peak_hand", "hand_peak", "force of a hand over the weight"),
     ("com_replay_m", "com_replay_m", "replayed CoM [m]"),
@@ -241,7 +241,7 @@ _LIMITED = (
 
 
 def shortfalls(row: Row, demand: Demand) -> list[str]:
-    """What a row does not hold, in words; empty: it holds all that is demanded. What nobody touches has no tangent to hold."""
+    """Which demands a row does not meet, in words; empty: it meets all. A tangent without contact has no demand."""
     solved = row.status == "solved"
     if demand.solved is True and not solved:
         return [f"{row.status}: {row.message}".rstrip(": ")]
@@ -253,9 +253,9 @@ def shortfalls(row: Row, demand: Demand) -> list[str]:
         return [f"is solved, with J {row.cost:.3g}"]
     found = []
     for name, limit, words in _LIMITED:
-        value, most = getattr(row, name), getattr(demand, limit)
-        if most < float("inf") and value is not None and not value <= most:
-            found.append(f"{words} {value:.3g}, at most {most:g}")
+        value, max_value = getattr(row, name), getattr(demand, limit)
+        if max_value < float("inf") and value is not None and not value <= max_value:
+            found.append(f"{words} {value:.3g}, at most {max_value:g}")
     if demand.flights is not None and row.flights != demand.flights:
         found.append(f"{row.flights} flights, not {demand.flights}")
     if demand.alternate and not row.alternate:
@@ -269,13 +269,17 @@ def shortfalls(row: Row, demand: Demand) -> list[str]:
     return found
 
 
-def _hand_means(row: Row, most: float) -> list[str]:
-    """The vertical forces' means of both hands while they bear all, against half the weight each."""
+def _hand_means(row: Row, max_value: float) -> list[str]:
+    """The vertical forces' means of both hands while they support the whole weight, against half of it each."""
     if row.hand_mean_low is None or row.hand_mean_high is None:
         return ["no phase on both hands alone"]
     off = max(abs(row.hand_mean_low - HAND_MEAN), abs(row.hand_mean_high - HAND_MEAN)) / HAND_MEAN
     means = f"{row.hand_mean_low:.3f} to {row.hand_mean_high:.3f}"
-    return [f"hands bear {means} of the weight in the mean, 0.5 within {100 * most:g} %"] if off > most else []
+    return (
+        [f"hands support {means} of the weight in the mean, 0.5 within {100 * max_value:g} %"]
+        if off > max_value
+        else []
+    )
 
 
 def line(row: Row) -> str:
@@ -293,15 +297,15 @@ def line(row: Row) -> str:
 def settings_summary(rows: Sequence[Row]) -> dict[str, Any]:
     """How many settings find a plan on hands alone, and what the best of these plans costs."""
     costs = [row.cost for row in rows if row.status == "solved" and row.hands_only and row.cost is not None]
-    least = float(min(costs)) if costs else None
+    min_cost = float(min(costs)) if costs else None
     return {
         "runs": len(rows),
         "solved": sum(row.status == "solved" for row in rows),
         "hands_only": len(costs),
-        "least_cost": least,
+        "least_cost": min_cost,
         "median_cost": float(np.median(costs)) if costs else None,
         "hold_contacts": sum(bool(row.holds) for row in rows),
-        "holds": least is not None and least <= RAIL_COST and len(costs) >= RAIL_GOOD,
+        "holds": min_cost is not None and min_cost <= RAIL_COST and len(costs) >= RAIL_GOOD,
     }
 
 
@@ -311,7 +315,7 @@ def compare_speed(
     models: Sequence[str] = ("wrench", "lipm"),
     progress: Callable[[str], None] | None = None,
 ) -> list[dict[str, Any]]:
-    """Processor times per iteration of two models, on one thread, in turn on each scene.
+    """Processor times per iteration of two models, on one thread, alternating on each scene.
 
     Args:
         repeats: Solves behind each median.
@@ -330,7 +334,7 @@ def compare_speed(
         scene = mcplan.load_scene(name)
         row: dict[str, Any] = {"scene": name}
         times: dict[str, list[tuple[float, float, float]]] = {"ours": [], "other": []}
-        for _ in range(repeats):  # in turn: what else the machine does falls on both
+        for _ in range(repeats):  # alternating: what else the machine does affects both
             for key, model in zip(times, models, strict=True):
                 times[key].append(_iteration_times_ms(scene, robot, {"model": model} if model else {}))
         for key, model in zip(times, models, strict=True):
@@ -348,14 +352,14 @@ def compare_speed(
 
 def _iteration_times_ms(scene: Scene, robot: Robot, options: dict[str, Any]) -> tuple[float, float, float]:
     """An iteration with the sequence free, one of all those of a plan, and the whole plan [ms of the processor]."""
-    (whole, (found,)), share = _with_share(lambda: iterations(scene, robot, 1, options))
+    (whole, (found,)), processor_ratio = _with_processor_ratio(lambda: iterations(scene, robot, 1, options))
     limits = {"max_iterations": searching_iterations(found.report), "restarts": 0}
-    (search, _), search_share = _with_share(lambda: iterations(scene, robot, 1, options | limits))
-    return search_share * search.ms, share * whole.ms, share * 1e3 * found.report.time_s
+    (search, _), search_ratio = _with_processor_ratio(lambda: iterations(scene, robot, 1, options | limits))
+    return search_ratio * search.ms, processor_ratio * whole.ms, processor_ratio * 1e3 * found.report.time_s
 
 
-def _with_share(function: Callable[[], Outcome]) -> tuple[Outcome, float]:
-    """What a function returns, and the share of the wall clock in which this process had a processor, at most 1.
+def _with_processor_ratio(function: Callable[[], Outcome]) -> tuple[Outcome, float]:
+    """What a function returns, and the ratio of this process's processor time to the wall clock, at most 1.
 
     Reports time by the wall clock; this takes out of it what other processes had meanwhile.
     """

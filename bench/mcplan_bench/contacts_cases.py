@@ -1,4 +1,4 @@
-"""What ``mcplan bench contacts`` plans, and what each plan has to hold."""
+"""What ``mcplan bench contacts`` plans, and the demands on each plan."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 #: Coefficient of all surfaces, pads included, on the paper's four scenes.
 FRICTION = 0.7
-#: Limits of every plan on them: lengths [m], angular momentum [N m s], stiffness of swinging ends in g / com_height.
+#: Limits of every plan on them: lengths [m], angular momentum [N m s], stiffness of swinging end-effectors in g / com_height.
 TANGENT, PRESSURE_M, SLIP_M, REACH_M, SWING_STIFFNESS, MOMENTUM_NMS = 0.70, 1e-3, 2e-4, 5e-3, 5e-4, 10.0
 #: Largest force of a hand over the weight; mean vertical force per hand of the hands-only phase, and how far off it may be.
 HAND_PEAK, HAND_MEAN, HAND_MEAN_OFF = 0.75, 0.5, 0.05
@@ -19,7 +19,7 @@ COM_REPLAY_M, MOMENTUM_REPLAY_NMS, ORIENTATION_DEG = 1e-9, 1e-9, 1.0
 RAIL_GOOD, RAIL_COST = 14, 0.25
 #: Time of an iteration: over that of the paper's model, and [ms].
 RATIO, ITERATION_MS = 1.6, 3.0
-#: What an arm of Talos bears, of the weight of the robot.
+#: Ratio of the largest force of an arm of Talos to the weight of the robot.
 TALOS_HAND = 0.15
 #: A weight on the offsets of the lines of force that leaves none: the paper's forces through the CoM.
 NO_OFFSET = 1e4
@@ -27,7 +27,7 @@ NO_OFFSET = 1e4
 
 @dataclass(frozen=True)
 class Demand:
-    """What a plan has to hold. Infinite limits and None: anything will do.
+    """Demands on a plan. Infinite limits and None: no demand.
 
     Attributes:
         solved: It must be, or (False) must not be.
@@ -36,11 +36,11 @@ class Demand:
         pressure_m: The centre of pressure beyond the sole and beyond the surface.
         slip_m, reach_m, swing_stiffness, momentum_Nms: Largest values, see ContactMeasures.
         hand_peak: Largest force of a hand over the weight.
-        hand_mean_off: How far the mean vertical force of a hand may be from half the weight while both hands bear all, over
-            half the weight.
+        hand_mean_off: How far the mean vertical force of a hand may be from half the weight while both hands support all of
+            it, as a ratio to half the weight.
         com_replay_m, momentum_replay_Nms, orientation_deg: Largest differences between knots and replay.
         flights: Exact number.
-        alternate: Feet in turn.
+        alternate: Whether feet have to alternate.
         every_surface: A foot on each.
         hands_only: There must be a phase on hands alone, or (False) no plan that is called solved or acceptable may
             have one.
@@ -84,11 +84,11 @@ class Case:
     Attributes:
         name: Of the row.
         scene: Built-in.
-        demand: What it has to hold.
+        demand: The demands on it.
         robot: Built-in.
         friction: Coefficient that all surfaces get; None: their own.
-        grasp: Whether surfaces that may be held may be held; else they have a cone as the others.
-        rules: Whether the scene's rules hold.
+        grasp: Whether surfaces that allow a grasp may be grasped; else they have a cone as the others.
+        rules: Whether the scene's rules apply.
         hand_cap: Largest force of a hand over the weight, where the robot's own is not less; None: the robot's own.
         model: Of the contact forces; "": the planner's default.
         planning: Options of the planner.

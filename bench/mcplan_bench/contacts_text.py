@@ -35,7 +35,7 @@ def sections(result: dict[str, Any]) -> list[Section]:
     """
     out = []
     if "rows" in result:
-        out += [_plans(result["rows"]), _contacts(result["rows"]), _bodies(result["rows"])]
+        out += [_plans(result["rows"]), _contacts(result["rows"]), _motions(result["rows"])]
     if "settings" in result:
         out.append(_settings(result["settings"]))
     if "speed" in result:
@@ -48,13 +48,13 @@ def markdown(result: dict[str, Any], page: str = "") -> str:
 
     Args:
         result: As for ``sections``; and `machine`, `jobs`, `command`: what it was measured on and by.
-        page: Text that the tables go into, where BEGIN and END stand in it; without them the tables are a page of their own.
+        page: Text that the tables go into, between BEGIN and END if it has them; without them the tables are a page of their own.
     """
-    put = between_marks(page, BEGIN, END, _body(result, "###"))
-    return put if put is not None else f"# Plans held to what contacts give: results\n\n{_body(result, '##')}\n"
+    put = between_marks(page, BEGIN, END, _content(result, "###"))
+    return put if put is not None else f"# Plans held to what contacts give: results\n\n{_content(result, '##')}\n"
 
 
-def _body(result: dict[str, Any], heading: str) -> str:
+def _content(result: dict[str, Any], heading: str) -> str:
     machine = result["machine"]
     lines = [
         *text_lines(
@@ -130,7 +130,7 @@ def _contacts(rows: Sequence[Row]) -> Section:
     return Section("Contacts at 1 kHz, from the forces", head, cells, notes)
 
 
-def _bodies(rows: Sequence[Row]) -> Section:
+def _motions(rows: Sequence[Row]) -> Section:
     head = [
         "plan",
         "angular momentum",

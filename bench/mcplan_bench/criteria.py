@@ -22,7 +22,7 @@ Sequence2 = Sequence[Sequence[int]]
 def comparable_cost(report: Report) -> float:
     """The cost J of a plan without the constants on flights and on contact changes.
 
-    Those two say which of two sequences is wanted when their motions cost the same (1/2 for each phase of flight, 0.005 for each
+    Those two say which of two sequences is desired when their motions cost the same (1/2 for each phase of flight, 0.005 for each
     contact made or broken). A cost that is published, or one of another model, knows the motion alone: what it costs to be off
     the reference and at the limits. The weights of the terms that are left are the report's own.
     """
@@ -32,7 +32,7 @@ def comparable_cost(report: Report) -> float:
 def shortcoming(scene: str, plan: Plan) -> str:
     """Why a plan that the checker accepts is not what the scene is about; "" for a good one.
 
-    flat             no flight, feet swing in turn
+    flat             no flight, feet swing alternately
     stairs           the same, and a foot on every surface
     gap              exactly one flight (adjacent phases without contact count once), apex at least 0.15 m above take-off
     gap_with_rail    a phase with both hands in contact and both feet off
@@ -73,10 +73,10 @@ def flights(sequence: Sequence2) -> list[tuple[int, int]]:
     return _stretches([all(surface < 0 for surface in row) for row in sequence])
 
 
-def swings(sequence: Sequence2, ends: Sequence[int]) -> list[int]:
-    """The end-effectors in the order in which they start to swing; several at once in the order of `ends`."""
-    begins = [(first, end) for end in ends for first, _ in _stretches([row[end] < 0 for row in sequence])]
-    return [end for _, end in sorted(begins, key=lambda entry: (entry[0], list(ends).index(entry[1])))]
+def swings(sequence: Sequence2, end_effectors: Sequence[int]) -> list[int]:
+    """The end-effectors in the order in which they start to swing; several at once in the order of `end_effectors`."""
+    begins = [(first, end) for end in end_effectors for first, _ in _stretches([row[end] < 0 for row in sequence])]
+    return [end for _, end in sorted(begins, key=lambda entry: (entry[0], list(end_effectors).index(entry[1])))]
 
 
 def alternate(sequence: Sequence2, feet: Sequence[int]) -> bool:

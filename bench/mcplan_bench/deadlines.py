@@ -1,4 +1,4 @@
-"""How far solves overrun their time limit, and what surfaces cost that a way never comes near."""
+"""How far solves overrun their time limit, and the time for surfaces that a path never comes near."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def _move(name: str) -> Solve:
 
 
 def idle_surfaces(quick: bool = False, progress: Progress | None = None) -> list[dict[str, Any]]:
-    """Rows of solves of flat with surfaces beside the way that are of no use: their number and what they cost.
+    """Rows of solves of flat with surfaces beside the path that are of no use: their number and what they cost.
 
     Args:
         quick: The first two numbers alone.
@@ -133,7 +133,7 @@ def idle_surfaces(quick: bool = False, progress: Progress | None = None) -> list
 
 
 def with_idle_surfaces(count: int, seed: int = 0) -> Scene:
-    """Flat with patches of 0.2 m, two to six metres to either side of the way and up to half a metre high."""
+    """Flat with patches of 0.2 m, two to six metres to either side of the path and up to half a metre high."""
     import mcplan as mp
 
     random = np.random.default_rng(seed)

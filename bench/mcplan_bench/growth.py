@@ -73,19 +73,24 @@ def cases(quick: bool = False) -> Iterator[tuple[str, int, Scene, Robot, int]]:
 
 
 def long_floor(phases: int) -> Scene:
-    """flat with its way of 2 m in 18 phases drawn out in proportion to the phases."""
+    """flat with its path of 2 m in 18 phases stretched in proportion to the phases."""
     import mcplan
 
     scene = mcplan.load_scene("flat")
-    way = 2.0 * phases / 18.0
-    scene.goal.position_W = np.array([way, 0.0, 0.0])
+    displacement = 2.0 * phases / 18.0
+    scene.goal.position_W = np.array([displacement, 0.0, 0.0])
     surface = scene.surfaces[0]
-    surface.vertices_W = [[-1.0, -5.0, 0.0], [way + 3.0, -5.0, 0.0], [way + 3.0, 5.0, 0.0], [-1.0, 5.0, 0.0]]
+    surface.vertices_W = [
+        [-1.0, -5.0, 0.0],
+        [displacement + 3.0, -5.0, 0.0],
+        [displacement + 3.0, 5.0, 0.0],
+        [-1.0, 5.0, 0.0],
+    ]
     return scene
 
 
 def tiled_floor(tiles: int) -> Scene:
-    """flat with its floor cut across the way into so many surfaces, from 0.5 m behind the start to 0.5 m past the goal."""
+    """flat with its floor cut across the path into so many surfaces, from 0.5 m behind the start to 0.5 m past the goal."""
     import mcplan
 
     scene = mcplan.load_scene("flat")
@@ -108,7 +113,7 @@ def with_feet(robot: Robot, feet: int) -> Robot:
     """The robot with so many feet and no hands: its own two, then copies of them to the front and to the back."""
     out = robot.__copy__()
     own = [end for end in robot.end_effectors if end.kind == "foot"]
-    ends = []
+    end_effectors = []
     for i in range(feet):
         row = i // len(own)
         end = own[i % len(own)].__copy__()
@@ -116,8 +121,8 @@ def with_feet(robot: Robot, feet: int) -> Robot:
         end.name = f"{end.name}_{row}"
         for field in ("nominal_B", "reach_min_B", "reach_max_B"):
             setattr(end, field, getattr(end, field) + shift)
-        ends.append(end)
-    out.end_effectors = ends
+        end_effectors.append(end)
+    out.end_effectors = end_effectors
     return out
 
 

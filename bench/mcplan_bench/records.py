@@ -39,7 +39,7 @@ def write_json(path: Path, content: Row) -> Path:
 
 
 def plain(value: Any) -> Any:
-    """The value with everything in it that JSON cannot hold replaced by null."""
+    """The value with everything in it that JSON cannot represent replaced by null."""
     if isinstance(value, dict):
         return {key: plain(entry) for key, entry in value.items()}
     if isinstance(value, (list, tuple)):

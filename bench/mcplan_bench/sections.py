@@ -46,11 +46,11 @@ def table_lines(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]
     return ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in cells]
 
 
-def between_marks(page: str, begin: str, end: str, body: str) -> str | None:
-    """The page with the body between two lines that stand in it; None where they do not."""
+def between_marks(page: str, begin: str, end: str, text: str) -> str | None:
+    """The page with a text between two of its lines; None where it does not have them."""
     before, first, rest = page.partition(begin)
     _, last, after = rest.partition(end)
-    return f"{before}{begin}\n\n{body}\n{end}{after}" if first and last else None
+    return f"{before}{begin}\n\n{text}\n{end}{after}" if first and last else None
 
 
 def number(value: float | None, form: str, factor: float = 1.0, unit: str = "") -> str:
@@ -61,5 +61,5 @@ def number(value: float | None, form: str, factor: float = 1.0, unit: str = "") 
 
 
 def holds(value: bool | None) -> str:
-    """Whether a row holds what is demanded of it; None: nothing is."""
+    """Whether a row meets its demands; None: it has none."""
     return {True: "yes", False: "NO", None: "not demanded"}[value]

@@ -32,7 +32,7 @@ class Iterations:
     ms: float  # per iteration
     parts_ms: dict[str, float]  # the same by part
     neighbours: float  # priced per iteration
-    pricing_share: float  # of the iteration
+    pricing_share: float  # ratio of its time to the iteration's
 
     @property
     def pricing_us(self) -> float:

@@ -1,4 +1,4 @@
-"""Plans of all three planners tracked in simulation: a row for each, and whether it holds what is demanded."""
+"""Plans of all three planners tracked in simulation: a row for each, and whether it meets its demands."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 #: What is done with a run in the process in which it was made, e.g. draw it.
 Keep = Callable[[Case, "TrackingResult | PlanarResult"], None]
 
-#: A torque of this share of its limit is at it.
+#: A torque of this ratio to its limit is at it.
 AT_LIMIT = 0.999
 
 #: Statuses of plans that are tracked.
@@ -49,14 +49,14 @@ class Row:
         case, planner, robot, scale, assisted: What was asked for.
         planned, message, planning_s: Status of the plan, what the planner says of it, time to find it.
         steps, flights: Swings of feet, and stretches without contact, in the plan.
-        duration_s: Of the plan.
-        mass_planned_kg, mass_kg: Of the robot in the plan, and of the simulated one.
+        duration_s: Duration of the plan.
+        mass_planned_kg, mass_kg: Mass of the robot in the plan, and of the simulated one.
         fell: It fell; or, of a planar robot, left its plan.
         torque_joint: The joint with the largest torque over its limit.
         leg_torque_use, leg_torque_joint: The same among the joints that carry feet.
-        leg_limit_share: Of the time, in which the torque of one of these is at its limit.
-        holds: Whether the row holds what is demanded; None: nothing is.
-        why: What it does not hold.
+        leg_limit_share: Fraction of the time in which the torque of one of these is at its limit.
+        holds: Whether the row meets its demands; None: it has none.
+        why: Which demands it does not meet.
     """
 
     case: str
@@ -259,26 +259,26 @@ def measured(run: TrackingResult | PlanarResult) -> dict[str, Any]:
         use = np.abs(run.recording.torques).max(axis=0) / run.recording.torque_limits
         values["torque_joint"] = run.recording.joints[int(use.argmax())]
         return values | {"fell": not run.measures.completed, "mass_kg": run.recording.plan.motion.robot.mass()}
-    return values | _torques(run.recording) | {"mass_kg": float(run.recording.body.mass)}
+    return values | _torques(run.recording) | {"mass_kg": float(run.recording.simulated_robot.mass)}
 
 
 def _torques(recording: Recording) -> dict[str, Any]:
     """The joints with the largest torques over their limits, of all and of the legs."""
     from mcplan.kinematics.urdf_model import load_model
 
-    loaded = load_model(recording.body)
+    urdf_model = load_model(recording.simulated_robot)
     legs: set[str] = set()
-    for end, frame in zip(loaded.robot.end_effectors, loaded.frames, strict=True):
+    for end, frame in zip(urdf_model.robot.end_effectors, urdf_model.frames, strict=True):
         if end.kind == "foot":
-            chain = loaded.model.supports[loaded.model.frames[frame].parentJoint]
-            legs |= {loaded.model.names[joint] for joint in chain}
+            chain = urdf_model.model.supports[urdf_model.model.frames[frame].parentJoint]
+            legs |= {urdf_model.model.names[joint] for joint in chain}
     use = np.abs(recording.torques) / recording.torque_limits
     of_legs = np.where([name in legs for name in recording.joints], use, 0.0)
-    most, most_of_legs = use.max(axis=0), of_legs.max(axis=0)
+    max_use, max_of_legs = use.max(axis=0), of_legs.max(axis=0)
     return {
-        "torque_joint": recording.joints[int(most.argmax())],
-        "leg_torque_use": float(most_of_legs.max()),
-        "leg_torque_joint": recording.joints[int(most_of_legs.argmax())],
+        "torque_joint": recording.joints[int(max_use.argmax())],
+        "leg_torque_use": float(max_of_legs.max()),
+        "leg_torque_joint": recording.joints[int(max_of_legs.argmax())],
         "leg_limit_share": float(np.mean(of_legs.max(axis=1) > AT_LIMIT)),
     }
 
@@ -303,23 +303,23 @@ _LIMITED = (
 
 
 def shortfalls(row: Row, demand: Demand) -> list[str]:
-    """What a row does not hold, in words; empty: it holds all that is demanded."""
+    """Which demands a row does not meet, in words; empty: it meets all."""
     if row.planned not in TRACKED:
         return [] if demand.refusable else [f"not planned: {row.planned}, {row.message}".rstrip(", ")]
     if row.fell is None:
         return [f"not tracked: {row.message}"]
     found = []
     for name in ("steps", "flights"):
-        least, value = getattr(demand, name), getattr(row, name) or 0
-        if value < least:
-            found.append(f"{value} {name}, at least {least}")
+        min_count, value = getattr(demand, name), getattr(row, name) or 0
+        if value < min_count:
+            found.append(f"{value} {name}, at least {min_count}")
     if row.fell:
         found.append(f"{'left its plan' if row.planner == 'sip' else 'fell'} at {row.completed_s:.2f} s")
     for name, words, factor, unit in _LIMITED:
-        most, value = getattr(demand, name), getattr(row, name)
-        if most < float("inf") and (value is None or not value <= most):
+        max_value, value = getattr(demand, name), getattr(row, name)
+        if max_value < float("inf") and (value is None or not value <= max_value):
             has = "not measured" if value is None else f"{factor * value:.4g}"
-            found.append(f"{words} {has}, at most {factor * most:g}{unit}")
+            found.append(f"{words} {has}, at most {factor * max_value:g}{unit}")
     return found
 
 

@@ -1,4 +1,4 @@
-"""What is tracked by ``mcplan bench tracking``, and what each run has to hold."""
+"""What is tracked by ``mcplan bench tracking``, and the demands on each run."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ from typing import Any
 
 from mcplan.planar.tracking import PLANNING
 
-#: Limits that walks of humanoids are held to [m].
+#: Limits for walks of humanoids [m].
 COM_RMS_M, FINAL_BASE_M = 0.015, 0.05
-#: Limits of planar robots: rms of the contact forces' error over that of the forces; way of contact points [m].
+#: Limits of planar robots: ratio of the rms of the contact forces' error to that of the forces; displacement of contact points
+#: [m].
 FORCE_RMS, DRIFT_M = 0.10, 0.01
 #: Limits on one core: time of a control step [ms], simulated time with control over wall clock.
 CONTROL_MS, REALTIME_FACTOR = 1.0, 1.5
@@ -27,7 +28,7 @@ G1_SCALE, G1_STAIRS_SCALE = 0.8, 0.65
 #: no jump: its reach boxes end 3 to 9 cm short of every take-off.
 FLIGHT_S = 0.3
 WIDER_GAPS_M = (0.35, 0.40, 0.45, 0.50)
-#: How firmly plans keep to the pendulum there: landings and leaning on hands leave a controller less room than walking.
+#: How firmly plans keep to the pendulum there: landings and leaning on hands leave a controller less margin than walking.
 FIRM_JUMP = {"force_line": 3.0, "momentum": 3.0}
 FIRM_HANDS = {"force_line": 1.0, "momentum": 1.0, "center_of_pressure": 1.0}
 
@@ -36,7 +37,7 @@ CYCLES = 14
 
 @dataclass(frozen=True)
 class Demand:
-    """What a run has to hold, besides that it is planned and comes to its end. Infinite limits: anything will do.
+    """Demands on a run, besides that it is planned and comes to its end. Infinite limits: no demand.
 
     Attributes:
         com_rms_m, final_base_error_m, qp_failures, simulator_warnings, force_rms, drift_m: Largest values.

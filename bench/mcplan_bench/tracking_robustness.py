@@ -103,7 +103,7 @@ def solve(task: Task) -> Outcome:
 def summary(outcomes: Sequence[Outcome], cases: Sequence[Case] = DISTURBED) -> list[dict[str, Any]]:
     """A row per case: runs, those that stayed upright, whether they are enough, seeds that fell, largest error of the CoM.
 
-    A case without runs does not hold.
+    A case without runs fails.
     """
     rows = []
     for case in cases:

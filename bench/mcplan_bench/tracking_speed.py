@@ -14,16 +14,16 @@ from .processes import apart
 from .tracking import plan_of, track_plan
 from .tracking_cases import CONTROL_MS, REALTIME_FACTOR, named
 
-#: What is timed: level ground, where a robot stands on one foot and on two in turn.
+#: What is timed: level ground, with single and double support alternating.
 CASE = "flat/talos"
 
 
 def measure(repeats: int = 3, case: str = CASE) -> dict[str, Any]:
-    """Medians over repeats, in a process of its own on one thread and one core. Shares are those of a control step.
+    """Medians over repeats, in a process of its own on one thread and one core. Ratios are to a control step.
 
     Args:
         repeats: Runs of the same plan.
-        case: Of the full table, of a humanoid.
+        case: A case of the full table, of a humanoid.
 
     Returns:
         control_ms and its parts qp_ms (the solver), model_ms (kinematics and dynamics), rest_ms (building the program,
@@ -37,18 +37,18 @@ def measure(repeats: int = 3, case: str = CASE) -> dict[str, Any]:
 def _measure(repeats: int, name: str) -> dict[str, Any]:
     from mcplan.tracking.controller import Controller
     from mcplan.tracking.quadratic_program import QuadraticProgram
-    from mcplan.tracking.rigid_body import RigidBody
+    from mcplan.tracking.robot_dynamics import RobotDynamics
     from mcplan.tracking.simulation import Simulation
 
     case = named(name)
     plan = plan_of(case).plan
     rows = []
     for _ in range(repeats):
-        body = ((RigidBody, "update"), (RigidBody, "end"))
-        watched = ((Controller, "step"), (QuadraticProgram, "solve"), (Simulation, "advance"), *body)
-        with stopwatches(*watched) as (steps, solves, advances, updates, ends):
+        dynamics = ((RobotDynamics, "update"), (RobotDynamics, "end_effector"))
+        watched = ((Controller, "step"), (QuadraticProgram, "solve"), (Simulation, "advance"), *dynamics)
+        with stopwatches(*watched) as (steps, solves, advances, updates, motions):
             result: Any = track_plan(case, plan)
-        control, qp, model = (1e3 * sum(times) / len(steps) for times in (steps, solves, updates + ends))
+        control, qp, model = (1e3 * sum(times) / len(steps) for times in (steps, solves, updates + motions))
         rows.append(
             {
                 "control_ms": control,
@@ -61,9 +61,9 @@ def _measure(repeats: int, name: str) -> dict[str, Any]:
             }
         )
     median = {key: float(np.median([row[key] for row in rows])) for key in rows[0]}
-    shares = {f"{part}_share": median[f"{part}_ms"] / median["control_ms"] for part in ("qp", "model", "rest")}
+    ratios = {f"{part}_share": median[f"{part}_ms"] / median["control_ms"] for part in ("qp", "model", "rest")}
     holds = median["control_ms"] <= CONTROL_MS and median["realtime_factor"] >= REALTIME_FACTOR
-    return {"case": name, "repeats": repeats, **median, **shares, "holds": holds}
+    return {"case": name, "repeats": repeats, **median, **ratios, "holds": holds}
 
 
 @contextmanager

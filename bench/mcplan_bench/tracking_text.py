@@ -41,15 +41,15 @@ def markdown(result: dict[str, Any], page: str = "") -> str:
 
     Args:
         result: As for ``sections``; and `machine`, `packages`, `jobs`, `command`: what it was measured on, with and by.
-        page: Text that the tables go into, where BEGIN and END stand in it; without them the tables are a page of their own.
+        page: Text that the tables go into, between BEGIN and END if it has them; without them the tables are a page of their own.
     """
-    put = between_marks(page, BEGIN, END, _body(result, "###"))
+    put = between_marks(page, BEGIN, END, _content(result, "###"))
     if put is not None:
         return put
-    return f"# Plans tracked in simulation: results\n\n{_body(result, '##')}"
+    return f"# Plans tracked in simulation: results\n\n{_content(result, '##')}"
 
 
-def _body(result: dict[str, Any], heading: str) -> str:
+def _content(result: dict[str, Any], heading: str) -> str:
     machine, packages = result["machine"], result["packages"]
     with_what = ", ".join(f"{name} {version}" for name, version in packages.items())
     lines = [

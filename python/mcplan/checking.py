@@ -30,8 +30,8 @@ def check(plan: Any, *given: Any, **named: Any) -> CheckResult:
         plan: The plan.
         scene: What it is checked against; None: the plan's own. A whole-body plan takes no scene and no robot.
         robot: As `scene`.
-        tolerances: How far off is still right: ``Tolerances``, or ``PlanarTolerances`` of a whole-body plan.
-        self_collision: Of a whole-body plan: whether parts of the robot must keep clear of each other.
+        tolerances: Accepted amounts beyond the limits: ``Tolerances``, or ``PlanarTolerances`` of a whole-body plan.
+        self_collision: Whether the collision pairs of a whole-body plan's robot are checked, too.
 
     Returns:
         The violations, if any.

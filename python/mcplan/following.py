@@ -26,7 +26,7 @@ def track_any(
 
     Args:
         plan: The plan, or the path of one.
-        robot: Of a plan of ddp or rhp; None: the plan's own.
+        robot: Robot for a plan of ddp or rhp; None: the plan's own.
         values: Fields of Options by name.
         progress: Called now and then with the time simulated and the time to simulate [s].
     """

@@ -55,8 +55,8 @@ def load(path: str | Path) -> Plan | PlanarPlan | TrackingResult | PlanarResult:
     from mcplan.tracking.run_files import PLANAR_RUN, RUN, load_run
 
     makers: dict[str, Callable[..., Any]] = {RUN: result_from, PLANAR_RUN: planar_result_from}
-    loaded: Plan | PlanarPlan | TrackingResult | PlanarResult = load_run(path, makers, load_any_plan)
-    return loaded
+    saved: Plan | PlanarPlan | TrackingResult | PlanarResult = load_run(path, makers, load_any_plan)
+    return saved
 
 
 def show(plan: Shown, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:

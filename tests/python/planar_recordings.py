@@ -8,7 +8,7 @@ import numpy as np
 
 from mcplan._core import PlanarPlan
 from mcplan.planar.tracking import PlanarRecording
-from mcplan.planar.view.samples import body_frames, sample_whole_body, turned
+from mcplan.planar.view.samples import body_frames, rotated, sample_whole_body
 from reference_solutions import reference_plan
 
 #: [m], [rad] by which base and first joint are off the plan; factor on the contact forces; share of the feedback.
@@ -29,14 +29,14 @@ def recorded(plan: PlanarPlan, rate_hz: float = 200.0) -> PlanarRecording:
         along = np.array([np.cos(end.angle_B), np.sin(end.angle_B)])
         for p, at in enumerate(end.points):
             where_B = np.asarray(end.position_B) + float(at) * along
-            points[:, e, p] = positions[:, end.body] + turned(angles[:, end.body], where_B)
+            points[:, e, p] = positions[:, end.body] + rotated(angles[:, end.body], where_B)
     known = np.isfinite(points)
     forces_plan = np.where(known, np.nan_to_num(samples.forces_W), np.nan)
     limits = np.array([b.torque_max for b in robot.bodies[1:]])
     return PlanarRecording(
         plan=plan,
         joints=tuple(b.name for b in robot.bodies[1:]),
-        ends=tuple(e.name for e in robot.end_effectors),
+        end_effectors=tuple(e.name for e in robot.end_effectors),
         times_s=times,
         phases=samples.phases,
         base=base,

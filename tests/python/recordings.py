@@ -26,17 +26,17 @@ def recorded(plan: mp.Plan, rate_hz: float = 100.0, until_s: float = np.inf) -> 
     import pinocchio as pin
 
     robot = plan.robot
-    loaded = load_model(robot)
-    model, data = loaded.model, loaded.model.createData()
+    urdf_model = load_model(robot)
+    model, data = urdf_model.model, urdf_model.model.createData()
     coarse = sample(plan, plan.scene, robot, 20.0)
-    postures = follow(loaded, coarse).configurations
+    postures = follow(urdf_model, coarse).configurations
     fine = sample(plan, plan.scene, robot, rate_hz)
     n = int(np.sum(fine.times_s <= until_s))
     times = fine.times_s[:n]
     late = np.maximum(np.arange(n) - round(LATE * rate_hz), 0)
 
     configurations = np.zeros((n, model.nq))
-    com_W, momentum_W, ends_W = np.zeros((n, 3)), np.zeros((n, 3)), np.zeros((n, len(loaded.frames), 3))
+    com_W, momentum_W, end_effectors_W = np.zeros((n, 3)), np.zeros((n, 3)), np.zeros((n, len(urdf_model.frames), 3))
     torques = np.zeros((n, model.nv - 6))
     forces_W = fine.forces_W[late] * 1.03
     for i, t in enumerate(times):
@@ -48,9 +48,9 @@ def recorded(plan: mp.Plan, rate_hz: float = 100.0, until_s: float = np.inf) -> 
         pin.computeJointJacobians(model, data, q)
         pin.updateFramePlacements(model, data)
         com_W[i] = pin.centerOfMass(model, data, q)
-        ends_W[i] = [data.oMf[frame].translation for frame in loaded.frames]
+        end_effectors_W[i] = [data.oMf[frame].translation for frame in urdf_model.frames]
         load = pin.computeGeneralizedGravity(model, data, q)
-        for end, frame in enumerate(loaded.frames):
+        for end, frame in enumerate(urdf_model.frames):
             jacobian = pin.getFrameJacobian(model, data, frame, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED)
             load = load - jacobian[:3].T @ forces_W[i, end]
         torques[i] = load[6:]
@@ -74,8 +74,8 @@ def recorded(plan: mp.Plan, rate_hz: float = 100.0, until_s: float = np.inf) -> 
         angular_momentum_W=momentum_W,
         angular_momentum_plan_W=fine.angular_momentum_W[:n],
         base_quat_xyzw_plan=quats,
-        ends_W=ends_W,
-        ends_plan_W=fine.positions_W[:n],
+        end_effectors_W=end_effectors_W,
+        end_effectors_plan_W=fine.positions_W[:n],
         forces_W=forces_W,
         forces_plan_W=fine.forces_W[:n],
         contacts=np.linalg.norm(forces_W, axis=2) > 5.0,

@@ -28,11 +28,11 @@ def standing(model: SimulationModel, lift_m: float = 0.0) -> np.ndarray:
     """Configuration in the nominal posture, soles at z = lift_m and their middle above x = 0."""
     import pinocchio as pin
 
-    pin_model, frames = model.loaded.model, model.loaded.frames
-    configuration = model.loaded.neutral.copy()
+    pin_model, frames = model.urdf_model.model, model.urdf_model.frames
+    configuration = model.urdf_model.neutral.copy()
     data = pin_model.createData()
     pin.framesForwardKinematics(pin_model, data, configuration)
-    feet = [f for f, e in zip(frames, model.loaded.robot.end_effectors, strict=True) if e.kind == "foot"]
+    feet = [f for f, e in zip(frames, model.urdf_model.robot.end_effectors, strict=True) if e.kind == "foot"]
     middle = np.mean([data.oMf[frame].translation for frame in feet], axis=0)
     configuration[:3] += [0.0, 0.0, lift_m] - middle
     return configuration
@@ -50,8 +50,8 @@ def random_state(model: SimulationModel, rng: np.random.Generator) -> tuple[np.n
     """Configuration, velocity and acceleration as Pinocchio has them, far from the nominal posture."""
     import pinocchio as pin
 
-    pin_model = model.loaded.model
-    turned = pin.integrate(pin_model, model.loaded.neutral, 0.7 * rng.normal(size=pin_model.nv))
+    pin_model = model.urdf_model.model
+    turned = pin.integrate(pin_model, model.urdf_model.neutral, 0.7 * rng.normal(size=pin_model.nv))
     return turned, rng.normal(size=pin_model.nv), 3.0 * rng.normal(size=pin_model.nv)
 
 

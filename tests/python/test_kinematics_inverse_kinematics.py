@@ -24,8 +24,8 @@ def walking(talos):
     scene = by_hand.flat()
     plan = by_hand.walk(scene, talos)
     samples = sample(plan, scene, talos, 10.0)
-    loaded = load_model(talos)
-    return samples, loaded.model, follow(loaded, samples)
+    urdf_model = load_model(talos)
+    return samples, urdf_model.model, follow(urdf_model, samples)
 
 
 def test_postures_meet_com_and_contacts(walking, talos):
@@ -62,8 +62,8 @@ def test_a_low_walk_over_tilted_patches_is_followed_with_its_soles_on_them():
     plan = mp.walk("rubbles", cycles=3).plan
     robot = plan.robot
     samples = sample(plan, plan.scene, robot, 10.0)
-    loaded = load_model(robot)
-    model, postures = loaded.model, follow(loaded, samples)
+    urdf_model = load_model(robot)
+    model, postures = urdf_model.model, follow(urdf_model, samples)
     ankles = [model.idx_qs[model.getJointId(f"leg_{side}_5_joint")] for side in ("left", "right")]
     assert postures.configurations[:, ankles].min() < model.lowerPositionLimit[ankles[0]] + 1e-3  # it is such a walk
     assert postures.residual < 0.05, postures.where
@@ -100,10 +100,10 @@ def test_misses_and_tilts_are_those_of_the_frames(walking, talos):
 def test_out_of_reach_more_iterations_change_little(talos):
     """Beside a stretched knee plain Gauss-Newton swings to and fro: misses would depend on where it is stopped."""
     plan = by_hand.walk(by_hand.stairs(), talos)  # treads half a metre apart
-    loaded = load_model(talos)
+    urdf_model = load_model(talos)
     samples = sample(plan, plan.scene, talos, 40.0)
-    once = follow(loaded, samples)
-    again = follow(loaded, samples, once.configurations)
+    once = follow(urdf_model, samples)
+    again = follow(urdf_model, samples, once.configurations)
     assert 0.01 < once.residual < 0.05, once.where
     assert again.residual == pytest.approx(once.residual, abs=0.01)
     feet = once.end_misses[:, :2]
@@ -114,11 +114,11 @@ def test_postures_turn_with_the_base_and_the_soles_of_a_plan():
     """A turn of 180 degrees: nothing is missed, wherever the robot heads, and legs are twisted by half a step at most."""
     robot = mp.load_robot("talos")
     plan = wrenches.turning(robot, angle=np.pi, pairs=3)
-    loaded = load_model(robot)
-    found = follow(loaded, sample(plan, plan.scene, robot, 10.0))
+    urdf_model = load_model(robot)
+    found = follow(urdf_model, sample(plan, plan.scene, robot, 10.0))
     assert found.residual < 2e-3, found.where
     assert np.degrees(found.tilts.max()) < 1.0
     last = found.configurations[-1]
     assert np.degrees(2.0 * np.arctan2(np.linalg.norm(last[3:6]), abs(last[6]))) == pytest.approx(180.0, abs=1.5)
     backwards = sample_at(plan, plan.scene, robot, np.array([plan.duration()]))  # alone: from the robot's own posture
-    assert follow(loaded, backwards).residual < 2e-3
+    assert follow(urdf_model, backwards).residual < 2e-3

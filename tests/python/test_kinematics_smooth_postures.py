@@ -23,16 +23,18 @@ def largest_rates(model, times, configurations) -> np.ndarray:
 
 def test_smoothed_postures_meet_the_plan_and_leave_out_jumps_of_the_torso():
     plan = mp.walk("rubbles", cycles=2).plan
-    loaded = load_model(plan.robot)
+    urdf_model = load_model(plan.robot)
     samples = sample(plan, plan.scene, plan.robot, 40.0)
-    postures = follow(loaded, samples)
-    calm = smoothed(loaded, samples, postures)
-    torso = loaded.model.joints[loaded.model.getJointId("torso_2_joint")].idx_v - 6
-    before, after = (largest_rates(loaded.model, samples.times_s, p.configurations)[torso] for p in (postures, calm))
+    postures = follow(urdf_model, samples)
+    smooth = smoothed(urdf_model, samples, postures)
+    torso = urdf_model.model.joints[urdf_model.model.getJointId("torso_2_joint")].idx_v - 6
+    before, after = (
+        largest_rates(urdf_model.model, samples.times_s, p.configurations)[torso] for p in (postures, smooth)
+    )
     assert after < 0.5 * before
-    assert calm.residual < 0.02, calm.where
-    best = nearest(loaded, samples, postures, calm)
-    assert best.residual <= min(postures.residual, calm.residual)
+    assert smooth.residual < 0.02, smooth.where
+    best = nearest(urdf_model, samples, postures, smooth)
+    assert best.residual <= min(postures.residual, smooth.residual)
 
 
 def test_running_means_leave_steady_motion_alone():

@@ -13,21 +13,21 @@ from two_link_arm import LENGTHS, MASSES, arm_robot
 pin = pytest.importorskip("pinocchio")
 
 
-def contact_pose(loaded, q, end=0):
-    data = loaded.model.createData()
-    pin.framesForwardKinematics(loaded.model, data, q)
-    return data.oMf[loaded.frames[end]]
+def contact_pose(urdf_model, q, end=0):
+    data = urdf_model.model.createData()
+    pin.framesForwardKinematics(urdf_model.model, data, q)
+    return data.oMf[urdf_model.frames[end]]
 
 
-def configuration(loaded, angles, base=(0.0, 0.0, 0.0), turn=None) -> np.ndarray:
+def configuration(urdf_model, angles, base=(0.0, 0.0, 0.0), turn=None) -> np.ndarray:
     quaternion = np.array([0.0, 0.0, 0.0, 1.0]) if turn is None else pin.Quaternion(turn).coeffs()
     return np.concatenate([base, quaternion, angles])
 
 
 def test_contact_point_of_two_links_is_where_trigonometry_puts_it(tmp_path):
-    loaded = load_model(arm_robot(tmp_path))
+    urdf_model = load_model(arm_robot(tmp_path))
     for a, b in ((0.0, 0.0), (0.3, 0.5), (-1.0, 2.0)):
-        found = contact_pose(loaded, configuration(loaded, [a, b], base=(1.0, 2.0, 3.0)))
+        found = contact_pose(urdf_model, configuration(urdf_model, [a, b], base=(1.0, 2.0, 3.0)))
         x = LENGTHS[0] * np.cos(a) + LENGTHS[1] * np.cos(a + b)
         z = -LENGTHS[0] * np.sin(a) - LENGTHS[1] * np.sin(a + b)
         assert found.translation == pytest.approx([1.0 + x, 2.0, 3.0 + z])
@@ -36,13 +36,15 @@ def test_contact_point_of_two_links_is_where_trigonometry_puts_it(tmp_path):
 def test_contact_frame_has_the_bases_axes_in_the_posture_and_turns_with_its_link(tmp_path):
     robot = arm_robot(tmp_path)
     robot.posture = {"shoulder": 0.4, "elbow": 0.7}
-    loaded = load_model(robot)
-    assert loaded.neutral[7:] == pytest.approx([0.4, 0.7])
-    assert contact_pose(loaded, loaded.neutral).rotation == pytest.approx(np.eye(3), abs=1e-12)
-    turned = contact_pose(loaded, configuration(loaded, [0.4, 0.9])).rotation
+    urdf_model = load_model(robot)
+    assert urdf_model.neutral[7:] == pytest.approx([0.4, 0.7])
+    assert contact_pose(urdf_model, urdf_model.neutral).rotation == pytest.approx(np.eye(3), abs=1e-12)
+    turned = contact_pose(urdf_model, configuration(urdf_model, [0.4, 0.9])).rotation
     assert turned == pytest.approx(pin.rpy.rpyToMatrix(0.0, 0.2, 0.0), abs=1e-12)
     yaw = pin.rpy.rpyToMatrix(0.0, 0.0, 1.1)
-    assert contact_pose(loaded, configuration(loaded, [0.4, 0.7], turn=yaw)).rotation == pytest.approx(yaw, abs=1e-12)
+    assert contact_pose(urdf_model, configuration(urdf_model, [0.4, 0.7], turn=yaw)).rotation == pytest.approx(
+        yaw, abs=1e-12
+    )
 
 
 def test_offset_is_in_the_axes_of_the_urdfs_frame(tmp_path):
@@ -51,18 +53,18 @@ def test_offset_is_in_the_axes_of_the_urdfs_frame(tmp_path):
     robot.posture = {"shoulder": np.pi / 2}
     plain = contact_pose(load_model(robot), load_model(robot).neutral).translation
     robot.end_effectors[0].frame_offset = [0.05, 0.02, 0.01]
-    loaded = load_model(robot)
-    found = contact_pose(loaded, loaded.neutral)
+    urdf_model = load_model(robot)
+    found = contact_pose(urdf_model, urdf_model.neutral)
     assert found.translation - plain == pytest.approx([0.01, 0.02, -0.05], abs=1e-12)
     assert found.rotation == pytest.approx(np.eye(3), abs=1e-12)
 
 
 def test_base_stands_at_the_origin_and_masses_are_the_urdfs(tmp_path):
-    loaded = load_model(arm_robot(tmp_path))
-    assert loaded.neutral[:7] == pytest.approx([0, 0, 0, 0, 0, 0, 1])
-    assert sum(inertia.mass for inertia in loaded.model.inertias) == pytest.approx(50.0 + sum(MASSES))
-    assert loaded.path == (tmp_path / "arm.urdf").resolve()
-    assert [loaded.model.frames[f].name for f in loaded.frames] == ["mcplan/hand"]
+    urdf_model = load_model(arm_robot(tmp_path))
+    assert urdf_model.neutral[:7] == pytest.approx([0, 0, 0, 0, 0, 0, 1])
+    assert sum(inertia.mass for inertia in urdf_model.model.inertias) == pytest.approx(50.0 + sum(MASSES))
+    assert urdf_model.path == (tmp_path / "arm.urdf").resolve()
+    assert [urdf_model.model.frames[f].name for f in urdf_model.frames] == ["mcplan/hand"]
 
 
 def test_link_is_meant_where_a_joint_bears_its_name(tmp_path):
@@ -70,20 +72,20 @@ def test_link_is_meant_where_a_joint_bears_its_name(tmp_path):
     robot = arm_robot(tmp_path)
     file = tmp_path / "arm.urdf"
     file.write_text(file.read_text().replace('joint name="elbow"', 'joint name="tip"'))
-    loaded = load_model(robot)
-    assert contact_pose(loaded, loaded.neutral).translation == pytest.approx([sum(LENGTHS), 0.0, 0.0])
+    urdf_model = load_model(robot)
+    assert contact_pose(urdf_model, urdf_model.neutral).translation == pytest.approx([sum(LENGTHS), 0.0, 0.0])
 
 
 def test_talos_feet_are_flat_and_apart_in_its_posture():
     pytest.importorskip("example_robot_data")
     robot = mp.load_robot("talos")
-    loaded = load_model(robot)
-    com = pin.centerOfMass(loaded.model, loaded.model.createData(), loaded.neutral)
+    urdf_model = load_model(robot)
+    com = pin.centerOfMass(urdf_model.model, urdf_model.model.createData(), urdf_model.neutral)
     for end in range(2):
-        found = contact_pose(loaded, loaded.neutral, end)
+        found = contact_pose(urdf_model, urdf_model.neutral, end)
         assert found.rotation == pytest.approx(np.eye(3), abs=1e-9)
         assert found.translation - com == pytest.approx(robot.end_effectors[end].nominal_B, abs=2e-3)
-    assert sum(inertia.mass for inertia in loaded.model.inertias) == pytest.approx(robot.mass, abs=1e-3)
+    assert sum(inertia.mass for inertia in urdf_model.model.inertias) == pytest.approx(robot.mass, abs=1e-3)
 
 
 def test_bad_urdf_robots_are_named(tmp_path):

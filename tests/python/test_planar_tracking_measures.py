@@ -36,7 +36,7 @@ def test_a_perfect_run_has_no_errors():
     measures = of(perfect())
     zeros = ("force_rms", "force_rms_robot", "drift_m", "slip_m", "joint_rms_rad", "base_rms_m", "early_contact_N_s")
     assert [getattr(measures, name) for name in zeros] == [0.0] * len(zeros)
-    assert measures.torque_feedback_share == 0.0
+    assert measures.torque_feedback_ratio == 0.0
     assert measures.completed
 
 
@@ -45,7 +45,7 @@ def test_forces_a_fifth_too_large_are_an_error_of_a_fifth_everywhere():
     measures = of(replace(run, forces_W=1.2 * run.forces_plan_W))
     assert measures.force_rms == pytest.approx(0.2)
     assert measures.force_rms_robot == pytest.approx(0.2)
-    assert measures.force_rms_ends == {name: pytest.approx(0.2) for name in "ABC"}
+    assert measures.force_rms_end_effectors == {name: pytest.approx(0.2) for name in "ABC"}
 
 
 def test_what_one_end_effector_gives_another_is_seen_at_each_but_not_in_the_sum():
@@ -56,7 +56,7 @@ def test_what_one_end_effector_gives_another_is_seen_at_each_but_not_in_the_sum(
     assert measures.force_rms_robot == pytest.approx(0.0, abs=1e-12)
     for name, e in (("A", 0), ("B", 1)):
         planned = np.nansum(run.forces_plan_W[run.within_plan, e], axis=1)
-        assert measures.force_rms_ends[name] == pytest.approx(5.0 / np.sqrt((planned**2).sum(axis=1).mean()))
+        assert measures.force_rms_end_effectors[name] == pytest.approx(5.0 / np.sqrt((planned**2).sum(axis=1).mean()))
 
 
 def test_how_points_of_an_end_effector_share_its_force_does_not_matter():
@@ -106,7 +106,7 @@ def test_distances_torques_and_endings():
     assert measures.joint_rms_rad == pytest.approx(0.01)
     assert measures.base_rms_m == pytest.approx(0.005)
     assert measures.torque_use == pytest.approx(0.9)
-    assert measures.torque_feedback_share == pytest.approx(0.5)
+    assert measures.torque_feedback_ratio == pytest.approx(0.5)
     assert not measures.completed
     assert measures.completed_s == 0.25
     assert measures.as_dict()["completed_s"] == 0.25

@@ -22,11 +22,11 @@ def test_the_simulator_finds_the_planned_forces():
     assert measures.completed_s == pytest.approx(cartwheel().duration() + QUICK.hold_s, abs=QUICK.control_step_s)
     assert measures.force_rms < 0.1
     assert measures.force_rms_robot < 0.1
-    assert set(measures.force_rms_ends) == {"A", "B", "C"}
-    assert max(measures.force_rms_ends.values()) < 0.1
+    assert set(measures.force_rms_end_effectors) == {"A", "B", "C"}
+    assert max(measures.force_rms_end_effectors.values()) < 0.1
     assert measures.drift_m < 0.01
     assert measures.simulator_warnings == 0
-    assert measures.torque_feedback_share < 0.1  # the forces are the plan's torques' doing
+    assert measures.torque_feedback_ratio < 0.1  # the forces are the plan's torques' doing
 
 
 def test_a_robot_that_is_a_tenth_heavier_has_other_forces():
@@ -63,7 +63,7 @@ def test_without_feedback_the_robot_falls_over_its_foot():
     """Torques alone hold no robot up: what little the feedback adds is needed, and is all that is needed."""
     passive = track_whole_body(cartwheel(), QUICK, feedback=Feedback(stiffness=0.0, damping_s=0.0))
     assert not passive.measures.completed
-    assert passive.measures.torque_feedback_share == 0.0
+    assert passive.measures.torque_feedback_ratio == 0.0
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import pytest
 import planar_recordings
 from mcplan.planar.view import save_planar_run_plots, show_planar_run
 from mcplan.planar.view.plots_run import (
-    feedback_share,
+    feedback_ratio,
     force_error,
     joint_error_deg,
     plot_planar_run_forces,
@@ -71,13 +71,13 @@ def test_errors_are_those_that_were_put_in(recording):
     assert force == pytest.approx(0.05 * np.sqrt(np.mean(np.sum(planned**2, axis=2))))
     assert joint_error_deg(recording)[:, 0] == pytest.approx(np.degrees(planar_recordings.TURN))
     assert joint_error_deg(recording)[:, 1:] == pytest.approx(0.0)
-    assert feedback_share(recording) == pytest.approx(planar_recordings.FEEDBACK)
+    assert feedback_ratio(recording) == pytest.approx(planar_recordings.FEEDBACK)
 
 
 def test_drift_of_a_limb_that_only_the_base_moves_is_the_bases(recording):
     drift = point_drift(recording)
     # The first joint is of the left leg: the right foot is off by what the base is. 1 mm: the plan's own drift.
-    (right,) = [i for i, name in enumerate(recording.ends) if name == "right_foot"]
+    (right,) = [i for i, name in enumerate(recording.end_effectors) if name == "right_foot"]
     known = np.isfinite(drift[:, right])
     assert known.any() and not known.all()
     assert drift[known, right] == pytest.approx(np.linalg.norm(planar_recordings.OFFSET), abs=1e-3)

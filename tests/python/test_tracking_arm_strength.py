@@ -79,12 +79,12 @@ def test_random_postures_repeat_with_their_seed(arm):
 
 def test_talos_pushes_far_less_than_half_its_weight():
     pytest.importorskip("example_robot_data")
-    loaded = load_model(mp.load_robot("talos"))
-    hand = loaded.robot.end_effector_index("right_hand")
-    names = [loaded.model.names[joint] for joint in own_joints(loaded, hand)]
+    urdf_model = load_model(mp.load_robot("talos"))
+    hand = urdf_model.robot.end_effector_index("right_hand")
+    names = [urdf_model.model.names[joint] for joint in own_joints(urdf_model, hand)]
     assert names == [f"arm_right_{i}_joint" for i in range(1, 8)]
-    down = random_strengths(loaded, hand, 500)[0]
+    down = random_strengths(urdf_model, hand, 500)[0]
     assert down.direction == "down"
     assert 70.0 < down.quantile_N(0.5) < 110.0 and 110.0 < down.quantile_N(0.9) < 150.0
-    half = 0.5 * G * sum(inertia.mass for inertia in loaded.model.inertias)
+    half = 0.5 * G * sum(inertia.mass for inertia in urdf_model.model.inertias)
     assert down.quantile_N(0.9) < 0.5 * half

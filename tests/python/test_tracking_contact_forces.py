@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-from mcplan.tracking.contact_forces import FRICTION_SHARE, SIDES, SOLE_SHARE, ForcePoints, clipped, pyramid
+from mcplan.tracking.contact_forces import FRICTION_RATIO, SIDES, SOLE_RATIO, ForcePoints, clipped, pyramid
 
 HALF = np.array([0.1, 0.06])
 
@@ -60,8 +60,8 @@ def test_clipping_by_what_holds_it_or_misses_it_is_all_or_nothing():
 def test_a_whole_sole_bears_at_its_four_corners_drawn_in():
     points = ForcePoints.of(HALF)
     assert points.count == 4
-    np.testing.assert_allclose(np.sort(np.abs(points.offsets[:, 0])), SOLE_SHARE * HALF[0])
-    np.testing.assert_allclose(np.sort(np.abs(points.offsets[:, 1])), SOLE_SHARE * HALF[1])
+    np.testing.assert_allclose(np.sort(np.abs(points.offsets[:, 0])), SOLE_RATIO * HALF[0])
+    np.testing.assert_allclose(np.sort(np.abs(points.offsets[:, 1])), SOLE_RATIO * HALF[1])
     assert len(np.unique(np.sign(points.offsets[:, :2]), axis=0)) == 4
     # A surface that is large enough changes nothing.
     around = np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])
@@ -71,7 +71,7 @@ def test_a_whole_sole_bears_at_its_four_corners_drawn_in():
 def test_an_end_without_a_sole_bears_at_its_point():
     points = ForcePoints.of(np.zeros(2))
     assert points.count == 1 and not points.offsets.any()
-    np.testing.assert_array_equal(points.share(np.array([1.0, 2, 3]), np.array([0.1, 0.2])), [1.0, 2, 3])
+    np.testing.assert_array_equal(points.distribute(np.array([1.0, 2, 3]), np.array([0.1, 0.2])), [1.0, 2, 3])
 
 
 def test_only_what_is_on_the_surface_bears():
@@ -83,7 +83,7 @@ def test_only_what_is_on_the_surface_bears():
         points = ForcePoints.of(HALF, outline)
         assert points.count == 4 and not points.offsets[:, 2].any()
         assert inside(sole, points.offsets[:, :2], -1e-12).all()
-        if len(clipped(SOLE_SHARE * sole, outline)) < 3:
+        if len(clipped(SOLE_RATIO * sole, outline)) < 3:
             continue
         partial += 1
         assert inside(outline, points.offsets[:, :2], -1e-9).all()
@@ -106,7 +106,7 @@ def test_shares_have_the_sum_and_the_centre_of_pressure_that_they_are_to_have():
         points = ForcePoints.of(HALF, outline)
         turn = Rotation.random(random_state=int(rng.integers(1e6))).as_matrix()
         force, pressure = rng.normal(size=3), rng.uniform(-1.0, 1.0, 2) * HALF
-        forces = points.share(force, pressure)
+        forces = points.distribute(force, pressure)
         wrench = points.map(turn) @ forces
         np.testing.assert_allclose(wrench[:3], force, atol=1e-9)
         np.testing.assert_allclose(wrench[3:], np.cross(turn @ [*pressure, 0.0], force), atol=1e-9)
@@ -135,8 +135,8 @@ def test_a_pyramid_is_inside_the_cone_and_fills_most_of_it(friction):
         across = np.linalg.norm(forces - np.outer(along, normal), axis=1)
         allowed = (forces @ rows.T >= 0.0).all(axis=1)
         assert (along[allowed] >= 0.0).all()
-        assert (across[allowed] <= FRICTION_SHARE * friction * along[allowed] + 1e-9).all()
-        well_inside = across < np.cos(np.pi / SIDES) * FRICTION_SHARE * friction * along - 1e-9
+        assert (across[allowed] <= FRICTION_RATIO * friction * along[allowed] + 1e-9).all()
+        well_inside = across < np.cos(np.pi / SIDES) * FRICTION_RATIO * friction * along - 1e-9
         assert allowed[well_inside].all() and well_inside.any()
         assert (rows @ normal > 0.0).all()
 

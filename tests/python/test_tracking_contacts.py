@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from mcplan.tracking.contacts import EARLY_SHARE, SEARCH_DEPTH, SEARCH_SPEED, Contact, Mode
+from mcplan.tracking.contacts import EARLY_FRACTION, SEARCH_DEPTH, SEARCH_SPEED, Contact, Mode
 
 FREE, CONTACT, SEARCH = Mode.FREE, Mode.CONTACT, Mode.SEARCH
-SOON, LATER = EARLY_SHARE + 0.05, EARLY_SHARE - 0.05
+SOON, LATER = EARLY_FRACTION + 0.05, EARLY_FRACTION - 0.05
 
-# mode before, planned, touches, share of the swing; mode after, came into contact just now
+# mode before, planned, in contact, fraction of the swing; mode after, came into contact just now
 TABLE = [
     (FREE, False, False, 0.0, FREE, False),
     (FREE, False, False, SOON, FREE, False),
-    (FREE, False, True, LATER, FREE, False),  # has not left yet, or touches in passing
+    (FREE, False, True, LATER, FREE, False),  # has not left yet, or is in contact in passing
     (FREE, False, True, SOON, CONTACT, True),  # early
     (FREE, True, True, 1.0, CONTACT, True),  # in time
     (FREE, True, False, 1.0, SEARCH, False),  # late
@@ -29,10 +29,10 @@ TABLE = [
 ]
 
 
-@pytest.mark.parametrize(("before", "planned", "touches", "share", "after", "landed"), TABLE)
-def test_a_step_of_the_contact(before, planned, touches, share, after, landed):
+@pytest.mark.parametrize(("before", "planned", "in_contact", "fraction", "after", "landed"), TABLE)
+def test_a_step_of_the_contact(before, planned, in_contact, fraction, after, landed):
     contact = Contact(mode=before)
-    assert contact.update(planned, touches, share, 0.002) is landed
+    assert contact.update(planned, in_contact, fraction, 0.002) is landed
     assert contact.mode is after
 
 
@@ -61,6 +61,6 @@ def test_a_search_that_the_plan_ends_is_forgotten():
 
 def test_early_landing_lands_once():
     contact = Contact()
-    landed = [contact.update(False, touches, SOON, 0.002) for touches in (False, True, False, True)]
+    landed = [contact.update(False, in_contact, SOON, 0.002) for in_contact in (False, True, False, True)]
     landed.append(contact.update(True, True, 1.0, 0.002))
     assert landed == [False, True, False, False, False]

@@ -27,13 +27,13 @@ from mcplan.tracking.simulation import Simulation  # noqa: E402
 LOOSE = 1e-3
 
 
-def controller_of(name="talos", plan=None, wanted=None, loaded=None):
+def controller_of(name="talos", plan=None, desired=None, urdf_model=None):
     """A controller that is watched, and the configuration with which the plan starts."""
-    loaded = loaded or tracked.loaded(name)
+    urdf_model = urdf_model or tracked.urdf_model(name)
     if plan is None:
-        plan, wanted = tracked.still(name)
-    start = follow(loaded, sample_at(plan, plan.scene, plan.robot, np.zeros(1))).configurations[0]
-    controller = Controller(loaded, plan.scene, wanted, start, Gains())
+        plan, desired = tracked.still(name)
+    start = follow(urdf_model, sample_at(plan, plan.scene, plan.robot, np.zeros(1))).configurations[0]
+    controller = Controller(urdf_model, plan.scene, desired, start, Gains())
     controller.qp = tracked.Watched()
     return controller, start
 
@@ -45,7 +45,7 @@ def parts_of(controller):
     for i, contact in enumerate(controller.contacts):
         if contact.mode is not Mode.CONTACT:
             continue
-        motion = controller.body.end(i)
+        motion = controller.dynamics.end_effector(i)
         for offset in controller.points[i].offsets:
             found.append((i, motion.position_W + motion.rotation_W @ offset, solution[at : at + 3]))
             at += 3
@@ -55,13 +55,13 @@ def parts_of(controller):
 
 def generalised(controller, forces):
     """(nv,) of forces at points, by the Jacobians of points fixed to the links, made from differences."""
-    loaded, body, h = controller.loaded, controller.body, 1e-6
-    model, result = loaded.model, np.zeros(controller.nv)
+    urdf_model, dynamics, h = controller.urdf_model, controller.dynamics, 1e-6
+    model, result = urdf_model.model, np.zeros(controller.nv)
     for column, unit in enumerate(np.eye(controller.nv)):
         data = model.createData()
-        pin.framesForwardKinematics(model, data, pin.integrate(model, body.configuration, h * unit))
+        pin.framesForwardKinematics(model, data, pin.integrate(model, dynamics.configuration, h * unit))
         for end, point, force in forces:
-            before, after = body.end(end), data.oMf[loaded.frames[end]]
+            before, after = dynamics.end_effector(end), data.oMf[urdf_model.frames[end]]
             moved = after.act(before.rotation_W.T @ (point - before.position_W))
             result[column] += force @ (moved - point) / h
     return result
@@ -70,20 +70,20 @@ def generalised(controller, forces):
 def assert_obeys(controller, command):
     """Equations of motion, limits and cones, worked out from the solution anew."""
     acceleration, forces = parts_of(controller)
-    body, loaded = controller.body, controller.loaded
-    data = loaded.model.createData()
+    dynamics, urdf_model = controller.dynamics, controller.urdf_model
+    data = urdf_model.model.createData()
     wrench = np.zeros(6)
     scale = 1.0 + sum(np.linalg.norm(force) for _, _, force in forces)
     for _, point, force in forces:
-        arm = point - body.configuration[:3]
-        wrench += [*(body.base_WB.T @ force), *(body.base_WB.T @ np.cross(arm, force))]
-    inverse = pin.rnea(loaded.model, data, body.configuration, body.velocity, acceleration)
+        arm = point - dynamics.configuration[:3]
+        wrench += [*(dynamics.base_WB.T @ force), *(dynamics.base_WB.T @ np.cross(arm, force))]
+    inverse = pin.rnea(urdf_model.model, data, dynamics.configuration, dynamics.velocity, acceleration)
     np.testing.assert_allclose(inverse[:6], wrench, atol=1e-5 * scale)
     assert (np.abs(command.torques) <= controller.limits).all()
     # Limits are in the program: what is cut off its torques is no more than its tolerance.
     torques = inverse[6:].copy()
     for end, point, force in forces:
-        motion = body.end(end)
+        motion = dynamics.end_effector(end)
         torques -= motion.jacobian[:, 6:].T @ [*force, *np.cross(point - motion.position_W, force)]
     np.testing.assert_allclose(command.torques, torques, atol=LOOSE)
     for end, _, force in forces:
@@ -100,63 +100,63 @@ def keep_friction(monkeypatch):
     """Friction of the surfaces beside their normals, for the checks above."""
     made = Controller.__init__
 
-    def init(self, loaded, scene, *rest):
-        made(self, loaded, scene, *rest)
+    def init(self, urdf_model, scene, *rest):
+        made(self, urdf_model, scene, *rest)
         self.friction = [surface.friction for surface in scene.surfaces]
 
     monkeypatch.setattr(Controller, "__init__", init)
 
 
-def touching(controller, n=0):
+def contacts_at(controller, n=0):
     return controller.references.surfaces[n] >= 0
 
 
 @pytest.mark.parametrize("name", ["talos", "g1"])
 def test_standing_is_statics(name):
     controller, start = controller_of(name)
-    command = controller.step(0, start, np.zeros(controller.nv), touching(controller))
+    command = controller.step(0, start, np.zeros(controller.nv), contacts_at(controller))
     assert command.solved
     acceleration, forces = assert_obeys(controller, command)
-    weight = controller.body.mass * 9.81
+    weight = controller.dynamics.mass * 9.81
     total = np.sum([force for _, _, force in forces], axis=0)
     np.testing.assert_allclose(total, [0.0, 0.0, weight], atol=0.1 * weight)
     # What is not statics is the inertia of the small accelerations asked for: none without them.
-    model, data = controller.loaded.model, controller.loaded.model.createData()
+    model, data = controller.urdf_model.model, controller.urdf_model.model.createData()
     gravity = pin.computeGeneralizedGravity(model, data, start)
-    expected = gravity + controller.body.inertia @ acceleration - generalised(controller, forces)
+    expected = gravity + controller.dynamics.inertia @ acceleration - generalised(controller, forces)
     np.testing.assert_allclose(expected[6:], command.torques, atol=0.05)
 
 
 def test_a_robot_that_is_where_it_should_be_stands_by_its_weight_alone():
     """References and posture are put exactly where the robot is: nothing accelerates, forces are the weight."""
-    plan, wanted = tracked.still()
+    plan, desired = tracked.still()
     controller, start = controller_of()
-    body = controller.body
-    body.update(start, np.zeros(controller.nv))
-    n = wanted.count
-    ends = [body.end(i) for i in range(len(controller.contacts))]
-    wanted = replace(
-        wanted,
-        com_W=np.repeat(body.com_W[None], n, axis=0),
-        base_WB=np.repeat(body.base_WB[None], n, axis=0),
+    dynamics = controller.dynamics
+    dynamics.update(start, np.zeros(controller.nv))
+    n = desired.count
+    ends = [dynamics.end_effector(i) for i in range(len(controller.contacts))]
+    desired = replace(
+        desired,
+        com_W=np.repeat(dynamics.com_W[None], n, axis=0),
+        base_WB=np.repeat(dynamics.base_WB[None], n, axis=0),
         com_acceleration_W=np.zeros((n, 3)),
-        ends_W=np.repeat(np.array([e.position_W for e in ends])[None], n, axis=0),
+        end_effectors_W=np.repeat(np.array([e.position_W for e in ends])[None], n, axis=0),
         soles_W=np.repeat(np.array([e.rotation_W for e in ends])[None], n, axis=0),
     )
-    controller, _ = controller_of(plan=plan, wanted=wanted)
-    command = controller.step(0, start, np.zeros(controller.nv), touching(controller))
+    controller, _ = controller_of(plan=plan, desired=desired)
+    command = controller.step(0, start, np.zeros(controller.nv), contacts_at(controller))
     acceleration, forces = assert_obeys(controller, command)
     assert np.abs(acceleration).max() < 0.02
     total = np.sum([force for _, _, force in forces], axis=0)
-    weight = body.mass * 9.81
+    weight = dynamics.mass * 9.81
     np.testing.assert_allclose(total, [0.0, 0.0, weight], atol=2e-3 * weight)
-    model = controller.loaded.model
+    model = controller.urdf_model.model
     pulls = pin.StdVec_Force()
     data = model.createData()
     pin.framesForwardKinematics(model, data, start)
     outer = [pin.Force.Zero() for _ in range(model.njoints)]
     for end, point, force in forces:
-        joint = model.frames[controller.loaded.frames[end]].parentJoint
+        joint = model.frames[controller.urdf_model.frames[end]].parentJoint
         local = data.oMi[joint].rotation.T @ force
         outer[joint] += pin.Force(local, np.cross(data.oMi[joint].actInv(point), local))
     pulls.extend(outer)
@@ -168,7 +168,7 @@ def test_a_robot_that_is_where_it_should_be_stands_by_its_weight_alone():
 @pytest.mark.parametrize("name", ["talos", "g1"])
 def test_any_state_and_any_contacts_are_solved(name):
     controller, start = controller_of(name)
-    model, rng = controller.loaded.model, np.random.default_rng(21)
+    model, rng = controller.urdf_model.model, np.random.default_rng(21)
     low, high = controller.lower, controller.upper
     modes = [Mode.FREE, Mode.CONTACT, Mode.SEARCH]
     for draw in range(100):
@@ -183,15 +183,15 @@ def test_any_state_and_any_contacts_are_solved(name):
             contact.mode = modes[flag]
             contact.position_W, contact.rotation_W = np.zeros(3), np.eye(3)
         # As the plan may have it that all are in contact, none changes its mode.
-        touches = np.array([flag == 1 for flag in flags])
+        in_contact = np.array([flag == 1 for flag in flags])
         surfaces = np.where(flags == 0, -1, 0)
         controller.references = replace(
             controller.references,
             surfaces=np.repeat(surfaces[None], controller.references.count, axis=0),
-            swing_share=np.full(controller.references.swing_share.shape, 0.5),
+            swing_fraction=np.full(controller.references.swing_fraction.shape, 0.5),
             returns=np.full(controller.references.returns.shape, bool(draw % 3)),
         )
-        command = controller.step(0, configuration, velocity, touches)
+        command = controller.step(0, configuration, velocity, in_contact)
         assert [c.mode for c in controller.contacts] == [modes[f] for f in flags]
         assert command.solved, f"draw {draw}: contacts {flags}, speed {np.abs(velocity).max():.1f}"
         assert np.isfinite(command.torques).all()
@@ -207,24 +207,26 @@ def test_joints_beyond_their_limits_are_brought_back():
             configuration = start.copy()
             configuration[7 + joint] = limit[joint] - sign * 0.02
             fresh, _ = controller_of()
-            assert fresh.step(0, configuration, np.zeros(controller.nv), touching(controller)).solved
-            assert sign * parts_of(fresh)[0][6 + joint] > 1.0, controller.loaded.model.names[2 + joint]
+            assert fresh.step(0, configuration, np.zeros(controller.nv), contacts_at(controller)).solved
+            assert sign * parts_of(fresh)[0][6 + joint] > 1.0, controller.urdf_model.model.names[2 + joint]
 
 
 def test_torques_of_the_last_solution_are_held_when_there_is_none():
     controller, start = controller_of()
-    before = controller.step(0, start, np.zeros(controller.nv), touching(controller))
+    before = controller.step(0, start, np.zeros(controller.nv), contacts_at(controller))
     controller.qp.solve = lambda problem, structure: None
-    after = controller.step(1, start, np.ones(controller.nv), touching(controller))
+    after = controller.step(1, start, np.ones(controller.nv), contacts_at(controller))
     assert not after.solved
     np.testing.assert_array_equal(after.torques, before.torques)
 
 
 def test_in_flight_the_com_falls_and_the_torques_leave_the_angular_momentum():
-    plan, wanted = tracked.still()
-    wanted = replace(wanted, surfaces=np.full_like(wanted.surfaces, -1), swing_share=np.zeros(wanted.swing_share.shape))
+    plan, desired = tracked.still()
+    desired = replace(
+        desired, surfaces=np.full_like(desired.surfaces, -1), swing_fraction=np.zeros(desired.swing_fraction.shape)
+    )
     simulation = Simulation(build(mp.load_robot("talos"), plan.scene, Options()))
-    controller, start = controller_of(plan=plan, wanted=wanted, loaded=simulation.model.loaded)
+    controller, start = controller_of(plan=plan, desired=desired, urdf_model=simulation.model.urdf_model)
     rng = np.random.default_rng(2)
     start[2] += 1.0
     simulation.reset(start, 0.3 * rng.normal(size=controller.nv))
@@ -235,11 +237,11 @@ def test_in_flight_the_com_falls_and_the_torques_leave_the_angular_momentum():
         assert command.solved
         acceleration, forces = assert_obeys(controller, command)
         assert not forces
-        body = controller.body
-        np.testing.assert_allclose(body.com_jacobian @ acceleration + body.com_drift, gravity, atol=1e-4)
-        momenta.append(body.momentum_W)
-        com.append(body.com_W)
-        speed.append(body.com_velocity_W)
+        dynamics = controller.dynamics
+        np.testing.assert_allclose(dynamics.com_jacobian @ acceleration + dynamics.com_drift, gravity, atol=1e-4)
+        momenta.append(dynamics.momentum_W)
+        com.append(dynamics.com_W)
+        speed.append(dynamics.com_velocity_W)
         simulation.advance(command.torques, steps=2)
     assert not simulation.contact_forces_W().any()
     times = 0.002 * np.arange(100)[:, None]
@@ -252,34 +254,36 @@ def test_in_flight_the_com_falls_and_the_torques_leave_the_angular_momentum():
 
 def test_contact_that_is_not_felt_bears_nothing_and_the_foot_is_lowered():
     robot, plan = mp.load_robot("talos"), tracked.step_ahead()
-    wanted = references(plan, robot, 0.002, 0.2)
-    foot = int(np.flatnonzero(wanted.returns.any(axis=0))[0])
-    landing = int(np.flatnonzero(wanted.returns[:, foot])[-1]) + 1
-    controller, start = controller_of(plan=plan, wanted=wanted)
-    touches, rest = touching(controller, landing), np.zeros(controller.nv)
-    touches[foot] = False
-    for contact, planned in zip(controller.contacts, wanted.surfaces[landing - 1] >= 0, strict=True):
+    desired = references(plan, robot, 0.002, 0.2)
+    foot = int(np.flatnonzero(desired.returns.any(axis=0))[0])
+    landing = int(np.flatnonzero(desired.returns[:, foot])[-1]) + 1
+    controller, start = controller_of(plan=plan, desired=desired)
+    in_contact, rest = contacts_at(controller, landing), np.zeros(controller.nv)
+    in_contact[foot] = False
+    for contact, planned in zip(controller.contacts, desired.surfaces[landing - 1] >= 0, strict=True):
         contact.mode = Mode.CONTACT if planned else Mode.FREE
-    controller.step(landing, start, rest, touches)
+    controller.step(landing, start, rest, in_contact)
     assert controller.contacts[foot].mode is Mode.SEARCH
     assert {end for end, _, _ in parts_of(controller)[1]} == {1 - foot}
-    first = controller.body.end(foot).jacobian[2] @ parts_of(controller)[0]
+    first = controller.dynamics.end_effector(foot).jacobian[2] @ parts_of(controller)[0]
     for n in range(50):
-        controller.step(landing + n, start, rest, touches)
-    lower = controller.body.end(foot).jacobian[2] @ parts_of(controller)[0]
+        controller.step(landing + n, start, rest, in_contact)
+    lower = controller.dynamics.end_effector(foot).jacobian[2] @ parts_of(controller)[0]
     assert lower < first - 0.5 * Gains().swing_kp * controller.contacts[foot].search_depth_m
-    touches[foot] = True
-    controller.step(landing + 50, start, rest, touches)
+    in_contact[foot] = True
+    controller.step(landing + 50, start, rest, in_contact)
     assert controller.contacts[foot].mode is Mode.CONTACT
-    np.testing.assert_array_equal(controller.contacts[foot].position_W, controller.body.end(foot).position_W)
+    np.testing.assert_array_equal(
+        controller.contacts[foot].position_W, controller.dynamics.end_effector(foot).position_W
+    )
     assert {end for end, _, _ in parts_of(controller)[1]} == {foot, 1 - foot}
 
 
 def test_a_hand_that_brushes_something_does_not_stay_there():
     controller, start = controller_of()
-    wanted = controller.references
-    hands = ~wanted.returns.any(axis=0) & (wanted.surfaces < 0).all(axis=0)
-    late = int(np.flatnonzero((wanted.swing_share[:, hands] > 0.9).all(axis=1))[0])
+    desired = controller.references
+    hands = ~desired.returns.any(axis=0) & (desired.surfaces < 0).all(axis=0)
+    late = int(np.flatnonzero((desired.swing_fraction[:, hands] > 0.9).all(axis=1))[0])
     controller.step(late, start, np.zeros(controller.nv), np.ones(len(hands), bool))
     assert [contact.mode for contact in controller.contacts] == [Mode.FREE if h else Mode.CONTACT for h in hands]
     assert {end for end, _, _ in parts_of(controller)[1]} == set(np.flatnonzero(~hands))
@@ -290,9 +294,9 @@ def test_a_foot_that_lands_tilted_is_laid_flat_in_its_own_direction():
     tilted = start.copy()
     turn = pin.rpy.rpyToMatrix(0.1, -0.15, 0.3)
     tilted[3:7] = pin.Quaternion(turn @ pin.Quaternion(start[3:7]).matrix()).coeffs()
-    controller.body.update(tilted, np.zeros(controller.nv))
+    controller.dynamics.update(tilted, np.zeros(controller.nv))
     foot = int(np.flatnonzero(controller.flat)[0])
-    motion = controller.body.end(foot)
+    motion = controller.dynamics.end_effector(foot)
     landed = controller._landed(0, foot, motion)
     np.testing.assert_allclose(landed[:, 2], [0, 0, 1], atol=1e-12)
     np.testing.assert_allclose(landed.T @ landed, np.eye(3), atol=1e-12)
@@ -303,14 +307,14 @@ def test_a_foot_that_lands_tilted_is_laid_flat_in_its_own_direction():
 
 @pytest.mark.parametrize("yaw", [0.0, 0.6, -1.2])
 def test_the_ground_that_a_sole_overhangs_is_no_ground(yaw):
-    loaded, (plan, wanted) = tracked.loaded("talos"), tracked.still()
+    urdf_model, (plan, desired) = tracked.urdf_model("talos"), tracked.still()
     scene = simulated.level(2.0)
-    foot = int(np.flatnonzero(wanted.surfaces[0] >= 0)[0])
-    edge = wanted.ends_W[0, foot, 0] + 0.02
+    foot = int(np.flatnonzero(desired.surfaces[0] >= 0)[0])
+    edge = desired.end_effectors_W[0, foot, 0] + 0.02
     scene.surfaces[0].vertices_W = [[-2, -2, 0], [edge, -2, 0], [edge, 2, 0], [-2, 2, 0]]
     turn = pin.rpy.rpyToMatrix(0.0, 0.0, yaw)
-    wanted = replace(wanted, soles_W=np.broadcast_to(turn, wanted.soles_W.shape))
-    start = follow(loaded, sample_at(plan, plan.scene, plan.robot, np.zeros(1))).configurations[0]
-    controller = Controller(loaded, scene, wanted, start, Gains())
-    points = wanted.ends_W[0, foot] + controller.points[foot].offsets @ turn.T
+    desired = replace(desired, soles_W=np.broadcast_to(turn, desired.soles_W.shape))
+    start = follow(urdf_model, sample_at(plan, plan.scene, plan.robot, np.zeros(1))).configurations[0]
+    controller = Controller(urdf_model, scene, desired, start, Gains())
+    points = desired.end_effectors_W[0, foot] + controller.points[foot].offsets @ turn.T
     assert points[:, 0].max() == pytest.approx(edge, abs=1e-9) and points[:, 0].min() < edge - 0.05

@@ -40,8 +40,8 @@ def perfect(plan):
         angular_momentum_W=np.zeros((N, 3)),
         angular_momentum_plan_W=np.zeros((N, 3)),
         base_quat_xyzw_plan=configurations[:, 3:7].copy(),
-        ends_W=ends.copy(),
-        ends_plan_W=ends.copy(),
+        end_effectors_W=ends.copy(),
+        end_effectors_plan_W=ends.copy(),
         forces_W=np.zeros((N, 3, 3)),
         forces_plan_W=np.zeros((N, 3, 3)),
         contacts=contacts_plan >= 0,
@@ -98,11 +98,11 @@ def test_a_fall_ends_what_was_completed(perfect):
 def test_swings_count_from_lift_off_to_landing(perfect):
     contacts = perfect.contacts_plan.copy()
     contacts[100:200, FOOT] = -1
-    ends = perfect.ends_W.copy()
+    ends = perfect.end_effectors_W.copy()
     ends[150:200, FOOT] = [0.0, 0.02, 0.0]  # 2 cm for half of the swing
     ends[:100, FOOT] = [0.5, 0.0, 0.0]  # in contact: none of the swing's business
     ends[:, 2] = [9.0, 9.0, 9.0]  # never in contact: nor this
-    found = of(perfect, contacts_plan=contacts, ends_W=ends)
+    found = of(perfect, contacts_plan=contacts, end_effectors_W=ends)
     assert found.swing_rms_m == pytest.approx(0.02 / np.sqrt(2))
 
 
@@ -113,29 +113,29 @@ def test_what_lifts_for_good_does_not_swing():
 
 
 def test_slip_is_the_longest_way_along_the_surface_in_one_contact(perfect):
-    ends = perfect.ends_W.copy()
+    ends = perfect.end_effectors_W.copy()
     ends[:, FOOT, 0] = np.linspace(0.0, 0.0015, N)
     ends[200:300, OTHER] = [0.0018, -0.0024, 0.0]  # 3 mm and back
     ends[:, OTHER, 2] = 0.05 * np.sin(np.arange(N))  # against the surface: no slip
-    assert of(perfect, ends_W=ends).slip_m == pytest.approx(0.003)
+    assert of(perfect, end_effectors_W=ends).slip_m == pytest.approx(0.003)
 
 
 def test_settling_after_touchdown_is_no_slip_and_contacts_are_apart(perfect):
-    contacts, ends = perfect.contacts.copy(), perfect.ends_W.copy()
+    contacts, ends = perfect.contacts.copy(), perfect.end_effectors_W.copy()
     contacts[100:200, FOOT] = False
     ends[100:, FOOT, 0] = 0.3  # a step
     settled = round(SETTLE_S / DT)
     ends[200 : 200 + settled, FOOT, 0] = np.linspace(0.29, 0.3, settled)
-    assert of(perfect, contacts=contacts, ends_W=ends).slip_m == pytest.approx(0.0)
+    assert of(perfect, contacts=contacts, end_effectors_W=ends).slip_m == pytest.approx(0.0)
     ends[300:, FOOT, 0] += 0.001
-    assert of(perfect, contacts=contacts, ends_W=ends).slip_m == pytest.approx(0.001)
+    assert of(perfect, contacts=contacts, end_effectors_W=ends).slip_m == pytest.approx(0.001)
 
 
 def test_contact_that_the_plan_does_not_have_is_not_measured(perfect):
-    ends, contacts = perfect.ends_W.copy(), perfect.contacts.copy()
+    ends, contacts = perfect.end_effectors_W.copy(), perfect.contacts.copy()
     contacts[:, 2] = True
     ends[:, 2, 0] = np.linspace(0.0, 0.5, N)
-    assert of(perfect, ends_W=ends, contacts=contacts).slip_m == 0.0
+    assert of(perfect, end_effectors_W=ends, contacts=contacts).slip_m == 0.0
 
 
 def test_torque_use_is_the_largest_share_of_a_limit(perfect):

@@ -30,7 +30,9 @@ def data_of(model):
 
 
 def test_mass_and_com_are_those_of_the_urdf_as_pinocchio_reads_it(model, data_of):
-    source = example_robot_data.load(model.loaded.robot.name).model  # not the copy that the simulation was made from
+    source = example_robot_data.load(
+        model.urdf_model.robot.name
+    ).model  # not the copy that the simulation was made from
     assert model.mj.body_mass.sum() == pytest.approx(pin.computeTotalMass(source), abs=1e-9)
     rng = np.random.default_rng(0)
     for _ in range(5):
@@ -42,7 +44,7 @@ def test_mass_and_com_are_those_of_the_urdf_as_pinocchio_reads_it(model, data_of
 
 
 def test_inverse_dynamics_agree_at_random_states(model, data_of):
-    rng, pin_model, flags = np.random.default_rng(1), model.loaded.model, model.mj.opt.disableflags
+    rng, pin_model, flags = np.random.default_rng(1), model.urdf_model.model, model.mj.opt.disableflags
     model.mj.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT  # joints beyond their limits are pushed back
     try:
         for _ in range(10):
@@ -58,7 +60,7 @@ def test_inverse_dynamics_agree_at_random_states(model, data_of):
 
 
 def test_every_joint_has_a_rotor_and_none_has_damping(model):
-    source = example_robot_data.load(model.loaded.robot.name).model
+    source = example_robot_data.load(model.urdf_model.robot.name).model
     armature = model.mj.dof_armature[model.dof_index]
     given = source.armature[6:] > 0.0
     np.testing.assert_array_equal(armature[given], source.armature[6:][given])
@@ -68,7 +70,7 @@ def test_every_joint_has_a_rotor_and_none_has_damping(model):
 
 
 def test_motors_and_joint_limits_are_those_of_the_urdf(model):
-    source = model.loaded.model
+    source = model.urdf_model.model
     for i, name in enumerate(model.joints):
         joint = source.getJointId(name)
         assert model.mj.joint(name).qposadr[0] == model.qpos_index[i]
@@ -82,11 +84,11 @@ def test_motors_and_joint_limits_are_those_of_the_urdf(model):
 
 
 def test_soles_and_balls_touch_at_the_contact_points_in_the_nominal_posture(model, data_of):
-    loaded = model.loaded
-    data, pin_data = data_of(loaded.neutral, np.zeros(loaded.model.nv)), loaded.model.createData()
+    urdf_model = model.urdf_model
+    data, pin_data = data_of(urdf_model.neutral, np.zeros(urdf_model.model.nv)), urdf_model.model.createData()
     mujoco.mj_fwdPosition(model.mj, data)
-    pin.framesForwardKinematics(loaded.model, pin_data, loaded.neutral)
-    for end, frame, geoms in zip(loaded.robot.end_effectors, loaded.frames, model.end_geoms, strict=True):
+    pin.framesForwardKinematics(urdf_model.model, pin_data, urdf_model.neutral)
+    for end, frame, geoms in zip(urdf_model.robot.end_effectors, urdf_model.frames, model.end_geoms, strict=True):
         point, (geom,) = pin_data.oMf[frame].translation, geoms
         axes, centre = data.geom_xmat[geom].reshape(3, 3), data.geom_xpos[geom]
         if end.kind == "foot":
@@ -95,7 +97,7 @@ def test_soles_and_balls_touch_at_the_contact_points_in_the_nominal_posture(mode
             np.testing.assert_allclose(model.mj.geom_size[geom][:2], end.half_size)
         else:
             assert np.linalg.norm(centre - point) == pytest.approx(BALL_RADIUS_M)
-            wrist = pin_data.oMi[loaded.model.frames[frame].parentJoint].translation
+            wrist = pin_data.oMi[urdf_model.model.frames[frame].parentJoint].translation
             assert np.linalg.norm(wrist - centre) < np.linalg.norm(wrist - point)
 
 
@@ -104,7 +106,7 @@ def test_mass_and_friction_are_scaled_in_the_simulation_alone():
     options = Options(mass_scale=1.1, friction_scale=0.8, ground_shift_m=0.01)
     model = build(robot, simulated.level(friction=0.5), options)
     assert model.mj.body_mass.sum() == pytest.approx(1.1 * robot.mass, abs=1e-3)
-    assert pin.computeTotalMass(model.loaded.model) == pytest.approx(robot.mass, abs=1e-3)
+    assert pin.computeTotalMass(model.urdf_model.model) == pytest.approx(robot.mass, abs=1e-3)
     plain = build(robot, simulated.level())
     np.testing.assert_allclose(model.mj.body_inertia, 1.1 * plain.mj.body_inertia)
     assert model.mj.body_subtreemass[0] == pytest.approx(1.1 * robot.mass, abs=1e-3)  # what MuJoCo derives from them

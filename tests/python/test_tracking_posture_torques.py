@@ -19,30 +19,30 @@ G = 9.81
 @pytest.fixture(scope="module")
 def standing():
     plan = standing_plan(robot=mp.load_robot("talos"))
-    loaded = load_model(plan.robot)
+    urdf_model = load_model(plan.robot)
     samples = sample_at(plan, plan.scene, plan.robot, knots_and_between(plan, 10.0))
-    postures = follow(loaded, samples)
-    found = posture_torques(loaded, plan.scene, samples, postures, np.zeros((samples.count, 3)), 1.0)
-    return loaded, samples, postures, found
+    postures = follow(urdf_model, samples)
+    found = posture_torques(urdf_model, plan.scene, samples, postures, np.zeros((samples.count, 3)), 1.0)
+    return urdf_model, samples, postures, found
 
 
 def test_forces_of_a_robot_at_rest_sum_to_its_weight(standing):
-    loaded, samples, _, found = standing
-    mass = sum(inertia.mass for inertia in loaded.model.inertias)
+    urdf_model, samples, _, found = standing
+    mass = sum(inertia.mass for inertia in urdf_model.model.inertias)
     assert found.forces_W.sum(axis=1) == pytest.approx(np.tile([0.0, 0.0, mass * G], (samples.count, 1)), abs=0.5)
     assert np.abs(found.residuals).max() < 0.5
 
 
 def test_standing_torques_are_those_of_statics(standing):
     """pin.computeStaticTorque with the feet's forces at the centre of pressure below the CoM, both feet together."""
-    loaded, samples, postures, found = standing
-    model, data, q = loaded.model, loaded.model.createData(), postures.configurations[0]
+    urdf_model, samples, postures, found = standing
+    model, data, q = urdf_model.model, urdf_model.model.createData(), postures.configurations[0]
     com = pin.centerOfMass(model, data, q).copy()
     pin.framesForwardKinematics(model, data, q)
     external = pin.StdVec_Force([pin.Force.Zero() for _ in range(model.njoints)])
     for end in (0, 1):
-        frame = model.frames[loaded.frames[end]]
-        foot = data.oMf[loaded.frames[end]].translation
+        frame = model.frames[urdf_model.frames[end]]
+        foot = data.oMf[urdf_model.frames[end]].translation
         force = found.forces_W[0, end]
         point = np.array([com[0], foot[1], foot[2]])
         wrench = pin.Force(force, np.cross(point, force))
@@ -57,8 +57,8 @@ def test_standing_torques_are_those_of_statics(standing):
 
 def test_knees_bear_the_ground_force_over_its_lever(standing):
     """By hand: weight less that of the shanks and feet, over the way from the knees' axis to where it acts."""
-    loaded, _, postures, found = standing
-    model, data, q = loaded.model, loaded.model.createData(), postures.configurations[0]
+    urdf_model, _, postures, found = standing
+    model, data, q = urdf_model.model, urdf_model.model.createData(), postures.configurations[0]
     com = pin.centerOfMass(model, data, q).copy()
     pin.forwardKinematics(model, data, q)
     expected = ours = 0.0
@@ -75,8 +75,8 @@ def test_knees_bear_the_ground_force_over_its_lever(standing):
 
 
 def test_arms_are_not_the_plans_and_legs_are(standing):
-    loaded, _, _, found = standing
-    planned = {name for name, yes in zip(loaded.model.names[2:], found.planned[0], strict=True) if yes}
+    urdf_model, _, _, found = standing
+    planned = {name for name, yes in zip(urdf_model.model.names[2:], found.planned[0], strict=True) if yes}
     assert planned == {f"leg_{side}_{i}_joint" for side in ("left", "right") for i in range(1, 7)}
 
 

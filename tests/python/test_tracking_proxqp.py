@@ -25,9 +25,11 @@ def run(code: str) -> str:
 
 
 def test_the_build_without_avx_is_taken_and_stays_when_proxsuite_is_imported_later():
-    loaded = run(SOLVE + "import sys, proxsuite; print(*[name for name in sys.modules if 'pywrap' in name])").split()
-    assert {name.split(".")[1] for name in loaded} == {"proxsuite_pywrap"}
-    assert "instructionset" not in " ".join(loaded)
+    urdf_model = run(
+        SOLVE + "import sys, proxsuite; print(*[name for name in sys.modules if 'pywrap' in name])"
+    ).split()
+    assert {name.split(".")[1] for name in urdf_model} == {"proxsuite_pywrap"}
+    assert "instructionset" not in " ".join(urdf_model)
 
 
 def test_a_build_that_was_imported_before_is_used():

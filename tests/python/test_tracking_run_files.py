@@ -13,7 +13,7 @@ import recordings
 import tracked_cartwheel
 from mcplan.files.plans import plan_to_bytes
 from mcplan.files.whole_body_plans import plan_to_bytes as planar_bytes
-from mcplan.planar.tracking import PlanarResult
+from mcplan.planar.tracking import PlanarMeasures, PlanarResult
 from mcplan.tracking import Options, Push, Recording, TrackingResult
 from mcplan.tracking.options import Gains
 
@@ -49,11 +49,31 @@ def test_a_run_comes_back_as_it_was(result, tmp_path):
     assert back.measures.com_max_m == result.measures.com_max_m
 
 
+def test_earlier_names_are_those_of_files_and_of_attributes(result, tmp_path):
+    result.save(tmp_path / "run.npz")
+    with np.load(tmp_path / "run.npz") as arrays:
+        np.testing.assert_array_equal(arrays["ends_W"], result.recording.end_effectors_W)
+        np.testing.assert_array_equal(arrays["ends_plan_W"], result.recording.end_effectors_plan_W)
+    run = result.recording
+    assert run.ends_W is run.end_effectors_W and run.ends_plan_W is run.end_effectors_plan_W
+    assert run.body is run.simulated_robot is run.robot
+
+
+def test_measures_of_a_planar_run_are_read_by_earlier_names():
+    result = tracked_cartwheel.tracked()
+    measures, run = result.measures, result.recording
+    earlier = measures.as_dict()
+    assert earlier.pop("force_rms_end_effectors") == earlier["force_rms_ends"] == measures.force_rms_ends
+    assert earlier.pop("torque_feedback_ratio") == earlier["torque_feedback_share"] == measures.torque_feedback_share
+    assert PlanarMeasures.from_dict(earlier) == PlanarMeasures.from_dict(measures.as_dict()) == measures
+    assert run.ends == run.end_effectors
+
+
 def test_one_that_did_not_fall_has_no_time_of_it(result, tmp_path):
     stood = dataclasses.replace(result, recording=dataclasses.replace(result.recording, fell_at_s=np.inf, robot=None))
     stood.save(tmp_path / "run.npz")
     back = Recording.load(tmp_path / "run.npz")
-    assert back.fell_at_s == np.inf and back.robot is None and back.body.name == "talos"
+    assert back.fell_at_s == np.inf and back.robot is None and back.simulated_robot.name == "talos"
 
 
 def test_a_planar_run_comes_back_as_it_was(tmp_path):
@@ -63,7 +83,10 @@ def test_a_planar_run_comes_back_as_it_was(tmp_path):
     assert same_columns(result.recording, back.recording) > 15
     assert planar_bytes(back.recording.plan) == planar_bytes(result.recording.plan)
     assert (back.measures, back.options, back.interrupted) == (result.measures, result.options, False)
-    assert (back.recording.joints, back.recording.ends) == (result.recording.joints, result.recording.ends)
+    assert (back.recording.joints, back.recording.end_effectors) == (
+        result.recording.joints,
+        result.recording.end_effectors,
+    )
     assert back.recording.left_plan_at_s == np.inf
 
 
@@ -94,8 +117,8 @@ def changed(path, header=None, **arrays):
     ("change", "message"),
     [
         ({"header": {"format": 2}}, "header.format: must be 1 for this version of mcplan, got 2"),
-        ({"header": {"measures": {"fell": True}}}, "header: must hold what mcplan track --save writes"),
-        ({"header": {"options": None}}, "header: must hold what mcplan track --save writes"),
+        ({"header": {"measures": {"fell": True}}}, "header: must be as mcplan track --save writes it"),
+        ({"header": {"options": None}}, "header: must be as mcplan track --save writes it"),
         ({"torques": None}, "torques: is required"),
         ({"com_W": np.zeros((3, 3))}, "com_W: must have 301 rows, got 3"),
         ({"plan": np.zeros(9, np.uint8)}, "must be an .npz file written by mcplan"),

@@ -54,7 +54,7 @@ def test_a_turn_on_the_spot_is_followed_by_base_and_soles():
     assert not found.fell and found.qp_failures == 0 and found.simulator_warnings == 0
     assert found.com_rms_m < 0.002 and found.swing_rms_m < 0.005 and found.slip_m < 0.003
     assert found.orientation_rms_deg < 0.5 and found.final_base_error_m < 0.005
-    model = mujoco_model.build(robot, plan.scene).loaded
+    model = mujoco_model.build(robot, plan.scene).urdf_model
     data = model.model.createData()
     pin.framesForwardKinematics(model.model, data, run.configurations[-1])
     for frame in (data.oMi[1], data.oMf[model.frames[0]], data.oMf[model.frames[1]]):
@@ -67,7 +67,7 @@ def test_a_turn_on_the_spot_is_followed_by_base_and_soles():
 
 def test_the_recording_is_what_the_robot_did(step):
     run, plan = step.recording, tracked.step_ahead()
-    model = mujoco_model.build(run.body, plan.scene).loaded.model
+    model = mujoco_model.build(run.simulated_robot, plan.scene).urdf_model.model
     data = model.createData()
     np.testing.assert_allclose(np.diff(run.times_s), 0.002, atol=1e-12)
     assert run.joints == tuple(model.names[2:])
@@ -118,7 +118,7 @@ def test_a_robot_too_weak_to_stand_falls_and_that_is_a_result(rest, tmp_path):
     assert found.measures.fell and np.isfinite(found.recording.fell_at_s)
     assert found.measures.completed_s == pytest.approx(found.recording.fell_at_s) and found.measures.completed_s < 3.0
     assert found.measures.qp_failures == 0
-    assert len(found.recording.times_s) == len(found.recording.torques) == len(found.recording.ends_plan_W)
+    assert len(found.recording.times_s) == len(found.recording.torques) == len(found.recording.end_effectors_plan_W)
     assert (np.abs(found.recording.torques) <= found.recording.torque_limits).all()
     assert np.isfinite(found.recording.configurations).all()
     weak = 0.1 * mujoco_model.build(mp.load_robot("talos"), rest.scene).torque_limits
@@ -146,7 +146,7 @@ def moving_ground(monkeypatch):
         def stepped(self, n, *state):
             command = step(self, n, *state)
             modes.append(self.contacts[left].mode)
-            if not moved and self.references.returns[n, left] and self.references.swing_share[n, left] > 0.3:
+            if not moved and self.references.returns[n, left] and self.references.swing_fraction[n, left] > 0.3:
                 models[-1].mj.geom_pos[models[-1].surface_geoms[1]][2] += height_m
                 moved.append(n)
             return command
@@ -168,7 +168,7 @@ def test_ground_that_comes_late_is_searched_for_and_found(moving_ground):
     assert 0.05 < 0.002 * searched.sum() < 0.4
     assert planned[searched].all() and not result.recording.contacts[searched[1:].nonzero()[0], left].any()
     assert modes[-1] is Mode.CONTACT and result.recording.contacts[-1, left]
-    assert result.recording.ends_W[-1, left, 2] == pytest.approx(-0.03, abs=0.004)
+    assert result.recording.end_effectors_W[-1, left, 2] == pytest.approx(-0.03, abs=0.004)
 
 
 def test_ground_that_comes_early_bears_at_once(moving_ground):
@@ -180,7 +180,7 @@ def test_ground_that_comes_early_bears_at_once(moving_ground):
     # From the first touch near the end of the swing it stands, without leaving the ground again.
     first = np.flatnonzero(early)[0]
     assert (modes[first:] == Mode.CONTACT).all() and result.recording.contacts[first, left]
-    assert result.recording.ends_W[-1, left, 2] == pytest.approx(0.02, abs=0.004)
+    assert result.recording.end_effectors_W[-1, left, 2] == pytest.approx(0.02, abs=0.004)
 
 
 def test_pushes_and_assistance_are_recorded_and_help(rest):
@@ -205,7 +205,7 @@ def test_mass_that_the_controller_does_not_know_of_weighs_on_the_feet(rest):
 def test_ground_that_is_elsewhere_is_stood_on(rest):
     found = track(rest, options=Options(hold_s=0.3, ground_shift_m=0.02))
     feet = found.recording.contacts_plan[-1] >= 0
-    np.testing.assert_allclose(found.recording.ends_W[0, feet, 2], 0.02, atol=1e-3)
+    np.testing.assert_allclose(found.recording.end_effectors_W[0, feet, 2], 0.02, atol=1e-3)
     assert not found.measures.fell
 
 

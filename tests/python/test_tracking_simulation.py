@@ -29,7 +29,7 @@ def standing(request):
 
 def test_a_robot_that_stands_is_borne_by_its_soles(standing):
     simulation, configuration = standing
-    robot, forces = simulation.model.loaded.robot, simulation.contact_forces_W()
+    robot, forces = simulation.model.urdf_model.robot, simulation.contact_forces_W()
     weight = robot.mass * 9.81
     assert np.linalg.norm(forces.sum(axis=0) - [0, 0, weight]) < 0.01 * weight
     for end, force in zip(robot.end_effectors, forces, strict=True):
@@ -42,7 +42,7 @@ def test_a_robot_that_stands_is_borne_by_its_soles(standing):
 
 def test_pressure_lies_on_the_soles_and_its_moment_is_the_contacts(standing):
     simulation, _ = standing
-    robot, centres = simulation.model.loaded.robot, simulation.centres_of_pressure_W()
+    robot, centres = simulation.model.urdf_model.robot, simulation.centres_of_pressure_W()
     wrenches, forces = simulation.contact_wrenches_W(), simulation.contact_forces_W()
     np.testing.assert_array_equal(wrenches[:, :3], forces)
     for number, end in enumerate(robot.end_effectors):
@@ -68,7 +68,7 @@ def block_on(tmp_path):
         robot.end_effectors = [end]
         scene = simulated.tilted(angle, half_size=3.0, **surface)
         simulation = Simulation(build(robot, scene, options))
-        configuration = simulation.model.loaded.neutral.copy()
+        configuration = simulation.model.urdf_model.neutral.copy()
         configuration[:3] = 0.0502 * np.array([-np.sin(angle), 0.0, np.cos(angle)])
         configuration[3:7] = [0.0, -np.sin(angle / 2), 0.0, np.cos(angle / 2)]
         simulation.reset(configuration)
@@ -142,5 +142,5 @@ def test_a_run_that_blows_up_is_seen_and_stands_still(block_on, tmp_path, monkey
     stopped = simulation.time_s
     simulation.advance(np.zeros(1), steps=5)
     assert simulation.time_s == stopped
-    simulation.reset(simulation.model.loaded.neutral)
+    simulation.reset(simulation.model.urdf_model.neutral)
     assert not simulation.broke and simulation.time_s == 0.0 and simulation.warnings == 0

@@ -33,7 +33,7 @@ def sole_that_moves(
     joint = model.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), "base")
     frame = model.addFrame(pin.Frame("sole", joint, 0, pin.SE3.Identity(), pin.FrameType.OP_FRAME))
     foot = mp.EndEffector(name="foot", kind="foot", half_size=HALF)
-    loaded = SimpleNamespace(model=model, frames=[frame], robot=SimpleNamespace(end_effectors=[foot]))
+    urdf_model = SimpleNamespace(model=model, frames=[frame], robot=SimpleNamespace(end_effectors=[foot]))
     times = 0.1 * np.arange(len(path))
     intervals, start = [], 0
     for n in range(1, len(path) + 1):
@@ -43,7 +43,9 @@ def sole_that_moves(
             start = n
     samples = SimpleNamespace(times_s=times, count=len(path), intervals=intervals)
     postures = SimpleNamespace(configurations=np.hstack([path, np.tile([0, 0, 0, 1.0], (len(path), 1))]))
-    return {found.name: found for found in clearance_findings(scene or box_scene(), loaded, samples, postures, [final])}
+    return {
+        found.name: found for found in clearance_findings(scene or box_scene(), urdf_model, samples, postures, [final])
+    }
 
 
 def test_a_sole_that_goes_through_an_edge_is_told_where_and_when():

@@ -36,7 +36,7 @@ def test_there_and_back_is_where_it_was(model, state):
 
 def test_both_have_every_body_at_the_same_place(model, state):
     configuration, velocity, _ = state
-    pin_model, pin_data, data = model.loaded.model, model.loaded.model.createData(), mujoco.MjData(model.mj)
+    pin_model, pin_data, data = model.urdf_model.model, model.urdf_model.model.createData(), mujoco.MjData(model.mj)
     data.qpos[:], data.qvel[:] = states.to_mujoco(model, configuration, velocity)
     mujoco.mj_fwdPosition(model.mj, data)
     mujoco.mj_fwdVelocity(model.mj, data)
@@ -58,7 +58,7 @@ def test_velocities_are_the_derivatives_of_configurations(model, state):
     qpos, qvel = states.to_mujoco(model, configuration, velocity)
     mujoco.mj_integratePos(model.mj, qpos, qvel, step)
     ahead, _ = states.to_pinocchio(model, qpos, qvel)
-    expected = pin.integrate(model.loaded.model, configuration, step * velocity)
+    expected = pin.integrate(model.urdf_model.model, configuration, step * velocity)
     np.testing.assert_allclose(ahead, expected, atol=1e-11)
 
 
@@ -68,7 +68,7 @@ def test_accelerations_are_the_derivatives_of_velocities(model, state):
     step = 1e-6
 
     def qvel_at(time):
-        moved = pin.integrate(model.loaded.model, configuration, time * velocity)
+        moved = pin.integrate(model.urdf_model.model, configuration, time * velocity)
         return states.to_mujoco(model, moved, velocity + time * acceleration)[1]
 
     slope = (qvel_at(step) - qvel_at(-step)) / (2 * step)

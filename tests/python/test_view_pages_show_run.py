@@ -35,15 +35,15 @@ def placed(clip):
 
 
 def test_meshes_are_where_the_recorded_configurations_put_them(recording, html):
-    loaded = load_model(recording.plan.robot)
-    data = loaded.model.createData()
+    urdf_model = load_model(recording.plan.robot)
+    data = urdf_model.model.createData()
     clips = clips_of(html)
     for joint in ("leg_left_6_joint", "arm_right_7_joint"):
         times, positions = placed(clips[f"robot/{joint}"])
         for t, position in list(zip(times, positions, strict=True))[::10]:
             q = recording.configurations[np.argmin(np.abs(recording.times_s - t))]
-            pin.forwardKinematics(loaded.model, data, q)
-            assert position == pytest.approx(data.oMi[loaded.model.getJointId(joint)].translation, abs=2e-5)
+            pin.forwardKinematics(urdf_model.model, data, q)
+            assert position == pytest.approx(data.oMi[urdf_model.model.getJointId(joint)].translation, abs=2e-5)
 
 
 def test_com_ball_is_the_simulated_one(recording, html):

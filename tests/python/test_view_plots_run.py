@@ -71,7 +71,7 @@ def test_planned_and_simulated_forces_stand_beside_each_other(recording):
     off = np.zeros_like(recording.forces_W)
     off[:, 0] = [0.0, 30.0, 40.0]
     chart = plot_run_forces(dataclasses.replace(recording, forces_W=recording.forces_plan_W + off)).axes[0]
-    weight = recording.body.mass * recording.plan.scene.gravity
+    weight = recording.simulated_robot.mass * recording.plan.scene.gravity
     assert chart.get_title(loc="left") == f"right foot: off the plan by 50 N rms ({5000 / weight:.1f} % of the weight)"
     curves = {line.get_label(): line.get_ydata() for line in chart.lines}
     assert curves["simulated, normal"] - curves["planned, normal"] == pytest.approx(40.0)

@@ -53,12 +53,12 @@ def test_a_hand_that_touches_unplanned_is_given_the_nearest_surface():
     (hand,) = [i for i in intervals if i.end_effector == 2]
     assert hand.surface == 0
     assert (hand.start_s, hand.end_s) == pytest.approx((0.5, 1.0))
-    assert hand.position_W == pytest.approx(recording.ends_W[50:100, 2].mean(axis=0))
+    assert hand.position_W == pytest.approx(recording.end_effectors_W[50:100, 2].mean(axis=0))
 
 
 def test_frames_keep_the_recordings_numbers():
     recording = recordings.walking()
-    frames = frames_of(recording, load_model(recording.body), 25.0)
+    frames = frames_of(recording, load_model(recording.simulated_robot), 25.0)
     chosen = frame_indices(recording.times_s, 25.0)
     assert (frames.samples.forces_W == recording.forces_W[chosen]).all()
     assert (frames.base_W == recording.configurations[chosen, :3]).all()

@@ -17,7 +17,7 @@ from stepping import stepping_plan
 
 
 @functools.cache
-def loaded(name: str) -> UrdfModel:
+def urdf_model(name: str) -> UrdfModel:
     return load_model(mp.load_robot(name))
 
 

@@ -22,6 +22,7 @@ app.command()(deadlines)
 app.command()(tracking)
 
 _OUT = typer.Option("--out", metavar="DIR", help="Folder for JSON and CSV.")
+_ROBOT = typer.Option("--robot", metavar="R", help="Robot: built-in name or TOML file.")
 
 
 @app.callback()
@@ -83,9 +84,7 @@ def robustness(
     settings: Annotated[
         bool, typer.Option("--settings/--no-settings", help="Plan the 15 settings on the paper's four scenes.")
     ] = True,
-    robot: Annotated[
-        str, typer.Option("--robot", metavar="R", help="Robot: built-in name or TOML file.")
-    ] = "humanoid44",
+    robot: Annotated[str, _ROBOT] = "humanoid44",
     model: Annotated[
         str | None,
         typer.Option("--model", metavar="M", help="Model of contacts: wrench (default) or lipm, the paper's."),

@@ -191,7 +191,7 @@ def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Pat
 
 
 def _plain(result: dict[str, Any]) -> dict[str, Any]:
-    """The result with rows and outcomes as dicts, and nothing in it that JSON cannot hold."""
+    """The result with rows and outcomes as dicts, and nothing in it that JSON cannot represent."""
     from mcplan_bench import records
 
     out = dict(result)

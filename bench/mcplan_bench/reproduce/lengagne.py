@@ -60,9 +60,9 @@ def reproduce(
     out.mkdir(parents=True, exist_ok=True)
     if quick:
         chosen, repeats = chosen[:1], 1
-    wanted = configs(sorted(set(tables)), chosen, quick)
-    runs, about = collect(wanted, out, repeats, resume, say)
-    runs = [kept for kept in runs if kept.config in set(wanted)]
+    requested = configs(sorted(set(tables)), chosen, quick)
+    runs, about = collect(requested, out, repeats, resume, say)
+    runs = [kept for kept in runs if kept.config in set(requested)]
 
     parts = {
         "table_1": lengagne_tables.kinematic_rows(runs, 1),

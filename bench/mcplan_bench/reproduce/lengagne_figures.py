@@ -15,7 +15,7 @@ from .lengagne_settings import Config
 #: The paper's figures by motion.
 FIGURES = {"cartwheel": 2, "climbing": 3, "walking": 4}
 
-#: Of the pictures' names: the page stands in one folder with those of other papers.
+#: Prefix of the pictures' names: the page is in one folder with those of other papers.
 PREFIX = "lengagne_"
 
 GREY = "#B9C1CA"
@@ -39,7 +39,7 @@ def strips(out: Path, motions: Sequence[str]) -> list[Path]:
 
 
 def costs(out: Path, rows: list[dict[str, Any]]) -> list[Path]:
-    """Criterion of Table IV over the case, paper and here, as shares of case 2, which all motions have."""
+    """Criterion of Table IV over the case, paper and here, as ratios to case 2, which all motions have."""
     motions = [m for m in FIGURES if any(row["motion"] == m and row["case"] == 2 and row["kept"] for row in rows)]
     if not motions:
         return []
@@ -50,8 +50,8 @@ def costs(out: Path, rows: list[dict[str, Any]]) -> list[Path]:
         here = {row["case"]: row["cost"] for row in rows if row["motion"] == motion and row["kept"]}
         there = {case: paper.TABLE_4[motion, case].criterion for case in paper.CASES if (motion, case) in paper.TABLE_4}
         for shift, values, colour, name in ((-0.2, there, GREY, "paper"), (0.2, here, COOL[0], "here")):
-            shares = [values[case] / values[2] for case in values]
-            bars = chart.bar([case + shift for case in values], shares, 0.36, color=colour, label=name)
+            ratios = [values[case] / values[2] for case in values]
+            bars = chart.bar([case + shift for case in values], ratios, 0.36, color=colour, label=name)
             chart.bar_label(bars, [f"{value:.4g}" for value in values.values()], fontsize=8, color=TEXT, padding=2)
         chart.set_xlim(0.5, 3.5)
         chart.set_xticks(list(paper.CASES), [f"{c}\n{name}" for c, name in paper.CASES.items()])

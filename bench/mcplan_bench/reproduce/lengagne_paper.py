@@ -7,7 +7,7 @@ from typing import NamedTuple
 #: The paper's motions by their names here, in its order.
 MOTIONS = ("cartwheel", "climbing", "walking")
 
-#: The paper's three ways to weigh contact forces, by their names here.
+#: The paper's three weightings of contact forces, by their names here.
 CASES = {1: "uniform", 2: "per_body", 3: "per_point"}
 
 

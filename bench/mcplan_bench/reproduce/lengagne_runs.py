@@ -155,7 +155,7 @@ def without_heights(plan: PlanarPlan) -> PlanarPlan:
 
 
 def collect(
-    wanted: Sequence[Config], out: Path, repeats: int, resume: bool, say: Callable[[str], None]
+    requested: Sequence[Config], out: Path, repeats: int, resume: bool, say: Callable[[str], None]
 ) -> tuple[list[Run], dict[str, Any]]:
     """Run the rows, saving after each, until all are done or Ctrl-C. Plans of Table IV are saved beside runs.json.
 
@@ -166,7 +166,7 @@ def collect(
 
     runs, about = load(out / FILE) if resume and (out / FILE).exists() else ([], {})
     done = {kept.config for kept in runs}
-    missing = [config for config in wanted if config not in done]
+    missing = [config for config in requested if config not in done]
     if missing or not about:
         if runs and about["version"] != mcplan.__version__:
             rule = f"must be of version {mcplan.__version__} to be added to; use another --out"
@@ -220,8 +220,8 @@ def merit(kept: Run) -> float:
 
 def best_of(runs: list[Run], table: int, motion: str, forces: str, hold: str = "tube") -> Run | None:
     """The run of a row with dynamics, the cheaper one where there are two."""
-    wanted = (table, motion, forces, hold)
-    here = [r for r in runs if (r.config.table, r.config.motion, r.config.forces, r.config.hold) == wanted]
+    requested = (table, motion, forces, hold)
+    here = [r for r in runs if (r.config.table, r.config.motion, r.config.forces, r.config.hold) == requested]
     return min(here, key=merit, default=None)
 
 

@@ -18,7 +18,7 @@ NEQ = (0, 1, 2, 3)
 
 #: Half width of the band of coefficients [m], [rad].
 BAND = 1e-3
-#: Half width of a tube that stands for equalities at the points of a grid [m], [rad].
+#: Half width of a tube that replaces equalities at the points of a grid [m], [rad].
 EQUAL = 1e-5
 
 #: Limits on the iterations of each attempt of the solver, as in the paper.
@@ -36,8 +36,8 @@ class Config:
 
     table: int  #: of the paper
     motion: str
-    hold: str  #: how contacts are held: band, tube, strict, or equal (a tube of EQUAL)
-    neq: int = -1  #: highest coefficient that band and strict hold; -1: they hold none
+    hold: str  #: form of the contact constraints: band, tube, strict, or equal (a tube of EQUAL)
+    neq: int = -1  #: highest coefficient that band and strict constrain; -1: none
     forces: str = ""  #: where contact forces come from; empty: kinematics alone
     continuous: str = "hull"  #: constraints between knots
 

@@ -62,7 +62,7 @@ STRICT = ("iterations", "time_s", "cpu_s", "status", "drift_mm", "drift_mrad")
 
 
 def equalities(name: str, table: int, neq: int) -> int:
-    """Rows of contacts held strictly: x, y and angle of each contact, of all but one where the base is computed."""
+    """Rows of strict contact constraints: x, y and angle of each contact, of all but one where the base is computed."""
     import mcplan
 
     phases = mcplan.load_motion(name).phases
@@ -131,9 +131,9 @@ def grid_table(rows: list[Row]) -> list[str]:
 HELD = {"tube": "tube, 1 mm, 5 mrad", "equal": "0.01 mm, 0.01 mrad"}
 
 
-def percent(share: float) -> str:
+def percent(ratio: float) -> str:
     """For cells; less than a hundredth of a percent is a tolerance of the solver."""
-    return "-" if share < 1e-4 else f"{100 * share:.2g} %"
+    return "-" if ratio < 1e-4 else f"{100 * ratio:.2g} %"
 
 
 def dynamic_rows(runs: list[Run]) -> list[Row]:

@@ -126,8 +126,8 @@ def differences_grid(parts: Parts) -> list[str]:
         'The paper: "We run all the planning processes presented in Tables I and II using a time-grid discretization method '
         '(10 points per intervals). None of them converged." Here `continuous="grid"`, `grid_points=10`, with contacts held by '
         "the coefficients of Tables I and II, by a tube at the points of the grid, and within 0.01 mm and 0.01 mrad there, "
-        f"which stands for equalities (each at most {EQUAL_S:.0f} s). *beyond*: positions (share of the range) and velocities "
-        "(share of the limit) beyond their limits between the points, at 1 kHz; - where less than 1e-4."
+        f"which stands for equalities (each at most {EQUAL_S:.0f} s). *beyond*: positions (ratio to the range) and velocities "
+        "(ratio to the limit) beyond their limits between the points, at 1 kHz; - where less than 1e-4."
     )
     lines.append("")
     lines += bullet(f"With a tolerance of the contacts {converged(soft)} rows converge. It is not the grid that fails.")
@@ -203,12 +203,12 @@ def differences_3(parts: Parts) -> list[str]:
 
 def fall(rows: list[Row], key: str, case: int) -> str:
     """By how much a criterion falls from a case to the next: "7 to 33 %" over the motions, or ""."""
-    shares = []
+    ratios = []
     for motion in paper.MOTIONS:
         costs = {row["case"]: row[key] for row in rows if row["motion"] == motion and row["kept"] and row[key] != ""}
         if case in costs and case + 1 in costs:
-            shares.append(100.0 * (1.0 - costs[case + 1] / costs[case]))
-    return f"{min(shares):.0f} to {max(shares):.0f} %" if shares else ""
+            ratios.append(100.0 * (1.0 - costs[case + 1] / costs[case]))
+    return f"{min(ratios):.0f} to {max(ratios):.0f} %" if ratios else ""
 
 
 def differences_4(parts: Parts) -> list[str]:
@@ -219,7 +219,7 @@ def differences_4(parts: Parts) -> list[str]:
     solved = sum(row["checker"] == "solved" for row in kept)
     proved = sum(row["certified"] is True for row in kept)
     bad = unordered(rows)
-    share = largest([{"share": row["evaluation_s"] / row["time_s"]} for row in rows], "share")
+    ratio = largest([{"ratio": row["evaluation_s"] / row["time_s"]} for row in rows], "ratio")
     lines = paragraph(
         "Least integral of the squared torques; a duration of 0.2 to 5 s for each phase; limits of positions, velocities and "
         "torques, forces in their cones, tube of 1 mm and 5 mrad, clearance. OK: Ipopt's optimality error is below 1e-4 with "
@@ -253,7 +253,7 @@ def differences_4(parts: Parts) -> list[str]:
             "exp(-5) to exp(5). Nor does it give the unit of its criterion."
         )
     lines += bullet(
-        f"Functions and derivatives take at most {percent(share)} of the time, Ipopt's linear algebra most. The Hessian of cost "
+        f"Functions and derivatives take at most {percent(ratio)} of the time, Ipopt's linear algebra most. The Hessian of cost "
         "and constraints is exact; the paper does not say what it gives Ipopt."
     )
     return lines + bullet("Climbing in case 1 is not in the paper.")

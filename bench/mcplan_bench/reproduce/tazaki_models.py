@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 #: The paper's, and ours.
 MODELS = ("lipm", "wrench")
 TITLES = {"lipm": "paper's", "wrench": "ours"}
-#: Coefficient of friction of all surfaces, and of pads that are not held.
+#: Coefficient of friction of all surfaces, and of pads that are not grasped.
 FRICTION = 0.7
-#: The scene with hands: its pads held on to, for the paper's model crosses it no other way, and with friction alone.
+#: The scene with hands: its pads grasped, for the paper's model does not cross it otherwise, and with friction alone.
 RAIL = "gap_with_rail"
 HELD, TOUCHED = "held", "friction"
 
@@ -58,15 +58,15 @@ def compare_models(
     return rows, rail
 
 
-def with_pads(scene: Scene, held: bool) -> Scene:
-    """The scene with friction 0.7 everywhere; what only hands may touch is held, without a cone, or is not."""
+def with_pads(scene: Scene, grasped: bool) -> Scene:
+    """The scene with friction 0.7 everywhere; surfaces for hands alone are grasped, without a cone, or are not."""
     import mcplan
 
     foot = mcplan.EndEffector(name="foot", kind="foot")
     surfaces = list(scene.surfaces)
     for surface in surfaces:
         surface.friction = FRICTION
-        surface.grasp = held and not may_touch(surface, foot)
+        surface.grasp = grasped and not may_touch(surface, foot)
     scene.surfaces = surfaces
     return scene
 
@@ -78,9 +78,9 @@ def row_of(scene: str, pads: str, model: str, result: PlanResult) -> dict[str, A
     found: ContactMeasures | None = measure_contacts(result.plan) if result.plan.phases else None
     row["cost"] = comparable_cost(report) if found else None
     for kind in ("foot", "hand"):
-        touches = found is not None and bool(found.surfaces(kind))
-        row[f"friction_{kind}"] = found.largest("tangent_circle", kind) if found and touches else None
-        row[f"peak_{kind}"] = found.largest("peak", kind) if found and touches else None
+        in_contact = found is not None and bool(found.surfaces(kind))
+        row[f"friction_{kind}"] = found.largest("tangent_circle", kind) if found and in_contact else None
+        row[f"peak_{kind}"] = found.largest("peak", kind) if found and in_contact else None
     row["hands_only"] = len(found.hands_only) if found else None
     row["momentum_Nms"] = found.momentum_peak_Nms if found else None
     for where in ("knots_m", "m"):
@@ -92,7 +92,7 @@ def row_of(scene: str, pads: str, model: str, result: PlanResult) -> dict[str, A
 
 
 def _tables(rows: Sequence[dict[str, Any]]) -> list[str]:
-    """Friction and forces, then how the body moves."""
+    """Friction and forces, then the motion of the base."""
     head = ["scene", "model", "ended", "J", "friction needed, feet", "hands", "peak force, foot", "hand", "hands only"]
     cells = [
         [
@@ -105,9 +105,17 @@ def _tables(rows: Sequence[dict[str, Any]]) -> list[str]:
         ]
         for row in rows
     ]
-    body_head = ["scene", "model", "angular momentum", "CoM, lowest at knots", "between", "highest at knots", "between"]
-    body_head += ["replay: CoM", "momentum", "base", "from the start"]
-    body_cells = [
+    motion_head = [
+        "scene",
+        "model",
+        "angular momentum",
+        "CoM, lowest at knots",
+        "between",
+        "highest at knots",
+        "between",
+    ]
+    motion_head += ["replay: CoM", "momentum", "base", "from the start"]
+    motion_cells = [
         [
             *_plan(row),
             number(row["momentum_Nms"], ".2f", unit=" N m s"),
@@ -121,7 +129,7 @@ def _tables(rows: Sequence[dict[str, Any]]) -> list[str]:
         ]
         for row in rows
     ]
-    return [*table_lines(head, cells), "", *table_lines(body_head, body_cells)]
+    return [*table_lines(head, cells), "", *table_lines(motion_head, motion_cells)]
 
 
 def section_lines(rows: Sequence[dict[str, Any]], figure: str = "") -> list[str]:
@@ -176,7 +184,7 @@ def _friction(value: float | None) -> str:
 
 
 def plot_hand_forces(paper: Plan, ours: Plan) -> Figure:
-    """Tangential and normal force of the hands on what they touch, at 1 kHz, in the cone of friction 0.7.
+    """Tangential and normal force of the hands in contact, at 1 kHz, in the cone of friction 0.7.
 
     Args:
         paper: Plan of the paper's model.
@@ -208,7 +216,7 @@ def plot_hand_forces(paper: Plan, ours: Plan) -> Figure:
 
 
 def hand_forces(plan: Plan) -> dict[str, Array]:
-    """Tangential force, with the sign of its part along y, and normal force (n, 2) [N] of each hand that touches something."""
+    """Tangential force, with the sign of its part along y, and normal force (n, 2) [N] of each hand in contact."""
     given, replayed = contacts(plan), replay(plan)
     out = {}
     for e, end in enumerate(plan.robot.end_effectors):

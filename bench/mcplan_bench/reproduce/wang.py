@@ -52,9 +52,9 @@ def reproduce(
     out.mkdir(parents=True, exist_ok=True)
     if quick:
         cycles, lookahead_max = min(cycles, 2), min(lookahead_max, 3)
-    wanted = configs(lookahead_max, seeds, TERRAINS[-1:] if quick else TERRAINS)
+    requested = configs(lookahead_max, seeds, TERRAINS[-1:] if quick else TERRAINS)
     sizes = wang_size.built()
-    runs, about = collect(wanted, cycles, out, resume, say)
+    runs, about = collect(requested, cycles, out, resume, say)
 
     table_2, table_3 = wang_tables.table_2_rows(runs), wang_tables.table_3_rows(runs)
     figure_4, figure_5 = wang_tables.cost_rows(runs), wang_figures.figure_5_rows(runs)
@@ -151,7 +151,7 @@ def _head(about: dict[str, Any], seeds: list[int], table_3: list[dict[str, Any]]
 
 
 def _times(rows: list[dict[str, Any]]) -> list[str]:
-    share = max((row["evaluation_share"] for row in rows), default=0.0)
+    ratio = max((row["evaluation_share"] for row in rows), default=0.0)
     compared = "; ".join(
         f"{terrain} {published:.1f} there, {here:.1f} here" for terrain, published, here in wang_tables.faster(rows)
     )
@@ -165,7 +165,7 @@ def _times(rows: list[dict[str, Any]]) -> list[str]:
         "- Solver and machine: KNITRO 10.10 with functions from CasADi in Python on a laptop with a Xeon E3-1535M v6 (at most",
         "  4.2 GHz) there, Ipopt with MUMPS and functions in C++ here.",
         "- The program: implied faces of the polytopes are left out, psi is eliminated, and the matrix is ordered by AMD.",
-        f"  Functions and derivatives take at most {100 * share:.1f} % of the time in any cell: the language they are",
+        f"  Functions and derivatives take at most {100 * ratio:.1f} % of the time in any cell: the language they are",
         "  written in decides little, the factorisation of the matrix most.",
         "- The guess: the paper draws ten random guesses for the first two cycles of each walk, from which Ipopt does not",
         "  converge and KNITRO, by the authors' published logs, needs 541 and 783 iterations. Here these cycles start from a",

@@ -34,7 +34,7 @@ COM_PREDICTED = 2
 TIME_LIMIT_S = {"single": 120.0, "com": 10.0, "rectangle": 120.0, "point": 120.0}
 
 NOISE = 0.05
-#: What the noise of a start is a share of: lengths of a step ahead, between the feet and from the floor to the CoM [m],
+#: What the noise of a start is a ratio to: lengths of a step ahead, between the feet and from the floor to the CoM [m],
 #: and the bounds of velocity [m/s] and angular momentum [kg m^2/s].
 LENGTHS_M = np.array([0.3, 0.2, 0.75])
 VELOCITY = 1.5
@@ -202,12 +202,12 @@ def noisy(start: State, seed: int) -> State:
 
 
 def collect(
-    wanted: list[Config], cycles: int, out: Path, resume: bool, say: Callable[[str], None]
+    requested: list[Config], cycles: int, out: Path, resume: bool, say: Callable[[str], None]
 ) -> tuple[list[Run], dict[str, Any]]:
     """Run the walks, saving after each, until all are done or Ctrl-C.
 
     Args:
-        wanted: The walks.
+        requested: The walks.
         cycles: Of each walk.
         out: Folder; runs.json and the plans of the nominal `point` 2-step walks are saved in it.
         resume: Keep what its runs.json has of the same number of cycles and run the rest.
@@ -224,7 +224,7 @@ def collect(
     runs, about = load(out / FILE) if resume and (out / FILE).exists() else ([], {})
     runs = [run for run in runs if run.asked == cycles]
     done = {run.config for run in runs}
-    missing = [config for config in wanted if config not in done]
+    missing = [config for config in requested if config not in done]
     if missing or not about:
         if runs and about["version"] != mcplan.__version__:
             rule = f"must be of version {mcplan.__version__} to be added to; use another --out"

@@ -60,7 +60,7 @@ def model_rows_per_step(method: str) -> int:
 def built(terrain: str = "rubbles") -> list[dict[str, Any]]:
     """Sizes of the programs of the first cycle with one and two predicted steps, beside what the formulas say.
 
-    Rows that all methods share (friction of corners, reach, footholds) cancel in the difference to `com`. The last
+    Rows that all methods have (friction of corners, reach, footholds) cancel in the difference to `com`. The last
     columns are empty where they do not: a point foot has friction at one point instead of four.
     """
     sizes: dict[tuple[str, bool], list[tuple[int, int]]] = {}

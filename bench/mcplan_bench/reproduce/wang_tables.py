@@ -15,7 +15,7 @@ TITLES = {
     "point": "candidate 3 (`point`)",
 }
 
-#: Table II: least number of predicted steps; None: fails.
+#: Table II: minimum number of predicted steps; None: fails.
 PUBLISHED_2: dict[str, tuple[int | None, ...]] = {
     "single": (1, 1, 1),
     "com": (None, None, None),
@@ -60,7 +60,7 @@ def trackable(run: Run, runs: list[Run]) -> bool | None:
 
 
 def table_2_rows(runs: list[Run]) -> list[dict[str, Any]]:
-    """One row per method and terrain: least number of predicted steps; "fail", or "" where nothing was run."""
+    """One row per method and terrain: minimum number of predicted steps; "fail", or "" where nothing was run."""
     out = []
     for method in METHODS:
         for terrain, published in zip(TERRAINS, PUBLISHED_2[method], strict=True):
@@ -215,11 +215,11 @@ def cost_rows(runs: list[Run]) -> list[dict[str, Any]]:
     return sorted(out, key=lambda r: (METHODS.index(r["method"]), r["predicted"], order[r["terrain"]]))
 
 
-def rises(rows: list[dict[str, Any]], share: float = 0.05) -> tuple[int, int]:
-    """How often one more predicted step raised the cost per metre by more than `share`, and of how many times."""
+def rises(rows: list[dict[str, Any]], ratio: float = 0.05) -> tuple[int, int]:
+    """How often one more predicted step raised the cost per metre by more than `ratio`, and of how many times."""
     cells = {(r["method"], r["terrain"], r["predicted"]): r["cost_per_m"] for r in rows if r["success"]}
     pairs = [(cost, cells[m, t, p + 1]) for (m, t, p), cost in cells.items() if (m, t, p + 1) in cells]
-    return sum(after > (1.0 + share) * before for before, after in pairs), len(pairs)
+    return sum(after > (1.0 + ratio) * before for before, after in pairs), len(pairs)
 
 
 def costs(rows: list[dict[str, Any]]) -> list[str]:

@@ -86,7 +86,7 @@ def summary(
         return {
             "plan": str(plan),
             "scene": recording.plan.scene.name,
-            "robot": recording.body.name,
+            "robot": recording.simulated_robot.name,
             "duration_s": recording.plan.duration(),
             **_finite(result.measures.as_dict()),
             "torque_joint": nearest_to_torque_limit(recording)[0],

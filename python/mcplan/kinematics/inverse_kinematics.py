@@ -1,7 +1,7 @@
 """Postures of a URDF's model that follow a plan: damped least squares over CoM, base and end-effectors.
 
-Each sample starts from the posture of the one before, so that the motion stays on one branch. Why pink does not do this:
-docs/architecture.md, "Libraries that are not used".
+Each sample starts from the posture of the one before, so that the motion stays on one branch. Why pink does not do
+this: docs/architecture.md, "Libraries that are not used".
 """
 
 from __future__ import annotations
@@ -22,17 +22,17 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-# Weights: 1 m of position, 1 rad of turning.
+# Weights: 1 m of position, 1 rad of rotation.
 COM, BASE, CONTACT, SWING, HAND = 10.0, 2.0, 20.0, 10.0, 3.0
 SOLE = 3.0
-#: Of the base, and of soles in the air, in plans with forces at points: they say nothing of how those turn, and keep the
-#: CoM so low that ankles come to their limits.
+#: Weights of the base, and of soles in the air, in plans with forces at points: they say nothing of how those rotate,
+#: and keep the CoM so low that ankles come to their limits.
 FREE_BASE, FREE_SOLE = 0.2, 0.2
 POSTURE = 0.05
-#: Against a given motion: of joints of legs, and of all that the plan leaves open (turning of the base, torso, arms).
+#: Against a given motion: of joints of legs, and of all that the plan leaves open (rotation of the base, torso, arms).
 NEAR_LEG, NEAR = 0.3, 2.0
-#: Of a step, and the least of one that has to be shortened.
-DAMPING, LEAST_DAMPING = 1e-6, 1e-2
+#: Damping of a step, and the minimum for a step that has to be shortened.
+DAMPING, MIN_DAMPING = 1e-6, 1e-2
 #: Largest change of a joint in one iteration [rad].
 STEP = 0.4
 #: A joint so near to its limit is at it [rad].
@@ -61,63 +61,68 @@ class Postures:
 
     @staticmethod
     def of(
-        loaded: UrdfModel, samples: Samples, configurations: Array, com_misses: Array, end_misses: Array, tilts: Array
+        urdf_model: UrdfModel,
+        samples: Samples,
+        configurations: Array,
+        com_misses: Array,
+        end_misses: Array,
+        tilts: Array,
     ) -> Postures:
-        """With the largest miss of what must be met named."""
+        """Postures with the largest of the misses that count, and its name."""
         counted = np.column_stack([com_misses, np.where(samples.surfaces >= 0, end_misses, 0.0)])
         at, which = np.unravel_index(np.argmax(counted), counted.shape)
-        name = "the CoM" if which == 0 else loaded.robot.end_effectors[which - 1].name
+        name = "the CoM" if which == 0 else urdf_model.robot.end_effectors[which - 1].name
         where = f"{name} at {samples.times_s[at]:.2f} s"
         return Postures(configurations, float(counted.max()), where, com_misses, end_misses, tilts)
 
 
-def follow(loaded: UrdfModel, samples: Samples, near: Array | None = None) -> Postures:
+def follow(urdf_model: UrdfModel, samples: Samples, near: Array | None = None) -> Postures:
     """Find a posture for every sample, near to the robot's own or to given ones.
 
     Args:
-        loaded: The robot's model.
+        urdf_model: The robot's model.
         samples: The plan.
         near: (n, nq) configurations to stay near to in whatever the plan leaves open; None: the robot's posture.
     """
     import pinocchio as pin  # type: ignore[import-untyped]
 
-    q = loaded.neutral.copy()
+    q = urdf_model.neutral.copy()
     q[3:7] = quat_xyzw(samples.rotation_WB[:1])[0]
-    q[:3] += samples.com_W[0] - pin.centerOfMass(loaded.model, loaded.model.createData(), q)
-    solver = _Solver(pin, loaded)
+    q[:3] += samples.com_W[0] - pin.centerOfMass(urdf_model.model, urdf_model.model.createData(), q)
+    solver = _Solver(pin, urdf_model)
     if near is not None:
         solver.posture[3:] = NEAR**2
-        solver.posture[_legs(loaded)] = NEAR_LEG**2
-    ends = loaded.robot.end_effectors
+        solver.posture[_legs(urdf_model)] = NEAR_LEG**2
     configurations, com_misses = [], np.zeros(samples.count)
-    end_misses, tilts = np.zeros((samples.count, len(ends))), np.zeros((samples.count, len(ends)))
+    shape = (samples.count, len(urdf_model.frames))
+    end_misses, tilts = np.zeros(shape), np.zeros(shape)
     for n in range(samples.count):
         if near is not None:
             q = solver.home = near[n]
         q = solver.solve(q, samples, n, iterations=80 if n == 0 else 12)
         configurations.append(q.copy())
         com_misses[n], end_misses[n], tilts[n] = solver.misses(q, samples, n)
-    return Postures.of(loaded, samples, np.array(configurations), com_misses, end_misses, tilts)
+    return Postures.of(urdf_model, samples, np.array(configurations), com_misses, end_misses, tilts)
 
 
-def _legs(loaded: UrdfModel) -> list[int]:
+def _legs(urdf_model: UrdfModel) -> list[int]:
     """Indices of velocity of the joints between base and feet."""
-    model = loaded.model
-    feet = [f for end, f in zip(loaded.robot.end_effectors, loaded.frames, strict=True) if end.kind == "foot"]
+    model = urdf_model.model
+    feet = [f for end, f in zip(urdf_model.robot.end_effectors, urdf_model.frames, strict=True) if end.kind == "foot"]
     joints = {joint for frame in feet for joint in model.supports[model.frames[frame].parentJoint]}
     return sorted(model.joints[joint].idx_v for joint in joints if joint > 1)
 
 
 def has_sole(end: EndEffector) -> bool:
-    """Whether an end-effector is turned to lie flat on the ground."""
+    """Whether an end-effector has a sole, which is rotated to lie flat on the ground."""
     return bool(end.kind == "foot" and np.asarray(end.half_size).all())
 
 
 class _Solver:
-    def __init__(self, pin: Any, loaded: UrdfModel) -> None:
-        self.pin, self.model, self.data = pin, loaded.model, loaded.model.createData()
-        self.robot, self.frames, self.home = loaded.robot, loaded.frames, loaded.neutral
-        model = loaded.model
+    def __init__(self, pin: Any, urdf_model: UrdfModel) -> None:
+        self.pin, self.model, self.data = pin, urdf_model.model, urdf_model.model.createData()
+        self.robot, self.frames, self.home = urdf_model.robot, urdf_model.frames, urdf_model.neutral
+        model = urdf_model.model
         self.posture = np.full(model.nv, POSTURE**2)
         self.posture[:6] = 0.0
         low, high = model.lowerPositionLimit.copy(), model.upperPositionLimit.copy()
@@ -137,7 +142,7 @@ class _Solver:
             problem = self._problem(moved, samples, n)
             # Beside a stretched knee the step is far too long.
             if self._cost(problem[0], problem[2]) > self._cost(error, home):
-                damping = max(10.0 * damping, LEAST_DAMPING)
+                damping = max(10.0 * damping, MIN_DAMPING)
                 continue
             q, (error, jacobian, home), damping = moved, problem, max(0.1 * damping, DAMPING)
             if np.abs(step).max() < 1e-5:
@@ -145,7 +150,7 @@ class _Solver:
         return np.asarray(q)
 
     def _problem(self, q: Array, samples: Samples, n: int) -> tuple[Array, Array, Array]:
-        """Weighted errors, their Jacobian, and the way home in the tangent space."""
+        """Weighted errors, their Jacobian, and the displacement to the home posture in the tangent space."""
         errors, jacobians = self._tasks(q, samples, n)
         return np.concatenate(errors), np.vstack(jacobians), self.pin.difference(self.model, q, self.home)
 
@@ -172,12 +177,12 @@ class _Solver:
         pin, data = self.pin, self.data
         pin.framesForwardKinematics(self.model, data, q)
         com = float(np.linalg.norm(samples.com_W[n] - pin.centerOfMass(self.model, data, q)))
-        ends, tilts = np.zeros(len(self.frames)), np.zeros(len(self.frames))
+        positions, tilts = np.zeros(len(self.frames)), np.zeros(len(self.frames))
         for end, frame in enumerate(self.frames):
-            ends[end] = np.linalg.norm(samples.positions_W[n, end] - data.oMf[frame].translation)
+            positions[end] = np.linalg.norm(samples.positions_W[n, end] - data.oMf[frame].translation)
             if has_sole(self.robot.end_effectors[end]):
                 tilts[end] = np.linalg.norm(pin.log3(samples.rotations_W[n, end] @ data.oMf[frame].rotation.T))
-        return com, ends, tilts
+        return com, positions, tilts
 
     def _tasks(self, q: Array, samples: Samples, n: int) -> tuple[list[Array], list[Array]]:
         """Weighted errors and Jacobians, in the world's axes."""
@@ -188,9 +193,9 @@ class _Solver:
         com_jacobian = pin.jacobianCenterOfMass(model, data, q)
         errors = [COM * (samples.com_W[n] - data.com[0])]
         jacobians = [COM * com_jacobian]
-        turn = pin.log3(samples.rotation_WB[n] @ data.oMi[1].rotation.T)
+        rotation = pin.log3(samples.rotation_WB[n] @ data.oMi[1].rotation.T)
         base = FREE_BASE if samples.has_points else BASE
-        errors.append(base * turn)
+        errors.append(base * rotation)
         jacobians.append(base * pin.getJointJacobian(model, data, 1, world)[3:])
         for end, frame in enumerate(self.frames):
             placement = data.oMf[frame]
@@ -200,8 +205,8 @@ class _Solver:
             errors.append(weight * (samples.positions_W[n, end] - placement.translation))
             jacobians.append(weight * jacobian[:3])
             if has_sole(self.robot.end_effectors[end]):
-                wanted = samples.rotations_W[n, end]
+                desired = samples.rotations_W[n, end]
                 weight = FREE_SOLE if samples.has_points and samples.surfaces[n, end] < 0 else SOLE
-                errors.append(weight * pin.log3(wanted @ placement.rotation.T))
+                errors.append(weight * pin.log3(desired @ placement.rotation.T))
                 jacobians.append(weight * jacobian[3:])
         return errors, jacobians

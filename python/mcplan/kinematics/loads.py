@@ -1,4 +1,4 @@
-"""What a plan of contact wrenches asks for at most: angular momentum, force and friction of each end-effector."""
+"""What a plan of contact wrenches asks for: largest angular momentum, force and friction of each end-effector."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from mcplan._core import ForceLaw, plan_loads
 if TYPE_CHECKING:
     from mcplan._core import Plan
 
-#: [s] between the instants that are looked at, at most; both ends of every phase are among them.
+#: [s] between the instants that are looked at, at most; start and end of every phase are among them.
 STEP_S = 0.005
 
 
@@ -20,8 +20,8 @@ class Loads:
 
     Attributes:
         angular_momentum: Length of the angular momentum about the CoM [kg m^2/s].
-        forces: Of each end-effector that touches something: its force in weights of the robot.
-        frictions: Likewise: tangential over normal force, infinite for a pull.
+        forces: Largest force of each end-effector in contact, in weights of the robot.
+        frictions: Largest ratio of its tangential to its normal force, infinite for a pull.
     """
 
     angular_momentum: float = 0.0

@@ -26,8 +26,8 @@ def with_axis_z(z: Array, x_hint: Array) -> Array:
     z = np.asarray(z, float) / np.linalg.norm(z)
     x = np.asarray(x_hint, float) - z * np.dot(z, x_hint)
     if np.linalg.norm(x) < 1e-3 * np.linalg.norm(x_hint):
-        least = np.eye(3)[np.argmin(np.abs(z))]
-        x = least - z * np.dot(z, least)
+        across = np.eye(3)[np.argmin(np.abs(z))]
+        x = across - z * np.dot(z, across)
     x = x / np.linalg.norm(x)
     return np.column_stack([x, np.cross(z, x), z])
 
@@ -45,19 +45,19 @@ def sole_frame(normal: Array, yaw: float) -> Array:
     return with_axis_z(normal, np.array([0.0, 0.0, 1.0]) if faces else heading)
 
 
-def between(start: Array, end: Array, share: float) -> Array:
-    """Rotation a share of the way from start to end along the shortest arc."""
+def between(start: Array, end: Array, fraction: float) -> Array:
+    """Rotation at a fraction of the shortest arc from start to end."""
     relative = start.T @ end
     angle = float(np.arccos(np.clip((np.trace(relative) - 1.0) / 2.0, -1.0, 1.0)))
     if angle < 1e-9:
         return end.copy()
     skew = np.array([relative[2, 1] - relative[1, 2], relative[0, 2] - relative[2, 0], relative[1, 0] - relative[0, 1]])
-    if np.linalg.norm(skew) < 1e-9:  # half a turn: the axis is the eigenvector of eigenvalue 1
+    if np.linalg.norm(skew) < 1e-9:  # half a revolution: the axis is the eigenvector of eigenvalue 1
         values, vectors = np.linalg.eigh(0.5 * (relative + relative.T))
         axis = vectors[:, np.argmax(values)]
     else:
         axis = skew / np.linalg.norm(skew)
-    return start @ about(axis, share * angle)
+    return start @ about(axis, fraction * angle)
 
 
 def about(axis: Array, angle: float) -> Array:
@@ -67,7 +67,7 @@ def about(axis: Array, angle: float) -> Array:
 
 
 def rotation_vector(rotation: Array) -> Array:
-    """Axis times angle of a rotation matrix by less than half a turn [rad]."""
+    """Axis times angle of a rotation matrix by less than half a revolution [rad]."""
     vee = 0.5 * np.array(
         [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
     )

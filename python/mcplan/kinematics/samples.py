@@ -1,4 +1,4 @@
-"""A plan sampled: bodies at a frame rate, and the intervals in which contacts last."""
+"""A plan sampled: states at a frame rate, and the intervals of contact."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Interval:
 class Samples:
     """States of a plan at ascending times.
 
-    n times, e end-effectors, p points of a contact at most (0 without forces at points); lengths in [m], forces in [N],
+    n times, e end-effectors, at most p points of a contact (0 without forces at points); lengths in [m], forces in [N],
     world frame W.
     """
 
@@ -70,7 +70,7 @@ class Samples:
 
 
 def sample(plan: Plan, scene: Scene, robot: Robot, rate_hz: float = 30.0) -> Samples:
-    """Sample a plan at about `rate_hz`, both ends included."""
+    """Sample a plan at about `rate_hz`, start and end included."""
     duration = float(plan.duration())
     return sample_at(plan, scene, robot, np.linspace(0.0, duration, max(2, round(duration * rate_hz) + 1)))
 
@@ -88,17 +88,17 @@ def sample_at(plan: Plan, scene: Scene, robot: Robot, times: Array) -> Samples:
     """Sample a plan at ascending times [s] within its duration; at a knot the phase that begins there is meant."""
     states = [plan.at(float(t)) for t in times]
     rotation_WB = from_rpy(np.array([s.base_rpy for s in states]))
-    ends = [s.end_effectors for s in states]
+    end_effectors = [s.end_effectors for s in states]
     intervals = contact_intervals(plan, scene, robot)
-    positions_W = np.array([[e.position_W for e in row] for row in ends], float)
-    forces_W = np.array([[e.force_W for e in row] for row in ends], float)
-    surfaces = np.array([[e.surface for e in row] for row in ends], int)
-    points_W, point_forces_W = _padded(ends, "points_W"), _padded(ends, "point_forces_W")
+    positions_W = np.array([[e.position_W for e in row] for row in end_effectors], float)
+    forces_W = np.array([[e.force_W for e in row] for row in end_effectors], float)
+    surfaces = np.array([[e.surface for e in row] for row in end_effectors], int)
+    points_W, point_forces_W = _padded(end_effectors, "points_W"), _padded(end_effectors, "point_forces_W")
     pressure_W = _centres_of_pressure(scene, positions_W, surfaces, points_W, point_forces_W)
     wrenches = np.array([plan.phases[s.phase].law == ForceLaw.wrench for s in states])
-    planned_W = np.array([[e.center_of_pressure_W for e in row] for row in ends], float)
+    planned_W = np.array([[e.center_of_pressure_W for e in row] for row in end_effectors], float)
     pressure_W = np.where(wrenches[:, None, None], planned_W, pressure_W)
-    moments_W = np.array([[e.moment_W for e in row] for row in ends], float)
+    moments_W = np.array([[e.moment_W for e in row] for row in end_effectors], float)
     return Samples(
         times_s=times,
         com_W=np.array([s.com_W for s in states], float),
@@ -106,7 +106,7 @@ def sample_at(plan: Plan, scene: Scene, robot: Robot, times: Array) -> Samples:
         com_acceleration_W=np.array([s.com_acceleration_W for s in states], float),
         rotation_WB=rotation_WB,
         positions_W=positions_W,
-        velocities_W=np.array([[e.velocity_W for e in row] for row in ends], float),
+        velocities_W=np.array([[e.velocity_W for e in row] for row in end_effectors], float),
         rotations_W=_sole_rotations(plan, times, states, rotation_WB, intervals),
         forces_W=forces_W,
         pressure_W=pressure_W,
@@ -121,14 +121,14 @@ def sample_at(plan: Plan, scene: Scene, robot: Robot, times: Array) -> Samples:
 
 
 def stance_samples(scene: Scene, robot: Robot, stance: ResolvedStance) -> Samples:
-    """A robot that stands, as a single sample."""
+    """A stance of the robot, as a single sample."""
     yaw = float(stance.yaw)
     rotation = about_z(np.array(yaw))
     rotations = []
     for surface in stance.contacts:
-        touched = scene.surfaces[surface] if surface >= 0 else None
-        rotations.append(sole_frame(polygon_normal(np.array(touched.vertices_W)), yaw) if touched else rotation)
-    ends = len(robot.end_effectors)
+        ground = scene.surfaces[surface] if surface >= 0 else None
+        rotations.append(sole_frame(polygon_normal(np.array(ground.vertices_W)), yaw) if ground else rotation)
+    count = len(robot.end_effectors)
     return Samples(
         times_s=np.zeros(1),
         com_W=np.array([stance.com_W], float),
@@ -136,13 +136,13 @@ def stance_samples(scene: Scene, robot: Robot, stance: ResolvedStance) -> Sample
         com_acceleration_W=np.zeros((1, 3)),
         rotation_WB=rotation[None],
         positions_W=np.array([stance.end_effectors_W], float),
-        velocities_W=np.zeros((1, ends, 3)),
+        velocities_W=np.zeros((1, count, 3)),
         rotations_W=np.array([rotations]),
-        forces_W=np.zeros((1, ends, 3)),
+        forces_W=np.zeros((1, count, 3)),
         pressure_W=np.array([stance.end_effectors_W], float),
-        moments_W=np.zeros((1, ends, 3)),
-        points_W=np.zeros((1, ends, 0, 3)),
-        point_forces_W=np.zeros((1, ends, 0, 3)),
+        moments_W=np.zeros((1, count, 3)),
+        points_W=np.zeros((1, count, 0, 3)),
+        point_forces_W=np.zeros((1, count, 0, 3)),
         angular_momentum_W=np.zeros((1, 3)),
         surfaces=np.array([stance.contacts], int),
         intervals=[],
@@ -178,11 +178,11 @@ def contact_intervals(plan: Plan, scene: Scene, robot: Robot) -> list[Interval]:
     return intervals
 
 
-def _padded(ends: list[Any], attribute: str) -> Array:
-    rows = [[getattr(end, attribute) for end in row] for row in ends]
-    most = max(len(points) for row in rows for points in row)
-    result = np.full((len(rows), len(rows[0]), most, 3), np.nan)
-    for n, row in enumerate(rows if most else []):
+def _padded(end_effectors: list[Any], attribute: str) -> Array:
+    rows = [[getattr(end, attribute) for end in row] for row in end_effectors]
+    max_points = max(len(points) for row in rows for points in row)
+    result = np.full((len(rows), len(rows[0]), max_points, 3), np.nan)
+    for n, row in enumerate(rows if max_points else []):
         for end, points in enumerate(row):
             result[n, end, : len(points)] = points
     return result
@@ -207,11 +207,12 @@ def _sole_rotations(
 ) -> Array:
     """Soles in contact as they lie; a free one blends from the contact before to the one after.
 
-    Where a plan says how soles head, only the tilt against that heading is blended, the base's where there is no contact.
+    Where a plan says how soles head, only the tilt against that heading is blended, the base's where there is no
+    contact.
     """
-    ends = len(plan.robot.end_effectors)
-    result = np.repeat(rotation_WB[:, None], ends, axis=1)
-    for end in range(ends):
+    count = len(plan.robot.end_effectors)
+    result = np.repeat(rotation_WB[:, None], count, axis=1)
+    for end in range(count):
         own = [i for i in intervals if i.end_effector == end]
         if not own:
             continue
@@ -227,15 +228,15 @@ def _sole_rotations(
             goal = after[0].rotation_W if after else rotation_WB[n]
             since = before[-1].end_s if before else times[0]
             until = after[0].start_s if after else times[-1]
-            share = (t - since) / max(until - since, 1e-9)
-            share = share * share * (3.0 - 2.0 * share)
+            fraction = (t - since) / max(until - since, 1e-9)
+            fraction = fraction * fraction * (3.0 - 2.0 * fraction)
             if headings is None:
-                result[n, end] = between(start, goal, share)
+                result[n, end] = between(start, goal, fraction)
                 continue
             own_yaw, base_yaw = headings[n], float(states[n].base_rpy[2])
             lifted = float(plan.at(since).end_effectors[end].yaw) if before else base_yaw
             lands = float(plan.at(until).end_effectors[end].yaw) if after else base_yaw
-            tilt = between(about_z(np.array(-lifted)) @ start, about_z(np.array(-lands)) @ goal, share)
+            tilt = between(about_z(np.array(-lifted)) @ start, about_z(np.array(-lands)) @ goal, fraction)
             result[n, end] = about_z(np.array(own_yaw)) @ tilt
     return result
 

@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Inertia of the rotor, seen at the joint, of joints for which URDF and SRDF give none [kg m^2]. Geared joints have some,
-#: and without it light distal links turn too easily to be simulated.
+#: Inertia of the rotor, seen at the joint, of joints for which URDF and SRDF give none [kg m^2]. Geared joints have
+#: some, and without it light distal links accelerate too easily to be simulated.
 ARMATURE = 0.01
-#: Of links that move [kg] and of their principal inertias [kg m^2]: some URDFs have links without any.
-LEAST_MASS, LEAST_INERTIA = 1e-6, 1e-9
+#: Minimum mass of links that move [kg], and of their principal inertias [kg m^2]: some URDFs have links without any.
+MIN_MASS, MIN_INERTIA = 1e-6, 1e-9
 
 
 @dataclass(frozen=True)
@@ -32,8 +32,8 @@ class UrdfModel:
 
     Attributes:
         robot: What it was read for.
-        model: Pinocchio model with a free-flyer, and the contact frames among its frames. Every joint has the inertia of a
-            rotor, `model.armature`, and every link one that a body can have.
+        model: Pinocchio model with a free-flyer, and the contact frames among its frames. Every joint has the inertia
+            of a rotor, `model.armature`, and every link one that a rigid body can have.
         visual: Its visual geometry.
         neutral: (nq,) configuration: free-flyer at the origin, joints in the robot's posture.
         frames: Index of the contact frame of each end-effector: at its contact point, axes those of the base when the
@@ -103,14 +103,14 @@ def load_model(robot: Robot) -> UrdfModel:
 
 
 def _make_physical(model: Any, joint: int) -> None:
-    """Mend a mass or an inertia that no body has: zero, or one principal moment above the sum of the others."""
+    """Mend a mass or an inertia that no rigid body has: zero, or one principal moment above the sum of the others."""
     import pinocchio as pin
 
     inertia = model.inertias[joint]
     moments, axes = np.linalg.eigh(inertia.inertia)
-    mended = np.maximum(moments, LEAST_INERTIA)
+    mended = np.maximum(moments, MIN_INERTIA)
     mended[2] = min(mended[2], mended[0] + mended[1])
-    mass = max(inertia.mass, LEAST_MASS)
+    mass = max(inertia.mass, MIN_MASS)
     if mass != inertia.mass or not np.allclose(mended, moments, rtol=0.0, atol=1e-12):
         model.inertias[joint] = pin.Inertia(mass, inertia.lever, axes @ np.diag(mended) @ axes.T)
 
@@ -126,7 +126,7 @@ def _contact_frames(model: Any, neutral: Array, robot: Robot) -> list[int]:
     pin.framesForwardKinematics(model, data, neutral)
     frames = []
     for end in robot.end_effectors:
-        # Links and joints may bear one name: the link's frame is meant where there is one.
+        # Links and joints may have one name: the link's frame is meant where there is one.
         link = model.getBodyId(end.frame) if model.existBodyName(end.frame) else model.getFrameId(end.frame)
         joint = model.frames[link].parentJoint
         placement_W = pin.SE3(np.eye(3), data.oMf[link].act(np.asarray(end.frame_offset, float)))

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Of the force that the robot exerts on its surroundings; base upright, x forward.
+#: Directions of the force that the robot exerts on its surroundings; base upright, x forward.
 DIRECTIONS = {
     "down": (0.0, 0.0, -1.0),
     "up": (0.0, 0.0, 1.0),
@@ -41,39 +41,43 @@ class Strength:
     direction: str
     forces_N: Array
 
-    def quantile_N(self, share: float) -> float:
-        """Force that this share of the postures does not exceed [N]."""
-        return float(np.quantile(self.forces_N, share))
+    def quantile_N(self, fraction: float) -> float:
+        """Force that this fraction of the postures does not exceed [N]."""
+        return float(np.quantile(self.forces_N, fraction))
 
 
-def largest_force_N(loaded: UrdfModel, end: int, configuration: Array, direction_W: Array) -> tuple[float, str]:
+def largest_force_N(urdf_model: UrdfModel, end: int, configuration: Array, direction_W: Array) -> tuple[float, str]:
     """Largest force that an end-effector can exert in a direction with the robot at rest; see mcplan.files.strength.
 
     Args:
-        loaded: The robot's model.
+        urdf_model: The robot's model.
         end: Index of the end-effector.
         configuration: (nq,) Pinocchio's order.
-        direction_W: (3,) of the force on the surroundings, of any length but 0.
+        direction_W: (3,) direction of the force on the surroundings, of any length but 0.
 
     Returns:
-        Force [N], 0 if there is none with which the arm bears itself, infinite if no joint bears it; and the joint that
-        gives way first.
+        Force [N], 0 if the arm cannot carry its own weight, infinite if no joint limits the force; and the joint that
+        reaches its torque limit first.
     """
     return strength.largest_force_N(
-        loaded.model, loaded.model.createData(), loaded.frames[end], np.asarray(configuration, float), direction_W
+        urdf_model.model,
+        urdf_model.model.createData(),
+        urdf_model.frames[end],
+        np.asarray(configuration, float),
+        direction_W,
     )
 
 
-def random_strengths(loaded: UrdfModel, end: int, samples: int = 2000, seed: int = 0) -> list[Strength]:
+def random_strengths(urdf_model: UrdfModel, end: int, samples: int = 2000, seed: int = 0) -> list[Strength]:
     """Strength over postures drawn evenly within the limits of the joints that move the end-effector but not the other ones.
 
     Torso joints keep the robot's posture, since they carry the other arm, too; their torque limits count.
 
     Args:
-        loaded: The robot's model.
+        urdf_model: The robot's model.
         end: Index of the end-effector.
         samples: Number of postures.
-        seed: Of their choice.
+        seed: Seed of their choice.
 
     Returns:
         One Strength for each of DIRECTIONS.
@@ -83,24 +87,24 @@ def random_strengths(loaded: UrdfModel, end: int, samples: int = 2000, seed: int
     """
     if samples < 1:
         raise InvalidOptions("samples", "must be at least 1", str(samples))
-    model, rng = loaded.model, np.random.default_rng(seed)
-    own = own_joints(loaded, end)
+    model, rng = urdf_model.model, np.random.default_rng(seed)
+    own = own_joints(urdf_model, end)
     index = [model.joints[j].idx_q for j in own]
     low, high = model.lowerPositionLimit[index], model.upperPositionLimit[index]
     data, forces = model.createData(), np.empty((samples, len(DIRECTIONS)))
     for n in range(samples):
-        q = loaded.neutral.copy()
+        q = urdf_model.neutral.copy()
         q[index] = rng.uniform(low, high)
         for k, direction in enumerate(DIRECTIONS.values()):
             forces[n, k], _ = strength.largest_force_N(
-                model, data, loaded.frames[end], q, np.array(direction), update=k == 0
+                model, data, urdf_model.frames[end], q, np.array(direction), update=k == 0
             )
-    name = loaded.robot.end_effectors[end].name
+    name = urdf_model.robot.end_effectors[end].name
     return [Strength(name, direction, np.sort(forces[:, k])) for k, direction in enumerate(DIRECTIONS)]
 
 
-def own_joints(loaded: UrdfModel, end: int) -> list[int]:
+def own_joints(urdf_model: UrdfModel, end: int) -> list[int]:
     """Joints between the base and one end-effector that move no other end-effector, from the base outwards."""
-    supports = [list(loaded.model.supports[loaded.model.frames[f].parentJoint]) for f in loaded.frames]
+    supports = [list(urdf_model.model.supports[urdf_model.model.frames[f].parentJoint]) for f in urdf_model.frames]
     others = {joint for i, chain in enumerate(supports) if i != end for joint in chain}
     return [joint for joint in supports[end] if joint > 1 and joint not in others]

@@ -1,4 +1,4 @@
-"""Points at which an end-effector in contact bears force, their cones, and how a planned force is shared among them."""
+"""Points at which forces act on an end-effector in contact, their cones, and how a planned force is distributed to them."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from mcplan.kinematics.rotations import with_axis_z
 
 Array = NDArray[np.float64]
 
-#: Share of the sole, and of the friction coefficient, that the controller makes use of; sides of the friction pyramid:
-#: slopes of 13 degrees on a friction of 0.3 leave no room for a coarse pyramid.
+#: Ratios of the sole, and of the friction coefficient, that the controller makes use of; sides of the friction pyramid:
+#: slopes of 13 degrees on a friction of 0.3 leave no margin for a coarse pyramid.
 SIDES = 8
-SOLE_SHARE, FRICTION_SHARE = 0.9, 0.98
+SOLE_RATIO, FRICTION_RATIO = 0.9, 0.98
 
 
 @dataclass(frozen=True)
 class ForcePoints:
-    """Of one end-effector: p points, 1 or 4.
+    """Force points of one end-effector: p points, 1 or 4.
 
     Attributes:
         offsets: (p, 3) in the contact frame [m].
-        weights: (p, 3) shares of a force at (x, y) in the contact frame, weights @ [1, x, y]: they have that centre of
-            pressure, and the least norm of all that do.
+        weights: (p, 3) weights @ [1, x, y] are the fractions of a force at (x, y) in the contact frame: they have that
+            centre of pressure, and the minimum norm of all that do.
     """
 
     offsets: Array
@@ -37,9 +37,9 @@ class ForcePoints:
         Args:
             half_size: Half length and half width of its sole [m]; zeros: a point.
             outline_F: (m, 2) convex outline of the surface below it, counter-clockwise in the contact frame [m]: only
-                what of the sole is on it bears force. None: all of it.
+                forces act on the part of the sole that is on it. None: on all of it.
         """
-        length, width = SOLE_SHARE * np.asarray(half_size, float)
+        length, width = SOLE_RATIO * np.asarray(half_size, float)
         if length <= 0.0 or width <= 0.0:
             return cls(np.zeros((1, 3)), np.array([[1.0, 0.0, 0.0]]))
         corners = np.array([[length, width], [-length, width], [-length, -width], [length, -width]])
@@ -64,12 +64,12 @@ class ForcePoints:
             result[3:, 3 * i : 3 * i + 3] = [[0, -r[2], r[1]], [r[2], 0, -r[0]], [-r[1], r[0], 0]]
         return result
 
-    def share(self, force_W: Array, pressure_F: Array) -> Array:
+    def distribute(self, force_W: Array, pressure_F: Array) -> Array:
         """(3 p,) forces at the points that add up to a force (3,) [N] acting at (2,) in the contact frame [m]."""
         return np.outer(self.weights @ np.array([1.0, *pressure_F]), force_W).ravel()
 
     def twist(self, moment_Nm: float, rotation_W: Array) -> Array:
-        """(3 p,) least forces at the points that add up to nothing but a moment about the contact frame's z.
+        """(3 p,) minimum forces at the points that add up to nothing but a moment about the contact frame's z.
 
         f_i = tau z x (r_i - r) / sum |r_i - r|^2, r the mean of the points; none at a single point.
         """
@@ -105,5 +105,5 @@ def pyramid(normal_W: Array, friction: float) -> Array:
     hint = np.array([1.0, 0.0, 0.0]) if abs(normal_W[0]) < 0.9 else np.array([0.0, 0.0, 1.0])
     axes = with_axis_z(normal_W, hint)
     angles = 2.0 * np.pi * (np.arange(SIDES) + 0.5) / SIDES
-    slope = FRICTION_SHARE * friction * np.cos(np.pi / SIDES)
+    slope = FRICTION_RATIO * friction * np.cos(np.pi / SIDES)
     return slope * normal_W - np.column_stack([np.cos(angles), np.sin(angles)]) @ axes[:, :2].T

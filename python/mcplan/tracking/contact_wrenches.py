@@ -1,8 +1,8 @@
 """Contact forces that balance a posture: near to the plan's, within soles and friction.
 
-The plan's forces hold a lumped mass. The bodies of the robot ask for a little more:
-legs that swing, a mass that is not quite the plan's. Without a correction that difference would be a wrench on the base that
-nothing bears, and the torques of the joints would be wrong by it.
+The plan's forces balance a lumped mass. The links of the robot ask for a little more:
+legs that swing, a mass that is not quite the plan's. Without a correction that difference would be a wrench on the base
+that nothing balances, and the torques of the joints would be wrong by it.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ class Contact:
 
     Attributes:
         points_W: (p, 3) corners of the sole or the point [m].
-        normal_W: (3,) of the surface.
-        friction: Of the surface; infinite: held, forces in all directions.
-        force_W: (3,) the plan's [N].
-        position_W: (3,) of the end-effector, about which moments are taken [m].
-        jacobian: (6, nv) of the end-effector, world's axes.
-        moment_W: (3,) the plan's about position_W [N m]; None: it leaves the centre of pressure open.
+        normal_W: (3,) normal of the surface.
+        friction: Friction coefficient of the surface; infinite: a grasp, forces in all directions.
+        force_W: (3,) the plan's force [N].
+        position_W: (3,) position of the end-effector, about which moments are taken [m].
+        jacobian: (6, nv) Jacobian of the end-effector, world's axes.
+        moment_W: (3,) the plan's moment about position_W [N m]; None: it leaves the centre of pressure open.
     """
 
     points_W: Array
@@ -42,16 +42,16 @@ class Contact:
 
 
 def balanced_wrenches(contacts: list[Contact], base: Array, length_m: float) -> tuple[list[Array], Array]:
-    """Wrenches of the contacts that bear what the base needs.
+    """Wrenches of the contacts that balance what the base needs.
 
     Args:
         contacts: Those that the plan has at this instant.
         base: (6,) generalised force that must come from the contacts [N, N m].
-        length_m: By which moments are divided to weigh them against forces, e.g. the height of the CoM.
+        length_m: Length by which moments are divided to weigh them against forces, e.g. the height of the CoM.
 
     Returns:
-        Wrench on the robot of each contact, (6,) about its position, world's axes [N, N m]; and (6,) what of `base` they
-        cannot bear.
+        Wrench on the robot of each contact, (6,) about its position, world's axes [N, N m]; and (6,) what of `base`
+        they cannot balance.
     """
     from scipy.optimize import nnls
 
@@ -61,17 +61,17 @@ def balanced_wrenches(contacts: list[Contact], base: Array, length_m: float) -> 
     bases = [contact.jacobian[:, :6].T @ generators for contact, generators in zip(contacts, maps, strict=True)]
     scale = np.array([1.0, 1.0, 1.0, 1.0 / length_m, 1.0 / length_m, 1.0 / length_m])
     count = sum(m.shape[1] for m in maps)
-    reference, wanted = np.zeros((6 * len(contacts), count)), np.zeros(6 * len(contacts))
+    reference, desired = np.zeros((6 * len(contacts), count)), np.zeros(6 * len(contacts))
     start = 0
     for i, (contact, generators) in enumerate(zip(contacts, maps, strict=True)):
         columns = slice(start, start + generators.shape[1])
-        reference[6 * i : 6 * i + 3, columns], wanted[6 * i : 6 * i + 3] = generators[:3], contact.force_W
+        reference[6 * i : 6 * i + 3, columns], desired[6 * i : 6 * i + 3] = generators[:3], contact.force_W
         if contact.moment_W is not None:
             reference[6 * i + 3 : 6 * i + 6, columns] = generators[3:] / length_m
-            wanted[6 * i + 3 : 6 * i + 6] = contact.moment_W / length_m
+            desired[6 * i + 3 : 6 * i + 6] = contact.moment_W / length_m
         start += generators.shape[1]
     matrix = np.vstack([scale[:, None] * np.hstack(bases), REFERENCE * reference, SMALL * np.eye(count)])
-    amounts, _ = nnls(matrix, np.concatenate([scale * base, REFERENCE * wanted, np.zeros(count)]), maxiter=50 * count)
+    amounts, _ = nnls(matrix, np.concatenate([scale * base, REFERENCE * desired, np.zeros(count)]), maxiter=50 * count)
     wrenches, start = [], 0
     for generators in maps:
         wrenches.append(generators @ amounts[start : start + generators.shape[1]])

@@ -1,4 +1,4 @@
-"""Which end-effectors bear force: the plan's timing, corrected by what the ground says."""
+"""Which end-effectors are in contact: the plan's timing, corrected by the measured forces."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-#: A foot that meets the ground after this share of its swing has landed early; before, it has not left yet.
-EARLY_SHARE = 0.7
+#: A foot in contact after this fraction of its swing has landed early; before, it has not left yet.
+EARLY_FRACTION = 0.7
 #: Speed at which a foot that is late is lowered onto the ground [m/s], and how far [m].
 SEARCH_SPEED, SEARCH_DEPTH = 0.15, 0.08
 
 
 class Mode(Enum):
-    """What an end-effector does."""
+    """Mode of an end-effector."""
 
     FREE = "free"
     CONTACT = "contact"
@@ -29,9 +29,9 @@ class Contact:
     """An end-effector's state.
 
     Attributes:
-        mode: What it does.
-        position_W, rotation_W: Where it came to stand, in contact.
-        searched_s: Time spent in the search.
+        mode: Its mode.
+        position_W, rotation_W: Where the contact was made.
+        searched_s: Time spent in Mode.SEARCH.
     """
 
     mode: Mode = Mode.FREE
@@ -39,28 +39,28 @@ class Contact:
     rotation_W: Array = field(default_factory=lambda: np.eye(3))
     searched_s: float = 0.0
 
-    def update(self, planned: bool, touches: bool, swing_share: float, dt_s: float) -> bool:
+    def update(self, planned: bool, in_contact: bool, swing_fraction: float, dt_s: float) -> bool:
         """Move on by a control step.
 
         Args:
             planned: The plan has it in contact now.
-            touches: The measured force says that it is.
-            swing_share: How much of the planned swing has passed.
-            dt_s: Control step.
+            in_contact: The measured force says that it is.
+            swing_fraction: Fraction of the planned swing that has passed.
+            dt_s: Duration of the control step.
 
         Returns:
-            Whether it came into contact just now: where it is, is where it stands.
+            Whether it came into contact just now: its place is that of the contact.
         """
         if not planned:
-            early = touches and swing_share > EARLY_SHARE
+            early = in_contact and swing_fraction > EARLY_FRACTION
             landed = early and self.mode is not Mode.CONTACT
-            stays = self.mode is Mode.CONTACT and swing_share > EARLY_SHARE
+            stays = self.mode is Mode.CONTACT and swing_fraction > EARLY_FRACTION
             self.mode = Mode.CONTACT if early or stays else Mode.FREE
             self.searched_s = 0.0
             return landed
         if self.mode is Mode.CONTACT:
             return False
-        if touches:
+        if in_contact:
             self.mode, self.searched_s = Mode.CONTACT, 0.0
             return True
         self.mode = Mode.SEARCH
@@ -69,5 +69,5 @@ class Contact:
 
     @property
     def search_depth_m(self) -> float:
-        """How far below its planned place it is looked for."""
+        """Depth below its planned place at which the ground is searched."""
         return min(SEARCH_SPEED * self.searched_s, SEARCH_DEPTH)

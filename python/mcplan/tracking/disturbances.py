@@ -8,7 +8,7 @@ import numpy as np
 
 from .options import Options, Push
 
-#: Half widths: of the mass and the friction as shares, of the ground's height [m]; and the largest push [N] and its
+#: Half widths: of the mass and the friction as ratios, of the ground's height [m]; and the largest push [N] and its
 #: duration [s].
 MASS, FRICTION, GROUND_M = 0.10, 0.20, 0.01
 PUSH_N, PUSH_S = 40.0, 0.2
@@ -21,19 +21,19 @@ def disturbed(options: Options, seed: int, duration_s: float, mass: float = PUSH
 
     Args:
         options: To start from.
-        seed: Of the draw.
-        duration_s: Of the plan; the push comes at some time in it.
-        mass: Of the robot [kg]; the push is in proportion to it, and 40 N at most for 90 kg and more.
+        seed: Seed of the draw.
+        duration_s: Duration of the plan; the push comes at some time in it.
+        mass: Mass of the robot [kg]; the push is in proportion to it, and 40 N at most for 90 kg and more.
     """
     random = np.random.default_rng(seed)
-    mass_share, friction_share, ground = random.uniform(-1.0, 1.0, 3)
+    mass_change, friction_change, ground = random.uniform(-1.0, 1.0, 3)
     force = PUSH_N * min(1.0, mass / PUSHED_MASS) * random.uniform()
     at, direction = random.uniform(0.0, duration_s), random.uniform(0.0, 360.0)
     return replace(
         options,
         seed=seed,
-        mass_scale=options.mass_scale * (1.0 + MASS * mass_share),
-        friction_scale=options.friction_scale * (1.0 + FRICTION * friction_share),
+        mass_scale=options.mass_scale * (1.0 + MASS * mass_change),
+        friction_scale=options.friction_scale * (1.0 + FRICTION * friction_change),
         ground_shift_m=options.ground_shift_m + GROUND_M * ground,
         pushes=(*options.pushes, Push(force, PUSH_S, at, direction)),
     )

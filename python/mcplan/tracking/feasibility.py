@@ -31,9 +31,9 @@ Array = NDArray[np.float64]
 RATE = 40.0
 #: What postures may miss the plan by: CoM and end-effectors [m], soles on the ground [deg].
 REACH, TILT = 0.01, 3.0
-#: Wrench on the base that contacts do not bear, in parts of the weight (moments over the height of the CoM).
+#: Wrench on the base that contacts do not balance, as a ratio to the weight (moments over the height of the CoM).
 BALANCE = 0.10
-#: Difference of the plan's mass from the model's, in parts of it.
+#: Difference of the plan's mass from the model's, as a ratio to it.
 MASS = 0.10
 #: A joint so near to its limit is named [rad].
 NEAR = 0.05
@@ -42,21 +42,21 @@ NEAR = 0.05
 @dataclass(frozen=True)
 class _Case:
     plan: Plan
-    loaded: UrdfModel
+    urdf_model: UrdfModel
     samples: Samples
     postures: Postures
     torques: PostureTorques
 
 
 def assess(plan: Plan, robot: Robot | None = None, payload_kg: float = 0.0) -> Feasibility:
-    """Hold a plan against the joints of a robot, without simulating it.
+    """Check whether the joints of a robot can follow a plan, without simulating it.
 
     Postures by inverse kinematics at the knots and every 25 ms between say what is out of reach; inverse dynamics of
     these postures, with contact forces as near to the plan's as balance allows, what torques it takes.
 
     Args:
-        plan: Of the contact-sequence search or the receding horizon.
-        robot: With a URDF; None: the plan's own. End-effectors are matched by name.
+        plan: A plan of the contact-sequence search or the receding horizon.
+        robot: A robot with a URDF; None: the plan's own. End-effectors are matched by name.
         payload_kg: Mass that the base carries in addition, at the base's own centre of mass.
 
     Raises:
@@ -70,34 +70,34 @@ def assess(plan: Plan, robot: Robot | None = None, payload_kg: float = 0.0) -> F
         raise InvalidInput("payload_kg", "must be 0 or more", str(payload_kg))
     robot = plan.robot if robot is None else robot
     require("telling whether a robot can follow a plan", "view", "pinocchio", "scipy")
-    loaded = load_model(robot)
+    urdf_model = load_model(robot)
     if payload_kg:
-        loaded.model.inertias[1].mass += payload_kg
+        urdf_model.model.inertias[1].mass += payload_kg
     times = knots_and_between(plan, RATE)
-    loaded, samples = _matched(plan, loaded, sample_at(plan, plan.scene, plan.robot, times))
-    postures = follow(loaded, samples)
-    moving = smoothed(loaded, samples, postures)
+    urdf_model, samples = _matched(plan, urdf_model, sample_at(plan, plan.scene, plan.robot, times))
+    postures = follow(urdf_model, samples)
+    moving = smoothed(urdf_model, samples, postures)
     acceleration = np.array([plan.at(float(t)).com_acceleration_W for t in times])
-    mass = sum(inertia.mass for inertia in loaded.model.inertias)
-    torques = posture_torques(loaded, plan.scene, samples, moving, acceleration, mass / plan.robot.mass)
-    postures = nearest(loaded, samples, postures, moving)
-    case = _Case(plan, loaded, samples, postures, torques)
+    mass = sum(inertia.mass for inertia in urdf_model.model.inertias)
+    torques = posture_torques(urdf_model, plan.scene, samples, moving, acceleration, mass / plan.robot.mass)
+    postures = nearest(urdf_model, samples, postures, moving)
+    case = _Case(plan, urdf_model, samples, postures, torques)
     findings = [
         *_reach(case),
         *_balance(case, mass),
         *_torques(case),
         *_velocities(case),
         *_hands(case),
-        *clearance_findings(plan.scene, loaded, samples, postures, _final_contacts(plan, loaded)),
+        *clearance_findings(plan.scene, urdf_model, samples, postures, _final_contacts(plan, urdf_model)),
         _mass(case, mass),
     ]
     return Feasibility(robot.name, tuple(findings))
 
 
-def _matched(plan: Plan, loaded: UrdfModel, samples: Samples) -> tuple[UrdfModel, Samples]:
-    """The model with the end-effectors that plan and robot share, and the plan's samples in that order."""
+def _matched(plan: Plan, urdf_model: UrdfModel, samples: Samples) -> tuple[UrdfModel, Samples]:
+    """The model with the end-effectors that both plan and robot have, and the plan's samples in that order."""
     names = [end.name for end in plan.robot.end_effectors]
-    robot = loaded.robot
+    robot = urdf_model.robot
     kept = [i for i, end in enumerate(robot.end_effectors) if end.name in names]
     mine = [robot.end_effectors[i].name for i in kept]
     for i, name in enumerate(names):
@@ -107,8 +107,8 @@ def _matched(plan: Plan, loaded: UrdfModel, samples: Samples) -> tuple[UrdfModel
             own = ", ".join(end.name for end in robot.end_effectors)
             raise InvalidRobot("end_effectors", f"must have {name!r}, which the plan puts down{take}", own, robot.name)
     order = [names.index(name) for name in mine]
-    shared = copy.copy(robot)
-    shared.end_effectors = [robot.end_effectors[i] for i in kept]
+    reduced = copy.copy(robot)
+    reduced.end_effectors = [robot.end_effectors[i] for i in kept]
     per_end = (
         *("positions_W", "rotations_W", "forces_W", "pressure_W", "moments_W"),
         *("points_W", "point_forces_W", "surfaces"),
@@ -118,15 +118,15 @@ def _matched(plan: Plan, loaded: UrdfModel, samples: Samples) -> tuple[UrdfModel
         replace(i, end_effector=order.index(i.end_effector)) for i in samples.intervals if i.end_effector in order
     ]
     return (
-        replace(loaded, robot=shared, frames=[loaded.frames[i] for i in kept]),
+        replace(urdf_model, robot=reduced, frames=[urdf_model.frames[i] for i in kept]),
         replace(samples, intervals=intervals, **chosen),
     )
 
 
-def _final_contacts(plan: Plan, loaded: UrdfModel) -> list[int]:
+def _final_contacts(plan: Plan, urdf_model: UrdfModel) -> list[int]:
     """Surface under each of the model's end-effectors after the last phase, -1: none."""
-    ends = loaded.robot.end_effectors
-    return [plan.final_contacts[plan.robot.end_effector_index(end.name)] for end in ends]
+    end_effectors = urdf_model.robot.end_effectors
+    return [plan.final_contacts[plan.robot.end_effector_index(end.name)] for end in end_effectors]
 
 
 def _reach(case: _Case) -> list[Finding]:
@@ -135,29 +135,33 @@ def _reach(case: _Case) -> list[Finding]:
     n = int(np.argmax(postures.com_misses))
     misses = postures.com_misses
     findings = [Finding("reach", float(misses[n]), REACH, "m", "com", float(samples.times_s[n]), _at_limits(case, n))]
-    for end, body in enumerate(case.loaded.robot.end_effectors):
-        touches = samples.surfaces[:, end] >= 0
-        counts = np.ones_like(touches) if body.kind == "foot" else touches
+    for end, end_effector in enumerate(case.urdf_model.robot.end_effectors):
+        in_contact = samples.surfaces[:, end] >= 0
+        counts = np.ones_like(in_contact) if end_effector.kind == "foot" else in_contact
         if counts.any():
             misses = np.where(counts, postures.end_misses[:, end], -1.0)
             n = int(np.argmax(misses))
             time = float(samples.times_s[n])
-            findings.append(Finding("reach", float(misses[n]), REACH, "m", body.name, time, _at_limits(case, n, end)))
-    for end, body in enumerate(case.loaded.robot.end_effectors):
-        touches = samples.surfaces[:, end] >= 0
-        if has_sole(body) and touches.any():
-            tilts = np.degrees(np.where(touches, postures.tilts[:, end], 0.0))
+            findings.append(
+                Finding("reach", float(misses[n]), REACH, "m", end_effector.name, time, _at_limits(case, n, end))
+            )
+    for end, end_effector in enumerate(case.urdf_model.robot.end_effectors):
+        in_contact = samples.surfaces[:, end] >= 0
+        if has_sole(end_effector) and in_contact.any():
+            tilts = np.degrees(np.where(in_contact, postures.tilts[:, end], 0.0))
             n = int(np.argmax(tilts))
             time = float(samples.times_s[n])
-            findings.append(Finding("sole", float(tilts[n]), TILT, "deg", body.name, time, _at_limits(case, n, end)))
+            findings.append(
+                Finding("sole", float(tilts[n]), TILT, "deg", end_effector.name, time, _at_limits(case, n, end))
+            )
     return findings
 
 
 def _at_limits(case: _Case, n: int, end: int | None = None) -> str:
     """Joints at their limits in a posture: of the limb of an end-effector, or of all limbs in contact."""
-    model, q = case.loaded.model, case.postures.configurations[n]
-    ends = np.flatnonzero(case.samples.surfaces[n] >= 0) if end is None else [end]
-    frames = [case.loaded.frames[i] for i in ends]
+    model, q = case.urdf_model.model, case.postures.configurations[n]
+    end_effectors = np.flatnonzero(case.samples.surfaces[n] >= 0) if end is None else [end]
+    frames = [case.urdf_model.frames[i] for i in end_effectors]
     chain = {joint for frame in frames for joint in model.supports[model.frames[frame].parentJoint]}
     names = []
     for joint in sorted(joint for joint in chain if joint > 1):
@@ -168,18 +172,18 @@ def _at_limits(case: _Case, n: int, end: int | None = None) -> str:
 
 
 def _torques(case: _Case) -> list[Finding]:
-    return _per_joint(case, "torque", case.torques.torques, case.loaded.model.effortLimit[6:], "N m")
+    return _per_joint(case, "torque", case.torques.torques, case.urdf_model.model.effortLimit[6:], "N m")
 
 
 def _velocities(case: _Case) -> list[Finding]:
     return _per_joint(
-        case, "joint_velocity", case.torques.velocities[:, 6:], case.loaded.model.velocityLimit[6:], "rad/s"
+        case, "joint_velocity", case.torques.velocities[:, 6:], case.urdf_model.model.velocityLimit[6:], "rad/s"
     )
 
 
 def _per_joint(case: _Case, name: str, values: Array, limits: Array, unit: str) -> list[Finding]:
     """The largest value of each joint that has a limit."""
-    findings, model = [], case.loaded.model
+    findings, model = [], case.urdf_model.model
     for joint in range(2, model.njoints):
         v = model.joints[joint].idx_v - 6
         if limits[v] > 0.0 and np.isfinite(limits[v]):  # URDFs write 0 where they know none
@@ -190,9 +194,9 @@ def _per_joint(case: _Case, name: str, values: Array, limits: Array, unit: str) 
 
 
 def _balance(case: _Case, mass: float) -> list[Finding]:
-    """What of the base's wrench no contact bears."""
+    """The part of the base's wrench that no contact balances."""
     weight = mass * float(case.plan.scene.gravity)
-    height = float(case.loaded.robot.com_height)
+    height = float(case.urdf_model.robot.com_height)
     residual = case.torques.residuals
     parts = np.hypot(np.linalg.norm(residual[:, :3], axis=1), np.linalg.norm(residual[:, 3:], axis=1) / height) / weight
     n = int(np.argmax(parts))
@@ -200,22 +204,22 @@ def _balance(case: _Case, mass: float) -> list[Finding]:
 
 
 def _hands(case: _Case) -> list[Finding]:
-    """The plan's force on a hand against what its arm bears in that posture and direction."""
+    """The plan's force on a hand against the capacity of its arm in that posture and direction."""
     findings, samples = [], case.samples
-    for end, body in enumerate(case.loaded.robot.end_effectors):
+    for end, end_effector in enumerate(case.urdf_model.robot.end_effectors):
         forces = np.linalg.norm(samples.forces_W[:, end], axis=1)
         best: Finding | None = None
-        for n in np.flatnonzero((samples.surfaces[:, end] >= 0) & (forces > 1.0) & (body.kind != "foot")):
+        for n in np.flatnonzero((samples.surfaces[:, end] >= 0) & (forces > 1.0) & (end_effector.kind != "foot")):
             push = -samples.forces_W[n, end]
-            bears, joint = largest_force_N(case.loaded, end, case.postures.configurations[n], push)
+            capacity_N, joint = largest_force_N(case.urdf_model, end, case.postures.configurations[n], push)
             found = Finding(
                 "hand_force",
                 float(forces[n]),
-                bears,
+                capacity_N,
                 "N",
-                body.name,
+                end_effector.name,
                 float(samples.times_s[n]),
-                f"{joint} gives way first",
+                f"{joint} reaches its limit first",
             )
             best = found if best is None or found.use > best.use else best
         findings += [best] if best else []

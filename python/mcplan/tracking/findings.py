@@ -1,4 +1,4 @@
-"""What is found when a plan is held against a robot's limits."""
+"""What is found when a plan is compared with a robot's limits."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ class Finding:
     """The place where a plan asks most of one limit of the robot, whether that is beyond it or not.
 
     Attributes:
-        name: The limit: "reach", "sole", "balance", "torque", "joint_velocity", "hand_force", "clearance", "foothold" or
-            "mass".
+        name: The limit: "reach", "sole", "balance", "torque", "joint_velocity", "hand_force", "clearance", "foothold"
+            or "mass".
         value: What is asked for, in `unit`.
         limit: The largest value that is accepted.
-        unit: Of value and limit.
+        unit: Unit of value and limit.
         where: End-effector, joint or "com"; empty: the whole robot.
         time_s: When.
         note: What else is worth knowing, e.g. which joints are at their limits.

@@ -20,17 +20,17 @@ class Measures:
     """Numbers of one run.
 
     Attributes:
-        fell: The base came down, or the simulation broke off.
+        fell: Whether the base came down, or the simulation broke off.
         completed_s: Time until it fell, or the whole run.
         com_rms_m, com_max_m: Distance of the CoM from the plan's.
         orientation_rms_deg: Angle of the base from the plan's.
         swing_rms_m: Distance of end-effectors in the air from the plan's.
-        slip_m: Longest way of an end-effector along its surface during one contact.
+        slip_m: Largest displacement of an end-effector along its surface during one contact.
         torque_use: Largest torque over its limit.
         assist_force_rms_N, assist_moment_rms_Nm: Wrench of the assistance; 0 without it.
-        final_base_error_m: Of the base from where the plan ends, in the ground plane, at the end of the run.
+        final_base_error_m: Distance of the base from where the plan ends, in the ground plane, at the end of the run.
         qp_failures: Control steps in which the quadratic program was not solved.
-        simulator_warnings: Of MuJoCo, all kinds together.
+        simulator_warnings: Number of warnings of MuJoCo, all kinds together.
         realtime_factor: Simulated time over wall clock, control included.
         control_ms: Mean wall clock of a control step.
     """
@@ -56,7 +56,7 @@ class Measures:
         return asdict(self)
 
 
-#: After touching down a foot settles for this long [s] before slip is measured.
+#: After touch-down a foot settles for this long [s] before slip is measured.
 SETTLE_S = 0.02
 
 
@@ -77,7 +77,7 @@ def measure(recording: Recording, final_configuration: Array) -> Measures:
         com_rms_m=rms(com_error),
         com_max_m=float(com_error.max()),
         orientation_rms_deg=float(np.degrees(rms(_angles(r.configurations[:, 3:7], r.base_quat_xyzw_plan)))),
-        swing_rms_m=rms(np.linalg.norm(r.ends_W - r.ends_plan_W, axis=2)[swinging(r.contacts_plan)]),
+        swing_rms_m=rms(np.linalg.norm(r.end_effectors_W - r.end_effectors_plan_W, axis=2)[swinging(r.contacts_plan)]),
         slip_m=_slip(r),
         # A joint whose URDF gives it no effort has no motor to use.
         torque_use=float((np.abs(r.torques) / np.where(r.torque_limits > 0.0, r.torque_limits, np.inf)).max()),
@@ -112,11 +112,11 @@ def _slip(r: Recording) -> float:
     settle = round(SETTLE_S / (r.times_s[1] - r.times_s[0])) if len(r.times_s) > 1 else 0
     worst = 0.0
     for end in range(r.contacts.shape[1]):
-        bears = np.where(r.contacts[:, end], r.contacts_plan[:, end], -1)
-        for run in np.split(np.arange(len(bears)), np.flatnonzero(np.diff(bears)) + 1):
-            if bears[run[0]] < 0 or len(run) <= settle + 1:
+        surfaces = np.where(r.contacts[:, end], r.contacts_plan[:, end], -1)
+        for run in np.split(np.arange(len(surfaces)), np.flatnonzero(np.diff(surfaces)) + 1):
+            if surfaces[run[0]] < 0 or len(run) <= settle + 1:
                 continue
-            way = r.ends_W[run[settle:], end] - r.ends_W[run[settle], end]
-            way = way - np.outer(way @ normals[bears[run[0]]], normals[bears[run[0]]])
-            worst = max(worst, float(np.linalg.norm(way, axis=1).max()))
+            displacement = r.end_effectors_W[run[settle:], end] - r.end_effectors_W[run[settle], end]
+            displacement = displacement - np.outer(displacement @ normals[surfaces[run[0]]], normals[surfaces[run[0]]])
+            worst = max(worst, float(np.linalg.norm(displacement, axis=1).max()))
     return worst

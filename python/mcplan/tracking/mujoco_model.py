@@ -24,7 +24,7 @@ Indices = NDArray[np.int64]
 
 #: Half height of the box that a sole is [m]; its bottom is the sole.
 SOLE_HALF_HEIGHT_M = 0.01
-#: Radius of the ball that touches where an end-effector has no sole [m].
+#: Radius of the ball that makes contact where an end-effector has no sole [m].
 BALL_RADIUS_M = 0.02
 #: Time constant [s] and damping ratio of contacts: stiffer than MuJoCo's default of 0.02 s, with which soles sink in by
 #: millimetres.
@@ -36,17 +36,17 @@ class SimulationModel:
     """A robot on a scene's terrain; e end-effectors, s surfaces, nj joints in Pinocchio's order.
 
     Attributes:
-        loaded: Pinocchio's model, with the scene's gravity.
+        urdf_model: Pinocchio's model, with the scene's gravity.
         mj: mujoco.MjModel; qpos and qvel begin with those of the base.
         joints: Their names.
         qpos_index, dof_index, actuator_index: (nj,) where each joint is in qpos, qvel and ctrl.
         torque_limits: (nj,) [N m].
-        base_body: Body of the base.
+        base_body: MuJoCo's rigid body of the base.
         end_geoms: Geoms of each end-effector.
         surface_geoms: Geom of each surface.
     """
 
-    loaded: UrdfModel
+    urdf_model: UrdfModel
     mj: Any
     joints: tuple[str, ...]
     qpos_index: Indices
@@ -61,15 +61,15 @@ class SimulationModel:
 def build(robot: Robot, scene: Scene, options: Options | None = None, visual: bool = False) -> SimulationModel:
     """Make the MuJoCo model of a robot on a scene's terrain.
 
-    Joints have no damping and no dry friction, but the inertia of their rotors; motors give torques up to the URDF's limits.
-    Of the robot only end-effectors touch the terrain: a sole is a box whose bottom is the sole, any other end a ball that
-    touches at the contact point (above it for feet, on the way to the wrist for hands).
+    Joints have no damping and no dry friction, but the inertia of their rotors; motors give torques up to the URDF's
+    limits. Of the robot only end-effectors make contact with the terrain: a sole is a box whose bottom is the sole, any
+    other end-effector a ball through the contact point (above it for feet, towards the wrist for hands).
 
     Args:
         robot: With a URDF.
         scene: Surfaces and gravity.
         options: Step, and factors of mass, friction and height; None: the defaults.
-        visual: Keep the robot's visual meshes, for pictures; they touch nothing.
+        visual: Keep the robot's visual meshes, for pictures; they make no contact.
 
     Raises:
         MissingExtra: mujoco or Pinocchio is not installed.
@@ -81,10 +81,10 @@ def build(robot: Robot, scene: Scene, options: Options | None = None, visual: bo
 
     options = options or Options()
     options.validate()
-    loaded = load_model(robot)
-    model = loaded.model
+    urdf_model = load_model(robot)
+    model = urdf_model.model
     model.gravity.linear = np.array([0.0, 0.0, -scene.gravity])
-    text, root = rewrite(loaded, visual)
+    text, root = rewrite(urdf_model, visual)
     joints = tuple(list(model.names)[2:])
     limits = np.asarray(model.effortLimit[6:], float)
     try:
@@ -92,7 +92,7 @@ def build(robot: Robot, scene: Scene, options: Options | None = None, visual: bo
         _only_look(spec)
         base = spec.body(root)
         base.add_freejoint()
-        _add_ends(spec, loaded, base)
+        _add_end_effectors(spec, urdf_model, base)
         add_terrain(spec, scene, options.friction_scale, options.ground_shift_m)
         for name, limit in zip(joints, limits, strict=True):
             _add_motor(spec, name, limit)
@@ -105,7 +105,7 @@ def build(robot: Robot, scene: Scene, options: Options | None = None, visual: bo
     dofs = np.array([mj.joint(name).dofadr[0] for name in joints], dtype=np.int64)
     _set_constants(mj, dofs, model.armature[6:], options.mass_scale)
     return SimulationModel(
-        loaded=loaded,
+        urdf_model=urdf_model,
         mj=mj,
         joints=joints,
         qpos_index=np.array([mj.joint(name).qposadr[0] for name in joints], dtype=np.int64),
@@ -133,19 +133,19 @@ def _set_constants(mj: Any, dofs: NDArray[np.int64], armature: Array, mass_scale
 
 
 def _only_look(spec: Any) -> None:
-    """The robot's visual shapes touch nothing and weigh nothing."""
+    """Make the robot's visual shapes without contact and mass."""
     for geom in spec.geoms:
         geom.contype = geom.conaffinity = 0
         geom.density, geom.group = 0.0, 1
 
 
-def _add_ends(spec: Any, loaded: UrdfModel, base: Any) -> None:
+def _add_end_effectors(spec: Any, urdf_model: UrdfModel, base: Any) -> None:
     import mujoco
     import pinocchio as pin  # type: ignore[import-untyped]
 
-    for end, frame in zip(loaded.robot.end_effectors, loaded.frames, strict=True):
-        joint, placement = loaded.model.frames[frame].parentJoint, loaded.model.frames[frame].placement
-        body = base if joint == 1 else spec.joint(loaded.model.names[joint]).parent
+    for end, frame in zip(urdf_model.robot.end_effectors, urdf_model.frames, strict=True):
+        joint, placement = urdf_model.model.frames[frame].parentJoint, urdf_model.model.frames[frame].placement
+        body = base if joint == 1 else spec.joint(urdf_model.model.names[joint]).parent
         x, y, z, w = pin.Quaternion(placement.rotation).coeffs()
         geom = body.add_geom(name=f"end/{end.name}", quat=[w, x, y, z])
         if np.asarray(end.half_size).all():
@@ -163,7 +163,7 @@ def _add_ends(spec: Any, loaded: UrdfModel, base: Any) -> None:
 def _inwards(end: EndEffector, placement: Any) -> Array:
     """Direction from a contact point to the centre of its ball, in the axes of the joint that carries it.
 
-    Feet touch what is below them. Hands touch in many postures, mostly with what is farthest from the wrist.
+    Feet make contact with what is below them. Hands do in many postures, mostly with what is farthest from the wrist.
     """
     distance = np.linalg.norm(placement.translation)
     if end.kind == "foot" or distance < BALL_RADIUS_M:

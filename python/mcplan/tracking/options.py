@@ -60,17 +60,17 @@ class Options:
     """How a plan is tracked.
 
     Attributes:
-        simulation_step_s: Of MuJoCo.
-        control_step_s: Of the controller; a multiple of the simulation's.
-        assist: Hold the base with a clipped wrench, as the assisted set-up of Tazaki's paper does with inertia.
+        simulation_step_s: Time step of MuJoCo.
+        control_step_s: Time step of the controller; a multiple of the simulation's.
+        assist: Assist the base with a bounded wrench, as the assisted set-up of Tazaki's paper does with inertia.
         pushes: Forces on the base.
         mass_scale: Factor on the masses of the simulated robot that the controller does not know of.
         friction_scale: Factor on the friction of the simulated surfaces that the controller does not know of.
         ground_shift_m: Height by which the simulated surfaces lie above the planned ones.
-        seed: Of disturbances of mass, friction, ground and a push, drawn on top (see ``disturbances``); 0: none. Options of a
-            result hold what was drawn: they repeat the run with a seed of 0.
-        hold_s: Time for which the last state of the plan is held at the end.
-        gains: Of the controller.
+        seed: Seed of disturbances of mass, friction, ground and a push, drawn on top (see ``disturbances``); 0: none.
+            Options of a result are those drawn: they repeat the run with a seed of 0.
+        hold_s: Time for which the last state of the plan is kept at the end.
+        gains: Gains of the controller.
     """
 
     simulation_step_s: float = 0.001

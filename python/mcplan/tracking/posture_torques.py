@@ -33,7 +33,7 @@ class PostureTorques:
         velocities, accelerations: (n, 6 + nj) Pinocchio's order and axes.
         planned: (n, nj) whether a joint carries a contact or moves a foot, so that its motion is the plan's.
         torques: (n, nj) [N m].
-        residuals: (n, 6) what the contacts cannot bear, in the base's axes: force [N], moment [N m].
+        residuals: (n, 6) wrench that the contacts cannot balance, in the base's axes: force [N], moment [N m].
         forces_W: (n, e, 3) contact forces that balance the postures [N].
     """
 
@@ -46,7 +46,7 @@ class PostureTorques:
 
 
 def posture_torques(
-    loaded: UrdfModel,
+    urdf_model: UrdfModel,
     scene: Scene,
     samples: Samples,
     postures: Postures,
@@ -56,20 +56,20 @@ def posture_torques(
     """Torques by inverse dynamics, tau = rnea(q, v, a) - sum J^T w, with contact wrenches w near to the plan's.
 
     Velocities and accelerations come from parabolas through neighbouring postures. The acceleration of the CoM is the
-    plan's: it jumps where contacts change, and a parabola would smear that. Joints that neither carry a contact nor swing
-    a foot are not the plan's: their torques are those that hold them at rest.
+    plan's: it jumps where contacts change, and a parabola would smear that. Joints that neither carry a contact nor
+    swing a foot are not the plan's: their torques are those that keep them at rest.
 
     Args:
-        loaded: The robot's model; its end-effectors are those of the samples.
+        urdf_model: The robot's model; its end-effectors are those of the samples.
         scene: What the plan's surface indices mean.
         samples: The plan.
-        postures: That follow it.
+        postures: Postures that follow the plan.
         com_acceleration_W: (n, 3) the plan's [m/s^2].
         force_scale: The model's mass over the plan's.
     """
     import pinocchio as pin  # type: ignore[import-untyped]
 
-    model = loaded.model
+    model = urdf_model.model
     data, count = model.createData(), samples.count
     result = PostureTorques(
         velocities=np.zeros((count, model.nv)),
@@ -77,22 +77,22 @@ def posture_torques(
         planned=np.zeros((count, model.nv - 6), dtype=bool),
         torques=np.zeros((count, model.nv - 6)),
         residuals=np.zeros((count, 6)),
-        forces_W=np.zeros((count, len(loaded.frames), 3)),
+        forces_W=np.zeros((count, len(urdf_model.frames), 3)),
     )
     height = float(np.ptp(np.append(samples.positions_W[0, :, 2], samples.com_W[0, 2]))) or 1.0
     for n, q in enumerate(postures.configurations):
         v, a = motion(pin, model, samples.times_s, postures.configurations, n)
         a[:3] += _base_correction(pin, model, data, q, v, a, com_acceleration_W[n])
         needed = pin.rnea(model, data, q, v, a)
-        planned = result.planned[n] = _planned(loaded, samples, n)
+        planned = result.planned[n] = _planned(urdf_model, samples, n)
         at_rest = np.zeros(model.nv)
         at_rest[:3] = data.oMi[1].rotation.T @ com_acceleration_W[n]
         needed[6:][~planned] = pin.rnea(model, data, q, np.zeros(model.nv), at_rest)[6:][~planned]
-        ends = [end for end in range(len(loaded.frames)) if samples.surfaces[n, end] >= 0]
-        contacts = [_contact(pin, loaded, data, scene, samples, n, end, force_scale, q) for end in ends]
+        in_contact = [end for end in range(len(urdf_model.frames)) if samples.surfaces[n, end] >= 0]
+        contacts = [_contact(pin, urdf_model, data, scene, samples, n, end, force_scale, q) for end in in_contact]
         wrenches, residual = balanced_wrenches(contacts, needed[:6], height)
         torques = needed[6:].copy()
-        for end, contact, wrench in zip(ends, contacts, wrenches, strict=True):
+        for end, contact, wrench in zip(in_contact, contacts, wrenches, strict=True):
             torques -= contact.jacobian[:, 6:].T @ wrench
             result.forces_W[n, end] = wrench[:3]
         result.velocities[n], result.accelerations[n] = v, a
@@ -113,33 +113,33 @@ def motion(pin: Any, model: Any, times: Array, configurations: Array, n: int) ->
     return fit[1], fit[2]
 
 
-def _planned(loaded: UrdfModel, samples: Samples, n: int) -> NDArray[np.bool_]:
+def _planned(urdf_model: UrdfModel, samples: Samples, n: int) -> NDArray[np.bool_]:
     """Joints between the base and every foot, and every end-effector in contact."""
-    model = loaded.model
+    model = urdf_model.model
     result = np.zeros(model.nv - 6, dtype=bool)
-    for end, frame in enumerate(loaded.frames):
-        if loaded.robot.end_effectors[end].kind == "foot" or samples.surfaces[n, end] >= 0:
+    for end, frame in enumerate(urdf_model.frames):
+        if urdf_model.robot.end_effectors[end].kind == "foot" or samples.surfaces[n, end] >= 0:
             joints = [joint for joint in model.supports[model.frames[frame].parentJoint] if joint > 1]
             result[[model.joints[joint].idx_v - 6 for joint in joints]] = True
     return result
 
 
-def _base_correction(pin: Any, model: Any, data: Any, q: Array, v: Array, a: Array, wanted_W: Array) -> Array:
-    """What to add to the base's linear acceleration, in its axes, for the CoM to accelerate as wanted."""
+def _base_correction(pin: Any, model: Any, data: Any, q: Array, v: Array, a: Array, desired_W: Array) -> Array:
+    """What to add to the base's linear acceleration, in its axes, for the CoM to accelerate as desired."""
     pin.centerOfMass(model, data, q, v, a)
-    return np.asarray(data.oMi[1].rotation.T @ (wanted_W - data.acom[0]))
+    return np.asarray(data.oMi[1].rotation.T @ (desired_W - data.acom[0]))
 
 
 def _contact(
-    pin: Any, loaded: UrdfModel, data: Any, scene: Scene, samples: Samples, n: int, end: int, scale: float, q: Array
+    pin: Any, urdf_model: UrdfModel, data: Any, scene: Scene, samples: Samples, n: int, end: int, scale: float, q: Array
 ) -> Contact:
-    pin.computeJointJacobians(loaded.model, data, q)
-    pin.updateFramePlacements(loaded.model, data)
-    frame = loaded.frames[end]
-    jacobian = pin.getFrameJacobian(loaded.model, data, frame, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED)
+    pin.computeJointJacobians(urdf_model.model, data, q)
+    pin.updateFramePlacements(urdf_model.model, data)
+    frame = urdf_model.frames[end]
+    jacobian = pin.getFrameJacobian(urdf_model.model, data, frame, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED)
     surface = scene.surfaces[samples.surfaces[n, end]]
     position = data.oMf[frame].translation.copy()
-    half = np.asarray(loaded.robot.end_effectors[end].half_size, float)
+    half = np.asarray(urdf_model.robot.end_effectors[end].half_size, float)
     corners = np.array([[x, y, 0.0] for x in {-half[0], half[0]} for y in {-half[1], half[1]}])
     return Contact(
         points_W=position + corners @ data.oMf[frame].rotation.T,

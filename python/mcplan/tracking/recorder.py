@@ -12,7 +12,7 @@ from mcplan.kinematics.urdf_model import UrdfModel
 
 from .recording import Recording
 from .references import References
-from .rigid_body import RigidBody
+from .robot_dynamics import RobotDynamics
 
 if TYPE_CHECKING:
     from mcplan._core import Plan
@@ -21,55 +21,61 @@ Array = NDArray[np.float64]
 
 
 class Recorder:
-    """Room for a whole run, filled one control step after the other."""
+    """Arrays for a whole run, filled one control step after the other."""
 
-    def __init__(self, plan: Plan, loaded: UrdfModel, joints: tuple[str, ...], wanted: References) -> None:
-        n, e, nj = wanted.count, len(loaded.robot.end_effectors), len(joints)
-        self.plan, self.loaded, self.joints, self.wanted = plan, loaded, joints, wanted
+    def __init__(self, plan: Plan, urdf_model: UrdfModel, joints: tuple[str, ...], desired: References) -> None:
+        n, e, nj = desired.count, len(urdf_model.robot.end_effectors), len(joints)
+        self.plan, self.urdf_model, self.joints, self.desired = plan, urdf_model, joints, desired
         self.count = 0
         self.configurations, self.velocities = np.zeros((n, 7 + nj)), np.zeros((n, 6 + nj))
         self.torques, self.com_W, self.momentum_W = np.zeros((n, nj)), np.zeros((n, 3)), np.zeros((n, 3))
-        self.ends_W, self.forces_W = np.zeros((n, e, 3)), np.zeros((n, e, 3))
+        self.end_effectors_W, self.forces_W = np.zeros((n, e, 3)), np.zeros((n, e, 3))
         self.contacts = np.zeros((n, e), dtype=bool)
         self.assist, self.pushes_W = np.zeros((n, 6)), np.zeros((n, 3))
 
     def add(
-        self, body: RigidBody, torques: Array, forces_W: Array, touches: NDArray[np.bool_], assist: Array, push: Array
+        self,
+        dynamics: RobotDynamics,
+        torques: Array,
+        forces_W: Array,
+        in_contact: NDArray[np.bool_],
+        assist: Array,
+        push: Array,
     ) -> None:
         """Append a step: state of the robot, torques, what acts on it."""
         n = self.count
-        self.configurations[n], self.velocities[n] = body.configuration, body.velocity
-        self.torques[n], self.com_W[n], self.momentum_W[n] = torques, body.com_W, body.momentum_W
-        for end in range(self.ends_W.shape[1]):
-            self.ends_W[n, end] = body.end_position_W(end)
-        self.forces_W[n], self.contacts[n] = forces_W, touches
+        self.configurations[n], self.velocities[n] = dynamics.configuration, dynamics.velocity
+        self.torques[n], self.com_W[n], self.momentum_W[n] = torques, dynamics.com_W, dynamics.momentum_W
+        for end in range(self.end_effectors_W.shape[1]):
+            self.end_effectors_W[n, end] = dynamics.end_effector_position_W(end)
+        self.forces_W[n], self.contacts[n] = forces_W, in_contact
         self.assist[n], self.pushes_W[n] = assist, push
         self.count = n + 1
 
     def finish(self, fell_at_s: float) -> Recording:
         """The recording of the steps added."""
-        n, wanted = self.count, self.wanted
+        n, desired = self.count, self.desired
         return Recording(
             plan=self.plan,
             joints=self.joints,
-            times_s=np.asarray(np.arange(n) * wanted.dt_s, float),
+            times_s=np.asarray(np.arange(n) * desired.dt_s, float),
             configurations=self.configurations[:n],
             velocities=self.velocities[:n],
             torques=self.torques[:n],
-            torque_limits=np.asarray(self.loaded.model.effortLimit[6:], float),
+            torque_limits=np.asarray(self.urdf_model.model.effortLimit[6:], float),
             com_W=self.com_W[:n],
-            com_plan_W=wanted.com_W[:n],
+            com_plan_W=desired.com_W[:n],
             angular_momentum_W=self.momentum_W[:n],
-            angular_momentum_plan_W=wanted.momentum_W[:n],
-            base_quat_xyzw_plan=quat_xyzw(wanted.base_WB[:n]),
-            ends_W=self.ends_W[:n],
-            ends_plan_W=wanted.ends_W[:n],
+            angular_momentum_plan_W=desired.momentum_W[:n],
+            base_quat_xyzw_plan=quat_xyzw(desired.base_WB[:n]),
+            end_effectors_W=self.end_effectors_W[:n],
+            end_effectors_plan_W=desired.end_effectors_W[:n],
             forces_W=self.forces_W[:n],
-            forces_plan_W=wanted.forces_W[:n],
+            forces_plan_W=desired.forces_W[:n],
             contacts=self.contacts[:n],
-            contacts_plan=wanted.surfaces[:n],
+            contacts_plan=desired.surfaces[:n],
             assist=self.assist[:n],
             pushes_W=self.pushes_W[:n],
             fell_at_s=fell_at_s,
-            robot=self.loaded.robot,
+            robot=self.urdf_model.robot,
         )

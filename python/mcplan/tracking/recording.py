@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -37,7 +37,7 @@ class Recording:
         com_W, com_plan_W: (n, 3) [m].
         angular_momentum_W, angular_momentum_plan_W: (n, 3) about the CoM [kg m^2/s].
         base_quat_xyzw_plan: (n, 4).
-        ends_W, ends_plan_W: (n, e, 3) contact points [m].
+        end_effectors_W, end_effectors_plan_W: (n, e, 3) contact points [m].
         forces_W, forces_plan_W: (n, e, 3) contact forces on the robot [N]: the simulator's, and the plan's.
         contacts: (n, e) whether the simulator's contact force exceeds a few newtons.
         contacts_plan: (n, e) surface index, -1: free.
@@ -59,8 +59,8 @@ class Recording:
     angular_momentum_W: Array
     angular_momentum_plan_W: Array
     base_quat_xyzw_plan: Array
-    ends_W: Array
-    ends_plan_W: Array
+    end_effectors_W: Array = field(metadata={"in_file": "ends_W"})
+    end_effectors_plan_W: Array = field(metadata={"in_file": "ends_plan_W"})
     forces_W: Array
     forces_plan_W: Array
     contacts: NDArray[np.bool_]
@@ -71,9 +71,24 @@ class Recording:
     robot: Robot | None = None
 
     @property
-    def body(self) -> Robot:
+    def simulated_robot(self) -> Robot:
         """The robot that was simulated."""
         return self.robot if self.robot is not None else self.plan.robot
+
+    @property
+    def body(self) -> Robot:
+        """Earlier name of ``simulated_robot``, for one release."""
+        return self.simulated_robot
+
+    @property
+    def ends_W(self) -> Array:
+        """Earlier name of ``end_effectors_W``, for one release."""
+        return self.end_effectors_W
+
+    @property
+    def ends_plan_W(self) -> Array:
+        """Earlier name of ``end_effectors_plan_W``, for one release."""
+        return self.end_effectors_plan_W
 
     @staticmethod
     def load(path: str | Path) -> Recording:
@@ -87,7 +102,7 @@ class Recording:
 
 
 def recording_from(header: Header, arrays: Arrays) -> Recording:
-    """The recording that the file of a run holds."""
+    """The recording that the file of a run contains."""
     plan = plan_from_bytes(arrays["plan"].tobytes())
     robot = None if header["robot"] is None else robot_from_dict(header["robot"])
     columns = columns_of(Recording, arrays)

@@ -1,4 +1,4 @@
-"""A plan as a tracker wants it: at every control step, with accelerations, and with the soles' directions."""
+"""A plan as a tracker needs it: at every control step, with accelerations, and with the soles' directions."""
 
 from __future__ import annotations
 
@@ -17,25 +17,25 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Swings have kinks where they are held at a limit of reach: differences of their velocity are cut off here [m/s^2].
+#: Swings have kinks where they are kept at a limit of reach: differences of their velocity are cut off here [m/s^2].
 LARGEST_SWING_ACCELERATION = 60.0
 
 
 @dataclass(frozen=True)
 class References:
-    """What is asked for at n instants, dt apart, world frame W, SI; e end-effectors.
+    """Desired motion and forces at n instants, dt apart, world frame W, SI; e end-effectors.
 
     Attributes:
-        dt_s: Between instants.
-        duration_s: Of the plan; later instants hold its last state.
+        dt_s: Time between instants.
+        duration_s: Duration of the plan; later instants have its last state.
         com_W, com_velocity_W, com_acceleration_W: (n, 3).
         momentum_W, momentum_rate_W: (n, 3) angular, about the CoM.
         base_WB: (n, 3, 3); base_velocity_W: (n, 3) angular.
-        ends_W, end_velocities_W, end_accelerations_W: (n, e, 3).
+        end_effectors_W, end_effector_velocities_W, end_effector_accelerations_W: (n, e, 3).
         soles_W: (n, e, 3, 3): z the normal of the ground, x ahead; sole_velocities_W: (n, e, 3) angular.
         forces_W: (n, e, 3), and pressure_W (n, e, 3): where they act; moments_W (n, e, 3): about there.
         surfaces: (n, e) surface in contact or -1.
-        swing_share: (n, e) how much of the swing has passed, 0 to 1; 1 in contact.
+        swing_fraction: (n, e) fraction of the swing that has passed, 0 to 1; 1 in contact.
         returns: (n, e) whether a free end-effector will be in contact later.
     """
 
@@ -48,16 +48,16 @@ class References:
     momentum_rate_W: Array
     base_WB: Array
     base_velocity_W: Array
-    ends_W: Array
-    end_velocities_W: Array
-    end_accelerations_W: Array
+    end_effectors_W: Array
+    end_effector_velocities_W: Array
+    end_effector_accelerations_W: Array
     soles_W: Array
     sole_velocities_W: Array
     forces_W: Array
     pressure_W: Array
     moments_W: Array
     surfaces: NDArray[np.int64]
-    swing_share: Array
+    swing_fraction: Array
     returns: NDArray[np.bool_]
 
     @property
@@ -75,9 +75,9 @@ def references(plan: Plan, robot: Robot, dt_s: float, hold_s: float) -> Referenc
 
     Args:
         plan: The plan; its end-effectors are those of `robot`, in the same order.
-        robot: Whose mass scales the plan's forces and angular momentum.
+        robot: The robot whose mass scales the plan's forces and angular momentum.
         dt_s: Control step [s].
-        hold_s: How long the last state is held [s].
+        hold_s: Time for which the last state is kept [s].
     """
     duration = float(plan.duration())
     count = int(np.ceil((duration + hold_s) / dt_s)) + 1
@@ -103,7 +103,7 @@ def references(plan: Plan, robot: Robot, dt_s: float, hold_s: float) -> Referenc
     size = np.linalg.norm(end_acceleration, axis=2, keepdims=True)
     end_acceleration *= np.minimum(1.0, LARGEST_SWING_ACCELERATION / np.maximum(size, 1e-9))
     end_acceleration[surfaces >= 0] = 0.0
-    share, returns = _swings(surfaces)
+    fraction, returns = _swings(surfaces)
     return References(
         dt_s=dt_s,
         duration_s=duration,
@@ -114,16 +114,16 @@ def references(plan: Plan, robot: Robot, dt_s: float, hold_s: float) -> Referenc
         momentum_rate_W=momentum_rate,
         base_WB=samples.rotation_WB,
         base_velocity_W=_angular_velocity(samples.rotation_WB, dt_s),
-        ends_W=samples.positions_W,
-        end_velocities_W=velocities,
-        end_accelerations_W=end_acceleration,
+        end_effectors_W=samples.positions_W,
+        end_effector_velocities_W=velocities,
+        end_effector_accelerations_W=end_acceleration,
         soles_W=samples.rotations_W,
         sole_velocities_W=_angular_velocity(samples.rotations_W, dt_s),
         forces_W=forces,
         pressure_W=samples.pressure_W,
         moments_W=moments,
         surfaces=surfaces,
-        swing_share=share,
+        swing_fraction=fraction,
         returns=returns,
     )
 
@@ -135,7 +135,7 @@ def moment_about_com(samples: Samples) -> Array:
 
 
 def _standing(plan: Plan, robot: Robot) -> Array:
-    """(e, 3) the weight shared by the end-effectors that stand at the end [N]."""
+    """(e, 3) the weight, distributed to the end-effectors in contact at the end [N]."""
     down = [surface >= 0 for surface in plan.final_contacts]
     forces = np.zeros((len(down), 3))
     forces[down, 2] = robot.mass * plan.scene.gravity / max(sum(down), 1)
@@ -150,12 +150,12 @@ def _angular_velocity(rotations: Array, dt_s: float) -> Array:
 
 
 def _swings(surfaces: NDArray[np.int64]) -> tuple[Array, NDArray[np.bool_]]:
-    share = np.ones(surfaces.shape)
+    fraction = np.ones(surfaces.shape)
     returns = np.zeros(surfaces.shape, dtype=bool)
     for end in range(surfaces.shape[1]):
         free = np.flatnonzero(surfaces[:, end] < 0)
         for run in np.split(free, np.flatnonzero(np.diff(free) > 1) + 1):
             if len(run):
-                share[run, end] = np.linspace(0.0, 1.0, len(run))
+                fraction[run, end] = np.linspace(0.0, 1.0, len(run))
                 returns[run, end] = run[-1] + 1 < len(surfaces)
-    return share, returns
+    return fraction, returns

@@ -42,7 +42,7 @@ def headline(result: Reported) -> str:
     recording = result.recording
     plan, lasts = recording.plan, recording.plan.duration()
     assisted = "assisted" if result.options.assist else "unassisted"
-    return f"{plan.scene.name}  {recording.body.name}  {ending(result)} (plan of {lasts:.2f} s, {assisted})"
+    return f"{plan.scene.name}  {recording.simulated_robot.name}  {ending(result)} (plan of {lasts:.2f} s, {assisted})"
 
 
 def ending(result: Reported) -> str:
@@ -61,7 +61,7 @@ def rows_of(result: Reported) -> list[tuple[str, str]]:
     joint, time_s = nearest_to_torque_limit(result.recording)
     rows = [
         ("CoM off the plan", f"{length(m.com_rms_m)} rms, {length(m.com_max_m)} at most"),
-        ("base turned off the plan", f"{m.orientation_rms_deg:.2g} deg rms"),
+        ("orientation off the plan", f"{m.orientation_rms_deg:.2g} deg rms"),
         ("swinging end-effectors", f"{length(m.swing_rms_m)} rms off the plan"),
         ("slip in contact", f"{length(m.slip_m)} at most"),
         *(

@@ -71,7 +71,7 @@ class TrackingResult:
 
 
 def result_from(header: Header, arrays: Arrays) -> TrackingResult:
-    """The result that the file of a run holds."""
+    """The result that the file of a run contains."""
     recording = recording_from(header, arrays)
     measures = Measures(**measures_of(header))
     return TrackingResult(recording, measures, options_of(header), bool(header["interrupted"]))

@@ -1,10 +1,11 @@
 """Runs in .npz files: arrays and a JSON header, no pickles.
 
-The header (bytes of UTF-8 JSON) holds the kind "run" or "planar_run", the format's version, the version of mcplan, the
-options, the measures, how the run ended, the names of joints, and the robot if it is not the plan's. The arrays are those
-of the recording under their names, and `plan`, the bytes of the plan's file. Arrays are compressed.
+The header (bytes of UTF-8 JSON) has the kind "run" or "planar_run", the format's version, the version of mcplan, the
+options, the measures, how the run ended, the names of joints, and the robot if it is not the plan's. The arrays are
+those of the recording under their names (where a field was renamed, under the earlier one), and `plan`, the bytes of
+the plan's file. Arrays are compressed.
 
-What is of one kind alone stands beside its recording and its result: they hand it to save_run and load_run.
+What is of one kind alone is beside its recording and its result: they hand it to save_run and load_run.
 """
 
 from __future__ import annotations
@@ -33,8 +34,8 @@ from .options import Gains, Options, Push
 
 FORMAT = 1
 RUN, PLANAR_RUN = whole_body_plans.RUN_KINDS
-#: Fields of recordings that hold no arrays: those of the header, and what the plan's file holds.
-_OTHERS = {"plan", "robot", "joints", "ends", "fell_at_s", "left_plan_at_s"}
+#: Fields of recordings that are no arrays: those of the header, and what the plan's file contains.
+_OTHERS = {"plan", "robot", "joints", "end_effectors", "fell_at_s", "left_plan_at_s"}
 
 T = TypeVar("T")
 Header = Mapping[str, Any]
@@ -47,17 +48,17 @@ class _Measures(Protocol):
 
 @dataclass(frozen=True)
 class RunParts:
-    """What the file of a run holds.
+    """The content of the file of a run.
 
     Attributes:
         kind: RUN or PLANAR_RUN.
         recording: A dataclass; its arrays are saved under their names.
         plan: Bytes of the plan's file.
-        measures: Of the run.
-        options: As they were used.
-        interrupted: Ctrl-C ended the run.
-        ended_at_s: When the run ended before its time; infinite in most.
-        more: What else the header holds: names of joints, the robot.
+        measures: Measures of the run.
+        options: Options as they were used.
+        interrupted: Whether Ctrl-C ended the run.
+        ended_at_s: Time at which the run ended early; infinite: it did not.
+        more: Other entries of the header: names of joints, the robot.
     """
 
     kind: str
@@ -83,7 +84,8 @@ def save_run(parts: RunParts, path: str | Path) -> None:
         "ended_at_s": _plain(parts.ended_at_s),
         **parts.more,
     }
-    content = {name: getattr(parts.recording, name) for name in _array_names(type(parts.recording))}
+    names = _array_names(type(parts.recording))
+    content = {in_file: getattr(parts.recording, name) for name, in_file in names.items()}
     content["header"] = np.frombuffer(json.dumps(header, allow_nan=False).encode(), dtype=np.uint8)
     content["plan"] = np.frombuffer(parts.plan, dtype=np.uint8)
     buffer = io.BytesIO()
@@ -135,7 +137,7 @@ def load_run(
         except InvalidInput:
             raise
         except (KeyError, TypeError, AttributeError, ValueError, OverflowError) as found:
-            raise InvalidInput("header", "must hold what mcplan track --save writes", shown(str(found))) from None
+            raise InvalidInput("header", "must be as mcplan track --save writes it", shown(str(found))) from None
     except InvalidInput as found:
         raise found.moved(InvalidInput, str(path)) from None
 
@@ -147,13 +149,13 @@ def columns_of(recording: type, arrays: Arrays) -> dict[str, Any]:
         InvalidInput: One is missing, or has not a row for each instant.
     """
     names = _array_names(recording)
-    for name in names:
+    for name in names.values():
         if name not in arrays:
             raise InvalidInput(name, "is required")
         rows = len(arrays["times_s"]) if "times_s" in arrays else 0
         if name != "torque_limits" and len(arrays[name]) != rows:
             raise InvalidInput(name, f"must have {rows} rows", str(len(arrays[name])))
-    return {name: arrays[name] for name in names}
+    return {name: arrays[in_file] for name, in_file in names.items()}
 
 
 def options_of(header: Header) -> Options:
@@ -168,12 +170,14 @@ def measures_of(header: Header) -> dict[str, Any]:
     return {key: float(value) if isinstance(value, str) else value for key, value in header["measures"].items()}
 
 
-def _array_names(recording: type) -> list[str]:
-    return [item.name for item in fields(recording) if item.name not in _OTHERS]
+def _array_names(recording: type) -> dict[str, str]:
+    """Names in files of the arrays of a recording, by the names of its fields."""
+    own = [item for item in fields(recording) if item.name not in _OTHERS]
+    return {item.name: item.metadata.get("in_file", item.name) for item in own}
 
 
 def _plain(value: Any) -> Any:
-    """With "nan" and "inf" for numbers that JSON cannot hold."""
+    """With "nan" and "inf" for numbers that JSON cannot represent."""
     if isinstance(value, dict):
         return {key: _plain(item) for key, item in value.items()}
     return str(value) if isinstance(value, float) and not np.isfinite(value) else value

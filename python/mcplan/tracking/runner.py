@@ -34,10 +34,10 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: An end-effector with less than this share of the weight on it is not felt to touch.
-TOUCH = 0.01
-#: Fallen: so far from the plan, as a share of the CoM's height, or the base tilted so far from the plan's.
-FALLEN_SHARE, FALLEN_RAD = 0.35, 1.0
+#: An end-effector is taken to be in contact above this ratio of its force to the robot's weight.
+CONTACT_RATIO = 0.01
+#: Fallen: ratio of the CoM's distance from the plan to its height, or angle of the base from the plan's [rad].
+FALLEN_RATIO, FALLEN_RAD = 0.35, 1.0
 #: [m] by which the first posture may miss the plan.
 START_MISS = 0.03
 
@@ -48,12 +48,12 @@ def track(
     options: Options | None = None,
     progress: Callable[[float, float], None] | None = None,
 ) -> TrackingResult:
-    """Track a plan with a simulated robot: torques alone move it, within their limits.
+    """Track a plan with a simulated robot, which its torques alone move, within their limits.
 
     Args:
         plan: A plan of `ddp` or `rhp`, or the path of one.
-        robot: With a URDF, and with the plan's end-effectors by name; None: the plan's own.
-        options: Of the run.
+        robot: A robot with a URDF and the plan's end-effectors by name; None: the plan's own.
+        options: Options of the run.
         progress: Called now and then with the time simulated and the time to simulate [s].
 
     Returns:
@@ -71,28 +71,28 @@ def track(
     options = options or Options()
     options.validate()
     plan = _as_plan(plan)
-    body = robot_for(plan, robot)
+    tracked_robot = robot_for(plan, robot)
     if options.seed:
-        options = disturbed(options, options.seed, plan.duration(), body.mass)
+        options = disturbed(options, options.seed, plan.duration(), tracked_robot.mass)
     from . import mujoco_model
     from .simulation import Simulation
 
-    model = mujoco_model.build(body, plan.scene, options)
-    loaded = model.loaded
+    model = mujoco_model.build(tracked_robot, plan.scene, options)
+    urdf_model = model.urdf_model
     simulation = Simulation(model)
-    wanted = references(plan, body, options.control_step_s, options.hold_s)
-    start, end = _posture_at(loaded, plan, 0.0), _posture_at(loaded, plan, wanted.duration_s)
+    desired = references(plan, tracked_robot, options.control_step_s, options.hold_s)
+    start, end = _posture_at(urdf_model, plan, 0.0), _posture_at(urdf_model, plan, desired.duration_s)
     on_ground = start.copy()
     on_ground[2] += options.ground_shift_m
-    simulation.reset(on_ground, np.zeros(loaded.model.nv))
+    simulation.reset(on_ground, np.zeros(urdf_model.model.nv))
     posture = start
     if any(phase.law in (ForceLaw.held, ForceLaw.linear) for phase in plan.phases):
-        # Such plans know nothing of the base: how it is turned has to suit the legs.
-        posture = postures_along(loaded, plan, wanted.count, options.control_step_s)
-        wanted = wanted.with_base(posture[:, 3:7])
+        # Such plans know nothing of the base: its rotation has to suit the legs.
+        posture = postures_along(urdf_model, plan, desired.count, options.control_step_s)
+        desired = desired.with_base(posture[:, 3:7])
         end = posture[-1]
     with Interruption() as stop:
-        result = _run(plan, loaded, simulation, wanted, posture, end, options, stop, progress)
+        result = _run(plan, urdf_model, simulation, desired, posture, end, options, stop, progress)
     stop.raise_with(result)
     return result
 
@@ -117,9 +117,9 @@ def robot_for(plan: Plan, robot: Robot | str | Path | None) -> Robot:
             take = f" (--robot: {', '.join(others)})" if others else ""
             rule = f"must have the plan's {end.name!r}{take}"
             raise InvalidRobot("end_effectors", rule, ", ".join(own) or "none", robot.name)
-    body = robot.__copy__()
-    body.end_effectors = [own[end.name] for end in plan.robot.end_effectors]
-    return body
+    ordered = robot.__copy__()
+    ordered.end_effectors = [own[end.name] for end in plan.robot.end_effectors]
+    return ordered
 
 
 def _as_plan(plan: Plan | str | Path) -> Plan:
@@ -127,18 +127,18 @@ def _as_plan(plan: Plan | str | Path) -> Plan:
         return plan
     from mcplan.files.whole_body_plans import load_any_plan
 
-    loaded = load_any_plan(Path(plan))
-    if not isinstance(loaded, Plan):
+    any_plan = load_any_plan(Path(plan))
+    if not isinstance(any_plan, Plan):
         raise InvalidInput("plan", "must be a plan of ddp or rhp", f"{plan}, a whole-body plan")
-    return loaded
+    return any_plan
 
 
-def _posture_at(loaded: UrdfModel, plan: Plan, time_s: float) -> Array:
-    postures = follow(loaded, sample_at(plan, plan.scene, plan.robot, np.array([time_s])))
+def _posture_at(urdf_model: UrdfModel, plan: Plan, time_s: float) -> Array:
+    postures = follow(urdf_model, sample_at(plan, plan.scene, plan.robot, np.array([time_s])))
     if postures.residual > START_MISS:
         raise InvalidInput(
             "plan",
-            f"must be in reach of {loaded.robot.name}",
+            f"must be in reach of {urdf_model.robot.name}",
             f"{postures.where} is missed by {postures.residual:.3f} m",
         )
     return postures.configurations[0]
@@ -146,9 +146,9 @@ def _posture_at(loaded: UrdfModel, plan: Plan, time_s: float) -> Array:
 
 def _run(
     plan: Plan,
-    loaded: UrdfModel,
+    urdf_model: UrdfModel,
     simulation: Simulation,
-    wanted: References,
+    desired: References,
     posture: Array,
     end: Array,
     options: Options,
@@ -157,32 +157,34 @@ def _run(
 ) -> TrackingResult:
     from .controller import Controller
 
-    controller = Controller(loaded, plan.scene, wanted, posture, options.gains)
-    recorder = Recorder(plan, loaded, simulation.model.joints, wanted)
-    touch_N = TOUCH * controller.body.mass * plan.scene.gravity
+    controller = Controller(urdf_model, plan.scene, desired, posture, options.gains)
+    recorder = Recorder(plan, urdf_model, simulation.model.joints, desired)
+    contact_N = CONTACT_RATIO * controller.dynamics.mass * plan.scene.gravity
     steps = round(options.control_step_s / options.simulation_step_s)
     fell_at, failures, control_s, began = np.inf, 0, 0.0, time.perf_counter()
     n = 0
-    for n in range(wanted.count):
-        now = n * wanted.dt_s
+    for n in range(desired.count):
+        now = n * desired.dt_s
         configuration, velocity = simulation.state()
         forces = simulation.contact_forces_W()
         tick = time.perf_counter()
-        touches = np.linalg.norm(forces, axis=1) > touch_N
-        command = controller.step(n, configuration, velocity, touches)
+        in_contact = np.linalg.norm(forces, axis=1) > contact_N
+        command = controller.step(n, configuration, velocity, in_contact)
         control_s += time.perf_counter() - tick
         failures += not command.solved
         push = sum((p.force_W(now) for p in options.pushes), np.zeros(3))
-        held = assistance(controller.body, wanted, n) if options.assist else np.zeros(6)
-        recorder.add(controller.body, command.torques, forces, touches, held, push)
-        simulation.advance(command.torques, held + np.concatenate([push, np.zeros(3)]), steps)
-        if simulation.broke or _fallen(controller.body.com_W, controller.body.base_WB, wanted, n, loaded.robot):
+        assist_W = assistance(controller.dynamics, desired, n) if options.assist else np.zeros(6)
+        recorder.add(controller.dynamics, command.torques, forces, in_contact, assist_W, push)
+        simulation.advance(command.torques, assist_W + np.concatenate([push, np.zeros(3)]), steps)
+        if simulation.broke or _fallen(
+            controller.dynamics.com_W, controller.dynamics.base_WB, desired, n, urdf_model.robot
+        ):
             fell_at = now
             break
         if stop.asked:
             break
         if progress is not None and n % 50 == 0:
-            progress(now, wanted.count * wanted.dt_s)
+            progress(now, desired.count * desired.dt_s)
     wall = time.perf_counter() - began
     recording = recorder.finish(fell_at)
     measures = measure(recording, end)
@@ -190,13 +192,13 @@ def _run(
         measures,
         qp_failures=failures,
         simulator_warnings=simulation.warnings,
-        realtime_factor=(n + 1) * wanted.dt_s / wall,
+        realtime_factor=(n + 1) * desired.dt_s / wall,
         control_ms=1e3 * control_s / (n + 1),
     )
     return TrackingResult(recording, measures, options, stop.asked)
 
 
-def _fallen(com_W: Array, base_WB: Array, wanted: References, n: int, robot: Robot) -> bool:
-    far = float(np.linalg.norm(com_W - wanted.com_W[n])) > FALLEN_SHARE * robot.com_height
-    cosine = 0.5 * (np.trace(wanted.base_WB[n].T @ base_WB) - 1.0)
+def _fallen(com_W: Array, base_WB: Array, desired: References, n: int, robot: Robot) -> bool:
+    far = float(np.linalg.norm(com_W - desired.com_W[n])) > FALLEN_RATIO * robot.com_height
+    cosine = 0.5 * (np.trace(desired.base_WB[n].T @ base_WB) - 1.0)
     return far or bool(np.arccos(np.clip(cosine, -1.0, 1.0)) > FALLEN_RAD)

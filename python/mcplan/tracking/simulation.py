@@ -21,7 +21,8 @@ FASTEST = 1e4
 class Simulation:
     """A run of MuJoCo.
 
-    e end-effectors, nj joints in Pinocchio's order. Contact forces are those of the last step taken; zero before the first.
+    e end-effectors, nj joints in Pinocchio's order. Contact forces are those of the last step taken; zero before the
+    first.
 
     Attributes:
         model: What is simulated.
@@ -74,12 +75,12 @@ class Simulation:
         return to_pinocchio(self.model, self.data.qpos, self.data.qvel)
 
     def advance(self, torques: Array, base_wrench_W: Array | None = None, steps: int = 1) -> None:
-        """Hold torques and a wrench on the base for some steps.
+        """Apply constant torques and a wrench on the base for some steps.
 
         Args:
             torques: (nj,) [N m]; MuJoCo clips them to the limits.
             base_wrench_W: (6,) force [N] through the base link's centre of mass, and moment [N m]; None: none.
-            steps: Of MuJoCo.
+            steps: Number of MuJoCo's steps.
         """
         if self.broke:
             return
@@ -91,24 +92,24 @@ class Simulation:
 
     def contact_forces_W(self) -> Array:
         """(e, 3) force [N] of the terrain on each end-effector."""
-        ends, forces, _, _ = self._contacts()
+        end_effectors, forces, _, _ = self._contacts()
         out = np.zeros((len(self.model.end_geoms), 3))
-        np.add.at(out, ends, forces)
+        np.add.at(out, end_effectors, forces)
         return out
 
     def contact_wrenches_W(self) -> Array:
         """(e, 6) force [N] of the terrain on each end-effector, and its moment [N m] about the world's origin."""
-        ends, forces, _, points = self._contacts()
+        end_effectors, forces, _, points = self._contacts()
         out = np.zeros((len(self.model.end_geoms), 6))
-        np.add.at(out, ends, np.hstack([forces, np.cross(points, forces)]))
+        np.add.at(out, end_effectors, np.hstack([forces, np.cross(points, forces)]))
         return out
 
     def centres_of_pressure_W(self) -> Array:
         """(e, 3) mean of the contact points weighted by their normal forces [m]; NaN without contact."""
-        ends, _, normals, points = self._contacts()
+        end_effectors, _, normals, points = self._contacts()
         out, total = np.zeros((len(self.model.end_geoms), 3)), np.zeros(len(self.model.end_geoms))
-        np.add.at(out, ends, normals[:, None] * points)
-        np.add.at(total, ends, normals)
+        np.add.at(out, end_effectors, normals[:, None] * points)
+        np.add.at(total, end_effectors, normals)
         with np.errstate(invalid="ignore"):
             return out / np.where(total > 0.0, total, np.nan)[:, None]
 
@@ -122,7 +123,7 @@ class Simulation:
         local = self.data.efc_force[address[:, None] + np.arange(3)]
         axes = contact.frame[used].reshape(-1, 3, 3)  # rows; the normal points from the first geom to the second
         forces = np.einsum("ni,nij->nj", local, axes)
-        ends = self._end_of_geom[contact.geom[used]]
-        first = ends[:, 0] >= 0
+        end_effectors = self._end_of_geom[contact.geom[used]]
+        first = end_effectors[:, 0] >= 0
         forces[first] *= -1.0
-        return np.where(first, ends[:, 0], ends[:, 1]), forces, local[:, 0], contact.pos[used]
+        return np.where(first, end_effectors[:, 0], end_effectors[:, 1]), forces, local[:, 0], contact.pos[used]

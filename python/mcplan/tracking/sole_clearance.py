@@ -29,27 +29,27 @@ GRID = (7, 3)
 
 
 def clearance_findings(
-    scene: Scene, loaded: UrdfModel, samples: Samples, postures: Postures, final_contacts: list[int]
+    scene: Scene, urdf_model: UrdfModel, samples: Samples, postures: Postures, final_contacts: list[int]
 ) -> list[Finding]:
     """How deep each end-effector enters a solid, in the air ("clearance") and at rest ("foothold"); negative: above.
 
     In the air, what a foot leaves and reaches counts between 10 % and 90 % of the swing, other solids always. At rest,
-    the surface touched does not count.
+    the surface in contact does not count.
 
     Args:
         scene: Its surfaces are the tops of the solids.
-        loaded: The robot's model; its end-effectors are those of the samples.
+        urdf_model: The robot's model; its end-effectors are those of the samples.
         samples: The plan.
         postures: That follow it.
-        final_contacts: Surface that each end-effector touches after the last sample, -1: none.
+        final_contacts: Surface with which each end-effector is in contact after the last sample, -1: none.
     """
     import pinocchio as pin  # type: ignore[import-untyped]
 
     solids, findings = Solids(scene), []
-    data = loaded.model.createData()
-    times, placements = _placements(pin, loaded, data, samples, postures)
-    for end, body in enumerate(loaded.robot.end_effectors):
-        half = np.asarray(body.half_size, float)
+    data = urdf_model.model.createData()
+    times, placements = _placements(pin, urdf_model, data, samples, postures)
+    for end, end_effector in enumerate(urdf_model.robot.end_effectors):
+        half = np.asarray(end_effector.half_size, float)
         sole = np.array(
             [[x, y, 0.0] for x in half[0] * np.linspace(-1, 1, GRID[0]) for y in half[1] * np.linspace(-1, 1, GRID[1])]
         )
@@ -65,25 +65,29 @@ def clearance_findings(
             if name not in deepest or depth > deepest[name][0]:
                 deepest[name] = (depth, float(time), solids.names[nearest])
         for name, (depth, time, surface) in deepest.items():
-            if body.kind == "foot" or name == "clearance":
+            if end_effector.kind == "foot" or name == "clearance":
                 if np.isfinite(depth):
-                    findings.append(Finding(name, depth, DEPTH, "m", body.name, time, f"surface {surface}"))
+                    findings.append(Finding(name, depth, DEPTH, "m", end_effector.name, time, f"surface {surface}"))
     return findings
 
 
 def _placements(
-    pin: Any, loaded: UrdfModel, data: Any, samples: Samples, postures: Postures
+    pin: Any, urdf_model: UrdfModel, data: Any, samples: Samples, postures: Postures
 ) -> tuple[Array, list[Any]]:
     """Rotation and position of every end-effector, at the postures and between them."""
     times, placements = [], []
     for n, q in enumerate(postures.configurations):
         last = n + 1 == samples.count
         for cut in range(1 if last else CUTS):
-            share = cut / CUTS
-            between = q if cut == 0 else pin.interpolate(loaded.model, q, postures.configurations[n + 1], share)
-            pin.framesForwardKinematics(loaded.model, data, between)
-            placements.append([(data.oMf[f].rotation.copy(), data.oMf[f].translation.copy()) for f in loaded.frames])
-            times.append(samples.times_s[n] + (0.0 if last else share * (samples.times_s[n + 1] - samples.times_s[n])))
+            fraction = cut / CUTS
+            between = q if cut == 0 else pin.interpolate(urdf_model.model, q, postures.configurations[n + 1], fraction)
+            pin.framesForwardKinematics(urdf_model.model, data, between)
+            placements.append(
+                [(data.oMf[f].rotation.copy(), data.oMf[f].translation.copy()) for f in urdf_model.frames]
+            )
+            times.append(
+                samples.times_s[n] + (0.0 if last else fraction * (samples.times_s[n + 1] - samples.times_s[n]))
+            )
     return np.array(times), placements
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Points so little below the underside are still inside [m]: a step stands on the floor, as the sole beside it does.
+#: Points so little below the underside are still inside [m]: a step lies on the floor, as the sole beside it does.
 UNDERSIDE = 0.01
 
 
@@ -38,7 +38,7 @@ class Solids:
             points_W: (k, 3) [m].
 
         Returns:
-            (k, s) [m], s solids: negative inside, by the way out through the top or the nearest side; outside, the
+            (k, s) [m], s solids: negative inside, by the distance to the top or the nearest side; outside, the
             distance to the plane of the side that is farthest, which is at most the distance to the solid.
         """
         points_W = np.asarray(points_W, float)

@@ -1,8 +1,8 @@
 """States of a robot in the conventions of Pinocchio and of MuJoCo.
 
-    Pinocchio   configuration [base position, quaternion xyzw, joints], velocity [base linear and angular in the base's axes,
-                joints], acceleration its derivative in these axes (spatial acceleration)
-    MuJoCo      qpos [base position, quaternion wxyz, joints], qvel [base linear in the world's axes, angular in the base's,
+    Pinocchio   configuration [base position, quaternion xyzw, joints], velocity [base linear and angular in the base's
+                axes, joints], acceleration its derivative in these axes (spatial acceleration) MuJoCo      qpos [base
+                position, quaternion wxyz, joints], qvel [base linear in the world's axes, angular in the base's,
                 joints], qacc its derivative: the linear part is the acceleration of the base's origin in the world
 
 The joints have an order of their own in each; they are matched by name when the model is built.
@@ -48,8 +48,8 @@ def to_pinocchio(model: SimulationModel, qpos: Array, qvel: Array) -> tuple[Arra
 def acceleration_to_mujoco(model: SimulationModel, configuration: Array, velocity: Array, acceleration: Array) -> Array:
     """MuJoCo's qacc (6 + nj,) of Pinocchio's configuration, velocity and acceleration."""
     qacc = np.empty(len(acceleration))
-    turning = np.cross(velocity[3:6], velocity[:3])
-    qacc[:3] = _rotation(configuration[3:7]) @ (acceleration[:3] + turning)
+    transport = np.cross(velocity[3:6], velocity[:3])
+    qacc[:3] = _rotation(configuration[3:7]) @ (acceleration[:3] + transport)
     qacc[3:6] = acceleration[3:6]
     qacc[model.dof_index] = acceleration[6:]
     return qacc

@@ -18,24 +18,26 @@ Array = NDArray[np.float64]
 LEAST_DEPTH_M = 0.02
 #: Surfaces no steeper than this (their normal's z) are extruded straight down, others against their normal.
 UPRIGHT = 0.5
-#: Of surfaces that may be grasped. MuJoCo's contacts only push: a hand on them does not slide, but cannot pull.
+#: Friction of surfaces that may be grasped. MuJoCo's contacts only push: a hand on them does not slide, but cannot
+#: pull.
 GRASP_FRICTION = 5.0
 
-#: Bits of contype and conaffinity: the robot touches terrain and terrain the robot, nothing touches its own kind.
+#: Bits of contype and conaffinity: robot and terrain make contact with each other, neither with its own kind.
 ROBOT_BIT, TERRAIN_BIT = 1, 2
 
 
 def prism(surface: Surface) -> tuple[Array, NDArray[np.int64]]:
     """The solid under a surface.
 
-    Floors and slopes are extruded straight down by their thickness: seen from above the solid fills just the polygon, so it
-    cannot stand out of a neighbour that lies lower. Walls are extruded against their normal.
+    Floors and slopes are extruded straight down by their thickness: seen from above the solid fills just the polygon,
+    so it cannot stand out of a neighbour that lies lower. Walls are extruded against their normal.
 
     Args:
         surface: A convex polygon of k corners.
 
     Returns:
-        Corners (2k, 3) [m], world frame, the surface's own first; triangles (4k - 4, 3), counter-clockwise seen from outside.
+        Corners (2k, 3) [m], world frame, the surface's own first; triangles (4k - 4, 3), counter-clockwise seen from
+        outside.
     """
     top = np.asarray(surface.vertices_W, float)
     normal = polygon_normal(top)

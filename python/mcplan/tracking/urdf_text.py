@@ -1,9 +1,9 @@
 """A robot's URDF rewritten for MuJoCo.
 
-MuJoCo reads URDF, with traps: it looks for meshes beside the file, reads no ``package://`` and no .dae, refuses massless
-links, and merges a root link without a joint into the world, its mass lost. So the text is rewritten: links that move get the
-inertia that Pinocchio has worked out for them and what is fixed to them, meshes get absolute paths, and only what is asked
-for is kept.
+MuJoCo reads URDF, with traps: it looks for meshes beside the file, reads no ``package://`` and no .dae, refuses
+massless links, and merges a root link without a joint into the world, its mass lost. So the text is rewritten: links
+that move get the inertia that Pinocchio has worked out for them and what is fixed to them, meshes get absolute paths,
+and only what is asked for is kept.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ if TYPE_CHECKING:
 MESHES = (".stl", ".obj", ".msh")
 
 
-def rewrite(loaded: UrdfModel, visual: bool = False) -> tuple[str, str]:
+def rewrite(urdf_model: UrdfModel, visual: bool = False) -> tuple[str, str]:
     """URDF text that MuJoCo reads as Pinocchio read the file.
 
     Args:
-        loaded: The robot's model.
+        urdf_model: The robot's model.
         visual: Keep visual shapes, but for meshes of types that MuJoCo does not read.
 
     Returns:
@@ -35,7 +35,7 @@ def rewrite(loaded: UrdfModel, visual: bool = False) -> tuple[str, str]:
     Raises:
         InvalidRobot: The joints of the file are not those of the model.
     """
-    root = read_xml(loaded.path, InvalidRobot, "urdf", loaded.robot.name).root
+    root = read_xml(urdf_model.path, InvalidRobot, "urdf", urdf_model.robot.name).root
     for item in list(root):
         if item.tag not in ("link", "joint", "material"):
             root.remove(item)
@@ -43,7 +43,7 @@ def rewrite(loaded: UrdfModel, visual: bool = False) -> tuple[str, str]:
     children = {_link(joint, "child"): joint for joint in joints}
     roots = [link.get("name", "") for link in root.findall("link") if link.get("name") not in children]
     moving = {joint.get("name", ""): link for link, joint in children.items() if joint.get("type") != "fixed"}
-    model = loaded.model
+    model = urdf_model.model
     expected = list(model.names)[2:]
     if len(roots) != 1 or sorted(moving) != sorted(expected) or any(model.nqs[j] != 1 for j in range(2, model.njoints)):
         odd = sorted(set(moving) ^ set(expected)) or [n for n in expected if model.nqs[model.getJointId(n)] != 1]
@@ -58,7 +58,7 @@ def rewrite(loaded: UrdfModel, visual: bool = False) -> tuple[str, str]:
         for item in link.findall("inertial") + link.findall("collision"):
             link.remove(item)
         for item in link.findall("visual"):
-            if not (visual and _resolve_mesh(item, loaded.path)):
+            if not (visual and _resolve_mesh(item, urdf_model.path)):
                 link.remove(item)
         if link.get("name") in carriers:
             link.append(_inertial(model.inertias[carriers[link.get("name", "")]]))

@@ -19,7 +19,7 @@ COM = "#7A1F5C"
 GROUND = "#DADDE2"
 WALL = "#9DB4CC"
 GRASP = "#2AA889"
-#: What only hands may touch.
+#: Surfaces for hands alone.
 PAD = "#DDC94B"
 OUTLINE = "#8A919C"
 #: Axes of the world, as everywhere: x, y, z. Outward normals; start and goal of a scene.
@@ -62,9 +62,9 @@ def rgb(colour: str) -> tuple[float, float, float]:
     return tuple(int(colour[i : i + 2], 16) / 255.0 for i in (1, 3, 5))  # type: ignore[return-value]
 
 
-def mix(colour: str, other: str, share: float) -> str:
-    """`colour` with the given share of `other`, "#rrggbb"."""
-    blend = [(1.0 - share) * a + share * b for a, b in zip(rgb(colour), rgb(other), strict=True)]
+def mix(colour: str, other: str, fraction: float) -> str:
+    """`colour` with the given fraction of `other`, "#rrggbb"."""
+    blend = [(1.0 - fraction) * a + fraction * b for a, b in zip(rgb(colour), rgb(other), strict=True)]
     return "#" + "".join(f"{round(255 * c):02x}" for c in blend)
 
 

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 #: [m] CoM height for which margins are written, and size below which a surface is shown as a whole.
 HEIGHT, SMALL = 0.7, 2.5
 #: [m] from start to goal in scenes for such robots.
-USUAL_WAY = 2.0
+USUAL_DISPLACEMENT = 2.0
 
 
 def scale_of(robot: Robot | None) -> float:
@@ -30,18 +30,18 @@ def scale_of(robot: Robot | None) -> float:
 
 
 def scale_of_scene(scene: Scene, robot: Robot | None) -> float:
-    """What margins around a scene are multiplied by; without a robot the way through it and its smallest surface tell."""
+    """What margins around a scene are multiplied by; without a robot the path through it and its smallest surface tell."""
     if robot is not None or not scene.surfaces:
         return scale_of(robot)
-    way = float(np.linalg.norm(np.asarray(scene.goal.position_W, float) - scene.start.position_W))
+    displacement = float(np.linalg.norm(np.asarray(scene.goal.position_W, float) - scene.start.position_W))
     smallest = min(float(np.ptp(np.asarray(s.vertices_W, float), axis=0).max()) for s in scene.surfaces)
-    ratio = max(way, smallest) / USUAL_WAY
+    ratio = max(displacement, smallest) / USUAL_DISPLACEMENT
     return 1.0 if 0.1 <= ratio <= 4.0 else ratio
 
 
 @dataclass(frozen=True)
 class Extent:
-    """A vertical box, turned to the direction of travel, outside of which surfaces are cut off."""
+    """A vertical box, rotated to the direction of travel, outside of which surfaces are cut off."""
 
     centre: Array  # (2,) [m] of the box, world x and y
     forward: Array  # (2,) unit vector of travel
@@ -99,6 +99,6 @@ def below(polygon: Array, height: Array) -> Array:
         if height[i] <= 0.0:
             kept.append(polygon[i])
         if (height[i] < 0.0 < height[j]) or (height[j] < 0.0 < height[i]):
-            share = height[i] / (height[i] - height[j])
-            kept.append(polygon[i] + share * (polygon[j] - polygon[i]))
+            fraction = height[i] / (height[i] - height[j])
+            kept.append(polygon[i] + fraction * (polygon[j] - polygon[i]))
     return np.array(kept).reshape(-1, polygon.shape[1])

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Length of a force arrow as large as the weight, as a share of the CoM height.
+#: Ratio of the length of a force arrow as large as the weight to the CoM height.
 WEIGHT_ARROW = 0.55
 #: [s] that a new contact takes to settle from its flash.
 FLASH = 0.25
@@ -54,19 +54,19 @@ def draw_forces(stage: Stage, samples: Samples, scene: Scene, robot: Robot, on_t
 
 
 def draw_figure(stage: Stage, samples: Samples, figure: Figure) -> None:
-    """Put a robot onto a page; parts that share a motion may share a node."""
+    """Put a robot onto a page; parts that move together may have one node."""
     nodes: dict[str, int] = {}
     for number, part in enumerate(figure.parts):
-        body, _, rest = part.name.partition("/")
-        path = f"robot/{node(body)}"
+        link, _, rest = part.name.partition("/")
+        path = f"robot/{node(link)}"
         stage.mesh(f"{path}/{node(rest)}" if rest else path, part.mesh, part.colour)
-        if body not in nodes:
-            nodes[body] = number
+        if link not in nodes:
+            nodes[link] = number
             stage.move(path, samples.times_s, part.poses)
 
 
 def contact_plate(robot: Robot, end: int, margin: float = 0.0) -> Mesh:
-    """Patch [m] that stands for a contact: the sole's rectangle, or a disc for a point; a margin around it is that of a
+    """Patch [m] that marks a contact: the sole's rectangle, or a disc for a point; a margin around it is that of a
     robot of usual size."""
     half_size = np.asarray(robot.end_effectors[end].half_size, float)
     scale = float(robot.com_height) / 0.7
@@ -97,8 +97,10 @@ def draw_contact(
     # Flash from one and a half times its size; the first contacts of a plan are there from the start.
     times = {0.0: 1.0, float(samples.times_s[-1]): 1.0}
     if interval.start_s > 0.0:
-        for share in np.linspace(0.0, 1.0, 9):
-            times[min(interval.start_s + FLASH * share, float(samples.times_s[-1]))] = 1.0 + 0.6 * (1.0 - share) ** 2
+        for fraction in np.linspace(0.0, 1.0, 9):
+            times[min(interval.start_s + FLASH * fraction, float(samples.times_s[-1]))] = (
+                1.0 + 0.6 * (1.0 - fraction) ** 2
+            )
     moments = np.array(sorted(times))
     scales = np.array([[times[t], times[t], 1.0] for t in moments])
     stage.move(f"{path}/active", moments, scales=scales)
@@ -127,8 +129,8 @@ def draw_arrow(
         times_s: Times [s], (n,).
         start_W: Where the force acts, (n, 3) [m].
         force_W: The force, (n, 3) [N].
-        weight: Of the robot [N]; an arrow of this size is WEIGHT_ARROW times the height long.
-        height: Of the robot [m].
+        weight: Weight of the robot [N]; an arrow of this size is WEIGHT_ARROW times the height long.
+        height: Height of the robot [m].
         colour: "#rrggbb".
         on_top: Seen through whatever lies in front.
     """

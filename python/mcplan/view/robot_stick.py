@@ -52,7 +52,7 @@ def stick_robot(samples: Samples, robot: Robot, colours: list[str]) -> Figure:
     humanoid = is_humanoid(robot)
     limbs = limbs_of(robot)
     base = pose(samples.rotation_WB, samples.com_W)
-    parts = _humanoid_body(scale, base) if humanoid else _trunk(robot, scale, base)
+    parts = _humanoid_trunk(scale, base) if humanoid else _trunk(robot, scale, base)
     joints: list[tuple[Array, ...]] = []
     for end, (limb, colour) in enumerate(zip(limbs, colours, strict=True)):
         name = node(robot.end_effectors[end].name)  # a slash would part a limb from the rest of it
@@ -72,7 +72,7 @@ def stick_robot(samples: Samples, robot: Robot, colours: list[str]) -> Figure:
 
 
 def is_humanoid(robot: Robot) -> bool:
-    """Whether the robot stands on two feet."""
+    """Whether the robot is a biped."""
     return sum(e.kind == "foot" for e in robot.end_effectors) == 2
 
 
@@ -142,7 +142,7 @@ def _scaled(scale: float, *lengths: float) -> tuple[float, float, float]:
     return a, b, c
 
 
-def _humanoid_body(scale: float, base: Array) -> list[Part]:
+def _humanoid_trunk(scale: float, base: Array) -> list[Part]:
     # (height, half depth, half width, shift forward) from the crotch to the neck, CoM at 0.
     torso = [
         (-0.130, 0.030, 0.040, 0.000),
@@ -178,7 +178,7 @@ def _trunk(robot: Robot, scale: float, base: Array) -> list[Part]:
             (1.24, 0.02, 0.35),
         )
     ]
-    lying = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # the stack's z becomes the body's x
+    lying = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # the stack's z becomes the trunk's x
     trunk = rounded_stack(levels).moved(pose(lying, np.array([0.0, 0.0, 0.02 * scale])))
     head = ellipsoid((0.05 * scale, 0.05 * scale, 0.03 * scale)).moved(_shift(1.22 * half[0], 0.0, 0.03 * scale))
     return [Part("base/torso", trunk, BODY, base), Part("base/head", head, VISOR, base)]

@@ -42,35 +42,35 @@ def urdf_robot(samples: Samples, robot: Robot) -> Figure:
         CannotFollow: Some posture misses the plan by more than 5 cm.
     """
     require(f"drawing {robot.name} with its meshes", "view", "pinocchio")
-    loaded = load_model(robot)
-    postures = follow(loaded, samples)
+    urdf_model = load_model(robot)
+    postures = follow(urdf_model, samples)
     if postures.residual > LARGEST_MISS:
         raise CannotFollow(
             f"inverse kinematics of {robot.name} misses {postures.where} by {100.0 * postures.residual:.1f} cm"
         )
-    return mesh_figure(loaded, postures.configurations)
+    return mesh_figure(urdf_model, postures.configurations)
 
 
-def mesh_figure(loaded: UrdfModel, configurations: Array, tints: list[str] | None = None) -> Figure:
+def mesh_figure(urdf_model: UrdfModel, configurations: Array, tints: list[str] | None = None) -> Figure:
     """The visual meshes of a URDF at given configurations.
 
     Args:
-        loaded: The robot's model.
+        urdf_model: The robot's model.
         configurations: (n, nq) in Pinocchio's order, free-flyer first.
         tints: A colour for each end-effector's link, "#rrggbb"; None: links keep their own colours.
     """
     import pinocchio as pin  # type: ignore[import-untyped]
 
-    model = loaded.model
+    model = urdf_model.model
     data = model.createData()
     placements = []
     for q in configurations:
         pin.forwardKinematics(model, data, q)
         placements.append([joint.homogeneous for joint in data.oMi])
     poses = np.array(placements)
-    tint_of = {model.frames[f].parentJoint: c for f, c in zip(loaded.frames, tints or [], strict=False)}
+    tint_of = {model.frames[f].parentJoint: c for f, c in zip(urdf_model.frames, tints or [], strict=False)}
     parts = []
-    for item in loaded.visual.geometryObjects:
+    for item in urdf_model.visual.geometryObjects:
         mesh = _mesh(item)
         if mesh is not None:
             moved = mesh.moved(item.placement.homogeneous)

@@ -44,36 +44,36 @@ class RunFrames:
 def frame_indices(times_s: Array, rate_hz: float) -> NDArray[np.int64]:
     """Instants of a recording nearest to equally spaced ones, first and last included, each once."""
     count = max(2, round(float(times_s[-1] - times_s[0]) * rate_hz) + 1)
-    wanted = np.linspace(times_s[0], times_s[-1], count)
-    after = np.clip(np.searchsorted(times_s, wanted), 1, len(times_s) - 1)
-    nearer = wanted - times_s[after - 1] < times_s[after] - wanted
+    desired = np.linspace(times_s[0], times_s[-1], count)
+    after = np.clip(np.searchsorted(times_s, desired), 1, len(times_s) - 1)
+    nearer = desired - times_s[after - 1] < times_s[after] - desired
     return np.unique(after - nearer)
 
 
-def frames_of(recording: Recording, loaded: UrdfModel, rate_hz: float) -> RunFrames:
+def frames_of(recording: Recording, urdf_model: UrdfModel, rate_hz: float) -> RunFrames:
     """Pick the frames of a recording.
 
     Args:
         recording: The run.
-        loaded: Model of its robot; soles are turned as its configurations say.
+        urdf_model: Model of its robot; soles are rotated as its configurations say.
         rate_hz: Frames in a second.
     """
     scene = recording.plan.scene
     chosen = frame_indices(recording.times_s, rate_hz)
     configurations = recording.configurations[chosen]
-    rotation_WB, soles_W = _rotations(loaded, configurations)
+    rotation_WB, soles_W = _rotations(urdf_model, configurations)
     times = recording.times_s[chosen]
-    positions = recording.ends_W[chosen]
-    count, ends = positions.shape[:2]
+    positions = recording.end_effectors_W[chosen]
+    count, end_effector_count = positions.shape[:2]
     intervals = simulated_intervals(recording, scene)
     for n, interval in enumerate(intervals):
         middle = int(np.argmin(np.abs(times - 0.5 * (interval.start_s + interval.end_s))))
         normal = polygon_normal(np.asarray(scene.surfaces[interval.surface].vertices_W))
-        turned = with_axis_z(normal, soles_W[middle, interval.end_effector][:, 0])
+        rotation = with_axis_z(normal, soles_W[middle, interval.end_effector][:, 0])
         intervals[n] = Interval(
-            interval.end_effector, interval.surface, interval.start_s, interval.end_s, interval.position_W, turned
+            interval.end_effector, interval.surface, interval.start_s, interval.end_s, interval.position_W, rotation
         )
-    surfaces = np.full((count, ends), -1)
+    surfaces = np.full((count, end_effector_count), -1)
     for interval in intervals:
         lasts = (times >= interval.start_s) & (times <= interval.end_s)
         surfaces[lasts, interval.end_effector] = interval.surface
@@ -85,13 +85,13 @@ def frames_of(recording: Recording, loaded: UrdfModel, rate_hz: float) -> RunFra
         com_acceleration_W=np.gradient(com_velocity_W, recording.times_s, axis=0)[chosen],
         rotation_WB=rotation_WB,
         positions_W=positions,
-        velocities_W=np.gradient(recording.ends_W, recording.times_s, axis=0)[chosen],
+        velocities_W=np.gradient(recording.end_effectors_W, recording.times_s, axis=0)[chosen],
         rotations_W=soles_W,
         forces_W=recording.forces_W[chosen],
         pressure_W=positions,
-        moments_W=np.zeros((count, ends, 3)),
-        points_W=np.zeros((count, ends, 0, 3)),
-        point_forces_W=np.zeros((count, ends, 0, 3)),
+        moments_W=np.zeros((count, end_effector_count, 3)),
+        points_W=np.zeros((count, end_effector_count, 0, 3)),
+        point_forces_W=np.zeros((count, end_effector_count, 0, 3)),
         angular_momentum_W=recording.angular_momentum_W[chosen],
         surfaces=surfaces,
         intervals=intervals,
@@ -110,7 +110,7 @@ def simulated_intervals(recording: Recording, scene: Scene) -> list[Interval]:
     intervals = []
     for end in range(recording.contacts.shape[1]):
         for start, stop in joined_stretches(recording.contacts[:, end], times):
-            position = recording.ends_W[start:stop, end].mean(axis=0)
+            position = recording.end_effectors_W[start:stop, end].mean(axis=0)
             planned = recording.contacts_plan[start:stop, end]
             planned = planned[planned >= 0]
             surface = int(np.bincount(planned).argmax()) if len(planned) else _nearest_surface(scene, position)
@@ -145,14 +145,14 @@ def _nearest_surface(scene: Scene, position_W: Array) -> int:
     return int(np.argmin(away))
 
 
-def _rotations(loaded: UrdfModel, configurations: Array) -> tuple[Array, Array]:
+def _rotations(urdf_model: UrdfModel, configurations: Array) -> tuple[Array, Array]:
     """Of the base (n, 3, 3) and of the contact frames (n, e, 3, 3)."""
     import pinocchio as pin  # type: ignore[import-untyped]
 
-    data = loaded.model.createData()
+    data = urdf_model.model.createData()
     base, soles = [], []
     for q in configurations:
-        pin.framesForwardKinematics(loaded.model, data, q)
+        pin.framesForwardKinematics(urdf_model.model, data, q)
         base.append(data.oMi[1].rotation.copy())
-        soles.append([data.oMf[frame].rotation.copy() for frame in loaded.frames])
+        soles.append([data.oMf[frame].rotation.copy() for frame in urdf_model.frames])
     return np.array(base), np.array(soles)

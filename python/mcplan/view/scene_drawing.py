@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: [m] between the lines drawn on surfaces to walk on, for drawings of usual size; and how many there are at most across.
+#: [m] between the lines drawn on surfaces to walk on, for drawings of usual size; and how many there are at most
+#: across.
 GRID, MOST_LINES = 0.5, 60
 
 
@@ -40,7 +41,7 @@ class SurfaceDrawing:
 
 
 def is_pad(surface: Surface) -> bool:
-    """Whether a surface that is not held is for hands alone: no end-effector or kind that may touch it is a foot."""
+    """Whether a surface without grasp is for hands alone: none of its end-effectors or their kinds is a foot."""
     own = list(surface.end_effectors)
     return bool(own) and not surface.grasp and not any("foot" in name or "leg" in name for name in own)
 
@@ -73,7 +74,7 @@ def surface_drawings(scene: Scene, extent: Extent) -> list[SurfaceDrawing]:
 
 
 def _has_area(outline: Array, of: Array) -> bool:
-    """Whether what is left of a surface is more than the edge along which it touches the extent."""
+    """Whether what is left of a surface is more than an edge on the boundary of the extent."""
     left, whole = (
         np.linalg.norm(np.cross(p, np.roll(p, -1, axis=0)).sum(axis=0)) for p in (outline - outline[0], of - of[0])
     )
@@ -99,8 +100,8 @@ def grid_lines(outline: Array, spacing: float) -> Array:
             for a in range(len(outline)):
                 b = (a + 1) % len(outline)
                 if (height[a] < 0.0) != (height[b] < 0.0):
-                    share = height[a] / (height[a] - height[b])
-                    crossings.append(outline[a] + share * (outline[b] - outline[a]))
+                    fraction = height[a] / (height[a] - height[b])
+                    crossings.append(outline[a] + fraction * (outline[b] - outline[a]))
             if len(crossings) == 2:
                 segments.append(crossings)
     return np.array(segments).reshape(-1, 2, 3)

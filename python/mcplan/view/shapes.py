@@ -19,7 +19,7 @@ class Mesh:
     vertices: Array  # (n, 3)
     faces: NDArray[np.int64]  # (m, 3)
     smooth: bool = False  # shade across edges
-    two_sided: bool = False  # open, or wound either way: seen from both sides
+    two_sided: bool = False  # open, or wound in either sense: seen from both sides
 
     def moved(self, transform: Array) -> Mesh:
         """The mesh under a homogeneous transform (4, 4)."""
@@ -71,8 +71,8 @@ def capsule(length: float, radius_start: float, radius_end: float, sides: int = 
     levels = [(radius_start * np.cos(a), radius_start * np.sin(a)) for a in bend]
     levels += [(radius_end * np.cos(a), length + radius_end * np.sin(a)) for a in -bend[::-1]]
     ring = circle(sides)
-    least = 2e-3 * max(radius_start, radius_end)
-    rings = np.array([np.column_stack([max(r, least) * ring, np.full(sides, z)]) for r, z in levels])
+    min_radius = 2e-3 * max(radius_start, radius_end)
+    rings = np.array([np.column_stack([max(r, min_radius) * ring, np.full(sides, z)]) for r, z in levels])
     return loft(rings)
 
 

@@ -18,7 +18,7 @@ from .shapes import Mesh
 
 Array = NDArray[np.float64]
 
-#: Codes under which meshcat's decoder turns msgpack extensions into typed arrays.
+#: Codes under which meshcat's decoder makes typed arrays of msgpack extensions.
 UINT32, FLOAT32 = 0x16, 0x17
 
 
@@ -36,7 +36,7 @@ class Stage:
     """Collects what a page shows. Nodes are named by paths such as "plan/forces/left_foot".
 
     Args:
-        size_m: Of the robot: how finely lengths are stored.
+        size_m: Size of the robot, which says how finely lengths are stored.
     """
 
     def __init__(self, size_m: float = 1.0) -> None:

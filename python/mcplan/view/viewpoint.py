@@ -19,12 +19,12 @@ Array = NDArray[np.float64]
 
 
 def view_points(drawings: list[SurfaceDrawing], samples: Samples, robot: Robot) -> Array:
-    """Points (n, 3) [m] that a picture of a plan must hold: motion, heads, small surfaces near it."""
+    """Points (n, 3) [m] that a picture of a plan must show: motion, heads, small surfaces near it."""
     above = np.array([0.0, 0.0, 0.95 * float(robot.com_height)])
     motion = [samples.com_W + above, samples.positions_W.reshape(-1, 3)]
     low, high = np.vstack(motion).min(axis=0), np.vstack(motion).max(axis=0)
     scale = scale_of(robot)
-    # Large surfaces may run out of the picture; what the robot touches may not.
+    # Large surfaces may run out of the picture; the robot's contacts may not.
     small = [d.outline for d in drawings if np.ptp(d.outline, axis=0).max() < SMALL * scale]
     near = [
         p

@@ -1,4 +1,4 @@
-"""Which sides of a mesh are to be drawn: files come with triangles wound either way, mirrored, or open."""
+"""Which sides of a mesh are to be drawn: files come with triangles wound in either sense, mirrored, or open."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 
 from .shapes import Mesh
 
-#: Vertices nearer to each other than this share of the mesh's size are one.
+#: Vertices nearer to each other than this ratio of the mesh's size are one.
 SAME = 1e-6
 
 
 def whole(mesh: Mesh) -> Mesh:
     """The mesh so that nothing of it goes missing when only front sides are drawn.
 
-    A closed skin whose triangles are all wound alike is turned inside out if need be (mirrored links are), and stays
+    A closed skin whose triangles are all wound alike is reversed if need be (mirrored links are), and stays
     one-sided. Any other is marked as two-sided: no winding can be right for it.
     """
     if not len(mesh.faces):
@@ -32,7 +32,8 @@ def whole(mesh: Mesh) -> Mesh:
 def both_sides(mesh: Mesh) -> Mesh:
     """A two-sided mesh as a one-sided one of twice the triangles, for painters that know no other; others as they are.
 
-    No two triangles share a vertex, so that a painter that averages normals over neighbours finds each side's own.
+    No two triangles have a vertex in common, so that a painter that averages normals over neighbours finds each side's
+    own.
     """
     if not mesh.two_sided:
         return mesh

@@ -24,16 +24,16 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Of the spheres at the points of end-effectors [m]: what a force acts off its point by is less than this.
+#: Radius of the spheres at the points of end-effectors [m]; a force acts off its point by less than this.
 POINT_RADIUS_M = 5e-4
-#: Of the solids under surfaces that end somewhere, and half their width across the plane [m].
+#: Depth of the solids under surfaces that end somewhere, and half their width across the plane [m].
 SOLID_DEPTH_M = 0.1
 SOLID_HALF_WIDTH_M = 0.2
 #: Length for surfaces without an end on one side [m].
 ENDLESS_M = 50.0
 
 _AXIS = (0.0, -1.0, 0.0)
-_ROBOT, _GROUND = 1, 2  # collision bits: robots touch the ground and not themselves
+_ROBOT, _GROUND = 1, 2  # collision bits: robots make contact with the ground and not with themselves
 
 
 @dataclass(frozen=True)
@@ -43,8 +43,8 @@ class PlanarModel:
     Attributes:
         motion: Robot and ground that it was made from.
         mj: The model.
-        stiffness, damping: In its motors [N m/rad, N m s/rad].
-        dofs: (3 + j,) where base x, y, angle and the joints are in MuJoCo's qpos and qvel.
+        stiffness, damping: Gains of its motors [N m/rad, N m s/rad].
+        dofs: (3 + j,) indices of base x, y, angle and the joints in MuJoCo's qpos and qvel.
         point_geoms: For each end-effector the geoms of its points.
         surface_geoms: The geom of each surface of the motion.
     """
@@ -72,12 +72,12 @@ def build(
 
     Args:
         motion: Robot and surfaces; it must be valid.
-        step_s: Of the simulation.
-        contacts: How hard they are; default: ContactSettings().
-        feedback: Of the joints, as part of their motors; default: Feedback().
+        step_s: Time step of the simulation.
+        contacts: Hardness of the contacts; default: ContactSettings().
+        feedback: Feedback of the joints, as part of their motors; default: Feedback().
         mass_scale: Factor on masses and inertias.
         friction_scale: Factor on the friction of all surfaces.
-        ground_shift_m: By which all surfaces lie higher than the motion's.
+        ground_shift_m: Height of all surfaces above the motion's.
 
     Raises:
         InvalidOptions: Contacts or feedback out of their range.
@@ -103,14 +103,16 @@ def build(
         mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, f"joint {b}") for b in range(len(motion.robot.bodies))
     ]
 
-    ends = motion.robot.end_effectors
+    end_effectors = motion.robot.end_effectors
     return PlanarModel(
         motion=motion,
         mj=model,
         stiffness=gains[0],
         damping=gains[1],
         dofs=np.array([0, 1, *(model.jnt_dofadr[hinge] for hinge in hinges)]),
-        point_geoms=tuple(tuple(geom(f"point {e} {i}") for i in range(len(end.points))) for e, end in enumerate(ends)),
+        point_geoms=tuple(
+            tuple(geom(f"point {e} {i}") for i in range(len(end.points))) for e, end in enumerate(end_effectors)
+        ),
         surface_geoms=tuple(geom(f"surface {i}") for i in range(len(motion.surfaces))),
     )
 
@@ -151,7 +153,7 @@ def _add_ground(
             type=mujoco.mjtGeom.mjGEOM_PLANE if endless else mujoco.mjtGeom.mjGEOM_BOX,
             size=size,
             pos=[middle[0], 0.0, middle[1] + shift_m],
-            quat=_turn(surface.angle),
+            quat=_rotation_wxyz(surface.angle),
             friction=[friction_scale * surface.friction, 0.0, 0.0],
             condim=3,
             priority=1,  # friction and hardness are the ground's
@@ -183,7 +185,7 @@ def _add_bodies(spec: mujoco.MjSpec, robot: PlanarRobot, gains: tuple[float, flo
         made = parent.add_body(
             name=f"{number} {body.name}",
             pos=[body.joint_P[0], 0.0, body.joint_P[1]] if number else [0.0, 0.0, 0.0],
-            quat=_turn(body.offset if number else 0.0),
+            quat=_rotation_wxyz(body.offset if number else 0.0),
             mass=mass_scale * body.mass,
             ipos=[body.com_B[0], 0.0, body.com_B[1]],
             inertia=[mass_scale * body.inertia] * 3,  # only the one about y acts
@@ -223,10 +225,10 @@ def _add_motor(spec: mujoco.MjSpec, joint: str, torque_max: float, gains: tuple[
 
 
 def _axes(angle: float) -> tuple[Array, Array]:
-    """Unit vectors of a frame turned by an angle [rad]."""
+    """Unit vectors of a frame rotated by an angle [rad]."""
     return np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
 
 
-def _turn(angle: float) -> list[float]:
-    """Quaternion wxyz of a turn in the plane."""
+def _rotation_wxyz(angle: float) -> list[float]:
+    """Quaternion wxyz of a rotation in the plane."""
     return [float(np.cos(angle / 2)), 0.0, float(-np.sin(angle / 2)), 0.0]

@@ -43,7 +43,7 @@ def trackable(motion: PlanarTask) -> tuple[PlanarTask, dict[str, Any]]:
         plan = mp.whole_body(motion, **options).plan
 
     Args:
-        motion: Any.
+        motion: Any planar task.
 
     Returns:
         The motion as of with_clearances, and PLANNING with limits of the phases of motions of many steps.
@@ -56,11 +56,11 @@ def trackable(motion: PlanarTask) -> tuple[PlanarTask, dict[str, Any]]:
 
 
 def with_clearances(motion: PlanarTask, height_m: float = 0.02) -> PlanarTask:
-    """The motion with the points of every swing kept in front of the surface that it leaves and lands on.
+    """The motion with clearances that keep the points of every swing in front of the surface that it leaves and lands on.
 
     Args:
         motion: Swings that have a clearance keep it and get no other.
-        height_m: That points have in the middle of a swing.
+        height_m: Height of the points in the middle of a swing.
 
     Returns:
         A new motion.
@@ -92,5 +92,5 @@ def with_clearances(motion: PlanarTask, height_m: float = 0.02) -> PlanarTask:
 
 
 def _surface(phases: list[PlanarPhase], end: int) -> list[int]:
-    """The surface that an end-effector touches first in these phases, if it touches any."""
+    """The surface of an end-effector's first contact in these phases, if it has any."""
     return [c.surface for phase in phases for c in phase.contacts if c.end_effector == end][:1]

@@ -22,14 +22,14 @@ Array = NDArray[np.float64]
 class PlanarRecording:
     """A run of a whole-body plan: n instants, one a control step.
 
-    j joints, e end-effectors in the robot's order, p points of an end-effector at most. Everything is in the plane of the
+    j joints, e end-effectors in the robot's order, at most p points of an end-effector. Everything is in the plane of the
     planar robot: x forward, y up, angles anti-clockwise, world frame W, SI units. `_plan` says what the plan asks for at
     that instant; from the plan's end on that is its last instant.
 
     Attributes:
         plan: What was tracked; it carries robot and ground.
-        joints: (j) names of the bodies that the joints move.
-        ends: (e) names of the end-effectors.
+        joints: (j) names of the links that the joints move.
+        end_effectors: (e) names of the end-effectors.
         times_s: (n,) from 0.
         phases: (n,) phase of the plan.
         base, base_plan: (n, 3) x, y [m], angle [rad].
@@ -45,12 +45,12 @@ class PlanarRecording:
         forces_W: (n, e, p, 2) contact forces on the robot in the simulation [N]; NaN: there is no such point.
         forces_plan_W: (n, e, p, 2) those of the plan [N], 0 without contact; NaN: there is no such point.
         surfaces_plan: (n, e) surface that the plan's contact is on, -1: free.
-        left_plan_at_s: Time at which the robot was no longer where the plan wants it; infinite: it always was.
+        left_plan_at_s: Time at which the robot was no longer where the plan has it; infinite: it always was.
     """
 
     plan: PlanarPlan
     joints: tuple[str, ...]
-    ends: tuple[str, ...]
+    end_effectors: tuple[str, ...]
     times_s: Array
     phases: NDArray[np.int64]
     base: Array
@@ -73,8 +73,13 @@ class PlanarRecording:
     left_plan_at_s: float
 
     @property
+    def ends(self) -> tuple[str, ...]:
+        """Earlier name of ``end_effectors``, for one release."""
+        return self.end_effectors
+
+    @property
     def within_plan(self) -> NDArray[np.bool_]:
-        """(n,) instants that the plan is about: those after its end hold its last posture."""
+        """(n,) instants within the plan's duration: those after it have its last posture."""
         return self.times_s <= self.plan.duration()
 
     @staticmethod
@@ -89,12 +94,12 @@ class PlanarRecording:
 
 
 def recording_from(header: Header, arrays: Arrays) -> PlanarRecording:
-    """The recording that the file of a run holds."""
+    """The recording that the file of a run contains."""
     columns = columns_of(PlanarRecording, arrays)
     return PlanarRecording(
         plan=plan_from_bytes(arrays["plan"].tobytes()),
         joints=tuple(header["joints"]),
-        ends=tuple(header["ends"]),
+        end_effectors=tuple(header["ends"]),
         left_plan_at_s=float(header["ended_at_s"]),
         **columns,
     )

@@ -56,14 +56,14 @@ def rows_of(result: Reported) -> list[tuple[str, str]]:
     """What was measured, and its value."""
     m = result.measures
     joint, time_s = nearest_to_torque_limit(result.recording)
-    each = ", ".join(f"{name} {100.0 * share:.1f} %" for name, share in m.force_rms_ends.items())
+    each = ", ".join(f"{name} {100.0 * ratio:.1f} %" for name, ratio in m.force_rms_end_effectors.items())
     rows = [
         ("contact forces off the plan", f"{100.0 * m.force_rms:.1f} % rms ({each})"),
         ("their sum off the plan", f"{100.0 * m.force_rms_robot:.1f} % rms"),
         ("drift of contacts", f"{length(m.drift_m)} at most, {length(m.slip_m)} of it along the surface"),
         ("base off the plan", f"{length(m.base_rms_m)} rms"),
         ("joints off the plan", f"{np.degrees(m.joint_rms_rad):.2g} deg rms"),
-        ("torque by feedback", f"{100.0 * m.torque_feedback_share:.1f} % of the plan's, rms"),
+        ("torque by feedback", f"{100.0 * m.torque_feedback_ratio:.1f} % of the plan's, rms"),
         ("largest torque", f"{100.0 * m.torque_use:.0f} % of the limit of {joint}, at {time_s:.2f} s"),
     ]
     disturbed = disturbances_text(result.options)

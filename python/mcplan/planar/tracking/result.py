@@ -13,19 +13,19 @@ from .measures import PlanarMeasures
 from .recording import PlanarRecording, recording_from
 from .report import report
 
-#: Contact forces that are further than this share off the plan's are others: the run then proves nothing about the plan.
+#: Contact forces that are off the plan's by more than this ratio are others: the run then proves nothing about the plan.
 OTHER_FORCES = 0.25
 
 
 @dataclass(frozen=True)
 class PlanarResult:
-    """What came of tracking a whole-body plan. As text: a report of some lines.
+    """Result of tracking a whole-body plan. As text: a report of some lines.
 
     Attributes:
         recording: What the robot did.
         measures: How well, and how near its contact forces were to the planned ones.
-        options: What was asked for.
-        interrupted: Ctrl-C ended the run.
+        options: Options of the run.
+        interrupted: Whether Ctrl-C ended the run.
     """
 
     recording: PlanarRecording
@@ -35,7 +35,7 @@ class PlanarResult:
 
     @property
     def completed(self) -> bool:
-        """Whether the run went to its end and the robot was where the plan wants it."""
+        """Whether the run went to its end and the robot was where the plan has it."""
         return self.measures.completed and not self.interrupted
 
     @property
@@ -54,7 +54,7 @@ class PlanarResult:
             self.options,
             self.interrupted,
             run.left_plan_at_s,
-            {"joints": list(run.joints), "ends": list(run.ends)},
+            {"joints": list(run.joints), "ends": list(run.end_effectors)},
         )
         save_run(parts, path)
 
@@ -73,7 +73,7 @@ class PlanarResult:
 
 
 def result_from(header: Header, arrays: Arrays) -> PlanarResult:
-    """The result that the file of a run holds."""
+    """The result that the file of a run contains."""
     recording = recording_from(header, arrays)
-    measures = PlanarMeasures(**measures_of(header))
+    measures = PlanarMeasures.from_dict(measures_of(header))
     return PlanarResult(recording, measures, options_of(header), bool(header["interrupted"]))

@@ -1,4 +1,4 @@
-"""Run a whole-body plan in MuJoCo: the plan's torques and weak feedback on the joints, nothing on the base."""
+"""Run a whole-body plan in MuJoCo by the plan's torques and weak feedback on the joints, with no force on the base."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ def track_whole_body(
     0.1 m or 0.3 rad, or a joint by 0.3 rad.
 
     Args:
-        plan: Of a planar robot. How to plan so that a robot can follow: ``prepare``.
+        plan: A plan of a planar robot. ``prepare`` says how to plan so that a robot can follow.
         options: Steps, `hold_s` and the deviations that the plan does not know of: `mass_scale`, `friction_scale`,
             `ground_shift_m` (a start in the ground then throws the robot). Default: DEFAULT_OPTIONS.
-        feedback: On the joints; default: Feedback().
-        contacts: Their hardness; default: ContactSettings().
+        feedback: Feedback on the joints; default: Feedback().
+        contacts: Hardness of the contacts; default: ContactSettings().
         progress: Called now and then with the time simulated and the time to simulate [s].
 
     Ctrl-C ends the run with Interrupted, which carries the result.
@@ -173,7 +173,7 @@ def _recording(plan: PlanarPlan, rows: list[dict[str, Any]], left_plan_at_s: flo
     return PlanarRecording(
         plan=plan,
         joints=tuple(body.name for body in robot.bodies[1:]),
-        ends=tuple(end.name for end in robot.end_effectors),
+        end_effectors=tuple(end.name for end in robot.end_effectors),
         torque_limits=np.array([body.torque_max for body in robot.bodies[1:]]),
         left_plan_at_s=left_plan_at_s,
         **{name: np.array([row[name] for row in rows]) for name in rows[0]},

@@ -18,8 +18,8 @@ class ContactSettings:
     """How hard MuJoCo's contacts are.
 
     Attributes:
-        time_constant_s: Of a contact's return to its surface, critically damped; at least two simulation steps.
-        impedance: Between 0 and 1; the nearer to 1, the less a contact gives way.
+        time_constant_s: Time constant of a contact's return to its surface, critically damped; at least two simulation steps.
+        impedance: Between 0 and 1; the nearer to 1, the stiffer a contact is.
         friction_impedance: Stiffness of friction over that of normal contact (MuJoCo's impratio).
     """
 

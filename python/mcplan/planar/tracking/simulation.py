@@ -20,7 +20,7 @@ class PlanarSimulation:
         self.model = model
         self._data = mujoco.MjData(model.mj)
         self._end_of = {geom: (e, i) for e, geoms in enumerate(model.point_geoms) for i, geom in enumerate(geoms)}
-        self._most = max((len(geoms) for geoms in model.point_geoms), default=0)
+        self._max_points = max((len(geoms) for geoms in model.point_geoms), default=0)
 
     def reset(self, configuration: PlanarConfiguration) -> None:
         """Start from a configuration and its velocity, at time 0."""
@@ -53,10 +53,10 @@ class PlanarSimulation:
             (j,) what the feedback adds at this instant, before motors clip the sum [N m].
         """
         stiffness, damping = self.model.stiffness, self.model.damping
-        wanted = stiffness * q + damping * velocity
-        self._data.ctrl[:] = torques + wanted
+        desired = stiffness * q + damping * velocity
+        self._data.ctrl[:] = torques + desired
         self._mujoco.mj_forward(self.model.mj, self._data)  # forces read next are those under these torques
-        return wanted - stiffness * self.positions[3:] - damping * self.velocities[3:]
+        return desired - stiffness * self.positions[3:] - damping * self.velocities[3:]
 
     def advance(self, steps: int) -> None:
         """Go on by so many steps."""
@@ -64,12 +64,12 @@ class PlanarSimulation:
             self._mujoco.mj_step(self.model.mj, self._data)
 
     def applied_torques(self) -> Array:
-        """(j,) of the motors after clipping [N m]."""
+        """(j,) torques of the motors after clipping [N m]."""
         return self._data.actuator_force.copy()
 
     def points_W(self) -> Array:
         """(e, p, 2) places of the end-effectors' points [m]; NaN: there is no such point."""
-        out = np.full((len(self.model.point_geoms), self._most, 2), np.nan)
+        out = np.full((len(self.model.point_geoms), self._max_points, 2), np.nan)
         for geom, (e, i) in self._end_of.items():
             rotation = self._data.geom_xmat[geom].reshape(3, 3)
             radius = self.model.mj.geom_size[geom, 0]
@@ -78,7 +78,7 @@ class PlanarSimulation:
 
     def forces_W(self) -> Array:
         """(e, p, 2) contact forces on the robot at these points [N]; NaN: there is no such point."""
-        out = np.full((len(self.model.point_geoms), self._most, 2), np.nan)
+        out = np.full((len(self.model.point_geoms), self._max_points, 2), np.nan)
         for e, i in self._end_of.values():
             out[e, i] = 0.0
         wrench = np.zeros(6)

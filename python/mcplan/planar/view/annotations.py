@@ -30,7 +30,7 @@ def annotated_planar(stage: Stage, slabs: list[Slab], points_W: Array, size: flo
         stage: The page's.
         slabs: Its surfaces, whose names the labels carry.
         points_W: What it shows without, (n, 3) [m].
-        size: Of the robot [m].
+        size: Size of the robot [m].
     """
     scale, ends = draw_scale(stage, points_W, side_direction(), float(points_W[:, 2].min()))
     labels = [scale, *draw_axes(stage, points_W, PLANAR_AXES)]

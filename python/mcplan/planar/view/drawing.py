@@ -1,4 +1,4 @@
-"""A whole-body plan on a page: the plane becomes x forward and z up, limbs stand beside each other along y."""
+"""A whole-body plan on a page: the plane becomes x forward and z up, limbs are beside each other along y."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Half the distance between the outer limbs, as a share of the robot's size.
+#: Ratio of half the distance between the outer limbs to the robot's size.
 LANE = 0.12
-#: From where to where the ground reaches beside the plane, likewise: to the right, where the camera is, just under the feet.
+#: Lateral extent of the ground beside the plane, likewise: to the right, where the camera is, just under the feet.
 GROUND_RIGHT, GROUND_LEFT = -0.20, 0.42
 
 
@@ -36,7 +36,7 @@ def into_space(points: Array, lateral: float = 0.0) -> Array:
     return np.stack([points[..., 0], np.full(points.shape[:-1], lateral), points[..., 1]], axis=-1)
 
 
-def turns(angles: Array) -> Array:
+def rotations(angles: Array) -> Array:
     """Rotations (n, 3, 3) by angles (n,) [rad], counter-clockwise in the plane as seen from the right."""
     cos, sin = np.cos(angles), np.sin(angles)
     result = np.zeros((*np.shape(angles), 3, 3))
@@ -47,7 +47,7 @@ def turns(angles: Array) -> Array:
 
 
 def lanes_of(robot: PlanarRobot, size: float) -> list[float]:
-    """Where the end-effectors stand beside the plane [m], left is positive."""
+    """Lateral positions of the end-effectors beside the plane [m], left is positive."""
     limbs = limbs_of(robot)
     return [LANE * size * next((m.lane for m in limbs if end.body in m.bodies), 0.0) for end in robot.end_effectors]
 
@@ -67,12 +67,12 @@ def draw_ground(stage: Stage, slabs: list[Slab], size: float) -> None:
 
 
 def ground_solid(slab: Slab, size: float) -> Mesh:
-    """What a slab is in space."""
+    """Solid of a slab in space."""
     return prism(into_space(slab.outline_W, GROUND_RIGHT * size), (GROUND_LEFT - GROUND_RIGHT) * size)
 
 
-def draw_body(stage: Stage, samples: PlanarSamples, robot: PlanarRobot, shapes: list[Shape], size: float) -> None:
-    """Put the moving robot onto a page: a node "robot/BODY" for each body, its pieces below."""
+def draw_robot(stage: Stage, samples: PlanarSamples, robot: PlanarRobot, shapes: list[Shape], size: float) -> None:
+    """Put the moving robot onto a page: a node "robot/LINK" for each link, its pieces below."""
     for i, body in enumerate(robot.bodies):
         own = [shape for shape in shapes if shape.body == i]
         for number, shape in enumerate(own):
@@ -81,7 +81,7 @@ def draw_body(stage: Stage, samples: PlanarSamples, robot: PlanarRobot, shapes: 
             stage.move(
                 f"robot/{node(body.name)}",
                 samples.times_s,
-                pose(turns(samples.angles[:, i]), into_space(samples.positions_W[:, i])),
+                pose(rotations(samples.angles[:, i]), into_space(samples.positions_W[:, i])),
             )
 
 
@@ -123,11 +123,11 @@ def draw_forces(stage: Stage, samples: PlanarSamples, robot: PlanarRobot, weight
     for end, effector in enumerate(robot.end_effectors):
         for point in range(len(effector.points)):
             at, force = samples.points_W[:, end, point].copy(), np.nan_to_num(samples.forces_W[:, end, point])
-            held = np.flatnonzero(np.isfinite(at[:, 0]))
-            if not len(held):
+            finite = np.flatnonzero(np.isfinite(at[:, 0]))
+            if not len(finite):
                 continue
             # Between contacts the arrow has no length; it waits where it will be seen next.
-            nearest = held[np.argmin(np.abs(np.arange(samples.count)[:, None] - held), axis=1)]
+            nearest = finite[np.argmin(np.abs(np.arange(samples.count)[:, None] - finite), axis=1)]
             lane = lanes[end] - 0.06 * size
             start = into_space(at[nearest], lane)
             draw_arrow(
@@ -140,16 +140,16 @@ def contact_intervals(plan: PlanarPlan) -> list[Interval]:
     times = [float(t) for t in plan.knot_times()]
     intervals: list[Interval] = []
     for end in range(len(plan.motion.robot.end_effectors)):
-        held = None
+        previous = None
         for k, phase in enumerate(plan.motion.phases):
             contact = next((c for c in phase.contacts if c.end_effector == end), None)
             key = contact and (contact.surface, *np.round(contact.position_W, 9), round(float(contact.angle), 9))
-            if contact is not None and key == held:
+            if contact is not None and key == previous:
                 before = intervals.pop()
                 intervals.append(_interval(end, contact, before.start_s, times[k + 1]))
             elif contact is not None:
                 intervals.append(_interval(end, contact, times[k], times[k + 1]))
-            held = key
+            previous = key
     return intervals
 
 
@@ -159,15 +159,15 @@ def extruded(outline: Array, half_width: float, lateral: float = 0.0) -> Mesh:
 
 
 def limb_solid(shape: Shape, size: float) -> Mesh:
-    """What a piece of a body is in space, in the body's frame."""
+    """Solid of a piece of a link in space, in the link's frame."""
     lateral = LANE * size * shape.lane
     if len(shape.discs) == 2:
         (x0, y0, r0), (x1, y1, r1) = shape.discs
         length = float(np.hypot(x1 - x0, y1 - y0))
         z = np.array([x1 - x0, 0.0, y1 - y0]) / max(length, 1e-9) if length > 1e-9 else np.array([0.0, 0.0, 1.0])
         x = np.array([z[2], 0.0, -z[0]])
-        turn = np.column_stack([x, np.cross(z, x), z])
-        return capsule(length, r0, r1).moved(pose(turn, np.array([x0, lateral, y0])))
+        rotation = np.column_stack([x, np.cross(z, x), z])
+        return capsule(length, r0, r1).moved(pose(rotation, np.array([x0, lateral, y0])))
     return extruded(shape.outline_B(), (0.075 if shape.lane == 0.0 else 0.045) * size, lateral)
 
 
@@ -178,4 +178,4 @@ def side_direction() -> Array:
 
 def _interval(end: int, contact: PlanarContact, start_s: float, end_s: float) -> Interval:
     position = into_space(contact.position_W)
-    return Interval(end, int(contact.surface), start_s, end_s, position, turns(np.array(contact.angle)))
+    return Interval(end, int(contact.surface), start_s, end_s, position, rotations(np.array(contact.angle)))

@@ -1,4 +1,4 @@
-"""What a planar robot looks like: bodies as hulls of discs, limbs with a colour and a place beside each other."""
+"""What a planar robot looks like: links as hulls of discs, limbs with a colour and a place beside each other."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Limbs that are of no side, in turn: blue, orange, green, purple. Neighbours stay apart for colour-blind readers.
-IN_TURN = (COOL[0], WARM[0], COOL[2], WARM[2])
+#: Limbs that are of no side, one after the other: blue, orange, green, purple. Neighbours stay apart for colour-blind readers.
+CYCLE = (COOL[0], WARM[0], COOL[2], WARM[2])
 
 
 @dataclass(frozen=True)
 class Limb:
-    """A chain of bodies from the trunk to a tip."""
+    """A chain of links from the trunk to a tip."""
 
     name: str
     bodies: tuple[int, ...]  # trunk's side first
@@ -33,7 +33,7 @@ class Limb:
 
 @dataclass(frozen=True)
 class Shape:
-    """Convex piece of a body: the hull of discs (x, y, radius) [m] in the body's frame."""
+    """Convex piece of a link: the hull of discs (x, y, radius) [m] in the link's frame."""
 
     body: int
     discs: Array  # (n, 3)
@@ -47,7 +47,7 @@ class Shape:
 
 
 def size_of(robot: PlanarRobot) -> float:
-    """Longest way from the base along the joints to a contact frame [m]: what arrows and radii are scaled by."""
+    """Longest path from the base along the joints to a contact frame [m], by which arrows and radii are scaled."""
     length = [0.0] * len(robot.bodies)
     for i, body in enumerate(robot.bodies[1:], start=1):
         length[i] = length[body.parent] + float(np.linalg.norm(body.joint_P))
@@ -80,9 +80,9 @@ def limbs_of(robot: PlanarRobot) -> list[Limb]:
         place = siblings.index(chain)
         lane = 1.0 - 2.0 * place / (len(siblings) - 1) if len(siblings) > 1 else 0.0
         if side is None and supports:
-            colour = IN_TURN[counts["none"] % len(IN_TURN)]
+            colour = CYCLE[counts["none"] % len(CYCLE)]
             counts["none"] += 1
-        elif side is None:  # an arm that touches nothing: its place says its side
+        elif side is None:  # an arm without contacts: its place says its side
             colour = mix((COOL if lane >= 0.0 else WARM)[0], BODY, 0.45)
         else:
             lane = 1.0 if side == "left" else -1.0
@@ -100,7 +100,7 @@ def end_colours(robot: PlanarRobot) -> list[str]:
 
 
 def shapes_of(robot: PlanarRobot) -> list[Shape]:
-    """Pieces of all bodies, far limbs first, near ones last; capsules where a body has them, else joint to joint."""
+    """Pieces of all links, far limbs first, near ones last; capsules where a link has them, else joint to joint."""
     size = size_of(robot)
     limb_of = {body: limb for limb in limbs_of(robot) for body in limb.bodies}
     drawn = []
@@ -122,7 +122,7 @@ def convex_hull(points: Array) -> Array:
     for run in (ordered, ordered[::-1]):
         half: list[tuple[float, float]] = []
         for p in run:
-            while len(half) > 1 and _turn(half[-2], half[-1], p) <= 0.0:
+            while len(half) > 1 and _cross(half[-2], half[-1], p) <= 0.0:
                 half.pop()
             half.append(p)
         halves.append(half[:-1])
@@ -131,8 +131,8 @@ def convex_hull(points: Array) -> Array:
 
 def _discs(robot: PlanarRobot, i: int, limb: Limb | None, size: float) -> list[Array]:
     body = robot.bodies[i]
-    ends = [end for end in robot.end_effectors if end.body == i]
-    soles = np.array([row for end in ends for row in _sole(end, 0.012 * size)]).reshape(-1, 3)
+    tips = [end for end in robot.end_effectors if end.body == i]
+    soles = np.array([row for end in tips for row in _sole(end, 0.012 * size)]).reshape(-1, 3)
     if body.capsules:
         pieces = [np.array([[*c.from_B, c.radius], [*c.to_B, c.radius]], float) for c in body.capsules]
         # A foot reaches from its joint to its sole, whatever part of it is checked for collisions.
@@ -145,7 +145,7 @@ def _discs(robot: PlanarRobot, i: int, limb: Limb | None, size: float) -> list[A
     # Limbs taper from the trunk to the tip.
     step = limb.bodies.index(i)
     radius = [(0.046 - 0.016 * k / max(len(limb.bodies) - 1, 1)) * size for k in (step, step + 1)]
-    far = joints if joints else [] if ends else [2.0 * np.asarray(body.com_B, float)]
+    far = joints if joints else [] if tips else [2.0 * np.asarray(body.com_B, float)]
     return [np.vstack([[[0.0, 0.0, radius[0]]], [[*p, radius[1]] for p in far] or np.zeros((0, 3)), soles])]
 
 
@@ -167,8 +167,8 @@ def _distinct(points: list[Array]) -> list[Array]:
 
 
 def _name(robot: PlanarRobot, chain: tuple[int, ...]) -> str:
-    ends = [end.name for end in robot.end_effectors if end.body in chain]
-    return str(ends[0] if ends else robot.bodies[chain[0]].name)
+    tips = [end.name for end in robot.end_effectors if end.body in chain]
+    return str(tips[0] if tips else robot.bodies[chain[0]].name)
 
 
 def _side(name: str) -> str | None:
@@ -180,5 +180,5 @@ def _count(robot: PlanarRobot) -> int:
     return len(robot.bodies)
 
 
-def _turn(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> float:
+def _cross(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> float:
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

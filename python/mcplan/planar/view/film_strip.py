@@ -49,10 +49,10 @@ def film_strip(
     Args:
         plan: The plan.
         frames: Number of instants, equally spaced from start to end, or the instants [s].
-        columns: Frames in a row; None: as many as there is room for.
+        columns: Number of frames in a row; None: as many as there is space for.
         forces: Draw the contact forces at their points.
         cones: Draw the friction cones at the points in contact.
-        width: Of the figure [inch].
+        width: Width of the figure [inch].
 
     Raises:
         MissingExtra: matplotlib is not installed.
@@ -106,7 +106,7 @@ def stroboscope(
         postures: Number of instants, equally spaced from start to end, or the instants [s].
         forces: Draw the contact forces of the last posture at their points.
         cones: Draw the friction cones at all points that are in contact at an instant drawn.
-        width: Of the figure [inch].
+        width: Width of the figure [inch].
 
     Raises:
         MissingExtra: matplotlib is not installed.
@@ -131,8 +131,8 @@ def stroboscope(
         for n in range(samples.count):
             paint_cones(axes, drawing, samples, n, known=n)
     for n in range(samples.count):
-        share = n / max(samples.count - 1, 1)
-        paint_robot(axes, drawing, samples, n, fade=0.0 if n == samples.count - 1 else 0.78 - 0.33 * share)
+        fraction = n / max(samples.count - 1, 1)
+        paint_robot(axes, drawing, samples, n, fade=0.0 if n == samples.count - 1 else 0.78 - 0.33 * fraction)
     paint_path(axes, drawing, until_s=times[-1])
     if forces:
         paint_forces(axes, drawing, samples, samples.count - 1)
@@ -160,7 +160,7 @@ def _instants(plan: PlanarPlan, name: str, chosen: int | Sequence[float]) -> lis
 
 
 def _columns(count: int, aspect: float, width: float) -> int:
-    """Frames in a row: wide enough to be read, and rows as even as can be."""
-    most = max(1, int(width / max(1.3, 2.2 * aspect**0.5)))
-    rows = -(-count // most)
+    """Number of frames in a row: wide enough to be read, and rows as even as can be."""
+    max_columns = max(1, int(width / max(1.3, 2.2 * aspect**0.5)))
+    rows = -(-count // max_columns)
     return -(-count // rows)

@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Radius of a friction cone, as a share of the robot's size.
+#: Ratio of a friction cone's radius to the robot's size.
 CONE = 0.16
 
 
 @dataclass(frozen=True)
 class Slab:
-    """What is drawn of a surface and of the solid behind it."""
+    """The drawn part of a surface and of the solid behind it."""
 
     surface: int
     name: str
@@ -31,13 +31,13 @@ class Slab:
 
 
 def slabs_of(motion: PlanarTask, points_W: Array, margin: float, thickness: float) -> list[Slab]:
-    """Solids of the surfaces near points, those that others stand on first.
+    """Solids of the surfaces near points, the lower ones first.
 
     Args:
         motion: Its surfaces.
         points_W: Points of the motion, (n, 2) [m].
         margin: How far surfaces are drawn beyond the points [m].
-        thickness: Of the solids [m]; level ones that end somewhere reach down to the lowest ground.
+        thickness: Thickness of the solids [m]; level ones that end somewhere reach down to the lowest ground.
     """
     fronts = [_front(motion, i, points_W, margin) for i in range(len(motion.surfaces))]
     bottom = min((float(front[:, 1].min()) for front, _ in fronts if len(front)), default=0.0) - thickness
@@ -73,8 +73,8 @@ def endless(surface: PlanarSurface) -> bool:
 def cone_outline(angle: float, friction: float, radius: float) -> Array:
     """Sector (m, 2) [m] of the directions within a friction cone, its apex at the origin, on a surface at `angle`."""
     half = float(np.arctan(friction))
-    turn = angle + 0.5 * np.pi + np.linspace(-half, half, 17)
-    return np.vstack([np.zeros((1, 2)), radius * np.column_stack([np.cos(turn), np.sin(turn)])])
+    angles = angle + 0.5 * np.pi + np.linspace(-half, half, 17)
+    return np.vstack([np.zeros((1, 2)), radius * np.column_stack([np.cos(angles), np.sin(angles)])])
 
 
 def _front(motion: PlanarTask, i: int, points_W: Array, margin: float) -> tuple[Array, Array]:

@@ -16,18 +16,18 @@ from mcplan.view.stage import Stage, node
 from .annotations import PLANAR_AXES, annotated_planar, corners_of, planar_legend
 from .drawing import (
     contact_intervals,
-    draw_body,
     draw_cones,
     draw_forces,
     draw_ground,
     draw_paths,
+    draw_robot,
     ground_solid,
     into_space,
     side_direction,
 )
 from .figure import Shape, end_colours, shapes_of, size_of
 from .ground import Slab, slabs_of
-from .samples import PlanarSamples, frame_times, sample_whole_body, turned
+from .samples import PlanarSamples, frame_times, rotated, sample_whole_body
 
 if TYPE_CHECKING:
     from mcplan._core import PlanarPlan, PlanarRobot, Report
@@ -64,7 +64,7 @@ def show_whole_body(plan: PlanarPlan, report: Report | None = None) -> Page:
     slabs = slabs_of(motion, reached, 0.12 * size, 0.09 * size)
     intervals = contact_intervals(plan)
     draw_ground(stage, slabs, size)
-    draw_body(stage, samples, robot, shapes, size)
+    draw_robot(stage, samples, robot, shapes, size)
     draw_paths(stage, samples, robot, colours, size)
     draw_cones(stage, plan, intervals, colours, size)
     draw_forces(stage, samples, robot, weight, size)
@@ -85,7 +85,7 @@ def reached_by(samples: PlanarSamples, shapes: list[Shape]) -> Array:
     """(n, 2) [m] corners of boxes around all that a robot's limbs cover at the samples."""
     return np.vstack(
         [
-            samples.positions_W[:, s.body] + turned(samples.angles[:, s.body], disc[:2]) + edge
+            samples.positions_W[:, s.body] + rotated(samples.angles[:, s.body], disc[:2]) + edge
             for s in shapes
             for disc in s.discs
             for edge in disc[2] * np.array([[-1.0, -1.0], [1.0, 1.0]])

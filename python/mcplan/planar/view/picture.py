@@ -13,7 +13,7 @@ from mcplan.view.plan_drawing import WEIGHT_ARROW
 
 from .figure import Shape, end_colours, limbs_of, shapes_of, size_of
 from .ground import CONE, Slab, cone_outline, slabs_of
-from .samples import PlanarSamples, frame_times, sample_whole_body, turned
+from .samples import PlanarSamples, frame_times, rotated, sample_whole_body
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: [1/s] sampling of paths, and of what a picture must hold.
+#: [1/s] sampling of paths, and of what a picture must show.
 RATE = 60.0
 
 
 @dataclass(frozen=True)
 class Drawing:
-    """What all frames of a plan share."""
+    """What all frames of a plan have in common."""
 
     plan: PlanarPlan
     size: float  # [m] of the robot
@@ -77,7 +77,7 @@ def _some(path: PlanarSamples) -> NDArray[np.int64]:
 
 
 def _moved(outline_B: Array, body: int, samples: PlanarSamples, n: int) -> Array:
-    return samples.positions_W[n, body] + turned(np.full(len(outline_B), samples.angles[n, body]), outline_B)
+    return samples.positions_W[n, body] + rotated(np.full(len(outline_B), samples.angles[n, body]), outline_B)
 
 
 def paint_ground(axes: Any, drawing: Drawing) -> None:
@@ -95,7 +95,7 @@ def paint_ground(axes: Any, drawing: Drawing) -> None:
 
 
 def paint_robot(axes: Any, drawing: Drawing, samples: PlanarSamples, n: int, fade: float = 0.0) -> None:
-    """The robot at sample `n`, with a share `fade` of white."""
+    """The robot at sample `n`, with a fraction `fade` of white."""
     from matplotlib.patches import Polygon
 
     for shape, outline in zip(drawing.shapes, drawing.outlines_B, strict=True):

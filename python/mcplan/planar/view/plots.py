@@ -35,14 +35,14 @@ def plot_joints(plan: PlanarPlan) -> Figure:
 
 
 def plot_joint_velocities(plan: PlanarPlan) -> Figure:
-    """Velocity of every joint against its limits, with the share of them that is used."""
+    """Velocity of every joint against its limits, with the ratio of the largest to them."""
     samples = sample_phases(plan, RATE)
     limits = {i: (-float(b.velocity_max), float(b.velocity_max)) for i, b in enumerate(plan.motion.robot.bodies)}
     return _joint_panels(plan, samples, samples.velocity, limits, "velocity", "rad/s")
 
 
 def plot_torques(plan: PlanarPlan) -> Figure:
-    """Torque of every joint against its limits, with the share of them that is used."""
+    """Torque of every joint against its limits, with the ratio of the largest to them."""
     samples = sample_phases(plan, RATE)
     limits = {i: (-float(b.torque_max), float(b.torque_max)) for i, b in enumerate(plan.motion.robot.bodies)}
     return _joint_panels(plan, samples, samples.torque, limits, "torque", "N m")
@@ -84,7 +84,7 @@ def plot_drift(plan: PlanarPlan) -> Figure:
         shade_phases(chart, plan)
         for end, colour in zip(range(len(ends)), colours, strict=True):
             name = plain(ends[end].name)
-            # Contacts share their errors: later ones are dashed, so that those below are seen.
+            # Contacts have errors in common: later ones are dashed, so that those below are seen.
             dashes = "-" if end == 0 else (0.0, (6.0 / end, 4.0))
             chart.plot(*curve(samples, values[:, end]), color=colour, linewidth=1.6, linestyle=dashes, label=name)
         chart.axhline(limit, color=LIMIT, linewidth=1.0, label="tolerance of the checker")

@@ -62,7 +62,7 @@ def plot_planar_run_forces(recording: PlanarRecording) -> Figure:
     for row, end in enumerate(used):
         error = np.linalg.norm(simulated[:, end] - planned[:, end], axis=1)[recording.within_plan]
         scale = np.linalg.norm(planned[:, end], axis=1)[recording.within_plan]
-        off, share = rms(error), rms(error) / max(rms(scale), 1e-9)
+        off, ratio = rms(error), rms(error) / max(rms(scale), 1e-9)
         for column, (direction, name) in enumerate(((normals, "normal"), (tangents, "tangential"))):
             chart = axes[row, column]
             shade_phases(chart, recording.plan)
@@ -72,8 +72,8 @@ def plot_planar_run_forces(recording: PlanarRecording) -> Figure:
             chart.plot(recording.times_s, found, color=colours[end], linewidth=1.2, label="simulated")
             peaks[column] += [*np.percentile(found, [0.3, 99.7]), expected.min(), expected.max()]
             label(chart, y="[N]")
-            title = f"{recording.ends[end].replace('_', ' ')}, {name}"
-            label(chart, title=title + (f": off by {off:.1f} N rms ({100.0 * share:.1f} %)" if not column else ""))
+            title = f"{recording.end_effectors[end].replace('_', ' ')}, {name}"
+            label(chart, title=title + (f": off by {off:.1f} N rms ({100.0 * ratio:.1f} %)" if not column else ""))
     for column in range(2):
         if peaks[column]:  # impacts may leave the picture, so that the rest can be read
             low, high = min(peaks[column]), max(peaks[column])
@@ -93,8 +93,8 @@ def plot_planar_run_joints(recording: PlanarRecording) -> Figure:
     position.plot(recording.times_s, 1e3 * off[:, 0], color="#0072B2", linewidth=1.5, label="x")
     position.plot(recording.times_s, 1e3 * off[:, 1], color="#D55E00", linewidth=1.5, label="y")
     inside = recording.within_plan
-    at_most = 1e3 * float(np.linalg.norm(off[inside, :2], axis=1).max())
-    label(position, y="[mm]", title=f"base off the plan: {at_most:.1f} mm at most")
+    largest = 1e3 * float(np.linalg.norm(off[inside, :2], axis=1).max())
+    label(position, y="[mm]", title=f"base off the plan: {largest:.1f} mm at most")
     legend(position, loc="upper left", ncol=2)
     angle.plot(recording.times_s, np.degrees(off[:, 2]), color=TEXT, linewidth=1.5)
     label(angle, y="[degree]", title="angle of the base off the plan")
@@ -136,8 +136,8 @@ def plot_planar_run_torques(recording: PlanarRecording) -> Figure:
         chart.plot(recording.times_s, recording.feedforward[:, joint], color=PLANNED, linewidth=3.0, alpha=0.75)
         chart.plot(recording.times_s, recording.torques[:, joint], color=colour_of[joint], linewidth=1.2)
         chart.plot(recording.times_s, recording.feedback[:, joint], color=TEXT, linewidth=0.8)
-        share = 100.0 * feedback_share(recording)[joint]
-        label(chart, title=f"{recording.joints[joint].replace('_', ' ')}: feedback {share:.0f} %")
+        ratio = 100.0 * feedback_ratio(recording)[joint]
+        label(chart, title=f"{recording.joints[joint].replace('_', ' ')}: feedback {ratio:.0f} %")
         chart.set_xlim(0.0, recording.times_s[-1])
     for chart in axes[:, 0]:
         label(chart, y="torque [N m]")
@@ -167,7 +167,7 @@ def plot_planar_run_drift(recording: PlanarRecording) -> Figure:
     drift = 1e3 * point_drift(recording)
     for end, colour in enumerate(end_colours(recording.plan.motion.robot)):
         if np.isfinite(drift[:, end]).any():
-            name = recording.ends[end].replace("_", " ")
+            name = recording.end_effectors[end].replace("_", " ")
             chart.plot(recording.times_s, drift[:, end], color=colour, linewidth=1.6, label=name)
     largest = float(np.nanmax(drift, initial=0.0))
     chart.set_ylim(0.0, 1.1 * max(largest, 1e-3))
@@ -187,7 +187,7 @@ def point_drift(recording: PlanarRecording) -> Array:
 
 
 def force_error(recording: PlanarRecording) -> tuple[float, float]:
-    """Root mean square [N] of the error of the end-effectors' forces, and its share of the planned forces'."""
+    """Root mean square [N] of the error of the end-effectors' forces, and its ratio to the planned forces'."""
     simulated, planned = _sums(recording)
     inside = recording.within_plan
     off = rms(np.linalg.norm(simulated - planned, axis=2)[inside])
@@ -199,7 +199,7 @@ def joint_error_deg(recording: PlanarRecording) -> Array:
     return np.asarray(np.degrees(recording.q - recording.q_plan))
 
 
-def feedback_share(recording: PlanarRecording) -> Array:
+def feedback_ratio(recording: PlanarRecording) -> Array:
     """(j,) root mean square of each joint's feedback over that of its feed-forward."""
     inside = recording.within_plan
     back, forward = (np.sqrt(np.mean(t[inside] ** 2, axis=0)) for t in (recording.feedback, recording.feedforward))

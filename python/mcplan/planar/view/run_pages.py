@@ -20,11 +20,11 @@ from mcplan.view.stage import Stage, node
 
 from .drawing import (
     contact_intervals,
-    draw_body,
     draw_cones,
     draw_forces,
     draw_ground,
     draw_paths,
+    draw_robot,
     into_space,
     lanes_of,
 )
@@ -71,7 +71,7 @@ def show_planar_run(run: PlanarRun) -> Page:
     slabs = [replace(slab, outline_W=slab.outline_W + [0.0, shift_m]) for slab in slabs]
     expected = contact_intervals(plan)
     draw_ground(stage, slabs, size)
-    draw_body(stage, samples, robot, shapes, size)
+    draw_robot(stage, samples, robot, shapes, size)
     draw_paths(stage, samples, robot, colours, size)
     _draw_planned(stage, planned, robot, size)
     draw_cones(stage, plan, expected, colours, size)
@@ -109,11 +109,11 @@ def _lines(recording: PlanarRecording) -> list[str]:
     end = f"{recording.times_s[-1]:.2f} s, all of the plan"
     if np.isfinite(recording.left_plan_at_s):
         end = f"off its plan at {recording.left_plan_at_s:.2f} s of {plan.duration():.2f} s"
-    force, share = force_error(recording)
+    force, ratio = force_error(recording)
     drift = 1e3 * float(np.nanmax(point_drift(recording), initial=0.0))
     return [
         f"{plan.motion.robot.name}: {end}",
-        f"contact forces off by {force:.0f} N rms ({100.0 * share:.1f} %)",
+        f"contact forces off by {force:.0f} N rms ({100.0 * ratio:.1f} %)",
         f"joints off by {np.sqrt(np.mean(joint_error_deg(recording) ** 2)):.2f}° rms",
         f"contact points off by {drift:.1f} mm at most",
     ]

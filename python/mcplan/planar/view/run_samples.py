@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mcplan.view.run_samples import frame_indices
 
-from .samples import PlanarSamples, body_frames, turned
+from .samples import PlanarSamples, body_frames, rotated
 
 if TYPE_CHECKING:
     from mcplan._core import PlanarRobot
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Share of the weight below which a point does not count as touching.
+#: Ratio of force to weight below which a point does not count as in contact.
 TOUCH = 0.002
 
 
@@ -32,8 +32,8 @@ def samples_at(recording: PlanarRecording, chosen: NDArray[np.int64]) -> PlanarS
     robot = motion.robot
     base, q = recording.base[chosen], recording.q[chosen]
     positions, angles = body_frames(robot, base, q)
-    ends = robot.end_effectors
-    soles = [positions[:, end.body] + turned(angles[:, end.body], end.position_B) for end in ends]
+    end_effectors = robot.end_effectors
+    soles = [positions[:, end.body] + rotated(angles[:, end.body], end.position_B) for end in end_effectors]
     points, forces = recording.points_W[chosen].copy(), recording.forces_W[chosen].copy()
     weight = float(robot.mass()) * float(robot.gravity)
     free = ~(np.linalg.norm(forces, axis=3) > TOUCH * weight)
@@ -52,20 +52,20 @@ def samples_at(recording: PlanarRecording, chosen: NDArray[np.int64]) -> PlanarS
         positions_W=positions,
         angles=angles,
         soles_W=np.stack(soles, axis=1),
-        sole_angles=np.stack([angles[:, end.body] + float(end.angle_B) for end in ends], axis=1),
+        sole_angles=np.stack([angles[:, end.body] + float(end.angle_B) for end in end_effectors], axis=1),
         surfaces=surfaces,
         points_W=points,
         forces_W=forces,
         tangential=np.einsum("nepi,nei->nep", forces, tangents),
         normal=np.einsum("nepi,nei->nep", forces, normals),
         friction=np.where(surfaces >= 0, friction[np.maximum(surfaces, 0)], np.nan),
-        errors=np.full((len(chosen), len(ends), 3), np.nan),
+        errors=np.full((len(chosen), len(end_effectors), 3), np.nan),
     )
 
 
 def axes_of(recording: PlanarRecording, chosen: NDArray[np.int64]) -> tuple[Array, Array]:
-    """Normals and tangents (n, e, 2) of the surface that an end-effector is to touch, or is to touch next, or touched
-    last; up and forward if none."""
+    """Normals and tangents (n, e, 2) of the surface of an end-effector's contact, else of its next or its last one; up
+    and forward if none."""
     surfaces = recording.plan.motion.surfaces
     n, e = recording.surfaces_plan.shape
     normals = np.tile([0.0, 1.0], (n, e, 1))
@@ -74,14 +74,14 @@ def axes_of(recording: PlanarRecording, chosen: NDArray[np.int64]) -> tuple[Arra
         known = np.flatnonzero(recording.surfaces_plan[:, end] >= 0)
         if len(known):
             after = known[np.minimum(np.searchsorted(known, np.arange(n)), len(known) - 1)]
-            touched = recording.surfaces_plan[after, end]
-            normals[:, end] = np.array([s.normal_W for s in surfaces])[touched]
-            tangents[:, end] = np.array([s.tangent_W for s in surfaces])[touched]
+            on = recording.surfaces_plan[after, end]
+            normals[:, end] = np.array([s.normal_W for s in surfaces])[on]
+            tangents[:, end] = np.array([s.tangent_W for s in surfaces])[on]
     return normals[chosen], tangents[chosen]
 
 
 def com_of(robot: PlanarRobot, positions_W: Array, angles: Array) -> Array:
-    """CoM (n, 2) [m] of bodies at (n, b, 2) [m] turned by (n, b) [rad]."""
+    """CoM (n, 2) [m] of links at (n, b, 2) [m] rotated by (n, b) [rad]."""
     masses = np.array([float(body.mass) for body in robot.bodies])
-    coms = [positions_W[:, i] + turned(angles[:, i], body.com_B) for i, body in enumerate(robot.bodies)]
+    coms = [positions_W[:, i] + rotated(angles[:, i], body.com_B) for i, body in enumerate(robot.bodies)]
     return np.asarray(np.einsum("b,bni->ni", masses, np.array(coms)) / masses.sum())

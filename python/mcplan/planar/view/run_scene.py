@@ -13,12 +13,12 @@ from mcplan.view.pictures.run_layout import RunScene, force_arrow
 from mcplan.view.runs import ground_shift_of
 from mcplan.view.scene_drawing import SurfaceDrawing, raised
 
-from .drawing import ground_solid, into_space, lanes_of, limb_solid, turns
+from .drawing import ground_solid, into_space, lanes_of, limb_solid, rotations
 from .figure import shapes_of, size_of
 from .ground import Slab, slabs_of
 from .run_samples import sample_planar_run
 from .runs import PlanarRun, planar_recording_of
-from .samples import turned
+from .samples import rotated
 
 if TYPE_CHECKING:
     pass
@@ -37,18 +37,20 @@ def planar_scene_of(run: PlanarRun, rate_hz: float) -> RunScene:
     size, shapes = size_of(robot), shapes_of(robot)
     weight = float(robot.mass()) * float(robot.gravity)
     samples = sample_planar_run(recording, rate_hz)
-    turn, place = turns(samples.angles), into_space(samples.positions_W)
+    rotation, place = rotations(samples.angles), into_space(samples.positions_W)
     parts = [
         Part(
             f"{robot.bodies[shape.body].name}/{number}",
             limb_solid(shape, size),
             shape.colour,
-            pose(turn[:, shape.body], place[:, shape.body]),
+            pose(rotation[:, shape.body], place[:, shape.body]),
         )
         for number, shape in enumerate(shapes)
     ]
     middles = [
-        samples.positions_W[:, s.body] + turned(samples.angles[:, s.body], disc[:2]) for s in shapes for disc in s.discs
+        samples.positions_W[:, s.body] + rotated(samples.angles[:, s.body], disc[:2])
+        for s in shapes
+        for disc in s.discs
     ]
     reached = np.stack(middles, axis=1)
     slabs = slabs_of(motion, reached.reshape(-1, 2), 0.5 * size, 0.09 * size)

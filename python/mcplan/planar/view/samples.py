@@ -1,4 +1,4 @@
-"""A whole-body plan sampled for drawing: bodies, joints, torques, contact points and their forces."""
+"""A whole-body plan sampled for drawing: links, joints, torques, contact points and their forces."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 class PlanarSamples:
     """States of a whole-body plan at n times.
 
-    b bodies, j joints, e end-effectors, p points of an end-effector at most; lengths in [m], angles in [rad], forces in
+    b links, j joints, e end-effectors, at most p points of an end-effector; lengths in [m], angles in [rad], forces in
     [N], in the world's plane (x forward, y up). What belongs to a contact is NaN where the end-effector has none.
     """
 
@@ -29,7 +29,7 @@ class PlanarSamples:
     velocity: Array  # (n, j) [rad/s]
     torque: Array  # (n, j) [N m]
     com_W: Array  # (n, 2)
-    positions_W: Array  # (n, b, 2) joints of the bodies
+    positions_W: Array  # (n, b, 2) joints of the links
     angles: Array  # (n, b)
     soles_W: Array  # (n, e, 2) contact frames
     sole_angles: Array  # (n, e)
@@ -38,7 +38,7 @@ class PlanarSamples:
     forces_W: Array  # (n, e, p, 2)
     tangential: Array  # (n, e, p)
     normal: Array  # (n, e, p)
-    friction: Array  # (n, e) coefficient of the surface touched
+    friction: Array  # (n, e) coefficient of the surface in contact
     errors: Array  # (n, e, 3) actual minus expected x, y, angle
 
     @property
@@ -53,7 +53,7 @@ def sample_whole_body(plan: PlanarPlan, times_s: Array) -> PlanarSamples:
 
 
 def sample_phases(plan: PlanarPlan, rate_hz: float) -> PlanarSamples:
-    """Every phase at about `rate_hz` with both of its ends: boundaries come twice, once from either side."""
+    """Every phase at about `rate_hz`, its start and end included: boundaries come twice, once from either side."""
     states = []
     for k, duration in enumerate(plan.durations):
         count = max(2, round(float(duration) * rate_hz) + 1)
@@ -62,12 +62,12 @@ def sample_phases(plan: PlanarPlan, rate_hz: float) -> PlanarSamples:
 
 
 def frame_times(duration_s: float, rate_hz: float) -> Array:
-    """Equally spaced times [s] at about `rate_hz`, both ends included."""
+    """Equally spaced times [s] at about `rate_hz`, start and end included."""
     return np.linspace(0.0, duration_s, max(2, round(duration_s * rate_hz) + 1))
 
 
 def body_frames(robot: PlanarRobot, base: Array, q: Array) -> tuple[Array, Array]:
-    """Joints (n, b, 2) [m] and angles (n, b) [rad] of the bodies, for bases (n, 3) and joints (n, j)."""
+    """Joints (n, b, 2) [m] and angles (n, b) [rad] of the links, for bases (n, 3) and joints (n, j)."""
     positions = np.empty((len(base), len(robot.bodies), 2))
     angles = np.empty(positions.shape[:2])
     for i, body in enumerate(robot.bodies):
@@ -75,13 +75,13 @@ def body_frames(robot: PlanarRobot, base: Array, q: Array) -> tuple[Array, Array
             positions[:, 0], angles[:, 0] = base[:, :2], base[:, 2]
             continue
         parent = int(body.parent)
-        positions[:, i] = positions[:, parent] + turned(angles[:, parent], body.joint_P)
+        positions[:, i] = positions[:, parent] + rotated(angles[:, parent], body.joint_P)
         angles[:, i] = angles[:, parent] + float(body.offset) + q[:, i - 1]
     return positions, angles
 
 
-def turned(angles: Array, vector: Array) -> Array:
-    """A vector (2,), or one for each angle, turned by angles (n,) [rad]: (n, 2)."""
+def rotated(angles: Array, vector: Array) -> Array:
+    """A vector (2,), or one for each angle, rotated by angles (n,) [rad]: (n, 2)."""
     x, y = np.moveaxis(np.asarray(vector, float), -1, 0)
     cos, sin = np.cos(angles), np.sin(angles)
     return np.stack([cos * x - sin * y, sin * x + cos * y], axis=-1)
@@ -89,19 +89,19 @@ def turned(angles: Array, vector: Array) -> Array:
 
 def _samples(plan: PlanarPlan, states: list[PlanarState]) -> PlanarSamples:
     robot, motion = plan.motion.robot, plan.motion
-    ends, n = robot.end_effectors, len(states)
+    end_effectors, n = robot.end_effectors, len(states)
     base = np.array([s.configuration.base for s in states], float)
     q = np.array([s.configuration.q for s in states], float).reshape(n, -1)
     positions, angles = body_frames(robot, base, q)
-    of = [int(end.body) for end in ends]
-    soles = [positions[:, b] + turned(angles[:, b], end.position_B) for b, end in zip(of, ends, strict=True)]
-    sole_angles = [angles[:, b] + float(end.angle_B) for b, end in zip(of, ends, strict=True)]
-    most = max((len(end.points) for end in ends), default=0)
-    points, forces = np.full((2, n, len(ends), most, 2), np.nan)
-    tangential, normal = np.full((2, n, len(ends), most), np.nan)
-    surfaces = np.full((n, len(ends)), -1)
-    friction = np.full((n, len(ends)), np.nan)
-    errors = np.full((n, len(ends), 3), np.nan)
+    of = [int(end.body) for end in end_effectors]
+    soles = [positions[:, b] + rotated(angles[:, b], end.position_B) for b, end in zip(of, end_effectors, strict=True)]
+    sole_angles = [angles[:, b] + float(end.angle_B) for b, end in zip(of, end_effectors, strict=True)]
+    max_points = max((len(end.points) for end in end_effectors), default=0)
+    points, forces = np.full((2, n, len(end_effectors), max_points, 2), np.nan)
+    tangential, normal = np.full((2, n, len(end_effectors), max_points), np.nan)
+    surfaces = np.full((n, len(end_effectors)), -1)
+    friction = np.full((n, len(end_effectors)), np.nan)
+    errors = np.full((n, len(end_effectors), 3), np.nan)
     for i, state in enumerate(states):
         for contact, error in zip(motion.phases[state.phase].contacts, state.contact_error, strict=True):
             surfaces[i, contact.end_effector] = contact.surface

@@ -25,10 +25,10 @@ ROUND = (1.0, 2.0, 5.0)
 
 @dataclass(frozen=True)
 class Label:
-    """A text that stands at a point of the drawing, whichever way it is turned."""
+    """A text at a point of the drawing, upright in every view."""
 
     text: str
-    places_W: Array  # (n, 3) [m] where it may stand, best first
+    places_W: Array  # (n, 3) [m] where it may be, best first
     kind: str  # "surface", "axis", "scale", "start" or "goal": what the legend hides at once
     colour: str = TEXT
 
@@ -45,10 +45,10 @@ def scale_length(size_m: float) -> float:
     return round_length(0.25 * size_m)
 
 
-def round_length(most: float) -> float:
+def round_length(max_m: float) -> float:
     """The largest of 1, 2 and 5 times a power of ten that is not above a positive length."""
-    power = 10.0 ** np.floor(np.log10(most) + 1e-9)
-    return float(max(r * power for r in ROUND if r == 1.0 or r * power <= most))
+    power = 10.0 ** np.floor(np.log10(max_m) + 1e-9)
+    return float(max(r * power for r in ROUND if r == 1.0 or r * power <= max_m))
 
 
 def length_text(length_m: float) -> str:
@@ -74,9 +74,9 @@ def draw_scale(stage: Stage, points_W: Array, direction_W: Array, floor_m: float
     length, thick = scale_length(size), 0.0022 * size
     along, near = (points_W @ right).max(), (points_W @ towards).max() + 0.03 * size
     ends = np.array([(along - length) * right, along * right]) + near * towards + [0.0, 0.0, floor_m]
-    turn = np.column_stack([right, np.cross([0.0, 0.0, 1.0], right), [0.0, 0.0, 1.0]])
-    bar = box((length, thick, thick)).moved(pose(turn, ends.mean(axis=0)))
-    ticks = [box((thick, 9.0 * thick, thick)).moved(pose(turn, end)) for end in ends]
+    rotation = np.column_stack([right, np.cross([0.0, 0.0, 1.0], right), [0.0, 0.0, 1.0]])
+    bar = box((length, thick, thick)).moved(pose(rotation, ends.mean(axis=0)))
+    ticks = [box((thick, 9.0 * thick, thick)).moved(pose(rotation, end)) for end in ends]
     stage.mesh("scale", merged([bar, *ticks]), TEXT, glow=0.4)
     below = ends.mean(axis=0) + 7.0 * thick * towards
     return Label(length_text(length), below[None], "scale"), np.vstack([ends, below])
@@ -88,7 +88,7 @@ def draw_axes(stage: Stage, points_W: Array, names: Sequence[str] = ("x", "y", "
     Args:
         stage: The page's.
         points_W: What the page shows, (n, 3) [m].
-        names: Of the axes; one without a name is not drawn.
+        names: Names of the axes; one without a name is not drawn.
     """
     low, high = points_W.min(axis=0), points_W.max(axis=0)
     size = float(np.linalg.norm(high - low))
@@ -115,7 +115,7 @@ def draw_normals(stage: Stage, drawings: list[SurfaceDrawing], length_m: float) 
 
 
 def surface_labels(drawings: list[SurfaceDrawing], direction_W: Array) -> list[Label]:
-    """Names of surfaces: at the edge nearest to the camera if there is room, else at another, last in the middle."""
+    """Names of surfaces: at the edge nearest to the camera if there is space, else at another, last in the middle."""
     labels = []
     for drawing in drawings:
         edges = 0.5 * (drawing.outline + np.roll(drawing.outline, -1, axis=0))

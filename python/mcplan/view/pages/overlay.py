@@ -104,7 +104,7 @@ def timeline(
         scene: Names the surfaces.
         robot: Names the end-effectors.
         intervals: The contacts.
-        colours: Of the end-effectors.
+        colours: Colours of the end-effectors.
         duration_s: Length of the axis.
         planned: Contacts as they were planned: thin lines below the others.
         marks: Events across all rows: start [s], end [s], colour, text.
@@ -142,7 +142,7 @@ def timeline(
 
 
 def _ticks(duration_s: float) -> str:
-    """Labels of the time axis; where there is little room the page shows every third."""
+    """Labels of the time axis; where there is little space the page shows every third."""
     steps = [r * 10.0**p for p in range(-4, 7) for r in (1, 2, 5)]
     step = next((s for s in steps if duration_s / s <= 12), duration_s)
     ticks = [(i, i * step) for i in range(1, int(duration_s / step) + 1) if i * step < 0.985 * duration_s]
@@ -158,8 +158,8 @@ def entry(nodes: str, shape: str, colour: str, text: str, shown: bool = True) ->
 
     Args:
         nodes: Their paths, with blanks between.
-        shape: Of its swatch: "line", "ball", "arrow", "text", or "" for a patch.
-        colour: Of the swatch.
+        shape: Shape of its swatch: "line", "ball", "arrow", "text", or "" for a patch.
+        colour: Colour of the swatch.
         text: What they are.
         shown: From the start.
     """

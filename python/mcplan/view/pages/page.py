@@ -1,4 +1,4 @@
-"""A page that stands alone: meshcat's viewer, the scene and the animation in one HTML file."""
+"""A self-contained page: meshcat's viewer, the scene and the animation in one HTML file."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ class Page:
         title: Title of the page.
         payload: What it shows, from Stage.payload().
         overlay: HTML in front of the drawing.
-        points_W: Points that the first view must hold, (n, 3) [m].
+        points_W: Points that the first view must show, (n, 3) [m].
         direction_W: From the drawing towards the camera, (3,).
         sun_W: From the drawing towards the light, (3,).
         duration_s: Length of the animation, 0 for none.
         knots_s: Instants between which one steps by whole phases, first and last included.
         labels: Texts at points of the drawing.
         axes: Names of the world's axes; one that means nothing is empty.
-        rate_hz: Of the frames by which one steps.
+        rate_hz: Rate of the frames by which one steps.
     """
 
     title: str
@@ -81,7 +81,7 @@ class Page:
             overlay=self.overlay,
             meshcat=_viewer(),
             commands=base64.b64encode(self.payload).decode("ascii"),
-            # Names come from files: none may end the script element that they stand in.
+            # Names come from files: none may end the script element that they are in.
             settings=json.dumps(settings).replace("<", "\\u003c"),
             script="\n".join(_asset(name) for name in SCRIPTS),
         )
@@ -118,7 +118,7 @@ class Page:
 
 
 def _fill(template: str, **parts: str) -> str:
-    # One pass: what is filled in may itself hold dollars.
+    # One pass: what is filled in may itself contain dollars.
     return re.sub(r"\$(\w+)", lambda match: parts[match[1]], template)
 
 

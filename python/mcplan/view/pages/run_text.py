@@ -9,7 +9,7 @@ from mcplan.tracking import Measures, Recording
 
 def run_lines(recording: Recording, measures: Measures | None) -> list[str]:
     """What came of a run, in a few lines; without measures, what the recording tells by itself."""
-    robot = recording.body
+    robot = recording.simulated_robot
     last = float(recording.times_s[-1])
     end = f"fell at {recording.fell_at_s:.2f} s" if np.isfinite(recording.fell_at_s) else f"{last:.2f} s without a fall"
     lines = [f"{robot.name}: {end}"]

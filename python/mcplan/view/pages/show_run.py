@@ -57,16 +57,16 @@ def show_run(run: Run) -> Page:
     require("mcplan.view.show_run", "view", "meshcat", "pinocchio")
     measures = run.measures if isinstance(run, TrackingResult) else None
     plan = recording.plan
-    scene, robot = plan.scene, recording.body
+    scene, robot = plan.scene, recording.simulated_robot
     colours = end_effector_colours(robot)
-    loaded = load_model(robot)
-    frames = frames_of(recording, loaded, FRAME_RATE)
+    urdf_model = load_model(robot)
+    frames = frames_of(recording, urdf_model, FRAME_RATE)
     samples = frames.samples
     extent = extent_of(scene, robot, samples, length=0.6, width=0.6)
     drawings = [raised(drawing, shift) for drawing in surface_drawings(scene, extent)]
     stage = Stage(scale_of(robot))
     draw_surfaces(stage, drawings)
-    draw_figure(stage, samples, mesh_figure(loaded, frames.configurations, colours))
+    draw_figure(stage, samples, mesh_figure(urdf_model, frames.configurations, colours))
     _draw_com(stage, recording, frames, robot)
     _draw_ends(stage, recording, frames, robot, colours, shift)
     draw_forces(stage, samples, scene, robot, on_top=True)
@@ -111,12 +111,12 @@ def _draw_ends(
     every = max(1, len(recording.times_s) // samples.count)
     for number, colour in enumerate(colours):
         if not (recording.contacts_plan[:, number] >= 0).any():
-            continue  # hands that touch nothing: their paths would only clutter
+            continue  # hands without contact: their paths would only clutter
         name = robot.end_effectors[number].name
         stage.mesh(
             f"paths/{node(name)}", tube(samples.positions_W[:, number], 0.004 * scale, sides=6), colour, glow=0.25
         )
-        wide = tube(recording.ends_plan_W[::every, number], 0.009 * scale, sides=6)
+        wide = tube(recording.end_effectors_plan_W[::every, number], 0.009 * scale, sides=6)
         stage.mesh(f"planned/paths/{node(name)}", wide, PLANNED, 0.35, glow=0.2)
     for number, interval in enumerate(contact_intervals(plan, plan.scene, robot)):
         path = f"planned/footholds/{number}"

@@ -24,7 +24,7 @@ def screenshot(html: str, target: Path, fragment: str, size: tuple[int, int], ti
     Args:
         html: The page.
         target: File to write.
-        fragment: What stands behind "#" in its address.
+        fragment: The part of its address behind "#".
         size: Width and height in pixels.
         timeout_s: Longest wait [s].
 

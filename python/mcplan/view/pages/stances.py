@@ -1,4 +1,4 @@
-"""Start and goal of a scene on its page: footprints and the robot that stands on them, or flags without a robot."""
+"""Start and goal of a scene on its page: footprints with the robot's stance, or flags without a robot."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ def draw_stances(stage: Stage, scene: Scene, robot: Robot | None, size_m: float)
     Args:
         stage: The page's.
         scene: Whose start and goal.
-        robot: That stands there; None: a disc with an arrow in its heading.
-        size_m: Of the scene.
+        robot: Robot drawn in the stance; None: a disc with an arrow in its heading.
+        size_m: Size of the scene.
 
     Raises:
         InvalidScene: The robot cannot take the scene's start or goal.

@@ -17,7 +17,7 @@ class Canvas:
     """Collects polygons of a picture in layers; within a layer, nearer ones cover farther ones.
 
     Args:
-        points_W: What the picture must hold, (n, 3) [m].
+        points_W: Points that the picture must show, (n, 3) [m].
         direction_W: From the drawing towards the camera, (3,).
         sun_W: From the drawing towards the light, (3,).
         distance: From the middle of the points to the camera, in units of their radius.
@@ -97,7 +97,7 @@ class Canvas:
             return
         step = step[keep] / length[keep, None]
         side = np.column_stack([-step[:, 1], step[:, 0]])
-        # Mean normals at the joints: neighbouring pieces share their corners.
+        # Mean normals at the joints: neighbouring pieces have corners in common.
         joints = np.vstack([side[:1], side[1:] + side[:-1], side[-1:]])
         joints /= np.maximum(np.linalg.norm(joints, axis=1, keepdims=True), 0.3)
         reach = 0.5 * width * joints * (self.distance / depth)[:, None]

@@ -46,7 +46,7 @@ def picture(
         scene: Drawn around it; None: the plan's own.
         robot: Drawn along it as a stick robot; None: the plan's own.
         path: File to write.
-        poses: How often the robot is drawn, at equal ways of its CoM; None: as often as there is room.
+        poses: Number of postures drawn, at equal displacements of the CoM; None: as many as there is space for.
 
     Raises:
         MissingExtra: matplotlib is not installed.
@@ -70,7 +70,7 @@ def picture(
     chosen = pose_indices(samples, robot, poses)
     figure, weight = stick_robot(samples, robot, colours), float(robot.mass) * float(scene.gravity)
     for rank, n in enumerate(chosen):
-        # The past is pale; the last pose stands in full colour.
+        # The past is pale; the last posture has full colour.
         fade = 0.62 * (1.0 - rank / max(len(chosen) - 1, 1)) ** 0.8
         _paint_robot(canvas, figure, samples, robot, n, fade, weight)
 
@@ -94,16 +94,21 @@ def picture(
 
 
 def pose_indices(samples: Samples, robot: Robot, poses: int | None = None) -> list[int]:
-    """Samples at which the robot is drawn: first, last, and equal ways of the CoM between."""
-    way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(samples.com_W, axis=0), axis=1))])
+    """Samples at which the robot is drawn: first, last, and at equal displacements of the CoM between."""
+    displacement = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(samples.com_W, axis=0), axis=1))])
     if poses is None:
-        poses = int(np.clip(round(way[-1] / (0.5 * float(robot.com_height))) + 1, 2, 9))
-    return sorted({int(np.argmin(np.abs(way - share * way[-1]))) for share in np.linspace(0.0, 1.0, poses)})
+        poses = int(np.clip(round(displacement[-1] / (0.5 * float(robot.com_height))) + 1, 2, 9))
+    return sorted(
+        {
+            int(np.argmin(np.abs(displacement - fraction * displacement[-1])))
+            for fraction in np.linspace(0.0, 1.0, poses)
+        }
+    )
 
 
 def _paint_surfaces(canvas: Canvas, drawings: list[SurfaceDrawing]) -> None:
     for drawing in drawings:
-        # What robots walk on lies below them; pads and walls may stand before or behind a limb.
+        # Ground lies below a robot; pads and walls may be before or behind a limb.
         floor = drawing.normal[2] > 0.3 and drawing.colour not in (GRASP, PAD)
         layer = SOLIDS if floor else BODIES
         canvas.mesh(drawing.mesh, drawing.colour, layer, opacity=1.0 if floor else max(drawing.opacity, 0.3))

@@ -26,7 +26,7 @@ Pixels = NDArray[np.uint8]
 PACKAGES = "libegl1 libgl1-mesa-dri"
 #: Groups by which MuJoCo shows and hides.
 TERRAIN, ROBOT = 0, 1
-#: Geoms that a picture may hold: postures, grid lines, arrows.
+#: Geoms that a picture may have: postures, grid lines, arrows.
 MOST_GEOMS = 20000
 #: [pixel]
 LINE_WIDTH = 1.5
@@ -210,17 +210,17 @@ class Renderer:
             pose = part.poses[sample]
             self.data.mocap_pos[number] = pose[:3, 3]
             self._mj.mju_mat2Quat(self.data.mocap_quat[number], pose[:3, :3].ravel())
-        # MuJoCo draws the shadows of a directional light around where it stands.
+        # MuJoCo draws the shadows of a directional light around its position.
         self.model.light_pos[0] = self._target_W + 4.0 * self._sun_W
         self._mj.mj_kinematics(self.model, self.data)
         self._mj.mj_camlight(self.model, self.data)
 
-    def _fade(self, first: int, share: float) -> None:
-        if share <= 0.0:
+    def _fade(self, first: int, fade: float) -> None:
+        if fade <= 0.0:
             return
         for geom in self.scene.geoms[first : self.scene.ngeom]:
             if geom.objtype == self._mj.mjtObj.mjOBJ_GEOM and self.model.geom_group[geom.objid] == ROBOT:
-                geom.rgba[:3] = (1.0 - share) * np.asarray(geom.rgba[:3]) + share
+                geom.rgba[:3] = (1.0 - fade) * np.asarray(geom.rgba[:3]) + fade
 
     def _connect(self, kind: Any, width: float, start: Array, end: Array, colour: str, opacity: float = 1.0) -> None:
         if self.scene.ngeom >= self.scene.maxgeom:
@@ -241,7 +241,8 @@ def require_graphics() -> None:
 def _graphics(size: tuple[int, int]) -> Any:
     """A current OpenGL context: EGL's, or that of the environment variable MUJOCO_GL.
 
-    MuJoCo reads that variable when it is imported, which may have happened long ago: so its context is asked for by name.
+    MuJoCo reads that variable when it is imported, which may have happened long ago: so its context is asked for by
+    name.
     """
     kind = os.environ.get("MUJOCO_GL", "").lower()
     kind = kind if kind in ("egl", "osmesa", "glfw") else "egl"

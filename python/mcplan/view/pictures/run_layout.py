@@ -24,14 +24,14 @@ class RunScene:
     Attributes:
         times_s: (n,).
         com_W: (n, 3) [m].
-        reach_W: (n, k, 3) [m] points that a picture of an instant should hold.
+        reach_W: (n, k, 3) [m] points that a picture of an instant should show.
         figure: The robot at those instants.
         arrows: For each instant: contact forces, and the push.
         drawings: The terrain as simulated.
         footholds: Outlines of the planned contacts: segments (m, 2, 3) [m] and their colour.
         forward: (2,) unit vector of travel.
         sun_W: (3,) from the scene towards the light.
-        height_m: Of the CoM when the robot stands: what distances are scaled by.
+        height_m: Height of the CoM in the nominal stance, by which distances are scaled.
     """
 
     times_s: Array

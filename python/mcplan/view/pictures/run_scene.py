@@ -38,10 +38,10 @@ def scene_of(run: Run, rate_hz: float) -> RunScene:
         InvalidRobot: The robot's URDF cannot be read.
     """
     recording, shift = recording_of(run), ground_shift_of(run)
-    scene, robot = recording.plan.scene, recording.body
+    scene, robot = recording.plan.scene, recording.simulated_robot
     colours = end_effector_colours(robot)
-    loaded = load_model(robot)
-    frames = frames_of(recording, loaded, rate_hz)
+    urdf_model = load_model(robot)
+    frames = frames_of(recording, urdf_model, rate_hz)
     samples = frames.samples
     extent = extent_of(scene, robot, samples, length=MARGIN, width=MARGIN)
     height = float(robot.com_height)
@@ -51,7 +51,7 @@ def scene_of(run: Run, rate_hz: float) -> RunScene:
         times_s=samples.times_s,
         com_W=samples.com_W,
         reach_W=np.concatenate([head[:, None], samples.positions_W], axis=1),
-        figure=mesh_figure(loaded, frames.configurations, colours),
+        figure=mesh_figure(urdf_model, frames.configurations, colours),
         arrows=[_arrows(frames, n, weight, height) for n in range(samples.count)],
         drawings=[raised(drawing, shift) for drawing in surface_drawings(scene, extent)],
         footholds=_footholds(recording, robot, colours, shift),

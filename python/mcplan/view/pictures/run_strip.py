@@ -26,7 +26,7 @@ Pixels = NDArray[np.uint8]
 
 #: [1/s] instants that can be chosen from.
 RATE = 100.0
-#: Height over width that a frame may have, and room around the robot over its size.
+#: Ratios of height to width that a frame may have, and of the margin around the robot to its size.
 ASPECTS = (0.7, 1.9)
 ROOM = 0.06
 INK = (34, 38, 43)
@@ -42,14 +42,14 @@ def save_run_strip(
 ) -> Path:
     """Write a PNG of the robot at several instants, side by side at one scale, with the time under each.
 
-    Every frame holds all of the robot, in its middle.
+    Every frame shows all of the robot, in its middle.
 
     Args:
         run: A recording, or the result of tracking.
         path: File to write.
         frames: Number of instants, equally spaced from start to end, or the instants [s].
         columns: Frames in a row; None: up to eight.
-        width: Of the picture in pixels.
+        width: Width of the picture in pixels.
         lay_out: What lays the run out for rendering, at a rate [1/s]; of a planar robot: planar_scene_of.
 
     Raises:
@@ -131,7 +131,7 @@ def framed(scene: RunScene, chosen: Sequence[int], width: int) -> tuple[list[Eye
     Args:
         scene: The run.
         chosen: Indices of the instants.
-        width: Of a picture in pixels; as high as the robot wants it, within bounds.
+        width: Width of a picture in pixels; its height suits the robot, within bounds.
     """
     plain = scene.eye(np.zeros(3), 1.0)
     points = [_corners(scene, n) for n in chosen]

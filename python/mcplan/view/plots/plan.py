@@ -79,12 +79,12 @@ def plot_turning(plan: Plan) -> Figure:
         axes[i, 0].plot(samples.times_s, angles[:, i], color=COM, linewidth=2.0, label="base", zorder=3)
         label(axes[i, 0], y=f"{name} [deg]")
     for end, colour in enumerate(end_effector_colours(plan.robot)):
-        body = plan.robot.end_effectors[end]
-        touches = samples.surfaces[:, end] >= 0
-        if body.half_size.all() and touches.any():
+        end_effector = plan.robot.end_effectors[end]
+        in_contact = samples.surfaces[:, end] >= 0
+        if end_effector.half_size.all() and in_contact.any():
             heading = np.degrees([state.end_effectors[end].yaw for state in states])
-            curve = np.where(touches, heading, np.nan)
-            axes[2, 0].plot(samples.times_s, curve, color=colour, linewidth=1.4, label=plain(body.name))
+            curve = np.where(in_contact, heading, np.nan)
+            axes[2, 0].plot(samples.times_s, curve, color=colour, linewidth=1.4, label=plain(end_effector.name))
     for chart in axes[:, 0]:
         low, high = chart.get_ylim()
         if high - low < 1.0:  # no axis in units of rounding
@@ -140,7 +140,7 @@ def plot_gait(plan: Plan) -> Figure:
 
 
 def plot_forces(plan: Plan) -> Figure:
-    """Normal and tangential force of every end-effector that touches something, and the normal forces at its points
+    """Normal and tangential force of every end-effector in contact, and the normal forces at its points
     where it has some."""
     samples = sample(plan, plan.scene, plan.robot, RATE)
     normal, tangential = contact_forces(plan, samples)
@@ -173,9 +173,9 @@ def plot_forces(plan: Plan) -> Figure:
 
 
 def plot_friction(plan: Plan) -> Figure:
-    """Tangential over normal force of every end-effector against the friction coefficient of what it touches.
+    """Ratio of tangential to normal force of every end-effector, and the friction coefficient of its surface.
 
-    Surfaces that may be held have no cone and are drawn without a limit.
+    Surfaces that may be grasped have no cone and are drawn without a limit.
     """
     samples = sample(plan, plan.scene, plan.robot, RATE)
     normal, tangential = contact_forces(plan, samples)
@@ -211,11 +211,11 @@ def plot_friction(plan: Plan) -> Figure:
 def contact_forces(plan: Plan, samples: Samples) -> tuple[Array, Array]:
     """Normal and tangential force (n, end-effectors) [N] in the surfaces' frames; NaN without contact."""
     normals = np.array([polygon_normal(np.asarray(s.vertices_W)) for s in plan.scene.surfaces])
-    touching = samples.surfaces >= 0
+    in_contact = samples.surfaces >= 0
     along = normals[np.maximum(samples.surfaces, 0)]
     normal = np.sum(along * samples.forces_W, axis=2)
     tangential = np.linalg.norm(samples.forces_W - normal[..., None] * along, axis=2)
-    return np.where(touching, normal, np.nan), np.where(touching, tangential, np.nan)
+    return np.where(in_contact, normal, np.nan), np.where(in_contact, tangential, np.nan)
 
 
 def point_forces(plan: Plan, samples: Samples) -> tuple[Array, Array]:
@@ -226,7 +226,7 @@ def point_forces(plan: Plan, samples: Samples) -> tuple[Array, Array]:
     return normal, np.linalg.norm(samples.point_forces_W - normal[..., None] * along, axis=3)
 
 
-def largest_ratio(normal: Array, tangential: Array, least: float) -> Array:
-    """Largest tangential over normal force (n,) of points (n, p) that carry at least `least` [N]; NaN without such."""
-    ratio = np.where(normal > least, tangential / np.maximum(normal, least), -np.inf).max(axis=1)
+def largest_ratio(normal: Array, tangential: Array, min_N: float) -> Array:
+    """Largest ratio (n,) of tangential to normal force of points (n, p) with at least `min_N` [N]; NaN without such."""
+    ratio = np.where(normal > min_N, tangential / np.maximum(normal, min_N), -np.inf).max(axis=1)
     return np.where(ratio < 0.0, np.nan, ratio)

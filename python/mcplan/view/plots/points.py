@@ -25,11 +25,11 @@ def plot_pressure(plan: Plan) -> Figure:
     """Centre of pressure of every end-effector with a sole, along its length and its width; the sole ends at the red
     lines. In metres where forces act at points, in parts of half the sole's size where the plan has contact wrenches."""
     samples = sample(plan, plan.scene, plan.robot, RATE)
-    ends = plan.robot.end_effectors
+    end_effectors = plan.robot.end_effectors
     says_where = samples.surfaces >= 0
     if not samples.has_wrenches:
         says_where = np.asarray(np.isfinite(samples.points_W).any(axis=(2, 3)))
-    used = [e for e in range(len(ends)) if says_where[:, e].any() and ends[e].half_size.all()]
+    used = [e for e in range(len(end_effectors)) if says_where[:, e].any() and end_effectors[e].half_size.all()]
     colours = end_effector_colours(plan.robot)
     figure, axes = sheet(max(len(used), 1), 2, size=(10.0, 1.0 + 1.7 * max(len(used), 1)), sharex=True)
     for row, end in enumerate(used):
@@ -38,7 +38,7 @@ def plot_pressure(plan: Plan) -> Figure:
         in_sole[samples.surfaces[:, end] < 0] = np.nan
         for column, side in enumerate(("length", "width")):
             chart = axes[row, column]
-            half, unit = float(ends[end].half_size[column]), "[m]"
+            half, unit = float(end_effectors[end].half_size[column]), "[m]"
             if samples.has_wrenches:
                 in_sole[:, column] /= half
                 half, unit = 1.0, "[half size]"
@@ -49,7 +49,7 @@ def plot_pressure(plan: Plan) -> Figure:
                 samples.times_s, in_sole[:, column], color=colours[end], linewidth=2.0, label="centre of pressure"
             )
             chart.set_ylim(-1.25 * half, 1.25 * half)
-            label(chart, y=unit, title=f"{plain(ends[end].name)}, along its {side}")
+            label(chart, y=unit, title=f"{plain(end_effectors[end].name)}, along its {side}")
     for chart in axes[-1]:
         label(chart, x="time [s]")
         chart.set_xlim(0.0, samples.times_s[-1])
@@ -69,11 +69,11 @@ def plot_timing(plan: Plan) -> Figure:
     chart = axes[0, 0]
     shown: dict[str, str] = {}
     for k, row in enumerate(plan.contact_sequence()):
-        touching = [end for end, surface in enumerate(row) if surface >= 0]
+        in_contact = [end for end, surface in enumerate(row) if surface >= 0]
         colour, name = MANY, "several contacts"
-        if len(touching) == 1:
-            colour, name = colours[touching[0]], f"{plain(plan.robot.end_effectors[touching[0]].name)} alone"
-        elif not touching:
+        if len(in_contact) == 1:
+            colour, name = colours[in_contact[0]], f"{plain(plan.robot.end_effectors[in_contact[0]].name)} alone"
+        elif not in_contact:
             colour, name = "white", "flight"
         shown[name] = colour
         chart.bar(k, durations[k], color=colour, edgecolor=QUIET if colour == "white" else colour, width=0.8)

@@ -28,7 +28,7 @@ def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
         plan: Names surfaces and end-effectors; without, they are numbered.
 
     Raises:
-        ValueError: The history holds no sequences.
+        ValueError: The history has no sequences.
     """
     from matplotlib.colors import BoundaryNorm, ListedColormap
     from matplotlib.patches import Patch
@@ -37,7 +37,7 @@ def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
     if not rows:
         raise ValueError("report.history: must hold contact sequences, got none (record them in the planner's options)")
     counts = np.cumsum([row.switches for row in rows])
-    # The iteration that switched stands for its count: those after it polish, or try changes that are rejected.
+    # The iteration that switched is the last of its count: those after it polish, or try changes that are rejected.
     reached: dict[int, np.ndarray] = {}
     for count, row in zip(counts, rows, strict=True):
         reached.setdefault(int(count), np.asarray(row.sequence))
@@ -50,9 +50,9 @@ def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
     )
     colours = ListedColormap(["#F3F5F7", *palette])
     norm = BoundaryNorm(np.arange(-1.5, surfaces + 0.5), colours.N)
-    ends = grid.shape[2]
-    figure, axes = sheet(ends, 1, size=(9.0, 0.9 + 1.5 * ends), sharex=True)
-    for end in range(ends):
+    end_effectors = grid.shape[2]
+    figure, axes = sheet(end_effectors, 1, size=(9.0, 0.9 + 1.5 * end_effectors), sharex=True)
+    for end in range(end_effectors):
         chart = axes[end, 0]
         chart.grid(False)
         steps = np.arange(grid.shape[1] + 1) - 0.5

@@ -88,11 +88,13 @@ def plot_run_errors(recording: Recording) -> Figure:
     label(base, y="[degree]", title=f"base off the plan: {rms(angle):.2f} degrees rms, {angle.max():.2f} at most")
     free = swings(recording)
     parts = []
-    for number, colour in enumerate(end_effector_colours(recording.body)):
+    for number, colour in enumerate(end_effector_colours(recording.simulated_robot)):
         if not free[:, number].any():
             continue
-        away = 1e3 * np.linalg.norm(recording.ends_W[:, number] - recording.ends_plan_W[:, number], axis=1)
-        name = plain(recording.body.end_effectors[number].name)
+        away = 1e3 * np.linalg.norm(
+            recording.end_effectors_W[:, number] - recording.end_effectors_plan_W[:, number], axis=1
+        )
+        name = plain(recording.simulated_robot.end_effectors[number].name)
         shown = np.where(free[:, number], away, np.nan)
         swing.plot(recording.times_s, shown, color=colour, linewidth=1.6, label=name)
         parts.append(away[free[:, number]])
@@ -123,7 +125,7 @@ def plot_run_momentum(recording: Recording) -> Figure:
 
 
 def plot_run_assist(recording: Recording) -> Figure:
-    """Force and moment with which the assistance held the base."""
+    """Force and moment of the assistance on the base."""
     figure, axes = sheet(2, 1, size=(11.0, 4.6), sharex=True)
     colours = (PUSH, "#117733", "#0072B2")
     for chart, wrench, name, unit in (
@@ -150,13 +152,13 @@ def base_angle_deg(recording: Recording) -> Array:
 
 
 def swings(recording: Recording) -> NDArray[np.bool_]:
-    """(n, e) whether an end-effector is on its way between two contacts."""
-    touches = recording.contacts_plan >= 0
-    before = np.maximum.accumulate(touches, axis=0)
-    after = np.maximum.accumulate(touches[::-1], axis=0)[::-1]
-    # Hands that are never used have no way that a plan would ask for; one that is used next is on its way.
-    used = touches.any(axis=0)
-    return np.asarray(~touches & (before | after) & used)
+    """(n, e) whether an end-effector is in a swing between two contacts."""
+    in_contact = recording.contacts_plan >= 0
+    before = np.maximum.accumulate(in_contact, axis=0)
+    after = np.maximum.accumulate(in_contact[::-1], axis=0)[::-1]
+    # Hands that are never in contact have no path that a plan asks for; one that will be in contact is in a swing.
+    used = in_contact.any(axis=0)
+    return np.asarray(~in_contact & (before | after) & used)
 
 
 def _both(chart: Any, recording: Recording, planned: Array, simulated: Array, colour: str) -> None:

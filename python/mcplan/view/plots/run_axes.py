@@ -1,4 +1,4 @@
-"""What the plots of runs share: shaded phases, pushes, the fall, legends below."""
+"""What the plots of runs have in common: shaded phases, pushes, the fall, legends below."""
 
 from __future__ import annotations
 

@@ -25,9 +25,9 @@ MUCH = 0.6
 
 
 def plot_run_forces(recording: Recording) -> Figure:
-    """Normal force at every end-effector that touches something, as planned and as simulated, and the simulated
+    """Normal force at every end-effector in contact, as planned and as simulated, and the simulated
     tangential force."""
-    robot, scene = recording.body, recording.plan.scene
+    robot, scene = recording.simulated_robot, recording.plan.scene
     used = [
         e
         for e in range(recording.contacts.shape[1])
@@ -52,9 +52,9 @@ def plot_run_forces(recording: Recording) -> Figure:
         # Impacts last milliseconds: they may leave the picture, so that the rest can be read.
         tallest = max(tallest, float(np.percentile(simulated, 99.5)), float(planned.max()))
         off = rms(np.linalg.norm(recording.forces_W[:, end] - recording.forces_plan_W[:, end], axis=1))
-        share = 100.0 * off / weight
+        ratio = 100.0 * off / weight
         name = plain(robot.end_effectors[end].name)
-        label(chart, y="[N]", title=f"{name}: off the plan by {off:.0f} N rms ({share:.1f} % of the weight)")
+        label(chart, y="[N]", title=f"{name}: off the plan by {off:.0f} N rms ({ratio:.1f} % of the weight)")
     for row in range(len(used)):
         axes[row, 0].set_ylim(-0.03 * weight, 1.1 * max(tallest, 0.2 * weight))
     finish(figure, axes, recording, axes[0, 0])
@@ -62,17 +62,17 @@ def plot_run_forces(recording: Recording) -> Figure:
 
 
 def plot_run_torques(recording: Recording) -> Figure:
-    """Share of its torque limit that each joint uses over time; joints with much of it stand in bold."""
-    share = np.abs(recording.torques) / recording.torque_limits
-    share = np.where(np.isfinite(share), share, 0.0)
-    most = share.max(axis=0)
+    """Ratio of each joint's torque to its limit over time; joints with large ratios are in bold."""
+    ratio = np.abs(recording.torques) / recording.torque_limits
+    ratio = np.where(np.isfinite(ratio), ratio, 0.0)
+    max_ratio = ratio.max(axis=0)
     joints = len(recording.joints)
     figure, axes = sheet(1, 1, size=(11.0, 1.3 + 0.2 * joints))
     chart = axes[0, 0]
     # The largest within each pixel's stretch: a peak of one step is not to be lost.
     count = min(len(recording.times_s), 900)
     starts = np.linspace(0, len(recording.times_s), count, endpoint=False).astype(int)
-    largest = np.maximum.reduceat(share, starts, axis=0)
+    largest = np.maximum.reduceat(ratio, starts, axis=0)
     last = float(recording.times_s[-1])
     image = chart.imshow(
         largest.T,
@@ -84,9 +84,9 @@ def plot_run_torques(recording: Recording) -> Figure:
         extent=(0.0, last, joints - 0.5, -0.5),
     )
     chart.grid(False)
-    names = [f"{_short(joint)}   {100.0 * m:.0f} %" for joint, m in zip(recording.joints, most, strict=True)]
+    names = [f"{_short(joint)}   {100.0 * m:.0f} %" for joint, m in zip(recording.joints, max_ratio, strict=True)]
     chart.set_yticks(range(joints), names, fontsize=8)
-    for text, m in zip(chart.get_yticklabels(), most, strict=True):
+    for text, m in zip(chart.get_yticklabels(), max_ratio, strict=True):
         text.set_fontweight("bold" if m > MUCH else "normal")
         text.set_color(TEXT if m > MUCH else QUIET)
     chart.tick_params(axis="y", length=0)
@@ -99,7 +99,7 @@ def plot_run_torques(recording: Recording) -> Figure:
 
 
 def contact_normals(recording: Recording, end: int) -> Array:
-    """(n, 3) normal of the surface that an end-effector is to touch, or is to touch next, or touched last; up if none."""
+    """(n, 3) normal of the surface of an end-effector's contact, else of its next or its last one; up if none."""
     surfaces = recording.contacts_plan[:, end]
     known = np.flatnonzero(surfaces >= 0)
     if not len(known):

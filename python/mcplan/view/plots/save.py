@@ -23,8 +23,8 @@ def save_plots(plan: Plan, report: Report | None, directory: str | Path) -> list
     """Write all plots of a plan.
 
     They are picture.png, gait.png, com.png, momentum.png, forces.png, friction.png, for a plan with forces at points
-    pressure.png and timing.png, for one with contact wrenches pressure.png and turning.png, and from the report cost.png and
-    contact_sequence.png as far as it holds their data.
+    pressure.png and timing.png, for one with contact wrenches pressure.png and turning.png, and from the report
+    cost.png and contact_sequence.png as far as it has their data.
 
     Args:
         plan: The plan.

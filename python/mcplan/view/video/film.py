@@ -21,9 +21,9 @@ from .files import check_target, write_video
 Array = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
 
-#: [s] over which the camera's way is smoothed.
+#: [s] over which the camera's path is smoothed.
 SMOOTHING = 1.0
-#: Of the camera, over the CoM height.
+#: Ratio of the camera's distance to the CoM height.
 DISTANCE = 5.6
 
 
@@ -38,8 +38,8 @@ def save_video(
 ) -> Path:
     """Render a run in real time; the camera goes with the robot.
 
-    Contact forces are green arrows (as long as 0.55 of the CoM height for the robot's weight), pushes red ones; outlines on
-    the ground are the planned footholds.
+    Contact forces are green arrows (as long as 0.55 of the CoM height for the robot's weight), pushes red ones;
+    outlines on the ground are the planned footholds.
 
     Args:
         run: A recording, or the result of tracking.
@@ -73,10 +73,10 @@ def save_video(
 def _pictures(
     scene: RunScene, renderer: Renderer, rate_hz: float, progress: Callable[[int, int], None] | None
 ) -> Iterator[Pixels]:
-    way = smoothed(scene.com_W, SMOOTHING * rate_hz)
+    path = smoothed(scene.com_W, SMOOTHING * rate_hz)
     count = len(scene.times_s)
     for n in range(count):
-        pixels = renderer.picture([n], scene.eye(way[n], DISTANCE * scene.height_m), scene.arrows[n])
+        pixels = renderer.picture([n], scene.eye(path[n], DISTANCE * scene.height_m), scene.arrows[n])
         yield stamped(pixels, f"{scene.times_s[n]:.2f} s")
         if progress is not None:
             progress(n + 1, count)

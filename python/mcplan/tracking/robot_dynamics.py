@@ -1,4 +1,4 @@
-"""Pinocchio's terms at one state, computed once a control step and shared by all tasks."""
+"""Pinocchio's terms at one state, computed once a control step for all tasks."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mcplan.kinematics.urdf_model import UrdfModel
 Array = NDArray[np.float64]
 
 
-class RigidBody:
+class RobotDynamics:
     """Dynamics of the robot at a state; nv velocities, base first. All motions and Jacobians in the world's axes.
 
     Attributes:
@@ -22,11 +22,11 @@ class RigidBody:
         base_WB: (3, 3). base_velocity_W: (3,) angular. base_jacobian: (3, nv). base_drift: (3,).
     """
 
-    def __init__(self, loaded: UrdfModel) -> None:
+    def __init__(self, urdf_model: UrdfModel) -> None:
         import pinocchio as pin  # type: ignore[import-untyped]
 
         self._pin = pin
-        self.loaded, self.model = loaded, loaded.model
+        self.urdf_model, self.model = urdf_model, urdf_model.model
         self._data: Any = self.model.createData()
         self.base_drift = np.zeros(3)
         self.mass = float(pin.computeTotalMass(self.model))
@@ -57,17 +57,17 @@ class RigidBody:
         self.base_jacobian = np.zeros((3, model.nv))
         self.base_jacobian[:, 3:6] = self.base_WB
 
-    def end_position_W(self, index: int) -> Array:
+    def end_effector_position_W(self, index: int) -> Array:
         """(3,) contact point of an end-effector [m]."""
-        return np.asarray(self._data.oMf[self.loaded.frames[index]].translation)
+        return np.asarray(self._data.oMf[self.urdf_model.frames[index]].translation)
 
-    def end(self, index: int) -> EndMotion:
+    def end_effector(self, index: int) -> EndEffectorMotion:
         """Motion of an end-effector's contact frame."""
-        pin, data, frame = self._pin, self._data, self.loaded.frames[index]
+        pin, data, frame = self._pin, self._data, self.urdf_model.frames[index]
         axes = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
         placement = data.oMf[frame]
         drift = pin.getFrameClassicalAcceleration(self.model, data, frame, axes)
-        return EndMotion(
+        return EndEffectorMotion(
             placement.translation.copy(),
             placement.rotation.copy(),
             pin.getFrameVelocity(self.model, data, frame, axes).vector.copy(),
@@ -76,8 +76,12 @@ class RigidBody:
         )
 
 
-class EndMotion:
-    """Of a contact frame: position (3,), rotation (3, 3), velocity (6,) linear then angular, Jacobian (6, nv), drift (6,)."""
+class EndEffectorMotion:
+    """Motion of a contact frame.
+
+    Attributes:
+        position_W, rotation_W: (3,), (3, 3). velocity_W: (6,) linear, then angular. jacobian: (6, nv). drift: (6,).
+    """
 
     __slots__ = ("drift", "jacobian", "position_W", "rotation_W", "velocity_W")
 
