@@ -5,15 +5,15 @@ from __future__ import annotations
 import warnings
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import malformed
 import mcplan as mp
+from mcplan._core import require_standing
 from mcplan.cli import main
 from mcplan.errors import SuspiciousGeometry
 from mcplan.files.generate import random_scene
-from mcplan.files.geometry import holds_up, require_meant, require_standing
+from mcplan.files.geometry import require_meant
 from mcplan.files.motions import motion_to_dict
 from mcplan.files.planar_robots import planar_robot_to_dict
 from mcplan.files.robots import list_robots, load_robot, robot_to_dict
@@ -109,25 +109,6 @@ def test_a_ceiling_is_no_ground(tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         load_scene(write(tmp_path, data))
-
-
-@pytest.mark.parametrize(
-    ("tilt_deg", "friction", "held", "expected"),
-    [
-        (0, 0.1, False, True),
-        (89, 0.1, False, True),
-        (91, 0.1, False, True),
-        (97, 0.1, False, False),
-        (180, 2.0, False, False),
-        (180, 0.1, True, True),
-    ],
-)
-def test_a_surface_holds_up_what_its_friction_cone_can(tilt_deg, friction, held, expected):
-    """The cone of a normal at this angle to the vertical reaches above the horizon up to 90 degrees + atan(friction)."""
-    s, c = np.sin(np.radians(tilt_deg)), np.cos(np.radians(tilt_deg))
-    across, along = np.array([c, 0.0, -s]), np.array([0.0, 1.0, 0.0])  # across x along = the normal (s, 0, c)
-    corners = [a * across + b * along for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
-    assert holds_up(mp.Surface(name="a", vertices_W=np.array(corners), friction=friction, grasp=held)) == expected
 
 
 def test_a_goal_out_of_a_robots_reach_is_refused_once_the_robot_is_known(tmp_path):
