@@ -10,6 +10,7 @@ import types
 from pathlib import Path
 
 import pytest
+import typer
 
 import malformed
 import mcplan as mp
@@ -67,6 +68,19 @@ def test_lists_of_verbs_show_whole_summaries_at_80_columns(words, capsys, monkey
     rows = out.partition("\nCommands:\n")[2].splitlines()
     assert code == 0 and len(rows) >= (4 if words else len(VERBS))
     assert [row for row in rows if len(row) > 80 or row.endswith("...") or not row.endswith(".")] == []
+
+
+def test_a_help_line_says_what_an_option_is():
+    app.complete("bench")
+    pending, lines = [typer.main.get_command(app.app)], {}
+    while pending:
+        command = pending.pop()
+        pending += getattr(command, "commands", {}).values()
+        lines |= {(command.name, param.name): param.help for param in command.params if param.name != "help"}
+    assert len(lines) > 100
+    assert {
+        name: line for name, line in lines.items() if not re.fullmatch(r"(?!Of )[A-Za-z].{7,}[.)]", line or "")
+    } == {}
 
 
 def test_the_earlier_name_of_tasks_works_and_is_not_listed(capsys):
