@@ -88,7 +88,8 @@ std::filesystem::path referenced(const std::filesystem::path& folder, const std:
   const Named named{name, field, source};
   std::error_code failed, failed_root, ignored;
   const auto path = std::filesystem::weakly_canonical(std::filesystem::absolute(folder / name), failed);
-  const auto root = std::filesystem::weakly_canonical(std::filesystem::absolute(folder), failed_root);
+  const auto root =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(folder.empty() ? "." : folder), failed_root);
   // What is still a link points to nothing: where it would lead to, nobody has looked at.
   const bool dangles = std::filesystem::is_symlink(std::filesystem::symlink_status(path, ignored));
   if (failed || failed_root || dangles || name.find('\0') != name.npos)
