@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -132,6 +133,9 @@ void relations(const PlanarRobot& robot, Findings& found);
 
 /// The planar robot of the plain data of a file. Throws InvalidRobot with all that is wrong.
 PlanarRobot planar_robot_from(const Value& data, const std::string& source = "");
+
+/// The planar robot of the content of a file. Throws InvalidRobot.
+PlanarRobot planar_robot_in(const std::string& content, const std::filesystem::path& file);
 
 /// The plain data of a file.
 Value planar_robot_data(const PlanarRobot& robot);

@@ -83,12 +83,21 @@ PlanarRobot load_planar_robot(const std::string& name_or_path) {
   return read_planar_robot(model::find(name_or_path, "planar_robots", "robot", &model::throw_unknown<UnknownRobot>));
 }
 
+PlanarRobot model::planar_robot_in(const std::string& content, const std::filesystem::path& file) {
+  const std::string source = file.string();
+  try {
+    Value data = parse_toml(content);
+    if (!data.find("name")) data.set("name", file.stem().string());
+    return planar_robot_from(data, source);
+  } catch (const InvalidInput& found) {
+    throw_as<InvalidRobot>(found, source);
+  }
+}
+
 PlanarRobot read_planar_robot(const std::filesystem::path& file) {
   const std::string source = file.string();
   try {
-    Value data = model::parse_toml(model::read_file(source, model::max_toml_bytes, "", source));
-    if (!data.find("name")) data.set("name", file.stem().string());
-    return model::planar_robot_from(data, source);
+    return model::planar_robot_in(model::read_file(source, model::max_toml_bytes, "", source), file);
   } catch (const InvalidInput& found) {
     model::throw_as<InvalidRobot>(found, source);
   }

@@ -71,8 +71,8 @@ class RobotOfTask {
     } else {
       const std::string absolute = std::filesystem::absolute(path).string();
       path = model::referenced(*folder_, absolute, "robot", reading_.source);
-      model::read_file(path.string(), model::max_toml_bytes, "robot", reading_.source);
-      robot = read_planar_robot(path);
+      robot = model::planar_robot_in(model::read_file(path.string(), model::max_toml_bytes, "robot", reading_.source),
+                                     path);
     }
     is_read = true;
   }
