@@ -69,8 +69,9 @@ class RobotOfTask {
     if (is_built_in || !folder_ || !model::is_there(path.string())) {
       robot = load_planar_robot(name);
     } else {
-      const std::string absolute = std::filesystem::absolute(path).string();
-      path = model::referenced(*folder_, absolute, "robot", reading_.source);
+      std::error_code failed;  // where the working directory is gone
+      const std::filesystem::path absolute = std::filesystem::absolute(path, failed);
+      path = model::referenced(*folder_, failed ? name : absolute.string(), "robot", reading_.source);
       robot = model::planar_robot_in(model::read_file(path.string(), model::max_toml_bytes, "robot", reading_.source),
                                      path);
     }
