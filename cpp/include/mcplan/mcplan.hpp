@@ -15,6 +15,7 @@
 #include "mcplan/ddp/contact_sequence.hpp"
 #include "mcplan/ddp/cost_terms.hpp"
 #include "mcplan/ddp/edits.hpp"
+#include "mcplan/ddp/ending.hpp"
 #include "mcplan/ddp/initial_sequence.hpp"
 #include "mcplan/ddp/instants.hpp"
 #include "mcplan/ddp/layout.hpp"
