@@ -39,7 +39,7 @@ Value value_schema(const Rules& rules, Value::Table& definitions) {
     out = text_schema(rules);
   } else if constexpr (std::is_enum_v<V>) {
     Value::Array names;
-    for (const auto& [name, each] : Names<V>::all) names.push_back(name);
+    for (const auto& entry : Names<V>::all) names.push_back(std::get<0>(entry));
     out.set("enum", std::move(names));
   } else if constexpr (HasFields<V>::value) {
     out = struct_schema<typename InFiles<V>::Type>(definitions);

@@ -28,8 +28,8 @@ Value written_value(const V& value) {
                 std::is_same_v<V, std::string>) {
     return value;
   } else if constexpr (std::is_enum_v<V>) {
-    for (const auto& [name, each] : Names<V>::all)
-      if (each == value) return name;
+    for (const auto& entry : Names<V>::all)
+      if (std::get<1>(entry) == value) return std::get<0>(entry);
     return {};
   } else if constexpr (HasFields<V>::value) {
     return written(value);
