@@ -6,10 +6,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from mcplan._core import Plan, Robot, Scene, rhp
+from mcplan._core import Plan, Robot, Scene, require_standing, rhp
 from mcplan.arguments import require_or_path
 from mcplan.errors import Interrupted, InvalidInput
-from mcplan.files.geometry import require_standing
 from mcplan.options import fill, start
 from mcplan.solve import robot_of, scene_of
 

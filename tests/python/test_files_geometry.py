@@ -5,15 +5,15 @@ from __future__ import annotations
 import warnings
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import malformed
 import mcplan as mp
+from mcplan._core import require_standing
 from mcplan.cli import main
 from mcplan.errors import SuspiciousGeometry
 from mcplan.files.generate import random_scene
-from mcplan.files.geometry import holds_up, require_meant, require_standing
+from mcplan.files.geometry import require_meant
 from mcplan.files.motions import motion_to_dict
 from mcplan.files.planar_robots import planar_robot_to_dict
 from mcplan.files.robots import list_robots, load_robot, robot_to_dict
@@ -111,25 +111,6 @@ def test_a_ceiling_is_no_ground(tmp_path):
         load_scene(write(tmp_path, data))
 
 
-@pytest.mark.parametrize(
-    ("tilt_deg", "friction", "held", "expected"),
-    [
-        (0, 0.1, False, True),
-        (89, 0.1, False, True),
-        (91, 0.1, False, True),
-        (97, 0.1, False, False),
-        (180, 2.0, False, False),
-        (180, 0.1, True, True),
-    ],
-)
-def test_a_surface_holds_up_what_its_friction_cone_can(tilt_deg, friction, held, expected):
-    """The cone of a normal at this angle to the vertical reaches above the horizon up to 90 degrees + atan(friction)."""
-    s, c = np.sin(np.radians(tilt_deg)), np.cos(np.radians(tilt_deg))
-    across, along = np.array([c, 0.0, -s]), np.array([0.0, 1.0, 0.0])  # across x along = the normal (s, 0, c)
-    corners = [a * across + b * along for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
-    assert holds_up(mp.Surface(name="a", vertices_W=np.array(corners), friction=friction, grasp=held)) == expected
-
-
 def test_a_goal_out_of_a_robots_reach_is_refused_once_the_robot_is_known(tmp_path):
     """2 m above 50 m of ground: a large robot may stand so, this one may not."""
     data = floor(25.0, goal={"position": [1.0, 0.0, 2.0], "contacts": {"foot": "a"}})
@@ -151,6 +132,30 @@ def test_lengths_in_millimetres_are_warned_of(tmp_path):
         load_robot(write(tmp_path, robot))
     with pytest.warns(SuspiciousGeometry, match="com_height: lengths are in metres"):
         load_robot(write(tmp_path, in_millimetres(malformed.ROBOT)))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"mass": 44000.0}, "mass: must be in kilograms, and this looks like grams, got 44000 kg in a robot of"),
+        ({"phase_duration": [150.0, 500.0]}, r"phase_duration: durations are in seconds, .* got \[150, 500\] at a"),
+        (
+            {"inertia": [1.0, 1.0, 5.0]},
+            r"inertia: of a body, no moment is above the sum of the other two, got \[1, 1, 5",
+        ),
+        (
+            {"yaw_range": [-45.0, 45.0]},
+            r"end_effectors\[0\].yaw_range: angles are in radians, .* degrees, got \[-45, 45",
+        ),
+    ],
+)
+def test_other_units_of_a_robot_are_warned_of(changes, message, tmp_path):
+    robot = robot_to_dict(load_robot("humanoid44"))
+    target = robot["end_effectors"][0] if "yaw_range" in changes else robot
+    target.update(changes)
+    with pytest.warns(SuspiciousGeometry, match=message) as found:
+        load_robot(write(tmp_path, robot))
+    assert len(found) == 1
 
 
 @pytest.mark.parametrize("verb", [mp.plan, mp.walk])

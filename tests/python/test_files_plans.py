@@ -75,6 +75,14 @@ def test_a_damaged_plan_in_json_is_named_with_its_file(plan, tmp_path):
     assert str(found.value) == f"{file}: scene.gravity: must be a number, got 'x'"
 
 
+def test_a_plan_in_json_has_each_key_once(plan, tmp_path):
+    file = tmp_path / "plan.json"
+    plan.save(file)
+    file.write_text(re.sub(r'("gravity": [0-9.]+)', r"\1, \1", file.read_text()))
+    with pytest.raises(mp.InvalidPlan, match="must be JSON, got has twice the key 'gravity'"):
+        mp.Plan.load(file)
+
+
 def test_a_deep_copy_shares_nothing(plan):
     other = copy.deepcopy(plan)
     other.knots[0].com_W[0] = 5.0

@@ -91,6 +91,7 @@
 #include "mcplan/robot/robot.hpp"
 #include "mcplan/robot/robot_files.hpp"
 #include "mcplan/robot/similarity.hpp"
+#include "mcplan/robot/standing.hpp"
 #include "mcplan/scene/polygon.hpp"
 #include "mcplan/scene/scene.hpp"
 #include "mcplan/scene/scene_files.hpp"

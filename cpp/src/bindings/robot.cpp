@@ -1,6 +1,7 @@
 #include "mcplan/robot/robot.hpp"
 
 #include "fields.hpp"
+#include "mcplan/robot/standing.hpp"
 #include "robot/robot_fields.hpp"
 
 namespace mcplan::bindings {
@@ -62,6 +63,10 @@ void bind_robot(py::module_& m) {
   m.def("may_touch", &may_touch, py::arg("surface"), py::arg("end_effector"),
         "Whether the surface lists the end-effector, by name or kind, or lists nobody.");
   bind_resolved_stance(m);
+  m.def("require_standing", &require_standing, py::arg("scene"), py::arg("robot"),
+        "Refuse a start or goal where a robot cannot stand. Raises InvalidScene where an end-effector would have to "
+        "reach far beyond its box for its surface, or where all surfaces that a stance names face so far down that no "
+        "force on them holds anything up; also for a scene that is not valid, as InvalidRobot for a robot.");
 }
 
 }  // namespace mcplan::bindings

@@ -16,7 +16,7 @@ int distance(const ContactState& from, const ContactState& to) {
   return changes;
 }
 
-struct Node {
+struct Reached {
   double cost;
   ContactState before;
 };
@@ -34,19 +34,19 @@ ContactSequence initial_sequence(LocalModel& model, std::size_t beam, const Stop
     return cost;
   };
 
-  std::vector<std::map<ContactState, Node>> layers(n + 1);
+  std::vector<std::map<ContactState, Reached>> layers(n + 1);
   if (!problem.rules.allowed(problem.start_contacts) || !problem.rules.allowed(problem.goal_contacts)) return {};
   layers[0][problem.start_contacts] = {cost_of(0, problem.start_contacts), {}};
   int looked_at = 0;
   for (int k = 0; k < n; ++k) {
-    std::map<ContactState, Node>& next = layers[k + 1];
+    std::map<ContactState, Reached>& next = layers[k + 1];
     for (const auto& [state, node] : layers[k]) {
       if (stop && ++looked_at % kStatesPerPoll == 0 && stop()) return {};
       for (ContactState& follower : problem.rules.successors(state, k + 1)) {
         // Leave out what can no longer reach the goal's contacts in the steps that remain.
         if (one_switch && distance(follower, problem.goal_contacts) > n - (k + 1)) continue;
         const double cost = node.cost + cost_of(k + 1, follower);
-        const auto [it, fresh] = next.try_emplace(std::move(follower), Node{cost, state});
+        const auto [it, fresh] = next.try_emplace(std::move(follower), Reached{cost, state});
         if (!fresh && clearly_less(cost, it->second.cost)) it->second = {cost, state};
       }
     }

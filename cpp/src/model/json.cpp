@@ -1,5 +1,6 @@
 #include "json.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -35,7 +36,7 @@ class ValueBuilder {
     key_ = std::move(value);
     return true;
   }
-  bool end_object() { return close(); }
+  bool end_object() { return has_each_key_once(*open_.back().value.get<Value::Table>()) && close(); }
   bool end_array() { return close(); }
   bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& error) {
     const std::string what = error.what();  // "[json.exception.parse_error.101] parse error at line 1, ..."
@@ -51,6 +52,17 @@ class ValueBuilder {
   bool counted() {
     if (++count_ <= max_json_values) return true;
     reason = "may have " + std::to_string(max_json_values) + " values at most";
+    return false;
+  }
+
+  /// JSON leaves open which of two entries with the same key holds; TOML and we refuse them.
+  bool has_each_key_once(const Value::Table& table) {
+    keys_.clear();
+    for (const Entry& entry : table) keys_.push_back(entry.key);
+    std::sort(keys_.begin(), keys_.end());
+    const auto again = std::adjacent_find(keys_.begin(), keys_.end());
+    if (again == keys_.end()) return true;
+    reason = "has twice the key " + quote(*again);
     return false;
   }
 
@@ -87,6 +99,7 @@ class ValueBuilder {
 
   std::vector<Entry> open_;
   std::string key_;
+  std::vector<std::string_view> keys_;  ///< of the table that ends
   std::size_t count_ = 0;
 };
 

@@ -7,7 +7,8 @@
 
 namespace mcplan::model {
 
-/// The value of a JSON text. Throws std::invalid_argument with the reason: no JSON, or nested too deep.
+/// The value of a JSON text. Throws std::invalid_argument with the reason: no JSON, nested too deep, or a
+/// table has a key twice.
 Value parse_json(std::string_view text);
 
 /// A value as JSON; numbers read back as the same doubles. `indent`: spaces a level, 0: on one line;

@@ -65,8 +65,13 @@ void require_keys(const Value::Table& table, const std::vector<std::string>& leg
     else
       found.add(Place(at, key), "is required", "");
   }
-  for (const std::string& key : unknown)
-    found.add(Place(at, key), "no such key. " + did_you_mean(key, legal) + "Keys: " + joined(legal), "");
+  for (const std::string& key : unknown) {
+    // The legal keys of a table are listed once.
+    const std::string keys = &key == &unknown.front() ? "Keys: " + joined(legal) : "";
+    std::string rule = "no such key. " + did_you_mean(key, legal) + keys;
+    while (rule.back() == ' ' || (keys.empty() && rule.back() == '.')) rule.pop_back();
+    found.add(Place(at, key), std::move(rule), "");
+  }
 }
 
 bool require_few_keys(const Value& value, Findings& found) {

@@ -88,6 +88,7 @@ __all__: list[str] = [
     "read_robot",
     "read_scene",
     "require_ground",
+    "require_standing",
     "resolve_stance",
     "rhp",
     "robot_from_dict",
@@ -3012,6 +3013,11 @@ def read_scene(path: typing.Any) -> Scene:
 def require_ground(scene: Scene) -> None:
     """
     Raise InvalidScene where start or goal hangs in the air, or lies under or far beside the surfaces it names.
+    """
+
+def require_standing(scene: Scene, robot: Robot) -> None:
+    """
+    Refuse a start or goal where a robot cannot stand. Raises InvalidScene where an end-effector would have to reach far beyond its box for its surface, or where all surfaces that a stance names face so far down that no force on them holds anything up; also for a scene that is not valid, as InvalidRobot for a robot.
     """
 
 def resolve_stance(scene: Scene, robot: Robot, stance: Stance, field: str = "stance") -> ResolvedStance:

@@ -12,15 +12,16 @@ from typing import Any
 
 import numpy as np
 
-from mcplan._core import PlanarRobot, Polygon, Robot, Scene, Stance, require_ground, resolve_stance
-from mcplan.errors import InvalidInput, InvalidScene, SuspiciousGeometry, together
+from mcplan._core import PlanarRobot, Polygon, Robot, Scene, Stance, require_ground
+from mcplan.errors import InvalidInput, InvalidScene, SuspiciousGeometry
 
-#: How far outside of its reach box an end-effector may stand at start and goal, in CoM heights.
-MOST_OUTSIDE = 0.25
 #: Lengths above which they are taken to be millimetres: of a scene [m], of a robot's CoM [m], in CoM heights.
 LONG_SCENE_M, HIGH_COM_M, LONG_OVER_COM = 1000.0, 50.0, 50.0
 #: Above it a gravity [m/s^2] is taken to be in millimetres: there is none like it on any planet.
 STRONG_GRAVITY = 100.0
+#: Angles above it are taken to be degrees; durations, over the time sqrt(h / g) in which a pendulum as high as the CoM
+#: falls, to be milliseconds; masses over the cube of a robot's size [kg/m^3], twice that of steel, to be grams.
+LARGE_ANGLE, LONG_OVER_FALL, HEAVY_DENSITY = 2.0 * math.pi, 100.0, 16e3
 _GRAVITY_RULE = "goes with lengths in metres, which these look like, and this looks like one for millimetres"
 _WALKABLE = 0.5  # z of the normal of ground
 
@@ -59,7 +60,7 @@ def warn_of_geometry(scene: Scene, source: str) -> None:
 
 
 def require_robot_meant(robot: Robot, source: str) -> None:
-    """Warn of lengths of a robot that look like millimetres.
+    """Warn of numbers of a robot that look like millimetres, degrees, milliseconds or grams, or that no body has.
 
     Args:
         robot: A valid one.
@@ -77,6 +78,28 @@ def require_robot_meant(robot: Robot, source: str) -> None:
         longest = max(map(abs, values))
         if longest > LONG_OVER_COM * robot.com_height:
             _warn(source, field, rule, f"{longest:g} m beside a com_height of {robot.com_height:g} m")
+    _warn_of_other_units(robot, source)
+
+
+def _warn_of_other_units(robot: Robot, source: str) -> None:
+    for i, end in enumerate(robot.end_effectors):
+        if np.isfinite(end.yaw_range).all() and np.abs(end.yaw_range).max() > LARGE_ANGLE:
+            rule = "angles are in radians, and these look like degrees"
+            _warn(source, f"end_effectors[{i}].yaw_range", rule, _text(end.yaw_range))
+    fall_s = math.sqrt(robot.com_height / 9.81)
+    if robot.phase_duration[0] > LONG_OVER_FALL * fall_s:
+        rule = "durations are in seconds, and these look like milliseconds"
+        _warn(
+            source, "phase_duration", rule, f"{_text(robot.phase_duration)} at a com_height of {robot.com_height:g} m"
+        )
+    places = np.array([[0.0, 0.0, 0.0], *(end.nominal_B for end in robot.end_effectors)])
+    size = float(np.linalg.norm(np.ptp(places, axis=0)))
+    if robot.mass > HEAVY_DENSITY * max(size, robot.com_height) ** 3:
+        rule = "must be in kilograms, and this looks like grams"
+        _warn(source, "mass", rule, f"{robot.mass:g} kg in a robot of {max(size, robot.com_height):.3g} m")
+    moments = sorted(robot.inertia)
+    if moments[2] > (1.0 + 1e-6) * (moments[0] + moments[1]):
+        _warn(source, "inertia", "of a body, no moment is above the sum of the other two", _text(robot.inertia))
 
 
 def require_planar_robot_meant(robot: PlanarRobot, source: str, prefix: str = "") -> None:
@@ -97,35 +120,10 @@ def require_planar_robot_meant(robot: PlanarRobot, source: str, prefix: str = ""
         )
 
 
-def require_standing(scene: Scene, robot: Robot, fields: tuple[str, ...] = ("start", "goal")) -> None:
-    """Refuse a start or goal where a robot cannot stand.
-
-    Args:
-        scene: A valid one.
-        robot: A valid one.
-        fields: Which of "start" and "goal" to look at.
-
-    Raises:
-        InvalidScene: An end-effector would have to reach far beyond its box for its surface, or all surfaces that the
-            stance names face so far down that no force on them holds anything up.
-    """
-    findings: list[InvalidInput] = []
-    for field in fields:
-        findings += _cannot_stand(scene, robot, getattr(scene, field), field)
-    if findings:
-        raise together(findings)
-
-
 def scene_size(scene: Scene) -> float:
     """Length of the diagonal of the box around all surfaces [m]."""
     corners = np.concatenate([surface.vertices_W for surface in scene.surfaces])
     return float(np.linalg.norm(corners.max(axis=0) - corners.min(axis=0)))
-
-
-def holds_up(surface: Any) -> bool:
-    """Whether some force in the friction cone of a surface points up, or the surface can be held."""
-    up = Polygon(surface.vertices_W).normal_W[2]
-    return bool(surface.grasp or up + surface.friction * math.sqrt(max(0.0, 1.0 - up * up)) > 0.0)
 
 
 def _warn_of_ground_that_faces_down(scene: Scene, stance: Stance, field: str, source: str) -> None:
@@ -137,32 +135,6 @@ def _warn_of_ground_that_faces_down(scene: Scene, stance: Stance, field: str, so
         if polygon.normal_W[2] < -_WALKABLE and above and not surface.grasp:
             rule = f"faces down, and {who} stands on it at the {field}: corners run counter-clockwise seen from above"
             _warn(source, f"surfaces[{index}].vertices", rule, f"normal {_text(polygon.normal_W)}")
-
-
-def _cannot_stand(scene: Scene, robot: Robot, stance: Stance, field: str) -> list[InvalidInput]:
-    named = {scene.surface_index(name): name for name in stance.contacts.values()}
-    if not any(holds_up(scene.surfaces[index]) for index in named):
-        rule = "must hold the robot up: corners of ground run counter-clockwise seen from above"
-        faces = ", ".join(f"{name!r} faces down" for name in named.values())
-        return [InvalidScene(f"{field}.contacts", rule, faces)]
-    resolved = resolve_stance(scene, robot, stance, field)
-    turn = _about_z(stance.yaw)
-    findings: list[InvalidInput] = []
-    for end, place_W, surface in zip(robot.end_effectors, resolved.end_effectors_W, resolved.contacts, strict=True):
-        place = turn.T @ (place_W - resolved.com_W)
-        outside = np.linalg.norm(np.maximum(0.0, np.maximum(end.reach_min_B - place, place - end.reach_max_B)))
-        if surface >= 0 and outside > MOST_OUTSIDE * robot.com_height:
-            off = np.linalg.norm(place - end.nominal_B)
-            rule = f"must be where {robot.name} reaches the surfaces that its contacts name"
-            name = scene.surfaces[surface].name
-            value = f"{_text(stance.position_W)}: {end.name} would stand {off:.2g} m off {name!r}"
-            findings.append(InvalidScene(f"{field}.position", rule, value))
-    return findings[:1]
-
-
-def _about_z(yaw: float) -> np.ndarray:
-    cosine, sine = math.cos(yaw), math.sin(yaw)
-    return np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
 
 
 def _text(values: Any) -> str:

@@ -38,3 +38,12 @@ TEST_CASE("what is no JSON is said with its place") {
     CHECK_THROWS_AS(model::parse_json(bad), std::invalid_argument);
   }
 }
+
+TEST_CASE("a table has each key once") {
+  for (const char* twice :
+       {"{\"a\": 1, \"b\": 2, \"a\": 1}", "[{\"a\": [], \"a\": {}}]", "{\"x\": {\"a\": 1, \"\\u0061\": 2}}"}) {
+    CAPTURE(twice);
+    CHECK_THROWS_WITH_AS(model::parse_json(twice), "has twice the key 'a'", std::invalid_argument);
+  }
+  CHECK_NOTHROW(model::parse_json("{\"a\": {\"a\": 1}, \"b\": [{\"a\": 1}, {\"a\": 2}]}"));
+}
