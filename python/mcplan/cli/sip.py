@@ -58,7 +58,7 @@ KinematicsOption = Annotated[
 ]
 SelfCollisionOption = Annotated[bool, typer.Option("--self-collision", help="Constrain the robot's collision pairs.")]
 WarmStartOption = Annotated[
-    Path | None, typer.Option("--warm-start", metavar="PLAN", help="Plan to start the search from (.npz).")
+    Path | None, typer.Option("--warm-start", metavar="PLAN", help="Plan to start the search from (.npz, .json).")
 ]
 HessianOption = Annotated[
     str,
@@ -80,7 +80,9 @@ TimeLimitOption = Annotated[
     float | None,
     typer.Option("--time-limit", metavar="S", help="Time [s] after which the best motion so far is returned."),
 ]
-OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="File for the plan (.npz).")]
+OutputOption = Annotated[
+    Path | None, typer.Option("-o", "--output", metavar="FILE", help="File for the plan (.npz, .json).")
+]
 HtmlOption = Annotated[
     Path | None, typer.Option("--html", metavar="FILE", help="File for a page that shows the motion.")
 ]
