@@ -68,6 +68,8 @@ Plan plan_from_json(const std::string& content) {
     parsed = model::parse_json(content);
   } catch (const std::invalid_argument& bad) {
     throw InvalidPlan("", "must be JSON", model::printable(bad.what()));
+  } catch (const std::length_error& bad) {
+    throw InvalidPlan("", bad.what(), "more");
   }
   const Value data = plan_data(std::move(parsed));
   model::Reading reading;

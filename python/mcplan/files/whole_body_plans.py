@@ -72,7 +72,7 @@ def load_any_plan(path: str | Path) -> Plan | PlanarPlan:
     """
     try:
         data = read_plan_file(path)
-        if plans.is_json(data):
+        if plans.is_json(data, path):
             return plan_from_json(data)
         kind = read_header(read_arrays(data)).get("kind")
         if kind in RUN_KINDS:
