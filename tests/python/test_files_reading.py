@@ -18,8 +18,8 @@ import pytest
 import malformed
 import mcplan as mp
 from mcplan.cli import main
-from mcplan.files import reading
 from mcplan.files.archives import read_arrays
+from mcplan.files.builtin import DATA
 from mcplan.files.plans import MOST_PHASES, load_plan, plan_to_bytes
 from mcplan.files.reading import MOST_TOML, read_file
 from mcplan.files.robots import load_robot
@@ -132,6 +132,27 @@ def test_a_urdf_is_found_beside_its_robot_from_any_working_directory(tmp_path, m
     assert load_robot("robots/robot.toml").urdf == "robots/urdf/my.urdf"
 
 
+@pytest.mark.parametrize("name", ["robot.toml", "./robot.toml", "../robots/robot.toml"])
+def test_a_robot_in_the_working_directory_names_files_beside_it(name, tmp_path, monkeypatch):
+    robot_file(tmp_path / "robots", urdf="my.urdf", com_reach={"file": "reach.json", "name": "com"})
+    (tmp_path / "robots" / "my.urdf").write_text("<robot/>")
+    (tmp_path / "robots" / "reach.json").write_text(json.dumps(POLYTOPE))
+    monkeypatch.chdir(tmp_path / "robots")
+    robot = load_robot(name)
+    assert Path(robot.urdf).samefile(tmp_path / "robots" / "my.urdf") and robot.end_effectors[0].com_reach.given
+
+
+def test_a_working_directory_that_is_gone_is_no_crash(tmp_path, monkeypatch):
+    file = robot_file(tmp_path / "robots", com_reach={"file": "reach.json", "name": "com"})
+    (tmp_path / "robots" / "reach.json").write_text(json.dumps(POLYTOPE))
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    assert load_robot(file).end_effectors[0].com_reach.given
+    with pytest.raises(mp.UnknownRobot):
+        load_robot("robot.toml")
+
+
 @pytest.mark.parametrize("urdf", ["../my.urdf", "/dev/zero", "/nowhere/my.urdf", "link.urdf"])
 def test_a_urdf_elsewhere_is_refused(urdf, tmp_path):
     file = robot_file(tmp_path / "robots", urdf=urdf)
@@ -162,12 +183,20 @@ def test_a_motion_whose_robot_is_no_regular_file_is_named(name, tmp_path):
         mp.load_motion(tmp_path / "motion.toml")
 
 
+def test_a_motion_in_the_working_directory_names_a_robot_beside_it(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.toml").write_bytes((DATA / "planar_robots" / "climber9.toml").read_bytes())
+    text = (DATA / "motions" / "cartwheel.toml").read_text().replace('"climber9"', '"mine.toml"')
+    (tmp_path / "motion.toml").write_text(text)
+    assert mp.load_motion("motion.toml").robot.mass() == 24.5
+
+
 def test_the_robots_that_mcplan_brings_may_be_links(tmp_path, monkeypatch):
     """Some package managers put links in place of files: what lies beside them is then elsewhere."""
     (tmp_path / "store").mkdir()
     (tmp_path / "data" / "robots").mkdir(parents=True)
     for name in ("talos_wang.toml", "talos_wang_reach.json"):
-        (tmp_path / "store" / name).write_bytes((reading.DATA / "robots" / name).read_bytes())
+        (tmp_path / "store" / name).write_bytes((DATA / "robots" / name).read_bytes())
         (tmp_path / "data" / "robots" / name).symlink_to(tmp_path / "store" / name)
     monkeypatch.setenv("MCPLAN_DATA", str(tmp_path / "data"))
     assert load_robot("talos_wang").end_effectors[0].com_reach.given
