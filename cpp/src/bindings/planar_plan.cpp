@@ -3,6 +3,7 @@
 #include "fields.hpp"
 #include "mcplan/planar/checker.hpp"
 #include "planar/plan_fields.hpp"
+#include "planar/tolerances_fields.hpp"
 #include "signals.hpp"
 
 namespace mcplan::bindings {
@@ -113,40 +114,15 @@ void bind_functions(py::module_& m) {
 }
 
 void bind_checker(py::module_& m) {
-  const PlanarTolerances d;
-  py::class_<PlanarTolerances> c(m, "PlanarTolerances", "Published tolerances of the checker of planar plans.");
-  c.def(py::init([](double limit, double drift, double drift_angle, double balance, double moment, double friction,
-                    double pull, double clearance, double continuity, double pose, double sample_s) {
-          return PlanarTolerances{limit, drift,     drift_angle, balance, moment,  friction,
-                                  pull,  clearance, continuity,  pose,    sample_s};
-        }),
-        py::kw_only(), py::arg("limit") = d.limit, py::arg("drift") = d.drift, py::arg("drift_angle") = d.drift_angle,
-        py::arg("balance") = d.balance, py::arg("moment") = d.moment, py::arg("friction") = d.friction,
-        py::arg("pull") = d.pull, py::arg("clearance") = d.clearance, py::arg("continuity") = d.continuity,
-        py::arg("pose") = d.pose, py::arg("sample_s") = d.sample_s);
-  c.def_readwrite("limit", &PlanarTolerances::limit, "[-] position, velocity, torque beyond limits, relative.");
-  c.def_readwrite("drift", &PlanarTolerances::drift, "[m] end-effector in contact from where it should be.");
-  c.def_readwrite("drift_angle", &PlanarTolerances::drift_angle, "[rad]");
-  c.def_readwrite("balance", &PlanarTolerances::balance, "[N] force that nothing carries.");
-  c.def_readwrite("moment", &PlanarTolerances::moment, "[N m] moment that nothing carries.");
-  c.def_readwrite("friction", &PlanarTolerances::friction, "[-] of m g: tangential force beyond the cone.");
-  c.def_readwrite("pull", &PlanarTolerances::pull, "[-] of m g");
-  c.def_readwrite("clearance", &PlanarTolerances::clearance,
-                  "[m] swinging end-effector in a solid, capsules in each other.");
-  c.def_readwrite("continuity", &PlanarTolerances::continuity,
-                  "[rad] jumps at knots, and what is not rest at the ends.");
-  c.def_readwrite("pose", &PlanarTolerances::pose, "[m], [rad]");
-  c.def_readwrite("sample_s", &PlanarTolerances::sample_s, "[s] sampling in time.");
-  def_value(c, "PlanarTolerances",
-            {"limit", "drift", "drift_angle", "balance", "moment", "friction", "pull", "clearance", "continuity",
-             "pose", "sample_s"});
+  bind_fields<PlanarTolerances>(m).def("validate", &PlanarTolerances::validate,
+                                       "Raise InvalidOptions naming all that is no number or out of its range.");
 
   m.def(
       "check",
       [](PlanarPlan plan, PlanarTolerances tolerances, bool self_collision) {
         return interruptible([&] { return check(plan, tolerances, self_collision, SignalWatch::stop); });
       },
-      py::arg("plan"), py::arg("tolerances") = d, py::arg("self_collision") = false,
+      py::arg("plan"), py::arg("tolerances") = PlanarTolerances(), py::arg("self_collision") = false,
       "Check a planar plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidMotion "
       "or InvalidRobot where it is malformed, and Interrupted with what was found by then.");
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -20,7 +21,9 @@ constexpr std::size_t any_number = 1'000'000;
 /// What the numbers, names and lists of a field may be. Numbers are finite unless `may_be_infinite`.
 struct Rules {
   double low = -unbounded, high = unbounded;
-  bool above_low = false;  ///< low itself is out
+  bool above_low = false, below_high = false;  ///< low itself is out, high itself is out
+  bool both_ends = false;                      ///< messages name low and high together
+  bool grows = false;                          ///< of a Range: max is greater than min, not the same
   bool may_be_infinite = false;
   bool not_empty = false;  ///< texts have a character at least
   std::size_t min_entries = 0, max_entries = any_number;
@@ -60,6 +63,16 @@ struct Field {
   }
   constexpr Field at_most(double high) const {
     return with([&](Field& f) { f.rules.high = high; });
+  }
+  constexpr Field below(double high) const {
+    return with([&](Field& f) { f.rules.high = high, f.rules.below_high = true; });
+  }
+  /// "must lie in [low, high]"; an end that is out is said by above() or below() after it.
+  constexpr Field within(double low, double high) const {
+    return with([&](Field& f) { f.rules.low = low, f.rules.high = high, f.rules.both_ends = true; });
+  }
+  constexpr Field growing() const {
+    return with([](Field& f) { f.rules.grows = true; });
   }
   constexpr Field or_infinite() const {
     return with([](Field& f) { f.rules.may_be_infinite = true; });
@@ -126,9 +139,12 @@ struct NameOr {
   Value table;
 };
 
-/// Names of the values of an enum: static constexpr std::pair<const char*, E> all[].
+/// Names of the values of an enum: static constexpr std::pair<const char*, E> all[], or Choice<E> all[] with a line of
+/// meaning each and, for the Python class, `name` and `meaning` of the enum itself.
 template <class E>
 struct Names;
+template <class E>
+using Choice = std::tuple<const char*, E, const char*>;
 
 template <class T, class = void>
 struct HasFields : std::false_type {};
@@ -164,8 +180,14 @@ struct IsList<std::vector<T>> : std::bool_constant<!std::is_same_v<T, bool>> {};
 
 template <class T>
 struct IsMap : std::false_type {};
+template <class T, class Less>
+struct IsMap<std::map<std::string, T, Less>> : std::true_type {};
+
+/// What is called back, such as a logger: no part of the value of the struct that holds it.
 template <class T>
-struct IsMap<std::map<std::string, T>> : std::true_type {};
+struct IsCallback : std::false_type {};
+template <class R, class... A>
+struct IsCallback<std::function<R(A...)>> : std::true_type {};
 
 /// Calls visit(field) for each field of a struct, in the order of the table.
 template <class T, class Visit>
@@ -205,7 +227,7 @@ std::vector<std::string> member_names() {
   return out;
 }
 
-/// Whether two values are the same, number by number.
+/// Whether two values are the same, number by number, whoever listens to them.
 template <class V>
 bool equal(const V& a, const V& b) {
   if constexpr (IsInFile<V>::value) {
@@ -227,6 +249,8 @@ bool equal(const V& a, const V& b) {
     bool same = a.size() == b.size();
     for (std::size_t i = 0; same && i < a.size(); ++i) same = equal(a[i], b[i]);
     return same;
+  } else if constexpr (IsCallback<V>::value) {
+    return true;
   } else {
     return a == b;
   }

@@ -23,20 +23,29 @@ std::string listed(std::vector<std::string> names) {
 
 std::string short_text(double value) {
   char out[32];
-  std::snprintf(out, sizeof out, "%g", value);
+  std::snprintf(out, sizeof out, "%.10g", value);
   return out;
+}
+
+std::string interval(const Rules& rules) {
+  return (rules.above_low ? "(" : "[") + short_text(rules.low) + ", " + short_text(rules.high) +
+         (rules.below_high ? ")" : "]");
 }
 
 }  // namespace
 
 std::string broken_rule(double value, const Rules& rules) {
+  const bool low = rules.above_low ? value > rules.low : value >= rules.low;
+  const bool high = rules.below_high ? value < rules.high : value <= rules.high;
+  if (rules.both_ends) return low && high ? "" : "must lie in " + interval(rules);
   if (!rules.may_be_infinite && !std::isfinite(value) && !(std::isnan(value) && rules.high < unbounded))
     return "must be a finite number";
-  if (rules.high < unbounded && !(value <= rules.high)) return "must be at most " + short_text(rules.high);
+  if (rules.high < unbounded && !high)
+    return (rules.below_high ? "must be less than " : "must be at most ") + short_text(rules.high);
   if (std::isnan(value) && rules.low == -unbounded) return "must be a number";
-  if (rules.above_low && !(value > rules.low))
+  if (rules.above_low && !low)
     return rules.low == 0.0 ? "must be a positive number" : "must be greater than " + short_text(rules.low);
-  if (!rules.above_low && !(value >= rules.low)) return "must be at least " + short_text(rules.low);
+  if (!low) return "must be at least " + short_text(rules.low);
   return "";
 }
 
@@ -232,6 +241,14 @@ bool read_value(const Value& value, Eigen::MatrixXd& out, const Rules& rules, co
 
 void check_number(double value, const Rules& rules, const Place& at, Findings& found) {
   if (const std::string rule = broken_rule(value, rules); !rule.empty()) found.add(at, rule, mcplan::text(value));
+}
+
+void check_range(const Range& value, const Rules& rules, const Place& at, Findings& found) {
+  const bool inside = broken_rule(value.min, rules).empty() && broken_rule(value.max, rules).empty();
+  if (inside && (rules.grows ? value.max > value.min : value.max >= value.min)) return;
+  const std::string numbers = rules.above_low && rules.low == 0.0 ? "positive numbers" : "numbers";
+  found.add(at, "must be two " + numbers + ", the second " + (rules.grows ? "larger" : "not smaller"),
+            mcplan::text(value.min) + ", " + mcplan::text(value.max));
 }
 
 }  // namespace mcplan::model

@@ -9,6 +9,7 @@
 
 #include "fields.hpp"
 #include "findings.hpp"
+#include "mcplan/base/range.hpp"
 #include "names.hpp"
 #include "text.hpp"
 #include "value.hpp"
@@ -76,9 +77,9 @@ template <class E>
 bool read_enum(const Value& value, E& out, const Place& at, Reading& reading) {
   const auto* const text = value.get<std::string>();
   std::vector<std::string> legal;
-  for (const auto& [name, each] : Names<E>::all) {
-    if (text && *text == name) return out = each, true;
-    legal.push_back(name);
+  for (const auto& entry : Names<E>::all) {
+    if (text && *text == std::get<0>(entry)) return out = std::get<1>(entry), true;
+    legal.push_back(std::get<0>(entry));
   }
   reading.found.add(at, "must be one of " + joined(legal), shown(value));
   return false;
@@ -186,12 +187,15 @@ bool read_value(const Value& value, V& out, const Rules& rules, const Place& at,
 // --- the same rules for what is in memory ---
 
 void check_number(double value, const Rules& rules, const Place& at, Findings& found);
+void check_range(const Range& value, const Rules& rules, const Place& at, Findings& found);
 
 /// What is out of its range in a member of a struct.
 template <class V>
 void check_value(const V& value, const Rules& rules, const Place& at, Findings& found) {
   if constexpr (std::is_same_v<V, double> || std::is_same_v<V, int>) {
     check_number(value, rules, at, found);
+  } else if constexpr (std::is_same_v<V, Range>) {
+    check_range(value, rules, at, found);
   } else if constexpr (std::is_same_v<V, std::string>) {
     if (rules.not_empty && value.empty()) found.add(at, "must not be empty", "''");
   } else if constexpr (HasFields<V>::value) {
@@ -215,8 +219,17 @@ void check_struct(const T& value, const Place& at, Findings& found) {
   for_each_field<T>([&](const auto& f) {
     // What need not be given is at a default that means "none": a name, a limit that is infinite.
     if (f.is_required || !equal(value.*f.member, fresh.*f.member))
-      check_value(value.*f.member, f.rules, Place(at, f.key), found);
+      check_value(value.*f.member, f.rules, *f.key ? Place(at, f.key) : at, found);
   });
+}
+
+/// Throws what is out of its range in a struct. `name`: of the argument or member that it is.
+template <class Error, class T>
+void require_ranges(const T& value, std::string_view name = "") {
+  const Place top;
+  Findings found;
+  check_struct(value, name.empty() ? top : Place(top, name), found);
+  found.raise<Error>();
 }
 
 }  // namespace mcplan::model

@@ -6,7 +6,7 @@ Value number_schema(const Rules& rules) {
   Value out;
   out.set("type", "number");
   if (rules.low > -unbounded) out.set(rules.above_low ? "exclusiveMinimum" : "minimum", rules.low);
-  if (rules.high < unbounded) out.set("maximum", rules.high);
+  if (rules.high < unbounded) out.set(rules.below_high ? "exclusiveMaximum" : "maximum", rules.high);
   return out;
 }
 

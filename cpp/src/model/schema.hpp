@@ -43,7 +43,7 @@ Value value_schema(const Rules& rules, Value::Table& definitions) {
     out = text_schema(rules);
   } else if constexpr (std::is_enum_v<V>) {
     Value::Array names;
-    for (const auto& [name, each] : Names<V>::all) names.push_back(name);
+    for (const auto& entry : Names<V>::all) names.push_back(std::get<0>(entry));
     out.set("enum", std::move(names));
   } else if constexpr (IsOptional<V>::value) {
     out = value_schema<typename V::value_type>(rules, definitions);

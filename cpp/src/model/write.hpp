@@ -50,8 +50,8 @@ Value written_value(const V& value, const Rules& rules = {}, const Writing& writ
   } else if constexpr (std::is_same_v<V, double>) {
     return written_number(value, writing);
   } else if constexpr (std::is_enum_v<V>) {
-    for (const auto& [name, each] : Names<V>::all)
-      if (each == value) return name;
+    for (const auto& entry : Names<V>::all)
+      if (std::get<1>(entry) == value) return std::get<0>(entry);
     return {};
   } else if constexpr (IsOptional<V>::value) {
     return value ? written_value(*value, rules, writing) : Value();

@@ -269,7 +269,7 @@ class Surface:
     def __copy__(self) -> Surface: ...
     def __deepcopy__(self, memo: dict) -> Surface: ...
     def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -334,7 +334,7 @@ class Stance:
     def __copy__(self) -> Stance: ...
     def __deepcopy__(self, memo: dict) -> Stance: ...
     def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> tuple[typing.Any, typing.Any, typing.Any]: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -375,7 +375,7 @@ class ContactRule:
     def __copy__(self) -> ContactRule: ...
     def __deepcopy__(self, memo: dict) -> ContactRule: ...
     def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> tuple[typing.Any, typing.Any]: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self, *, when_free: collections.abc.Sequence[str] = [], require: collections.abc.Sequence[str] = []
     ) -> None: ...
@@ -405,7 +405,7 @@ class Step:
     def __copy__(self) -> Step: ...
     def __deepcopy__(self, memo: dict) -> Step: ...
     def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> tuple[typing.Any, typing.Any]: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(self, *, end_effector: str = "", surface: str = "") -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
@@ -433,9 +433,7 @@ class Scene:
     def __copy__(self) -> Scene: ...
     def __deepcopy__(self, memo: dict) -> Scene: ...
     def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(
-        self,
-    ) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -524,7 +522,7 @@ class Polytope:
     def __copy__(self) -> Polytope: ...
     def __deepcopy__(self, memo: dict) -> Polytope: ...
     def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> tuple[typing.Any, typing.Any]: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(self, *, A: typing.Any = (), b: typing.Any = ()) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
@@ -553,23 +551,7 @@ class EndEffector:
     def __copy__(self) -> EndEffector: ...
     def __deepcopy__(self, memo: dict) -> EndEffector: ...
     def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(
-        self,
-    ) -> tuple[
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-    ]: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -690,23 +672,7 @@ class Robot:
     def __copy__(self) -> Robot: ...
     def __deepcopy__(self, memo: dict) -> Robot: ...
     def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(
-        self,
-    ) -> tuple[
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-        typing.Any,
-    ]: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -909,9 +875,7 @@ class Contact:
     def __copy__(self) -> Contact: ...
     def __deepcopy__(self, memo: dict) -> Contact: ...
     def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(
-        self,
-    ) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -984,7 +948,7 @@ class Phase:
     def __copy__(self) -> Phase: ...
     def __deepcopy__(self, memo: dict) -> Phase: ...
     def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any]: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -1037,9 +1001,7 @@ class Knot:
     def __copy__(self) -> Knot: ...
     def __deepcopy__(self, memo: dict) -> Knot: ...
     def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(
-        self,
-    ) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -1120,7 +1082,7 @@ class Swing:
     def __copy__(self) -> Swing: ...
     def __deepcopy__(self, memo: dict) -> Swing: ...
     def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(self) -> tuple[typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any]: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -1300,11 +1262,7 @@ class Plan:
     def __copy__(self) -> Plan: ...
     def __deepcopy__(self, memo: dict) -> Plan: ...
     def __eq__(self, other: typing.Any) -> bool: ...
-    def __getstate__(
-        self,
-    ) -> tuple[
-        typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any, typing.Any
-    ]: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -1599,8 +1557,12 @@ class Tolerances:
     """
     Published tolerances of the checker, for robots of human size; for others times a factor of each unit.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Tolerances: ...
     def __deepcopy__(self, memo: dict) -> Tolerances: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -1623,87 +1585,92 @@ class Tolerances:
         scaled: bool = True,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    def validate(self) -> None:
+        """
+        Raise InvalidOptions naming all that is no number or out of its range.
+        """
     @property
     def boundary(self) -> float:
         """
-        [m], [m/s], [rad] start and goal against the scene's.
+        [m, m/s, rad, rad/s] Start and goal against the scene's.
         """
     @boundary.setter
     def boundary(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def center_of_pressure(self) -> float:
         """
-        [m] centre of pressure off the sole or off the surface.
+        [m] Centre of pressure off the sole or off the surface.
         """
     @center_of_pressure.setter
     def center_of_pressure(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def clearance(self) -> float:
         """
-        [m] swinging end-effector inside a solid.
+        [m] Swinging end-effector inside a solid.
         """
     @clearance.setter
     def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def contact_distance(self) -> float:
         """
-        [m] end-effector in contact off its plane or polygon.
+        [m] End-effector in contact off its plane or beyond its polygon.
         """
     @contact_distance.setter
     def contact_distance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def dynamics(self) -> float:
         """
-        [m], [m/s], [rad], [rad/s] replayed state against the next knot.
+        [m, m/s, rad, rad/s, kg m^2/s] Replayed state against the next knot.
         """
     @dynamics.setter
     def dynamics(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def force(self) -> float:
         """
-        [N] pull of a contact, or force of a free end-effector.
+        [N] Pull of a contact, or force of a free end-effector.
         """
     @force.setter
     def force(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def force_cap(self) -> float:
         """
-        [-] relative excess over max_force.
+        [-] Relative excess over max_force.
         """
     @force_cap.setter
     def force_cap(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def friction(self) -> float:
         """
-        [-] tangential over normal force, beyond the coefficient.
+        [-] Tangential over normal force, beyond the coefficient.
         """
     @friction.setter
     def friction(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def moment(self) -> float:
         """
-        [N m] excess over max_moment or the torsion the contact can give.
+        [N m] Excess over max_moment or the torsion the contact can give.
         """
     @moment.setter
     def moment(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def orientation(self) -> float:
         """
-        [rad] replayed orientation of the base.
+        [rad] Replayed orientation of the base.
         """
     @orientation.setter
     def orientation(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def reach(self) -> float:
         """
-        [m] outside the reach box.
+        [m] Outside the reach box.
         """
     @reach.setter
     def reach(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def sample_s(self) -> float:
         """
-        [s] sampling of the constraints in time.
+        [s] Sampling of the constraints in time.
         """
     @sample_s.setter
     def sample_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -1717,28 +1684,28 @@ class Tolerances:
     @property
     def slip(self) -> float:
         """
-        [m] travel of an end-effector while in contact.
+        [m] Travel of an end-effector while in contact.
         """
     @slip.setter
     def slip(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def stance(self) -> float:
         """
-        [m] end-effectors in contact at the start off the nominal stance.
+        [m] End-effectors in contact at the start off the nominal stance.
         """
     @stance.setter
     def stance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def switches(self) -> int:
         """
-        [-] contacts made or broken in one step; surface to surface counts two.
+        [-] Contacts made or broken in one step; surface to surface counts two.
         """
     @switches.setter
     def switches(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def yaw(self) -> float:
         """
-        [rad] heading of a sole outside its range.
+        [rad] Heading of a sole outside its range.
         """
     @yaw.setter
     def yaw(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -2929,8 +2896,12 @@ class PlanarTolerances:
     """
     Published tolerances of the checker of planar plans.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> PlanarTolerances: ...
     def __deepcopy__(self, memo: dict) -> PlanarTolerances: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -2947,80 +2918,85 @@ class PlanarTolerances:
         sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.001,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    def validate(self) -> None:
+        """
+        Raise InvalidOptions naming all that is no number or out of its range.
+        """
     @property
     def balance(self) -> float:
         """
-        [N] force that nothing carries.
+        [N] Force that nothing carries.
         """
     @balance.setter
     def balance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def clearance(self) -> float:
         """
-        [m] swinging end-effector in a solid, capsules in each other.
+        [m] Swinging end-effector in a solid, capsules in each other.
         """
     @clearance.setter
     def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def continuity(self) -> float:
         """
-        [rad] jumps at knots, and what is not rest at the ends.
+        [rad] Jumps at knots, and what is not rest at the ends.
         """
     @continuity.setter
     def continuity(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def drift(self) -> float:
         """
-        [m] end-effector in contact from where it should be.
+        [m] End-effector in contact from where it should be.
         """
     @drift.setter
     def drift(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def drift_angle(self) -> float:
         """
-        [rad]
+        [rad] The same of its angle.
         """
     @drift_angle.setter
     def drift_angle(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def friction(self) -> float:
         """
-        [-] of m g: tangential force beyond the cone.
+        [-] Of m g: tangential force beyond the cone.
         """
     @friction.setter
     def friction(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def limit(self) -> float:
         """
-        [-] position, velocity, torque beyond limits, relative.
+        [-] Position, velocity and torque beyond their limits, relative.
         """
     @limit.setter
     def limit(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def moment(self) -> float:
         """
-        [N m] moment that nothing carries.
+        [N m] Moment that nothing carries.
         """
     @moment.setter
     def moment(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def pose(self) -> float:
         """
-        [m], [rad]
+        [m, rad] Poses at given instants.
         """
     @pose.setter
     def pose(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def pull(self) -> float:
         """
-        [-] of m g
+        [-] Of m g: pull of a contact.
         """
     @pull.setter
     def pull(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def sample_s(self) -> float:
         """
-        [s] sampling in time.
+        [s] Sampling in time.
         """
     @sample_s.setter
     def sample_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
