@@ -16,6 +16,7 @@ import pytest
 import mcplan as mp
 from mcplan.files.plans import load_plan, plan_from_bytes, plan_to_bytes
 from mcplan.files.whole_body_plans import load_any_plan
+from mcplan.showing import load
 from standing import standing_plan
 from stepping import stepping_plan
 from turning import turning_plan
@@ -79,8 +80,41 @@ def test_a_plan_in_json_has_each_key_once(plan, tmp_path):
     file = tmp_path / "plan.json"
     plan.save(file)
     file.write_text(re.sub(r'("gravity": [0-9.]+)', r"\1, \1", file.read_text()))
-    with pytest.raises(mp.InvalidPlan, match="must be JSON, got has twice the key 'gravity'"):
+    with pytest.raises(mp.InvalidPlan, match="must be JSON, got the key 'gravity' twice"):
         mp.Plan.load(file)
+
+
+@pytest.mark.parametrize("load", [mp.Plan.load, load_any_plan, load])
+def test_a_plan_in_json_may_begin_with_a_byte_order_mark(plan, tmp_path, load):
+    for name in ("plan.json", "plan"):
+        plan.save(tmp_path / "plan.json")
+        (tmp_path / name).write_bytes(b"\xef\xbb\xbf" + (tmp_path / "plan.json").read_bytes())
+        assert load(tmp_path / name) == plan
+
+
+@pytest.mark.parametrize("load", [mp.Plan.load, load_any_plan, load])
+@pytest.mark.parametrize(
+    ("content", "says"),
+    [
+        ("", "must be JSON, got parse error at line 1, column 1: "),
+        (" \n", "must be JSON, got parse error at line 2, column 1: "),
+        ("[1, 2]", "must be a JSON object, got "),
+        ("7", "must be a JSON object, got 7"),
+        ("[" + "0," * 2_000_000 + "0]", "may have 2000000 values at most, got more"),
+    ],
+)
+def test_a_file_with_the_ending_of_json_is_refused_as_json(content, says, tmp_path, load):
+    file = tmp_path / "plan.json"
+    file.write_text(content)
+    with pytest.raises(mp.InvalidInput) as found:
+        load(file)
+    assert str(found.value).startswith(f"{file}: {says}"), found.value
+
+
+def test_an_archive_is_read_whatever_its_ending(plan, tmp_path):
+    plan.save(tmp_path / "plan.npz")
+    (tmp_path / "plan.npz").rename(tmp_path / "plan.json")
+    assert mp.Plan.load(tmp_path / "plan.json") == plan
 
 
 def test_a_deep_copy_shares_nothing(plan):

@@ -45,13 +45,14 @@ class ValueBuilder {
     return false;
   }
 
-  std::string reason = "nested too deep";
+  std::string reason = "arrays and objects nested too deep";
+  bool too_many = false;
 
  private:
   /// Whether there are not too many yet.
   bool counted() {
     if (++count_ <= max_json_values) return true;
-    reason = "may have " + std::to_string(max_json_values) + " values at most";
+    too_many = true;
     return false;
   }
 
@@ -62,7 +63,7 @@ class ValueBuilder {
     std::sort(keys_.begin(), keys_.end());
     const auto again = std::adjacent_find(keys_.begin(), keys_.end());
     if (again == keys_.end()) return true;
-    reason = "has twice the key " + quote(*again);
+    reason = "the key " + quote(*again) + " twice";
     return false;
   }
 
@@ -154,8 +155,9 @@ void append_json(std::string& out, const Value& value, const Layout& layout, int
 
 Value parse_json(std::string_view text) {
   ValueBuilder builder;
-  if (!nlohmann::json::sax_parse(text.begin(), text.end(), &builder)) throw std::invalid_argument(builder.reason);
-  return std::move(builder.root);
+  if (nlohmann::json::sax_parse(text.begin(), text.end(), &builder)) return std::move(builder.root);
+  if (builder.too_many) throw std::length_error("may have " + std::to_string(max_json_values) + " values at most");
+  throw std::invalid_argument(builder.reason);
 }
 
 std::string json_text(const Value& value, int indent, int open_levels) {

@@ -7,8 +7,8 @@
 
 namespace mcplan::model {
 
-/// The value of a JSON text. Throws std::invalid_argument with the reason: no JSON, nested too deep, or a
-/// table has a key twice.
+/// The value of a JSON text. Throws std::invalid_argument with what there is instead (no JSON, nested too deep, a key
+/// twice in a table), std::length_error with the rule where it has too many values.
 Value parse_json(std::string_view text);
 
 /// A value as JSON; numbers read back as the same doubles. `indent`: spaces a level, 0: on one line;

@@ -16,6 +16,10 @@ void offer_place(const Polygon& polygon, const Vector3d& position, const Place& 
 
 bool has_own_yaw(const Problem& problem, int phase) { return !problem.plan.knots[phase].end_effector_yaw.empty(); }
 
+Seen seen(const PlanState& at, double since_start_s, int l) {
+  return {since_start_s, at.end_effectors[l].position_W, at.end_effectors[l].velocity_W};
+}
+
 }  // namespace
 
 double beyond_sole(const Eigen::Vector2d& half, const Vector3d& normal, double yaw, const Vector3d& offset) {
@@ -87,10 +91,34 @@ void check_anchor(const Problem& problem, const Sample& sample, Findings& findin
   }
 }
 
+/// path_continuity: |p(knot, from the left) - p(knot, from the right)|; within a phase jump().
+void Travel::check_continuity(const Problem& problem, const Sample& sample, int l, Findings& findings) {
+  const Seen now = seen(sample.at, sample.since_start_s, l);
+  findings.offer(
+      Constraint::path_continuity,
+      sample.phase == phase_ ? jump(problem, sample, l, last_[l], now) : (now.position_W - last_[l].position_W).norm(),
+      {sample.phase, l, sample.time_s});
+}
+
+/// |p(b) - p(a) - (b - a) (v(a) + v(b)) / 2|: how far the path goes beyond its velocities, of the third order in b - a
+/// where it is smooth. Where that is much, the halves say whether the path bends or jumps, down to a quarter of a
+/// millisecond.
+double Travel::jump(const Problem& problem, const Sample& sample, int l, const Seen& a, const Seen& b) {
+  constexpr int kMostInstants = 100000;
+  const double duration = b.since_start_s - a.since_start_s;
+  const double found = (b.position_W - a.position_W - 0.5 * duration * (a.velocity_W + b.velocity_W)).norm();
+  const double tolerance = problem.tolerances.slip;
+  if (found <= tolerance || duration <= 2.5e-4 * problem.similarity.time || ++looked_closer_ > kMostInstants)
+    return found;
+  const double middle = a.since_start_s + 0.5 * duration;
+  const Seen between = seen(state_in_phase(problem.plan, sample.view->frame, middle), middle, l);
+  const double before = jump(problem, sample, l, a, between);
+  return before > tolerance ? before : std::max(before, jump(problem, sample, l, between, b));
+}
+
 /// slip: |p(t) - p(touchdown)| while the end-effector stays on one surface, over as many phases as that lasts. A sole's
 /// own heading must not change either: half its diagonal times the change is how far a corner slides. Without headings
 /// of their own soles turn with the base, which contact wrenches hold to the same, and the paper's model does not.
-/// path_continuity: |p(knot, from the left) - p(knot, from the right)|.
 void Travel::check(const Problem& problem, const Sample& sample, Findings& findings) {
   const int n = problem.end_effector_count();
   const bool first = phase_ < 0;
@@ -98,13 +126,12 @@ void Travel::check(const Problem& problem, const Sample& sample, Findings& findi
     surface_.assign(n, -1);
     touched_W_.resize(n);
     touched_yaw_.assign(n, 0.0);
-    last_W_.resize(n);
+    last_.resize(n);
   }
   for (int l = 0; l < n; ++l) {
     const Vector3d& position = sample.at.end_effectors[l].position_W;
     const Place place{sample.phase, l, sample.time_s};
-    if (!first && sample.phase != phase_)
-      findings.offer(Constraint::path_continuity, (position - last_W_[l]).norm(), place);
+    if (!first) check_continuity(problem, sample, l, findings);
     const int surface = problem.surface(sample.phase, l);
     if (surface >= 0) {
       const double yaw = sole_yaw(problem, sample, l);
@@ -119,7 +146,7 @@ void Travel::check(const Problem& problem, const Sample& sample, Findings& findi
         findings.offer(Constraint::slip, turn * half_diagonal, place);
     }
     surface_[l] = surface;
-    last_W_[l] = position;
+    last_[l] = seen(sample.at, sample.since_start_s, l);
   }
   phase_ = sample.phase;
 }

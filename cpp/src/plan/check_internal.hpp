@@ -182,16 +182,27 @@ double beyond_sole(const Eigen::Vector2d& half_size, const Eigen::Vector3d& norm
 /// Distance from the projection of a point to the polygon; inside, less than zero: minus the distance to the boundary.
 double beyond_polygon(const Polygon& polygon, const Eigen::Vector3d& position_W);
 
+/// An end-effector at an instant of a phase.
+struct Seen {
+  double since_start_s = 0.0;
+  Eigen::Vector3d position_W, velocity_W;
+};
+
 /// Remembers where each end-effector touched down and was last seen.
 class Travel {
  public:
   void check(const Problem& problem, const Sample& sample, Findings& findings);
 
  private:
+  void check_continuity(const Problem& problem, const Sample& sample, int l, Findings& findings);
+  double jump(const Problem& problem, const Sample& sample, int l, const Seen& a, const Seen& b);
+
   std::vector<int> surface_;
-  std::vector<Eigen::Vector3d> touched_W_, last_W_;
+  std::vector<Eigen::Vector3d> touched_W_;
+  std::vector<Seen> last_;
   std::vector<double> touched_yaw_;
   int phase_ = -1;
+  int looked_closer_ = 0;  ///< instants between samples
 };
 
 /// check_forces.cpp
@@ -205,6 +216,7 @@ void check_sole_moment(const Problem& problem, const Sample& sample, Findings& f
 
 /// check_space.cpp
 void check_reach(const Problem& problem, const Sample& sample, Findings& findings);
+void check_reach_at_knots(const Problem& problem, Findings& findings);
 void check_yaw_range(const Problem& problem, const Sample& sample, Findings& findings);
 
 /// The solids around swinging end-effectors: those out of an end-effector's reach until it has moved on are not looked

@@ -88,6 +88,19 @@ Replay advance_point_forces(const Problem& problem, int phase, const Replay& fro
   return to;
 }
 
+/// Of a contact about the end-effector, where it is at that instant.
+Vector3d moment_about_end(const Problem& problem, const Sample& sample, int l) {
+  const Phase& phase = problem.plan.phases[sample.phase];
+  const Contact& contact = phase.contacts[l];
+  const Vector3d& position = sample.at.end_effectors[l].position_W;
+  const Vector3d& acts_at = phase.law == ForceLaw::wrench ? contact.center_of_pressure_W : contact.anchor_W;
+  if (!problem.has_points(sample.phase)) return contact.moment_W + (acts_at - position).cross(sample.forces_W[l]);
+  Vector3d moment = Vector3d::Zero();
+  for (std::size_t i = 0; i < contact.points_W.size(); ++i)
+    moment += (contact.points_W[i] - position).cross(sample.cone_forces_W[l][i]);
+  return moment;
+}
+
 }  // namespace
 
 int sample_count(const Problem& problem, int phase) {
@@ -147,10 +160,9 @@ void check_dynamics(const Problem& problem, const Sample& phase_end, Findings& f
 }
 
 /// What the plan says of an instant is what the integration says; forces are compared in units of the weight, moments
-/// of forces at points in those of the weight at a metre.
+/// in those of the weight at a metre.
 void check_at_consistency(const Problem& problem, const Sample& sample, Findings& findings) {
   const PlanState& at = sample.at;
-  const bool has_points = problem.has_points(sample.phase);
   offer_difference(Constraint::at_consistency, sample.replay,
                    {at.com_W, at.com_velocity_W, at.base_rpy, at.base_rpy_rate,
                     problem.has_momentum(sample.phase) ? at.angular_momentum_W : sample.replay.momentum_W},
@@ -162,12 +174,8 @@ void check_at_consistency(const Problem& problem, const Sample& sample, Findings
     const EndEffectorState& end = at.end_effectors[l];
     findings.offer(Constraint::at_consistency, largest((end.force_W - sample.forces_W[l]).cwiseAbs()) / weight, place,
                    problem.tolerances.dynamics, "of the weight");
-    if (!has_points) continue;
-    const Contact& contact = problem.plan.phases[sample.phase].contacts[l];
-    Vector3d moment = Vector3d::Zero();
-    for (std::size_t i = 0; i < contact.points_W.size(); ++i)
-      moment +=
-          (contact.points_W[i] - problem.plan.knots[sample.phase].end_effectors_W[l]).cross(sample.cone_forces_W[l][i]);
+    if (problem.surface(sample.phase, l) < 0) continue;
+    const Vector3d moment = moment_about_end(problem, sample, l);
     findings.offer(Constraint::at_consistency, largest((end.moment_W - moment).cwiseAbs()) / weight, place,
                    problem.tolerances.dynamics * problem.similarity.length, "m of the weight");
   }

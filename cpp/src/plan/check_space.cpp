@@ -97,6 +97,22 @@ void check_reach(const Problem& problem, const Sample& sample, Findings& finding
   }
 }
 
+/// The same of free end-effectors at the knots, whose own positions at_phase() does not give: it bends paths into the
+/// reach box.
+void check_reach_at_knots(const Problem& problem, Findings& findings) {
+  for (int l = 0; l < problem.end_effector_count(); ++l)
+    for (const FreeStretch& stretch : problem.stretches[l]) {
+      const Eigen::AlignedBox3d box = reach_box(problem, &stretch, l);
+      for (int k = stretch.first_phase; k <= stretch.end_phase; ++k) {
+        if (problem.surface(k, l) >= 0) continue;
+        const Knot& knot = problem.plan.knots[k];
+        const Vector3d relative = rotation_from_rpy(knot.base_rpy).transpose() * (knot.end_effectors_W[l] - knot.com_W);
+        findings.offer(Constraint::reach, largest((box.min() - relative).cwiseMax(relative - box.max())),
+                       problem.at_knot(k, l));
+      }
+    }
+}
+
 /// yaw_range: min <= yaw of the sole - yaw of the base <= max while in contact, modulo a turn.
 void check_yaw_range(const Problem& problem, const Sample& sample, Findings& findings) {
   for (int l = 0; l < problem.end_effector_count(); ++l) {

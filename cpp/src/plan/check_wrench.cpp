@@ -90,10 +90,9 @@ void check_turning_rate(const Problem& problem, int phase, Findings& findings) {
 }
 
 /// Of an instant: the rates of the angles are those of the replayed momentum in the orientation that the plan states
-/// (which `orientation` compares); centres of pressure are the contacts', moments those about the end-effectors.
+/// (which `orientation` compares); centres of pressure are the contacts'.
 void check_at_wrenches(const Problem& problem, const Sample& sample, Findings& findings) {
   const double tolerance = problem.tolerances.dynamics, length = problem.similarity.length;
-  const double weight = problem.robot.mass * problem.scene.gravity;
   const PlanState& at = sample.at;
   const Vector3d omega = angular_velocity(sample.r_at_WB, sample.replay.momentum_W, problem.robot.inertia);
   findings.offer(Constraint::at_consistency,
@@ -104,13 +103,9 @@ void check_at_wrenches(const Problem& problem, const Sample& sample, Findings& f
     if (contact.surface < 0) continue;
     const Place place{sample.phase, l, sample.time_s};
     const EndEffectorState& end = at.end_effectors[l];
-    const Vector3d arm = contact.center_of_pressure_W - problem.plan.knots[sample.phase].end_effectors_W[l];
-    const Vector3d moment = contact.moment_W + arm.cross(sample.forces_W[l]);
     findings.offer(Constraint::at_consistency,
                    largest((end.center_of_pressure_W - contact.center_of_pressure_W).cwiseAbs()), place,
                    tolerance * length, "m");
-    findings.offer(Constraint::at_consistency, largest((end.moment_W - moment).cwiseAbs()) / weight, place,
-                   tolerance * length, "m of the weight");
   }
 }
 

@@ -159,6 +159,7 @@ CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, cons
   check_normal_moment(problem, findings);
   check_sequence_switch(problem, findings);
   check_sequence_rule(problem, findings);
+  check_reach_at_knots(problem, findings);
   check_start(problem, findings);
   check_goal(problem, findings);
   const bool complete = check_motion(problem, stop, findings);

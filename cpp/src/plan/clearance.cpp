@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mcplan/base/error.hpp"
+#include "phase_state.hpp"
 #include "plan_shape.hpp"
 
 namespace mcplan {
@@ -100,9 +101,15 @@ double clearance_depth(const Plan& plan, const std::vector<Solid>& solids, int e
   for (int k = stretch.first_phase; k < stretch.end_phase; ++k) {
     const double duration = plan.phases[k].duration;
     const int samples = samples_of(plan.phases[k], sample_s);
+    PhaseFrame frame;
+    if (samples > 0) {
+      require_queryable(plan, k, 0.0);
+      frame = phase_frame(plan, k);
+      for (ActiveSwing& active : frame.swings) straighten(active);
+    }
     for (int i = 0; samples > 0 && i <= samples; ++i) {
       const double tau = duration * i / samples;
-      const PlanState state = plan.at_phase(k, tau);
+      const PlanState state = state_in_phase(plan, frame, tau);
       worst = std::max(
           worst,
           clearance_depth(solids, plan.robot.end_effectors[end_effector], stretch, (before + tau) / stretch.duration_s,

@@ -42,28 +42,72 @@ double sole_yaw(const Knot& from, const Knot& to, std::size_t l, double s, doubl
 /// The swing as phase k sees it.
 ActiveSwing active_swing(const Plan& plan, const Swing& swing, int phase) {
   const EndEffector& limits = plan.robot.end_effectors[swing.end_effector];
-  ActiveSwing out{&swing, 0.0, 0.0, limits.reach_min_B, limits.reach_max_B};
+  ActiveSwing out;
+  out.swing = &swing;
+  out.reach_min_B = limits.reach_min_B;
+  out.reach_max_B = limits.reach_max_B;
   for (int k = swing.first_phase; k < swing.end_phase; ++k) {
     if (k == phase) out.before_s = out.total_s;
     out.total_s += plan.phases[k].duration;
   }
   // The knots themselves may lie outside by the planner's tolerance; widening by them keeps the path continuous.
-  for (int k : {swing.first_phase, swing.end_phase}) {
+  const auto relative_at = [&](int k) -> Vector3d {
     const Knot& knot = plan.knots[k];
-    const Vector3d relative =
-        rotation_from_rpy(knot.base_rpy).transpose() * (knot.end_effectors_W[swing.end_effector] - knot.com_W);
-    out.reach_min_B = out.reach_min_B.cwiseMin(relative);
-    out.reach_max_B = out.reach_max_B.cwiseMax(relative);
-  }
+    return rotation_from_rpy(knot.base_rpy).transpose() * (knot.end_effectors_W[swing.end_effector] - knot.com_W);
+  };
+  const Vector3d lift = relative_at(swing.first_phase), land = relative_at(swing.end_phase);
+  out.reach_min_B = out.reach_min_B.cwiseMin(lift).cwiseMin(land);
+  out.reach_max_B = out.reach_max_B.cwiseMax(lift).cwiseMax(land);
+  // No wider at the ends than these are away from the box's sides: there the path is the contact's.
+  out.middle_band_B = (out.reach_max_B - out.reach_min_B) / 20.0;
+  out.lift_bands_B[0] = out.middle_band_B.cwiseMin(lift - out.reach_min_B);
+  out.lift_bands_B[1] = out.middle_band_B.cwiseMin(out.reach_max_B - lift);
+  out.land_bands_B[0] = out.middle_band_B.cwiseMin(land - out.reach_min_B);
+  out.land_bands_B[1] = out.middle_band_B.cwiseMin(out.reach_max_B - land);
   return out;
+}
+
+/// A number and its rate.
+struct Moving {
+  double value, rate;
+};
+
+/// Of y, how far something is beyond a limit, and the width w of a band on both sides of it: y before the band, 0 after
+/// it, and between them, with u = (y + w) / 2w,
+///
+///     -w + 2 w (u - u^3 + u^4 / 2),
+///
+/// twice continuously differentiable in y and w. Without a band, min(y, 0).
+Moving bent(const Moving& y, const Moving& band) {
+  if (!(y.value > -band.value)) return y;
+  if (y.value >= band.value) return {0.0, 0.0};
+  const double u = (y.value + band.value) / (2.0 * band.value), u2 = u * u;
+  const double g = u - u * u2 + 0.5 * u2 * u2, slope = 1.0 - 3.0 * u2 + 2.0 * u * u2;
+  return {band.value * (2.0 * g - 1.0), slope * y.rate + (2.0 * g - 1.0 - (2.0 * u - 1.0) * slope) * band.rate};
+}
+
+/// 16 s^2 (1-s)^2 at s = t / total.
+Moving bump_at(double s, double total) {
+  return {16.0 * s * s * (1.0 - s) * (1.0 - s), 32.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / total};
+}
+
+double swung(const ActiveSwing& active, double since_start) {
+  return std::clamp((active.before_s + since_start) / active.total_s, 0.0, 1.0);
+}
+
+/// From `lift` at s = 0 by way of `middle` to `land` at s = 1.
+Moving band_at(double lift, double middle, double land, double s, double total) {
+  const Moving bump = bump_at(s, total);
+  const double ends = (1.0 - s) * lift + s * land;
+  return {ends + bump.value * (middle - ends),
+          (1.0 - bump.value) * (land - lift) / total + bump.rate * (middle - ends)};
 }
 
 void add_clearance(const ActiveSwing& active, double since_start, EndEffectorState& end) {
   const Swing& swing = *active.swing;
   const double total = active.total_s;
-  const double s = std::clamp((active.before_s + since_start) / total, 0.0, 1.0);
-  const double bump = 16.0 * s * s * (1.0 - s) * (1.0 - s);
-  const double bump_rate = 32.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / total;
+  const double s = swung(active, since_start);
+  const Moving bump = bump_at(s, total);
   const Vector3d turn = swing.land_normal_W - swing.lift_normal_W;
   const Vector3d along = swing.lift_normal_W + s * turn;
   // Opposite normals (a hand going from one wall to the facing one) make the sum vanish half way: no bump there.
@@ -71,8 +115,8 @@ void add_clearance(const ActiveSwing& active, double since_start, EndEffectorSta
   if (length < 1e-6) return;
   const Vector3d n = along / length;
   const Vector3d n_rate = (turn - n * n.dot(turn)) / (length * total);
-  end.position_W += swing.height * bump * n;
-  end.velocity_W += swing.height * (bump_rate * n + bump * n_rate);
+  end.position_W += swing.height * bump.value * n;
+  end.velocity_W += swing.height * (bump.rate * n + bump.value * n_rate);
 }
 
 /// Angular velocity in the world of roll-pitch-yaw rates.
@@ -83,18 +127,26 @@ Vector3d angular_velocity(const Vector3d& rpy, const Vector3d& rate) {
   return {spin(2, 1), spin(0, 2), spin(1, 0)};
 }
 
-void hold_in_reach(const ActiveSwing& active, const PlanState& state, const Eigen::Matrix3d& r_WB,
+/// The path bends within a band inside of the box's sides, so that its velocity goes on where it comes to one.
+void hold_in_reach(const ActiveSwing& active, double since_start, const PlanState& state, const Eigen::Matrix3d& r_WB,
                    EndEffectorState& end) {
   const Vector3d &low = active.reach_min_B, &high = active.reach_max_B;
   const Vector3d offset = end.position_W - state.com_W;
   Vector3d relative = r_WB.transpose() * offset;
-  if ((relative.array() >= low.array()).all() && (relative.array() <= high.array()).all()) return;
+  const Vector3d& near = active.middle_band_B;
+  if ((relative.array() >= (low + near).array()).all() && (relative.array() <= (high - near).array()).all()) return;
+  const double s = swung(active, since_start), total = active.total_s;
   const Vector3d spin = angular_velocity(state.base_rpy, state.base_rpy_rate);
   Vector3d rate = r_WB.transpose() * (end.velocity_W - state.com_velocity_W - spin.cross(offset));
   for (int i = 0; i < 3; ++i) {
-    if (relative[i] >= low[i] && relative[i] <= high[i]) continue;
-    relative[i] = std::max(low[i], std::min(relative[i], high[i]));
-    rate[i] = 0.0;
+    const int upper = relative[i] - high[i] > low[i] - relative[i];
+    const double out = upper ? 1.0 : -1.0, side = upper ? high[i] : low[i];
+    const Moving beyond{out * (relative[i] - side), out * rate[i]};
+    if (!(beyond.value > -near[i])) continue;
+    const Moving held =
+        bent(beyond, band_at(active.lift_bands_B[upper][i], near[i], active.land_bands_B[upper][i], s, total));
+    relative[i] = side + out * held.value;
+    rate[i] = out * held.rate;
   }
   end.position_W = state.com_W + r_WB * relative;
   end.velocity_W = state.com_velocity_W + spin.cross(r_WB * relative) + r_WB * rate;
@@ -124,7 +176,6 @@ void pendulum_motion(const Plan& plan, const Phase& phase, const Knot& from, dou
   for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
     const Contact& contact = phase.contacts[l];
     state.end_effectors[l].force_W = plan.robot.mass * contact.stiffness * (state.com_W - contact.anchor_W);
-    state.end_effectors[l].moment_W = contact.moment_W;
     if (contact.surface >= 0) state.end_effectors[l].center_of_pressure_W = contact.anchor_W;
   }
 }
@@ -162,10 +213,7 @@ void wrench_motion(const Plan& plan, const Phase& phase, const Knot& from, doubl
     const Contact& contact = phase.contacts[l];
     EndEffectorState& end = state.end_effectors[l];
     end.force_W = mass * contact.stiffness * (state.com_W - contact.anchor_W);
-    end.moment_W = contact.moment_W;
-    if (contact.surface < 0) continue;
-    end.center_of_pressure_W = contact.center_of_pressure_W;
-    end.moment_W += (contact.center_of_pressure_W - from.end_effectors_W[l]).cross(end.force_W);
+    if (contact.surface >= 0) end.center_of_pressure_W = contact.center_of_pressure_W;
   }
 }
 
@@ -185,8 +233,7 @@ void set_center_of_pressure(const Plan& plan, int surface, EndEffectorState& end
   if (pressed > 1e-9 * normal.norm()) end.center_of_pressure_W = sum / pressed;
 }
 
-/// CoM and angular momentum from the forces at points; the base on its own quintic. A contact's moment is the one of
-/// its forces about the end-effector, which stands still: sum (p_i - p_l) x f_i.
+/// CoM and angular momentum from the forces at points; the base on its own quintic.
 void point_force_motion(const Plan& plan, const Phase& phase, const Knot& from, const Knot& to, double tau,
                         PlanState& state) {
   const double mass = plan.robot.mass, gravity = plan.scene.gravity;
@@ -207,14 +254,24 @@ void point_force_motion(const Plan& plan, const Phase& phase, const Knot& from, 
     EndEffectorState& end = state.end_effectors[l];
     end.points_W = phase.contacts[l].points_W;
     end.point_forces_W = point_forces(phase, phase.contacts[l], at);
-    end.force_W = end.moment_W = Vector3d::Zero();
-    for (std::size_t i = 0; i < end.points_W.size(); ++i) {
-      end.force_W += end.point_forces_W[i];
-      end.moment_W += (end.points_W[i] - from.end_effectors_W[l]).cross(end.point_forces_W[i]);
-    }
+    end.force_W = Vector3d::Zero();
+    for (const Vector3d& force : end.point_forces_W) end.force_W += force;
     state.com_acceleration_W += end.force_W / mass;
     set_center_of_pressure(plan, phase.contacts[l].surface, end);
   }
+}
+
+/// tau_l and the moment of the force about the end-effector: (a_l - p_l) x f_l, under ForceLaw::pendulum with s_l for
+/// a_l, or sum (p_i - p_l) x f_i over the points. Needs position, forces and centre of pressure.
+void set_moment(const Phase& phase, const Contact& contact, EndEffectorState& end) {
+  if (phase.has_points()) {
+    end.moment_W = Vector3d::Zero();
+    for (std::size_t i = 0; i < end.points_W.size(); ++i)
+      end.moment_W += (end.points_W[i] - end.position_W).cross(end.point_forces_W[i]);
+    return;
+  }
+  end.moment_W = contact.moment_W;
+  if (contact.surface >= 0) end.moment_W += (end.center_of_pressure_W - end.position_W).cross(end.force_W);
 }
 
 }  // namespace
@@ -259,6 +316,14 @@ PlanState Plan::at_phase(int k, double since_start) const {
   return state_in_phase(*this, phase_frame(*this, k), since_start);
 }
 
+void straighten(ActiveSwing& active) {
+  active.middle_band_B.setZero();
+  for (int side : {0, 1}) {
+    active.lift_bands_B[side].setZero();
+    active.land_bands_B[side].setZero();
+  }
+}
+
 PhaseFrame phase_frame(const Plan& plan, int phase) {
   PhaseFrame frame{phase, 0.0, {}};
   for (int i = 0; i < phase; ++i) frame.start_s += plan.phases[i].duration;
@@ -301,10 +366,13 @@ PlanState state_in_phase(const Plan& plan, const PhaseFrame& frame, double since
   for (const ActiveSwing& active : frame.swings) {
     EndEffectorState& end = state.end_effectors[active.swing->end_effector];
     add_clearance(active, tau, end);
-    hold_in_reach(active, state, r_WB, end);
+    hold_in_reach(active, tau, state, r_WB, end);
   }
-  for (EndEffectorState& end : state.end_effectors)
+  for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
+    EndEffectorState& end = state.end_effectors[l];
     if (end.surface < 0) end.center_of_pressure_W = end.position_W;
+    set_moment(phase, phase.contacts[l], end);
+  }
   return state;
 }
 

@@ -38,6 +38,8 @@ Value parse_plan_json(const std::string& content) {
     return parse_json(content);
   } catch (const std::invalid_argument& bad) {
     throw InvalidPlan("", "must be JSON", printable(bad.what()));
+  } catch (const std::length_error& bad) {
+    throw InvalidPlan("", bad.what(), "more");
   }
 }
 

@@ -29,6 +29,8 @@ Value polytope_entries(const std::string& path, const std::string& field, const 
     data = model::parse_json(content);
   } catch (const std::invalid_argument& bad) {
     throw InvalidInput(field, "must be a JSON file", model::printable(name + ": " + bad.what()));
+  } catch (const std::length_error& bad) {
+    throw InvalidInput(field, bad.what(), model::printable(name + ": more"));
   }
   const Value* const entries = data.find("polytopes");
   if (!entries || !entries->get<Value::Table>())

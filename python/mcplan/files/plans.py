@@ -20,6 +20,7 @@ contact wrenches, or with headings of soles, has format 3: the arrays of format 
 
 from __future__ import annotations
 
+import codecs
 import errno
 import os
 from collections.abc import Callable
@@ -85,14 +86,15 @@ def load_plan(path: str | Path) -> Plan:
     """
     try:
         data = read_plan_file(path)
-        return plan_from_json(data) if is_json(data) else plan_from_bytes(data)
+        return plan_from_json(data) if is_json(data, path) else plan_from_bytes(data)
     except InvalidInput as found:
         raise found.moved(InvalidPlan, str(path)) from None
 
 
-def is_json(data: bytes) -> bool:
-    """Whether the content of a file is JSON: an object."""
-    return data[:100].lstrip().startswith(b"{")
+def is_json(data: bytes, path: str | Path) -> bool:
+    """Whether a file is to be read as JSON: it begins like an object, or has the ending of JSON and is no archive."""
+    named = Path(path).suffix.lower() in JSON and not data.startswith(b"PK")
+    return named or data[:100].removeprefix(codecs.BOM_UTF8).lstrip().startswith(b"{")
 
 
 def read_plan_file(path: str | Path) -> bytes:

@@ -73,7 +73,7 @@ def load_whole_body_plan(path: str | Path) -> PlanarPlan:
     """
     try:
         data = read_plan_file(path)
-        return planar_plan_from_json(data) if plans.is_json(data) else plan_from_bytes(data)
+        return planar_plan_from_json(data) if plans.is_json(data, path) else plan_from_bytes(data)
     except InvalidInput as found:
         raise found.moved(InvalidPlan, str(path)) from None
 
@@ -87,7 +87,7 @@ def load_any_plan(path: str | Path) -> Plan | PlanarPlan:
     """
     try:
         data = read_plan_file(path)
-        if plans.is_json(data):
+        if plans.is_json(data, path):
             return any_plan_from_json(data)
         kind = read_header(read_arrays(data)).get("kind")
         if kind in RUN_KINDS:

@@ -112,7 +112,7 @@ def load_run(
     if not exists(path):
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path))
     data = read_file(path, MOST_RUN, InvalidInput)
-    if otherwise is not None and is_json(data):
+    if otherwise is not None and is_json(data, path):
         return otherwise(path)
     try:
         arrays = read_arrays(data, min(MOST_RUN_INFLATED, MOST_RUN_RATIO * len(data) + MOST_PLAN_INFLATED))

@@ -7,6 +7,7 @@
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/clearance.hpp"
+#include "mcplan/plan/swings.hpp"
 #include "plan/fixtures.hpp"
 #include "plan/name_sets.hpp"
 
@@ -211,6 +212,32 @@ TEST_CASE("checker rejects a path that jumps at a knot") {
         }).count("path_continuity") == 1);
 }
 
+TEST_CASE("checker rejects a path that jumps within a phase") {
+  // Held in the reach box, a velocity beyond all bounds throws the hand from side to side.
+  for (double velocity : {1e3, 1e21, 1e308}) {
+    CAPTURE(velocity);
+    CHECK(broken([velocity](Case& c) {
+            mcplan::choose_swings(c.plan);
+            c.plan.knots[6].end_effector_velocities_W[right_hand].y() = velocity;
+          }).count("path_continuity") == 1);
+  }
+}
+
+TEST_CASE("checker tells a path that bends between rare samples from one that jumps") {
+  Case c;
+  mcplan::choose_swings(c.plan);
+  c.plan.knots[6].end_effector_velocities_W[right_hand].y() = 3.0;
+  for (double sample_s : {1e-3, 1e-2, 0.1, 1.0}) {
+    CAPTURE(sample_s);
+    mcplan::Tolerances tolerances;
+    tolerances.sample_s = sample_s;
+    CHECK(mcplan::check(c.plan, c.scene, c.robot, tolerances).ok());
+    c.plan.knots[6].end_effector_velocities_W[right_hand].y() = 1e6;
+    CHECK(names(mcplan::check(c.plan, c.scene, c.robot, tolerances)).count("path_continuity") == 1);
+    c.plan.knots[6].end_effector_velocities_W[right_hand].y() = 3.0;
+  }
+}
+
 TEST_CASE("checker rejects any force of a free end-effector") {
   CHECK(broken([](Case& c) { c.plan.phases[3].contacts[left_foot].stiffness = 1e-14; }) == Names{"free_force"});
   CHECK(broken([](Case& c) { c.plan.phases[3].contacts[left_foot].moment_W.x() = 1e-14; }) == Names{"free_force"});
@@ -247,6 +274,16 @@ TEST_CASE("checker rejects a moment that a narrow sole cannot give") {
 
 TEST_CASE("checker rejects a hand out of reach") {
   CHECK(broken([](Case& c) { c.plan.knots[6].end_effectors_W[right_hand].y() -= 0.25; }) == Names{"reach"});
+}
+
+TEST_CASE("checker rejects a free hand out of reach at a knot, though the path bends into the reach box") {
+  for (const Vector3d& by : {Vector3d(0, -0.25, 0), Vector3d(-1e9, 5, 1e9), Vector3d(0, 0, 1.18e21)}) {
+    CAPTURE(by.transpose());
+    CHECK(broken([&](Case& c) {
+            mcplan::choose_swings(c.plan);
+            c.plan.knots[6].end_effectors_W[right_hand] += by;
+          }).count("reach") == 1);
+  }
 }
 
 TEST_CASE("checker rejects a swing that leaves the reach box between the knots") {

@@ -119,6 +119,15 @@ TEST_CASE("a phase of vanishing stiffness continues flight") {
   CHECK((soft.at(0.4).com_W - flight().at(0.4).com_W).norm() < 1e-13);
 }
 
+TEST_CASE("a moment is about where the end-effector is, whatever its anchor") {
+  Plan plan = walk();
+  mcplan::Contact& contact = plan.phases[0].contacts[left_foot];
+  contact.anchor_W += Vector3d(0.02, 0.01, 0.0);
+  plan.knots[1].end_effectors_W[left_foot] += Vector3d(0.0, 0.001, 0.0);
+  const auto end = plan.at_phase(0, 0.3).end_effectors[left_foot];
+  CHECK((end.moment_W - contact.moment_W - (contact.anchor_W - end.position_W).cross(end.force_W)).norm() < 1e-12);
+}
+
 TEST_CASE("moments turn the base, and the angular momentum with it") {
   const Plan plan = walk();
   // 0.5 N m about z for 0.4 s on 3 kg m^2.
@@ -174,6 +183,35 @@ TEST_CASE("a swing stays in the reach box between its knots") {
     highest = std::max(highest, state.end_effectors[left_foot].position_W.z() - state.com_W.z());
   }
   CHECK(highest == doctest::Approx(foot.reach_max_B.z()).epsilon(1e-12));
+}
+
+TEST_CASE("where a swing comes to the side of the reach box and leaves it, its velocity goes on") {
+  Plan plan = walk();
+  plan.swings[0].height = 0.3;
+  plan.knots[3].com_velocity_W.x() = 0.5;
+  const auto behind = [&](const Vector3d& position, const Vector3d& com, const Vector3d& rpy) {
+    return (mcplan::rotation_from_rpy(rpy).transpose() * (position - com)).x();
+  };
+  const auto& lift_off = plan.knots[3];
+  const double side = behind(lift_off.end_effectors_W[left_foot], lift_off.com_W, lift_off.base_rpy) - 0.003;
+  plan.robot.end_effectors[left_foot].reach_min_B.x() = side;  // that close, and the CoM moves on
+  const double h = 1e-5;
+  double fastest = 0.0, hardest = 0.0, nearest = 1.0;
+  PlanState last = plan.at_phase(3, 0.0);
+  CHECK(last.end_effectors[left_foot].position_W == plan.knots[3].end_effectors_W[left_foot]);
+  CHECK(last.end_effectors[left_foot].velocity_W.norm() < 1e-15);
+  for (int i = 1; i < 40000; ++i) {
+    const PlanState state = plan.at_phase(3, i * h);
+    const auto &before = last.end_effectors[left_foot], &now = state.end_effectors[left_foot];
+    fastest = std::max(fastest, now.velocity_W.norm());
+    hardest = std::max(hardest, (now.velocity_W - before.velocity_W).norm() / h);
+    nearest = std::min(nearest, behind(now.position_W, state.com_W, state.base_rpy) - side);
+    last = state;
+  }
+  CHECK(std::abs(nearest) < 1e-12);
+  CHECK(fastest > 1.0);
+  CHECK(hardest < 500.0);  // a jump of 0.5 m/s would be 50 000 m/s^2
+  CHECK(velocity_error(plan, 3, left_foot, 997) < 1e-6);
 }
 
 TEST_CASE("paths and their velocities are continuous over the knots") {

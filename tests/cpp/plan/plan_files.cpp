@@ -83,6 +83,11 @@ TEST_CASE("what is wrong with a plan in JSON is named") {
   }
 }
 
+TEST_CASE("a plan in JSON may begin with a byte order mark") {
+  const Plan plan = fixtures::walk();
+  CHECK(plan_from_json("\xEF\xBB\xBF" + plan_to_json(plan)) == plan);
+}
+
 TEST_CASE("texts that would take much memory are refused") {
   std::string many = "[0";
   for (int i = 0; i < 3'000'000; ++i) many += ",0";

@@ -71,8 +71,10 @@ TEST_CASE("the orientation of the base follows a fine integration of the walk to
     }
 }
 
-TEST_CASE("contact forces and moments at an instant are the rates of momentum") {
-  const Plan plan = drawn(5, 14.0);
+TEST_CASE("contact forces and moments at an instant are the rates of momentum, of contacts that slip as well") {
+  Plan plan = drawn(5, 14.0);
+  plan.knots[0].end_effector_velocities_W[1] = {0.3, -0.2, 0.1};
+  plan.knots[1].end_effectors_W[2] += Vector3d(0.02, 0.01, 0.0);
   const double h = 1e-5;
   for (double t : {0.05, 0.2, 0.35}) {
     const PlanState before = plan.at_phase(0, t - h), at = plan.at_phase(0, t), after = plan.at_phase(0, t + h);

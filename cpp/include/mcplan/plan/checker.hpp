@@ -52,7 +52,7 @@ struct Tolerances {
 ///                        not of contact wrenches, whose line of force may pass anywhere
 ///     center_of_pressure contact wrenches: distance of the point where the force acts from the sole (from the point,
 ///                        without one), from the surface's plane and from its polygon
-///     path_continuity    jump of an end-effector at a knot
+///     path_continuity    jump of an end-effector at a knot, or within a phase: what it goes beyond its velocities
 ///     free_force         stiffness, moment and points of a free end-effector are none
 ///     stiffness_sign     mu_l >= 0
 ///     pull               no contact and no point of one pulls, n . f >= 0 (grasp surfaces excepted)
@@ -61,8 +61,9 @@ struct Tolerances {
 ///     force_cap          |f_l| <= max_force, f_l the sum over its points
 ///     moment             contact moment within max_moment and within what the sole can give (not of forces at points,
 ///                        which `anchor`, `pull` and `friction` hold); of contact wrenches: none along the surface
-///     reach              every end-effector, swinging or not, in its reach box about the CoM; in contact in com_reach
-///                        and partner_reach, where the robot has them, and its heading in yaw_range
+///     reach              every end-effector, swinging or not, in its reach box about the CoM, and where knots put
+///                        free ones; in contact in com_reach and partner_reach, where the robot has them, and its
+///                        heading in yaw_range
 ///     clearance          depth of a swinging end-effector in a solid
 ///     sequence_switch    contacts made or broken in one step
 ///     sequence_rule      the scene's contact rules, in every phase and at the end

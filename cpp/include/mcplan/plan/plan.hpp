@@ -57,14 +57,15 @@ struct Knot {
   Eigen::Vector3d base_rpy = Eigen::Vector3d::Zero();            ///< roll, pitch, yaw of the base [rad]
   Eigen::Vector3d base_rpy_rate = Eigen::Vector3d::Zero();       ///< [rad/s]
   std::vector<Eigen::Vector3d> end_effectors_W;                  ///< [m]
-  std::vector<Eigen::Vector3d> end_effector_velocities_W;        ///< [m/s], zero at contacts
+  std::vector<Eigen::Vector3d> end_effector_velocities_W;        ///< [m/s], zero at contacts; of the spline (Swing)
   Eigen::Vector3d angular_momentum_W = Eigen::Vector3d::Zero();  ///< about the CoM [kg m^2/s]; see Plan
   std::vector<double> end_effector_yaw;  ///< heading of each sole [rad]; empty: all head where the base does
 };
 
 /// A stretch of phases in which an end-effector is free. Its path is the C2 quintic spline through the knots (zero
 /// acceleration there) plus  16 s^2 (1-s)^2 height n(s),  s = 0..1 over the swing: it leaves and arrives along the
-/// normals of the surfaces. Where that would leave the reach box, it is held at the box.
+/// normals of the surfaces. Where that would leave the reach box, it bends, with continuous velocity, into the box's
+/// side (docs/theory/ddp.md, "Continuous-time plan").
 struct Swing {
   int end_effector = 0;
   int first_phase = 0, end_phase = 0;  ///< phases first_phase .. end_phase - 1
