@@ -67,7 +67,12 @@ Status Attempts::attempt(std::vector<Guess> guesses, const Tuning& tuning) {
   last_ = chosen;
   // Out of time there is a plan already, and none for another one.
   if (status != Status::time_limit || !best_->best()) finish(std::move(chosen), tuning);
-  return status;
+  return late(status);
+}
+
+/// What an attempt that has come to its end is called when the time limit has cut its last check short.
+Status Attempts::late(Status status) const {
+  return status == Status::solved && !best_->ok() && deadline_->passed() ? Status::time_limit : status;
 }
 
 Incumbent Attempts::first_guess(const ContactSequence& sequence, const Tuning& tuning) const {
@@ -177,8 +182,9 @@ Status Attempts::run(const Incumbent* warm) {
   if (options.method == Method::paper) {
     status = search_.run_paper(start, std::min(kPaperIterations, options.max_iterations), first_);
     if (status != Status::numerical_failure && (status != Status::time_limit || !best_->best())) finish(start, first_);
-    return status;
+    return late(status);
   }
+  if (best_->best() && deadline_->passed()) return Status::time_limit;
   return restart(attempt(guesses(start, warm), first_), sequence);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mcplan/base/error.hpp"
+#include "phase_state.hpp"
 #include "plan_shape.hpp"
 
 namespace mcplan {
@@ -96,17 +97,18 @@ double clearance_depth(const Plan& plan, const std::vector<Solid>& solids, int e
                        text(stretch.first_phase) + " to " + text(stretch.end_phase));
   if (end_effector < 0 || end_effector >= plan.end_effector_count())
     throw InvalidInput("end_effector", "must be an index below " + text(plan.end_effector_count()), text(end_effector));
+  for (int k = stretch.first_phase; k < stretch.end_phase; ++k)
+    if (samples_of(plan.phases[k], sample_s) > 0) require_queryable(plan, k, 0.0);
   double worst = 0.0, before = 0.0;
   for (int k = stretch.first_phase; k < stretch.end_phase; ++k) {
     const double duration = plan.phases[k].duration;
     const int samples = samples_of(plan.phases[k], sample_s);
+    const PhaseFrame frame = samples > 0 ? phase_frame(plan, k) : PhaseFrame();
     for (int i = 0; samples > 0 && i <= samples; ++i) {
       const double tau = duration * i / samples;
-      const PlanState state = plan.at_phase(k, tau);
-      worst = std::max(
-          worst,
-          clearance_depth(solids, plan.robot.end_effectors[end_effector], stretch, (before + tau) / stretch.duration_s,
-                          state.end_effectors[end_effector].position_W, state.end_effectors[end_effector].yaw));
+      const EndEffectorState end = state_in_phase(plan, frame, tau).end_effectors[end_effector];
+      worst = std::max(worst, clearance_depth(solids, plan.robot.end_effectors[end_effector], stretch,
+                                              (before + tau) / stretch.duration_s, end.position_W, end.yaw));
     }
     before += duration;
   }

@@ -36,6 +36,7 @@ class Attempts {
   Incumbent cheapest(std::vector<Guess>& guesses, const Tuning& tuning, Status& status);
   Status restart(Status status, const ContactSequence& initial);
   double further_inside() const;
+  Status late(Status status) const;
   void keep(const Incumbent& now, const Tuning& tuning) { best_->keep(search_, surfaces_, now, tuning); }
   void finish(Incumbent now, const Tuning& tuning) { best_->finish(search_, surfaces_, std::move(now), tuning); }
 
