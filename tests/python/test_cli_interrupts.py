@@ -172,6 +172,29 @@ sys.exit(main())
     assert not (tmp_path / "a.html").exists() and not (tmp_path / "a.png").exists()
 
 
+def test_a_walk_that_was_interrupted_did_not_fail(tmp_path):
+    """SIGINT comes with the second cycle."""
+    press = """
+import os, signal, sys
+from mcplan.cli import main
+from mcplan.cli.rhp_text import Progress
+
+rows = []
+
+
+def row(self, cycle):
+    rows.append(cycle)
+    if len(rows) == 2:
+        os.kill(os.getpid(), signal.SIGINT)
+
+
+Progress.row = row
+sys.exit(main())
+"""
+    out, _ = must_be_interrupted(start(tmp_path, ["-c", press, "rhp", "flat", "-o", "a.npz"], {}))
+    assert out.splitlines()[-1] == "Saved a.npz, the 2 cycles before the interruption"
+
+
 def test_an_interrupt_that_a_library_swallows_still_ends_with_130(tmp_path):
     swallow = """
 import os, signal, sys

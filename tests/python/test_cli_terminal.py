@@ -91,6 +91,11 @@ class _Result:
         self.plan, self.report = plan, mp.plan("flat", max_iterations=1).report
 
 
+def test_a_line_end_in_a_files_name_makes_no_line(capsys):
+    assert main(["check", "a\nerror: b.npz"]) == 2
+    assert capsys.readouterr().err == "error: a\\nerror: b.npz: No such file or directory\n"
+
+
 @pytest.mark.parametrize(
     "environment",
     [

@@ -134,6 +134,30 @@ def test_lengths_in_millimetres_are_warned_of(tmp_path):
         load_robot(write(tmp_path, in_millimetres(malformed.ROBOT)))
 
 
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"mass": 44000.0}, "mass: must be in kilograms, and this looks like grams, got 44000 kg in a robot of"),
+        ({"phase_duration": [150.0, 500.0]}, r"phase_duration: durations are in seconds, .* got \[150, 500\] at a"),
+        (
+            {"inertia": [1.0, 1.0, 5.0]},
+            r"inertia: of a body, no moment is above the sum of the other two, got \[1, 1, 5",
+        ),
+        (
+            {"yaw_range": [-45.0, 45.0]},
+            r"end_effectors\[0\].yaw_range: angles are in radians, .* degrees, got \[-45, 45",
+        ),
+    ],
+)
+def test_other_units_of_a_robot_are_warned_of(changes, message, tmp_path):
+    robot = robot_to_dict(load_robot("humanoid44"))
+    target = robot["end_effectors"][0] if "yaw_range" in changes else robot
+    target.update(changes)
+    with pytest.warns(SuspiciousGeometry, match=message) as found:
+        load_robot(write(tmp_path, robot))
+    assert len(found) == 1
+
+
 @pytest.mark.parametrize("verb", [mp.plan, mp.walk])
 @pytest.mark.parametrize(
     ("stance", "changes", "message"),

@@ -132,6 +132,27 @@ def test_a_urdf_is_found_beside_its_robot_from_any_working_directory(tmp_path, m
     assert load_robot("robots/robot.toml").urdf == "robots/urdf/my.urdf"
 
 
+@pytest.mark.parametrize("name", ["robot.toml", "./robot.toml", "../robots/robot.toml"])
+def test_a_robot_in_the_working_directory_names_files_beside_it(name, tmp_path, monkeypatch):
+    robot_file(tmp_path / "robots", urdf="my.urdf", com_reach={"file": "reach.json", "name": "com"})
+    (tmp_path / "robots" / "my.urdf").write_text("<robot/>")
+    (tmp_path / "robots" / "reach.json").write_text(json.dumps(POLYTOPE))
+    monkeypatch.chdir(tmp_path / "robots")
+    robot = load_robot(name)
+    assert Path(robot.urdf).samefile(tmp_path / "robots" / "my.urdf") and robot.end_effectors[0].com_reach.given
+
+
+def test_a_working_directory_that_is_gone_is_no_crash(tmp_path, monkeypatch):
+    file = robot_file(tmp_path / "robots", com_reach={"file": "reach.json", "name": "com"})
+    (tmp_path / "robots" / "reach.json").write_text(json.dumps(POLYTOPE))
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    assert load_robot(file).end_effectors[0].com_reach.given
+    with pytest.raises(mp.UnknownRobot):
+        load_robot("robot.toml")
+
+
 @pytest.mark.parametrize("urdf", ["../my.urdf", "/dev/zero", "/nowhere/my.urdf", "link.urdf"])
 def test_a_urdf_elsewhere_is_refused(urdf, tmp_path):
     file = robot_file(tmp_path / "robots", urdf=urdf)

@@ -68,6 +68,19 @@ BAD = {
         robot(link("a", INERTIA.replace('value="1"', 'value="-1"'))),
         "link a: mass.value: must not be negative",
     ),
+    "no mass": (
+        robot(link("a", INERTIA.replace('<mass value="1"/>', ""))),
+        "link a: inertial.mass: is required",
+    ),
+    "a mass without a value": (
+        robot(link("a", INERTIA.replace('<mass value="1"/>', "<mass/>"))),
+        "link a: inertial.mass.value: is required",
+    ),
+    "no inertia": (robot(link("a", '<inertial><mass value="1"/></inertial>')), "link a: inertial.inertia: is required"),
+    "half an inertia": (
+        robot(link("a", INERTIA.replace('izz="1" ', ""))),
+        "link a: inertial.inertia.izz: is required",
+    ),
     "limits": (
         robot(*PAIR, joint("j", "a", "b").replace('"-1"', '"2"')),
         "joint j: limit.lower: must not be above upper",

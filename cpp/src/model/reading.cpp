@@ -87,8 +87,12 @@ std::filesystem::path referenced(const std::filesystem::path& folder, const std:
                                  const std::string& source) {
   const Named named{name, field, source};
   std::error_code failed, failed_root, ignored;
-  const auto path = std::filesystem::weakly_canonical(std::filesystem::absolute(folder / name), failed);
-  const auto root = std::filesystem::weakly_canonical(std::filesystem::absolute(folder), failed_root);
+  const auto canonical = [](const std::filesystem::path& path, std::error_code& error) {
+    const auto absolute = std::filesystem::absolute(path, error);
+    return error ? absolute : std::filesystem::weakly_canonical(absolute, error);
+  };
+  const std::filesystem::path here = folder.empty() ? "." : folder;  // of a file named without one
+  const auto path = canonical(here / name, failed), root = canonical(here, failed_root);
   // What is still a link points to nothing: where it would lead to, nobody has looked at.
   const bool dangles = std::filesystem::is_symlink(std::filesystem::symlink_status(path, ignored));
   if (failed || failed_root || dangles || name.find('\0') != name.npos)

@@ -70,8 +70,9 @@ std::string urdf_of(const std::string& urdf, const Reading& reading) {
   if (urdf.empty() || urdf.rfind(urdf_package, 0) == 0) return urdf;
   const std::string beside = (reading.folder / urdf).string();
   const bool elsewhere = model::is_there(urdf) && !model::is_there(beside);
-  model::referenced(reading.folder, elsewhere ? std::filesystem::absolute(urdf).string() : urdf, "urdf",
-                    reading.source);
+  std::error_code failed;  // where the working directory is gone
+  const std::string named = elsewhere ? std::filesystem::absolute(urdf, failed).string() : urdf;
+  model::referenced(reading.folder, failed ? urdf : named, "urdf", reading.source);
   return model::is_there(beside) ? beside : urdf;
 }
 

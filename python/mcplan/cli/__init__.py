@@ -48,7 +48,7 @@ def _run(words: list[str]) -> int:
     except (InvalidInput, UnknownName, MissingExtra) as found:
         return _fail(str(found))
     except OSError as found:
-        return _fail(f"{found.filename}: {found.strerror}" if found.filename else str(found))
+        return _fail(printable(f"{found.filename}: {found.strerror}" if found.filename else str(found)))
     except KeyboardInterrupt:
         return CODE
     except Exception as found:

@@ -100,8 +100,8 @@ def rhp(
     if json:
         print(json_module.dumps(summary(walk, scene, model, options), allow_nan=False))
     else:
-        asked = [path for path in (output, html, plots) if path is not None]
-        print(summary_text(walk, scene.name, model.name, options, asked if not interrupted else written))
+        files = written if interrupted else [path for path in (output, html, plots) if path is not None]
+        print(summary_text(walk, scene.name, model.name, options, files, interrupted))
     if interrupted:
         return CODE
     return 0 if walk.success else 1

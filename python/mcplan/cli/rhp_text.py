@@ -55,8 +55,19 @@ class Progress:
         print("  ".join(texts).rstrip(), file=sys.stderr, flush=True)
 
 
-def summary_text(walk: rhp.Walk, scene: str, robot: str, options: rhp.Options, written: Sequence[Path]) -> str:
-    """How the walk ended, how far it went, what it cost, what is wrong with it, what was saved."""
+def summary_text(
+    walk: rhp.Walk, scene: str, robot: str, options: rhp.Options, written: Sequence[Path], interrupted: bool
+) -> str:
+    """How the walk ended, how far it went, what it cost, what is wrong with it, what was saved.
+
+    Args:
+        walk: Its cycles until the end, a failure or an interruption.
+        scene: The scene's name.
+        robot: The robot's name.
+        options: What it was planned with.
+        written: Files with its plan.
+        interrupted: Whether Ctrl-C ended it.
+    """
     report = walk.report
     lead = f"{scene}  {robot}  "
     indent = " " * len(lead)
@@ -80,7 +91,8 @@ def summary_text(walk: rhp.Walk, scene: str, robot: str, options: rhp.Options, w
     if files and not done:
         lines.append(f"Not written, since no step was found: {', '.join(files)}")
     elif files:
-        ending = "" if walk.success else f", the {_cycles(done)} before the failure"
+        end = "the interruption" if interrupted else "" if walk.success else "the failure"
+        ending = end and f", the {_cycles(done)} before {end}"
         lines.append(f"Saved {', '.join(files)}{ending}")
     return "\n".join(printable(line) for line in lines)
 

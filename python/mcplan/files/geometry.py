@@ -6,6 +6,7 @@ is one. What no robot can do is refused, what may be meant after all is warned o
 
 from __future__ import annotations
 
+import math
 import warnings
 from typing import Any
 
@@ -18,6 +19,9 @@ from mcplan.errors import InvalidInput, InvalidScene, SuspiciousGeometry
 LONG_SCENE_M, HIGH_COM_M, LONG_OVER_COM = 1000.0, 50.0, 50.0
 #: Above it a gravity [m/s^2] is taken to be in millimetres: there is none like it on any planet.
 STRONG_GRAVITY = 100.0
+#: Angles above it are taken to be degrees; durations, over the time sqrt(h / g) in which a pendulum as high as the CoM
+#: falls, to be milliseconds; masses over the cube of a robot's size [kg/m^3], twice that of steel, to be grams.
+LARGE_ANGLE, LONG_OVER_FALL, HEAVY_DENSITY = 2.0 * math.pi, 100.0, 16e3
 _GRAVITY_RULE = "goes with lengths in metres, which these look like, and this looks like one for millimetres"
 _WALKABLE = 0.5  # z of the normal of ground
 
@@ -56,7 +60,7 @@ def warn_of_geometry(scene: Scene, source: str) -> None:
 
 
 def require_robot_meant(robot: Robot, source: str) -> None:
-    """Warn of lengths of a robot that look like millimetres.
+    """Warn of numbers of a robot that look like millimetres, degrees, milliseconds or grams, or that no body has.
 
     Args:
         robot: A valid one.
@@ -74,6 +78,28 @@ def require_robot_meant(robot: Robot, source: str) -> None:
         longest = max(map(abs, values))
         if longest > LONG_OVER_COM * robot.com_height:
             _warn(source, field, rule, f"{longest:g} m beside a com_height of {robot.com_height:g} m")
+    _warn_of_other_units(robot, source)
+
+
+def _warn_of_other_units(robot: Robot, source: str) -> None:
+    for i, end in enumerate(robot.end_effectors):
+        if np.isfinite(end.yaw_range).all() and np.abs(end.yaw_range).max() > LARGE_ANGLE:
+            rule = "angles are in radians, and these look like degrees"
+            _warn(source, f"end_effectors[{i}].yaw_range", rule, _text(end.yaw_range))
+    fall_s = math.sqrt(robot.com_height / 9.81)
+    if robot.phase_duration[0] > LONG_OVER_FALL * fall_s:
+        rule = "durations are in seconds, and these look like milliseconds"
+        _warn(
+            source, "phase_duration", rule, f"{_text(robot.phase_duration)} at a com_height of {robot.com_height:g} m"
+        )
+    places = np.array([[0.0, 0.0, 0.0], *(end.nominal_B for end in robot.end_effectors)])
+    size = float(np.linalg.norm(np.ptp(places, axis=0)))
+    if robot.mass > HEAVY_DENSITY * max(size, robot.com_height) ** 3:
+        rule = "must be in kilograms, and this looks like grams"
+        _warn(source, "mass", rule, f"{robot.mass:g} kg in a robot of {max(size, robot.com_height):.3g} m")
+    moments = sorted(robot.inertia)
+    if moments[2] > (1.0 + 1e-6) * (moments[0] + moments[1]):
+        _warn(source, "inertia", "of a body, no moment is above the sum of the other two", _text(robot.inertia))
 
 
 def require_planar_robot_meant(robot: PlanarRobot, source: str, prefix: str = "") -> None:

@@ -227,9 +227,20 @@ def _number_findings(root: ElementTree.Element) -> Iterator[_Found]:
             ends = [limit.get("lower", "0"), limit.get("upper", "0")]
             if all(_are_numbers(end, 1, True) for end in ends) and float(ends[0]) > float(ends[1]):
                 yield f"{part.tag} {part.get('name')}: limit.lower", "must not be above upper", " > ".join(ends)
+        for inertial in part.findall("inertial"):
+            yield from _inertial_findings(inertial, f"{part.tag} {part.get('name')}")
         for mass in part.findall("inertial/mass"):
             if _are_numbers(mass.get("value", "0"), 1, False) and float(mass.get("value", "0")) < 0.0:
                 yield f"{part.tag} {part.get('name')}: mass.value", "must not be negative", shown(mass.get("value"))
+
+
+def _inertial_findings(inertial: Any, field: str) -> Iterator[_Found]:
+    """What an inertial lacks: Pinocchio's parser would take the link as one without mass."""
+    for tag, attributes in {"mass": _NUMBERS["mass"], "inertia": _NUMBERS["inertia"]}.items():
+        element = inertial.find(tag)
+        missing = [tag] if element is None else [f"{tag}.{name}" for name in attributes if element.get(name) is None]
+        for name in missing:
+            yield f"{field}: inertial.{name}", "is required", ""
 
 
 def _are_numbers(text: str, count: int, any_size: bool) -> bool:

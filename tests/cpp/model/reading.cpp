@@ -57,6 +57,7 @@ TEST_CASE("a file names others beside it or below alone") {
   fs::create_symlink(inner / "loop", inner / "loop");
   CHECK(model::referenced(inner, "x.json", "file", "") == fs::weakly_canonical(inner / "x.json"));
   CHECK(model::referenced(inner, "../inner/x.json", "file", "") == fs::weakly_canonical(inner / "x.json"));
+  CHECK(model::referenced("", "x.json", "file", "") == fs::weakly_canonical(fs::current_path() / "x.json"));
   for (const char* name : {"../x.json", "/etc/passwd", "link", "loop", "sub/../../x"}) {
     CAPTURE(name);
     CHECK_THROWS_AS(model::referenced(inner, name, "file", ""), InvalidInput);
