@@ -13,10 +13,10 @@ import mcplan as mp
 TIMES_S = (0.5, 1.0, 1.5, 2.0, 3.0)
 
 
-def measured(plan: mp.Plan, t: float) -> mp.Knot:
+def measured(plan: mp.Plan, t: float) -> mp.model.Knot:
     """The state that is planned at a time, as if it had been measured."""
     state = plan.at(t)
-    knot = mp.Knot(
+    knot = mp.model.Knot(
         com_W=state.com_W,
         com_velocity_W=state.com_velocity_W,
         base_rpy=state.base_rpy,

@@ -5,10 +5,10 @@ import math
 import mcplan as mp
 
 
-def rectangle(name: str, x: tuple[float, float], y: tuple[float, float], z: float) -> mp.Surface:
+def rectangle(name: str, x: tuple[float, float], y: tuple[float, float], z: float) -> mp.model.Surface:
     """Rectangle at height z [m] with sides along x and y."""
     corners = [[x[0], y[0], z], [x[1], y[0], z], [x[1], y[1], z], [x[0], y[1], z]]
-    return mp.Surface(name=name, vertices_W=corners)
+    return mp.model.Surface(name=name, vertices_W=corners)
 
 
 scene = mp.Scene(
@@ -17,8 +17,8 @@ scene = mp.Scene(
         rectangle("ground", (-1.0, 0.5), (-1.0, 1.0), 0.0),
         rectangle("platform", (0.5, 2.0), (-1.0, 1.0), 0.10),
     ],
-    start=mp.Stance(contacts={"foot": "ground"}),
-    goal=mp.Stance(position_W=[1.2, 0.0, 0.10], yaw=math.radians(30.0), contacts={"foot": "platform"}),
+    start=mp.model.Stance(contacts={"foot": "ground"}),
+    goal=mp.model.Stance(position_W=[1.2, 0.0, 0.10], yaw=math.radians(30.0), contacts={"foot": "platform"}),
 )
 robot = mp.load_robot("humanoid44")
 
@@ -29,8 +29,8 @@ print(f"heading at the end: {math.degrees(end.base_rpy[2]):.1f} degrees")
 mp.check(result.plan, scene, robot).raise_if_violated()
 
 try:
-    mp.Scene(surfaces=[mp.Surface(name="line", vertices_W=[[0, 0, 0], [1, 0, 0]])]).validate()
-except mp.InvalidScene as error:
+    mp.Scene(surfaces=[mp.model.Surface(name="line", vertices_W=[[0, 0, 0], [1, 0, 0]])]).validate()
+except mp.errors.InvalidScene as error:
     print(f"as expected: {error}")
 else:
     raise SystemExit("a surface of two points was accepted")

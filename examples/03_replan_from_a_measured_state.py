@@ -10,7 +10,7 @@ first = mp.plan(scene, robot)
 
 t = 1.0  # [s]
 planned = first.plan.at(t)
-measured = mp.Knot(
+measured = mp.model.Knot(
     com_W=planned.com_W,
     com_velocity_W=planned.com_velocity_W + [0.0, 0.03, 0.0],  # a push to the left [m/s]
     base_rpy=planned.base_rpy,

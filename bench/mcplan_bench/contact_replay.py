@@ -69,7 +69,7 @@ def contacts(plan: Plan) -> Contacts:
     Raises:
         InvalidInput: A phase has forces at points.
     """
-    from mcplan import ForceLaw
+    from mcplan.model import ForceLaw
 
     for k, phase in enumerate(plan.phases):
         if phase.law not in (ForceLaw.pendulum, ForceLaw.wrench):
@@ -162,7 +162,7 @@ def _knots(plan: Plan) -> Array:
 
     The base of ForceLaw.pendulum turns by small angles, I theta'' = sum tau_l: its momentum is I theta'.
     """
-    from mcplan import ForceLaw
+    from mcplan.model import ForceLaw
 
     inertia = np.asarray(plan.robot.inertia)
     rows = []

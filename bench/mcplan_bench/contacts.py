@@ -20,7 +20,9 @@ from .processes import each
 from .speed import iterations, searching_iterations
 
 if TYPE_CHECKING:
-    from mcplan import EndEffector, Plan, PlanResult, Robot, Scene
+    from mcplan import Plan, Robot, Scene
+    from mcplan.ddp import Result
+    from mcplan.model import EndEffector
 
 Outcome = TypeVar("Outcome")
 
@@ -113,7 +115,7 @@ def solve(case: Case) -> Row:
     return Row(**{**row.as_dict(), "holds": not why, "why": "; ".join(why)})
 
 
-def plan_of(case: Case) -> PlanResult:
+def plan_of(case: Case) -> Result:
     """Plan a case.
 
     Raises:
@@ -161,7 +163,7 @@ def _capped(end: EndEffector, cap: float) -> EndEffector:
     return end
 
 
-def values_of(result: PlanResult) -> dict[str, Any]:
+def values_of(result: Result) -> dict[str, Any]:
     """Fields of a row that a solve determines."""
     report, plan = result.report, result.plan
     worst = report.worst_violation

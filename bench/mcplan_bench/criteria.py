@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from mcplan import Plan, Report
+    from mcplan import Plan
+    from mcplan.model import Report
 
 #: Least rise of the CoM over its height at take-off that counts as a jump [m].
 APEX_M = 0.15

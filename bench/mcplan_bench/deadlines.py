@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from mcplan import Scene, Surface
+    from mcplan import Scene
+    from mcplan.model import Surface
 
 LIMITS_S = (0.01, 0.05, 0.2, 0.5, 1.0)
 IDLE = (0, 20, 50, 100, 300, 1000)
@@ -85,10 +86,10 @@ def _replan(scene: Scene) -> Solve:
     import mcplan as mp
 
     @functools.cache
-    def earlier() -> tuple[mp.Plan, float, mp.Knot]:
+    def earlier() -> tuple[mp.Plan, float, mp.model.Knot]:
         plan = mp.plan(scene, "humanoid44").plan
         time_s = 0.3 * plan.duration()
-        state, measured = plan.at(time_s), mp.Knot()
+        state, measured = plan.at(time_s), mp.model.Knot()
         measured.com_W, measured.com_velocity_W = state.com_W, state.com_velocity_W
         measured.base_rpy, measured.base_rpy_rate = state.base_rpy, state.base_rpy_rate
         measured.end_effectors_W = [end.position_W for end in state.end_effectors]
@@ -143,6 +144,6 @@ def with_idle_surfaces(count: int, seed: int = 0) -> Scene:
     for index in range(count):
         side = 1.0 if index % 2 else -1.0
         middle_W = [random.uniform(-3.0, 6.0), side * random.uniform(2.5, 6.0), random.uniform(0.0, 0.5)]
-        patches.append(mp.Surface(name=f"idle_{index}", vertices_W=square_W + middle_W))
+        patches.append(mp.model.Surface(name=f"idle_{index}", vertices_W=square_W + middle_W))
     scene.surfaces = [*scene.surfaces, *patches]
     return scene

@@ -12,7 +12,7 @@ from .criteria import shortcoming
 from .processes import each
 
 if TYPE_CHECKING:
-    from mcplan import PlanResult
+    from mcplan.ddp import Result
 
 #: First weight on the change of the inputs x first guess of the phase durations [s].
 SETTINGS = tuple(
@@ -112,7 +112,7 @@ def solve(task: Task) -> Outcome:
     return judge(task, kind, result)
 
 
-def judge(task: Task, kind: str, result: PlanResult) -> Outcome:
+def judge(task: Task, kind: str, result: Result) -> Outcome:
     """Whether the plan is good: solved, again accepted by the checker, and what the scene is about."""
     import mcplan
 

@@ -15,7 +15,9 @@ import numpy as np
 from . import SCENES
 
 if TYPE_CHECKING:
-    from mcplan import PlanResult, Report, Robot, Scene
+    from mcplan import Robot, Scene
+    from mcplan.ddp import Result
+    from mcplan.model import Report
 
 #: Parts of the report's timing that belong to iterations.
 PARTS = ("linearise", "value_backward", "value_forward", "value_update", "pricing", "line_search")
@@ -40,9 +42,7 @@ class Iterations:
         return 1e3 * self.parts_ms["pricing"] / self.neighbours if self.neighbours else float("nan")
 
 
-def iterations(
-    scene: Scene, robot: Robot, repeats: int, options: dict[str, Any]
-) -> tuple[Iterations, list[PlanResult]]:
+def iterations(scene: Scene, robot: Robot, repeats: int, options: dict[str, Any]) -> tuple[Iterations, list[Result]]:
     """Time the iterations of a solve, `repeats` times.
 
     Returns:
@@ -141,5 +141,5 @@ def compare(
     return rows
 
 
-def _whole_ms(results: Sequence[PlanResult]) -> float:
+def _whole_ms(results: Sequence[Result]) -> float:
     return 1e3 * float(np.median([result.report.time_s for result in results]))

@@ -17,7 +17,8 @@ from .processes import each
 from .tracking_cases import Case, Demand
 
 if TYPE_CHECKING:
-    from mcplan import EndEffector, Plan, PlanarPlan, Scene
+    from mcplan import Plan, PlanarPlan, Scene
+    from mcplan.model import EndEffector
     from mcplan.planar.tracking import PlanarResult
     from mcplan.tracking import Options, Recording, TrackingResult
 

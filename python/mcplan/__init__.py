@@ -10,6 +10,10 @@
     result.plan.save("plan.npz")
     mp.show(result.plan, scene, robot).save_html("plan.html")
 
+Verbs, engines and what they are about are here; ``mcplan.model`` has what scenes, robots and plans are made of,
+``mcplan.errors`` each error. The engines ``ddp``, ``rhp`` and ``sip`` have their options, a solve and its result: ``plan`` is
+``ddp.plan``, ``walk`` is ``rhp.walk``, ``whole_body`` is ``sip.plan``.
+
 Importing this loads NumPy and nothing heavier; the rest comes when first used.
 """
 
@@ -21,101 +25,79 @@ from mcplan import starting as _starting  # noqa: F401  first: Ctrl-C while the 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from mcplan import ddp, rhp, sip
+from mcplan import errors as errors
+from mcplan import model as model
 from mcplan._core import (
-    CheckResult,
-    Contact,
-    ContactRule,
-    EndEffector,
-    ForceLaw,
-    Knot,
-    Phase,
     Plan,
     PlanarPlan,
     PlanarRobot,
     PlanarTask,
     PlanarTolerances,
-    PlanResult,
-    Polytope,
-    Report,
     Robot,
     Scene,
-    Stance,
     Status,
-    Step,
-    Surface,
-    Swing,
     Tolerances,
-    Violation,
     __version__,
-    rhp,
-    sip,
 )
 from mcplan.checking import check
-from mcplan.errors import (
-    Interrupted,
-    InvalidArgument,
-    InvalidInput,
-    InvalidMotion,
-    InvalidOptions,
-    InvalidPlan,
-    InvalidRobot,
-    InvalidScene,
-    PlanViolated,
-    UnknownMotion,
-    UnknownRobot,
-    UnknownScene,
-)
+from mcplan.ddp import plan, replan
+from mcplan.errors import Interrupted, InvalidInput, MissingExtra, PlanViolated, UnknownName
 from mcplan.loading import load_motion, load_planar_robot, load_robot, load_scene
+from mcplan.rhp import receding_horizon, walk
 from mcplan.showing import show
-
-Walk = rhp.Walk
-# As planar classes were called before.
-PlanarMotion, WholeBodyPlan, WholeBodyTolerances = PlanarTask, PlanarPlan, PlanarTolerances
+from mcplan.sip import whole_body
 
 if TYPE_CHECKING:
+    # Names that lived here until 0.1.
+    from mcplan.errors import InvalidArgument as InvalidArgument
+    from mcplan.errors import InvalidMotion as InvalidMotion
+    from mcplan.errors import InvalidOptions as InvalidOptions
+    from mcplan.errors import InvalidPlan as InvalidPlan
+    from mcplan.errors import InvalidRobot as InvalidRobot
+    from mcplan.errors import InvalidScene as InvalidScene
+    from mcplan.errors import UnknownMotion as UnknownMotion
+    from mcplan.errors import UnknownRobot as UnknownRobot
+    from mcplan.errors import UnknownScene as UnknownScene
+    from mcplan.model import CheckResult as CheckResult
+    from mcplan.model import Contact as Contact
+    from mcplan.model import ContactRule as ContactRule
+    from mcplan.model import EndEffector as EndEffector
+    from mcplan.model import ForceLaw as ForceLaw
+    from mcplan.model import Knot as Knot
+    from mcplan.model import Phase as Phase
+    from mcplan.model import Polytope as Polytope
+    from mcplan.model import Report as Report
+    from mcplan.model import Stance as Stance
+    from mcplan.model import Step as Step
+    from mcplan.model import Surface as Surface
+    from mcplan.model import Swing as Swing
+    from mcplan.model import Violation as Violation
     from mcplan.planar.tracking import PlanarResult
+    from mcplan.rhp import Walk as Walk
     from mcplan.tracking import TrackingResult
 
+    PlanarMotion, WholeBodyPlan, WholeBodyTolerances = PlanarTask, PlanarPlan, PlanarTolerances
+    PlanResult = ddp.Result
+
 __all__ = [
-    "CheckResult",
-    "Contact",
-    "ContactRule",
-    "EndEffector",
-    "ForceLaw",
     "Interrupted",
-    "InvalidArgument",
     "InvalidInput",
-    "InvalidMotion",
-    "InvalidOptions",
-    "InvalidPlan",
-    "InvalidRobot",
-    "InvalidScene",
-    "Knot",
-    "Phase",
+    "MissingExtra",
     "Plan",
-    "PlanResult",
     "PlanViolated",
     "PlanarPlan",
     "PlanarRobot",
     "PlanarTask",
     "PlanarTolerances",
-    "Polytope",
-    "Report",
     "Robot",
     "Scene",
-    "Stance",
     "Status",
-    "Step",
-    "Surface",
-    "Swing",
     "Tolerances",
-    "UnknownMotion",
-    "UnknownRobot",
-    "UnknownScene",
-    "Violation",
-    "Walk",
+    "UnknownName",
     "__version__",
     "check",
+    "ddp",
     "load_motion",
     "load_planar_robot",
     "load_robot",
@@ -131,219 +113,21 @@ __all__ = [
     "whole_body",
 ]
 
+if not TYPE_CHECKING:
+    # Names that lived here until 0.1.
+    _MOVED = {name: module for module in (model, errors) for name in module.__all__}
+    _RENAMED = {"PlanarMotion": PlanarTask, "WholeBodyPlan": PlanarPlan, "WholeBodyTolerances": PlanarTolerances}
+    _RENAMED |= {"PlanResult": ddp.Result, "Walk": rhp.Walk}
 
-def plan(
-    scene: Scene | str | Path,
-    robot: Robot | str | Path = "humanoid44",
-    *,
-    warm_start: Plan | None = None,
-    **options: Any,
-) -> PlanResult:
-    """Find a contact sequence and a motion from the scene's start to its goal.
+    def __getattr__(name: str) -> Any:
+        if name in _RENAMED:
+            return _RENAMED[name]
+        if name in _MOVED:
+            return getattr(_MOVED[name], name)
+        raise AttributeError(f"module 'mcplan' has no attribute {name!r}", name=name, obj=None)
 
-    Ctrl-C ends the search with Interrupted, which carries the result with the best plan so far.
-
-    Args:
-        scene: A scene, or what load_scene takes.
-        robot: A robot, or what load_robot takes.
-        warm_start: An earlier plan of the same robot to start from.
-        **options: Fields of ``mcplan.ddp.Options``; ``time_limit`` [s] is short for ``time_limit_s``. ``model`` says what
-            contacts can do: "wrench" (default), forces within soles and friction cones that turn the base, or "lipm", the
-            paper's forces through the CoM.
-
-    Returns:
-        The plan, with a report whose status is ``solved`` only if the checker accepts the plan.
-
-    Raises:
-        InvalidArgument: An argument is of another type, such as the result that has the plan.
-        InvalidOptions: No such option, or its value is out of range.
-        InvalidScene: The scene is malformed or does not fit the robot.
-        InvalidRobot: The robot is malformed.
-    """
-    from mcplan.solve import plan as solve
-
-    return solve(scene, robot, options, warm_start)
-
-
-def replan(
-    previous: Plan,
-    t: float,
-    measured: Knot,
-    *,
-    scene: Scene | None = None,
-    robot: Robot | None = None,
-    **options: Any,
-) -> PlanResult:
-    """Plan on from a measured state.
-
-    Args:
-        previous: The plan under way.
-        t: Time in it [s]; the phase under way and those after it are the first guess.
-        measured: The state now; its end-effectors in contact stand where they are. An ``angular_momentum_W`` of zero is
-            made from ``base_rpy_rate``, an empty ``end_effector_yaw`` from the base's heading.
-        scene: None: the plan's own.
-        robot: None: the plan's own.
-        **options: As for plan(); the number of phases is what is left of them.
-
-    Returns:
-        A plan from the measured state to the goal (``plan.measured_start`` is set).
-
-    Raises:
-        InvalidArgument: An argument is of another type.
-        InvalidInput: t lies outside the plan.
-        InvalidPlan: The measured state does not fit the robot.
-        InvalidOptions: No such option, or its value is out of range.
-    """
-    from mcplan.solve import replan as solve
-
-    return solve(previous, t, measured, scene, robot, options)
-
-
-def walk(
-    scene: Scene | str | Path,
-    robot: Robot | str | Path | None = None,
-    *,
-    sequence: Plan | str | Path | None = None,
-    fidelity: str | rhp.Fidelity = "point",
-    lookahead: int = 3,
-    cycles: int = 14,
-    transcription: str | rhp.Transcription = "trapezoidal",
-    time_limit: float | None = None,
-    **options: Any,
-) -> Walk:
-    """Plan a walk on two feet over given surfaces: CoM, angular momentum, footholds, timing and forces.
-
-    Each cycle plans `lookahead` steps and executes the first; the next cycle starts from where it ends. A cycle that
-    fails ends the walk: ``walk.plan`` is what was executed until then, ``walk.cycles`` says what happened. Ctrl-C ends
-    it with Interrupted, which carries the walk.
-
-    Args:
-        scene: A scene, or what load_scene takes; its ``steps`` say which foot lands on which surface.
-        robot: A robot with two feet, or what load_robot takes. None: the robot of `sequence`, else talos_wang.
-        sequence: A plan, or path of one, whose start and contact sequence are taken instead of the scene's; the walk
-            comes to rest after its last step.
-        fidelity: Model of the steps after the first: "single" (centroidal), "com", "rectangle" or "point".
-        lookahead: Steps in a horizon, 1 to 10, the executed one included.
-        cycles: Steps to execute; fewer if the sequence ends before.
-        transcription: "trapezoidal" or "euler" (the paper's, whose motion is not quite the integral of its forces).
-        time_limit: Of each cycle, wall clock [s]; None: none.
-        **options: Other fields of ``rhp.Options``, such as ``paper=True``.
-
-    Returns:
-        The walk: ``plan``, ``report``, ``cycles``, ``success``, and totals such as ``distance_m()``. The report's status
-        is ``solved`` only if the checker accepts the whole plan.
-
-    Raises:
-        InvalidArgument: An argument is of another type.
-        InvalidOptions: No such option, or its value is out of range.
-        InvalidScene: The scene is malformed, has no steps, or does not fit the robot, which cannot stand at its start or
-            goal, for instance.
-        InvalidRobot: The robot is malformed or does not have two feet.
-        InvalidPlan: The sequence lifts both feet at once, uses other end-effectors than feet, or names surfaces that
-            the scene does not have.
-        UnknownScene, UnknownRobot: No such name and no such file.
-    """
-    return receding_horizon(
-        scene,
-        robot,
-        sequence=sequence,
-        fidelity=fidelity,
-        lookahead=lookahead,
-        cycles=cycles,
-        transcription=transcription,
-        time_limit=time_limit,
-        **options,
-    ).walk()
-
-
-def receding_horizon(
-    scene: Scene | str | Path,
-    robot: Robot | str | Path | None = None,
-    *,
-    sequence: Plan | str | Path | None = None,
-    **options: Any,
-) -> rhp.RecedingHorizon:
-    """Make the planner behind walk(), to run it cycle by cycle and from measured states.
-
-        planner = mp.receding_horizon("rubbles", time_limit=1.0)
-        while running:
-            cycle = planner.step(measured)  # an rhp.State; without one: from where the last step ends
-            if cycle.executed:
-                follow(planner.executed())  # a plan of one step, from time 0
-
-    Args:
-        scene: As for walk().
-        robot: As for walk().
-        sequence: As for walk().
-        **options: As for walk().
-
-    Raises:
-        InvalidArgument, InvalidOptions, InvalidScene, InvalidRobot, InvalidPlan, UnknownScene, UnknownRobot: As for
-            walk().
-    """
-    from mcplan.walking import receding_horizon as make
-
-    return make(scene, robot, sequence, options)
-
-
-def whole_body(
-    motion: PlanarTask | str | Path,
-    *,
-    forces: str | sip.Forces = "per_point",
-    minimise: str | None = None,
-    contact: str | sip.ContactMode = "tube",
-    order: int = 8,
-    neq: int = 2,
-    free_flyer: str | sip.FreeFlyer = "computed",
-    free_durations: bool | None = None,
-    time_limit: float | None = None,
-    warm_start: PlanarPlan | str | Path | None = None,
-    certify: bool = False,
-    **options: Any,
-) -> sip.Result:
-    """Plan the whole body of a planar robot through a sequence of contact stances.
-
-        result = mp.whole_body("climbing")
-        result.plan.at(0.5).torque  # any instant: joints, base, torques, contact forces
-
-    Joint trajectories are splines, and constraints hold at every instant between knots, not only at samples. Ctrl-C
-    ends the search with Interrupted, which carries the result with the best motion so far.
-
-    Args:
-        motion: A motion, or what load_motion takes: its robot, surfaces and the stance of each phase.
-        forces: Where contact forces come from: "uniform", "per_body" or "per_point" weights of the least norm (the
-            paper's cases 1, 2 and 3), or "parameters" (polynomials of time).
-        minimise: "torque" (integral of the squared torques), "time" or "none" (any motion within the constraints).
-            None: "torque", or "none" with ``dynamics=False``. Weights in `options` replace what it sets.
-        contact: How contacts are held: "tube" (within ``tube_m`` and ``tube_rad`` at every instant), "band" or
-            "strict" (polynomial coefficients 0 to `neq`).
-        order: Of the Taylor polynomials, 3 to 12.
-        neq: Highest coefficient that "band" and "strict" hold.
-        free_flyer: The base: "computed" from the joints, or "parameterised" by splines of its own.
-        free_durations: A duration for each phase, or one for all intervals. None: each phase its own, except that
-            "none" has nothing to choose them by.
-        time_limit: Wall clock of the whole search [s]; None: none.
-        warm_start: A plan of the same robot and phases, or the path of one, to start from.
-        certify: Prove the constraints of what was found, at every instant: ``result.certificate``.
-        **options: Other fields of ``sip.Options``, such as ``tube_m=1e-4`` or ``self_collision=True``.
-
-    Returns:
-        The motion: ``plan``, ``report``, ``parameters`` and ``constraints`` (size of the program), ``drift_m``,
-        ``drift_rad``, ``certificate``. The report's status is ``solved`` only if the checker accepts the plan.
-
-    Raises:
-        InvalidArgument: An argument is of another type.
-        InvalidOptions: No such option, its value is out of range, or it does not go with another one.
-        InvalidMotion: The motion is malformed.
-        InvalidRobot: Its robot is malformed.
-        InvalidPlan: The warm start has other phases or joints, or is malformed.
-        UnknownMotion, UnknownRobot: No such name and no such file.
-    """
-    from mcplan.planar.planning import whole_body as solve
-
-    given: dict[str, Any] = {"forces": forces, "contact": contact, "order": order, "neq": neq, "free_flyer": free_flyer}
-    given |= {"free_durations": free_durations, "time_limit": time_limit}
-    return solve(motion, warm_start, certify, minimise, {**given, **options})
+    def __dir__() -> list[str]:
+        return __all__
 
 
 def track(

@@ -6,6 +6,24 @@ import difflib
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+__all__ = [
+    "Interrupted",
+    "InvalidArgument",
+    "InvalidInput",
+    "InvalidMotion",
+    "InvalidOptions",
+    "InvalidPlan",
+    "InvalidRobot",
+    "InvalidScene",
+    "MissingExtra",
+    "PlanViolated",
+    "SuspiciousGeometry",
+    "UnknownMotion",
+    "UnknownName",
+    "UnknownRobot",
+    "UnknownScene",
+]
+
 #: Findings that a message lists before it says how many there are more.
 MOST_FINDINGS = 20
 _MOST_TEXT = 60  # characters of a value that a message shows

@@ -2,12 +2,30 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeVar
 
+from mcplan.arguments import require
 from mcplan.errors import InvalidOptions, did_you_mean, shown
 
-_ALIASES = {"time_limit": "time_limit_s"}
+ALIASES = {"time_limit": "time_limit_s"}
+_Options = TypeVar("_Options")
+
+
+def start(name: str, base: _Options | None, kind: type[_Options]) -> _Options:
+    """A copy of given options, or the defaults where none are given.
+
+    Args:
+        name: Of the argument that they are.
+        base: The options, or None.
+        kind: Their class.
+
+    Raises:
+        InvalidArgument: `base` is something else.
+    """
+    require(name, base, kind, optional=True)
+    return kind() if base is None else copy.copy(base)
 
 
 def fill(options: Any, values: Mapping[str, Any]) -> Any:
@@ -16,7 +34,7 @@ def fill(options: Any, values: Mapping[str, Any]) -> Any:
     Args:
         options: An instance of a bound options class.
         values: By name; enumerations by the names of their members, where dashes may stand for underscores; groups of
-            fields (`weights`) as mappings.
+            fields (`weights`) as mappings. None leaves a field as it is.
 
     Returns:
         The same object.
@@ -25,7 +43,7 @@ def fill(options: Any, values: Mapping[str, Any]) -> Any:
         InvalidOptions: No such option (the message lists those that exist), a wrong type, or out of range.
     """
     for name, value in values.items():
-        name = _ALIASES.get(name, name)
+        name = ALIASES.get(name, name)
         if name == "weights" and isinstance(value, Mapping):
             for weight, amount in value.items():
                 _set(options.weights, weight, amount, prefix="weights.")
@@ -45,6 +63,8 @@ def _set(target: Any, name: str, value: Any, prefix: str = "") -> None:
     if name not in legal:
         name = str(name)  # keys of a mapping may be anything
         raise InvalidOptions(prefix + name, f"no such option. {did_you_mean(name, legal)}Options: {', '.join(legal)}")
+    if value is None:
+        return
     if isinstance(value, str) and hasattr(type(getattr(target, name)), "__members__"):
         members = type(getattr(target, name)).__members__
         if value.replace("-", "_") not in members:

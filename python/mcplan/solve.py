@@ -1,4 +1,4 @@
-"""mp.plan: options by name, scene and robot by name or object, then the planner."""
+"""mp.plan: options by name or object, scene and robot by name or object, then the planner."""
 
 from __future__ import annotations
 
@@ -9,25 +9,32 @@ from typing import Any
 from mcplan import _core
 from mcplan._core import Knot, Plan, PlanResult, Robot, Scene
 from mcplan.arguments import require, require_number, require_or_path
-from mcplan.options import fill
+from mcplan.options import fill, start
 
 
 def plan(
     scene: Scene | str | Path,
     robot: Robot | str | Path,
-    options: Mapping[str, Any],
+    named: Mapping[str, Any],
     warm_start: Plan | None = None,
+    options: _core.ddp.Options | None = None,
 ) -> PlanResult:
     """See mcplan.plan."""
     require("warm_start", warm_start, Plan, optional=True)
-    world, body, chosen = scene_of(scene), robot_of(robot), make_options(options)
+    world, body, chosen = scene_of(scene), robot_of(robot), make_options(named, options)
     planner = _core.ddp.SwitchedDdp(world, body, chosen)
     _core.require_standing(world, body)
     return planner.solve() if warm_start is None else planner.solve(warm_start)
 
 
 def replan(
-    previous: Plan, t: float, measured: Knot, scene: Scene | None, robot: Robot | None, options: Mapping[str, Any]
+    previous: Plan,
+    t: float,
+    measured: Knot,
+    scene: Scene | None,
+    robot: Robot | None,
+    named: Mapping[str, Any],
+    options: _core.ddp.Options | None = None,
 ) -> PlanResult:
     """See mcplan.replan."""
     require("previous", previous, Plan)
@@ -36,16 +43,22 @@ def replan(
     require("robot", robot, Robot, optional=True)
     t = require_number("t", t)
     world, body = scene or previous.scene, robot or previous.robot
-    return _core.ddp.SwitchedDdp(world, body, make_options(options)).replan(previous, t, measured)
+    return _core.ddp.SwitchedDdp(world, body, make_options(named, options)).replan(previous, t, measured)
 
 
-def make_options(values: Mapping[str, Any]) -> Any:
+def make_options(values: Mapping[str, Any], base: _core.ddp.Options | None = None) -> _core.ddp.Options:
     """Options of the contact-sequence search from names and values; `weights` may be a mapping too.
 
+    Args:
+        values: By name, None for those that stay as they are.
+        base: What they stand above; None: the defaults.
+
     Raises:
+        InvalidArgument: `base` is something else.
         InvalidOptions: No such option (the message lists those that exist), a wrong type, or out of range.
     """
-    return fill(_core.ddp.Options(), values)
+    options: _core.ddp.Options = fill(start("options", base, _core.ddp.Options), values)
+    return options
 
 
 def scene_of(scene: Scene | str | Path) -> Scene:

@@ -1,4 +1,4 @@
-"""mp.walk: options by name, scene, robot and sequence by name or object, then the receding-horizon planner."""
+"""mp.walk: options by name or object, scene, robot and sequence by name or object, then the receding-horizon planner."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 from mcplan._core import Plan, Robot, Scene, require_standing, rhp
 from mcplan.arguments import require_or_path
 from mcplan.errors import Interrupted, InvalidInput
-from mcplan.options import fill
+from mcplan.options import fill, start
 from mcplan.solve import robot_of, scene_of
 
 #: Walks where no robot is named and no sequence brings one.
@@ -20,10 +20,11 @@ def receding_horizon(
     scene: Scene | str | Path,
     robot: Robot | str | Path | None,
     sequence: Plan | str | Path | None,
-    options: Mapping[str, Any],
+    named: Mapping[str, Any],
+    options: rhp.Options | None = None,
 ) -> rhp.RecedingHorizon:
     """See mcplan.receding_horizon."""
-    chosen = make_options(options)  # before files are read: what is said first is what was typed
+    chosen = make_options(named, options)  # before files are read: what is said first is what was typed
     return planner_of(*parts_of(scene, robot, sequence), chosen)
 
 
@@ -55,13 +56,18 @@ def planner_of(scene: Scene, robot: Robot, sequence: Plan | None, options: rhp.O
     return rhp.RecedingHorizon(scene, robot, sequence, options)
 
 
-def make_options(values: Mapping[str, Any]) -> rhp.Options:
-    """Options of the receding-horizon planner from names and values; None stands for the default.
+def make_options(values: Mapping[str, Any], base: rhp.Options | None = None) -> rhp.Options:
+    """Options of the receding-horizon planner from names and values.
+
+    Args:
+        values: By name, None for those that stay as they are.
+        base: What they stand above; None: the defaults.
 
     Raises:
+        InvalidArgument: `base` is something else.
         InvalidOptions: No such option (the message lists those that exist), a wrong type, or out of range.
     """
-    options: rhp.Options = fill(rhp.Options(), {name: value for name, value in values.items() if value is not None})
+    options: rhp.Options = fill(start("options", base, rhp.Options), values)
     return options
 
 

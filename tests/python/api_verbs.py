@@ -57,16 +57,18 @@ class VerbFuzzer(Fuzzer):
     def given(self, name: str) -> dict[str, Any]:
         """Arguments of a verb: those without a default, and some of the others."""
         given: dict[str, Any] = {}
+        kind = OPTIONS.get(name)
         for parameter in inspect.signature(getattr(mp, name)).parameters.values():
             if parameter.kind in (parameter.VAR_KEYWORD, parameter.VAR_POSITIONAL):
                 continue
-            if parameter.default is parameter.empty or self.rng.random() < 0.3:
+            if kind and parameter.name == "options" and self.rng.random() < 0.3:
+                given["options"] = self.values.instance(f"{kind.__module__}.{kind.__qualname__}")
+            elif parameter.default is parameter.empty or self.rng.random() < 0.3:
                 given[parameter.name] = self.drawn(parameter.annotation)
         if name == "check":
             for key in ("scene", "robot", "tolerances", "self_collision"):
                 if self.rng.random() < 0.2:
                     given[key] = self.drawn({"self_collision": "bool"}.get(key, key.capitalize()))
-        kind = OPTIONS.get(name)
         if kind is None:
             return given
         setters = {p.name: p.type for p in self.interface.properties if p.owner is kind and p.type}

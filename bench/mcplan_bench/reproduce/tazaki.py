@@ -20,7 +20,7 @@ from mcplan_bench.speed import PAPER, iterations, searching_iterations
 from . import tazaki_models
 
 if TYPE_CHECKING:
-    from mcplan import PlanResult
+    from mcplan.ddp import Result
 
 #: Table II: average time of an iteration [ms] with and without OpenMP, on a Ryzen 5950X.
 PUBLISHED_MS = {
@@ -60,7 +60,7 @@ def reproduce(out: Path, quick: bool = False, progress: Callable[[str], None] | 
         rows.append(table_2_row(name, robot, 1 if quick else 9, threads))
         say(f"Table II, {name}: " + ", ".join(f"{method} {rows[-1][f'{method}_1_ms']:.3f} ms" for method in METHODS))
     written = [records.write_csv(out / "table_2.csv", rows)]
-    results: dict[str, dict[str, PlanResult]] = {}
+    results: dict[str, dict[str, Result]] = {}
     for name in names:
         results[name] = {}
         for method, options in METHODS.items():
@@ -99,7 +99,7 @@ def table_2_row(name: str, robot: Any, repeats: int, threads: int) -> dict[str, 
     return row
 
 
-def figures(out: Path, name: str, method: str, result: PlanResult) -> list[Path]:
+def figures(out: Path, name: str, method: str, result: Result) -> list[Path]:
     """Figures 1, 3 and 4 of one scene."""
     from mcplan.view.pictures.picture import picture
     from mcplan.view.plots.report import has_sequences, plot_contact_sequence, plot_cost
@@ -117,13 +117,13 @@ def figures(out: Path, name: str, method: str, result: PlanResult) -> list[Path]
     return written
 
 
-def late_switches(result: PlanResult) -> int:
+def late_switches(result: Result) -> int:
     """Switches in the last ten iterations: chattering, when there are any."""
     return sum(row.switches for row in result.report.history[-10:])
 
 
 def page_text(
-    rows: list[dict[str, Any]], results: dict[str, dict[str, PlanResult]], threads: int, models: list[str]
+    rows: list[dict[str, Any]], results: dict[str, dict[str, Result]], threads: int, models: list[str]
 ) -> str:
     """The page: table, text, lines on the models, figures."""
     machine = records.machine()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -18,10 +18,11 @@ from mcplan_bench.sections import ABSENT, number, table_lines
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from mcplan import Plan, PlanResult, Robot, Scene
+    from mcplan import Plan, Robot, Scene
+    from mcplan.ddp import Result
 
 #: The paper's, and ours.
-MODELS = ("lipm", "wrench")
+MODELS: tuple[Literal["lipm", "wrench"], ...] = ("lipm", "wrench")
 TITLES = {"lipm": "paper's", "wrench": "ours"}
 #: Coefficient of friction of all surfaces, and of pads that are not held.
 FRICTION = 0.7
@@ -32,7 +33,7 @@ HELD, TOUCHED = "held", "friction"
 
 def compare_models(
     names: Sequence[str], robot: Robot, progress: Callable[[str], None]
-) -> tuple[list[dict[str, Any]], dict[tuple[str, str], PlanResult]]:
+) -> tuple[list[dict[str, Any]], dict[tuple[str, str], Result]]:
     """Plan scenes with both models and measure the plans.
 
     Args:
@@ -45,7 +46,8 @@ def compare_models(
     """
     import mcplan
 
-    rows, rail = [], {}
+    rows: list[dict[str, Any]] = []
+    rail: dict[tuple[str, str], Result] = {}
     for name in names:
         for pads in (HELD, TOUCHED) if name == RAIL else ("",):
             scene = with_pads(mcplan.load_scene(name), pads == HELD)
@@ -62,7 +64,7 @@ def with_pads(scene: Scene, held: bool) -> Scene:
     """The scene with friction 0.7 everywhere; what only hands may touch is held, without a cone, or is not."""
     import mcplan
 
-    foot = mcplan.EndEffector(name="foot", kind="foot")
+    foot = mcplan.model.EndEffector(name="foot", kind="foot")
     surfaces = list(scene.surfaces)
     for surface in surfaces:
         surface.friction = FRICTION
@@ -71,7 +73,7 @@ def with_pads(scene: Scene, held: bool) -> Scene:
     return scene
 
 
-def row_of(scene: str, pads: str, model: str, result: PlanResult) -> dict[str, Any]:
+def row_of(scene: str, pads: str, model: str, result: Result) -> dict[str, Any]:
     """What the table says of one plan; None where there is no plan to measure."""
     report = result.report
     row: dict[str, Any] = {"scene": scene, "pads": pads, "model": model, "status": str(report.status)}
@@ -225,7 +227,7 @@ def hand_forces(plan: Plan) -> dict[str, Array]:
     return out
 
 
-def save_hand_forces(out: Path, rail: dict[tuple[str, str], PlanResult]) -> Path | None:
+def save_hand_forces(out: Path, rail: dict[tuple[str, str], Result]) -> Path | None:
     """Write the figure beside the page: pads held in the paper's model, pads with friction in ours; None without them."""
     paper, ours = (rail.get(key) for key in ((HELD, "lipm"), (TOUCHED, "wrench")))
     if paper is None or ours is None or not paper.plan.phases or not ours.plan.phases:

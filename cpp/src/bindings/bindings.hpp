@@ -9,10 +9,28 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "mcplan/base/error.hpp"
+#include "mcplan/base/range.hpp"
+
+/// A closed range is a pair in Python.
+template <>
+struct pybind11::detail::type_caster<mcplan::Range> {
+  PYBIND11_TYPE_CASTER(mcplan::Range, const_name("tuple[float, float]"));
+
+  bool load(handle from, bool convert) {
+    make_caster<std::pair<double, double>> pair;
+    if (!pair.load(from, convert)) return false;
+    std::tie(value.min, value.max) = cast_op<std::pair<double, double>>(std::move(pair));
+    return true;
+  }
+  static handle cast(const mcplan::Range& from, return_value_policy, handle) {
+    return make_tuple(from.min, from.max).release();
+  }
+};
 
 namespace mcplan::bindings {
 
@@ -30,6 +48,7 @@ void bind_sip(py::module_& m);
 void bind_sip_planner(py::module_& m);  // of the sip submodule
 void bind_planar(py::module_& m);
 void bind_planar_plan(py::module_& m);
+void bind_planar_files(py::module_& m);
 
 /// Runs a solve without the GIL. Another thread may change meanwhile what was given by reference: give copies.
 template <class Solve>
@@ -131,17 +150,6 @@ void def_vector(py::class_<T, Extra...>& c, const char* name, Vector T::*member,
   c.def_property(
       name, [member](T& self) -> Vector& { return self.*member; },
       [member](T& self, const Vector& value) { self.*member = value; }, doc);
-}
-
-/// Member that is a closed range {min, max}: reads and writes as a pair.
-template <class T, class Range, class... Extra>
-void def_range(py::class_<T, Extra...>& c, const char* name, Range T::*member, const char* doc) {
-  c.def_property(
-      name, [member](const T& self) { return std::make_pair((self.*member).min, (self.*member).max); },
-      [member](T& self, const std::pair<double, double>& value) {
-        self.*member = {value.first, value.second};
-      },
-      doc);
 }
 
 /// Member struct: reads as a reference, which shows what is assigned later.

@@ -30,19 +30,47 @@ auto default_argument(const M& value) {
     return value;
 }
 
+/// Whether a member is a matrix of any size, which lies on the heap.
+template <class M>
+constexpr bool is_sizable() {
+  if constexpr (std::is_base_of_v<Eigen::MatrixBase<M>, M>) return M::SizeAtCompileTime == Eigen::Dynamic;
+  return false;
+}
+
+template <class M>
+struct HasSizables : std::false_type {};
+template <class M>
+struct HasSizables<std::vector<M>> : std::bool_constant<is_sizable<M>()> {};
+/// A member as pickles have it; who listens stays behind.
+template <class M>
+py::object pickled(const M& value) {
+  if constexpr (model::IsCallback<M>::value)
+    return py::none();
+  else
+    return py::cast(value);
+}
+
+template <class M>
+struct IsNested : std::false_type {};
+template <class M>
+struct IsNested<std::vector<std::vector<M>>> : std::true_type {};
+
 template <class T, class F>
 void def_field(py::class_<T>& c, const F& f) {
   using M = typename F::Member;
   const std::string doc = std::string(*f.unit ? "[" + std::string(f.unit) + "] " : "") + f.meaning;
   if constexpr (std::is_same_v<M, std::vector<Eigen::Vector3d>>)
     def_points(c, f.name, f.member, ("N x 3 " + doc).c_str());
-  else if constexpr (model::IsStructs<M>::value)
+  else if constexpr (model::IsStructs<M>::value || HasSizables<M>::value)
     def_items(c, f.name, f.member, ("Tuple: " + doc).c_str());
   else if constexpr (model::HasFields<M>::value)
     def_member(c, f.name, f.member, doc.c_str());
+  else if constexpr (is_sizable<M>())
+    def_matrix(c, f.name, f.member, doc.c_str());
   else if constexpr (std::is_base_of_v<Eigen::MatrixBase<M>, M>)
     def_vector(c, f.name, f.member, doc.c_str());
-  else if constexpr (std::is_arithmetic_v<M> || std::is_enum_v<M> || std::is_same_v<M, std::string>)
+  else if constexpr (std::is_arithmetic_v<M> || std::is_enum_v<M> || std::is_same_v<M, std::string> ||
+                     std::is_same_v<M, Range> || IsNested<M>::value || model::IsCallback<M>::value)
     c.def_readwrite(f.name, f.member, doc.c_str());
   else
     def_names(c, f.name, f.member, doc.c_str());
@@ -76,7 +104,9 @@ void def_state(py::class_<T>& c, std::index_sequence<I...>) {
       },
       py::arg("other"));
   c.def(py::pickle(
-      [](const T& self) { return py::make_tuple(py::cast(self.*std::get<I>(model::Fields<T>::all).member)...); },
+      [](const T& self) -> py::tuple {
+        return py::make_tuple(pickled(self.*std::get<I>(model::Fields<T>::all).member)...);
+      },
       [](const py::tuple& state) {
         if (state.size() != sizeof...(I)) throw py::value_error("the state of another version of mcplan");
         T out{};
@@ -85,6 +115,17 @@ void def_state(py::class_<T>& c, std::index_sequence<I...>) {
          ...);
         return out;
       }));
+}
+
+/// Class of an enum as its table says, whose repr can be pasted.
+template <class E>
+void bind_enum(py::module_& m) {
+  using Table = model::Names<E>;
+  py::enum_<E> c(m, Table::name, Table::meaning);
+  for (const auto& [name, value, meaning] : Table::all) c.value(name, value, meaning);
+  c.def(
+      "__repr__", [](E value) { return Table::name + ("." + std::string(py::str(py::cast(value).attr("name")))); },
+      py::prepend());
 }
 
 /// Class of a struct as its table says: constructor by keywords, members, repr that can be pasted, equality, copies,
@@ -96,8 +137,10 @@ py::class_<T> bind_fields(py::module_& m) {
   constexpr auto count = std::make_index_sequence<std::tuple_size_v<std::decay_t<decltype(Table::all)>>>();
   def_keywords(c, count);
   model::for_each_field<T>([&](const auto& f) { def_field(c, f); });
-  std::vector<std::string> names;
-  model::for_each_field<T>([&](const auto& f) { names.push_back(f.name); });
+  std::vector<std::string> names;  // of what repr shows: a function could not be pasted
+  model::for_each_field<T>([&](const auto& f) {
+    if (!model::IsCallback<typename std::decay_t<decltype(f)>::Member>::value) names.push_back(f.name);
+  });
   def_value(c, Table::name, names);
   def_state(c, count);
   return c;

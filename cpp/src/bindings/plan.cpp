@@ -6,24 +6,13 @@
 #include "mcplan/plan/plan_files.hpp"
 #include "mcplan/plan/report.hpp"
 #include "plan/plan_fields.hpp"
+#include "plan/tolerances_fields.hpp"
 #include "signals.hpp"
 
 namespace mcplan::bindings {
 namespace {
 
 using Eigen::Vector3d;
-
-void bind_force_law(py::module_& m) {
-  py::enum_<ForceLaw>(m, "ForceLaw", "How contact forces depend on time within a phase.")
-      .value("pendulum", ForceLaw::pendulum, "f(t) = mass stiffness (com(t) - anchor): the multi-contact pendulum.")
-      .value("held", ForceLaw::held, "Forces at points, constant over each of `intervals` equal intervals.")
-      .value("linear", ForceLaw::linear, "Forces at points, linear over each of `intervals` equal intervals.")
-      .value("wrench", ForceLaw::wrench,
-             "f(t) = mass stiffness (com(t) - anchor), acting at center_of_pressure, with a moment about the normal.")
-      .def(
-          "__repr__", [](ForceLaw law) { return "ForceLaw." + std::string(py::str(py::cast(law).attr("name"))); },
-          py::prepend());
-}
 
 void bind_parts(py::module_& m) {
   bind_fields<Contact>(m);
@@ -189,53 +178,8 @@ void bind_report(py::module_& m) {
 }
 
 void bind_checker(py::module_& m) {
-  py::class_<Tolerances> c(
-      m, "Tolerances",
-      "Published tolerances of the checker, for robots of human size; for others times a factor of each unit.");
-  const Tolerances d;
-  c.def(
-      py::init([](double dynamics, double orientation, double center_of_pressure, double contact_distance, double slip,
-                  double friction, double force, double force_cap, double moment, double reach, double yaw,
-                  double clearance, double boundary, double stance, int switches, double sample_s, bool scaled) {
-        return Tolerances{
-            dynamics, orientation, center_of_pressure, contact_distance, slip,   friction, force,    force_cap, moment,
-            reach,    yaw,         clearance,          boundary,         stance, switches, sample_s, scaled};
-      }),
-      py::kw_only(), py::arg("dynamics") = d.dynamics, py::arg("orientation") = d.orientation,
-      py::arg("center_of_pressure") = d.center_of_pressure, py::arg("contact_distance") = d.contact_distance,
-      py::arg("slip") = d.slip, py::arg("friction") = d.friction, py::arg("force") = d.force,
-      py::arg("force_cap") = d.force_cap, py::arg("moment") = d.moment, py::arg("reach") = d.reach,
-      py::arg("yaw") = d.yaw, py::arg("clearance") = d.clearance, py::arg("boundary") = d.boundary,
-      py::arg("stance") = d.stance, py::arg("switches") = d.switches, py::arg("sample_s") = d.sample_s,
-      py::arg("scaled") = d.scaled);
-  c.def_readwrite("dynamics", &Tolerances::dynamics,
-                  "[m], [m/s], [rad], [rad/s] replayed state against the next knot.");
-  c.def_readwrite("orientation", &Tolerances::orientation, "[rad] replayed orientation of the base.");
-  c.def_readwrite("center_of_pressure", &Tolerances::center_of_pressure,
-                  "[m] centre of pressure off the sole or off the surface.");
-  c.def_readwrite("contact_distance", &Tolerances::contact_distance,
-                  "[m] end-effector in contact off its plane or polygon.");
-  c.def_readwrite("slip", &Tolerances::slip, "[m] travel of an end-effector while in contact.");
-  c.def_readwrite("friction", &Tolerances::friction, "[-] tangential over normal force, beyond the coefficient.");
-  c.def_readwrite("force", &Tolerances::force, "[N] pull of a contact, or force of a free end-effector.");
-  c.def_readwrite("force_cap", &Tolerances::force_cap, "[-] relative excess over max_force.");
-  c.def_readwrite("moment", &Tolerances::moment, "[N m] excess over max_moment or the torsion the contact can give.");
-  c.def_readwrite("reach", &Tolerances::reach, "[m] outside the reach box.");
-  c.def_readwrite("yaw", &Tolerances::yaw, "[rad] heading of a sole outside its range.");
-  c.def_readwrite("clearance", &Tolerances::clearance, "[m] swinging end-effector inside a solid.");
-  c.def_readwrite("boundary", &Tolerances::boundary, "[m], [m/s], [rad] start and goal against the scene's.");
-  c.def_readwrite("stance", &Tolerances::stance, "[m] end-effectors in contact at the start off the nominal stance.");
-  c.def_readwrite("switches", &Tolerances::switches,
-                  "[-] contacts made or broken in one step; surface to surface counts two.");
-  c.def_readwrite("sample_s", &Tolerances::sample_s, "[s] sampling of the constraints in time.");
-  c.def_readwrite(
-      "scaled", &Tolerances::scaled,
-      "Times the factors of the robot's size, which are 1 for CoM heights of 0.4 to 1.6 m, 20 to 160 kg and "
-      "earth's gravity; False: as they stand.");
-  def_value(
-      c, "Tolerances",
-      {"dynamics", "orientation", "center_of_pressure", "contact_distance", "slip", "friction", "force", "force_cap",
-       "moment", "reach", "yaw", "clearance", "boundary", "stance", "switches", "sample_s", "scaled"});
+  bind_fields<Tolerances>(m).def("validate", &Tolerances::validate,
+                                 "Raise InvalidOptions naming all that is no number or out of its range.");
 
   py::class_<CheckResult> result(m, "CheckResult", "The worst place of every constraint, violated or not.");
   def_items(result, "constraints", &CheckResult::constraints, "Tuple of Violation, violated or not.");
@@ -263,7 +207,8 @@ void bind_checker(py::module_& m) {
         const Robot robot = own_robot ? *own_robot : plan.robot;
         return interruptible([&] { return check(plan, scene, robot, tolerances, SignalWatch::stop); });
       },
-      py::arg("plan"), py::arg("scene") = py::none(), py::arg("robot") = py::none(), py::arg("tolerances") = d,
+      py::arg("plan"), py::arg("scene") = py::none(), py::arg("robot") = py::none(),
+      py::arg("tolerances") = Tolerances(),
       "Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons "
       "alone. "
       "Raises InvalidPlan when its arrays do not fit together, and Interrupted with what was found by then.");
@@ -286,7 +231,7 @@ void bind_loads(py::module_& m) {
 }  // namespace
 
 void bind_plan(py::module_& m) {
-  bind_force_law(m);
+  bind_enum<ForceLaw>(m);
   bind_parts(m);
   bind_state(m);
   bind_plan_class(m);

@@ -1,8 +1,8 @@
 #include <pybind11/functional.h>
 
-#include "bindings.hpp"
-#include "mcplan/rhp/options.hpp"
+#include "fields.hpp"
 #include "mcplan/rhp/receding_horizon.hpp"
+#include "rhp/options_fields.hpp"
 #include "signals.hpp"
 
 namespace mcplan::bindings {
@@ -17,47 +17,10 @@ using rhp::Transcription;
 using rhp::Walk;
 
 void bind_options(py::module_& m) {
-  py::enum_<Fidelity>(m, "Fidelity", "Model of the steps that are predicted but not executed (Wang et al., sec. IV).")
-      .value("single", Fidelity::single, "Centroidal dynamics, free timing: the baseline.")
-      .value("com", Fidelity::com, "Candidate 1: linear CoM dynamics.")
-      .value("rectangle", Fidelity::rectangle, "Candidate 2: relaxed torque, four corner forces per foot.")
-      .value("point", Fidelity::point, "Candidate 3: relaxed torque, one force per foot.");
-  py::enum_<Transcription>(m, "Transcription", "How the continuous motion becomes algebraic equations.")
-      .value("trapezoidal", Transcription::trapezoidal, "Forces linear between nodes, motion integrated exactly.")
-      .value("euler", Transcription::euler, "The paper's forward Euler.");
-  py::class_<Options> c(m, "Options", "Options of the receding-horizon planner.");
-  c.def(py::init<>());
-  c.def_readwrite("fidelity", &Options::fidelity);
-  c.def_readwrite("lookahead", &Options::lookahead, "Steps in the horizon, 1 to 10, the executed one included.");
-  c.def_readwrite("cycles", &Options::cycles, "Steps to execute.");
-  c.def_readwrite("transcription", &Options::transcription);
-  c.def_readwrite("paper", &Options::paper, "Absolute CoM box and outer friction pyramid, as published.");
-  c.def_readwrite("lifted_psi", &Options::lifted_psi, "Keep the relaxation's bounds psi as variables.");
-  c.def_readwrite("friction_rows", &Options::friction_rows, "Friction as rows, not as edges of the pyramid.");
-  c.def_readwrite("all_faces", &Options::all_faces, "Keep faces of the reach polytopes that others imply.");
-  c.def_readwrite("intervals", &Options::intervals, "Per phase.");
-  def_range(c, "double_support_s", &Options::double_support_s, "Duration of a phase on two feet: min, max [s].");
-  def_range(c, "single_support_s", &Options::single_support_s, "Duration of a phase on one foot: min, max [s].");
-  c.def_readwrite("predicted_double_support_s", &Options::predicted_double_support_s,
-                  "Fixed duration in predicted steps of the reduced models [s].");
-  c.def_readwrite("predicted_single_support_s", &Options::predicted_single_support_s, "[s]");
-  c.def_readwrite("com_velocity_max", &Options::com_velocity_max, "Each component [m/s].");
-  c.def_readwrite("momentum_max", &Options::momentum_max, "Each component of L [kg m^2/s].");
-  c.def_readwrite("momentum_rate_max", &Options::momentum_rate_max, "Each component of L' [N m].");
-  def_range(c, "com_height", &Options::com_height, "CoM over every foot in contact, over robot.com_height: min, max.");
-  c.def_readwrite("sole_share", &Options::sole_share, "Of the sole that forces make use of; paper: all.");
-  c.def_readwrite("friction_share", &Options::friction_share, "Of the friction coefficient; paper: all.");
-  c.def_readwrite("foothold_margin_m", &Options::foothold_margin_m, "Of the sole to the edges of a surface [m].");
-  c.def_readwrite("psi_max", &Options::psi_max, "Bound of the relaxation [-].");
-  c.def_readwrite("goal_weight", &Options::goal_weight, "On the squared distance of the end to the goal [1/m^2].");
-  c.def_readwrite("friction_sides", &Options::friction_sides, "Of the pyramid inside the friction cone.");
-  c.def_readwrite("tolerance", &Options::tolerance, "Optimality tolerance of the solver.");
-  c.def_readwrite("constraint_tolerance", &Options::constraint_tolerance);
-  c.def_readwrite("max_iterations", &Options::max_iterations, "Of a cycle.");
-  c.def_readwrite("time_limit_s", &Options::time_limit_s, "Wall clock of a cycle [s].");
-  c.def_readwrite("automatic_ordering", &Options::automatic_ordering, "The linear solver's own pivot order.");
-  c.def_readwrite("logger", &Options::logger, "Called with (LogLevel, line), a line a cycle; None: silent.");
-  c.def("validate", &Options::validate, "Raises InvalidOptions naming the first field out of its range.");
+  bind_enum<Fidelity>(m);
+  bind_enum<Transcription>(m);
+  bind_fields<Options>(m).def("validate", &Options::validate,
+                              "Raise InvalidOptions naming all that is out of its range.");
 }
 
 void bind_state(py::module_& m) {
@@ -114,6 +77,7 @@ void bind_results(py::module_& m) {
   w.def("momentum_per_m", &Walk::momentum_per_m, "Integral of |L|^2 per metre, executed steps.");
   w.def("drift_com_m", &Walk::drift_com_m, "Largest of a cycle [m].");
   w.def("drift_momentum", &Walk::drift_momentum, "Largest of a cycle [kg m^2/s].");
+  m.attr("Result") = w;
 }
 
 }  // namespace

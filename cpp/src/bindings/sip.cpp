@@ -24,8 +24,6 @@ UncertainPolynomial polynomial_from(py::handle value, double error) {
   return {a, error};
 }
 
-std::pair<double, double> pair(const sip::Range& range) { return {range.min, range.max}; }
-
 void bind_taylor_model(py::module_& m) {
   py::class_<TaylorModel> c(m, "TaylorModel",
                             "A function of s in [-1, 1] as a polynomial and a bound of what is left over:\n"
@@ -51,10 +49,8 @@ void bind_taylor_model(py::module_& m) {
   c.def("integral", &TaylorModel::integral, "From 0 to s.");
   c.def("sine", [](const TaylorModel& f) { return f.sine_cosine().sine; });
   c.def("cosine", [](const TaylorModel& f) { return f.sine_cosine().cosine; });
-  c.def(
-      "range", [](const TaylorModel& f) { return pair(f.range()); }, "Bounds over [-1, 1].");
-  c.def(
-      "at", [](const TaylorModel& f, double s) { return pair(f.at(s)); }, py::arg("s"), "Bounds at one place.");
+  c.def("range", &TaylorModel::range, "Bounds over [-1, 1].");
+  c.def("at", &TaylorModel::at, py::arg("s"), "Bounds at one place.");
   c.def("__repr__", [](py::handle self) { return paste(self, "TaylorModel", {"coefficients", "order", "remainder"}); });
 }
 
@@ -95,7 +91,12 @@ void bind_certificate(py::module_& m) {
   m.def(
       "certify",
       [](PlanarPlan plan, const PlanarTolerances& tolerances, int order, int max_depth, bool self_collision) {
-        const CertifyOptions options{tolerances, order, max_depth, self_collision, SignalWatch::stop};
+        CertifyOptions options;
+        options.tolerances = tolerances;
+        options.order = order;
+        options.max_depth = max_depth;
+        options.self_collision = self_collision;
+        options.stop = SignalWatch::stop;
         return interruptible([&] { return sip::certify(plan, options); });
       },
       py::arg("plan"), py::arg("tolerances") = PlanarTolerances(), py::arg("order") = CertifyOptions().order,

@@ -2,9 +2,10 @@
 
 #include <optional>
 
-#include "bindings.hpp"
+#include "fields.hpp"
 #include "mcplan/planar/sip/certificate.hpp"
 #include "mcplan/planar/sip/planner.hpp"
+#include "planar/sip/options_fields.hpp"
 #include "signals.hpp"
 
 namespace mcplan::bindings {
@@ -20,71 +21,15 @@ using sip::Options;
 using sip::Planner;
 using sip::Result;
 
-void bind_choices(py::module_& m) {
-  py::enum_<Forces>(m, "Forces", "Where contact forces come from (Lengagne et al., secs. III-C and IV-D).")
-      .value("uniform", Forces::uniform, "Weighted least norm, all weights 1: case 1.")
-      .value("per_body", Forces::per_body, "One weight for each contact of a phase: case 2.")
-      .value("per_point", Forces::per_point, "One weight for each point of a contact: case 3.")
-      .value("parameters", Forces::parameters, "Cubic polynomials of time over each interval, balance as constraints.");
-  py::enum_<ContactMode>(m, "ContactMode", "How an end-effector in contact is held where it should be.")
-      .value("tube", ContactMode::tube, "Position and angle stay within a tube at every instant.")
-      .value("band", ContactMode::band, "Polynomial coefficients 0..neq of position and angle within a band.")
-      .value("strict", ContactMode::strict, "The same coefficients zero; one contact of a phase is left out.");
-  py::enum_<Continuous>(m, "Continuous", "How an inequality is kept at every instant of an interval.")
-      .value("hull", Continuous::hull, "Every Bernstein coefficient within the limits.")
-      .value("extremum", Continuous::extremum, "The polynomial's extrema within the limits: exact, not smooth.")
-      .value("grid", Continuous::grid, "At grid_points instants: nothing is said about the time between.");
-  py::enum_<FreeFlyer>(m, "FreeFlyer", "The trajectory of the base.")
-      .value("computed", FreeFlyer::computed, "From the joints (eqs. 9-12).")
-      .value("parameterised", FreeFlyer::parameterised, "Three more splines (Table I).");
-  py::enum_<HessianChoice>(m, "HessianChoice", "Where second derivatives come from.")
-      .value("automatic", HessianChoice::automatic, "As suits the problem, and another one where that fails.")
-      .value("exact", HessianChoice::exact, "Of cost and constraints.")
-      .value("gauss_newton", HessianChoice::gauss_newton, "Of the cost alone, without its curvature.")
-      .value("limited_memory", HessianChoice::limited_memory, "L-BFGS.");
-}
-
 void bind_options(py::module_& m) {
-  py::class_<Options> c(m, "Options", "Options of the semi-infinite planner.");
-  c.def(py::init<>());
-  c.def_readwrite("forces", &Options::forces);
-  c.def_readwrite("torque_weight", &Options::torque_weight, "Cost: integral of the squared torques [1/(N m)^2 s].");
-  c.def_readwrite("duration_weight", &Options::duration_weight, "Cost: duration [1/s].");
-  c.def_readwrite("jerk_weight", &Options::jerk_weight, "Cost: integral of the squared joint jerks [s^5].");
-  c.def_readwrite("free_durations", &Options::free_durations,
-                  "A duration for each phase; else one for the motion, shared by intervals.");
-  def_range(c, "total_duration_s", &Options::total_duration_s, "Where free_durations is off: min, max [s].");
-  def_range(c, "phase_duration_s", &Options::phase_duration_s,
-            "Where free_durations is on: min, max [s]; the motion's own limits hold as well.");
-  c.def_readwrite("contact", &Options::contact);
-  c.def_readwrite("tube_m", &Options::tube_m, "Half width of the tube or of the band [m].");
-  c.def_readwrite("tube_rad", &Options::tube_rad, "[rad]");
-  c.def_readwrite("neq", &Options::neq, "Highest coefficient of band and strict, 0 to order.");
-  c.def_readwrite("continuous", &Options::continuous);
-  c.def_readwrite("grid_points", &Options::grid_points, "Per interval, both ends included.");
-  c.def_readwrite("order", &Options::order, "Of the Taylor polynomials, 3 to 12.");
-  c.def_readwrite("free_flyer", &Options::free_flyer);
-  c.def_readwrite("dynamics", &Options::dynamics, "Contact forces in their cones; off: kinematics alone.");
-  c.def_readwrite("torque_limits", &Options::torque_limits);
-  c.def_readwrite("clearance", &Options::clearance, "Swinging end-effectors outside solids, as the motion says.");
-  c.def_readwrite("self_collision", &Options::self_collision, "Of the robot's collision pairs.");
-  c.def_readwrite("clearance_m", &Options::clearance_m,
-                  "Least height of swinging points [m]: at lift-off they are at zero to the tube.");
-  c.def_readwrite("min_normal_force", &Options::min_normal_force, "At every point [N].");
-  c.def_readwrite("margin", &Options::margin, "Kept to joint, torque and force limits, relative.");
-  c.def_readwrite("log_weight_max", &Options::log_weight_max, "Bound of the logarithms of weights.");
-  c.def_readwrite("kinematics_first", &Options::kinematics_first,
-                  "With dynamics: find contacts and joints within limits first, forces from there.");
-  c.def_readwrite("feasible_first", &Options::feasible_first,
-                  "With a cost: solve without it first, and start from that.");
-  c.def_readwrite("hessian", &Options::hessian);
-  c.def_readwrite("tolerance", &Options::tolerance, "Optimality tolerance of the solver.");
-  c.def_readwrite("constraint_tolerance", &Options::constraint_tolerance);
-  c.def_readwrite("max_iterations", &Options::max_iterations, "Of each run of the solver.");
-  c.def_readwrite("time_limit_s", &Options::time_limit_s, "Wall clock of the whole solve [s].");
-  c.def_readwrite("logger", &Options::logger, "Called with (LogLevel, line), a line an iteration; None: silent.");
-  c.def("has_cost", &Options::has_cost, "Whether any weight is positive.");
-  c.def("validate", &Options::validate, "Raises InvalidOptions naming the first field out of its range.");
+  bind_enum<Forces>(m);
+  bind_enum<ContactMode>(m);
+  bind_enum<Continuous>(m);
+  bind_enum<FreeFlyer>(m);
+  bind_enum<HessianChoice>(m);
+  bind_fields<Options>(m)
+      .def("has_cost", &Options::has_cost, "Whether there is anything to minimise; torques with dynamics only.")
+      .def("validate", &Options::validate, "Raise InvalidOptions naming all that is out of its range.");
 }
 
 /// What Python calls Result: with room for a certificate, which C++ users ask certify() for themselves.
@@ -145,7 +90,6 @@ void bind_planner_class(py::module_& m) {
 }  // namespace
 
 void bind_sip_planner(py::module_& m) {
-  bind_choices(m);
   bind_options(m);
   bind_result(m);
   bind_planner_class(m);

@@ -26,20 +26,20 @@ Attempts::Attempts(Problem&& problem, std::vector<int> surfaces, const Deadline&
 
 /// Polish every guess, those without a sequence of their own after a discovery. The cheapest, empty when all of them
 /// broke down.
-Incumbent Attempts::cheapest(std::vector<Guess>& guesses, const Tuning& tuning, Status& status) {
+Incumbent Attempts::cheapest(std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending) {
   Incumbent chosen;
   double lowest = std::numeric_limits<double>::infinity();
   bool stepping_ahead = false;
-  for (std::size_t i = 0; i < guesses.size() && status == Status::solved; ++i) {
+  for (std::size_t i = 0; i < guesses.size() && ending == Ending::done; ++i) {
     const bool discover = guesses[i].discover_with > 0.0;
     // The stepping sequences differ in who begins: when the first of them is ahead, the other is no better.
     if (!discover && stepping_ahead) break;
     Incumbent& now = guesses[i].start;
-    if (discover) status = search_.discover(now, guesses[i].discover_with, tuning);
-    if (status == Status::solved) status = search_.polish(now, kPolishIterations, kRoughCalm, lowest, tuning);
+    if (discover) ending = search_.discover(now, guesses[i].discover_with, tuning);
+    if (ending == Ending::done) ending = search_.polish(now, kPolishIterations, kRoughCalm, lowest, tuning);
     // A guess that breaks down numerically is dropped, the others may still do.
-    if (status == Status::numerical_failure) {
-      status = Status::solved;
+    if (ending == Ending::broke_down) {
+      ending = Ending::done;
       continue;
     }
     const double merit = search_.evaluate(now, tuning).merit();
@@ -52,27 +52,27 @@ Incumbent Attempts::cheapest(std::vector<Guess>& guesses, const Tuning& tuning, 
 }
 
 /// Refine the cheapest of the guesses and finish it.
-Status Attempts::attempt(std::vector<Guess> guesses, const Tuning& tuning) {
-  Status status = Status::solved;
-  Incumbent chosen = cheapest(guesses, tuning, status);
-  if (chosen.sequence.empty()) return status == Status::solved ? Status::numerical_failure : status;
-  if (status == Status::solved) status = search_.refine(chosen, tuning);
-  if (status == Status::solved) {
+Ending Attempts::attempt(std::vector<Guess> guesses, const Tuning& tuning) {
+  Ending ending = Ending::done;
+  Incumbent chosen = cheapest(guesses, tuning, ending);
+  if (chosen.sequence.empty()) return ending == Ending::done ? Ending::broke_down : ending;
+  if (ending == Ending::done) ending = search_.refine(chosen, tuning);
+  if (ending == Ending::done) {
     // Limits are penalties: harder ones at the end bring what is left of a violation below the checker's tolerance.
     Tuning hard = tuning;
     hard.limit_weight *= kHardening;
     const double never = std::numeric_limits<double>::infinity();
-    status = search_.polish(chosen, kFinalIterations, kFinalCalm, never, hard);
+    ending = search_.polish(chosen, kFinalIterations, kFinalCalm, never, hard);
   }
   last_ = chosen;
   // Out of time there is a plan already, and none for another one.
-  if (status != Status::time_limit || !best_->best()) finish(std::move(chosen), tuning);
-  return late(status);
+  if (ending != Ending::time_limit || !best_->best()) finish(std::move(chosen), tuning);
+  return late(ending);
 }
 
 /// What an attempt that has come to its end is called when the time limit has cut its last check short.
-Status Attempts::late(Status status) const {
-  return status == Status::solved && !best_->ok() && deadline_->passed() ? Status::time_limit : status;
+Ending Attempts::late(Ending ending) const {
+  return ending == Ending::done && !best_->ok() && deadline_->passed() ? Ending::time_limit : ending;
 }
 
 Incumbent Attempts::first_guess(const ContactSequence& sequence, const Tuning& tuning) const {
@@ -101,7 +101,7 @@ Incumbent Attempts::at_once(const ContactSequence& sequence) {
 }
 
 /// The contact sequence that the search begins with; where finding it takes too long, end-effectors in turns.
-ContactSequence Attempts::initial(Status& status) {
+ContactSequence Attempts::initial(Ending& ending) {
   const Options& options = problem_.options;
   if (!options.initial_sequence.empty()) return problem_.to_active(options.initial_sequence);
   const Trajectory guess = problem_.initial_guess({}, first_);
@@ -113,13 +113,13 @@ ContactSequence Attempts::initial(Status& status) {
   int looks = 0;
   const double until_s = deadline_->elapsed_s() + kInitialShare * std::max(deadline_->remaining_s(), 0.0);
   ContactSequence found = initial_sequence(search_.model(), kBeam, [&] {
-    if (++looks % kPollsPerRequest == 0 && options.stop && options.stop()) status = Status::interrupted;
-    return stopped = status == Status::interrupted || deadline_->elapsed_s() >= until_s;
+    if (++looks % kPollsPerRequest == 0 && options.stop && options.stop()) ending = Ending::interrupted;
+    return stopped = ending == Ending::interrupted || deadline_->elapsed_s() >= until_s;
   });
   for (int mover : {0, 1})
     if (stopped && found.empty()) found = stepping_sequence(problem_, mover);
   if (!found.empty()) return found;
-  if (status != Status::interrupted) status = stopped ? Status::time_limit : Status::no_sequence;
+  if (ending != Ending::interrupted) ending = stopped ? Ending::time_limit : Ending::no_sequence;
   return {};
 }
 
@@ -148,14 +148,14 @@ double Attempts::further_inside() const {
 }
 
 /// Other settings of what the outcome depends on most, in an order drawn from the seed, until a plan is accepted.
-Status Attempts::restart(Status status, const ContactSequence& initial) {
+Ending Attempts::restart(Ending ending, const ContactSequence& initial) {
   const Problem& p = problem_;
   std::vector<RestartSetting> settings(std::begin(kRestarts), std::end(kRestarts));
   std::mt19937_64 random(p.options.seed);
   for (std::size_t i = settings.size(); i > 1; --i) std::swap(settings[i - 1], settings[random() % i]);
   Tuning tuning = first_;
   for (int i = 0; i < p.options.restarts && !best_->ok(); ++i) {
-    if (status != Status::solved && status != Status::numerical_failure) break;
+    if (ending != Ending::done && ending != Ending::broke_down) break;
     const auto [proximal, duration_s] = settings[static_cast<std::size_t>(i) % settings.size()];
     tuning.duration_initial = std::clamp(duration_s * p.similarity.time / p.units.time, p.duration_min, p.duration_max);
     Incumbent again = first_guess({}, tuning);
@@ -166,25 +166,25 @@ Status Attempts::restart(Status status, const ContactSequence& initial) {
       tuning.toe_room += further_inside();
       others.insert(others.begin(), Guess{last_});
     }
-    status = attempt(std::move(others), tuning);
+    ending = attempt(std::move(others), tuning);
   }
-  return status;
+  return ending;
 }
 
-Status Attempts::run(const Incumbent* warm) {
-  Status status = Status::solved;
-  const ContactSequence sequence = initial(status);
-  if (sequence.empty()) return status;
+Ending Attempts::run(const Incumbent* warm) {
+  Ending ending = Ending::done;
+  const ContactSequence sequence = initial(ending);
+  if (sequence.empty()) return ending;
   Incumbent start = first_guess({}, first_);
   start.sequence = sequence;
   if (deadline_->limited()) keep(warm ? *warm : at_once(sequence), first_);
   const Options& options = problem_.options;
   if (options.method == Method::paper) {
-    status = search_.run_paper(start, std::min(kPaperIterations, options.max_iterations), first_);
-    if (status != Status::numerical_failure && (status != Status::time_limit || !best_->best())) finish(start, first_);
-    return late(status);
+    ending = search_.run_paper(start, std::min(kPaperIterations, options.max_iterations), first_);
+    if (ending != Ending::broke_down && (ending != Ending::time_limit || !best_->best())) finish(start, first_);
+    return late(ending);
   }
-  if (best_->best() && deadline_->passed()) return Status::time_limit;
+  if (best_->best() && deadline_->passed()) return Ending::time_limit;
   return restart(attempt(guesses(start, warm), first_), sequence);
 }
 

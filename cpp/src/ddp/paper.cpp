@@ -42,22 +42,22 @@ bool Search::paper_switches(Incumbent& now, Iteration& row) {
   }
 }
 
-Status Search::run_paper(Incumbent& now, int iterations, const Tuning& tuning) {
+Ending Search::run_paper(Incumbent& now, int iterations, const Tuning& tuning) {
   const Weights& w = problem_->options.weights;
   Schedule schedule;
   schedule.tuning = tuning;
   schedule.contact_weight = w.contact_min;
   schedule.proximal_weight = kPaperProximal;
-  Status status = Status::solved;
+  Ending ending = Ending::done;
   for (int i = 0; i < iterations; ++i) {
-    if (should_stop(status)) return status;
+    if (should_stop(ending)) return ending;
     Iteration row;
     row.index = ++report_->iterations;
     {
       const Stopwatch watch(report_->timing_s, "linearise");
       model_.expand(now.trajectory, schedule);
     }
-    if (!paper_switches(now, row) || !values_.backward(now.sequence, problem_->steps)) return Status::numerical_failure;
+    if (!paper_switches(now, row) || !values_.backward(now.sequence, problem_->steps)) return Ending::broke_down;
     // The author's program searches along the step for the lowest objective; so does this, on cost plus defects.
     const double before = evaluate_(now.trajectory, now.sequence, schedule).merit();
     if (line_search(now, now.sequence, schedule, before, stay_)) {
@@ -65,12 +65,12 @@ Status Search::run_paper(Incumbent& now, int iterations, const Tuning& tuning) {
       row.step = stay_.step;
     }
     now.evaluation = evaluate_(now.trajectory, now.sequence, schedule);
-    if (!std::isfinite(now.evaluation.merit())) return Status::numerical_failure;
+    if (!std::isfinite(now.evaluation.merit())) return Ending::broke_down;
     record(std::move(row), now, schedule);
     if (watcher_) watcher_(now, tuning);
     schedule.contact_weight = std::min(w.contact_growth * schedule.contact_weight, w.contact_max);
   }
-  return Status::solved;
+  return Ending::done;
 }
 
 }  // namespace mcplan::ddp

@@ -42,13 +42,13 @@ Evaluation Search::evaluate(const Incumbent& at, const Tuning& tuning) {
   return evaluate_(at.trajectory, at.sequence, full_schedule(tuning));
 }
 
-bool Search::should_stop(Status& status) const {
+bool Search::should_stop(Ending& ending) const {
   if (problem_->options.stop && problem_->options.stop())
-    status = Status::interrupted;
+    ending = Ending::interrupted;
   else if (deadline_->passed())
-    status = Status::time_limit;
+    ending = Ending::time_limit;
   else if (report_->iterations >= problem_->options.max_iterations)
-    status = Status::iteration_limit;
+    ending = Ending::iteration_limit;
   else
     return false;
   return true;
@@ -116,13 +116,13 @@ int Search::switch_contacts(ContactSequence& sequence, Iteration& row) {
   return switches;
 }
 
-Status Search::iterate(Incumbent& now, Schedule& schedule, bool free_sequence) {
+Ending Search::iterate(Incumbent& now, Schedule& schedule, bool free_sequence) {
   Iteration row;
   row.index = ++report_->iterations;
   if (problem_->model == Model::wrench) problem_->set_sole_yaw(now.sequence, now.trajectory);
   now.evaluation = evaluate_(now.trajectory, now.sequence, schedule);
   const double before = now.evaluation.merit();
-  if (!std::isfinite(before)) return Status::numerical_failure;
+  if (!std::isfinite(before)) return Ending::broke_down;
   for (;;) {
     {
       const Stopwatch watch(report_->timing_s, "linearise");
@@ -131,7 +131,7 @@ Status Search::iterate(Incumbent& now, Schedule& schedule, bool free_sequence) {
     const Stopwatch watch(report_->timing_s, "value_backward");
     if (values_.backward(now.sequence, problem_->steps)) break;
     schedule.proximal_weight *= kProximalRetry;
-    if (schedule.proximal_weight > kProximalMax) return Status::numerical_failure;
+    if (schedule.proximal_weight > kProximalMax) return Ending::broke_down;
   }
   const bool moved = line_search(now, now.sequence, schedule, before, stay_);
   ContactSequence sequence = now.sequence;
@@ -162,50 +162,50 @@ Status Search::iterate(Incumbent& now, Schedule& schedule, bool free_sequence) {
       schedule.proximal_weight = std::min(kProximalRise * schedule.proximal_weight, kProximalMax);
   }
   record(std::move(row), now, schedule);
-  return Status::solved;
+  return Ending::done;
 }
 
-Status Search::discover(Incumbent& now, double proximal_weight, const Tuning& tuning) {
+Ending Search::discover(Incumbent& now, double proximal_weight, const Tuning& tuning) {
   const Weights& w = problem_->options.weights;
   Schedule schedule;
   schedule.tuning = tuning;
   schedule.contact_weight = w.contact_min;
   schedule.proximal_weight = proximal_weight;
   schedule.discovering = true;
-  Status status = Status::solved;
+  Ending ending = Ending::done;
   for (int at_full = 0; at_full < kFreeAtFullWeight;) {
-    if (should_stop(status)) return status;
-    status = iterate(now, schedule, true);
-    if (status != Status::solved) return status;
+    if (should_stop(ending)) return ending;
+    ending = iterate(now, schedule, true);
+    if (ending != Ending::done) return ending;
     if (watcher_) watcher_(now, tuning);
     at_full += schedule.contact_weight >= w.contact_max;
     schedule.contact_weight = std::min(w.contact_growth * schedule.contact_weight, w.contact_max);
   }
-  return Status::solved;
+  return Ending::done;
 }
 
-Status Search::polish(Incumbent& now, int iterations, double calm, double give_up_above, const Tuning& tuning) {
+Ending Search::polish(Incumbent& now, int iterations, double calm, double give_up_above, const Tuning& tuning) {
   Schedule schedule = full_schedule(tuning);
   schedule.proximal_weight = polish_proximal_;
   double last = std::numeric_limits<double>::infinity();
   double window_start = last;
   int calm_iterations = 0;
-  Status status = Status::solved;
+  Ending ending = Ending::done;
   for (int i = 0; i < iterations; ++i) {
-    if (should_stop(status)) return status;
-    status = iterate(now, schedule, false);
-    if (status != Status::solved) return status;
+    if (should_stop(ending)) return ending;
+    ending = iterate(now, schedule, false);
+    if (ending != Ending::done) return ending;
     if (watcher_) watcher_(now, tuning);
     const double merit = now.evaluation.merit();
     calm_iterations = std::abs(last - merit) < calm * std::abs(merit) ? calm_iterations + 1 : 0;
-    if (calm_iterations >= kCalmIterations && now.evaluation.defect_max < kCalmDefect) return Status::solved;
+    if (calm_iterations >= kCalmIterations && now.evaluation.defect_max < kCalmDefect) return Ending::done;
     if (i % kWindow == kWindow - 1) {
-      if (i > kWindow && merit - kWindowsAhead * (window_start - merit) > give_up_above) return Status::solved;
+      if (i > kWindow && merit - kWindowsAhead * (window_start - merit) > give_up_above) return Ending::done;
       window_start = merit;
     }
     last = merit;
   }
-  return Status::solved;
+  return Ending::done;
 }
 
 std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now, const Tuning& tuning) {
@@ -244,8 +244,8 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now, const 
   return out;
 }
 
-Status Search::refine(Incumbent& now, const Tuning& tuning) {
-  Status status = Status::solved;
+Ending Search::refine(Incumbent& now, const Tuning& tuning) {
+  Ending ending = Ending::done;
   polish_proximal_ = kTrialProximal;
   for (int round = 0; round < kRefineRounds; ++round) {
     const std::vector<ContactSequence> changes = ranked_changes(now, tuning);
@@ -254,7 +254,7 @@ Status Search::refine(Incumbent& now, const Tuning& tuning) {
       Incumbent trial = now;
       trial.sequence = changes[i];
       const double merit = now.evaluation.merit();
-      status = polish(trial, kTrialIterations, kRoughCalm, merit, tuning);
+      ending = polish(trial, kTrialIterations, kRoughCalm, merit, tuning);
       improved = trial.evaluation.merit() < merit * (1.0 - kTrialGain);
       if (improved) {
         const int switches = differences(trial.sequence, now.sequence);
@@ -262,11 +262,11 @@ Status Search::refine(Incumbent& now, const Tuning& tuning) {
         report_->history.back().switches += switches;
         now = std::move(trial);
       }
-      if (status != Status::solved && status != Status::numerical_failure) return status;
+      if (ending != Ending::done && ending != Ending::broke_down) return ending;
     }
     if (!improved) break;
   }
-  return Status::solved;
+  return Ending::done;
 }
 
 }  // namespace mcplan::ddp

@@ -20,8 +20,29 @@ namespace mcplan::ddp {
 namespace {
 
 /// Whether a search that ended so may have missed what it did not look at.
-bool ended_by_itself(Status status) {
-  return status == Status::solved || status == Status::numerical_failure || status == Status::no_sequence;
+bool ended_by_itself(Ending ending) {
+  return ending == Ending::done || ending == Ending::broke_down || ending == Ending::no_sequence;
+}
+
+/// What the user is told of a search that ended so, with this plan or none.
+Status status_of(Ending ending, const std::optional<BestPlan::Finished>& best) {
+  if (best && best->ok) return Status::solved;
+  switch (ending) {
+    case Ending::done:
+      if (!best) return Status::numerical_failure;
+      return violation_ratio(best->worst) <= kAcceptable ? Status::acceptable : Status::infeasible;
+    case Ending::no_sequence:
+      return Status::no_sequence;
+    case Ending::iteration_limit:
+      return Status::iteration_limit;
+    case Ending::time_limit:
+      return Status::time_limit;
+    case Ending::interrupted:
+      return Status::interrupted;
+    case Ending::broke_down:
+      break;
+  }
+  return Status::numerical_failure;
 }
 
 }  // namespace
@@ -42,7 +63,7 @@ struct SwitchedDdp::Impl {
   std::vector<int> surfaces_of(const Request& request, const Outlook& outlook) const;
   Problem pose(const Request& request, const std::vector<int>& surfaces) const;
   PlanResult solve(const Request& request);
-  PlanResult conclude(Status status, int steps, const BestPlan& best, Report&& report, double time_s) const;
+  PlanResult conclude(Ending ending, int steps, const BestPlan& best, Report&& report, double time_s) const;
 };
 
 /// Surfaces that the search looks at: those near the way, and those that are named.
@@ -94,7 +115,7 @@ PlanResult SwitchedDdp::Impl::solve(const Request& request) {
   report.seed = options.seed;
   report.threads = options.threads;
   report.version = MCPLAN_VERSION;
-  Status status = Status::no_sequence;
+  Ending ending = Ending::no_sequence;
   int steps = 0;
   std::size_t rows = 0;  // of the history, named by the scene's surfaces
   for (int level = 0; level < kOutlooks; ++level) {
@@ -114,23 +135,24 @@ PlanResult SwitchedDdp::Impl::solve(const Request& request) {
       warm->trajectory.u.front()[problem.layout.duration()] = problem.first_duration;
     }
     Attempts attempts(std::move(problem), surfaces, deadline, best, report);
-    status = attempts.run(warm ? &*warm : nullptr);
+    ending = attempts.run(warm ? &*warm : nullptr);
     for (; rows < report.history.size(); ++rows)
       for (ContactState& state : report.history[rows].sequence)
         for (int& surface : state)
           if (surface != kFree) surface = surfaces[surface];
-    if (best.ok() || !ended_by_itself(status) || all) {
+    if (best.ok() || !ended_by_itself(ending) || all) {
       best.settle(attempts.problem(), report);
       break;
     }
   }
-  return conclude(status, steps, best, std::move(report), deadline.elapsed_s());
+  return conclude(ending, steps, best, std::move(report), deadline.elapsed_s());
 }
 
-PlanResult SwitchedDdp::Impl::conclude(Status status, int steps, const BestPlan& kept, Report&& report,
+PlanResult SwitchedDdp::Impl::conclude(Ending ending, int steps, const BestPlan& kept, Report&& report,
                                        double time_s) const {
   PlanResult out;
   const auto& best = kept.best();
+  const Status status = status_of(ending, best);
   if (best) {
     out.plan = best->plan;
     // Of a plan that was looked at in few instants, in as few.
@@ -140,14 +162,9 @@ PlanResult SwitchedDdp::Impl::conclude(Status status, int steps, const BestPlan&
     const CostTerms& terms = best->evaluation.terms;
     for (std::size_t i = 0; i < cost_terms().size(); ++i)
       if (terms[i] > 0.0) report.cost_terms[cost_terms()[i]->name()] = terms[i];
-    if (best->ok)
-      status = Status::solved;
-    else if (status == Status::solved)
-      status = violation_ratio(best->worst) <= kAcceptable ? Status::acceptable : Status::infeasible;
   } else {
     out.plan.scene = scene;
     out.plan.robot = robot;
-    if (status == Status::solved) status = Status::numerical_failure;
     const bool no_sequence = status == Status::no_sequence;
     report.worst_violation.name = no_sequence ? "contact_sequence" : "finite";
     report.worst_violation.value = 1.0;

@@ -6,6 +6,8 @@
 #include "check_internal.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/base/rotation.hpp"
+#include "model/read.hpp"
+#include "tolerances_fields.hpp"
 
 namespace mcplan {
 namespace {
@@ -69,8 +71,7 @@ void require_shape(const Plan& plan, const Scene& scene, const Robot& robot) {
 }
 
 void require_samples(const Plan& plan, const Tolerances& tolerances) {
-  if (!(std::isfinite(tolerances.sample_s) && tolerances.sample_s > 0.0))
-    throw InvalidOptions("tolerances.sample_s", "must be a positive number", text(tolerances.sample_s));
+  model::require_ranges<InvalidOptions>(tolerances, "tolerances");
   constexpr double kMost = 2e6;
   const double samples = plan.duration() / tolerances.sample_s;
   if (samples > kMost)
@@ -128,6 +129,8 @@ bool check_motion(const Problem& problem, const StopRequest& stop, Findings& fin
 }
 
 }  // namespace
+
+void Tolerances::validate() const { model::require_ranges<InvalidOptions>(*this); }
 
 CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, const Tolerances& tolerances,
                   const StopRequest& stop) {

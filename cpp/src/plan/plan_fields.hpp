@@ -1,7 +1,5 @@
 #pragma once
 
-#include <utility>
-
 #include "mcplan/plan/plan.hpp"
 #include "model/fields.hpp"
 #include "robot/robot_fields.hpp"
@@ -14,10 +12,14 @@ constexpr std::size_t max_phases = 10'000, max_swings = 40'000, max_points = 100
 
 template <>
 struct Names<ForceLaw> {
-  static constexpr std::pair<const char*, ForceLaw> all[] = {{"pendulum", ForceLaw::pendulum},
-                                                             {"held", ForceLaw::held},
-                                                             {"linear", ForceLaw::linear},
-                                                             {"wrench", ForceLaw::wrench}};
+  static constexpr const char* name = "ForceLaw";
+  static constexpr const char* meaning = "How contact forces depend on time within a phase.";
+  static constexpr Choice<ForceLaw> all[] = {
+      {"pendulum", ForceLaw::pendulum, "f(t) = mass stiffness (com(t) - anchor): the multi-contact pendulum."},
+      {"held", ForceLaw::held, "Forces at points, constant over each of `intervals` equal intervals."},
+      {"linear", ForceLaw::linear, "Forces at points, linear over each of `intervals` equal intervals."},
+      {"wrench", ForceLaw::wrench,
+       "f(t) = mass stiffness (com(t) - anchor), acting at center_of_pressure, with a moment about the normal."}};
 };
 
 template <>
@@ -103,5 +105,8 @@ struct Fields<Plan> {
           .entries(0, 8),
       field("swings", &Plan::swings, "", "Swings.").required().entries(0, max_swings));
 };
+
+/// The plan of the fields of a JSON file. Throws InvalidPlan with all that is wrong.
+Plan plan_from(const Value& fields);
 
 }  // namespace mcplan::model

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "checks.hpp"
+#include "model/read.hpp"
+#include "tolerances_fields.hpp"
 
 namespace mcplan {
 
@@ -106,6 +108,8 @@ void require_well_formed(const PlanarPlan& plan) {
 }  // namespace
 }  // namespace planar
 
+void PlanarTolerances::validate() const { model::require_ranges<InvalidOptions>(*this); }
+
 CheckResult check(const PlanarPlan& plan, const PlanarTolerances& tolerances, bool self_collision,
                   const StopRequest& stop) {
   using namespace planar;
@@ -115,6 +119,7 @@ CheckResult check(const PlanarPlan& plan, const PlanarTolerances& tolerances, bo
   if (!check_phase_duration(plan, findings))
     return {findings.violations(static_cast<int>(Constraint::phase_duration) + 1)};
   plan.validate();  // weights that are not positive
+  model::require_ranges<InvalidOptions>(tolerances, "tolerances");
   require_samples(plan, tolerances.sample_s);
 
   const std::vector<IntervalSplines> splines = all_splines(plan);

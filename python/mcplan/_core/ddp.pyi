@@ -5,152 +5,10 @@ Contact-sequence search by switched differential dynamic programming.
 from __future__ import annotations
 import collections.abc
 import mcplan._core
+from mcplan._core import PlanResult as Result
 import typing
 
-__all__: list[str] = ["Method", "Model", "Options", "StiffnessInput", "SwitchedDdp", "Weights"]
-
-class Weights:
-    """
-    Weights w of the cost terms 1/2 w^2 e^2 (Tazaki, Table I), for non-dimensional quantities: length in CoM heights, time in sqrt(height / gravity), mass 1.
-    """
-    def __init__(self) -> None: ...
-    @property
-    def angle(self) -> float:
-        """
-        On the base's angles inside, of Model.wrench.
-        """
-    @angle.setter
-    def angle(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def center_of_pressure(self) -> float:
-        """
-        On the distance of the acting force from the end-effector, of Model.wrench.
-        """
-    @center_of_pressure.setter
-    def center_of_pressure(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def com(self) -> float: ...
-    @com.setter
-    def com(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def com_end(self) -> float:
-        """
-        At the first and last knot.
-        """
-    @com_end.setter
-    def com_end(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def contact_change(self) -> float:
-        """
-        On every contact made or broken.
-        """
-    @contact_change.setter
-    def contact_change(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def contact_growth(self) -> float:
-        """
-        Factor between iterations, above 1.
-        """
-    @contact_growth.setter
-    def contact_growth(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def contact_max(self) -> float:
-        """
-        Last complementarity weight.
-        """
-    @contact_max.setter
-    def contact_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def contact_min(self) -> float:
-        """
-        First complementarity weight.
-        """
-    @contact_min.setter
-    def contact_min(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def duration(self) -> float:
-        """
-        Towards the middle of the duration box.
-        """
-    @duration.setter
-    def duration(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def end_effector(self) -> float: ...
-    @end_effector.setter
-    def end_effector(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def end_effector_end(self) -> float: ...
-    @end_effector_end.setter
-    def end_effector_end(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def flight(self) -> float:
-        """
-        On every phase without any contact.
-        """
-    @flight.setter
-    def flight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def force_line(self) -> float:
-        """
-        On the distance from there to the line that points at the CoM, of Model.wrench; very large: the paper's forces.
-        """
-    @force_line.setter
-    def force_line(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def limit(self) -> float:
-        """
-        Reach, stiffness, moment, force, friction, duration.
-        """
-    @limit.setter
-    def limit(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def moment(self) -> float: ...
-    @moment.setter
-    def moment(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def momentum(self) -> float:
-        """
-        On the angular momentum inside, of Model.wrench.
-        """
-    @momentum.setter
-    def momentum(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def overshoot_factor(self) -> float:
-        """
-        On leaving a polygon sideways, at least 1.
-        """
-    @overshoot_factor.setter
-    def overshoot_factor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def rotation(self) -> float:
-        """
-        On the base's angles and rates, inside for Model.lipm alone.
-        """
-    @rotation.setter
-    def rotation(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def rotation_end(self) -> float: ...
-    @rotation_end.setter
-    def rotation_end(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def stiffness(self) -> float: ...
-    @stiffness.setter
-    def stiffness(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def stride(self) -> float:
-        """
-        On the travel of an end-effector within a phase.
-        """
-    @stride.setter
-    def stride(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def velocity(self) -> float: ...
-    @velocity.setter
-    def velocity(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def velocity_end(self) -> float: ...
-    @velocity_end.setter
-    def velocity_end(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+__all__: list[str] = ["Method", "Model", "Options", "Result", "StiffnessInput", "SwitchedDdp", "Weights"]
 
 class Method:
     """
@@ -158,9 +16,9 @@ class Method:
 
     Members:
 
-      standard
+      standard : Proximal switched DDP, neighbours and whole sequences priced exactly.
 
-      paper
+      paper : Tazaki's Algorithms 1 and 2 as published.
     """
 
     __members__: typing.ClassVar[dict[str, Method]]
@@ -179,6 +37,9 @@ class Method:
     def __ne__(self, other: Method) -> bool: ...
     @typing.overload
     def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
     def __repr__(self) -> str: ...
     def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def __str__(self) -> str: ...
@@ -214,6 +75,9 @@ class Model:
     def __ne__(self, other: Model) -> bool: ...
     @typing.overload
     def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
     def __repr__(self) -> str: ...
     def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def __str__(self) -> str: ...
@@ -224,13 +88,13 @@ class Model:
 
 class StiffnessInput:
     """
-    How the contact stiffness enters: mu, or lambda with mu = lambda^2.
+    How the contact stiffness enters the search as an input.
 
     Members:
 
-      mu
+      mu : mu itself, in which contact forces are linear.
 
-      lambda_
+      lambda_ : The paper's lambda, with mu = lambda^2.
     """
 
     __members__: typing.ClassVar[dict[str, StiffnessInput]]
@@ -249,6 +113,9 @@ class StiffnessInput:
     def __ne__(self, other: StiffnessInput) -> bool: ...
     @typing.overload
     def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
     def __repr__(self) -> str: ...
     def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def __str__(self) -> str: ...
@@ -257,46 +124,285 @@ class StiffnessInput:
     @property
     def value(self) -> int: ...
 
+class Weights:
+    """
+    Weights w of the cost terms 1/2 w^2 e^2 (Tazaki, Table I), for non-dimensional quantities: length in CoM heights, time in sqrt(height / gravity), mass 1. Those named _end hold at the first and last knot.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __copy__(self) -> Weights: ...
+    def __deepcopy__(self, memo: dict) -> Weights: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        *,
+        com: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        com_end: typing.SupportsFloat | typing.SupportsIndex = 100.0,
+        velocity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        velocity_end: typing.SupportsFloat | typing.SupportsIndex = 100.0,
+        rotation: typing.SupportsFloat | typing.SupportsIndex = 100.0,
+        rotation_end: typing.SupportsFloat | typing.SupportsIndex = 100.0,
+        angle: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        momentum: typing.SupportsFloat | typing.SupportsIndex = 0.3,
+        center_of_pressure: typing.SupportsFloat | typing.SupportsIndex = 0.5,
+        force_line: typing.SupportsFloat | typing.SupportsIndex = 0.3,
+        end_effector: typing.SupportsFloat | typing.SupportsIndex = 0.01,
+        end_effector_end: typing.SupportsFloat | typing.SupportsIndex = 100.0,
+        stride: typing.SupportsFloat | typing.SupportsIndex = 0.01,
+        stiffness: typing.SupportsFloat | typing.SupportsIndex = 0.01,
+        moment: typing.SupportsFloat | typing.SupportsIndex = 0.01,
+        limit: typing.SupportsFloat | typing.SupportsIndex = 100.0,
+        duration: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        contact_min: typing.SupportsFloat | typing.SupportsIndex = 0.01,
+        contact_max: typing.SupportsFloat | typing.SupportsIndex = 100.0,
+        contact_growth: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+        overshoot_factor: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+        own: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {},
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def angle(self) -> float:
+        """
+        On the base's angles inside, of Model.wrench.
+        """
+    @angle.setter
+    def angle(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def center_of_pressure(self) -> float:
+        """
+        On the distance of the acting force from the end-effector, of Model.wrench.
+        """
+    @center_of_pressure.setter
+    def center_of_pressure(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def com(self) -> float:
+        """
+        On the CoM's distance from its reference.
+        """
+    @com.setter
+    def com(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def com_end(self) -> float:
+        """
+        The same at the first and last knot.
+        """
+    @com_end.setter
+    def com_end(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def contact_change(self) -> float:
+        """
+        On every contact made or broken.
+        """
+    @contact_change.setter
+    def contact_change(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def contact_growth(self) -> float:
+        """
+        Factor of that weight between iterations, above 1.
+        """
+    @contact_growth.setter
+    def contact_growth(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def contact_max(self) -> float:
+        """
+        Last complementarity weight, at least the first.
+        """
+    @contact_max.setter
+    def contact_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def contact_min(self) -> float:
+        """
+        First complementarity weight.
+        """
+    @contact_min.setter
+    def contact_min(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def duration(self) -> float:
+        """
+        Towards the middle of the duration box.
+        """
+    @duration.setter
+    def duration(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def end_effector(self) -> float:
+        """
+        On the end-effectors' distance from their reference.
+        """
+    @end_effector.setter
+    def end_effector(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def end_effector_end(self) -> float:
+        """
+        The same at the first and last knot.
+        """
+    @end_effector_end.setter
+    def end_effector_end(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def flight(self) -> float:
+        """
+        On every phase without any contact.
+        """
+    @flight.setter
+    def flight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def force_line(self) -> float:
+        """
+        On the distance from there to the line that points at the CoM, of Model.wrench; very large: the paper's forces.
+        """
+    @force_line.setter
+    def force_line(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def limit(self) -> float:
+        """
+        On what is beyond reach, stiffness, moment, force, friction, duration.
+        """
+    @limit.setter
+    def limit(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def moment(self) -> float:
+        """
+        On contact moments.
+        """
+    @moment.setter
+    def moment(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def momentum(self) -> float:
+        """
+        On the angular momentum inside, of Model.wrench.
+        """
+    @momentum.setter
+    def momentum(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def overshoot_factor(self) -> float:
+        """
+        On leaving a polygon sideways, at least 1.
+        """
+    @overshoot_factor.setter
+    def overshoot_factor(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def own(self) -> typing.Any:
+        """
+        Weights of single terms by the term's name, where they are not the usual ones.
+        """
+    @own.setter
+    def own(self, arg1: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
+    @property
+    def rotation(self) -> float:
+        """
+        On the base's angles and rates, inside for Model.lipm alone.
+        """
+    @rotation.setter
+    def rotation(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def rotation_end(self) -> float:
+        """
+        The same at the first and last knot.
+        """
+    @rotation_end.setter
+    def rotation_end(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def stiffness(self) -> float:
+        """
+        On the contact stiffness.
+        """
+    @stiffness.setter
+    def stiffness(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def stride(self) -> float:
+        """
+        On the travel of an end-effector within a phase.
+        """
+    @stride.setter
+    def stride(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def velocity(self) -> float:
+        """
+        On the CoM's velocity.
+        """
+    @velocity.setter
+    def velocity(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def velocity_end(self) -> float:
+        """
+        The same at the first and last knot.
+        """
+    @velocity_end.setter
+    def velocity_end(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
 class Options:
     """
     Options of the contact-sequence search; the defaults serve all built-in scenes.
     """
 
-    method: Method
-    one_switch_per_step: bool
-    stiffness_input: StiffnessInput
-    weights: Weights
-    whole_sequence_moves: bool
-    def __init__(self) -> None: ...
+    __hash__: typing.ClassVar[None] = None
+    def __copy__(self) -> Options: ...
+    def __deepcopy__(self, memo: dict) -> Options: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        *,
+        phases: typing.SupportsInt | typing.SupportsIndex = 0,
+        method: Method = ...,
+        model: Model = ...,
+        stiffness_input: StiffnessInput = ...,
+        weights: Weights = ...,
+        duration_min_s: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        duration_max_s: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        flight_duration_min_s: typing.SupportsFloat | typing.SupportsIndex = 0.4,
+        duration_initial_s: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        proximal_weight: typing.SupportsFloat | typing.SupportsIndex = 30.0,
+        interior_points: typing.SupportsInt | typing.SupportsIndex = 4,
+        reach_margin_m: typing.SupportsFloat | typing.SupportsIndex = 0.003,
+        sole_inside: typing.SupportsFloat | typing.SupportsIndex = -1.0,
+        friction: bool = True,
+        friction_sides: typing.SupportsInt | typing.SupportsIndex = 0,
+        whole_sequence_moves: bool = True,
+        one_switch_per_step: bool = True,
+        restarts: typing.SupportsInt | typing.SupportsIndex = 3,
+        max_iterations: typing.SupportsInt | typing.SupportsIndex = 5000,
+        time_limit_s: typing.SupportsFloat | typing.SupportsIndex = ...,
+        threads: typing.SupportsInt | typing.SupportsIndex = 1,
+        seed: typing.SupportsInt | typing.SupportsIndex = 0,
+        initial_sequence: collections.abc.Sequence[
+            collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]
+        ] = [],
+        record_history: bool = False,
+        logger: collections.abc.Callable[[mcplan._core.LogLevel, str], None] = None,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def validate(self) -> None:
         """
-        Raises InvalidOptions naming the first field out of its range.
+        Raise InvalidOptions naming all that is out of its range.
         """
     @property
     def duration_initial_s(self) -> float:
         """
-        First guess of all phases [s]; 0: the middle of their box, 0.45 for Model.lipm.
+        [s] First guess of all phases; 0: the middle of their box, 0.45 for Model.lipm.
         """
     @duration_initial_s.setter
     def duration_initial_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def duration_max_s(self) -> float:
         """
-        [s]; 0: the robot's.
+        [s] Longest phase, as a soft limit; 0: the robot's.
         """
     @duration_max_s.setter
     def duration_max_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def duration_min_s(self) -> float:
         """
-        Soft box of the phase durations [s]; 0: the robot's.
+        [s] Shortest phase, as a soft limit; 0: the robot's.
         """
     @duration_min_s.setter
     def duration_min_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def flight_duration_min_s(self) -> float:
         """
-        Lower bound of phases without any contact [s]. The default goes with the size of the robot.
+        [s] Shortest phase without any contact. The default goes with the size of the robot.
         """
     @flight_duration_min_s.setter
     def flight_duration_min_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -340,17 +446,31 @@ class Options:
     @property
     def max_iterations(self) -> int:
         """
-        Over all attempts.
+        Most iterations, over all attempts.
         """
     @max_iterations.setter
     def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
+    def method(self) -> Method:
+        """
+        Which search runs.
+        """
+    @method.setter
+    def method(self, arg0: Method) -> None: ...
+    @property
     def model(self) -> Model:
         """
-        Method.paper always takes Model.lipm.
+        What a contact can do; Method.paper always takes Model.lipm.
         """
     @model.setter
     def model(self, arg0: Model) -> None: ...
+    @property
+    def one_switch_per_step(self) -> bool:
+        """
+        At most one contact is made or broken between two phases (Tazaki, eq. 32).
+        """
+    @one_switch_per_step.setter
+    def one_switch_per_step(self, arg0: bool) -> None: ...
     @property
     def phases(self) -> int:
         """
@@ -361,14 +481,14 @@ class Options:
     @property
     def proximal_weight(self) -> float:
         """
-        First weight on the change of the inputs.
+        First weight on the change of the inputs; it adapts.
         """
     @proximal_weight.setter
     def proximal_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def reach_margin_m(self) -> float:
         """
-        The reach box is planned smaller by this [m]. The default goes with the size of the robot.
+        [m] The reach box is planned smaller by this. The default goes with the size of the robot.
         """
     @reach_margin_m.setter
     def reach_margin_m(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -387,30 +507,54 @@ class Options:
     @restarts.setter
     def restarts(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
-    def seed(self) -> int: ...
+    def seed(self) -> int:
+        """
+        Seed of the order in which restarts vary the settings.
+        """
     @seed.setter
     def seed(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def sole_inside(self) -> float:
         """
-        Share of a sole's half size by which footholds keep from the edges of their surface; 1: the whole sole is on it, where it is large enough; negative: the robot's sole_support.
+        [-] Share of a sole's half size by which footholds keep from the edges of their surface; 1: the whole sole is on it, where it is large enough; negative: the robot's sole_support.
         """
     @sole_inside.setter
     def sole_inside(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def stiffness_input(self) -> StiffnessInput:
+        """
+        How the contact stiffness enters as an input.
+        """
+    @stiffness_input.setter
+    def stiffness_input(self, arg0: StiffnessInput) -> None: ...
+    @property
     def threads(self) -> int:
         """
-        For pricing; the result does not depend on it.
+        Threads that price neighbours; the result does not depend on it.
         """
     @threads.setter
     def threads(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def time_limit_s(self) -> float:
         """
-        Wall clock [s].
+        [s] Wall clock of the search.
         """
     @time_limit_s.setter
     def time_limit_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def weights(self) -> Weights:
+        """
+        Weights of the cost terms.
+        """
+    @weights.setter
+    def weights(self, arg1: Weights) -> None: ...
+    @property
+    def whole_sequence_moves(self) -> bool:
+        """
+        Look for better contact sequences as a whole, by dynamic programming, where it pays.
+        """
+    @whole_sequence_moves.setter
+    def whole_sequence_moves(self, arg0: bool) -> None: ...
 
 class SwitchedDdp:
     """

@@ -9,7 +9,7 @@ import numpy
 import numpy.typing
 import typing
 
-__all__: list[str] = ["Cycle", "Fidelity", "Options", "RecedingHorizon", "State", "Transcription", "Walk"]
+__all__: list[str] = ["Cycle", "Fidelity", "Options", "RecedingHorizon", "Result", "State", "Transcription", "Walk"]
 
 class Fidelity:
     """
@@ -44,6 +44,9 @@ class Fidelity:
     def __ne__(self, other: Fidelity) -> bool: ...
     @typing.overload
     def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
     def __repr__(self) -> str: ...
     def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def __str__(self) -> str: ...
@@ -79,6 +82,9 @@ class Transcription:
     def __ne__(self, other: Transcription) -> bool: ...
     @typing.overload
     def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
     def __repr__(self) -> str: ...
     def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def __str__(self) -> str: ...
@@ -92,12 +98,49 @@ class Options:
     Options of the receding-horizon planner.
     """
 
-    fidelity: Fidelity
-    transcription: Transcription
-    def __init__(self) -> None: ...
+    __hash__: typing.ClassVar[None] = None
+    def __copy__(self) -> Options: ...
+    def __deepcopy__(self, memo: dict) -> Options: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        *,
+        fidelity: Fidelity = ...,
+        lookahead: typing.SupportsInt | typing.SupportsIndex = 3,
+        cycles: typing.SupportsInt | typing.SupportsIndex = 14,
+        transcription: Transcription = ...,
+        paper: bool = False,
+        lifted_psi: bool = False,
+        friction_rows: bool = False,
+        all_faces: bool = False,
+        intervals: typing.SupportsInt | typing.SupportsIndex = 7,
+        double_support_s: tuple[float, float] = (0.1, 0.3),
+        single_support_s: tuple[float, float] = (0.8, 1.2),
+        predicted_double_support_s: typing.SupportsFloat | typing.SupportsIndex = 0.2,
+        predicted_single_support_s: typing.SupportsFloat | typing.SupportsIndex = 0.6,
+        com_velocity_max: typing.SupportsFloat | typing.SupportsIndex = 1.5,
+        momentum_max: typing.SupportsFloat | typing.SupportsIndex = 2.5,
+        momentum_rate_max: typing.SupportsFloat | typing.SupportsIndex = 3.5,
+        com_height: tuple[float, float] = (0.87, 1.15),
+        sole_share: typing.SupportsFloat | typing.SupportsIndex = 0.8,
+        friction_share: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        foothold_margin_m: typing.SupportsFloat | typing.SupportsIndex = 0.03,
+        psi_max: typing.SupportsFloat | typing.SupportsIndex = 0.55,
+        goal_weight: typing.SupportsFloat | typing.SupportsIndex = 10.0,
+        friction_sides: typing.SupportsInt | typing.SupportsIndex = 8,
+        tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-05,
+        constraint_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-06,
+        max_iterations: typing.SupportsInt | typing.SupportsIndex = 400,
+        time_limit_s: typing.SupportsFloat | typing.SupportsIndex = ...,
+        automatic_ordering: bool = False,
+        logger: collections.abc.Callable[[mcplan._core.LogLevel, str], None] = None,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def validate(self) -> None:
         """
-        Raises InvalidOptions naming the first field out of its range.
+        Raise InvalidOptions naming all that is out of its range.
         """
     @property
     def all_faces(self) -> bool:
@@ -116,43 +159,49 @@ class Options:
     @property
     def com_height(self) -> tuple[float, float]:
         """
-        CoM over every foot in contact, over robot.com_height: min, max.
+        [-] Height of the CoM over every foot in contact, over robot.com_height: min, max.
         """
     @com_height.setter
-    def com_height(
-        self, arg1: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]
-    ) -> None: ...
+    def com_height(self, arg0: tuple[float, float]) -> None: ...
     @property
     def com_velocity_max(self) -> float:
         """
-        Each component [m/s].
+        [m/s] Largest value of each component.
         """
     @com_velocity_max.setter
     def com_velocity_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def constraint_tolerance(self) -> float: ...
+    def constraint_tolerance(self) -> float:
+        """
+        Tolerance of the solver on constraints.
+        """
     @constraint_tolerance.setter
     def constraint_tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def cycles(self) -> int:
         """
-        Steps to execute.
+        Steps to execute; fewer if the sequence ends before.
         """
     @cycles.setter
     def cycles(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def double_support_s(self) -> tuple[float, float]:
         """
-        Duration of a phase on two feet: min, max [s].
+        [s] Duration of a phase on two feet: min, max.
         """
     @double_support_s.setter
-    def double_support_s(
-        self, arg1: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]
-    ) -> None: ...
+    def double_support_s(self, arg0: tuple[float, float]) -> None: ...
+    @property
+    def fidelity(self) -> Fidelity:
+        """
+        Model of the steps after the first.
+        """
+    @fidelity.setter
+    def fidelity(self, arg0: Fidelity) -> None: ...
     @property
     def foothold_margin_m(self) -> float:
         """
-        Of the sole to the edges of a surface [m].
+        [m] Distance of the sole from the edges of a surface where it has room.
         """
     @foothold_margin_m.setter
     def foothold_margin_m(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -166,28 +215,28 @@ class Options:
     @property
     def friction_share(self) -> float:
         """
-        Of the friction coefficient; paper: all.
+        [-] Share of the friction coefficient; paper: all.
         """
     @friction_share.setter
     def friction_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def friction_sides(self) -> int:
         """
-        Of the pyramid inside the friction cone.
+        Sides of the pyramid inside the friction cone, 3 to 64.
         """
     @friction_sides.setter
     def friction_sides(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def goal_weight(self) -> float:
         """
-        On the squared distance of the end to the goal [1/m^2].
+        [1/m^2] On the squared distance of the end to the goal.
         """
     @goal_weight.setter
     def goal_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def intervals(self) -> int:
         """
-        Per phase.
+        Intervals of a phase, 2 to 100.
         """
     @intervals.setter
     def intervals(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
@@ -215,21 +264,21 @@ class Options:
     @property
     def max_iterations(self) -> int:
         """
-        Of a cycle.
+        Most iterations of a cycle.
         """
     @max_iterations.setter
     def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def momentum_max(self) -> float:
         """
-        Each component of L [kg m^2/s].
+        [kg m^2/s] Largest value of each component of L.
         """
     @momentum_max.setter
     def momentum_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def momentum_rate_max(self) -> float:
         """
-        Each component of L' [N m].
+        [N m] Largest value of each component of L'.
         """
     @momentum_rate_max.setter
     def momentum_rate_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -243,44 +292,42 @@ class Options:
     @property
     def predicted_double_support_s(self) -> float:
         """
-        Fixed duration in predicted steps of the reduced models [s].
+        [s] Fixed duration of a phase on two feet in predicted steps of the reduced models.
         """
     @predicted_double_support_s.setter
     def predicted_double_support_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def predicted_single_support_s(self) -> float:
         """
-        [s]
+        [s] The same on one foot.
         """
     @predicted_single_support_s.setter
     def predicted_single_support_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def psi_max(self) -> float:
         """
-        Bound of the relaxation [-].
+        [-] Bound of the relaxation.
         """
     @psi_max.setter
     def psi_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def single_support_s(self) -> tuple[float, float]:
         """
-        Duration of a phase on one foot: min, max [s].
+        [s] Duration of a phase on one foot: min, max.
         """
     @single_support_s.setter
-    def single_support_s(
-        self, arg1: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]
-    ) -> None: ...
+    def single_support_s(self, arg0: tuple[float, float]) -> None: ...
     @property
     def sole_share(self) -> float:
         """
-        Of the sole that forces make use of; paper: all.
+        [-] Share of the sole that forces make use of; paper: all.
         """
     @sole_share.setter
     def sole_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def time_limit_s(self) -> float:
         """
-        Wall clock of a cycle [s].
+        [s] Wall clock of a cycle.
         """
     @time_limit_s.setter
     def time_limit_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -291,6 +338,13 @@ class Options:
         """
     @tolerance.setter
     def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def transcription(self) -> Transcription:
+        """
+        How the continuous motion becomes algebraic equations.
+        """
+    @transcription.setter
+    def transcription(self, arg0: Transcription) -> None: ...
 
 class State:
     """
@@ -527,3 +581,5 @@ class RecedingHorizon:
         """
         Run all cycles that the options ask for, or until one fails.
         """
+
+Result = Walk

@@ -227,6 +227,9 @@ class Forces:
     def __ne__(self, other: Forces) -> bool: ...
     @typing.overload
     def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
     def __repr__(self) -> str: ...
     def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def __str__(self) -> str: ...
@@ -265,6 +268,9 @@ class ContactMode:
     def __ne__(self, other: ContactMode) -> bool: ...
     @typing.overload
     def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
     def __repr__(self) -> str: ...
     def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def __str__(self) -> str: ...
@@ -303,6 +309,9 @@ class Continuous:
     def __ne__(self, other: Continuous) -> bool: ...
     @typing.overload
     def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
     def __repr__(self) -> str: ...
     def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def __str__(self) -> str: ...
@@ -338,6 +347,9 @@ class FreeFlyer:
     def __ne__(self, other: FreeFlyer) -> bool: ...
     @typing.overload
     def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
     def __repr__(self) -> str: ...
     def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def __str__(self) -> str: ...
@@ -379,6 +391,9 @@ class HessianChoice:
     def __ne__(self, other: HessianChoice) -> bool: ...
     @typing.overload
     def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
     def __repr__(self) -> str: ...
     def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     def __str__(self) -> str: ...
@@ -392,20 +407,55 @@ class Options:
     Options of the semi-infinite planner.
     """
 
-    contact: ContactMode
-    continuous: Continuous
-    forces: Forces
-    free_flyer: FreeFlyer
-    hessian: HessianChoice
-    torque_limits: bool
-    def __init__(self) -> None: ...
+    __hash__: typing.ClassVar[None] = None
+    def __copy__(self) -> Options: ...
+    def __deepcopy__(self, memo: dict) -> Options: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        *,
+        forces: Forces = ...,
+        torque_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        duration_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        jerk_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        free_durations: bool = True,
+        total_duration_s: tuple[float, float] = (1.0, 20.0),
+        phase_duration_s: tuple[float, float] = (0.2, 5.0),
+        contact: ContactMode = ...,
+        tube_m: typing.SupportsFloat | typing.SupportsIndex = 0.001,
+        tube_rad: typing.SupportsFloat | typing.SupportsIndex = 0.005,
+        neq: typing.SupportsInt | typing.SupportsIndex = 2,
+        continuous: Continuous = ...,
+        grid_points: typing.SupportsInt | typing.SupportsIndex = 10,
+        order: typing.SupportsInt | typing.SupportsIndex = 8,
+        free_flyer: FreeFlyer = ...,
+        dynamics: bool = True,
+        torque_limits: bool = True,
+        clearance: bool = True,
+        self_collision: bool = False,
+        clearance_m: typing.SupportsFloat | typing.SupportsIndex = -0.001,
+        min_normal_force: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        margin: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        log_weight_max: typing.SupportsFloat | typing.SupportsIndex = 5.0,
+        kinematics_first: bool = True,
+        feasible_first: bool = True,
+        hessian: HessianChoice = ...,
+        tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.0001,
+        constraint_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-05,
+        max_iterations: typing.SupportsInt | typing.SupportsIndex = 1000,
+        time_limit_s: typing.SupportsFloat | typing.SupportsIndex = ...,
+        logger: collections.abc.Callable[[mcplan._core.LogLevel, str], None] = None,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def has_cost(self) -> bool:
         """
-        Whether any weight is positive.
+        Whether there is anything to minimise; torques with dynamics only.
         """
     def validate(self) -> None:
         """
-        Raises InvalidOptions naming the first field out of its range.
+        Raise InvalidOptions naming all that is out of its range.
         """
     @property
     def clearance(self) -> bool:
@@ -417,18 +467,35 @@ class Options:
     @property
     def clearance_m(self) -> float:
         """
-        Least height of swinging points [m]: at lift-off they are at zero to the tube.
+        [m] Least height of swinging points: at lift-off they are at zero to the tube.
         """
     @clearance_m.setter
     def clearance_m(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def constraint_tolerance(self) -> float: ...
+    def constraint_tolerance(self) -> float:
+        """
+        Tolerance of the solver on constraints.
+        """
     @constraint_tolerance.setter
     def constraint_tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def contact(self) -> ContactMode:
+        """
+        How an end-effector in contact is held where it should be.
+        """
+    @contact.setter
+    def contact(self, arg0: ContactMode) -> None: ...
+    @property
+    def continuous(self) -> Continuous:
+        """
+        How an inequality is kept at every instant of an interval.
+        """
+    @continuous.setter
+    def continuous(self, arg0: Continuous) -> None: ...
+    @property
     def duration_weight(self) -> float:
         """
-        Cost: duration [1/s].
+        [1/s] Cost: duration.
         """
     @duration_weight.setter
     def duration_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -447,6 +514,13 @@ class Options:
     @feasible_first.setter
     def feasible_first(self, arg0: bool) -> None: ...
     @property
+    def forces(self) -> Forces:
+        """
+        Where contact forces come from.
+        """
+    @forces.setter
+    def forces(self, arg0: Forces) -> None: ...
+    @property
     def free_durations(self) -> bool:
         """
         A duration for each phase; else one for the motion, shared by intervals.
@@ -454,16 +528,30 @@ class Options:
     @free_durations.setter
     def free_durations(self, arg0: bool) -> None: ...
     @property
+    def free_flyer(self) -> FreeFlyer:
+        """
+        The trajectory of the base.
+        """
+    @free_flyer.setter
+    def free_flyer(self, arg0: FreeFlyer) -> None: ...
+    @property
     def grid_points(self) -> int:
         """
-        Per interval, both ends included.
+        Instants of an interval under Continuous.grid, both ends included.
         """
     @grid_points.setter
     def grid_points(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
+    def hessian(self) -> HessianChoice:
+        """
+        Where second derivatives come from.
+        """
+    @hessian.setter
+    def hessian(self, arg0: HessianChoice) -> None: ...
+    @property
     def jerk_weight(self) -> float:
         """
-        Cost: integral of the squared joint jerks [s^5].
+        [s^5] Cost: integral of the squared joint jerks.
         """
     @jerk_weight.setter
     def jerk_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -491,21 +579,21 @@ class Options:
     @property
     def margin(self) -> float:
         """
-        Kept to joint, torque and force limits, relative.
+        [-] Kept to joint, torque and force limits, relative.
         """
     @margin.setter
     def margin(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def max_iterations(self) -> int:
         """
-        Of each run of the solver.
+        Most iterations of each run of the solver.
         """
     @max_iterations.setter
     def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def min_normal_force(self) -> float:
         """
-        At every point [N].
+        [N] Least normal force at every point.
         """
     @min_normal_force.setter
     def min_normal_force(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -519,30 +607,28 @@ class Options:
     @property
     def order(self) -> int:
         """
-        Of the Taylor polynomials, 3 to 12.
+        Order of the Taylor polynomials, 3 to 12.
         """
     @order.setter
     def order(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def phase_duration_s(self) -> tuple[float, float]:
         """
-        Where free_durations is on: min, max [s]; the motion's own limits hold as well.
+        [s] Where free_durations is on: min, max; the motion's own limits hold as well.
         """
     @phase_duration_s.setter
-    def phase_duration_s(
-        self, arg1: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]
-    ) -> None: ...
+    def phase_duration_s(self, arg0: tuple[float, float]) -> None: ...
     @property
     def self_collision(self) -> bool:
         """
-        Of the robot's collision pairs.
+        The robot's collision pairs keep clear of each other.
         """
     @self_collision.setter
     def self_collision(self, arg0: bool) -> None: ...
     @property
     def time_limit_s(self) -> float:
         """
-        Wall clock of the whole solve [s].
+        [s] Wall clock of the whole solve.
         """
     @time_limit_s.setter
     def time_limit_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -554,32 +640,37 @@ class Options:
     @tolerance.setter
     def tolerance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def torque_limits(self) -> bool:
+        """
+        Joint torques within their limits.
+        """
+    @torque_limits.setter
+    def torque_limits(self, arg0: bool) -> None: ...
+    @property
     def torque_weight(self) -> float:
         """
-        Cost: integral of the squared torques [1/(N m)^2 s].
+        [1/(N m)^2 s] Cost: integral of the squared torques.
         """
     @torque_weight.setter
     def torque_weight(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def total_duration_s(self) -> tuple[float, float]:
         """
-        Where free_durations is off: min, max [s].
+        [s] Where free_durations is off: min, max.
         """
     @total_duration_s.setter
-    def total_duration_s(
-        self, arg1: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]
-    ) -> None: ...
+    def total_duration_s(self, arg0: tuple[float, float]) -> None: ...
     @property
     def tube_m(self) -> float:
         """
-        Half width of the tube or of the band [m].
+        [m] Half width of the tube or of the band.
         """
     @tube_m.setter
     def tube_m(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def tube_rad(self) -> float:
         """
-        [rad]
+        [rad] The same of the angle.
         """
     @tube_rad.setter
     def tube_rad(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...

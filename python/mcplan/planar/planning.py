@@ -1,4 +1,4 @@
-"""mp.whole_body: options by name, motion and warm start by name or object, then the semi-infinite planner."""
+"""mp.whole_body: options by name or object, motion and warm start by name or object, then the semi-infinite planner."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 from mcplan._core import PlanarPlan, PlanarTask, sip
 from mcplan.arguments import require, require_or_path
 from mcplan.errors import Interrupted, InvalidOptions, shown
-from mcplan.options import fill
+from mcplan.options import fill, start
 
 #: What each choice of `minimise` sets; options given besides come after it.
 CRITERIA: dict[str, dict[str, Any]] = {
@@ -27,11 +27,12 @@ def whole_body(
     warm_start: PlanarPlan | str | Path | None,
     certify: bool,
     minimise: str | None,
-    options: Mapping[str, Any],
+    named: Mapping[str, Any],
+    options: sip.Options | None = None,
 ) -> sip.Result:
     """See mcplan.whole_body."""
     require("certify", certify, bool)
-    chosen = make_options(minimise, options)  # before files are read: what is said first is what was typed
+    chosen = make_options(minimise, named, options)  # before files are read: what is said first is what was typed
     if certify:
         require_provable(chosen)
     planner = sip.Planner(motion_of(motion), chosen)
@@ -63,19 +64,28 @@ def solve(
     return result
 
 
-def make_options(minimise: str | None, values: Mapping[str, Any]) -> sip.Options:
-    """Options of the planner from a criterion, and from names and values; None stands for the default.
+def make_options(minimise: str | None, values: Mapping[str, Any], base: sip.Options | None = None) -> sip.Options:
+    """Options of the planner from a criterion, and from names and values.
+
+    Args:
+        minimise: One of CRITERIA. None: what `base` asks for; without one "torque", or "none" without dynamics.
+        values: By name, None for those that stay as they are.
+        base: What criterion and values stand above; None: the defaults.
 
     Raises:
+        InvalidArgument: `base` is something else.
         InvalidOptions: No such criterion or option (the message lists those that exist), a wrong type, or out of range.
     """
+    options: sip.Options = start("options", base, sip.Options)
     given = {name: value for name, value in values.items() if value is not None}
+    if minimise is None and base is not None:
+        return fill(options, given)
     if minimise is None:
         dynamics = {name: value for name, value in given.items() if name == "dynamics"}
         minimise = "torque" if fill(sip.Options(), dynamics).dynamics else "none"
     if not isinstance(minimise, str) or minimise not in CRITERIA:
         raise InvalidOptions("minimise", f"must be one of {', '.join(CRITERIA)}", shown(minimise))
-    options: sip.Options = fill(sip.Options(), {**CRITERIA[minimise], **given})
+    fill(options, {**CRITERIA[minimise], **given})
     if not options.dynamics and options.torque_weight > 0.0:
         raise InvalidOptions("minimise", "must be time or none without dynamics: there are no torques then", minimise)
     return options

@@ -35,7 +35,7 @@ TEST_CASE("the paper's Algorithm 2 switches in every iteration, for its J* start
   search.model().expand(now.trajectory, schedule(0.01, 0.0, 0.0));
   now.sequence = initial_sequence(search.model());
   constexpr int kIterations = 20;
-  CHECK(search.run_paper(now, kIterations, problem.tuning()) == Status::solved);
+  CHECK(search.run_paper(now, kIterations, problem.tuning()) == Ending::done);
   REQUIRE(report.history.size() == kIterations);
   double weight = 0.01;
   for (const mcplan::Iteration& row : report.history) {

@@ -41,7 +41,7 @@ struct Bench {
     weights.contact_weight = problem.options.weights.contact_min;
     search.model().expand(now.trajectory, weights);
     now.sequence = initial_sequence(search.model());
-    CHECK(search.discover(now, problem.options.proximal_weight, problem.tuning()) == Status::solved);
+    CHECK(search.discover(now, problem.options.proximal_weight, problem.tuning()) == Ending::done);
     return now;
   }
 };
@@ -68,7 +68,7 @@ TEST_CASE("polishing keeps the sequence and never lets the merit rise") {
     const ContactSequence sequence = now.sequence;
     const double before = bench.search.evaluate(now, bench.problem.tuning()).merit();
     const std::size_t first = bench.report.history.size();
-    CHECK(bench.search.polish(now, 30, 0.0, kForever, bench.problem.tuning()) == Status::solved);
+    CHECK(bench.search.polish(now, 30, 0.0, kForever, bench.problem.tuning()) == Ending::done);
     CHECK(now.sequence == sequence);
     REQUIRE(bench.report.history.size() == first + 30);
     double last = before;
@@ -94,7 +94,7 @@ TEST_CASE("with contact wrenches no iteration lets the merit rise but by what th
       Incumbent headed = now;
       bench.problem.set_sole_yaw(headed.sequence, headed.trajectory);
       const double before = bench.search.evaluate(headed, bench.problem.tuning()).merit();
-      CHECK(bench.search.polish(now, 1, 0.0, kForever, bench.problem.tuning()) == Status::solved);
+      CHECK(bench.search.polish(now, 1, 0.0, kForever, bench.problem.tuning()) == Ending::done);
       CHECK(now.evaluation.merit() <= before * (1.0 + 1e-12));
       CHECK(now.trajectory.sole_yaw == headed.trajectory.sole_yaw);
       CHECK(bench.search.evaluate(now, bench.problem.tuning()).merit() == doctest::Approx(now.evaluation.merit()));
@@ -111,7 +111,7 @@ TEST_CASE("refining changes the sequence only for a lower true merit, and settle
   Incumbent now = bench.discovered();
   bench.search.polish(now, 60, 1e-3, kForever, bench.problem.tuning());
   const double before = now.evaluation.merit();
-  CHECK(bench.search.refine(now, bench.problem.tuning()) == Status::solved);
+  CHECK(bench.search.refine(now, bench.problem.tuning()) == Ending::done);
   CHECK(bench.problem.rules.valid(now.sequence));
   CHECK(now.evaluation.merit() <= before * (1.0 + 1e-12));
   CHECK(bench.search.evaluate(now, bench.problem.tuning()).merit() == doctest::Approx(now.evaluation.merit()));
@@ -120,7 +120,7 @@ TEST_CASE("refining changes the sequence only for a lower true merit, and settle
   for (; switches != bench.report.switches && rounds < 10; ++rounds) {
     switches = bench.report.switches;
     bench.search.polish(now, 120, 1e-5, kForever, bench.problem.tuning());
-    CHECK(bench.search.refine(now, bench.problem.tuning()) == Status::solved);
+    CHECK(bench.search.refine(now, bench.problem.tuning()) == Ending::done);
     CHECK(now.evaluation.merit() <= last * (1.0 + 1e-12));
     last = now.evaluation.merit();
   }
@@ -159,18 +159,18 @@ TEST_CASE("the stop request and the iteration limit end every stage") {
   Bench stopped(scenes::flat(), options);
   Incumbent now = stopped.guess({});
   now.sequence.assign(11, stopped.problem.start_contacts);
-  CHECK(stopped.search.discover(now, 30.0, stopped.problem.tuning()) == Status::interrupted);
+  CHECK(stopped.search.discover(now, 30.0, stopped.problem.tuning()) == Ending::interrupted);
   CHECK(stopped.report.iterations == 5);
-  CHECK(stopped.search.polish(now, 10, 0.0, kForever, stopped.problem.tuning()) == Status::interrupted);
+  CHECK(stopped.search.polish(now, 10, 0.0, kForever, stopped.problem.tuning()) == Ending::interrupted);
 
   options.stop = nullptr;
   options.max_iterations = 7;
   Bench limited(scenes::flat(), options);
   now = limited.guess({});
   now.sequence.assign(11, limited.problem.start_contacts);
-  CHECK(limited.search.discover(now, 30.0, limited.problem.tuning()) == Status::iteration_limit);
+  CHECK(limited.search.discover(now, 30.0, limited.problem.tuning()) == Ending::iteration_limit);
   CHECK(limited.report.iterations == 7);
-  CHECK(limited.search.run_paper(now, 10, limited.problem.tuning()) == Status::iteration_limit);
+  CHECK(limited.search.run_paper(now, 10, limited.problem.tuning()) == Ending::iteration_limit);
 }
 
 TEST_CASE("exhaustive enumeration of six steps: the search ends near the best of all 183 sequences") {

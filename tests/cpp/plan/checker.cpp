@@ -365,6 +365,18 @@ TEST_CASE("checker throws on a sampling that is no sampling") {
   }
 }
 
+TEST_CASE("a tolerance may be infinite or negative, but is a number") {
+  const Case c;
+  mcplan::Tolerances tolerances;
+  tolerances.reach = std::numeric_limits<double>::infinity(), tolerances.friction = -1.0;
+  tolerances.validate();
+  CHECK_FALSE(mcplan::check(c.plan, c.scene, c.robot, tolerances).ok());
+  tolerances.slip = std::nan("");
+  CHECK_THROWS_WITH_AS(mcplan::check(c.plan, c.scene, c.robot, tolerances),
+                       "tolerances.slip: must be a number, got nan", mcplan::InvalidOptions);
+  CHECK_THROWS_WITH_AS(tolerances.validate(), "slip: must be a number, got nan", mcplan::InvalidOptions);
+}
+
 TEST_CASE("an empty result is worst nowhere") { CHECK(CheckResult().worst().name.empty()); }
 
 TEST_CASE("a check that is stopped asks about once a millisecond, keeps what it found and never says ok") {

@@ -4,6 +4,7 @@
 
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/ddp/best_plan.hpp"
+#include "mcplan/ddp/ending.hpp"
 #include "mcplan/ddp/problem.hpp"
 #include "mcplan/ddp/search.hpp"
 
@@ -21,7 +22,7 @@ class Attempts {
   const Problem& problem() const { return problem_; }
 
   /// Attempt and restart; `warm` is an earlier plan to begin with, or null.
-  Status run(const Incumbent* warm);
+  Ending run(const Incumbent* warm);
 
  private:
   struct Guess {
@@ -30,13 +31,13 @@ class Attempts {
   };
   Incumbent first_guess(const ContactSequence& sequence, const Tuning& tuning) const;
   Incumbent at_once(const ContactSequence& sequence);
-  ContactSequence initial(Status& status);
+  ContactSequence initial(Ending& ending);
   std::vector<Guess> guesses(const Incumbent& start, const Incumbent* warm) const;
-  Status attempt(std::vector<Guess> guesses, const Tuning& tuning);
-  Incumbent cheapest(std::vector<Guess>& guesses, const Tuning& tuning, Status& status);
-  Status restart(Status status, const ContactSequence& initial);
+  Ending attempt(std::vector<Guess> guesses, const Tuning& tuning);
+  Incumbent cheapest(std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending);
+  Ending restart(Ending ending, const ContactSequence& initial);
   double further_inside() const;
-  Status late(Status status) const;
+  Ending late(Ending ending) const;
   void keep(const Incumbent& now, const Tuning& tuning) { best_->keep(search_, surfaces_, now, tuning); }
   void finish(Incumbent now, const Tuning& tuning) { best_->finish(search_, surfaces_, std::move(now), tuning); }
 

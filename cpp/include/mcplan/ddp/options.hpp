@@ -92,7 +92,7 @@ struct Options {
   /// The model that is in force.
   Model effective_model() const { return method == Method::paper ? Model::lipm : model; }
 
-  /// Throws InvalidOptions naming the first field out of its range.
+  /// Throws InvalidOptions naming all that is out of its range.
   void validate() const;
 };
 

@@ -9,8 +9,8 @@ namespace mcplan::ddp {
 
 /// Contact sequence, timing, CoM and forces from the start of a scene to its goal, by switched differential dynamic
 /// programming. The plan is solved if the result's report says so: the checker has then accepted it. Throws
-/// InvalidScene, also where the robot cannot stand at the start or the goal, InvalidRobot or InvalidOptions. SwitchedDdp is the planner behind it, for warm starts and measured
-/// states.
+/// InvalidScene, also where the robot cannot stand at the start or the goal, InvalidRobot or InvalidOptions.
+/// SwitchedDdp is the planner behind it, for warm starts and measured states.
 PlanResult plan(const Scene& scene, const Robot& robot, const Options& options = {});
 
 }  // namespace mcplan::ddp

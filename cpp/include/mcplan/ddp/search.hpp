@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "mcplan/base/deadline.hpp"
-#include "mcplan/base/status.hpp"
 #include "mcplan/ddp/constants.hpp"
+#include "mcplan/ddp/ending.hpp"
 #include "mcplan/ddp/local_model.hpp"
 #include "mcplan/ddp/pricing.hpp"
 #include "mcplan/ddp/value_functions.hpp"
@@ -43,26 +43,26 @@ struct Incumbent {
 
 /// Descends from a first guess in three stages: discover() with a growing contact weight and the sequence free,
 /// polish() with the sequence frozen, refine() by trying changed sequences one by one on the true cost. Each returns
-/// Status::solved to go on, or why it stopped; `now` always holds the best iterate. All are told the tuning of the
+/// Ending::done to go on, or why it stopped; `now` always holds the best iterate. All are told the tuning of the
 /// attempt that they belong to.
 class Search {
  public:
   Search(const Problem& problem, const Deadline& deadline, Report& report);
 
   /// Switched DDP with growing w_compl (Tazaki, Algorithm 1) and a proximal term.
-  Status discover(Incumbent& now, double proximal_weight, const Tuning& tuning);
+  Ending discover(Incumbent& now, double proximal_weight, const Tuning& tuning);
 
   /// Gauss-Newton at the full weights until the merit is calm. Gives up once the merit, extrapolated, stays above
   /// `give_up_above`.
-  Status polish(Incumbent& now, int iterations, double calm, double give_up_above, const Tuning& tuning);
+  Ending polish(Incumbent& now, int iterations, double calm, double give_up_above, const Tuning& tuning);
 
   /// Best-neighbour search on the true cost: neighbours and swing edits, cheapest by the local model first, each
   /// polished for a few iterations and kept if the merit falls.
-  Status refine(Incumbent& now, const Tuning& tuning);
+  Ending refine(Incumbent& now, const Tuning& tuning);
 
   /// Tazaki's Algorithms 1 and 2 as published, for `iterations`: full defect steps of fixed length, switches accepted
   /// on the quadratic model, J* from infinity, every neighbour priced by MINCOST.
-  Status run_paper(Incumbent& now, int iterations, const Tuning& tuning);
+  Ending run_paper(Incumbent& now, int iterations, const Tuning& tuning);
 
   /// Close the dynamics defects to rounding with the contacts exact: end-effectors on their surfaces and at rest, no
   /// force where there is no contact. False when that does not converge, or `give_up`, asked at every step of it, says
@@ -86,13 +86,13 @@ class Search {
   };
 
   Schedule full_schedule(const Tuning& tuning) const;
-  Status iterate(Incumbent& now, Schedule& schedule, bool free_sequence);
+  Ending iterate(Incumbent& now, Schedule& schedule, bool free_sequence);
   bool line_search(const Incumbent& now, const ContactSequence& sequence, const Schedule& schedule, double merit,
                    Candidate& best);
   int switch_contacts(ContactSequence& sequence, Iteration& row);
   bool paper_switches(Incumbent& now, Iteration& row);
   std::vector<ContactSequence> ranked_changes(const Incumbent& now, const Tuning& tuning);
-  bool should_stop(Status& status) const;
+  bool should_stop(Ending& ending) const;
   void record(Iteration&& row, const Incumbent& now, const Schedule& schedule);
 
   const Problem* problem_;

@@ -30,6 +30,9 @@ struct Tolerances {
   int switches = 1;        ///< [-] contacts made or broken in one step; surface to surface counts two
   double sample_s = 1e-3;  ///< [s] sampling of the constraints in time
   bool scaled = true;      ///< times the robot's Similarity; false: as they stand, whatever the robot's size
+
+  /// Throws InvalidOptions naming all that is no number, and a sample_s that is not positive.
+  void validate() const;
 };
 
 /// What the checker found: the worst place of every constraint, violated or not. Names and meanings:
@@ -80,8 +83,9 @@ struct CheckResult {
 
 /// Check a plan against a scene and a robot, from its positions, forces and polygons alone.
 /// Throws InvalidPlan when the plan's arrays do not fit together or do not fit the scene and the robot, InvalidScene
-/// and InvalidRobot when these are malformed, InvalidOptions when sample_s is not positive or the plan too long for it.
-/// `stop` is polled every few hundred instants, about once a millisecond; null: never. It serves deadlines, too.
+/// and InvalidRobot when these are malformed, InvalidOptions when a tolerance is no number, sample_s is not positive or
+/// the plan too long for it. `stop` is polled every few hundred instants, about once a millisecond; null: never. It
+/// serves deadlines, too.
 CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, const Tolerances& tolerances = {},
                   const StopRequest& stop = {});
 

@@ -20,6 +20,9 @@ struct PlanarTolerances {
   double continuity = 1e-9;   ///< [rad] of q, q' h, q'' h^2 (h: interval): jumps at knots, motion at the ends
   double pose = 1e-3;         ///< [m], [rad]
   double sample_s = 1e-3;     ///< [s] sampling in time
+
+  /// Throws InvalidOptions naming all that is no number, and a sample_s that is not positive.
+  void validate() const;
 };
 
 /// What is checked, in this order; the names are those of violations.

@@ -5,6 +5,7 @@
 
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/base/logging.hpp"
+#include "mcplan/base/range.hpp"
 
 namespace mcplan::rhp {
 
@@ -23,10 +24,7 @@ enum class Transcription {
   euler,        ///< the paper's forward Euler; a replay of its forces drifts by centimetres a step
 };
 
-/// A closed interval.
-struct Range {
-  double min = 0.0, max = 0.0;
-};
+using mcplan::Range;
 
 /// The paper's absolute box of the CoM's height, and how far its terrains go above and below zero [m].
 inline constexpr Range kPaperComHeight{0.7, 0.8};
@@ -69,7 +67,7 @@ struct Options {
   StopRequest stop;  ///< polled every iteration; null: never
   Clock clock;       ///< what time_limit_s is measured by; null: the steady clock
 
-  /// Throws InvalidOptions naming the first field out of its range.
+  /// Throws InvalidOptions naming all that is out of its range.
   void validate() const;
 };
 

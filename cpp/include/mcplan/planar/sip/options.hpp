@@ -4,6 +4,7 @@
 
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/base/logging.hpp"
+#include "mcplan/base/range.hpp"
 
 namespace mcplan::sip {
 
@@ -43,10 +44,7 @@ enum class HessianChoice {
   limited_memory,  ///< L-BFGS
 };
 
-/// A closed range.
-struct Range {
-  double min = 0.0, max = 0.0;
-};
+using mcplan::Range;
 
 /// Options of the semi-infinite planner.
 struct Options {
@@ -91,7 +89,7 @@ struct Options {
   /// Whether there is anything to minimise: torques are known with dynamics only.
   bool has_cost() const { return (dynamics && torque_weight > 0.0) || duration_weight > 0.0 || jerk_weight > 0.0; }
 
-  /// Throws InvalidOptions naming the first field out of its range.
+  /// Throws InvalidOptions naming all that is out of its range.
   void validate() const;
 };
 

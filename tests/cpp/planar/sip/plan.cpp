@@ -1,0 +1,14 @@
+#include "mcplan/planar/sip/plan.hpp"
+
+#include <doctest/doctest.h>
+
+#include "motions.hpp"
+
+TEST_CASE("a task is planned as by the planner behind it") {
+  const mcplan::PlanarTask task = sip_motions::cartwheel();
+  mcplan::sip::Options options;
+  options.max_iterations = 5;
+  const mcplan::sip::Result result = mcplan::sip::plan(task, options);
+  CHECK(result.parameters > 0);
+  CHECK(result.plan.control_points == mcplan::sip::Planner(task, options).solve().plan.control_points);
+}
