@@ -67,7 +67,12 @@ Ending Attempts::attempt(std::vector<Guess> guesses, const Tuning& tuning) {
   last_ = chosen;
   // Out of time there is a plan already, and none for another one.
   if (ending != Ending::time_limit || !best_->best()) finish(std::move(chosen), tuning);
-  return ending;
+  return late(ending);
+}
+
+/// What an attempt that has come to its end is called when the time limit has cut its last check short.
+Ending Attempts::late(Ending ending) const {
+  return ending == Ending::done && !best_->ok() && deadline_->passed() ? Ending::time_limit : ending;
 }
 
 Incumbent Attempts::first_guess(const ContactSequence& sequence, const Tuning& tuning) const {
@@ -177,8 +182,9 @@ Ending Attempts::run(const Incumbent* warm) {
   if (options.method == Method::paper) {
     ending = search_.run_paper(start, std::min(kPaperIterations, options.max_iterations), first_);
     if (ending != Ending::broke_down && (ending != Ending::time_limit || !best_->best())) finish(start, first_);
-    return ending;
+    return late(ending);
   }
+  if (best_->best() && deadline_->passed()) return Ending::time_limit;
   return restart(attempt(guesses(start, warm), first_), sequence);
 }
 

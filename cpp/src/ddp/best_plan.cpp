@@ -23,21 +23,29 @@ double violation_ratio(const Violation& v) {
 }
 
 BestPlan::Finished BestPlan::converted(Search& search, const std::vector<int>& surfaces, const Incumbent& now,
-                                       const Tuning& tuning) const {
+                                       const Tuning& tuning, bool swing_heights) const {
   Finished out;
-  out.plan = to_plan(search.problem(), now);
+  out.plan = to_plan(search.problem(), now, swing_heights);
   out.plan.measured_start = measured_start_;
   put_back(out.plan, *scene_, surfaces);
   out.evaluation = search.evaluate(now, tuning);
   return out;
 }
 
-/// True when the checker accepts the plan, or what it sees of it at few instants.
-bool BestPlan::judge(Finished& finished, const Problem& problem, Look look) const {
+/// Ends a check when time is up; null without a limit.
+StopRequest BestPlan::when_passed() const {
+  if (!deadline_->limited()) return nullptr;
+  return [this] { return deadline_->passed(); };
+}
+
+/// True when the checker accepts the plan, or what it sees of it at few instants. A look that `stop` ends says nothing.
+bool BestPlan::judge(Finished& finished, const Problem& problem, Look look, const StopRequest& stop) const {
   Tolerances tolerances;
   if (!problem.options.one_switch_per_step) tolerances.switches = std::numeric_limits<int>::max();
   tolerances.sample_s = sample_s(finished.plan, look);
-  const CheckResult result = check(finished.plan, *scene_, problem.robot, tolerances);
+  const CheckResult result = check(finished.plan, *scene_, problem.robot, tolerances, stop);
+  if (!result.complete) return false;
+  finished.sample_s = tolerances.sample_s;
   finished.ok = result.ok() && look == Look::full;
   finished.sampled = look != Look::full;
   finished.worst = result.worst();
@@ -54,10 +62,15 @@ void BestPlan::take(Finished&& finished) {
 
 bool BestPlan::finish(Search& search, const std::vector<int>& surfaces, Incumbent now, const Tuning& tuning) {
   // If the contacts cannot be met exactly, the plan is kept as it is, and the checker says what is wrong with it.
-  search.make_exact(now, tuning);
+  const StopRequest late = when_passed();
+  search.make_exact(now, tuning, late);
+  if (best_ && late && late()) return best_->ok;
   const Stopwatch watch(search.report().timing_s, "check");
-  Finished finished = converted(search, surfaces, now, tuning);
-  judge(finished, search.problem(), Look::full);
+  Finished finished = converted(search, surfaces, now, tuning, !(late && late()));
+  finished.sampled = true;
+  judge(finished, search.problem(), Look::full, late);
+  if (finished.sampled && best_) return best_->ok;
+  if (finished.sampled) judge(finished, search.problem(), Look::late);
   take(std::move(finished));
   return best_->ok;
 }
@@ -75,13 +88,19 @@ void BestPlan::keep(Search& search, const std::vector<int>& surfaces, const Incu
     const bool hopeless = !best_ && ++rounds == 2 && begin_s + kExactRoundsMin * (now_s - begin_s) > until_s;
     return hopeless || now_s >= until_s;
   });
+  const bool late = deadline_->passed();
+  if (best_ && late) return;
   const Stopwatch watch(search.report().timing_s, "check");
-  Finished finished = converted(search, surfaces, iterate, tuning);
+  Finished finished = converted(search, surfaces, iterate, tuning, !late);
   const double converted_s = deadline_->elapsed_s();
-  const Look look = deadline_->passed() ? Look::late : Look::few;
-  const bool accepted = judge(finished, search.problem(), look);
-  instant_s_ = (deadline_->elapsed_s() - converted_s) * sample_s(finished.plan, look) / finished.plan.duration();
-  if (accepted && full_look_s(finished.plan) <= deadline_->remaining_s()) judge(finished, search.problem(), Look::full);
+  const Look look = deadline_->remaining_s() <= 0.0 ? Look::late : Look::few;
+  if (best_ && look == Look::late) return;
+  finished.sampled = true;
+  const bool accepted = judge(finished, search.problem(), look, best_ ? when_passed() : nullptr);
+  if (finished.sample_s == 0.0) return;
+  instant_s_ = (deadline_->elapsed_s() - converted_s) * finished.sample_s / finished.plan.duration();
+  if (accepted && full_look_s(finished.plan) <= deadline_->remaining_s())
+    judge(finished, search.problem(), Look::full, when_passed());
   take(std::move(finished));
   const double end_s = deadline_->elapsed_s();
   cost_s_ = end_s - begin_s;
@@ -91,7 +110,8 @@ void BestPlan::keep(Search& search, const std::vector<int>& surfaces, const Incu
 void BestPlan::settle(const Problem& problem, Report& report) {
   if (!best_ || !best_->sampled || full_look_s(best_->plan) > std::max(deadline_->remaining_s(), kGrace_s)) return;
   const Stopwatch watch(report.timing_s, "check");
-  judge(*best_, problem, Look::full);
+  const double until_s = deadline_->elapsed_s() + std::max(deadline_->remaining_s(), kGrace_s);
+  judge(*best_, problem, Look::full, [&] { return deadline_->elapsed_s() >= until_s; });
 }
 
 /// What a check in full will take, from what the last one at few instants took.

@@ -32,11 +32,7 @@ LocalModel::LocalModel(const Problem& problem)
       base_rows_(problem.layout.nz(), true) {
   for (Stage& stage : stages_) {
     stage.flight = Rows(problem.layout.nz(), true);
-    for (int l = 0; l < problem.layout.ends(); ++l) {
-      const std::size_t choices = problem.rules.surfaces(l).size() + 1;
-      stage.blocks.emplace_back(choices);
-      stage.made.emplace_back(choices, 0);
-    }
+    for (int l = 0; l < problem.layout.ends(); ++l) stage.blocks.emplace_back(problem.rules.surfaces(l).size() + 1);
   }
   for (int l = 0; l < problem.layout.ends(); ++l) {
     choice_.emplace_back(problem.polygons.size(), 0);
@@ -90,16 +86,17 @@ StepView LocalModel::view(int k) const {
 const Rows& LocalModel::block(int k, int l, int contact) {
   Stage& stage = stages_[k];
   const int choice = contact == kFree ? 0 : choice_[l][contact];
-  Rows& rows = stage.blocks[l][choice];
-  if (stage.made[l][choice] != expansion_) {
-    if (!rows.sized()) rows = Rows(problem_->layout.nz(), true);
+  std::unique_ptr<Block>& block = stage.blocks[l][choice];
+  if (!block) block = std::make_unique<Block>(Block{Rows(problem_->layout.nz(), true), 0});
+  Rows& rows = block->rows;
+  if (block->made != expansion_) {
     rows.clear();
     StepView about = view(k);
     about.l = l;
     about.surface = contact;
     about.sole_yaw = trajectory_->sole_yaw[k][l];
     write_terms(contact == kFree ? Scope::free : Scope::contact, about, rows);
-    stage.made[l][choice] = expansion_;
+    block->made = expansion_;
   }
   return rows;
 }

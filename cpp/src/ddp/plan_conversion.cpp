@@ -106,7 +106,7 @@ VectorXd input_of(const Problem& problem, const Phase& phase, const VectorXd& x,
 
 }  // namespace
 
-Plan to_plan(const Problem& problem, const Incumbent& incumbent) {
+Plan to_plan(const Problem& problem, const Incumbent& incumbent, bool swing_heights) {
   const Layout& at = problem.layout;
   const Units& units = problem.units;
   const Pendulum pendulum(at, problem.inertia, problem.options.stiffness_input, problem.model);
@@ -140,7 +140,7 @@ Plan to_plan(const Problem& problem, const Incumbent& incumbent) {
   for (int l = 0; l < at.ends(); ++l) plan.final_contacts[problem.active[l]] = incumbent.sequence[problem.steps][l];
   if (wrench) set_sole_yaw(problem, incumbent.trajectory, plan);
   set_swing_velocities(problem, plan);
-  choose_swings(plan);
+  choose_swings(plan, swing_heights);
   return plan;
 }
 

@@ -9,6 +9,7 @@
 #include "mcplan/ddp/constants.hpp"
 #include "mcplan/ddp/problem_layout.hpp"
 #include "mcplan/plan/clearance.hpp"
+#include "surface_boxes.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -222,18 +223,25 @@ void Problem::look_near(int count) {
   for (int l = 0; l < layout.ends(); ++l) most = std::max(most, rules.surfaces(l).size());
   rules.look_near({});
   if (count <= 0 || most <= static_cast<std::size_t>(count)) return;
+  const SurfaceBoxes boxes(polygons);
   std::vector<std::vector<std::vector<int>>> near(steps + 1);
-  std::vector<std::pair<double, int>> distances;
+  std::vector<std::pair<double, int>> distances;  // a heap of the nearest
   for (int k = 0; k <= steps; ++k)
     for (int l = 0; l < layout.ends(); ++l) {
       const Vector3d due = reference.x[k].segment<3>(layout.end(l));
       distances.clear();
-      for (int surface : rules.surfaces(l))
-        distances.emplace_back((polygons[surface].nearest(due) - due).squaredNorm(), surface);
-      const std::size_t kept = std::min(distances.size(), static_cast<std::size_t>(count));
-      std::partial_sort(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(kept), distances.end());
+      for (int surface : rules.surfaces(l)) {
+        const bool full = distances.size() == static_cast<std::size_t>(count);
+        if (full && boxes.least_squared_distance(surface, due) > distances.front().first) continue;
+        const std::pair<double, int> here((polygons[surface].nearest(due) - due).squaredNorm(), surface);
+        if (full && !(here < distances.front())) continue;
+        if (full) std::pop_heap(distances.begin(), distances.end());
+        if (full) distances.pop_back();
+        distances.push_back(here);
+        std::push_heap(distances.begin(), distances.end());
+      }
       std::vector<int>& list = near[k].emplace_back();
-      for (std::size_t i = 0; i < kept; ++i) list.push_back(distances[i].second);
+      for (const auto& [distance, surface] : distances) list.push_back(surface);
       std::sort(list.begin(), list.end());
     }
   rules.look_near(std::move(near));

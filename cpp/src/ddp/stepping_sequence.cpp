@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "surface_boxes.hpp"
+
 namespace mcplan::ddp {
 
 using Eigen::Vector3d;
@@ -16,6 +18,7 @@ ContactSequence stepping_sequence(const Problem& problem, int first_mover) {
 
   // Swings at steps 1, 3, 5, ...; each mover's stance lasts until its next turn.
   const int count = static_cast<int>(movers.size());
+  const SurfaceBoxes boxes(problem.polygons);
   ContactSequence sequence(n + 1, problem.start_contacts);
   ContactState now = problem.start_contacts;
   int turn = first_mover;
@@ -32,6 +35,7 @@ ContactSequence stepping_sequence(const Problem& problem, int first_mover) {
       const Vector3d wanted = problem.reference.x[middle].segment<3>(problem.layout.end(l));
       double nearest = std::numeric_limits<double>::infinity();
       for (int surface : problem.rules.surfaces(l)) {
+        if (boxes.least_squared_distance(surface, wanted) > nearest * nearest) continue;
         const double distance = (problem.polygons[surface].nearest(wanted) - wanted).norm();
         if (distance >= nearest) continue;
         nearest = distance;

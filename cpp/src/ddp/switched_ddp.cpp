@@ -155,7 +155,8 @@ PlanResult SwitchedDdp::Impl::conclude(Ending ending, int steps, const BestPlan&
   const Status status = status_of(ending, best);
   if (best) {
     out.plan = best->plan;
-    report.friction_use = friction_use(out.plan);
+    // Of a plan that was looked at in few instants, in as few.
+    report.friction_use = best->sampled ? friction_use(out.plan, best->sample_s) : friction_use(out.plan);
     report.worst_violation = best->worst;
     report.cost = best->evaluation.cost;
     const CostTerms& terms = best->evaluation.terms;

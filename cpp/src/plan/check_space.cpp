@@ -5,6 +5,7 @@
 
 #include "check_internal.hpp"
 #include "mcplan/base/rotation.hpp"
+#include "solid_box.hpp"
 
 namespace mcplan::checks {
 
@@ -49,16 +50,6 @@ void check_partners(const Problem& problem, const Sample& sample, int l, const E
     findings.offer(Constraint::reach, beyond_polytope(polytope, level.transpose() * between),
                    {sample.phase, l, sample.time_s});
   }
-}
-
-/// Box of the prism below a surface; of one without a bottom nothing can be said, and its numbers say so.
-Eigen::AlignedBox3d box_of(const Solid& solid) {
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& vertex : solid.polygon.vertices_W()) {
-    box.extend(vertex);
-    box.extend(vertex - solid.thickness * solid.polygon.normal_W());
-  }
-  return box;
 }
 
 }  // namespace

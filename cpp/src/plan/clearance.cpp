@@ -97,23 +97,19 @@ double clearance_depth(const Plan& plan, const std::vector<Solid>& solids, int e
                        text(stretch.first_phase) + " to " + text(stretch.end_phase));
   if (end_effector < 0 || end_effector >= plan.end_effector_count())
     throw InvalidInput("end_effector", "must be an index below " + text(plan.end_effector_count()), text(end_effector));
+  for (int k = stretch.first_phase; k < stretch.end_phase; ++k)
+    if (samples_of(plan.phases[k], sample_s) > 0) require_queryable(plan, k, 0.0);
   double worst = 0.0, before = 0.0;
   for (int k = stretch.first_phase; k < stretch.end_phase; ++k) {
     const double duration = plan.phases[k].duration;
     const int samples = samples_of(plan.phases[k], sample_s);
-    PhaseFrame frame;
-    if (samples > 0) {
-      require_queryable(plan, k, 0.0);
-      frame = phase_frame(plan, k);
-      for (ActiveSwing& active : frame.swings) straighten(active);
-    }
+    PhaseFrame frame = samples > 0 ? phase_frame(plan, k) : PhaseFrame();
+    for (ActiveSwing& active : frame.swings) straighten(active);
     for (int i = 0; samples > 0 && i <= samples; ++i) {
       const double tau = duration * i / samples;
-      const PlanState state = state_in_phase(plan, frame, tau);
-      worst = std::max(
-          worst,
-          clearance_depth(solids, plan.robot.end_effectors[end_effector], stretch, (before + tau) / stretch.duration_s,
-                          state.end_effectors[end_effector].position_W, state.end_effectors[end_effector].yaw));
+      const EndEffectorState end = state_in_phase(plan, frame, tau).end_effectors[end_effector];
+      worst = std::max(worst, clearance_depth(solids, plan.robot.end_effectors[end_effector], stretch,
+                                              (before + tau) / stretch.duration_s, end.position_W, end.yaw));
     }
     before += duration;
   }

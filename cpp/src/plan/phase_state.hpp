@@ -34,4 +34,19 @@ PhaseFrame phase_frame(const Plan& plan, int phase);
 /// What Plan::at_phase() says, to the last bit.
 PlanState state_in_phase(const Plan& plan, const PhaseFrame& frame, double since_start);
 
+/// An end-effector on its way: instants of phases in which it is free.
+struct PathInstant {
+  double since_lift_s = 0.0;
+  PlanState state;  ///< without its swing
+  ActiveSwing swing;
+  double since_start_s = 0.0;  ///< of the phase
+};
+
+/// The instants of a stretch, every sample_s [s] of each phase, of a plan whose sizes and indices fit together. The
+/// swing must be the plan's for these phases; what its height makes of the path is asked for later.
+std::vector<PathInstant> path_of(const Plan& plan, const Swing& swing, double sample_s);
+
+/// The end-effector at that instant, lifted by the height that the swing has now, on the straightened path.
+EndEffectorState lifted(const PathInstant& instant);
+
 }  // namespace mcplan

@@ -376,4 +376,30 @@ PlanState state_in_phase(const Plan& plan, const PhaseFrame& frame, double since
   return state;
 }
 
+std::vector<PathInstant> path_of(const Plan& plan, const Swing& swing, double sample_s) {
+  std::vector<PathInstant> path;
+  double before_s = 0.0;
+  for (int k = swing.first_phase; k < swing.end_phase; ++k) {
+    const double duration = plan.phases[k].duration;
+    const int samples = samples_of(plan.phases[k], sample_s);
+    PhaseFrame frame{k, 0.0, {}};
+    ActiveSwing active = active_swing(plan, swing, k);
+    straighten(active);
+    for (int i = 0; samples > 0 && i <= samples; ++i) {
+      const double tau = duration * i / samples;
+      path.push_back({before_s + tau, state_in_phase(plan, frame, tau), active, tau});
+    }
+    before_s += duration;
+  }
+  return path;
+}
+
+EndEffectorState lifted(const PathInstant& instant) {
+  const PlanState& state = instant.state;
+  EndEffectorState end = state.end_effectors[instant.swing.swing->end_effector];
+  add_clearance(instant.swing, instant.since_start_s, end);
+  hold_in_reach(instant.swing, state, rotation_from_rpy(state.base_rpy), end);
+  return end;
+}
+
 }  // namespace mcplan

@@ -24,10 +24,11 @@ void require_surface(const std::string& field, int surface, std::size_t surfaces
                       text(surface));
 }
 
-void require_swing(const Swing& swing, const std::string& field, std::size_t ends, std::size_t phases) {
+void require_swing(const Plan& plan, std::size_t i, std::size_t ends, std::size_t phases) {
+  const Swing& swing = plan.swings[i];
   if (swing.end_effector < 0 || swing.end_effector >= static_cast<int>(ends) || swing.first_phase < 0 ||
       swing.end_phase <= swing.first_phase || swing.end_phase > static_cast<int>(phases))
-    throw InvalidPlan(field, "must name an end-effector and a range of phases",
+    throw InvalidPlan(indexed("swings", i), "must name an end-effector and a range of phases",
                       "end-effector " + text(swing.end_effector) + ", phases " + text(swing.first_phase) + " to " +
                           text(swing.end_phase));
 }
@@ -94,20 +95,20 @@ void require_shape(const Plan& plan, std::size_t surfaces, bool with_swings) {
   const std::size_t n = plan.phases.size(), ends = plan.robot.end_effectors.size();
   if (n == 0) throw InvalidPlan("phases", "needs at least one phase", "none");
   require_count("knots", plan.knots.size(), n + 1, "one more than the phases");
-  for (std::size_t k = 0; k <= n; ++k) {
-    require_count(indexed("knots", k) + ".end_effectors", plan.knots[k].end_effectors_W.size(), ends, kEach);
-    require_count(indexed("knots", k) + ".end_effector_velocities", plan.knots[k].end_effector_velocities_W.size(),
-                  ends, kEach);
-  }
+  for (std::size_t k = 0; k <= n; ++k) require_knot(plan, static_cast<int>(k), ends);
   for (std::size_t k = 0; k < n; ++k) {
+    const std::vector<Contact>& contacts = plan.phases[k].contacts;
+    const bool fits = contacts.size() == ends && std::all_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
+                        return c.surface >= -1 && c.surface < static_cast<int>(surfaces);
+                      });
+    if (fits) continue;  // names of fields take longer than all the rest
     const std::string field = indexed("phases", k) + ".contacts";
-    require_count(field, plan.phases[k].contacts.size(), ends, kEach);
-    for (const Contact& contact : plan.phases[k].contacts) require_surface(field, contact.surface, surfaces);
+    require_count(field, contacts.size(), ends, kEach);
+    for (const Contact& contact : contacts) require_surface(field, contact.surface, surfaces);
   }
   require_count("final_contacts", plan.final_contacts.size(), ends, kEach);
   for (int surface : plan.final_contacts) require_surface("final_contacts", surface, surfaces);
-  for (std::size_t i = 0; with_swings && i < plan.swings.size(); ++i)
-    require_swing(plan.swings[i], indexed("swings", i), ends, n);
+  for (std::size_t i = 0; with_swings && i < plan.swings.size(); ++i) require_swing(plan, i, ends, n);
 }
 
 int samples_of(const Phase& phase, double sample_s) {

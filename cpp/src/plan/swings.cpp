@@ -1,8 +1,12 @@
 #include "mcplan/plan/swings.hpp"
 
+#include <algorithm>
+
 #include "mcplan/plan/clearance.hpp"
 #include "mcplan/robot/similarity.hpp"
+#include "phase_state.hpp"
 #include "plan_shape.hpp"
+#include "solid_box.hpp"
 
 namespace mcplan {
 namespace {
@@ -13,14 +17,41 @@ bool touches(const Plan& plan, int k, int end_effector) {
   return (k == n ? plan.final_contacts[end_effector] : plan.phases[k].contacts[end_effector].surface) >= 0;
 }
 
+/// clearance_depth() of a swing on its way, at the height that it has now.
+double depth_on(const std::vector<PathInstant>& path, const std::vector<Solid>& solids,
+                const std::vector<Eigen::AlignedBox3d>& boxes, const EndEffector& end_effector,
+                const FreeStretch& stretch) {
+  std::vector<EndEffectorState> ends;
+  Eigen::AlignedBox3d way;
+  for (const PathInstant& instant : path) {
+    ends.push_back(lifted(instant));
+    way.extend(ends.back().position_W);
+  }
+  // Most solids of a large scene are nowhere near.
+  constexpr double kRounding = 1e-3;
+  const double reach = end_effector.half_size.norm() + kRounding;
+  std::vector<Solid> near;
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    if (!(boxes[i].squaredExteriorDistance(way) > reach * reach)) near.push_back(solids[i]);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    worst = std::max(worst, clearance_depth(near, end_effector, stretch, path[i].since_lift_s / stretch.duration_s,
+                                            ends[i].position_W, ends[i].yaw));
+  return worst;
+}
+
 }  // namespace
 
-void choose_swings(Plan& plan) {
+void choose_swings(Plan& plan, bool heights) {
   plan.swings.clear();
   require_shape(plan, plan.scene.surfaces.size());
   const std::vector<Solid> solids = solids_of(plan.scene);
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Solid& solid : solids) boxes.push_back(box_of(solid));
   const Similarity similarity = similarity_of(plan.robot, plan.scene.gravity);
   const double usual_height = swing_height_of(plan.robot, similarity), sample_s = 0.01 * similarity.time;
+  for (int k = 0; k < static_cast<int>(plan.phases.size()); ++k)
+    if (samples_of(plan.phases[k], sample_s) > 0) require_queryable(plan, k, 0.0);
   for (int e = 0; e < plan.end_effector_count(); ++e)
     for (const FreeStretch& stretch : free_stretches(plan, solids, e)) {
       Swing swing;
@@ -32,14 +63,16 @@ void choose_swings(Plan& plan) {
       const bool leaves = touches(plan, stretch.first_phase - 1, e), arrives = touches(plan, stretch.end_phase, e);
       swing.height = leaves || arrives ? usual_height : 0.0;
       plan.swings.push_back(swing);
-      if (swing.height == 0.0) continue;
+      if (swing.height == 0.0 || !heights) continue;
       // The least of a few heights that clears the scene.
-      double best_depth = clearance_depth(plan, solids, e, stretch, sample_s);
+      const std::vector<PathInstant> path = path_of(plan, plan.swings.back(), sample_s);
+      const EndEffector& end_effector = plan.robot.end_effectors[e];
+      double best_depth = depth_on(path, solids, boxes, end_effector, stretch);
       double best_height = swing.height;
       for (double factor : {1.5, 2.0, 3.0, 4.0, 0.5}) {
         if (best_depth <= 0.0) break;
         plan.swings.back().height = factor * swing.height;
-        const double depth = clearance_depth(plan, solids, e, stretch, sample_s);
+        const double depth = depth_on(path, solids, boxes, end_effector, stretch);
         if (depth >= best_depth) continue;
         best_depth = depth;
         best_height = plan.swings.back().height;

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include "clocks.hpp"
 #include "mcplan/ddp/switched_ddp.hpp"
@@ -20,6 +22,51 @@ PlanResult solve(const mcplan::Scene& scene, double limit_s, double tick_s = 1e-
   options.time_limit_s = limit_s;
   options.clock = CountingClock(tick_s);
   return SwitchedDdp(scene, scenes::humanoid44(), options).solve();
+}
+
+double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Processor time [s] of a solve from the look at the clock before the one at which the limit has passed, its
+/// `last`th, and how many looks there are before `until_s` of it.
+struct AfterLimit {
+  double time_s = 0.0;
+  int looks = 0;
+};
+AfterLimit after_limit(const mcplan::Scene& scene, int phases, int last, double until_s) {
+  AfterLimit out;
+  Options options;
+  options.phases = phases;
+  options.threads = 1;
+  options.time_limit_s = 1e6;
+  const double begin_s = processor_s();
+  double before_s = 0.0;
+  bool over = false;
+  options.clock = [&] {
+    const double now_s = processor_s() - begin_s;
+    over = over || out.looks == last || now_s > until_s;
+    if (!over) before_s = now_s;
+    if (!over) ++out.looks;
+    return over ? 1e9 + now_s : now_s;
+  };
+  const PlanResult result = SwitchedDdp(scene, scenes::humanoid44(), options).solve();
+  out.time_s = processor_s() - begin_s - before_s;
+  CHECK(static_cast<int>(result.plan.phases.size()) == phases);
+  CHECK((result.report.status == Status::time_limit || result.report.status == Status::solved));
+  return out;
+}
+
+/// A floor of tiles beside each other, over a ground that is one.
+mcplan::Scene tiled(double length, int rows, int columns) {
+  mcplan::Scene scene = scenes::flat(length);
+  scene.surfaces = {scenes::rectangle("ground", -1.0, length + 1.0, -5.0, 5.0, 0.0)};
+  const double along = (length + 2.0) / std::max(columns, 1), across = 2.0 / std::max(rows, 1);
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < columns; ++j) {
+      const double x = along * j - 1.0, y = across * i - 1.0;
+      const std::string name = "tile_" + std::to_string(i) + "_" + std::to_string(j);
+      scene.surfaces.push_back(scenes::rectangle(name, x, x + along, y, y + across, 0.0));
+    }
+  return scene;
 }
 
 /// The checker's measure, by which accepted plans are equal.
@@ -59,6 +106,21 @@ TEST_CASE("however short the limit, the plan stands on its surfaces and is no fi
     CHECK(result.report.iterations == 0);
     CHECK_NOTHROW(result.plan.validate());
     CHECK(result.report.cost < 1e4);
+  }
+}
+
+TEST_CASE("wherever the limit falls, 50 ms of processor time do for what follows: long ways, large scenes") {
+  if (kSlowBuild) return;
+  const std::pair<mcplan::Scene, int> cases[] = {
+      {tiled(40.0, 0, 0), 288}, {tiled(4000.0, 0, 0), 288}, {tiled(3.0, 20, 50), 18}};
+  for (const auto& [scene, phases] : cases) {
+    const int looks = after_limit(scene, phases, -1, 0.3).looks;
+    for (int part = 0; part < 12; ++part) {
+      const int last = part < 4 ? part + 1 : part * (looks - 1) / 12;
+      CAPTURE(scene.surfaces.size());
+      CAPTURE(last);
+      CHECK(after_limit(scene, phases, last, 1e3).time_s < 0.05);
+    }
   }
 }
 

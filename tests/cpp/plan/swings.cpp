@@ -2,7 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include "mcplan/plan/clearance.hpp"
+#include "mcplan/robot/similarity.hpp"
 #include "plan/point_fixtures.hpp"
 
 using namespace fixtures;
@@ -38,6 +41,37 @@ TEST_CASE("a swing rises until it clears the scene") {
   plan.robot.swing_height = 0.08;  // high enough
   mcplan::choose_swings(plan);
   CHECK(plan.swings[0].height == 0.08);
+}
+
+TEST_CASE("of six heights the first that clears the scene, or the one that goes in least, as the whole path says") {
+  for (double usual : {0.001, 0.004, 0.006, 0.011, 0.03}) {
+    CAPTURE(usual);
+    mcplan::Plan plan = walk();
+    plan.robot.swing_height = usual;
+    const auto solids = mcplan::solids_of(plan.scene);
+    const double sample_s = 0.01 * mcplan::similarity_of(plan.robot, plan.scene.gravity).time;
+    mcplan::choose_swings(plan);
+    const mcplan::Plan chosen = plan;
+    mcplan::choose_swings(plan, false);
+    for (std::size_t i = 0; i < plan.swings.size(); ++i) {
+      mcplan::Swing& swing = plan.swings[i];
+      const double height = swing.height;
+      CHECK((height == usual || height == 0.0));
+      double best = height, least = std::numeric_limits<double>::infinity();
+      for (double factor : {1.0, 1.5, 2.0, 3.0, 4.0, 0.5}) {
+        swing.height = factor * height;
+        for (const auto& stretch : mcplan::free_stretches(plan, solids, swing.end_effector)) {
+          if (stretch.first_phase != swing.first_phase || least <= 0.0) continue;
+          const double depth = mcplan::clearance_depth(plan, solids, swing.end_effector, stretch, sample_s);
+          if (depth >= least) continue;
+          least = depth;
+          best = swing.height;
+        }
+      }
+      swing.height = height;
+      CHECK(chosen.swings[i].height == best);
+    }
+  }
 }
 
 TEST_CASE("a swing over a slope leaves and arrives along its normals") {

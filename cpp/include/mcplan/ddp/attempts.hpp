@@ -37,6 +37,7 @@ class Attempts {
   Incumbent cheapest(std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending);
   Ending restart(Ending ending, const ContactSequence& initial);
   double further_inside() const;
+  Ending late(Ending ending) const;
   void keep(const Incumbent& now, const Tuning& tuning) { best_->keep(search_, surfaces_, now, tuning); }
   void finish(Incumbent now, const Tuning& tuning) { best_->finish(search_, surfaces_, std::move(now), tuning); }
 

@@ -25,11 +25,13 @@ class BestPlan {
     Plan plan;
     Violation worst;
     bool ok = false;
-    bool sampled = false;  ///< checked at few instants only: never called ok
+    bool sampled = false;   ///< checked at few instants only: never called ok
+    double sample_s = 0.0;  ///< every so often, as Tolerances::sample_s
     Evaluation evaluation;
   };
 
-  /// Make exact, convert, check in full. True when any plan so far passes.
+  /// Make exact, convert, check in full. True when any plan so far passes. Where the time limit cuts it short, what was
+  /// kept before stays, and without any the iterate is looked at as it is.
   bool finish(Search& search, const std::vector<int>& surfaces, Incumbent now, const Tuning& tuning);
 
   /// Under a time limit: the same at few instants, if it is due and there is time for it.
@@ -42,14 +44,15 @@ class BestPlan {
   bool ok() const { return best_ && best_->ok; }
 
  private:
-  Finished converted(Search& search, const std::vector<int>& surfaces, const Incumbent& now,
-                     const Tuning& tuning) const;
+  Finished converted(Search& search, const std::vector<int>& surfaces, const Incumbent& now, const Tuning& tuning,
+                     bool swing_heights = true) const;
   enum class Look {
     late,  ///< at least at one instant a phase: the time is over, and nothing is compared with it any more
     few,   ///< at least at three instants a phase
     full,
   };
-  bool judge(Finished& finished, const Problem& problem, Look look) const;
+  bool judge(Finished& finished, const Problem& problem, Look look, const StopRequest& stop = nullptr) const;
+  StopRequest when_passed() const;
   static double sample_s(const Plan& plan, Look look);
   double full_look_s(const Plan& plan) const;
   void take(Finished&& finished);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "mcplan/ddp/constants.hpp"
@@ -55,14 +56,17 @@ class LocalModel {
  private:
   StepView view(int k) const;
 
+  struct Block {
+    Rows rows;
+    long made = 0;  ///< the expansion that it belongs to
+  };
   struct Stage {
     PendulumStep dynamics;
     Eigen::VectorXd defect;
     Quadratic base;
     std::vector<Instant> instants;
-    std::vector<std::vector<Rows>>
-        blocks;                           ///< [l][choice], choice 0: free, i + 1: surfaces(l)[i]; sized when asked for
-    std::vector<std::vector<long>> made;  ///< likewise: the expansion that each block belongs to
+    /// [l][choice], choice 0: free, i + 1: surfaces(l)[i]; made when asked for, since most never are.
+    std::vector<std::vector<std::unique_ptr<Block>>> blocks;
     Rows flight;
     bool flight_made = false;
   };
