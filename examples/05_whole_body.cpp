@@ -4,8 +4,6 @@
 #include <mcplan/mcplan.hpp>
 #include <string>
 
-#include "planar_models.hpp"
-
 namespace {
 
 void print(const char* name, const mcplan::sip::Result& found) {
@@ -17,7 +15,7 @@ void print(const char* name, const mcplan::sip::Result& found) {
 }  // namespace
 
 int main() {
-  const mcplan::PlanarTask motion = examples::cartwheel();
+  const mcplan::PlanarTask motion = mcplan::load_planar_task("cartwheel");
 
   // First with forces that share the load evenly, then with a weight for each point of contact, from where the first
   // ends.
@@ -43,5 +41,6 @@ int main() {
   for (const mcplan::PlanarPointForce& force : state.forces)
     std::printf("  point %d of limb %s: %.0f N into the limb, %.0f N along\n", force.point,
                 motion.robot.end_effectors[force.end_effector].name.c_str(), force.normal, force.tangential);
+  result.plan.save("cartwheel.json");
   return certificate.proved() ? 0 : 1;
 }

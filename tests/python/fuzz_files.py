@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 
 from mcplan import load_motion, load_planar_robot, load_robot, load_scene
-from mcplan._core import plan_to_json
+from mcplan._core import plan_to_json, planar_plan_to_json
 from mcplan.cli import main as command
 from mcplan.errors import InvalidInput, UnknownName
 from mcplan.files.archives import read_arrays
@@ -105,6 +105,12 @@ def _plans_in_json() -> list[bytes]:
     return [plan_to_json(plan_from_bytes(data)) for data in _plans()]
 
 
+def _whole_body_plan_in_json() -> bytes:
+    from mcplan.files.whole_body_plans import plan_from_bytes as from_bytes
+
+    return planar_plan_to_json(from_bytes(_whole_body_plan()))
+
+
 def _whole_body_plan() -> bytes:
     from mcplan.files.whole_body_plans import plan_to_bytes as to_bytes
     from reference_solutions import reference_plan
@@ -148,12 +154,14 @@ VALID: dict[str, Callable[[], list[bytes]]] = {
     "plan": _plans,
     "plan_in_json": _plans_in_json,
     "whole_body_plan": lambda: [_whole_body_plan()],
+    "whole_body_plan_in_json": lambda: [_whole_body_plan_in_json()],
     "run": lambda: [_run()],
     "urdf": lambda: [_urdf()],
 }
 ENDINGS = {
     "polytopes": ".json",
     "plan_in_json": ".json",
+    "whole_body_plan_in_json": ".json",
     "plan": ".npz",
     "whole_body_plan": ".npz",
     "run": ".npz",
@@ -369,7 +377,7 @@ def read(kind: str, file: Path, number: int) -> None:
             toml_text(planar_robot_to_dict(load_planar_robot(file)))
         case "motion":
             toml_text(motion_to_dict(load_motion(file)))
-        case "plan" | "plan_in_json" | "whole_body_plan":
+        case "plan" | "plan_in_json" | "whole_body_plan" | "whole_body_plan_in_json":
             load_any_plan(file)
         case "run":
             from mcplan.planar.tracking.result import result_from as planar_result_from
@@ -406,6 +414,7 @@ COMMANDS = {
     "plan": ("check",),
     "plan_in_json": ("check",),
     "whole_body_plan": ("check",),
+    "whole_body_plan_in_json": ("check",),
     "urdf": ("robots", "--planar", "--end", "foot=sole", "--from-urdf"),
 }
 

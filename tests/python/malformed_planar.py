@@ -72,7 +72,8 @@ MOTION: dict[str, Any] = {
 }
 
 ROBOT_BREAKS: list[Break] = [
-    (("gravity",), -1.0, "gravity", "must be at least 0"),
+    (("gravity",), -1.0, "gravity", "must be a positive number"),
+    (("gravity",), 0, "gravity", "must be a positive number"),
     (("bodys",), [], "bodys", "no such key. Did you mean 'bodies'? Keys: name, description, gravity, bodies"),
     (("bodies",), DELETE, "bodies", "is required"),
     (("bodies",), [], "bodies", "needs at least 1 entry"),

@@ -13,8 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from mcplan._core import PlanarPlan, PlanarTask
-from mcplan.files.planar_data import motion_from_plain
+from mcplan._core import PlanarPlan, PlanarTask, planar_task_from_plain
 
 FILE = Path(__file__).resolve().parents[1] / "data/lengagne_reference.json"
 
@@ -41,7 +40,7 @@ def reference_names() -> list[tuple[str, str]]:
 def reference_motion(name: str) -> PlanarTask:
     """One of cartwheel, climbing, climbing_steep and walking."""
     plain = _content()["motions"][name]
-    return motion_from_plain({**plain, "robot": _content()["robots"][plain["robot"]]})
+    return planar_task_from_plain({**plain, "robot": _content()["robots"][plain["robot"]]})
 
 
 def reference_plan(motion: str, name: str) -> PlanarPlan:

@@ -373,4 +373,4 @@ def test_importing_loads_nothing_heavy(module: str) -> None:
     assert "mcplan" in loaded
     assert not loaded & HEAVY
     if module == "mcplan":
-        assert not loaded & {"pydantic", "typer", "rich"}
+        assert not loaded & {"typer", "rich"}

@@ -18,8 +18,8 @@ import pytest
 import malformed
 import mcplan as mp
 from mcplan.cli import main
-from mcplan.files import reading
 from mcplan.files.archives import read_arrays
+from mcplan.files.builtin import DATA
 from mcplan.files.plans import MOST_PHASES, load_plan, plan_to_bytes
 from mcplan.files.reading import MOST_TOML, read_file
 from mcplan.files.robots import load_robot
@@ -183,12 +183,20 @@ def test_a_motion_whose_robot_is_no_regular_file_is_named(name, tmp_path):
         mp.load_motion(tmp_path / "motion.toml")
 
 
+def test_a_motion_in_the_working_directory_names_a_robot_beside_it(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.toml").write_bytes((DATA / "planar_robots" / "climber9.toml").read_bytes())
+    text = (DATA / "motions" / "cartwheel.toml").read_text().replace('"climber9"', '"mine.toml"')
+    (tmp_path / "motion.toml").write_text(text)
+    assert mp.load_motion("motion.toml").robot.mass() == 24.5
+
+
 def test_the_robots_that_mcplan_brings_may_be_links(tmp_path, monkeypatch):
     """Some package managers put links in place of files: what lies beside them is then elsewhere."""
     (tmp_path / "store").mkdir()
     (tmp_path / "data" / "robots").mkdir(parents=True)
     for name in ("talos_wang.toml", "talos_wang_reach.json"):
-        (tmp_path / "store" / name).write_bytes((reading.DATA / "robots" / name).read_bytes())
+        (tmp_path / "store" / name).write_bytes((DATA / "robots" / name).read_bytes())
         (tmp_path / "data" / "robots" / name).symlink_to(tmp_path / "store" / name)
     monkeypatch.setenv("MCPLAN_DATA", str(tmp_path / "data"))
     assert load_robot("talos_wang").end_effectors[0].com_reach.given

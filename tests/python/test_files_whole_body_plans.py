@@ -12,8 +12,8 @@ import pytest
 
 import mcplan as mp
 from mcplan import _core
+from mcplan._core import planar_task_from_plain, planar_task_to_plain
 from mcplan.cli import main
-from mcplan.files.planar_data import motion_from_plain, motion_to_plain
 from mcplan.files.whole_body_plans import load_any_plan, load_whole_body_plan, plan_from_bytes, plan_to_bytes
 from reference_solutions import reference_motion, reference_plan
 from standing import standing_plan
@@ -61,6 +61,47 @@ def test_a_plan_comes_back_exactly(make, tmp_path):
         assert repr(other.motion) == repr(plan.motion)
         assert other.planner == "reference" and other.force_law == plan.force_law
         assert plan_to_bytes(other) == plan_to_bytes(plan)
+
+
+@pytest.mark.parametrize("make", [lambda: reference_plan("cartwheel", "optimised_per_point"), given_forces])
+def test_a_plan_comes_back_exactly_from_json(make, tmp_path):
+    plan = make()
+    plan.motion.phases[1].poses = [_core.PlanarPose(body=3, fraction=1 / 3, max=[1.0, np.inf, 1e-17])]
+    plan.save(tmp_path / "plan.json")
+    for other in (mp.PlanarPlan.load(tmp_path / "plan.json"), load_any_plan(tmp_path / "plan.json")):
+        assert other == plan and states(other) == states(plan)
+        assert plan_to_bytes(other) == plan_to_bytes(plan)
+    header = json.loads((tmp_path / "plan.json").read_text())
+    assert (header["kind"], header["format"], header["mcplan"]) == ("planar_plan", 2, mp.__version__)
+    assert header["motion"]["phases"][1]["poses"][0]["max"] == [1.0, "inf", 1e-17]
+    assert header["motion"] == json.loads(arrays_of(plan_to_bytes(plan))["header"].tobytes())["motion"]
+
+
+def test_all_that_is_wrong_with_a_plan_in_json_is_named_with_its_file(plan, tmp_path):
+    file = tmp_path / "plan.json"
+    plan.save(file)
+    data = json.loads(file.read_text())
+    data["motion"]["robot"]["gravity"] = "x"
+    data["motion"]["phases"][0]["min_duration"] = "-inf"
+    data["durations"][1] = 0.0
+    file.write_text(json.dumps(data))
+    with pytest.raises(mp.InvalidPlan) as found:
+        mp.PlanarPlan.load(file)
+    assert str(found.value).splitlines() == [
+        f"{file}: motion.robot.gravity: must be a number, got 'x'",
+        f"{file}: motion.phases[0].min_duration: must be a finite number, got -inf",
+        f"{file}: durations[1]: must be a positive number, got 0.0",
+    ]
+
+
+def test_arrays_of_a_plan_are_views_that_outlive_what_replaces_them(plan):
+    weights, points = plan.weights[0], plan.control_points
+    before = points.copy()
+    weights[0] = 7.0
+    assert plan.weights[0][0] == 7.0
+    plan.control_points = np.zeros((2, 3))
+    plan.weights = []
+    assert weights[0] == 7.0 and (points == before).all()
 
 
 def test_the_header_says_what_it_holds(plan):
@@ -143,7 +184,7 @@ DAMAGE = {
     ),
     "another law": (header(force_law="polynomial"), r"weights: must have shape \(0,\)"),
     "no motion": (header(motion=[]), "header.motion: must be a dict, got list"),
-    "motion empty": (header(motion={}), "header.motion.name: is required"),
+    "motion empty": (header(motion={}), "header.motion.robot: is required"),
     "motion with more": (in_motion(lambda m: m.update(speed=1)), "header.motion.speed: no such key. Keys: name,"),
     "mass text": (
         in_motion(lambda m: m["robot"]["bodies"][2].update(mass="heavy")),
@@ -151,7 +192,7 @@ DAMAGE = {
     ),
     "no mass": (
         in_motion(lambda m: m["robot"]["bodies"][2].update(mass=0.0)),
-        r"header.motion.bodies\[2\].mass: must be a positive number, got 0",
+        r"header.motion.robot.bodies\[2\].mass: must be a positive number, got 0",
     ),
     "loop": (in_motion(lambda m: m["robot"]["bodies"][2].update(parent=2)), r"bodies\[2\].parent: .* \(no loops\)"),
     "half an interval": (
@@ -164,7 +205,7 @@ DAMAGE = {
     ),
     "flat place": (
         in_motion(lambda m: m["phases"][0]["contacts"][0].update(position_W=[1.0])),
-        "position_W: must be a list of 2",
+        "position_W: needs at least 2 entries, got 1",
     ),
     "contact in the air": (
         in_motion(lambda m: m["phases"][0]["contacts"][0].update(position_W=[0.0, 0.1])),
@@ -214,14 +255,22 @@ def test_files_of_the_two_kinds_are_told_apart(plan, tmp_path):
         mp.Plan.load(tmp_path / "whole.npz")
     with pytest.raises(FileNotFoundError):
         load_any_plan(tmp_path / "none.npz")
+    plan.save(tmp_path / "whole.json")
+    standing_plan().save(tmp_path / "centroidal.json")
+    assert isinstance(load_any_plan(tmp_path / "whole.json"), mp.PlanarPlan)
+    assert isinstance(load_any_plan(tmp_path / "centroidal.json"), mp.Plan)
+    with pytest.raises(mp.InvalidPlan, match="kind: must be 'planar_plan': a plan of a planar robot, got 'plan'"):
+        mp.PlanarPlan.load(tmp_path / "centroidal.json")
+    with pytest.raises(mp.InvalidPlan, match="kind: must be 'plan': a plan of contacts and CoM, got 'planar_plan'"):
+        mp.Plan.load(tmp_path / "whole.json")
 
 
 def test_motions_come_back_exactly_from_json():
     for name in ("cartwheel", "climbing", "climbing_steep", "walking"):
         motion = reference_motion(name)
         motion.surfaces[0].to = 3.5  # the other end stays open
-        plain = json.loads(json.dumps(motion_to_plain(motion), allow_nan=False))
-        assert repr(motion_from_plain(plain)) == repr(motion)
+        plain = json.loads(json.dumps(planar_task_to_plain(motion), allow_nan=False))
+        assert repr(planar_task_from_plain(plain)) == repr(motion)
 
 
 def test_the_command_checks_whole_body_plans(plan, tmp_path, capsys):

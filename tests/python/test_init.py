@@ -14,7 +14,7 @@ from mcplan import _core, errors, model
 from standing import standing_plan, standing_scene
 from stepping import stepping_plan
 
-HEAVY = ("pydantic", "typer", "rich", "matplotlib", "meshcat", "pinocchio", "mujoco", "scipy")
+HEAVY = ("typer", "rich", "matplotlib", "meshcat", "pinocchio", "mujoco", "scipy")
 
 
 def test_import_loads_numpy_alone():

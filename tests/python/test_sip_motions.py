@@ -10,7 +10,7 @@ import pytest
 
 import mcplan as mp
 from mcplan import sip
-from mcplan.files.planar_data import motion_from_plain, motion_to_plain
+from mcplan._core import planar_task_from_plain, planar_task_to_plain
 from whole_body_peer import Peer
 
 CASES = ["uniform", "per_body", "per_point"]  # the paper's 1, 2 and 3
@@ -42,7 +42,7 @@ def cheapest_cartwheels() -> tuple[sip.Result, ...]:
 
 
 def peer_of(plan: mp.PlanarPlan) -> Peer:
-    plain = motion_to_plain(plan.motion)
+    plain = planar_task_to_plain(plan.motion)
     return Peer(plain["robot"], plain, plan.durations, plan.control_points, plan.weights)
 
 
@@ -149,13 +149,13 @@ def test_a_cartwheel_in_other_forms_is_found(options: dict[str, Any]):
 
 
 def test_limbs_that_would_touch_are_kept_apart():
-    plain = motion_to_plain(mp.load_motion("cartwheel"))
+    plain = planar_task_to_plain(mp.load_motion("cartwheel"))
     bodies = [body["name"] for body in plain["robot"]["bodies"]]
     shins = [bodies.index("B_lower"), bodies.index("C_lower")]
     plain["robot"]["collision_pairs"] = [shins]
     for shin in shins:  # thick ones: the motion that is found without minding them overlaps by two centimetres
         plain["robot"]["bodies"][shin]["capsules"][0]["radius"] = 0.15
-    motion = motion_from_plain(plain)
+    motion = planar_task_from_plain(plain)
     overlaps = {}
     for minded in (False, True):
         result = mp.whole_body(motion, minimise="none", self_collision=minded, time_limit=60.0)

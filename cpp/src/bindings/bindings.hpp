@@ -48,6 +48,7 @@ void bind_sip(py::module_& m);
 void bind_sip_planner(py::module_& m);  // of the sip submodule
 void bind_planar(py::module_& m);
 void bind_planar_plan(py::module_& m);
+void bind_planar_files(py::module_& m);
 
 /// Runs a solve without the GIL. Another thread may change meanwhile what was given by reference: give copies.
 template <class Solve>

@@ -44,16 +44,30 @@ struct IsNested : std::false_type {};
 template <class M>
 struct IsNested<std::vector<std::vector<M>>> : std::true_type {};
 
+/// Whether a member is a matrix of any size, which lies on the heap.
+template <class M>
+constexpr bool is_sizable() {
+  if constexpr (std::is_base_of_v<Eigen::MatrixBase<M>, M>) return M::SizeAtCompileTime == Eigen::Dynamic;
+  return false;
+}
+
+template <class M>
+struct HasSizables : std::false_type {};
+template <class M>
+struct HasSizables<std::vector<M>> : std::bool_constant<is_sizable<M>()> {};
+
 template <class T, class F>
 void def_field(py::class_<T>& c, const F& f) {
   using M = typename F::Member;
   const std::string doc = std::string(*f.unit ? "[" + std::string(f.unit) + "] " : "") + f.meaning;
   if constexpr (std::is_same_v<M, std::vector<Eigen::Vector3d>>)
     def_points(c, f.name, f.member, ("N x 3 " + doc).c_str());
-  else if constexpr (model::IsStructs<M>::value)
+  else if constexpr (model::IsStructs<M>::value || HasSizables<M>::value)
     def_items(c, f.name, f.member, ("Tuple: " + doc).c_str());
   else if constexpr (model::HasFields<M>::value)
     def_member(c, f.name, f.member, doc.c_str());
+  else if constexpr (is_sizable<M>())
+    def_matrix(c, f.name, f.member, doc.c_str());
   else if constexpr (std::is_base_of_v<Eigen::MatrixBase<M>, M>)
     def_vector(c, f.name, f.member, doc.c_str());
   else if constexpr (std::is_arithmetic_v<M> || std::is_enum_v<M> || std::is_same_v<M, std::string> ||

@@ -10,6 +10,7 @@
 #include "model/text.hpp"
 #include "model/toml.hpp"
 #include "model/write.hpp"
+#include "planar/task_fields.hpp"
 #include "robot/robot_fields.hpp"
 #include "scene/scene_fields.hpp"
 
@@ -98,7 +99,9 @@ namespace {
 Value schema_of(const std::string& name) {
   if (name == "scene") return model::schema<Scene>();
   if (name == "robot") return model::schema<Robot>();
-  throw InvalidInput("name", "must be scene or robot", text(name));
+  if (name == "planar_robot") return model::schema<model::InFile<PlanarRobot>>();
+  if (name == "motion") return model::schema<model::InFile<PlanarTask>>();
+  throw InvalidInput("name", "must be scene, robot, planar_robot or motion", text(name));
 }
 
 void bind_scene_files(py::module_& m) {
@@ -162,7 +165,7 @@ void bind_model(py::module_& m) {
       "The folder of the built-in scenes, robots and motions.");
   m.def(
       "schema_text", [](const std::string& name) { return model::json_text(schema_of(name), 2) + "\n"; },
-      py::arg("name"), "The JSON schema of the files of a kind: 'scene' or 'robot'.");
+      py::arg("name"), "The JSON schema of the files of a kind: 'scene', 'robot', 'planar_robot' or 'motion'.");
   m.def(
       "toml_text",
       [](const py::object& data, const py::object& header) {

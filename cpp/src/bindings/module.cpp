@@ -157,6 +157,7 @@ PYBIND11_MODULE(_core, m) {
   bind_plan(m);
   bind_planar(m);
   bind_planar_plan(m);
+  bind_planar_files(m);
   bind_ddp(m);
   bind_nlp(m);
   bind_rhp(m);

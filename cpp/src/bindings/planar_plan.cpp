@@ -2,6 +2,7 @@
 
 #include "fields.hpp"
 #include "mcplan/planar/checker.hpp"
+#include "planar/plan_fields.hpp"
 #include "planar/tolerances_fields.hpp"
 #include "signals.hpp"
 
@@ -58,39 +59,7 @@ std::string describe(const PlanarPlan& plan) {
 }
 
 void bind_plan_class(py::module_& m) {
-  py::class_<PlanarPlan> plan(m, "PlanarPlan",
-                              "A motion of a planar robot: joint splines, durations of the phases, and "
-                              "what fixes the contact forces. Carries the motion (task) it was made for.");
-  plan.def(py::init([](const PlanarTask& motion, std::string planner, std::vector<double> durations,
-                       const MatrixXd& control_points, const MatrixXd& base_control_points, PlanarForceLaw force_law,
-                       std::vector<VectorXd> weights, std::vector<MatrixXd> force_polynomials) {
-             PlanarPlan out;
-             out.motion = motion;
-             out.planner = std::move(planner);
-             out.durations = std::move(durations);
-             out.control_points = control_points;
-             out.base_control_points = base_control_points;
-             out.force_law = force_law;
-             out.weights = std::move(weights);
-             out.force_polynomials = std::move(force_polynomials);
-             return out;
-           }),
-           py::kw_only(), py::arg("motion") = PlanarTask(), py::arg("planner") = "",
-           py::arg("durations") = std::vector<double>(), py::arg("control_points") = MatrixXd(),
-           py::arg("base_control_points") = MatrixXd(), py::arg("force_law") = PlanarForceLaw::least_norm,
-           py::arg("weights") = std::vector<VectorXd>(), py::arg("force_polynomials") = std::vector<MatrixXd>());
-  def_member(plan, "motion", &PlanarPlan::motion, "PlanarTask that it was made for.");
-  plan.def_readwrite("planner", &PlanarPlan::planner, "E.g. 'sip'.");
-  def_names(plan, "durations", &PlanarPlan::durations, "Of the phases [s]. Assign a list to change them.");
-  def_matrix(plan, "control_points", &PlanarPlan::control_points, "Joints x (intervals + 3) [rad].");
-  def_matrix(plan, "base_control_points", &PlanarPlan::base_control_points,
-             "3 x (intervals + 3): x, y [m], angle [rad]; empty: computed from the joints.");
-  plan.def_readwrite("force_law", &PlanarPlan::force_law);
-  def_items(plan, "weights", &PlanarPlan::weights,
-            "least_norm: an array for each phase, contact by contact, point by point.");
-  def_items(plan, "force_polynomials", &PlanarPlan::force_polynomials,
-            "polynomial: for each interval 4 x (2 points), coefficients of s^0..s^3, s = -1..1, of tangential and "
-            "normal force [N], contact by contact, point by point.");
+  py::class_<PlanarPlan> plan = bind_fields<PlanarPlan>(m);  // its repr is not what could be pasted back
   plan.def("duration", &PlanarPlan::duration, "[s]");
   plan.def("knot_times", &PlanarPlan::knot_times, "[s] phase boundaries, phases + 1 entries, from 0.");
   plan.def("interval_lengths", &PlanarPlan::interval_lengths, "[s]");
@@ -107,7 +76,7 @@ void bind_plan_class(py::module_& m) {
       [](py::object self, py::object path) {
         py::module_::import("mcplan.files.whole_body_plans").attr("save_whole_body_plan")(self, path);
       },
-      py::arg("path"), "Write the plan to an .npz file.");
+      py::arg("path"), "Write the plan to an .npz or a .json file; C++ reads the latter.");
   plan.def_static(
       "load",
       [](py::object path) -> PlanarPlan {
@@ -116,7 +85,6 @@ void bind_plan_class(py::module_& m) {
             .cast<PlanarPlan>();
       },
       py::arg("path"), "Read a plan written by save(). Raises InvalidPlan.");
-  def_value(plan, "PlanarPlan", {});  // for copies; a repr that can be pasted back would be pages long
   plan.def("__repr__", &describe, py::prepend());
   def_pickle(plan, "mcplan.files.whole_body_plans", "plan_to_bytes", "plan_from_bytes");
 }

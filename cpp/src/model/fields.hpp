@@ -4,11 +4,14 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "value.hpp"
 
 namespace mcplan::model {
 
@@ -24,6 +27,8 @@ struct Rules {
   bool may_be_infinite = false;
   bool not_empty = false;  ///< texts have a character at least
   std::size_t min_entries = 0, max_entries = any_number;
+  const char* list = nullptr;  ///< whole numbers are indices into it; files have the names that stand there
+  const char* what = nullptr;  ///< what messages call its entries: "a body"
 };
 
 /// A member of a struct: all that reading, writing, checking, binding and documenting it takes.
@@ -38,8 +43,9 @@ struct Field {
   const char* meaning;  ///< one line
   const char* key;      ///< in files
   Rules rules{};
-  bool is_required = false;  ///< files must have it
-  bool is_always = false;    ///< written also where it is at its default
+  bool is_required = false;   ///< files must have it
+  bool is_always = false;     ///< written also where it is at its default
+  bool is_elsewhere = false;  ///< files say it by FileKeys
 
   constexpr Field required() const {
     return with([](Field& f) { f.is_required = true; });
@@ -80,6 +86,12 @@ struct Field {
   constexpr Field in_files(const char* other) const {
     return with([&](Field& f) { f.key = other; });
   }
+  constexpr Field by_file_keys() const {
+    return with([](Field& f) { f.is_elsewhere = true; });
+  }
+  constexpr Field index_of(const char* list, const char* what) const {
+    return with([&](Field& f) { f.rules.list = list, f.rules.what = what; });
+  }
 
  private:
   template <class Change>
@@ -101,6 +113,32 @@ constexpr Field<T, M> field(const char* name, M T::*member, const char* unit, co
 template <class T>
 struct Fields;
 
+/// Keys that files have for the members of a struct that are `by_file_keys`:
+///     using Type = ...;     a struct with a table of its own
+/// They stand where the first of these members would.
+template <class T>
+struct FileKeys;
+
+/// A struct as it stands in a file, where that is more than its members: what the keys mean is code.
+template <class T>
+struct InFile {
+  T value;
+  typename FileKeys<T>::Type keys;
+};
+
+template <class T>
+struct Fields<InFile<T>> {
+  static constexpr const char* name = Fields<T>::name;
+  static constexpr const char* meaning = Fields<T>::meaning;
+};
+
+/// A thing by its built-in name or path, or as the table itself, whose content `T` is read by those who use it.
+template <class T>
+struct NameOr {
+  std::string name;
+  Value table;
+};
+
 /// Names of the values of an enum: static constexpr std::pair<const char*, E> all[], or Choice<E> all[] with a line of
 /// meaning each and, for the Python class, `name` and `meaning` of the enum itself.
 template <class E>
@@ -114,9 +152,31 @@ template <class T>
 struct HasFields<T, std::void_t<decltype(Fields<T>::all)>> : std::true_type {};
 
 template <class T>
+struct IsInFile : std::false_type {};
+template <class T>
+struct IsInFile<InFile<T>> : std::true_type {};
+
+template <class T>
+struct IsNameOr : std::false_type {};
+template <class T>
+struct IsNameOr<NameOr<T>> : std::true_type {
+  using Type = T;
+};
+
+template <class T>
+struct IsOptional : std::false_type {};
+template <class T>
+struct IsOptional<std::optional<T>> : std::true_type {};
+
+template <class T>
 struct IsStructs : std::false_type {};
 template <class T>
-struct IsStructs<std::vector<T>> : HasFields<T> {};
+struct IsStructs<std::vector<T>> : std::bool_constant<HasFields<T>::value || IsInFile<T>::value> {};
+
+template <class T>
+struct IsList : std::false_type {};
+template <class T>
+struct IsList<std::vector<T>> : std::bool_constant<!std::is_same_v<T, bool>> {};
 
 template <class T>
 struct IsMap : std::false_type {};
@@ -135,24 +195,48 @@ void for_each_field(Visit&& visit) {
   std::apply([&](const auto&... fields) { (visit(fields), ...); }, Fields<T>::all);
 }
 
-/// Keys of a struct in files.
+/// Calls visit(field, member, member) for all that stands in a file for two objects of a struct.
+template <class T, class Visit>
+void for_each_key(T& object, const std::remove_const_t<T>& other, Visit&& visit) {
+  using Plain = std::remove_const_t<T>;
+  if constexpr (IsInFile<Plain>::value) {
+    using Struct = decltype(Plain::value);
+    bool are_keys_done = false;
+    for_each_field<Struct>([&](const auto& f) {
+      if (!f.is_elsewhere)
+        visit(f, object.value.*f.member, other.value.*f.member);
+      else if (!std::exchange(are_keys_done, true))
+        for_each_key(object.keys, other.keys, visit);
+    });
+  } else {
+    for_each_field<Plain>([&](const auto& f) { visit(f, object.*f.member, other.*f.member); });
+  }
+}
+
+/// The same for one object.
+template <class T, class Visit>
+void for_each_key(T& object, Visit&& visit) {
+  for_each_key(object, object, [&](const auto& f, auto& member, const auto&) { visit(f, member); });
+}
+
+/// Names of the members of a struct.
 template <class T>
-std::vector<std::string> keys() {
+std::vector<std::string> member_names() {
   std::vector<std::string> out;
-  for_each_field<T>([&](const auto& f) { out.push_back(f.key); });
+  for_each_field<T>([&](const auto& f) { out.push_back(f.name); });
   return out;
 }
 
 /// Whether two values are the same, number by number, whoever listens to them.
 template <class V>
 bool equal(const V& a, const V& b) {
-  if constexpr (HasFields<V>::value) {
+  if constexpr (IsInFile<V>::value) {
+    return equal(a.value, b.value) && equal(a.keys, b.keys);
+  } else if constexpr (IsNameOr<V>::value) {
+    return false;
+  } else if constexpr (HasFields<V>::value) {
     bool same = true;
     for_each_field<V>([&](const auto& f) { same = same && equal(a.*f.member, b.*f.member); });
-    return same;
-  } else if constexpr (IsStructs<V>::value) {
-    bool same = a.size() == b.size();
-    for (std::size_t i = 0; same && i < a.size(); ++i) same = equal(a[i], b[i]);
     return same;
   } else if constexpr (IsMap<V>::value) {
     bool same = a.size() == b.size();
@@ -163,6 +247,10 @@ bool equal(const V& a, const V& b) {
     return a.rows() == b.rows() && a.cols() == b.cols() && a == b;
   } else if constexpr (IsCallback<V>::value) {
     return true;
+  } else if constexpr (IsList<V>::value) {
+    bool same = a.size() == b.size();
+    for (std::size_t i = 0; same && i < a.size(); ++i) same = equal(a[i], b[i]);
+    return same;
   } else {
     return a == b;
   }

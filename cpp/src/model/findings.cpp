@@ -34,8 +34,10 @@ void Findings::add(const InvalidInput& found) {
   for (const InvalidInput& other : found.others()) all_.push_back(other);
 }
 
+bool Findings::are_many() const { return all_.size() > max_besides; }
+
 bool Findings::sound(const std::string& field) const {
-  if (all_.size() > max_besides) return false;
+  if (are_many()) return false;
   const auto meets = [&](const std::string& other) { return is_within(field, other) || is_within(other, field); };
   return std::none_of(all_.begin(), all_.end(), [&](const InvalidInput& found) { return meets(found.field()); }) &&
          std::none_of(broken_.begin(), broken_.end(), meets);

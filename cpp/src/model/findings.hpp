@@ -36,6 +36,9 @@ class Findings {
 
   bool empty() const { return all_.empty(); }
 
+  /// Whether there are so many that nobody needs to know of more: a hundred.
+  bool are_many() const;
+
   /// Whether nothing is wrong with a field, what it lies in, or what lies in it. With a hundred findings nothing is
   /// sound: relations between fields need not be looked at then.
   bool sound(const std::string& field) const;

@@ -3,11 +3,23 @@
 #include <algorithm>
 #include <climits>
 #include <cstdio>
+#include <set>
 
 namespace mcplan::model {
 namespace {
 
 constexpr std::size_t max_keys = 1000;
+/// Of a list whose entries are named elsewhere, and of those that a message lists.
+constexpr std::size_t max_names = 1000, max_listed = 20;
+
+/// The names that there are, for a message.
+std::string listed(std::vector<std::string> names) {
+  if (names.empty()) return "none";
+  const bool are_more = names.size() > max_listed;
+  if (are_more) names.resize(max_listed);
+  for (std::string& name : names) name = printable(prefix(name, 60));
+  return joined(names) + (are_more ? ", ..." : "");
+}
 
 std::string short_text(double value) {
   char out[32];
@@ -106,7 +118,51 @@ bool read_value(const Value& value, bool& out, const Rules&, const Place& at, Re
   return false;
 }
 
+NameList names_in(const Value* list) {
+  const auto* const entries = list ? list->get<Value::Array>() : nullptr;
+  NameList out;
+  out.is_complete = entries && !entries->empty() && entries->size() <= max_names;
+  if (!out.is_complete) return out;
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < entries->size(); ++i) {
+    const Value* const name = (*entries)[i].find("name");
+    const auto* const text = name ? name->get<std::string>() : nullptr;
+    out.names.push_back(text ? *text : "");
+    out.is_complete = out.is_complete && !out.names.back().empty() && taken.insert(out.names.back()).second;
+  }
+  return out;
+}
+
+bool find_name(const std::string& name, const NameList& list, const char* what, int& out, const Place& at,
+               Reading& reading) {
+  const auto found = std::find(list.names.begin(), list.names.end(), name);
+  if (found != list.names.end() && !name.empty()) return out = static_cast<int>(found - list.names.begin()), true;
+  if (list.is_complete && !reading.found.are_many())
+    reading.found.add(
+        at,
+        "must name " + std::string(what) + ". " + did_you_mean(name, list.names) + "There are: " + listed(list.names),
+        shown(name));
+  else
+    reading.found.lacks(at.text());
+  return false;
+}
+
+bool read_name_or(const Value& value, std::string& name, Value& table, const Place& at, Reading& reading) {
+  const auto* const text = value.get<std::string>();
+  if (text && !text->empty()) return name = *text, true;
+  if (value.get<Value::Table>()) return table = value, true;
+  reading.found.add(at, "must be a name, a path or a table", shown(value));
+  return false;
+}
+
 bool read_value(const Value& value, int& out, const Rules& rules, const Place& at, Reading& reading) {
+  if (rules.list && !reading.exact) {
+    Rules named;
+    named.not_empty = true;
+    std::string name;
+    return read_value(value, name, named, at, reading) &&
+           find_name(name, reading.lists[rules.list], rules.what, out, at, reading);
+  }
   const auto* const whole = value.get<std::int64_t>();
   if (!whole || *whole < INT_MIN || *whole > INT_MAX) {
     reading.found.add(at, whole ? "must be a whole number of 32 bits" : "must be a whole number", shown(value));
@@ -122,6 +178,9 @@ bool read_value(const Value& value, int& out, const Rules& rules, const Place& a
 bool read_value(const Value& value, double& out, const Rules& rules, const Place& at, Reading& reading) {
   const auto* const whole = value.get<std::int64_t>();
   const auto* const number = value.get<double>();
+  const auto* const text = value.get<std::string>();
+  if (reading.exact && text && (*text == "inf" || *text == "-inf"))
+    return read_value((*text == "inf" ? 1.0 : -1.0) * unbounded, out, rules, at, reading);
   if (!whole && !number) {
     reading.found.add(at, "must be a number", shown(value));
     return false;
@@ -156,6 +215,27 @@ bool read_value(const Value& value, Eigen::Matrix<double, Eigen::Dynamic, 3>& ou
   if (!read_list(value, rows, rules, at, reading)) return false;
   out.resize(static_cast<Eigen::Index>(rows.size()), 3);
   for (std::size_t i = 0; i < rows.size(); ++i) out.row(static_cast<Eigen::Index>(i)) = rows[i];
+  return true;
+}
+
+bool read_value(const Value& value, Eigen::MatrixXd& out, const Rules& rules, const Place& at, Reading& reading) {
+  const auto* const list = value.get<Value::Array>();
+  if (!list) {
+    reading.found.add(at, "must be a list", shown(value));
+    return false;
+  }
+  if (!require_entries(list->size(), rules, at, reading.found, false)) return false;
+  Rules of_row = rules;
+  of_row.min_entries = 0, of_row.max_entries = any_number;
+  std::vector<Eigen::VectorXd> rows(list->size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!read_value((*list)[i], rows[i], of_row, Place(at, i), reading)) return false;
+    if (rows[i].size() == rows[0].size()) continue;
+    reading.found.add(Place(at, i), "must be as long as the rows before", std::to_string(rows[i].size()));
+    return false;
+  }
+  out.resize(static_cast<Eigen::Index>(rows.size()), rows.empty() ? 0 : rows[0].size());
+  for (std::size_t i = 0; i < rows.size(); ++i) out.row(static_cast<Eigen::Index>(i)) = rows[i].transpose();
   return true;
 }
 

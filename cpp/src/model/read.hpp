@@ -10,6 +10,7 @@
 #include "fields.hpp"
 #include "findings.hpp"
 #include "mcplan/base/range.hpp"
+#include "names.hpp"
 #include "text.hpp"
 #include "value.hpp"
 
@@ -18,6 +19,8 @@ namespace mcplan::model {
 /// What reading one file goes by.
 struct Reading {
   Findings found;
+  NameLists lists;               ///< by the name that fields give them
+  bool exact = false;            ///< what written_exactly() wrote: names of members for keys, indices, infinite as text
   std::string source;            ///< the file, for messages; "" where data come from elsewhere
   std::filesystem::path folder;  ///< where files that it names are looked for
   bool in_file = false;          ///< whether it may name files
@@ -48,13 +51,26 @@ bool read_value(const Value& value, Eigen::Matrix<double, Eigen::Dynamic, 3>& ou
 template <class V>
 bool read_value(const Value& value, V& out, const Rules& rules, const Place& at, Reading& reading);
 
+/// Reads a matrix whose rows are equally long, row by row.
+bool read_value(const Value& value, Eigen::MatrixXd& out, const Rules& rules, const Place& at, Reading& reading);
+
+/// The names of the entries of a list of tables, as far as they can be known.
+NameList names_in(const Value* list);
+
+/// Reads what NameOr holds.
+bool read_name_or(const Value& value, std::string& name, Value& table, const Place& at, Reading& reading);
+
+/// Finds a name in a list; says what the names are where it is not there.
+bool find_name(const std::string& name, const NameList& list, const char* what, int& out, const Place& at,
+               Reading& reading);
+
 /// A value to read into: Eigen leaves its vectors as they come.
 template <class V>
 V blank() {
-  if constexpr (std::is_base_of_v<Eigen::MatrixBase<V>, V>)
-    return V::Zero();
-  else
-    return V();
+  if constexpr (std::is_base_of_v<Eigen::MatrixBase<V>, V>) {
+    if constexpr (V::SizeAtCompileTime != Eigen::Dynamic) return V::Zero();
+  }
+  return V();
 }
 
 template <class E>
@@ -76,14 +92,16 @@ bool read_struct(const Value& value, T& out, const Place& at, Reading& reading) 
     reading.found.add(at, "must be a table", shown(value));
     return false;
   }
-  std::vector<std::string> required;
-  for_each_field<T>([&](const auto& f) {
-    if (const Value* const entry = value.find(f.key))
-      read_value(*entry, out.*f.member, f.rules, Place(at, f.key), reading);
+  std::vector<std::string> required, legal;
+  for_each_key(out, [&](const auto& f, auto& member) {
+    const char* const key = reading.exact ? f.name : f.key;
+    legal.push_back(key);
+    if (const Value* const entry = value.find(key))
+      read_value(*entry, member, f.rules, Place(at, key), reading);
     else if (f.is_required)
-      required.push_back(f.key);
+      required.push_back(key);
   });
-  require_keys(*table, keys<T>(), required, at, reading.found);
+  require_keys(*table, legal, required, at, reading.found);
   return true;
 }
 
@@ -132,18 +150,38 @@ bool read_map(const Value& value, std::map<std::string, Item>& out, const Rules&
   return true;
 }
 
+template <class Item>
+bool read_pair(const Value& value, std::pair<Item, Item>& out, const Rules& rules, const Place& at, Reading& reading) {
+  std::vector<Item> items;
+  Rules both = rules;
+  both.min_entries = both.max_entries = 2;
+  if (!read_list(value, items, both, at, reading)) return false;
+  out = {items[0], items[1]};
+  return true;
+}
+
 template <class V>
 bool read_value(const Value& value, V& out, const Rules& rules, const Place& at, Reading& reading) {
-  if constexpr (std::is_enum_v<V>)
+  if constexpr (std::is_enum_v<V>) {
     return read_enum(value, out, at, reading);
-  else if constexpr (HasFields<V>::value)
+  } else if constexpr (HasFields<V>::value || IsInFile<V>::value) {
     return read_struct(value, out, at, reading);
-  else if constexpr (std::is_base_of_v<Eigen::MatrixBase<V>, V>)
+  } else if constexpr (IsNameOr<V>::value) {
+    return read_name_or(value, out.name, out.table, at, reading);
+  } else if constexpr (IsOptional<V>::value) {
+    auto item = blank<typename V::value_type>();
+    if (!read_value(value, item, rules, at, reading)) return false;
+    out = std::move(item);
+    return true;
+  } else if constexpr (std::is_same_v<V, std::pair<int, int>>) {
+    return read_pair(value, out, rules, at, reading);
+  } else if constexpr (std::is_base_of_v<Eigen::MatrixBase<V>, V>) {
     return read_fixed(value, out, rules, at, reading);
-  else if constexpr (IsMap<V>::value)
+  } else if constexpr (IsMap<V>::value) {
     return read_map(value, out, rules, at, reading);
-  else
+  } else {
     return read_list(value, out, rules, at, reading);
+  }
 }
 
 // --- the same rules for what is in memory ---
@@ -168,7 +206,7 @@ void check_value(const V& value, const Rules& rules, const Place& at, Findings& 
         check_number(value[i], rules, Place(at, static_cast<std::size_t>(i)), found);
   } else if constexpr (IsMap<V>::value) {
     for (const auto& [key, item] : value) check_value(item, rules, Place(at, key), found);
-  } else if constexpr (!std::is_enum_v<V> && !std::is_arithmetic_v<V> && !IsCallback<V>::value) {
+  } else if constexpr (IsList<V>::value) {
     using Item = typename V::value_type;
     if (!require_entries(value.size(), rules, at, found, std::is_same_v<Item, Eigen::Vector3d>)) return;
     for (std::size_t i = 0; i < value.size(); ++i) check_value(value[i], rules, Place(at, i), found);

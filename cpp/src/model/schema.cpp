@@ -10,6 +10,20 @@ Value number_schema(const Rules& rules) {
   return out;
 }
 
+Value whole_schema(const Rules& rules) {
+  Value out;
+  out.set("type", "integer");
+  if (rules.low > -unbounded) out.set("minimum", static_cast<std::int64_t>(rules.low));
+  if (rules.high < unbounded) out.set("maximum", static_cast<std::int64_t>(rules.high));
+  return out;
+}
+
+Rules named_rules() {
+  Rules rules;
+  rules.not_empty = true;
+  return rules;
+}
+
 Value text_schema(const Rules& rules) {
   Value out;
   out.set("type", "string");

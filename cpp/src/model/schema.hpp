@@ -13,8 +13,12 @@ namespace mcplan::model {
 
 /// JSON schema of a number, a text or a list under these rules.
 Value number_schema(const Rules& rules);
+Value whole_schema(const Rules& rules);
 Value text_schema(const Rules& rules);
 Value list_schema(Value items, std::size_t min_entries, std::size_t max_entries);
+
+/// Of a name that something must have.
+Rules named_rules();
 
 /// What stands in files for a struct, where that is more than its members.
 template <class T>
@@ -32,7 +36,7 @@ Value value_schema(const Rules& rules, Value::Table& definitions) {
   if constexpr (std::is_same_v<V, bool>) {
     out.set("type", "boolean");
   } else if constexpr (std::is_same_v<V, int>) {
-    out.set("type", "integer");
+    out = rules.list ? text_schema(named_rules()) : whole_schema(rules);
   } else if constexpr (std::is_same_v<V, double>) {
     out = number_schema(rules);
   } else if constexpr (std::is_same_v<V, std::string>) {
@@ -41,8 +45,14 @@ Value value_schema(const Rules& rules, Value::Table& definitions) {
     Value::Array names;
     for (const auto& entry : Names<V>::all) names.push_back(std::get<0>(entry));
     out.set("enum", std::move(names));
-  } else if constexpr (HasFields<V>::value) {
+  } else if constexpr (IsOptional<V>::value) {
+    out = value_schema<typename V::value_type>(rules, definitions);
+  } else if constexpr (IsNameOr<V>::value) {
+    out.set("anyOf", Value::Array{text_schema(named_rules()), struct_schema<typename IsNameOr<V>::Type>(definitions)});
+  } else if constexpr (HasFields<V>::value || IsInFile<V>::value) {
     out = struct_schema<typename InFiles<V>::Type>(definitions);
+  } else if constexpr (std::is_same_v<V, std::pair<int, int>>) {
+    out = list_schema(value_schema<int>(rules, definitions), 2, 2);
   } else if constexpr (IsMap<V>::value) {
     out.set("type", "object");
     Value names;
@@ -73,15 +83,15 @@ Value struct_schema(Value::Table& definitions) {
     definitions.push_back({Fields<T>::name, {}});
     Value properties{Value::Table()}, out;
     Value::Array required;
-    for_each_field<T>([&](const auto& f) {
+    for_each_key(fresh, [&](const auto& f, const auto& member) {
       using M = typename std::decay_t<decltype(f)>::Member;
       Value entry = value_schema<M>(f.rules, definitions);
       const std::string unit = *f.unit ? "[" + std::string(f.unit) + "] " : "";
       entry.set("description", unit + f.meaning);
       if (f.is_required) {
         required.push_back(f.key);
-      } else if constexpr (!HasFields<M>::value) {
-        if (!f.rules.not_empty || !equal(fresh.*f.member, M())) entry.set("default", written_value(fresh.*f.member));
+      } else if constexpr (!HasFields<M>::value && !IsOptional<M>::value && !IsNameOr<M>::value) {
+        if (!f.rules.not_empty || !equal(member, M())) entry.set("default", written_value(member));
       }
       properties.set(f.key, std::move(entry));
     });

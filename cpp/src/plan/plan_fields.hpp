@@ -106,4 +106,7 @@ struct Fields<Plan> {
       field("swings", &Plan::swings, "", "Swings.").required().entries(0, max_swings));
 };
 
+/// The plan of the fields of a JSON file. Throws InvalidPlan with all that is wrong.
+Plan plan_from(const Value& fields);
+
 }  // namespace mcplan::model

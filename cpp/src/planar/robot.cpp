@@ -5,70 +5,38 @@
 #include <set>
 
 #include "mcplan/base/error.hpp"
+#include "model/read.hpp"
+#include "robot_fields.hpp"
 
 namespace mcplan {
 namespace {
 
 using Eigen::Vector2d;
 
-void require_finite(const std::string& field, double value) {
-  if (!std::isfinite(value)) throw InvalidRobot(field, "must be a finite number", text(value));
-}
-
-void require_finite(const std::string& field, const Vector2d& value) {
-  if (!value.allFinite()) throw InvalidRobot(field, "must be finite numbers", text(value));
-}
-
-void require_positive(const std::string& field, double value) {
-  if (!(std::isfinite(value) && value > 0.0)) throw InvalidRobot(field, "must be a positive number", text(value));
-}
-
-/// Infinity stands for no limit.
-void require_limit(const std::string& field, double value) {
-  if (!(value > 0.0)) throw InvalidRobot(field, "must be a positive number", text(value));
-}
-
-void require_name(const std::string& field, const std::string& name, std::set<std::string>& taken) {
-  if (name.empty()) throw InvalidRobot(field, "must not be empty", "''");
-  if (!taken.insert(name).second) throw InvalidRobot(field, "must be unique", text(name));
-}
-
-void validate_body(const PlanarBody& body, int index, const std::string& field) {
+void relate_body(const PlanarBody& body, int index, const std::string& field) {
   if (index == 0) {
     if (body.parent != -1) throw InvalidRobot(field + ".parent", "must be -1 for the base", text(body.parent));
   } else if (body.parent < 0 || body.parent >= index) {
     throw InvalidRobot(field + ".parent", "must be an earlier body, 0 to " + text(index - 1) + " (no loops)",
                        text(body.parent));
   }
-  require_finite(field + ".joint", body.joint_P);
-  require_finite(field + ".offset", body.offset);
-  require_finite(field + ".com", body.com_B);
-  require_positive(field + ".mass", body.mass);
-  require_positive(field + ".inertia", body.inertia);
+}
+
+void require_range(const PlanarBody& body, const std::string& field) {
   if (!(body.position_min < body.position_max))
     throw InvalidRobot(field + ".position_max", "must exceed position_min",
                        text(body.position_min) + " to " + text(body.position_max));
-  require_limit(field + ".velocity_max", body.velocity_max);
-  require_limit(field + ".torque_max", body.torque_max);
-  for (std::size_t i = 0; i < body.capsules.size(); ++i) {
-    const std::string capsule = field + ".capsules[" + std::to_string(i) + "]";
-    require_finite(capsule + ".from", body.capsules[i].from_B);
-    require_finite(capsule + ".to", body.capsules[i].to_B);
-    require_positive(capsule + ".radius", body.capsules[i].radius);
-  }
 }
 
-void validate_end_effector(const PlanarEndEffector& end, int bodies, const std::string& field) {
+void require_body(const PlanarEndEffector& end, int bodies, const std::string& field) {
   if (end.body < 0 || end.body >= bodies)
     throw InvalidRobot(field + ".body", "must be the index of a body (below " + text(bodies) + ")", text(end.body));
-  require_finite(field + ".position", end.position_B);
-  require_finite(field + ".angle", end.angle_B);
-  if (end.points.empty()) throw InvalidRobot(field + ".points", "needs at least one point", "none");
-  for (std::size_t i = 0; i < end.points.size(); ++i) {
-    require_finite(field + ".points[" + std::to_string(i) + "]", end.points[i]);
-    if (std::count(end.points.begin(), end.points.end(), end.points[i]) > 1)
-      throw InvalidRobot(field + ".points", "must differ from each other", text(end.points[i]) + " twice");
-  }
+}
+
+void require_different(const std::vector<double>& points, const std::string& field) {
+  for (double point : points)
+    if (std::count(points.begin(), points.end(), point) > 1)
+      throw InvalidRobot(field + ".points", "must differ from each other", text(point) + " twice");
 }
 
 void validate_pair(const PlanarRobot& robot, const std::pair<int, int>& pair, const std::string& field) {
@@ -81,6 +49,18 @@ void validate_pair(const PlanarRobot& robot, const std::pair<int, int>& pair, co
   }
   if (pair.first == pair.second)
     throw InvalidRobot(field, "must be two different bodies", text(robot.bodies[pair.first].name) + " twice");
+}
+
+/// The names of bodies or end-effectors must differ.
+template <class Items>
+void require_unique_names(const Items& items, const std::string& list, model::Findings& found) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::string field = list + "[" + std::to_string(i) + "].name";
+    found.check({field}, [&] {
+      if (!names.insert(items[i].name).second) throw InvalidRobot(field, "must be unique", text(items[i].name));
+    });
+  }
 }
 
 Vector2d left_of(const Vector2d& v) { return {-v.y(), v.x()}; }
@@ -115,27 +95,32 @@ std::vector<int> PlanarRobot::joints_to(int body) const {
 }
 
 void PlanarRobot::validate() const {
-  if (bodies.empty()) throw InvalidRobot("bodies", "needs at least one body, the base", "none");
-  Validation<InvalidRobot> check;
-  std::set<std::string> names;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
+  model::Findings found;
+  model::check_struct(*this, model::Place(), found);
+  model::relations(*this, found);
+  found.raise<InvalidRobot>();
+}
+
+void model::relations(const PlanarRobot& robot, Findings& found) {
+  const int bodies = static_cast<int>(robot.bodies.size());
+  require_unique_names(robot.bodies, "bodies", found);
+  for (int b = 0; b < bodies; ++b) {
+    const PlanarBody& body = robot.bodies[b];
     const std::string field = "bodies[" + std::to_string(b) + "]";
-    check([&] { require_name(field + ".name", bodies[b].name, names); });
-    check([&] { validate_body(bodies[b], static_cast<int>(b), field); });
+    found.check({field + ".parent"}, [&] { relate_body(body, b, field); });
+    found.check({field + ".position_min", field + ".position_max"}, [&] { require_range(body, field); });
   }
-  check([&] {
-    if (end_effectors.empty()) throw InvalidRobot("end_effectors", "needs at least one end-effector", "none");
-  });
-  names.clear();
-  for (std::size_t l = 0; l < end_effectors.size(); ++l) {
+  require_unique_names(robot.end_effectors, "end_effectors", found);
+  for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {
+    const PlanarEndEffector& end = robot.end_effectors[l];
     const std::string field = "end_effectors[" + std::to_string(l) + "]";
-    check([&] { require_name(field + ".name", end_effectors[l].name, names); });
-    check([&] { validate_end_effector(end_effectors[l], static_cast<int>(bodies.size()), field); });
+    found.check({field + ".body"}, [&] { require_body(end, bodies, field); });
+    found.check({field + ".points"}, [&] { require_different(end.points, field); });
   }
-  for (std::size_t i = 0; i < collision_pairs.size(); ++i)
-    check([&] { validate_pair(*this, collision_pairs[i], "collision_pairs[" + std::to_string(i) + "]"); });
-  check([&] { require_positive("gravity", gravity); });
-  check.raise();
+  for (std::size_t i = 0; i < robot.collision_pairs.size(); ++i) {
+    const std::string field = "collision_pairs[" + std::to_string(i) + "]";
+    found.check({field}, [&] { validate_pair(robot, robot.collision_pairs[i], field); });
+  }
 }
 
 PlanarMotionOfFrame planar_point(const PlanarMotionOfFrame& body, const Vector2d& point_B, double angle_B) {

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <set>
 
+#include "model/read.hpp"
+#include "task_fields.hpp"
+
 namespace mcplan {
 namespace {
 
@@ -13,23 +16,13 @@ constexpr double kPlace = 1e-6;  // [m], [rad] of a contact off its surface
 
 std::string indexed(const std::string& field, std::size_t i) { return field + "[" + std::to_string(i) + "]"; }
 
-void require_finite(const std::string& field, double value) {
-  if (!std::isfinite(value)) throw InvalidMotion(field, "must be a finite number", text(value));
-}
-
 void require_index(const std::string& field, int value, std::size_t count, const std::string& of_what) {
   if (value < 0 || value >= static_cast<int>(count))
     throw InvalidMotion(field, "must be the index of " + of_what + " (below " + std::to_string(count) + ")",
                         text(value));
 }
 
-void validate_surface(const PlanarSurface& surface, const std::string& field) {
-  if (surface.name.empty()) throw InvalidMotion(field + ".name", "must not be empty", "''");
-  if (!surface.origin_W.allFinite())
-    throw InvalidMotion(field + ".origin", "must be finite numbers", text(surface.origin_W));
-  require_finite(field + ".angle", surface.angle);
-  if (!(std::isfinite(surface.friction) && surface.friction > 0.0))
-    throw InvalidMotion(field + ".friction", "must be a positive number", text(surface.friction));
+void require_extent(const PlanarSurface& surface, const std::string& field) {
   if (!(surface.from < surface.to))
     throw InvalidMotion(field + ".to", "must exceed from", text(surface.from) + " to " + text(surface.to));
 }
@@ -38,9 +31,6 @@ void validate_surface(const PlanarSurface& surface, const std::string& field) {
 void validate_contact(const PlanarTask& motion, const PlanarContact& contact, const std::string& field) {
   require_index(field + ".end_effector", contact.end_effector, motion.robot.end_effectors.size(), "an end-effector");
   require_index(field + ".surface", contact.surface, motion.surfaces.size(), "a surface");
-  if (!contact.position_W.allFinite())
-    throw InvalidMotion(field + ".position", "must be finite numbers", text(contact.position_W));
-  require_finite(field + ".angle", contact.angle);
 
   const PlanarSurface& surface = motion.surfaces[contact.surface];
   const std::string where = "surface " + text(surface.name);
@@ -129,8 +119,6 @@ void validate_clearance(const PlanarTask& motion, const PlanarPhase& phase, cons
 
 void validate_pose(const PlanarTask& motion, const PlanarPose& pose, const std::string& field) {
   require_index(field + ".body", pose.body, motion.robot.bodies.size(), "a body");
-  if (!(pose.fraction >= 0.0 && pose.fraction <= 1.0))
-    throw InvalidMotion(field + ".fraction", "must lie in [0, 1]", text(pose.fraction));
   const char* components[] = {"x", "y", "angle"};
   for (int i = 0; i < 3; ++i)
     if (!(pose.min[i] <= pose.max[i]))
@@ -138,16 +126,7 @@ void validate_pose(const PlanarTask& motion, const PlanarPose& pose, const std::
                           text(pose.min[i]) + " to " + text(pose.max[i]));
 }
 
-void validate_phase(const PlanarTask& motion, const PlanarPhase& phase, const std::string& field) {
-  constexpr int kMost = 1000;
-  if (phase.intervals < 1 || phase.intervals > kMost)
-    throw InvalidMotion(field + ".intervals", "must lie in [1, " + text(kMost) + "]", text(phase.intervals));
-  if (!(std::isfinite(phase.min_duration) && phase.min_duration >= 0.0))
-    throw InvalidMotion(field + ".min_duration", "must be a number >= 0", text(phase.min_duration));
-  if (!(phase.max_duration > 0.0 && phase.max_duration >= phase.min_duration))
-    throw InvalidMotion(field + ".max_duration", "must be positive and not below min_duration",
-                        text(phase.min_duration) + " to " + text(phase.max_duration));
-  if (phase.contacts.empty()) throw InvalidMotion(field + ".contacts", "needs at least one contact", "none");
+void validate_contacts(const PlanarTask& motion, const PlanarPhase& phase, const std::string& field) {
   std::set<int> standing;
   for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
     const std::string contact = indexed(field + ".contacts", i);
@@ -158,10 +137,20 @@ void validate_phase(const PlanarTask& motion, const PlanarPhase& phase, const st
     for (std::size_t other = 0; other < i; ++other)
       require_reachable(motion, phase.contacts[other], phase.contacts[i], contact);
   }
-  for (std::size_t i = 0; i < phase.clearances.size(); ++i)
-    validate_clearance(motion, phase, phase.clearances[i], indexed(field + ".clearances", i));
-  for (std::size_t i = 0; i < phase.poses.size(); ++i)
-    validate_pose(motion, phase.poses[i], indexed(field + ".poses", i));
+}
+
+void require_duration(const PlanarPhase& phase, const std::string& field) {
+  if (phase.max_duration < phase.min_duration)
+    throw InvalidMotion(field + ".max_duration", "must be positive and not below min_duration",
+                        text(phase.min_duration) + " to " + text(phase.max_duration));
+}
+
+/// Whether a contact of a phase stands as it did in the phase before.
+bool shares_contact(const PlanarPhase& before, const PlanarPhase& phase) {
+  return std::any_of(phase.contacts.begin(), phase.contacts.end(), [&](const PlanarContact& contact) {
+    return std::any_of(before.contacts.begin(), before.contacts.end(),
+                       [&](const PlanarContact& other) { return model::equal(contact, other); });
+  });
 }
 
 }  // namespace
@@ -187,32 +176,59 @@ int PlanarTask::phase_of(int interval) const {
 
 void PlanarTask::validate() const {
   robot.validate();
-  if (surfaces.empty()) throw InvalidMotion("surfaces", "needs at least one surface", "none");
-  Validation<InvalidMotion> check;
+  model::Findings found;
+  model::check_struct(*this, model::Place(), found);
+  model::relations(*this, found);
+  found.raise<InvalidMotion>();
+}
+
+void model::relations(const PlanarTask& task, Findings& found, const InTheFile& in_the_file) {
+  const auto check = [&](const auto& each) {
+    try {
+      each();
+      return true;
+    } catch (const InvalidMotion& wrong) {
+      found.add(in_the_file ? in_the_file(wrong) : wrong);
+      return false;
+    }
+  };
   std::set<std::string> names;
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    check([&] { validate_surface(surfaces[i], indexed("surfaces", i)); });
-    check([&] {
-      if (!names.insert(surfaces[i].name).second)
-        throw InvalidMotion(indexed("surfaces", i) + ".name", "must be unique", text(surfaces[i].name));
+  for (std::size_t i = 0; i < task.surfaces.size(); ++i) {
+    const PlanarSurface& surface = task.surfaces[i];
+    const std::string field = indexed("surfaces", i);
+    found.check({field + ".name"}, [&] {
+      if (!names.insert(surface.name).second)
+        throw InvalidMotion(field + ".name", "must be unique", text(surface.name));
     });
+    if (found.sound(field + ".extent") && found.sound(field + ".from") && found.sound(field + ".to"))
+      check([&] { require_extent(surface, field); });
   }
-  check.raise();  // contacts lie on surfaces
-  if (phases.empty()) throw InvalidMotion("phases", "needs at least one phase", "none");
+  if (!found.sound("surfaces") || !found.sound("robot")) return;  // contacts lie on surfaces
   bool before_sound = false;
-  for (std::size_t k = 0; k < phases.size(); ++k) {
+  for (std::size_t k = 0; k < task.phases.size(); ++k) {
     const std::string field = indexed("phases", k);
-    const bool sound = check([&] { validate_phase(*this, phases[k], field); });
+    const PlanarPhase& phase = task.phases[k];
+    if (!found.sound(field)) {
+      before_sound = false;
+      continue;
+    }
+    check([&] { require_duration(phase, field); });
+    for (std::size_t i = 0; i < phase.clearances.size(); ++i)
+      check([&] { validate_clearance(task, phase, phase.clearances[i], indexed(field + ".clearances", i)); });
+    for (std::size_t i = 0; i < phase.poses.size(); ++i)
+      check([&] { validate_pose(task, phase.poses[i], indexed(field + ".poses", i)); });
+    // What was said of a contact in the phase before need not be said again.
+    const bool said = k > 0 && !before_sound && shares_contact(task.phases[k - 1], phase);
+    const bool sound = !said && check([&] { validate_contacts(task, phase, field); });
     // Nothing jumps: at the instant between two phases the contacts of both hold.
     if (sound && before_sound)
       check([&] {
-        for (std::size_t i = 0; i < phases[k].contacts.size(); ++i)
-          for (const PlanarContact& before : phases[k - 1].contacts)
-            require_reachable(*this, before, phases[k].contacts[i], indexed(field + ".contacts", i));
+        for (std::size_t i = 0; i < phase.contacts.size(); ++i)
+          for (const PlanarContact& before : task.phases[k - 1].contacts)
+            require_reachable(task, before, phase.contacts[i], indexed(field + ".contacts", i));
       });
     before_sound = sound;
   }
-  check.raise();
 }
 
 }  // namespace mcplan

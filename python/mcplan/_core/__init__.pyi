@@ -67,12 +67,15 @@ __all__: list[str] = [
     "WholeBodyState",
     "WholeBodyTolerances",
     "addresses",
+    "any_plan_from_json",
     "built_in",
     "check",
     "data_folder",
     "ddp",
     "largest_drift",
     "least_norm_gain",
+    "load_planar_robot",
+    "load_planar_task",
     "load_robot",
     "load_scene",
     "may_touch",
@@ -83,8 +86,18 @@ __all__: list[str] = [
     "plan_to_json",
     "planar_inverse_dynamics",
     "planar_kinematics",
+    "planar_plan_from_json",
+    "planar_plan_to_json",
     "planar_point",
+    "planar_robot_from_dict",
+    "planar_robot_to_dict",
+    "planar_task_from_dict",
+    "planar_task_from_plain",
+    "planar_task_to_dict",
+    "planar_task_to_plain",
     "quat_wxyz_from_rpy",
+    "read_planar_robot",
+    "read_planar_task",
     "read_robot",
     "read_scene",
     "require_ground",
@@ -1773,8 +1786,12 @@ class Capsule:
     """
     Segment with a radius, in a body's frame: its looks, and what it collides with.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> Capsule: ...
     def __deepcopy__(self, memo: dict) -> Capsule: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -1783,24 +1800,25 @@ class Capsule:
         radius: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def from_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
-        [m]
+        [m] One end of the segment.
         """
     @from_B.setter
     def from_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
     @property
     def radius(self) -> float:
         """
-        [m]
+        [m] Half of its thickness.
         """
     @radius.setter
     def radius(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def to_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
-        [m]
+        [m] The other end; the same: a disc.
         """
     @to_B.setter
     def to_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
@@ -1810,9 +1828,11 @@ class PlanarBody:
     A rigid body of a planar robot and the revolute joint that carries it. Its frame B has its origin at the joint, turned by offset + q against its parent's.
     """
 
-    name: str
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> PlanarBody: ...
     def __deepcopy__(self, memo: dict) -> PlanarBody: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -1830,80 +1850,88 @@ class PlanarBody:
         capsules: collections.abc.Sequence[Capsule] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def capsules(self) -> tuple:
         """
-        Tuple of Capsule.
+        Tuple: Shape, for drawing and self-collision; assign a list to change it.
         """
     @capsules.setter
     def capsules(self, arg1: collections.abc.Sequence[Capsule]) -> None: ...
     @property
     def com_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
-        [m]
+        [m] Centre of mass.
         """
     @com_B.setter
     def com_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
     @property
     def inertia(self) -> float:
         """
-        About the CoM [kg m^2].
+        [kg m^2] Moment of inertia about the centre of mass.
         """
     @inertia.setter
     def inertia(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def joint_P(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
-        Joint in the parent's frame [m].
+        [m] Position of the joint in the parent's frame.
         """
     @joint_P.setter
     def joint_P(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
     @property
     def mass(self) -> float:
         """
-        [kg]
+        [kg] Mass.
         """
     @mass.setter
     def mass(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def name(self) -> str:
+        """
+        Unique name.
+        """
+    @name.setter
+    def name(self, arg0: str) -> None: ...
+    @property
     def offset(self) -> float:
         """
-        Angle against the parent at q = 0 [rad].
+        [rad] Angle against the parent at joint position 0.
         """
     @offset.setter
     def offset(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def parent(self) -> int:
         """
-        An earlier body; -1 for the base alone.
+        Index of an earlier body; -1 for the base alone.
         """
     @parent.setter
     def parent(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def position_max(self) -> float:
         """
-        [rad]
+        [rad] Upper limit of the joint; left out: none.
         """
     @position_max.setter
     def position_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def position_min(self) -> float:
         """
-        Of the joint [rad].
+        [rad] Lower limit of the joint; left out: none.
         """
     @position_min.setter
     def position_min(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def torque_max(self) -> float:
         """
-        [N m]
+        [N m] Limit of the joint, both ways; left out: none.
         """
     @torque_max.setter
     def torque_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def velocity_max(self) -> float:
         """
-        [rad/s]
+        [rad/s] Limit of the joint, both ways; left out: none.
         """
     @velocity_max.setter
     def velocity_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -1913,9 +1941,11 @@ class PlanarEndEffector:
     A contact frame of a body: x axis in the sole, y axis from the ground into the robot. Forces act at points of the sole.
     """
 
-    name: str
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> PlanarEndEffector: ...
     def __deepcopy__(self, memo: dict) -> PlanarEndEffector: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -1926,58 +1956,67 @@ class PlanarEndEffector:
         points: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def angle_B(self) -> float:
         """
-        Of its x axis [rad].
+        [rad] Of the frame's x axis in the body's frame.
         """
     @angle_B.setter
     def angle_B(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def body(self) -> int:
         """
-        Index of its body.
+        Body that carries it.
         """
     @body.setter
     def body(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
+    def name(self) -> str:
+        """
+        Unique name.
+        """
+    @name.setter
+    def name(self, arg0: str) -> None: ...
+    @property
     def points(self) -> typing.Any:
         """
-        Where forces act, along the x axis [m].
+        [m] Where forces act, along the x axis.
         """
     @points.setter
     def points(self, arg1: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
     @property
     def position_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
-        Of the frame's origin [m].
+        [m] Origin of the frame, in the body's frame.
         """
     @position_B.setter
     def position_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
 
 class PlanarRobot:
     """
-    A planar tree of rigid bodies on a free base; x forward, y up. Joint j moves body j + 1.
+    A tree of rigid bodies in a vertical plane (x forward, y up) on a free base. Joint j moves body j + 1. SI units.
     """
 
-    description: str
-    name: str
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> PlanarRobot: ...
     def __deepcopy__(self, memo: dict) -> PlanarRobot: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
         name: str = "",
         description: str = "",
+        gravity: typing.SupportsFloat | typing.SupportsIndex = 9.81,
         bodies: collections.abc.Sequence[PlanarBody] = [],
         end_effectors: collections.abc.Sequence[PlanarEndEffector] = [],
         collision_pairs: collections.abc.Sequence[
             tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex]
         ] = [],
-        gravity: typing.SupportsFloat | typing.SupportsIndex = 9.81,
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def body_index(self, name: str) -> int:
         """
         Index of a body, or -1.
@@ -1997,19 +2036,19 @@ class PlanarRobot:
         """
     def validate(self) -> None:
         """
-        Raise InvalidRobot naming the first field out of its range.
+        Raise InvalidRobot naming all that is out of its range.
         """
     @property
     def bodies(self) -> tuple:
         """
-        Tuple of PlanarBody, the base first.
+        Tuple: The base first, each one after its parent; assign a list to change it.
         """
     @bodies.setter
     def bodies(self, arg1: collections.abc.Sequence[PlanarBody]) -> None: ...
     @property
     def collision_pairs(self) -> typing.Any:
         """
-        Bodies whose capsules may not touch.
+        Pairs of bodies whose capsules may not touch.
         """
     @collision_pairs.setter
     def collision_pairs(
@@ -2019,19 +2058,33 @@ class PlanarRobot:
         ],
     ) -> None: ...
     @property
+    def description(self) -> str:
+        """
+        One line.
+        """
+    @description.setter
+    def description(self, arg0: str) -> None: ...
+    @property
     def end_effectors(self) -> tuple:
         """
-        Tuple of PlanarEndEffector.
+        Tuple: End-effectors; assign a list to add or remove.
         """
     @end_effectors.setter
     def end_effectors(self, arg1: collections.abc.Sequence[PlanarEndEffector]) -> None: ...
     @property
     def gravity(self) -> float:
         """
-        Along -y [m/s^2].
+        [m/s^2] Acceleration along -y.
         """
     @gravity.setter
     def gravity(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def name(self) -> str:
+        """
+        Name; of a file that says none, the file's.
+        """
+    @name.setter
+    def name(self, arg0: str) -> None: ...
 
 class PlanarConfiguration:
     """
@@ -2190,9 +2243,11 @@ class PlanarSurface:
     A straight piece of the ground or of a wall. Its outward normal is 90 degrees to the left of its tangent; what lies behind is solid.
     """
 
-    name: str
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> PlanarSurface: ...
     def __deepcopy__(self, memo: dict) -> PlanarSurface: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -2204,27 +2259,35 @@ class PlanarSurface:
         to: typing.SupportsFloat | typing.SupportsIndex = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def angle(self) -> float:
         """
-        Of its tangent [rad].
+        [rad] Of its tangent; its outward normal is 90 degrees to the left of that.
         """
     @angle.setter
     def angle(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def friction(self) -> float:
         """
-        Coefficient [-].
+        [-] Coulomb coefficient.
         """
     @friction.setter
     def friction(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def from_(self) -> float:
         """
-        Extent along the tangent, from the origin [m].
+        [m] Begin of its extent along the tangent, from the origin.
         """
     @from_.setter
     def from_(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def name(self) -> str:
+        """
+        Unique name.
+        """
+    @name.setter
+    def name(self, arg0: str) -> None: ...
     @property
     def normal_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
@@ -2233,7 +2296,7 @@ class PlanarSurface:
     @property
     def origin_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
-        [m]
+        [m] A point of it, from which distances along it count.
         """
     @origin_W.setter
     def origin_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
@@ -2245,7 +2308,7 @@ class PlanarSurface:
     @property
     def to(self) -> float:
         """
-        [m]
+        [m] End of its extent.
         """
     @to.setter
     def to(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -2254,8 +2317,12 @@ class PlanarContact:
     """
     An end-effector that stands still on a surface for a phase.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> PlanarContact: ...
     def __deepcopy__(self, memo: dict) -> PlanarContact: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -2265,31 +2332,32 @@ class PlanarContact:
         angle: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def angle(self) -> float:
         """
-        Of its x axis [rad]; whole turns count.
+        [rad] Of its x axis; whole turns count.
         """
     @angle.setter
     def angle(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def end_effector(self) -> int:
         """
-        Index into robot.end_effectors.
+        End-effector.
         """
     @end_effector.setter
     def end_effector(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def position_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
         """
-        Of the end-effector's frame [m].
+        [m] Of the end-effector's frame.
         """
     @position_W.setter
     def position_W(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
     @property
     def surface(self) -> int:
         """
-        Index into motion.surfaces.
+        Surface.
         """
     @surface.setter
     def surface(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
@@ -2298,8 +2366,12 @@ class PlanarClearance:
     """
     Points of a swinging end-effector stay outside a surface's solid.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> PlanarClearance: ...
     def __deepcopy__(self, memo: dict) -> PlanarClearance: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -2310,48 +2382,53 @@ class PlanarClearance:
         middle_height: typing.SupportsFloat | typing.SupportsIndex = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def end_effector(self) -> int:
         """
-        Index into robot.end_effectors.
+        End-effector.
         """
     @end_effector.setter
     def end_effector(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def end_interval(self) -> int:
         """
-        One after the last; -1: to the phase's end.
+        [-] First interval that no longer counts; -1: to the end of the phase.
         """
     @end_interval.setter
     def end_interval(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def first_interval(self) -> int:
         """
-        Of the phase.
+        [-] First interval of the phase that counts.
         """
     @first_interval.setter
     def first_interval(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def middle_height(self) -> float:
         """
-        At the begin of interval n / 2 of the phase at least this [m].
+        [m] Least height when interval n / 2 of the phase's n begins; left out: none.
         """
     @middle_height.setter
     def middle_height(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def surface(self) -> int:
         """
-        Index into motion.surfaces.
+        Surface.
         """
     @surface.setter
     def surface(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
 
 class PlanarPose:
     """
-    A pose that a body has to have at an instant of a phase.
+    Bounds on where a body is at an instant of a phase.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> PlanarPose: ...
     def __deepcopy__(self, memo: dict) -> PlanarPose: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -2361,31 +2438,32 @@ class PlanarPose:
         max: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def body(self) -> int:
         """
-        Index into robot.bodies.
+        Body.
         """
     @body.setter
     def body(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def fraction(self) -> float:
         """
-        Of the phase, 0..1.
+        [-] Of the phase, 0 to 1.
         """
     @fraction.setter
     def fraction(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def max(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        x, y [m], angle [rad]
+        x, y [m], angle [rad] at most.
         """
     @max.setter
     def max(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
     @property
     def min(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        x, y [m], angle [rad] of the body's frame.
+        x, y [m], angle [rad] of the body's frame at least.
         """
     @min.setter
     def min(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
@@ -2394,8 +2472,12 @@ class PlanarPhase:
     """
     A stretch of time with constant contacts.
     """
+
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> PlanarPhase: ...
     def __deepcopy__(self, memo: dict) -> PlanarPhase: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -2407,58 +2489,60 @@ class PlanarPhase:
         poses: collections.abc.Sequence[PlanarPose] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def clearances(self) -> tuple:
         """
-        Tuple of PlanarClearance.
+        Tuple: Where swinging end-effectors may not be.
         """
     @clearances.setter
     def clearances(self, arg1: collections.abc.Sequence[PlanarClearance]) -> None: ...
     @property
     def contacts(self) -> tuple:
         """
-        Tuple of PlanarContact.
+        Tuple: All contacts; assign a list to add or remove.
         """
     @contacts.setter
     def contacts(self, arg1: collections.abc.Sequence[PlanarContact]) -> None: ...
     @property
     def intervals(self) -> int:
         """
-        Of the joints' splines.
+        [-] Pieces of the joints' splines.
         """
     @intervals.setter
     def intervals(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def max_duration(self) -> float:
         """
-        [s]
+        [s] Largest duration; left out: no limit.
         """
     @max_duration.setter
     def max_duration(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def min_duration(self) -> float:
         """
-        [s]
+        [s] Least duration.
         """
     @min_duration.setter
     def min_duration(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def poses(self) -> tuple:
         """
-        Tuple of PlanarPose.
+        Tuple: Where a body has to be at an instant.
         """
     @poses.setter
     def poses(self, arg1: collections.abc.Sequence[PlanarPose]) -> None: ...
 
 class PlanarTask:
     """
-    A task for whole-body planning: planar robot, ground, sequence of contact stances.
+    A task for whole-body planning: planar robot, ground, and the sequence of contact stances. SI units.
     """
 
-    description: str
-    name: str
+    __hash__: typing.ClassVar[None] = None
     def __copy__(self) -> PlanarTask: ...
     def __deepcopy__(self, memo: dict) -> PlanarTask: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -2468,8 +2552,8 @@ class PlanarTask:
         surfaces: collections.abc.Sequence[PlanarSurface] = [],
         phases: collections.abc.Sequence[PlanarPhase] = [],
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def first_interval(self, phase: typing.SupportsInt | typing.SupportsIndex) -> int:
         """
         Index of the first interval of a phase.
@@ -2484,26 +2568,40 @@ class PlanarTask:
         """
     def validate(self) -> None:
         """
-        Raise InvalidMotion (InvalidRobot for the robot) naming the first field out of its range.
+        Raise InvalidMotion (InvalidRobot for the robot) naming all that is out of its range.
         """
+    @property
+    def description(self) -> str:
+        """
+        One line.
+        """
+    @description.setter
+    def description(self, arg0: str) -> None: ...
+    @property
+    def name(self) -> str:
+        """
+        Name; of a file that says none, the file's.
+        """
+    @name.setter
+    def name(self, arg0: str) -> None: ...
     @property
     def phases(self) -> tuple:
         """
-        Tuple of PlanarPhase.
+        Tuple: Phases; assign a list to add or remove.
         """
     @phases.setter
     def phases(self, arg1: collections.abc.Sequence[PlanarPhase]) -> None: ...
     @property
     def robot(self) -> PlanarRobot:
         """
-        PlanarRobot.
+        The planar robot.
         """
     @robot.setter
     def robot(self, arg1: PlanarRobot) -> None: ...
     @property
     def surfaces(self) -> tuple:
         """
-        Tuple of PlanarSurface.
+        Tuple: The ground; assign a list to add or remove.
         """
     @surfaces.setter
     def surfaces(self, arg1: collections.abc.Sequence[PlanarSurface]) -> None: ...
@@ -2656,7 +2754,7 @@ class PlanarPlan:
     A motion of a planar robot: joint splines, durations of the phases, and what fixes the contact forces. Carries the motion (task) it was made for.
     """
 
-    force_law: PlanarForceLaw
+    __hash__: typing.ClassVar[None] = None
     @staticmethod
     def load(path: typing.Any) -> PlanarPlan:
         """
@@ -2664,6 +2762,8 @@ class PlanarPlan:
         """
     def __copy__(self) -> PlanarPlan: ...
     def __deepcopy__(self, memo: dict) -> PlanarPlan: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -2683,6 +2783,7 @@ class PlanarPlan:
     def __repr__(self) -> str: ...
     @typing.overload
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def at(self, t: typing.SupportsFloat | typing.SupportsIndex) -> PlanarState:
         """
         PlanarState at time t [s] in [0, duration], in closed form. At a boundary the phase that begins there is meant (the last one at the end). Raises InvalidInput outside.
@@ -2707,7 +2808,7 @@ class PlanarPlan:
         """
     def save(self, path: typing.Any) -> None:
         """
-        Write the plan to an .npz file.
+        Write the plan to an .npz or a .json file; C++ reads the latter.
         """
     def validate(self) -> None:
         """
@@ -2723,21 +2824,28 @@ class PlanarPlan:
     @property
     def control_points(self) -> typing.Any:
         """
-        Joints x (intervals + 3) [rad].
+        [rad] Of the joints' splines: joints x (intervals + 3).
         """
     @control_points.setter
     def control_points(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]) -> None: ...
     @property
     def durations(self) -> typing.Any:
         """
-        Of the phases [s]. Assign a list to change them.
+        [s] Of the phases. Assign a list to change them.
         """
     @durations.setter
     def durations(self, arg1: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
     @property
+    def force_law(self) -> PlanarForceLaw:
+        """
+        Where the contact forces come from.
+        """
+    @force_law.setter
+    def force_law(self, arg0: PlanarForceLaw) -> None: ...
+    @property
     def force_polynomials(self) -> tuple:
         """
-        polynomial: for each interval 4 x (2 points), coefficients of s^0..s^3, s = -1..1, of tangential and normal force [N], contact by contact, point by point.
+        Tuple: [N] polynomial: for each interval 4 x (2 points), coefficients of s^0..s^3, s = -1..1, of tangential and normal force, contact by contact, point by point.
         """
     @force_polynomials.setter
     def force_polynomials(
@@ -2753,14 +2861,14 @@ class PlanarPlan:
     @property
     def planner(self) -> str:
         """
-        E.g. 'sip'.
+        Which planner made it, e.g. sip.
         """
     @planner.setter
     def planner(self, arg0: str) -> None: ...
     @property
     def weights(self) -> tuple:
         """
-        least_norm: an array for each phase, contact by contact, point by point.
+        Tuple: [-] least_norm: an array for each phase, contact by contact, point by point.
         """
     @weights.setter
     def weights(
@@ -2899,6 +3007,11 @@ def addresses(who: str, end_effector: EndEffector) -> bool:
     Whether a name or kind addresses this end-effector.
     """
 
+def any_plan_from_json(content: bytes) -> Plan | PlanarPlan:
+    """
+    The plan of either kind of a JSON text. Raises InvalidPlan.
+    """
+
 def built_in(kind: str) -> list[str]:
     """
     Sorted names of the built-in 'scenes', 'robots', 'planar_robots' or 'motions'.
@@ -2933,6 +3046,16 @@ def least_norm_gain(
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
     """
     (2 points) x 3: gain from [m (a - g); moment about moment_point_W] to the forces (tangential, normal) of all points of a phase.
+    """
+
+def load_planar_robot(source: typing.Any) -> PlanarRobot:
+    """
+    A built-in planar robot by its name, or one from a TOML file. Raises UnknownRobot, InvalidRobot.
+    """
+
+def load_planar_task(source: typing.Any) -> PlanarTask:
+    """
+    A built-in motion by its name, or one from a TOML file. Raises UnknownMotion, UnknownRobot, InvalidMotion, InvalidRobot.
     """
 
 def load_robot(source: typing.Any) -> Robot:
@@ -2984,6 +3107,16 @@ def planar_kinematics(robot: PlanarRobot, configuration: PlanarConfiguration) ->
     Frames of all bodies: a list of PlanarMotionOfFrame.
     """
 
+def planar_plan_from_json(content: bytes) -> PlanarPlan:
+    """
+    The planar plan of a JSON text. Raises InvalidPlan.
+    """
+
+def planar_plan_to_json(plan: PlanarPlan) -> bytes:
+    """
+    A planar plan as JSON; numbers read back as the same. Raises InvalidPlan.
+    """
+
 def planar_point(
     body: PlanarMotionOfFrame,
     point_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"],
@@ -2993,11 +3126,51 @@ def planar_point(
     A point of a body, in the body's frame [m]; angle_B [rad] is added to the body's.
     """
 
+def planar_robot_from_dict(data: typing.Any, source: typing.Any = "") -> PlanarRobot:
+    """
+    The planar robot of plain data with the keys of its file.
+    """
+
+def planar_robot_to_dict(robot: PlanarRobot) -> dict:
+    """
+    Plain data with the keys of a planar robot's file; what is at its default is left out.
+    """
+
+def planar_task_from_dict(data: typing.Any, source: typing.Any = "", folder: typing.Any = None) -> PlanarTask:
+    """
+    The motion of plain data with the keys of a motion file. The robot that it names is looked for in `folder`; None: in the working directory.
+    """
+
+def planar_task_from_plain(data: typing.Any) -> PlanarTask:
+    """
+    Inverse of planar_task_to_plain. Raises InvalidMotion; says nothing of what relates fields.
+    """
+
+def planar_task_to_dict(task: PlanarTask) -> dict:
+    """
+    Plain data with the keys of a motion file: the robot inline, all contacts of each phase; what is at its default is left out.
+    """
+
+def planar_task_to_plain(task: PlanarTask) -> dict:
+    """
+    All that a motion holds under the names of its members; infinite numbers as texts.
+    """
+
 def quat_wxyz_from_rpy(
     rpy: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 1]"]:
     """
     Unit quaternion (w, x, y, z) of R_WB, w >= 0.
+    """
+
+def read_planar_robot(path: typing.Any) -> PlanarRobot:
+    """
+    A planar robot from a TOML file. Raises InvalidRobot.
+    """
+
+def read_planar_task(path: typing.Any) -> PlanarTask:
+    """
+    A motion from a TOML file. Raises InvalidMotion, InvalidRobot, UnknownRobot.
     """
 
 def read_robot(path: typing.Any) -> Robot:
@@ -3061,7 +3234,7 @@ def scene_to_dict(scene: Scene) -> dict:
 
 def schema_text(name: str) -> str:
     """
-    The JSON schema of the files of a kind: 'scene' or 'robot'.
+    The JSON schema of the files of a kind: 'scene', 'robot', 'planar_robot' or 'motion'.
     """
 
 def toml_from(content: bytes) -> dict:

@@ -26,7 +26,7 @@ def require_outputs(
     from mcplan.extras import require
     from mcplan.files.outputs import ARCHIVE, JSON, PAGE, require_folder, require_target
 
-    require_target("--output", output, ARCHIVE if verb == "sip" else (*ARCHIVE, *JSON))
+    require_target("--output", output, (*ARCHIVE, *JSON))
     require_target("--html", html, PAGE)
     require_target("--strip", strip, PICTURES)
     require_folder("--plots", plots)

@@ -47,7 +47,7 @@ ContinuousOption = Annotated[
 KinematicsOption = Annotated[bool, typer.Option("--kinematics", help="Without dynamics: joints and contacts alone.")]
 SelfCollisionOption = Annotated[bool, typer.Option("--self-collision", help="Keep limbs apart, as the robot says.")]
 WarmStartOption = Annotated[
-    Path | None, typer.Option("--warm-start", metavar="PLAN", help="Start from an earlier plan (.npz).")
+    Path | None, typer.Option("--warm-start", metavar="PLAN", help="Start from an earlier plan (.npz, .json).")
 ]
 HessianOption = Annotated[
     str, typer.Option("--hessian", metavar="H", help="automatic, exact, gauss-newton or limited-memory.")
@@ -62,7 +62,9 @@ CertifyOption = Annotated[
 TimeLimitOption = Annotated[
     float | None, typer.Option("--time-limit", metavar="S", help="Return the best motion after so many seconds.")
 ]
-OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz).")]
+OutputOption = Annotated[
+    Path | None, typer.Option("-o", "--output", metavar="FILE", help="Save the plan (.npz, .json).")
+]
 HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="Draw the motion on a page.")]
 PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Write plots into a folder.")]
 StripOption = Annotated[

@@ -11,7 +11,6 @@ import stat
 from pathlib import Path
 
 from mcplan.errors import InvalidInput, shown
-from mcplan.files.builtin import DATA
 
 _KIB, _MIB = 1024, 1024 * 1024
 
@@ -95,31 +94,6 @@ def require_regular_file(path: Path, most: int, error: type[InvalidInput], field
 def size_text(count: int) -> str:
     """A limit of bytes in words."""
     return f"{count // _MIB} MiB" if count % _MIB == 0 else f"{count // _KIB} KiB"
-
-
-def referenced(folder: Path, name: str, error: type[InvalidInput], field: str, source: str) -> Path:
-    """The path of a file that another file names: it lies in the folder of that one, or below.
-
-    Symbolic links are followed first. What mcplan brings itself may lie anywhere.
-
-    Args:
-        folder: Of the file that names it.
-        name: As it stands there: relative to that folder, or absolute.
-        error: Class of the error.
-        field: Where it stands, for the message.
-        source: The file that names it, for the message.
-
-    Raises:
-        InvalidInput: Of the given class: it lies elsewhere.
-    """
-    try:
-        path, root = (folder / name).resolve(), folder.resolve()
-    except (OSError, ValueError, RuntimeError):  # too long a name, one with a null byte, links in a circle
-        raise error(field, "cannot be read: no name that a file can have", shown(name), source) from None
-    if not path.is_relative_to(root) and not root.is_relative_to(DATA):
-        rule = "must lie in the folder of the file that names it, or below"
-        raise error(field, rule, shown(name), source)
-    return path
 
 
 def _require_regular(about: os.stat_result, error: type[InvalidInput], field: str, named: str, source: str) -> None:

@@ -1,7 +1,9 @@
-"""Whole-body plans in .npz files: arrays and a JSON header, no pickles.
+"""Whole-body plans in .npz files: arrays and a JSON header, no pickles. In .json files, which C++ reads and writes, they have
+format 2.
 
 The header (bytes of UTF-8 JSON) holds the kind "whole_body", the format's version, the units, the version of mcplan, the
-planner, the force law, and the motion with its robot (planar_data.py). F phases, I intervals and J joints give these
+planner, the force law, and the motion with its robot: all members under their names, infinite numbers as the texts "inf" and
+"-inf". F phases, I intervals and J joints give these
 arrays:
 
     durations (F)  control_points (J, I+3)  base_control_points (3, I+3), or (0, 0) for a base that is computed
@@ -18,12 +20,22 @@ from typing import Any
 
 import numpy as np
 
-from mcplan._core import Plan, PlanarForceLaw, PlanarPlan, PlanarTask, __version__, plan_from_json
+from mcplan._core import (
+    Plan,
+    PlanarForceLaw,
+    PlanarPlan,
+    PlanarTask,
+    __version__,
+    any_plan_from_json,
+    planar_plan_from_json,
+    planar_plan_to_json,
+    planar_task_from_plain,
+    planar_task_to_plain,
+)
 from mcplan.errors import InvalidInput, InvalidPlan, shown
 from mcplan.files import plans
 from mcplan.files.archives import archive_bytes, read_arrays, read_header
-from mcplan.files.outputs import ARCHIVE, require_suffix, write_whole
-from mcplan.files.planar_data import motion_from_plain, motion_to_plain
+from mcplan.files.outputs import ARCHIVE, JSON, require_suffix, write_whole
 from mcplan.files.plans import read_plan_file
 
 KIND = "whole_body"
@@ -41,24 +53,27 @@ def save_whole_body_plan(plan: PlanarPlan, path: str | Path) -> None:
 
     Args:
         plan: The plan.
-        path: Where to; used as it stands, no ending is added.
+        path: Where to; used as it stands, no ending is added, and one other than .npz or .json is refused.
 
     Raises:
+        InvalidInput: The name promises another kind of file.
         InvalidPlan, InvalidMotion, InvalidRobot: Its sizes do not fit together or a number is out of range.
     """
-    require_suffix("path", path, (*ARCHIVE, ""))
-    write_whole(plan_to_bytes(plan), path)
+    require_suffix("path", path, (*ARCHIVE, *JSON, ""))
+    as_json = Path(path).suffix.lower() in JSON
+    write_whole(planar_plan_to_json(plan) if as_json else plan_to_bytes(plan), path)
 
 
 def load_whole_body_plan(path: str | Path) -> PlanarPlan:
-    """Read a plan written by save_whole_body_plan.
+    """Read a plan written by save_whole_body_plan, or by PlanarPlan::save in C++.
 
     Raises:
         InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
         FileNotFoundError: There is no such file.
     """
     try:
-        return plan_from_bytes(read_plan_file(path))
+        data = read_plan_file(path)
+        return planar_plan_from_json(data) if plans.is_json(data) else plan_from_bytes(data)
     except InvalidInput as found:
         raise found.moved(InvalidPlan, str(path)) from None
 
@@ -73,7 +88,7 @@ def load_any_plan(path: str | Path) -> Plan | PlanarPlan:
     try:
         data = read_plan_file(path)
         if plans.is_json(data):
-            return plan_from_json(data)
+            return any_plan_from_json(data)
         kind = read_header(read_arrays(data)).get("kind")
         if kind in RUN_KINDS:
             raise InvalidPlan("", "must be a plan", "a run of one, which mcplan track saved")
@@ -92,7 +107,7 @@ def plan_to_bytes(plan: PlanarPlan) -> bytes:
         "mcplan": __version__,
         "planner": plan.planner,
         "force_law": plan.force_law.name,
-        "motion": motion_to_plain(plan.motion),
+        "motion": planar_task_to_plain(plan.motion),
     }
     weights = plan.weights if plan.force_law == PlanarForceLaw.least_norm else ()
     polynomials = plan.force_polynomials if plan.force_law == PlanarForceLaw.polynomial else ()
@@ -115,7 +130,7 @@ def plan_from_bytes(data: bytes) -> PlanarPlan:
     arrays = read_arrays(data)
     header = _checked_header(read_header(arrays))
     try:
-        motion = motion_from_plain(header["motion"])
+        motion = planar_task_from_plain(header["motion"])
         motion.validate()
     except InvalidInput as found:
         raise found.moved(InvalidPlan, prefix="header.motion") from None

@@ -1,5 +1,5 @@
-// Uses the installed library the way another project does: a built-in scene planned, saved, loaded and checked, a scene
-// and a robot in code, some mathematics, and a nonlinear program.
+// Uses the installed library the way another project does: a built-in scene planned, saved, loaded and checked, a
+// planar task copied, a scene and a robot in code, some mathematics, and a nonlinear program.
 
 #include <cmath>
 #include <cstdio>
@@ -58,10 +58,19 @@ void plan_a_built_in_scene() {
          "the checker rejects the plan that came back");
 }
 
+/// A built-in planar task as the library's own files have it, and as it is written.
+void copy_a_planar_task() {
+  const mcplan::PlanarTask task = mcplan::load_planar_task("cartwheel");
+  mcplan::save_planar_task(task, "copy.toml");
+  expect(mcplan::load_planar_task("copy.toml") == task, "a planar task does not come back as it was");
+  expect(task.robot == mcplan::load_planar_robot("climber9"), "a planar task has another robot than it names");
+}
+
 }  // namespace
 
 int main() {
   plan_a_built_in_scene();
+  copy_a_planar_task();
   expect(std::string(MCPLAN_VERSION) == EXPECTED_VERSION, "the header and the CMake package give different versions");
 
   mcplan::Scene scene = one_floor();

@@ -77,9 +77,9 @@ TEST_CASE("the field of a planar robot that is out of its range is named") {
   CHECK(field([](R& r) { r.bodies[2].parent = -1; }) == "bodies[2].parent");
   CHECK(field([](R& r) { r.bodies[1].name = ""; }) == "bodies[1].name");
   CHECK(field([](R& r) { r.bodies[1].name = "trunk"; }) == "bodies[1].name");
-  CHECK(field([](R& r) { r.bodies[1].joint_P.x() = NAN; }) == "bodies[1].joint");
+  CHECK(field([](R& r) { r.bodies[1].joint_P.x() = NAN; }) == "bodies[1].joint[0]");
   CHECK(field([](R& r) { r.bodies[1].offset = HUGE_VAL; }) == "bodies[1].offset");
-  CHECK(field([](R& r) { r.bodies[1].com_B.y() = NAN; }) == "bodies[1].com");
+  CHECK(field([](R& r) { r.bodies[1].com_B.y() = NAN; }) == "bodies[1].com[1]");
   for (double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
     CAPTURE(bad);
     CHECK(field([bad](R& r) { r.bodies[1].mass = bad; }) == "bodies[1].mass");
@@ -93,13 +93,13 @@ TEST_CASE("the field of a planar robot that is out of its range is named") {
     CHECK(field([bad](R& r) { r.bodies[1].torque_max = bad; }) == "bodies[1].torque_max");
   }
   CHECK(field([](R& r) { r.bodies[1].position_max = r.bodies[1].position_min; }) == "bodies[1].position_max");
-  CHECK(field([](R& r) { r.bodies[1].position_min = NAN; }) == "bodies[1].position_max");
-  CHECK(field([](R& r) { r.bodies[1].capsules[0].to_B.x() = NAN; }) == "bodies[1].capsules[0].to");
+  CHECK(field([](R& r) { r.bodies[1].position_min = NAN; }) == "bodies[1].position_min");
+  CHECK(field([](R& r) { r.bodies[1].capsules[0].to_B.x() = NAN; }) == "bodies[1].capsules[0].to[0]");
   CHECK(field([](R& r) { r.end_effectors.clear(); }) == "end_effectors");
   CHECK(field([](R& r) { r.end_effectors[1].name = "left_foot"; }) == "end_effectors[1].name");
   CHECK(field([](R& r) { r.end_effectors[1].body = 6; }) == "end_effectors[1].body");
   CHECK(field([](R& r) { r.end_effectors[1].body = -1; }) == "end_effectors[1].body");
-  CHECK(field([](R& r) { r.end_effectors[1].position_B.x() = NAN; }) == "end_effectors[1].position");
+  CHECK(field([](R& r) { r.end_effectors[1].position_B.x() = NAN; }) == "end_effectors[1].position[0]");
   CHECK(field([](R& r) { r.end_effectors[1].angle_B = NAN; }) == "end_effectors[1].angle");
   CHECK(field([](R& r) { r.end_effectors[1].points.clear(); }) == "end_effectors[1].points");
   CHECK(field([](R& r) { r.end_effectors[1].points = {0.1, 0.1}; }) == "end_effectors[1].points");

@@ -72,7 +72,7 @@ TEST_CASE("the field of a motion that is out of its range is named") {
   CHECK(field([](M& m) { m.surfaces.clear(); }) == "surfaces");
   CHECK(field([](M& m) { m.surfaces[0].name = ""; }) == "surfaces[0].name");
   CHECK(field([](M& m) { m.surfaces.push_back(m.surfaces[0]); }) == "surfaces[1].name");
-  CHECK(field([](M& m) { m.surfaces[0].origin_W.x() = NAN; }) == "surfaces[0].origin");
+  CHECK(field([](M& m) { m.surfaces[0].origin_W.x() = NAN; }) == "surfaces[0].origin[0]");
   CHECK(field([](M& m) { m.surfaces[0].angle = HUGE_VAL; }) == "surfaces[0].angle");
   for (double bad : {0.0, -0.5, std::nan(""), HUGE_VAL})
     CHECK(field([bad](M& m) { m.surfaces[0].friction = bad; }) == "surfaces[0].friction");
@@ -107,7 +107,7 @@ TEST_CASE("the field of a motion that is out of its range is named") {
 
 TEST_CASE("a contact off its surface, beyond its extent or turned against it is named") {
   CHECK(error([](M& m) { m.phases[1].contacts[1].position_W.y() = 1e-3; }).rule == "must lie on surface 'ground'");
-  CHECK(field([](M& m) { m.phases[1].contacts[1].position_W.x() = NAN; }) == "phases[1].contacts[1].position");
+  CHECK(field([](M& m) { m.phases[1].contacts[1].position_W.x() = NAN; }) == "phases[1].contacts[1].position[0]");
   CHECK(field([](M& m) { m.phases[1].contacts[1].angle = 1e-3; }) == "phases[1].contacts[1].angle");
   CHECK(field([](M& m) { m.phases[1].contacts[1].angle = M_PI; }) == "phases[1].contacts[1].angle");
   // The right foot's points reach to foot_x + 0.1.

@@ -81,6 +81,11 @@ class PlanarPlan {
 
   /// Throws InvalidPlan when sizes do not fit together, a duration or weight is not positive or a number is not finite.
   void validate() const;
+
+  /// Writes a JSON file, which is complete or not there at all and which load_planar_plan() and Python read. Throws
+  /// InvalidPlan, InvalidMotion, InvalidRobot, InvalidInput where the name does not end in .json, and
+  /// std::filesystem::filesystem_error.
+  void save(const std::string& path) const;
 };
 
 /// Gain from [m (a - g); moment about p] to the forces (tangential, normal) of all points of a phase: (2 points) x 3.
