@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 import mcplan as mp
+from mcplan import _core
 from standing import standing_plan
 
 pytestmark = pytest.mark.usefixtures("ctrl_c")
@@ -143,7 +144,7 @@ def test_an_interrupted_proof_leaves_the_motion(monkeypatch):
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(mp.sip, "certify", interrupted)
+    monkeypatch.setattr(_core.sip, "certify", interrupted)
     with pytest.raises(mp.Interrupted) as stop:
         mp.whole_body("cartwheel", certify=True)
     assert str(stop.value.result.report.status) == "solved" and stop.value.result.certificate is None
