@@ -398,7 +398,7 @@ EndEffectorState lifted(const PathInstant& instant) {
   const PlanState& state = instant.state;
   EndEffectorState end = state.end_effectors[instant.swing.swing->end_effector];
   add_clearance(instant.swing, instant.since_start_s, end);
-  hold_in_reach(instant.swing, state, rotation_from_rpy(state.base_rpy), end);
+  hold_in_reach(instant.swing, instant.since_start_s, state, rotation_from_rpy(state.base_rpy), end);
   return end;
 }
 
