@@ -269,7 +269,7 @@ BAD_WORDS = [
     (("robots", "--from-urdf", "g1", "--posture", "knee"), "--posture: must read JOINT=ANGLE"),
     (("robots", "--posture", "knee=1"), "--posture: needs --from-urdf"),
     (("plan", "flat", "--scale", "0"), "scale: must be a positive number, got 0.0"),
-    (("plan", "flat", "--sole-inside", "3"), "sole_inside: must be 2 at most, got 3"),
+    (("plan", "flat", "--sole-inside", "3"), "sole_inside: must be at most 2, got 3"),
     (("robots", "--from-urdf", "talos", "--end", "foot=nowhere"), "ends.foot: must name a link of the URDF"),
     (("robots", "--from-urdf", "solo12"), "ends: must be given for a robot other than talos, anymal"),
 ]

@@ -57,7 +57,7 @@ class TestBuiltIn:
             robot_from_dict(json.loads(json.dumps(data))),
             pickle.loads(pickle.dumps(robot)),
             copy.deepcopy(robot),
-            eval(repr(robot), vars(mp)),
+            eval(repr(robot), {**vars(mp), **vars(mp.model)}),
         ):
             assert robot_to_dict(other) == data
 
@@ -119,7 +119,7 @@ def test_that_plans_are_tracked_survives_file_dict_pickle_and_repr_and_is_left_o
     for other in (
         load_robot(tmp_path / "followed.toml"),
         pickle.loads(pickle.dumps(robot)),
-        eval(repr(robot), vars(mp)),
+        eval(repr(robot), {**vars(mp), **vars(mp.model)}),
     ):
         assert other.tracked and robot_to_dict(other) == robot_to_dict(robot)
 
@@ -137,7 +137,7 @@ def test_the_range_of_a_soles_heading_survives_file_dict_pickle_and_repr_and_is_
         load_robot(tmp_path / "turning.toml"),
         robot_from_dict(json.loads(json.dumps(data))),
         pickle.loads(pickle.dumps(robot)),
-        eval(repr(robot), vars(mp)),
+        eval(repr(robot), {**vars(mp), **vars(mp.model)}),
     ):
         assert robot_to_dict(other) == data
         assert other.end_effectors[2].yaw_range.tolist() == [-np.inf, np.inf]

@@ -102,7 +102,7 @@ class TestBuiltIn:
             scene_from_dict(json.loads(json.dumps(data))),
             pickle.loads(pickle.dumps(scene)),
             copy.deepcopy(scene),
-            eval(repr(scene), vars(mp)),  # a repr can be pasted back
+            eval(repr(scene), {**vars(mp), **vars(mp.model)}),  # a repr can be pasted back
         ):
             assert scene_to_dict(other) == data
 

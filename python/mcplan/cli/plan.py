@@ -23,7 +23,7 @@ SoleInsideOption = Annotated[
     typer.Option(
         "--sole-inside",
         metavar="X",
-        help="Fraction of each sole that stays within its surface, 0 to 1; default: the robot's.",
+        help="Fraction of each sole that stays within its surface, 2 at most; 1: all of it. Default: the robot's.",
     ),
 ]
 MinFlightOption = Annotated[
