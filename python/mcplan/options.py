@@ -40,8 +40,12 @@ def fill(options: Any, values: Mapping[str, Any]) -> Any:
         The same object.
 
     Raises:
-        InvalidOptions: No such option (the message lists those that exist), a wrong type, or out of range.
+        InvalidOptions: No such option (the message lists those that exist), a wrong type, out of range, or an option
+            under its name and its short name, which may differ.
     """
+    for short, name in ALIASES.items():
+        if values.get(short) is not None and values.get(name) is not None:
+            raise InvalidOptions(short, f"may not stand beside {name}, which it is short for", shown(values[short]))
     for name, value in values.items():
         name = ALIASES.get(name, name)
         if name == "weights" and isinstance(value, Mapping):

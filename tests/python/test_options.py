@@ -106,3 +106,9 @@ def test_each_engine_takes_options_as_an_object_or_by_name_and_gives_a_plan_and_
 def test_options_of_another_kind_are_refused(solve):
     with pytest.raises(mp.InvalidArgument, match="options: must be an Options or None, got a Tolerances"):
         solve("flat" if solve is not mp.sip.plan else "chimney", options=mp.Tolerances())
+
+
+@pytest.mark.parametrize("call", [mp.ddp.plan, mp.rhp.walk])
+def test_an_option_has_one_of_its_names(call):
+    with pytest.raises(mp.InvalidInput, match="time_limit: may not stand beside time_limit_s, which it is short for"):
+        call("flat", time_limit=0.05, time_limit_s=5.0)
