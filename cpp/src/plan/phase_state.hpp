@@ -1,26 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "mcplan/plan/plan.hpp"
+#include "swing_path.hpp"
 
 /// What every instant of a phase shares. Plan::at_phase() looks for it along the whole plan at each call; who asks for
 /// many instants of a phase looks once.
 namespace mcplan {
-
-/// A swing of which the phase is a part.
-struct ActiveSwing {
-  const Swing* swing = nullptr;
-  double before_s = 0.0, total_s = 0.0;      ///< from lift-off to the phase's start, to touch-down
-  Eigen::Vector3d reach_min_B, reach_max_B;  ///< what the path is held in: the reach box and both ends of the swing
-  /// Band [m] inside of the lower and upper sides in which the path bends, at lift-off, at touch-down and half way.
-  Eigen::Vector3d lift_bands_B[2], land_bands_B[2], middle_band_B;
-};
-
-/// Take the bands away: the path then runs to the box's sides and along them, with corners. Heights of swings are
-/// chosen for this path, so that they do not depend on how the other one bends.
-void straighten(ActiveSwing& active);
 
 struct PhaseFrame {
   int phase = 0;

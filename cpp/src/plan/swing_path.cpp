@@ -1,0 +1,143 @@
+#include "swing_path.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "mcplan/base/rotation.hpp"
+
+namespace mcplan {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// A number and its rate.
+struct Moving {
+  double value, rate;
+};
+
+/// Of y, how far something is beyond a limit, and the width w of a band on both sides of it: y before the band, 0 after
+/// it, and between them, with u = (y + w) / 2w,
+///
+///     -w + 2 w (u - u^3 + u^4 / 2),
+///
+/// twice continuously differentiable in y and w. Without a band, min(y, 0).
+Moving bent(const Moving& y, const Moving& band) {
+  if (!(y.value > -band.value)) return y;
+  if (y.value >= band.value) return {0.0, 0.0};
+  const double u = (y.value + band.value) / (2.0 * band.value), u2 = u * u;
+  const double g = u - u * u2 + 0.5 * u2 * u2, slope = 1.0 - 3.0 * u2 + 2.0 * u * u2;
+  return {band.value * (2.0 * g - 1.0), slope * y.rate + (2.0 * g - 1.0 - (2.0 * u - 1.0) * slope) * band.rate};
+}
+
+/// 16 s^2 (1-s)^2 at s = t / total.
+Moving bump_at(double s, double total) {
+  return {16.0 * s * s * (1.0 - s) * (1.0 - s), 32.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / total};
+}
+
+double swung(const ActiveSwing& active, double since_start) {
+  return std::clamp((active.before_s + since_start) / active.total_s, 0.0, 1.0);
+}
+
+/// From `lift` at s = 0 by way of `middle` to `land` at s = 1.
+Moving band_at(double lift, double middle, double land, double s, double total) {
+  const Moving bump = bump_at(s, total);
+  const double ends = (1.0 - s) * lift + s * land;
+  return {ends + bump.value * (middle - ends),
+          (1.0 - bump.value) * (land - lift) / total + bump.rate * (middle - ends)};
+}
+
+void add_clearance(const ActiveSwing& active, double since_start, EndEffectorState& end) {
+  const Swing& swing = *active.swing;
+  const double total = active.total_s;
+  const double s = swung(active, since_start);
+  const Moving bump = bump_at(s, total);
+  const Vector3d turn = swing.land_normal_W - swing.lift_normal_W;
+  const Vector3d along = swing.lift_normal_W + s * turn;
+  // Opposite normals (a hand going from one wall to the facing one) make the sum vanish half way: no bump there.
+  const double length = along.norm();
+  if (length < 1e-6) return;
+  const Vector3d n = along / length;
+  const Vector3d n_rate = (turn - n * n.dot(turn)) / (length * total);
+  end.position_W += swing.height * bump.value * n;
+  end.velocity_W += swing.height * (bump.rate * n + bump.value * n_rate);
+}
+
+/// Angular velocity in the world of roll-pitch-yaw rates.
+Vector3d angular_velocity(const Vector3d& rpy, const Vector3d& rate) {
+  const Eigen::Matrix3d r = rotation_from_rpy(rpy);
+  Eigen::Matrix3d spin = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i) spin += rate[i] * rotation_derivative(rpy, i) * r.transpose();
+  return {spin(2, 1), spin(0, 2), spin(1, 0)};
+}
+
+/// The path bends within a band inside of the box's sides, so that its velocity goes on where it comes to one.
+void hold_in_reach(const ActiveSwing& active, double since_start, const PlanState& state, const Eigen::Matrix3d& r_WB,
+                   EndEffectorState& end) {
+  const Vector3d &low = active.reach_min_B, &high = active.reach_max_B;
+  const Vector3d offset = end.position_W - state.com_W;
+  Vector3d relative = r_WB.transpose() * offset;
+  const Vector3d& near = active.middle_band_B;
+  if ((relative.array() >= (low + near).array()).all() && (relative.array() <= (high - near).array()).all()) return;
+  const double s = swung(active, since_start), total = active.total_s;
+  const Vector3d spin = angular_velocity(state.base_rpy, state.base_rpy_rate);
+  Vector3d rate = r_WB.transpose() * (end.velocity_W - state.com_velocity_W - spin.cross(offset));
+  for (int i = 0; i < 3; ++i) {
+    const int upper = relative[i] - high[i] > low[i] - relative[i];
+    const double out = upper ? 1.0 : -1.0, side = upper ? high[i] : low[i];
+    const Moving beyond{out * (relative[i] - side), out * rate[i]};
+    if (!(beyond.value > -near[i])) continue;
+    const Moving held =
+        bent(beyond, band_at(active.lift_bands_B[upper][i], near[i], active.land_bands_B[upper][i], s, total));
+    relative[i] = side + out * held.value;
+    rate[i] = out * held.rate;
+  }
+  end.position_W = state.com_W + r_WB * relative;
+  end.velocity_W = state.com_velocity_W + spin.cross(r_WB * relative) + r_WB * rate;
+}
+
+}  // namespace
+
+ActiveSwing active_swing(const Plan& plan, const Swing& swing, int phase) {
+  const EndEffector& limits = plan.robot.end_effectors[swing.end_effector];
+  ActiveSwing out;
+  out.swing = &swing;
+  out.reach_min_B = limits.reach_min_B;
+  out.reach_max_B = limits.reach_max_B;
+  for (int k = swing.first_phase; k < swing.end_phase; ++k) {
+    if (k == phase) out.before_s = out.total_s;
+    out.total_s += plan.phases[k].duration;
+  }
+  // The knots themselves may lie outside by the planner's tolerance; widening by them keeps the path continuous.
+  const auto relative_at = [&](int k) -> Vector3d {
+    const Knot& knot = plan.knots[k];
+    return rotation_from_rpy(knot.base_rpy).transpose() * (knot.end_effectors_W[swing.end_effector] - knot.com_W);
+  };
+  const Vector3d lift = relative_at(swing.first_phase), land = relative_at(swing.end_phase);
+  out.reach_min_B = out.reach_min_B.cwiseMin(lift).cwiseMin(land);
+  out.reach_max_B = out.reach_max_B.cwiseMax(lift).cwiseMax(land);
+  // No wider at the ends than these are away from the box's sides: there the path is the contact's.
+  out.middle_band_B = (out.reach_max_B - out.reach_min_B) / 20.0;
+  out.lift_bands_B[0] = out.middle_band_B.cwiseMin(lift - out.reach_min_B);
+  out.lift_bands_B[1] = out.middle_band_B.cwiseMin(out.reach_max_B - lift);
+  out.land_bands_B[0] = out.middle_band_B.cwiseMin(land - out.reach_min_B);
+  out.land_bands_B[1] = out.middle_band_B.cwiseMin(out.reach_max_B - land);
+  return out;
+}
+
+void straighten(ActiveSwing& active) {
+  active.middle_band_B.setZero();
+  for (int side : {0, 1}) {
+    active.lift_bands_B[side].setZero();
+    active.land_bands_B[side].setZero();
+  }
+}
+
+void put_on_path(const ActiveSwing& active, double since_start, const PlanState& state, const Eigen::Matrix3d& r_WB,
+                 EndEffectorState& end) {
+  add_clearance(active, since_start, end);
+  hold_in_reach(active, since_start, state, r_WB, end);
+}
+
+}  // namespace mcplan

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "mcplan/plan/plan.hpp"
+
+/// How an end-effector swings: lifted off the straight way between two contacts, and held in its reach box.
+namespace mcplan {
+
+/// A swing of which the phase is a part.
+struct ActiveSwing {
+  const Swing* swing = nullptr;
+  double before_s = 0.0, total_s = 0.0;      ///< from lift-off to the phase's start, to touch-down
+  Eigen::Vector3d reach_min_B, reach_max_B;  ///< what the path is held in: the reach box and both ends of the swing
+  /// Band [m] inside of the lower and upper sides in which the path bends, at lift-off, at touch-down and half way.
+  Eigen::Vector3d lift_bands_B[2], land_bands_B[2], middle_band_B;
+};
+
+/// The swing as a phase sees it.
+ActiveSwing active_swing(const Plan& plan, const Swing& swing, int phase);
+
+/// Take the bands away: the path then runs to the box's sides and along them, with corners. Heights of swings are
+/// chosen for this path, so that they do not depend on how the other one bends.
+void straighten(ActiveSwing& active);
+
+/// Moves an end-effector [m, m/s, world] from where the knots have it, `since_start` [s] in the phase, onto the swing's
+/// path; `state` has the CoM and the base with their rates, r_WB is the base's orientation.
+void put_on_path(const ActiveSwing& active, double since_start, const PlanState& state, const Eigen::Matrix3d& r_WB,
+                 EndEffectorState& end);
+
+}  // namespace mcplan
