@@ -15,6 +15,12 @@
 #include <string>
 #include <vector>
 
+#include "ddp/initial_sequence.hpp"
+#include "ddp/local_model.hpp"
+#include "ddp/pricing.hpp"
+#include "ddp/problem.hpp"
+#include "ddp/value_functions.hpp"
+
 namespace {
 
 using namespace mcplan::ddp;

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "mcplan/planar/sip/planner.hpp"
-#include "mcplan/planar/sip/program.hpp"
 #include "motions.hpp"
+#include "planar/sip/program.hpp"
 
 namespace {
 

@@ -19,7 +19,7 @@ PACKAGES = ("crocoddyl==3.2.1", "pin==4.0.0", "numpy")
 PHASES = 18
 
 #: Sizes nx, nu of the search: humanoid44 uses its feet alone on gap and its hands as well on gap_with_rail
-#: (cpp/include/mcplan/ddp/layout.hpp with one active base axis, the yaw).
+#: (cpp/src/ddp/layout.hpp with one active base axis, the yaw).
 SIZES = {"gap": (14, 11), "gap_with_rail": (20, 19)}
 
 

@@ -1,4 +1,4 @@
-#include "mcplan/base/entire_functions.hpp"
+#include "base/entire_functions.hpp"
 
 #include <cmath>
 

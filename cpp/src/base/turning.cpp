@@ -1,4 +1,4 @@
-#include "mcplan/base/turning.hpp"
+#include "base/turning.hpp"
 
 #include <cmath>
 

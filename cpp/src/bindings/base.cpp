@@ -1,5 +1,5 @@
+#include "base/entire_functions.hpp"
 #include "bindings.hpp"
-#include "mcplan/base/entire_functions.hpp"
 #include "mcplan/base/logging.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "mcplan/base/status.hpp"

@@ -1,8 +1,8 @@
 #include <pybind11/functional.h>
 
+#include "ddp/cost_terms.hpp"
 #include "ddp/options_fields.hpp"
 #include "fields.hpp"
-#include "mcplan/ddp/cost_terms.hpp"
 #include "mcplan/ddp/switched_ddp.hpp"
 #include "signals.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "bindings.hpp"
 #include "mcplan/planar/sip/certificate.hpp"
-#include "mcplan/planar/sip/taylor_model.hpp"
+#include "planar/sip/taylor_model.hpp"
 #include "signals.hpp"
 
 namespace mcplan::bindings {

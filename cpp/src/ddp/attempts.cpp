@@ -1,4 +1,4 @@
-#include "mcplan/ddp/attempts.hpp"
+#include "ddp/attempts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <random>
 #include <utility>
 
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/ddp/initial_sequence.hpp"
-#include "mcplan/ddp/stepping_sequence.hpp"
+#include "ddp/constants.hpp"
+#include "ddp/initial_sequence.hpp"
+#include "ddp/stepping_sequence.hpp"
 
 namespace mcplan::ddp {
 

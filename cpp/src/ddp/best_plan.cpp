@@ -1,12 +1,12 @@
-#include "mcplan/ddp/best_plan.hpp"
+#include "ddp/best_plan.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/ddp/plan_conversion.hpp"
-#include "mcplan/ddp/reachable_surfaces.hpp"
+#include "ddp/constants.hpp"
+#include "ddp/plan_conversion.hpp"
+#include "ddp/reachable_surfaces.hpp"
 
 namespace mcplan::ddp {
 

@@ -1,4 +1,4 @@
-#include "mcplan/ddp/contact_sequence.hpp"
+#include "ddp/contact_sequence.hpp"
 
 #include <algorithm>
 #include <utility>

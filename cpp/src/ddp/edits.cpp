@@ -1,9 +1,9 @@
-#include "mcplan/ddp/edits.hpp"
+#include "ddp/edits.hpp"
 
 #include <algorithm>
 #include <set>
 
-#include "mcplan/ddp/constants.hpp"
+#include "ddp/constants.hpp"
 
 namespace mcplan::ddp {
 namespace {

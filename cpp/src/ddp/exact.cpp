@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/ddp/moment_limits.hpp"
-#include "mcplan/ddp/search.hpp"
+#include "ddp/constants.hpp"
+#include "ddp/moment_limits.hpp"
+#include "ddp/search.hpp"
 
 namespace mcplan::ddp {
 namespace {

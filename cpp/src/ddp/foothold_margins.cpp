@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/ddp/problem.hpp"
+#include "ddp/constants.hpp"
+#include "ddp/problem.hpp"
 
 /// How far inside their surfaces footholds are planned.
 namespace mcplan::ddp {

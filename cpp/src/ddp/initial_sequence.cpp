@@ -1,9 +1,9 @@
-#include "mcplan/ddp/initial_sequence.hpp"
+#include "ddp/initial_sequence.hpp"
 
 #include <algorithm>
 #include <map>
 
-#include "mcplan/ddp/constants.hpp"
+#include "ddp/constants.hpp"
 
 namespace mcplan::ddp {
 namespace {

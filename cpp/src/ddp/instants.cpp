@@ -1,4 +1,4 @@
-#include "mcplan/ddp/instants.hpp"
+#include "ddp/instants.hpp"
 
 namespace mcplan::ddp {
 

@@ -1,9 +1,9 @@
-#include "mcplan/ddp/local_model.hpp"
+#include "ddp/local_model.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "mcplan/ddp/constants.hpp"
+#include "ddp/constants.hpp"
 
 namespace mcplan::ddp {
 

@@ -1,4 +1,4 @@
-#include "mcplan/ddp/moment_limits.hpp"
+#include "ddp/moment_limits.hpp"
 
 #include <algorithm>
 #include <cmath>

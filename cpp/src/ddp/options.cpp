@@ -1,7 +1,7 @@
 #include "mcplan/ddp/options.hpp"
 
+#include "ddp/cost_terms.hpp"
 #include "mcplan/base/error.hpp"
-#include "mcplan/ddp/cost_terms.hpp"
 #include "model/read.hpp"
 #include "options_fields.hpp"
 

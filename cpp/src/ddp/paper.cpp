@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/ddp/search.hpp"
+#include "ddp/constants.hpp"
+#include "ddp/search.hpp"
 
 namespace mcplan::ddp {
 

@@ -1,9 +1,9 @@
-#include "mcplan/ddp/pendulum.hpp"
+#include "ddp/pendulum.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "mcplan/base/turning.hpp"
+#include "base/turning.hpp"
 
 namespace mcplan::ddp {
 

@@ -1,12 +1,12 @@
-#include "mcplan/ddp/plan_conversion.hpp"
+#include "ddp/plan_conversion.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/turning.hpp"
+#include "ddp/constants.hpp"
 #include "mcplan/base/rotation.hpp"
-#include "mcplan/base/turning.hpp"
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/plan/swings.hpp"
+#include "plan/swings.hpp"
 
 namespace mcplan::ddp {
 namespace {

@@ -1,12 +1,12 @@
-#include "mcplan/ddp/pricing.hpp"
+#include "ddp/pricing.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <exception>
 #include <limits>
 
-#include "mcplan/base/fork.hpp"
-#include "mcplan/ddp/constants.hpp"
+#include "base/fork.hpp"
+#include "ddp/constants.hpp"
 
 #ifdef _OPENMP
 #include <omp.h>

@@ -1,14 +1,14 @@
-#include "mcplan/ddp/problem.hpp"
+#include "ddp/problem.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "ddp/constants.hpp"
+#include "ddp/problem_layout.hpp"
 #include "mcplan/base/error.hpp"
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/ddp/problem_layout.hpp"
-#include "mcplan/plan/clearance.hpp"
+#include "plan/clearance.hpp"
 #include "surface_boxes.hpp"
 
 namespace mcplan::ddp {

@@ -1,11 +1,11 @@
-#include "mcplan/ddp/problem_layout.hpp"
+#include "ddp/problem_layout.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/plan/clearance.hpp"
+#include "ddp/constants.hpp"
+#include "plan/clearance.hpp"
 
 namespace mcplan::ddp {
 namespace {

@@ -1,8 +1,8 @@
-#include "mcplan/ddp/reachable_surfaces.hpp"
+#include "ddp/reachable_surfaces.hpp"
 
 #include <algorithm>
 
-#include "mcplan/ddp/constants.hpp"
+#include "ddp/constants.hpp"
 #include "mcplan/scene/polygon.hpp"
 
 namespace mcplan::ddp {

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
+#include "ddp/constants.hpp"
+#include "ddp/problem.hpp"
 #include "mcplan/base/rotation.hpp"
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/ddp/problem.hpp"
 
 /// What the search is to stay near, and what it begins with.
 namespace mcplan::ddp {

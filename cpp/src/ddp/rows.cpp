@@ -1,4 +1,4 @@
-#include "mcplan/ddp/rows.hpp"
+#include "ddp/rows.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,13 +1,13 @@
-#include "mcplan/ddp/search.hpp"
+#include "ddp/search.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/ddp/edits.hpp"
-#include "mcplan/ddp/whole_sequence.hpp"
+#include "ddp/constants.hpp"
+#include "ddp/edits.hpp"
+#include "ddp/whole_sequence.hpp"
 
 namespace mcplan::ddp {
 namespace {

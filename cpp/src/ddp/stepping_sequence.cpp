@@ -1,4 +1,4 @@
-#include "mcplan/ddp/stepping_sequence.hpp"
+#include "ddp/stepping_sequence.hpp"
 
 #include <algorithm>
 #include <limits>

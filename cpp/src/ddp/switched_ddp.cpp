@@ -6,13 +6,13 @@
 #include <sstream>
 #include <utility>
 
+#include "ddp/attempts.hpp"
+#include "ddp/best_plan.hpp"
+#include "ddp/constants.hpp"
+#include "ddp/cost_terms.hpp"
+#include "ddp/plan_conversion.hpp"
+#include "ddp/reachable_surfaces.hpp"
 #include "mcplan/base/error.hpp"
-#include "mcplan/ddp/attempts.hpp"
-#include "mcplan/ddp/best_plan.hpp"
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/ddp/cost_terms.hpp"
-#include "mcplan/ddp/plan_conversion.hpp"
-#include "mcplan/ddp/reachable_surfaces.hpp"
 #include "mcplan/plan/friction_use.hpp"
 #include "mcplan/version.hpp"
 

@@ -1,4 +1,4 @@
-#include "mcplan/ddp/value_functions.hpp"
+#include "ddp/value_functions.hpp"
 
 #include <cmath>
 #include <limits>

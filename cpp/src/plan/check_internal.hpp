@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "mcplan/plan/checker.hpp"
-#include "mcplan/plan/clearance.hpp"
 #include "phase_state.hpp"
+#include "plan/clearance.hpp"
 
 /// What the files check_*.cpp share. One constraint is one small function with its equation; it offers what it measures
 /// to Findings, which keep the worst of each.

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mcplan/base/entire_functions.hpp"
+#include "base/entire_functions.hpp"
+#include "base/turning.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/base/rotation.hpp"
-#include "mcplan/base/turning.hpp"
-#include "mcplan/plan/point_forces.hpp"
 #include "phase_state.hpp"
+#include "plan/point_forces.hpp"
 #include "plan_shape.hpp"
 
 namespace mcplan {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "mcplan/plan/clearance.hpp"
+#include "plan/clearance.hpp"
 
 namespace mcplan {
 

@@ -1,10 +1,10 @@
-#include "mcplan/plan/swings.hpp"
+#include "plan/swings.hpp"
 
 #include <algorithm>
 
-#include "mcplan/plan/clearance.hpp"
 #include "mcplan/robot/similarity.hpp"
 #include "phase_state.hpp"
+#include "plan/clearance.hpp"
 #include "plan_shape.hpp"
 #include "solid_box.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mcplan/base/cubic_spline.hpp"
+#include "base/cubic_spline.hpp"
 
 namespace mcplan::planar {
 namespace {

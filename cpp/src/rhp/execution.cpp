@@ -1,10 +1,10 @@
-#include "mcplan/rhp/execution.hpp"
+#include "rhp/execution.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "mcplan/plan/point_forces.hpp"
-#include "mcplan/plan/swings.hpp"
+#include "plan/point_forces.hpp"
+#include "plan/swings.hpp"
 
 namespace mcplan::rhp {
 namespace {

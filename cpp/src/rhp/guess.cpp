@@ -1,4 +1,4 @@
-#include "mcplan/rhp/guess.hpp"
+#include "rhp/guess.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

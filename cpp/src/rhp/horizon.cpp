@@ -1,4 +1,4 @@
-#include "mcplan/rhp/horizon.hpp"
+#include "rhp/horizon.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,13 +6,13 @@
 #include <set>
 #include <string>
 
-#include "mcplan/rhp/pieces/contact_rows.hpp"
-#include "mcplan/rhp/pieces/costs.hpp"
-#include "mcplan/rhp/pieces/euler_step.hpp"
-#include "mcplan/rhp/pieces/linear_force_step.hpp"
-#include "mcplan/rhp/pieces/momentum_rate.hpp"
-#include "mcplan/rhp/pieces/reach_rows.hpp"
-#include "mcplan/rhp/pieces/torque_bound.hpp"
+#include "rhp/pieces/contact_rows.hpp"
+#include "rhp/pieces/costs.hpp"
+#include "rhp/pieces/euler_step.hpp"
+#include "rhp/pieces/linear_force_step.hpp"
+#include "rhp/pieces/momentum_rate.hpp"
+#include "rhp/pieces/reach_rows.hpp"
+#include "rhp/pieces/torque_bound.hpp"
 
 namespace mcplan::rhp {
 namespace {

@@ -1,4 +1,4 @@
-#include "mcplan/rhp/human_size.hpp"
+#include "rhp/human_size.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "mcplan/rhp/polytopes.hpp"
+#include "rhp/polytopes.hpp"
 
 #include <Eigen/LU>
 #include <cmath>

@@ -11,12 +11,12 @@
 #include "mcplan/nlp/solver.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "mcplan/plan/friction_use.hpp"
-#include "mcplan/rhp/execution.hpp"
-#include "mcplan/rhp/guess.hpp"
-#include "mcplan/rhp/horizon.hpp"
-#include "mcplan/rhp/human_size.hpp"
-#include "mcplan/rhp/walker.hpp"
 #include "mcplan/version.hpp"
+#include "rhp/execution.hpp"
+#include "rhp/guess.hpp"
+#include "rhp/horizon.hpp"
+#include "rhp/human_size.hpp"
+#include "rhp/walker.hpp"
 
 namespace mcplan::rhp {
 namespace {

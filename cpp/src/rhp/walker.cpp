@@ -1,11 +1,11 @@
-#include "mcplan/rhp/walker.hpp"
+#include "rhp/walker.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "mcplan/base/error.hpp"
-#include "mcplan/rhp/polytopes.hpp"
+#include "rhp/polytopes.hpp"
 
 namespace mcplan::rhp {
 namespace {

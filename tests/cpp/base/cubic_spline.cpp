@@ -1,4 +1,4 @@
-#include "mcplan/base/cubic_spline.hpp"
+#include "base/cubic_spline.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "mcplan/base/fork.hpp"
+#include "base/fork.hpp"
 
 #include <doctest/doctest.h>
 #include <sys/wait.h>

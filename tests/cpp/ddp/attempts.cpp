@@ -1,4 +1,4 @@
-#include "mcplan/ddp/attempts.hpp"
+#include "ddp/attempts.hpp"
 
 #include <doctest/doctest.h>
 

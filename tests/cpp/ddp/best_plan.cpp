@@ -1,4 +1,4 @@
-#include "mcplan/ddp/best_plan.hpp"
+#include "ddp/best_plan.hpp"
 
 #include <doctest/doctest.h>
 

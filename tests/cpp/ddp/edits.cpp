@@ -1,4 +1,4 @@
-#include "mcplan/ddp/edits.hpp"
+#include "ddp/edits.hpp"
 
 #include <doctest/doctest.h>
 

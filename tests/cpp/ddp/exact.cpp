@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "mcplan/ddp/search.hpp"
-#include "mcplan/ddp/stepping_sequence.hpp"
+#include "ddp/search.hpp"
+#include "ddp/stepping_sequence.hpp"
 #include "support.hpp"
 
 namespace {

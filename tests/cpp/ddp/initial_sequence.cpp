@@ -1,4 +1,4 @@
-#include "mcplan/ddp/initial_sequence.hpp"
+#include "ddp/initial_sequence.hpp"
 
 #include <doctest/doctest.h>
 

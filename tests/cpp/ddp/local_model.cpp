@@ -1,4 +1,4 @@
-#include "mcplan/ddp/local_model.hpp"
+#include "ddp/local_model.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "mcplan/ddp/initial_sequence.hpp"
-#include "mcplan/ddp/search.hpp"
+#include "ddp/initial_sequence.hpp"
+#include "ddp/search.hpp"
 #include "mcplan/ddp/switched_ddp.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "support.hpp"

@@ -1,4 +1,4 @@
-#include "mcplan/ddp/pendulum.hpp"
+#include "ddp/pendulum.hpp"
 
 #include <doctest/doctest.h>
 

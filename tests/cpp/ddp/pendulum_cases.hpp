@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "ddp/pendulum.hpp"
 #include "mcplan/base/rotation.hpp"
-#include "mcplan/ddp/pendulum.hpp"
 #include "support.hpp"
 
 /// Pendulums of all shapes, and random states and inputs of them.

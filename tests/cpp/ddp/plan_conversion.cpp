@@ -1,13 +1,13 @@
-#include "mcplan/ddp/plan_conversion.hpp"
+#include "ddp/plan_conversion.hpp"
 
 #include <doctest/doctest.h>
 
 #include <limits>
 
+#include "ddp/stepping_sequence.hpp"
 #include "mcplan/base/rotation.hpp"
-#include "mcplan/ddp/stepping_sequence.hpp"
 #include "mcplan/plan/checker.hpp"
-#include "mcplan/plan/clearance.hpp"
+#include "plan/clearance.hpp"
 #include "support.hpp"
 
 namespace {

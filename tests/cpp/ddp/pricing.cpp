@@ -1,4 +1,4 @@
-#include "mcplan/ddp/pricing.hpp"
+#include "ddp/pricing.hpp"
 
 #include <doctest/doctest.h>
 

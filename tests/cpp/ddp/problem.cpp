@@ -1,4 +1,4 @@
-#include "mcplan/ddp/problem.hpp"
+#include "ddp/problem.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "mcplan/ddp/problem_layout.hpp"
+#include "ddp/problem_layout.hpp"
 
 #include <doctest/doctest.h>
 

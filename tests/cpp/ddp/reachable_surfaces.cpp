@@ -1,4 +1,4 @@
-#include "mcplan/ddp/reachable_surfaces.hpp"
+#include "ddp/reachable_surfaces.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mcplan/ddp/problem.hpp"
+#include "ddp/problem.hpp"
 #include "support.hpp"
 
 namespace {

@@ -1,11 +1,11 @@
-#include "mcplan/ddp/search.hpp"
+#include "ddp/search.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "mcplan/ddp/initial_sequence.hpp"
+#include "ddp/initial_sequence.hpp"
 #include "mcplan/ddp/switched_ddp.hpp"
 #include "support.hpp"
 

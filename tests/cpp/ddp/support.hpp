@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "mcplan/ddp/local_model.hpp"
-#include "mcplan/ddp/problem.hpp"
+#include "ddp/local_model.hpp"
+#include "ddp/problem.hpp"
 #include "scenes.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)

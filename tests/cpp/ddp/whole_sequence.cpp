@@ -1,4 +1,4 @@
-#include "mcplan/ddp/whole_sequence.hpp"
+#include "ddp/whole_sequence.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,10 +6,10 @@
 #include <set>
 
 #include "mcplan/base/error.hpp"
-#include "mcplan/plan/clearance.hpp"
-#include "mcplan/plan/swings.hpp"
+#include "plan/clearance.hpp"
 #include "plan/fixtures.hpp"
 #include "plan/name_sets.hpp"
+#include "plan/swings.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "mcplan/plan/clearance.hpp"
+#include "plan/clearance.hpp"
 
 #include <doctest/doctest.h>
 

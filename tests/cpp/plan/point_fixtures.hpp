@@ -1,9 +1,9 @@
 #pragma once
 
-#include "mcplan/plan/clearance.hpp"
-#include "mcplan/plan/point_forces.hpp"
-#include "mcplan/plan/swings.hpp"
+#include "plan/clearance.hpp"
 #include "plan/fixtures.hpp"
+#include "plan/point_forces.hpp"
+#include "plan/swings.hpp"
 
 /// A plan with forces at the corners of the feet, made by hand.
 namespace fixtures {

@@ -1,4 +1,4 @@
-#include "mcplan/plan/point_forces.hpp"
+#include "plan/point_forces.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "mcplan/plan/similar.hpp"
+#include "plan/similar.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,11 +1,11 @@
-#include "mcplan/plan/swings.hpp"
+#include "plan/swings.hpp"
 
 #include <doctest/doctest.h>
 
 #include <limits>
 
-#include "mcplan/plan/clearance.hpp"
 #include "mcplan/robot/similarity.hpp"
+#include "plan/clearance.hpp"
 #include "plan/point_fixtures.hpp"
 
 using namespace fixtures;

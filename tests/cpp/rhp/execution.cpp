@@ -1,8 +1,8 @@
-#include "mcplan/rhp/execution.hpp"
+#include "rhp/execution.hpp"
 
 #include <doctest/doctest.h>
 
-#include "mcplan/rhp/guess.hpp"
+#include "rhp/guess.hpp"
 #include "rhp/walkers.hpp"
 
 namespace mcplan::rhp::tests {

@@ -1,4 +1,4 @@
-#include "mcplan/rhp/horizon.hpp"
+#include "rhp/horizon.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,9 +9,9 @@
 
 #include "mcplan/nlp/derivative_check.hpp"
 #include "mcplan/nlp/solver.hpp"
-#include "mcplan/rhp/execution.hpp"
-#include "mcplan/rhp/guess.hpp"
-#include "mcplan/rhp/pieces/torque_bound.hpp"
+#include "rhp/execution.hpp"
+#include "rhp/guess.hpp"
+#include "rhp/pieces/torque_bound.hpp"
 #include "rhp/walkers.hpp"
 
 namespace mcplan::rhp::tests {

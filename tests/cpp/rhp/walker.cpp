@@ -1,4 +1,4 @@
-#include "mcplan/rhp/walker.hpp"
+#include "rhp/walker.hpp"
 
 #include <doctest/doctest.h>
 

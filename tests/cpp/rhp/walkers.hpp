@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "mcplan/rhp/pieces/contact_point.hpp"
-#include "mcplan/rhp/polytopes.hpp"
 #include "mcplan/rhp/receding_horizon.hpp"
-#include "mcplan/rhp/walker.hpp"
+#include "rhp/pieces/contact_point.hpp"
+#include "rhp/polytopes.hpp"
+#include "rhp/walker.hpp"
 
 /// A heavy robot on two feet, whose left and right are mirror images, and the ground that it walks on.
 namespace walkers {

@@ -51,7 +51,7 @@ struct Weights {
   double overshoot_factor = 2.0;                         ///< on leaving a finite polygon sideways, times w_compl
 
   /// Weights that belong to one term alone, by its name, where they are not the term's usual ones: "flight",
-  /// "contact_change" (cost_terms.hpp).
+  /// "contact_change" (docs/theory/ddp.md, "Costs").
   std::map<std::string, double, std::less<>> own;
 };
 

@@ -42,7 +42,7 @@ enum class PlanarForceLaw {
 /// else follows in closed form at any instant: base, velocities, accelerations, forces, torques. Plain data; carries
 /// the task it was made for.
 ///
-/// Joints: one cubic B-spline each over the knots of all intervals (base/cubic_spline.hpp), whose lengths are phase
+/// Joints: one cubic B-spline each over the knots of all intervals, whose lengths are phase
 /// duration / intervals of the phase. Interval k has the control points k .. k + 3.
 ///
 /// Base: without base_control_points, where it brings the contacts closest to where they should be (eqs. 9-12):

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mcplan/ddp/cost_terms.hpp"
+#include "ddp/cost_terms.hpp"
 
 namespace mcplan::ddp {
 namespace {

@@ -1,4 +1,4 @@
-#include "mcplan/ddp/cost_terms.hpp"
+#include "ddp/cost_terms.hpp"
 
 namespace mcplan::ddp {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mcplan/ddp/cost_terms.hpp"
+#include "ddp/cost_terms.hpp"
 
 namespace mcplan::ddp {
 

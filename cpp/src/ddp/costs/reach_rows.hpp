@@ -1,7 +1,7 @@
 #pragma once
 
+#include "ddp/cost_terms.hpp"
 #include "mcplan/base/rotation.hpp"
-#include "mcplan/ddp/cost_terms.hpp"
 
 namespace mcplan::ddp {
 

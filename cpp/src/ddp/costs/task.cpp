@@ -1,5 +1,5 @@
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/ddp/cost_terms.hpp"
+#include "ddp/constants.hpp"
+#include "ddp/cost_terms.hpp"
 
 namespace mcplan::ddp {
 namespace {

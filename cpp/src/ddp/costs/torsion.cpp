@@ -1,7 +1,7 @@
 #include <cmath>
 
+#include "ddp/moment_limits.hpp"
 #include "force_rows.hpp"
-#include "mcplan/ddp/moment_limits.hpp"
 
 namespace mcplan::ddp {
 namespace {

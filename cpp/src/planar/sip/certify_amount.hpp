@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mcplan/planar/sip/taylor_model.hpp"
+#include "planar/sip/taylor_model.hpp"
 
 namespace mcplan::sip::proof {
 

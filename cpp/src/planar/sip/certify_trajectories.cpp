@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mcplan/base/cubic_spline.hpp"
+#include "base/cubic_spline.hpp"
 
 namespace mcplan::sip::proof {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mcplan/planar/plan.hpp"
-#include "mcplan/planar/sip/taylor_model.hpp"
+#include "planar/sip/taylor_model.hpp"
 
 /// What the files certify*.cpp share: the plan as polynomials whose coefficients are known up to a bound.
 namespace mcplan::sip::proof {

@@ -1,8 +1,8 @@
-#include "mcplan/planar/sip/interval_model.hpp"
+#include "planar/sip/interval_model.hpp"
 
 #include <array>
 
-#include "mcplan/planar/sip/constraints.hpp"
+#include "planar/sip/constraints.hpp"
 
 namespace mcplan::sip {
 namespace {

@@ -1,10 +1,10 @@
-#include "mcplan/planar/sip/interval_motion.hpp"
+#include "planar/sip/interval_motion.hpp"
 
 #include <cmath>
 
-#include "mcplan/base/cubic_spline.hpp"
+#include "base/cubic_spline.hpp"
 #include "mcplan/planar/plan.hpp"
-#include "mcplan/planar/sip/jet.hpp"
+#include "planar/sip/jet.hpp"
 
 namespace mcplan::sip {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/nlp/solver.hpp"
-#include "mcplan/planar/sip/program.hpp"
 #include "mcplan/version.hpp"
+#include "planar/sip/program.hpp"
 
 namespace mcplan::sip {
 namespace {

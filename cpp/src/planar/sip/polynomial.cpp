@@ -1,4 +1,4 @@
-#include "mcplan/planar/sip/polynomial.hpp"
+#include "planar/sip/polynomial.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "mcplan/planar/sip/program.hpp"
+#include "planar/sip/program.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "mcplan/planar/sip/program.hpp"
-#include "mcplan/planar/sip/rows.hpp"
+#include "planar/sip/program.hpp"
+#include "planar/sip/rows.hpp"
 
 namespace mcplan::sip {
 namespace {

@@ -1,8 +1,8 @@
-#include "mcplan/planar/sip/rows.hpp"
+#include "planar/sip/rows.hpp"
 
 #include <cmath>
 
-#include "mcplan/planar/sip/polynomial.hpp"
+#include "planar/sip/polynomial.hpp"
 
 namespace mcplan::sip {
 

@@ -1,4 +1,4 @@
-#include "mcplan/planar/sip/taylor_graph.hpp"
+#include "planar/sip/taylor_graph.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "mcplan/planar/sip/taylor_model.hpp"
+#include "planar/sip/taylor_model.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "mcplan/base/error.hpp"
-#include "mcplan/planar/sip/polynomial.hpp"
+#include "planar/sip/polynomial.hpp"
 
 namespace mcplan::sip {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mcplan/planar/sip/taylor_graph.hpp"
+#include "planar/sip/taylor_graph.hpp"
 
 namespace mcplan::sip {
 namespace {

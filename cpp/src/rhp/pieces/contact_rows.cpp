@@ -1,4 +1,4 @@
-#include "mcplan/rhp/pieces/contact_rows.hpp"
+#include "rhp/pieces/contact_rows.hpp"
 
 #include <algorithm>
 #include <cmath>

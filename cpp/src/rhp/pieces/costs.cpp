@@ -1,8 +1,8 @@
-#include "mcplan/rhp/pieces/costs.hpp"
+#include "rhp/pieces/costs.hpp"
 
 #include <utility>
 
-#include "mcplan/rhp/pieces/contact_point.hpp"
+#include "rhp/pieces/contact_point.hpp"
 
 namespace mcplan::rhp {
 namespace {

@@ -1,6 +1,6 @@
-#include "mcplan/rhp/pieces/euler_step.hpp"
+#include "rhp/pieces/euler_step.hpp"
 
-#include "mcplan/rhp/pieces/contact_point.hpp"
+#include "rhp/pieces/contact_point.hpp"
 
 namespace mcplan::rhp {
 namespace {

@@ -1,9 +1,9 @@
-#include "mcplan/rhp/pieces/linear_force_step.hpp"
+#include "rhp/pieces/linear_force_step.hpp"
 
 #include <Eigen/Geometry>
 #include <initializer_list>
 
-#include "mcplan/rhp/pieces/contact_point.hpp"
+#include "rhp/pieces/contact_point.hpp"
 
 namespace mcplan::rhp {
 namespace {

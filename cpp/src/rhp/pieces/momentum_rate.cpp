@@ -1,4 +1,4 @@
-#include "mcplan/rhp/pieces/momentum_rate.hpp"
+#include "rhp/pieces/momentum_rate.hpp"
 
 #include <Eigen/Geometry>
 #include <map>

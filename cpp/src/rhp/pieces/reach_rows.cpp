@@ -1,4 +1,4 @@
-#include "mcplan/rhp/pieces/reach_rows.hpp"
+#include "rhp/pieces/reach_rows.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "mcplan/rhp/pieces/torque_bound.hpp"
+#include "rhp/pieces/torque_bound.hpp"
 
 namespace mcplan::rhp {
 namespace {

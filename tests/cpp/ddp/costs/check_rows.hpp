@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "ddp/cost_terms.hpp"
 #include "ddp/support.hpp"
 #include "mcplan/base/rotation.hpp"
-#include "mcplan/ddp/cost_terms.hpp"
 
 namespace support {
 

@@ -1,7 +1,7 @@
 #include <Eigen/Geometry>
 
 #include "check_rows.hpp"
-#include "mcplan/plan/clearance.hpp"
+#include "plan/clearance.hpp"
 
 namespace {
 

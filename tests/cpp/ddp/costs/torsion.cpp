@@ -1,5 +1,5 @@
 #include "check_rows.hpp"
-#include "mcplan/ddp/moment_limits.hpp"
+#include "ddp/moment_limits.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "mcplan/planar/sip/contact_gain.hpp"
+#include "planar/sip/contact_gain.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,11 +4,11 @@
 
 #include "mcplan/planar/plan.hpp"
 #include "mcplan/planar/robot.hpp"
-#include "mcplan/planar/sip/interval_motion.hpp"
-#include "mcplan/planar/sip/polynomial.hpp"
-#include "mcplan/planar/sip/program.hpp"
-#include "mcplan/planar/sip/rows.hpp"
 #include "motions.hpp"
+#include "planar/sip/interval_motion.hpp"
+#include "planar/sip/polynomial.hpp"
+#include "planar/sip/program.hpp"
+#include "planar/sip/rows.hpp"
 
 /// One interval of a motion at parameters P, as Taylor polynomials and as the exact plan says.
 struct IntervalAt {

@@ -1,4 +1,4 @@
-#include "mcplan/planar/sip/interval_model.hpp"
+#include "planar/sip/interval_model.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "mcplan/planar/sip/interval_motion.hpp"
+#include "planar/sip/interval_motion.hpp"
 
 #include <doctest/doctest.h>
 

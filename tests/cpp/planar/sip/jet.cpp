@@ -1,11 +1,11 @@
-#include "mcplan/planar/sip/jet.hpp"
+#include "planar/sip/jet.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <random>
 
-#include "mcplan/base/cubic_spline.hpp"
+#include "base/cubic_spline.hpp"
 
 using mcplan::sip::Jet;
 

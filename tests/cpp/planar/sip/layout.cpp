@@ -1,4 +1,4 @@
-#include "mcplan/planar/sip/layout.hpp"
+#include "planar/sip/layout.hpp"
 
 #include <doctest/doctest.h>
 

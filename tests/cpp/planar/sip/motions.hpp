@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "mcplan/planar/sip/layout.hpp"
 #include "mcplan/planar/sip/options.hpp"
 #include "mcplan/planar/task.hpp"
+#include "planar/sip/layout.hpp"
 
 /// The robots and motions of Lengagne et al., and random parameters for them. (A smaller robot: planar/robots.hpp.)
 namespace sip_motions {

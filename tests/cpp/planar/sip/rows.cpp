@@ -1,4 +1,4 @@
-#include "mcplan/planar/sip/rows.hpp"
+#include "planar/sip/rows.hpp"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "mcplan/planar/sip/polynomial.hpp"
+#include "planar/sip/polynomial.hpp"
 
 using namespace mcplan::sip;
 

@@ -1,4 +1,4 @@
-#include "mcplan/planar/sip/taylor_model.hpp"
+#include "planar/sip/taylor_model.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "mcplan/rhp/pieces/costs.hpp"
+#include "rhp/pieces/costs.hpp"
 
 #include "rhp/pieces/support.hpp"
 

@@ -1,4 +1,4 @@
-#include "mcplan/rhp/pieces/euler_step.hpp"
+#include "rhp/pieces/euler_step.hpp"
 
 #include "rhp/pieces/support.hpp"
 

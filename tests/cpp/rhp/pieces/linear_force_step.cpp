@@ -1,4 +1,4 @@
-#include "mcplan/rhp/pieces/linear_force_step.hpp"
+#include "rhp/pieces/linear_force_step.hpp"
 
 #include <functional>
 

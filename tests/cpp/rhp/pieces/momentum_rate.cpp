@@ -1,8 +1,8 @@
-#include "mcplan/rhp/pieces/momentum_rate.hpp"
+#include "rhp/pieces/momentum_rate.hpp"
 
 #include <algorithm>
 
-#include "mcplan/rhp/pieces/contact_rows.hpp"
+#include "rhp/pieces/contact_rows.hpp"
 #include "rhp/pieces/support.hpp"
 
 namespace mcplan::rhp::tests {

@@ -1,9 +1,9 @@
-#include "mcplan/rhp/pieces/reach_rows.hpp"
+#include "rhp/pieces/reach_rows.hpp"
 
 #include <algorithm>
 
-#include "mcplan/rhp/polytopes.hpp"
 #include "rhp/pieces/support.hpp"
+#include "rhp/polytopes.hpp"
 
 namespace mcplan::rhp::tests {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "mcplan/nlp/derivative_check.hpp"
 #include "mcplan/nlp/problem.hpp"
-#include "mcplan/rhp/pieces/contact_point.hpp"
+#include "rhp/pieces/contact_point.hpp"
 #include "rhp/walkers.hpp"
 
 namespace mcplan::rhp::tests {

@@ -1,6 +1,6 @@
-#include "mcplan/rhp/pieces/torque_bound.hpp"
+#include "rhp/pieces/torque_bound.hpp"
 
-#include "mcplan/rhp/pieces/contact_rows.hpp"
+#include "rhp/pieces/contact_rows.hpp"
 #include "rhp/pieces/support.hpp"
 
 namespace mcplan::rhp::tests {

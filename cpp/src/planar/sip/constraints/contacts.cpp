@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "mcplan/planar/sip/constraints.hpp"
+#include "planar/sip/constraints.hpp"
 
 namespace mcplan::sip {
 namespace {

@@ -1,4 +1,4 @@
-#include "mcplan/planar/sip/constraints.hpp"
+#include "planar/sip/constraints.hpp"
 
 namespace mcplan::sip {
 namespace {

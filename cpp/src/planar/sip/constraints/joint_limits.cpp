@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "mcplan/planar/sip/constraints.hpp"
+#include "planar/sip/constraints.hpp"
 
 namespace mcplan::sip {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mcplan/planar/sip/constraints.hpp"
+#include "planar/sip/constraints.hpp"
 
 namespace mcplan::sip {
 

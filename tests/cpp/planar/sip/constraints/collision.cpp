@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mcplan/planar/sip/constraints.hpp"
 #include "planar/robots.hpp"
+#include "planar/sip/constraints.hpp"
 #include "planar/sip/interval.hpp"
 
 using namespace mcplan::sip;

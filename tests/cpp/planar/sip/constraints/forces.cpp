@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mcplan/planar/sip/constraints.hpp"
+#include "planar/sip/constraints.hpp"
 #include "planar/sip/interval.hpp"
 
 using namespace mcplan::sip;

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "mcplan/planar/sip/contact_gain.hpp"
-#include "mcplan/planar/sip/layout.hpp"
 #include "mcplan/planar/sip/options.hpp"
-#include "mcplan/planar/sip/taylor_graph.hpp"
 #include "mcplan/planar/task.hpp"
+#include "planar/sip/contact_gain.hpp"
+#include "planar/sip/layout.hpp"
+#include "planar/sip/taylor_graph.hpp"
 
 namespace mcplan::sip {
 

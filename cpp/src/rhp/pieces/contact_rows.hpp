@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mcplan/nlp/problem.hpp"
-#include "mcplan/rhp/pieces/contact_point.hpp"
+#include "rhp/pieces/contact_point.hpp"
 
 namespace mcplan::rhp {
 

@@ -2,11 +2,11 @@
 
 #include <vector>
 
+#include "ddp/best_plan.hpp"
+#include "ddp/ending.hpp"
+#include "ddp/problem.hpp"
+#include "ddp/search.hpp"
 #include "mcplan/base/deadline.hpp"
-#include "mcplan/ddp/best_plan.hpp"
-#include "mcplan/ddp/ending.hpp"
-#include "mcplan/ddp/problem.hpp"
-#include "mcplan/ddp/search.hpp"
 
 namespace mcplan::ddp {
 

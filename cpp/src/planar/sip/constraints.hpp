@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "mcplan/planar/plan.hpp"
-#include "mcplan/planar/sip/interval_motion.hpp"
-#include "mcplan/planar/sip/rows.hpp"
+#include "planar/sip/interval_motion.hpp"
+#include "planar/sip/rows.hpp"
 
 namespace mcplan::sip {
 

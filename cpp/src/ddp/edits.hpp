@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "mcplan/ddp/contact_sequence.hpp"
+#include "ddp/contact_sequence.hpp"
 
 namespace mcplan::ddp {
 

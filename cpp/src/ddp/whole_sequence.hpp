@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "mcplan/ddp/contact_sequence.hpp"
-#include "mcplan/ddp/value_functions.hpp"
+#include "ddp/contact_sequence.hpp"
+#include "ddp/value_functions.hpp"
 
 namespace mcplan::ddp {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "mcplan/ddp/pendulum.hpp"
-#include "mcplan/ddp/problem.hpp"
+#include "ddp/pendulum.hpp"
+#include "ddp/problem.hpp"
 
 namespace mcplan::ddp {
 

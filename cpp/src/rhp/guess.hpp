@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "mcplan/rhp/horizon.hpp"
-#include "mcplan/rhp/walker.hpp"
+#include "rhp/horizon.hpp"
+#include "rhp/walker.hpp"
 
 namespace mcplan::rhp {
 

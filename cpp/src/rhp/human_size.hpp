@@ -1,9 +1,9 @@
 #pragma once
 
-#include "mcplan/plan/similar.hpp"
 #include "mcplan/rhp/options.hpp"
 #include "mcplan/rhp/receding_horizon.hpp"
-#include "mcplan/rhp/walker.hpp"
+#include "plan/similar.hpp"
+#include "rhp/walker.hpp"
 
 namespace mcplan::rhp {
 

@@ -4,14 +4,14 @@
 #include <memory>
 #include <vector>
 
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/ddp/contact_sequence.hpp"
-#include "mcplan/ddp/cost_terms.hpp"
-#include "mcplan/ddp/instants.hpp"
-#include "mcplan/ddp/pendulum.hpp"
-#include "mcplan/ddp/problem.hpp"
-#include "mcplan/ddp/rows.hpp"
-#include "mcplan/ddp/schedule.hpp"
+#include "ddp/constants.hpp"
+#include "ddp/contact_sequence.hpp"
+#include "ddp/cost_terms.hpp"
+#include "ddp/instants.hpp"
+#include "ddp/pendulum.hpp"
+#include "ddp/problem.hpp"
+#include "ddp/rows.hpp"
+#include "ddp/schedule.hpp"
 
 namespace mcplan::ddp {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "mcplan/ddp/contact_sequence.hpp"
-#include "mcplan/ddp/layout.hpp"
+#include "ddp/contact_sequence.hpp"
+#include "ddp/layout.hpp"
 #include "mcplan/ddp/options.hpp"
 #include "mcplan/plan/plan.hpp"
 #include "mcplan/robot/robot.hpp"

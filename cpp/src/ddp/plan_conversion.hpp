@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mcplan/ddp/search.hpp"
+#include "ddp/search.hpp"
 #include "mcplan/plan/plan.hpp"
 
 namespace mcplan::ddp {

@@ -6,8 +6,8 @@
 
 #include "mcplan/nlp/problem.hpp"
 #include "mcplan/planar/plan.hpp"
-#include "mcplan/planar/sip/interval_model.hpp"
-#include "mcplan/planar/sip/layout.hpp"
+#include "planar/sip/interval_model.hpp"
+#include "planar/sip/layout.hpp"
 
 namespace mcplan::sip {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "mcplan/planar/sip/constraints.hpp"
-#include "mcplan/planar/sip/interval_motion.hpp"
-#include "mcplan/planar/sip/rows.hpp"
+#include "planar/sip/constraints.hpp"
+#include "planar/sip/interval_motion.hpp"
+#include "planar/sip/rows.hpp"
 
 namespace mcplan::sip {
 

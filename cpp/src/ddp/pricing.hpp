@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "mcplan/ddp/contact_sequence.hpp"
-#include "mcplan/ddp/local_model.hpp"
-#include "mcplan/ddp/value_functions.hpp"
+#include "ddp/contact_sequence.hpp"
+#include "ddp/local_model.hpp"
+#include "ddp/value_functions.hpp"
 
 namespace mcplan::ddp {
 

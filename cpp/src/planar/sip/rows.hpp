@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mcplan/planar/sip/options.hpp"
-#include "mcplan/planar/sip/taylor_graph.hpp"
+#include "planar/sip/taylor_graph.hpp"
 
 namespace mcplan::sip {
 

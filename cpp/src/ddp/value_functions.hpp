@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "mcplan/ddp/local_model.hpp"
+#include "ddp/local_model.hpp"
 
 namespace mcplan::ddp {
 

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "mcplan/ddp/contact_sequence.hpp"
-#include "mcplan/ddp/instants.hpp"
-#include "mcplan/ddp/pendulum.hpp"
-#include "mcplan/ddp/problem.hpp"
-#include "mcplan/ddp/rows.hpp"
-#include "mcplan/ddp/schedule.hpp"
+#include "ddp/contact_sequence.hpp"
+#include "ddp/instants.hpp"
+#include "ddp/pendulum.hpp"
+#include "ddp/problem.hpp"
+#include "ddp/rows.hpp"
+#include "ddp/schedule.hpp"
 
 namespace mcplan::ddp {
 

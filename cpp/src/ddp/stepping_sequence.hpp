@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mcplan/ddp/contact_sequence.hpp"
-#include "mcplan/ddp/problem.hpp"
+#include "ddp/contact_sequence.hpp"
+#include "ddp/problem.hpp"
 
 namespace mcplan::ddp {
 

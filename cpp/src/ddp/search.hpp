@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "ddp/constants.hpp"
+#include "ddp/ending.hpp"
+#include "ddp/local_model.hpp"
+#include "ddp/pricing.hpp"
+#include "ddp/value_functions.hpp"
 #include "mcplan/base/deadline.hpp"
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/ddp/ending.hpp"
-#include "mcplan/ddp/local_model.hpp"
-#include "mcplan/ddp/pricing.hpp"
-#include "mcplan/ddp/value_functions.hpp"
 #include "mcplan/plan/report.hpp"
 
 namespace mcplan::ddp {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "mcplan/ddp/layout.hpp"
-#include "mcplan/ddp/problem.hpp"
+#include "ddp/layout.hpp"
+#include "ddp/problem.hpp"
 #include "mcplan/scene/polygon.hpp"
 
 namespace mcplan::ddp {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mcplan/ddp/layout.hpp"
-#include "mcplan/ddp/problem.hpp"
+#include "ddp/layout.hpp"
+#include "ddp/problem.hpp"
 
 namespace mcplan::ddp {
 

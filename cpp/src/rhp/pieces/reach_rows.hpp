@@ -4,9 +4,9 @@
 
 #include "mcplan/nlp/problem.hpp"
 #include "mcplan/rhp/options.hpp"
-#include "mcplan/rhp/pieces/contact_point.hpp"
 #include "mcplan/robot/robot.hpp"
 #include "mcplan/scene/polygon.hpp"
+#include "rhp/pieces/contact_point.hpp"
 
 namespace mcplan::rhp {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "mcplan/nlp/problem.hpp"
-#include "mcplan/rhp/pieces/contact_point.hpp"
-#include "mcplan/rhp/walker.hpp"
+#include "rhp/pieces/contact_point.hpp"
+#include "rhp/walker.hpp"
 
 namespace mcplan::rhp {
 

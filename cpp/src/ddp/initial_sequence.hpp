@@ -1,9 +1,9 @@
 #pragma once
 
+#include "ddp/constants.hpp"
+#include "ddp/contact_sequence.hpp"
+#include "ddp/local_model.hpp"
 #include "mcplan/base/logging.hpp"
-#include "mcplan/ddp/constants.hpp"
-#include "mcplan/ddp/contact_sequence.hpp"
-#include "mcplan/ddp/local_model.hpp"
 
 namespace mcplan::ddp {
 

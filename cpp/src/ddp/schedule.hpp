@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "mcplan/ddp/problem.hpp"
+#include "ddp/problem.hpp"
 
 namespace mcplan::ddp {
 

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "ddp/search.hpp"
 #include "mcplan/base/deadline.hpp"
-#include "mcplan/ddp/search.hpp"
 #include "mcplan/plan/checker.hpp"
 
 namespace mcplan::ddp {

@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 
-#include "mcplan/base/entire_functions.hpp"
-#include "mcplan/base/turning.hpp"
-#include "mcplan/ddp/layout.hpp"
+#include "base/entire_functions.hpp"
+#include "base/turning.hpp"
+#include "ddp/layout.hpp"
 #include "mcplan/ddp/options.hpp"
 
 namespace mcplan::ddp {

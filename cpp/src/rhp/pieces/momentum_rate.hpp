@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "mcplan/nlp/piece.hpp"
-#include "mcplan/rhp/pieces/contact_point.hpp"
+#include "rhp/pieces/contact_point.hpp"
 
 namespace mcplan::rhp {
 
