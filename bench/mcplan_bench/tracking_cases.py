@@ -169,6 +169,6 @@ DISTURBED: tuple[Case, ...] = (
     replace(
         named("rubbles/single"),
         name="rubbles/single, 0.88 of the friction",
-        planning={"fidelity": "single", "cycles": CYCLES, "friction_share": 0.88},
+        planning={"fidelity": "single", "cycles": CYCLES, "friction_ratio": 0.88},
     ),
 )

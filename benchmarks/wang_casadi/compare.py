@@ -34,7 +34,7 @@ def planner(terrain: str, robot: str, fidelity: str, lookahead: int, transcripti
     options.fidelity, options.transcription = getattr(rhp.Fidelity, fidelity), getattr(rhp.Transcription, transcription)
     options.lookahead, options.paper = lookahead, paper
     # As in the peers' program.
-    options.foothold_margin_m, options.sole_share, options.com_height = 0.0, 1.0, (0.87, 1.07)
+    options.foothold_margin_m, options.sole_ratio, options.com_height = 0.0, 1.0, (0.87, 1.07)
     return rhp.RecedingHorizon(mcplan.load_scene(terrain), mcplan.load_robot(robot), options)
 
 

@@ -97,7 +97,7 @@ class DdpOptions(TypedDict, total=False):
     reach_margin_m: float
     """[m] The reach box is planned smaller by this. The default goes with the size of the robot."""
     sole_inside: float
-    """[-] Share of a sole's half size by which footholds keep from the edges of their surface; 1: the whole sole is on
+    """[-] Ratio of a sole's half size by which footholds keep from the edges of their surface; 1: the whole sole is on
     it, where it is large enough; negative: the robot's sole_support."""
     friction: bool
     """Hold the friction cones."""
@@ -164,10 +164,10 @@ class RhpOptions(TypedDict, total=False):
     """[N m] Largest value of each component of L'."""
     com_height: tuple[float, float]
     """[-] Height of the CoM over every foot in contact, over robot.com_height: min, max."""
-    sole_share: float
-    """[-] Share of the sole that forces make use of; paper: all."""
-    friction_share: float
-    """[-] Share of the friction coefficient; paper: all."""
+    sole_ratio: float
+    """[-] Ratio of the sole that forces make use of; paper: all."""
+    friction_ratio: float
+    """[-] Ratio of the friction coefficient that forces make use of; paper: all."""
     foothold_margin_m: float
     """[m] Distance of the sole from the edges of a surface where it has room."""
     psi_max: float

@@ -27,7 +27,7 @@ def first_cycle(row: dict[str, Any]) -> rhp.Cycle:
     options.foothold_margin_m = 0.0
     options.friction_rows = not row["paper"]
     # Forces act at the soles' very corners there, and the CoM may be as low as the authors have it.
-    options.sole_share, options.com_height = 1.0, (0.87, 1.07)
+    options.sole_ratio, options.com_height = 1.0, (0.87, 1.07)
     return rhp.RecedingHorizon(mp.load_scene(row["terrain"]), mp.load_robot("talos_wang"), options).step()
 
 

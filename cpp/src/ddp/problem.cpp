@@ -107,7 +107,7 @@ void Problem::make_surfaces() {
                            : std::max(surface.friction - kFrictionMargin, kFrictionRatioMin * surface.friction));
     pyramid.push_back(pyramid_tangents(polygons.back().normal_W(), options.friction_sides));
   }
-  if (options.friction_sides > 0) pyramid_share = std::cos(M_PI / options.friction_sides);
+  if (options.friction_sides > 0) pyramid_ratio = std::cos(M_PI / options.friction_sides);
 }
 
 /// The active end-effectors with their limits; the surfaces that each of them may touch.
@@ -137,7 +137,7 @@ EndLimits Problem::limits_of(const EndEffector& end) const {
   l.force_max = std::min(end.max_force / units.force(), kForceCapMax);
   l.half_size = end.half_size / units.length;
   l.half_width = l.half_size.minCoeff();
-  l.pressure_half = robot.pressure_share * l.half_size;
+  l.pressure_half = robot.pressure_ratio * l.half_size;
   l.moment_max = end.max_moment / units.moment();
   // The paper's model knows no headings of soles.
   const bool turns = model == Model::wrench;

@@ -71,7 +71,7 @@ class Problem {
   Model model = Model::wrench;
   std::vector<double> friction;                       ///< by scene surface; infinite where it may be held (grasp)
   std::vector<std::vector<Eigen::Vector3d>> pyramid;  ///< by scene surface: tangents t of the sides t.d <= friction n.d
-  double pyramid_share = 1.0;                         ///< of the cone's opening that lies inside every side
+  double pyramid_ratio = 1.0;                         ///< of the cone's opening that lies inside every side
   double edge_margin = 0.0;                           ///< footholds are planned this much inside their polygon
   double pressure_margin = 0.0;                       ///< and centres of pressure
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on

@@ -42,6 +42,7 @@ struct Field {
   const char* unit;     ///< "" where it has none
   const char* meaning;  ///< one line
   const char* key;      ///< in files
+  const char* earlier = nullptr;  ///< key of files that an earlier version wrote
   Rules rules{};
   bool is_required = false;   ///< files must have it
   bool is_always = false;     ///< written also where it is at its default
@@ -85,6 +86,9 @@ struct Field {
   }
   constexpr Field in_files(const char* other) const {
     return with([&](Field& f) { f.key = other; });
+  }
+  constexpr Field formerly(const char* other) const {
+    return with([&](Field& f) { f.earlier = other; });
   }
   constexpr Field by_file_keys() const {
     return with([](Field& f) { f.is_elsewhere = true; });

@@ -94,7 +94,9 @@ bool read_struct(const Value& value, T& out, const Place& at, Reading& reading) 
   }
   std::vector<std::string> required, legal;
   for_each_key(out, [&](const auto& f, auto& member) {
-    const char* const key = reading.exact ? f.name : f.key;
+    const char* const now = reading.exact ? f.name : f.key;
+    const bool is_earlier = f.earlier && !value.find(now) && value.find(f.earlier);
+    const char* const key = is_earlier ? f.earlier : now;
     legal.push_back(key);
     if (const Value* const entry = value.find(key))
       read_value(*entry, member, f.rules, Place(at, key), reading);

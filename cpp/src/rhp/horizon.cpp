@@ -181,8 +181,8 @@ class Builder {
   void add_points(const Horizon::Phase& phase, int foot, Stages here, Horizon::Control& control) {
     const Placement& placement = out_.placements[phase.placements[foot]];
     const double friction =
-        (options_.paper ? 1.0 : options_.friction_share) * walker_.scene.surfaces[placement.surface].friction;
-    const Eigen::Vector2d half = (options_.paper ? 1.0 : options_.sole_share) * walker_.feet[foot].half_size;
+        (options_.paper ? 1.0 : options_.friction_ratio) * walker_.scene.surfaces[placement.surface].friction;
+    const Eigen::Vector2d half = (options_.paper ? 1.0 : options_.sole_ratio) * walker_.feet[foot].half_size;
     const bool one = phase.single_force || half.maxCoeff() == 0.0;
     for (double s1 : {1.0, -1.0})
       for (double s2 : {1.0, -1.0}) {

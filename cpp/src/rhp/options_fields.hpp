@@ -61,10 +61,10 @@ struct Fields<rhp::Options> {
             "Height of the CoM over every foot in contact, over robot.com_height: min, max.")
           .positive()
           .growing(),
-      field("sole_share", &Options::sole_share, "-", "Share of the sole that forces make use of; paper: all.")
+      field("sole_ratio", &Options::sole_ratio, "-", "Ratio of the sole that forces make use of; paper: all.")
           .within(0.0, 1.0)
           .above(0.0),
-      field("friction_share", &Options::friction_share, "-", "Share of the friction coefficient; paper: all.")
+      field("friction_ratio", &Options::friction_ratio, "-", "Ratio of the friction coefficient that forces make use of; paper: all.")
           .within(0.0, 1.0)
           .above(0.0),
       field("foothold_margin_m", &Options::foothold_margin_m, "m",

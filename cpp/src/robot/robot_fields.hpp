@@ -99,11 +99,12 @@ struct Fields<Robot> {
             "Shortest and longest phase of a contact sequence. The default goes with the robot's size.")
           .positive(),
       field("sole_support", &Robot::sole_support, "-",
-            "Share of a sole that a contact sequence keeps on its surface; 0: its centre.")
+            "Ratio of a sole that a contact sequence keeps on its surface; 0: its centre.")
           .at_least(0.0)
           .at_most(1.0),
-      field("pressure_share", &Robot::pressure_share, "-",
-            "Share of a sole's half size within which a plan keeps the centre of pressure.")
+      field("pressure_ratio", &Robot::pressure_ratio, "-",
+            "Ratio of a sole's half size within which a plan keeps the centre of pressure.")
+          .formerly("pressure_share")
           .above(0.0)
           .at_most(1.0),
       field("tracked", &Robot::tracked, "",

@@ -684,7 +684,7 @@ class Robot:
         swing_height: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         phase_duration: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
         sole_support: typing.SupportsFloat | typing.SupportsIndex = 0.0,
-        pressure_share: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        pressure_ratio: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         tracked: bool = False,
         urdf: str = "",
         end_effectors: collections.abc.Sequence[EndEffector] = [],
@@ -757,16 +757,16 @@ class Robot:
     @posture.setter
     def posture(self, arg1: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex]) -> None: ...
     @property
-    def pressure_share(self) -> float:
+    def pressure_ratio(self) -> float:
         """
-        [-] Share of a sole's half size within which a plan keeps the centre of pressure.
+        [-] Ratio of a sole's half size within which a plan keeps the centre of pressure.
         """
-    @pressure_share.setter
-    def pressure_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @pressure_ratio.setter
+    def pressure_ratio(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def sole_support(self) -> float:
         """
-        [-] Share of a sole that a contact sequence keeps on its surface; 0: its centre.
+        [-] Ratio of a sole that a contact sequence keeps on its surface; 0: its centre.
         """
     @sole_support.setter
     def sole_support(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...

@@ -123,8 +123,8 @@ class Options:
         momentum_max: typing.SupportsFloat | typing.SupportsIndex = 2.5,
         momentum_rate_max: typing.SupportsFloat | typing.SupportsIndex = 3.5,
         com_height: tuple[float, float] = (0.87, 1.15),
-        sole_share: typing.SupportsFloat | typing.SupportsIndex = 0.8,
-        friction_share: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        sole_ratio: typing.SupportsFloat | typing.SupportsIndex = 0.8,
+        friction_ratio: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         foothold_margin_m: typing.SupportsFloat | typing.SupportsIndex = 0.03,
         psi_max: typing.SupportsFloat | typing.SupportsIndex = 0.55,
         goal_weight: typing.SupportsFloat | typing.SupportsIndex = 10.0,
@@ -213,12 +213,12 @@ class Options:
     @friction_rows.setter
     def friction_rows(self, arg0: bool) -> None: ...
     @property
-    def friction_share(self) -> float:
+    def friction_ratio(self) -> float:
         """
-        [-] Share of the friction coefficient; paper: all.
+        [-] Ratio of the friction coefficient that forces make use of; paper: all.
         """
-    @friction_share.setter
-    def friction_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @friction_ratio.setter
+    def friction_ratio(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def friction_sides(self) -> int:
         """
@@ -318,12 +318,12 @@ class Options:
     @single_support_s.setter
     def single_support_s(self, arg0: tuple[float, float]) -> None: ...
     @property
-    def sole_share(self) -> float:
+    def sole_ratio(self) -> float:
         """
-        [-] Share of the sole that forces make use of; paper: all.
+        [-] Ratio of the sole that forces make use of; paper: all.
         """
-    @sole_share.setter
-    def sole_share(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @sole_ratio.setter
+    def sole_ratio(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def time_limit_s(self) -> float:
         """

@@ -32,13 +32,13 @@ MOST_COM_HEIGHT = 50.0  # [m] beyond, lengths are not in metres
 HAND_INSET_M = 0.03  # of a hand's nominal position in its box: an arm hanging down is at the edge of what it reaches
 SOLE_FRICTION = 0.7  # surfaces' default; half of it is left for forces along the ground
 PHASE_DURATION = (0.3, 0.6)  # [s] of robots with soles: legs of such a weight follow no shorter swing
-#: Share of a sole for the planned centre of pressure: swinging legs need the rest, g1 fell without it.
-PRESSURE_SHARE = 0.75
+#: Ratio of a sole for the planned centre of pressure: swinging legs need the rest, g1 fell without it.
+PRESSURE_RATIO = 0.75
 #: Fields of robots with soles.
 _SOLED: dict[str, Any] = {
     "phase_duration": PHASE_DURATION,
     "sole_support": 1.0,
-    "pressure_share": PRESSURE_SHARE,
+    "pressure_ratio": PRESSURE_RATIO,
     "tracked": True,
 }
 _LEAST_STEP = 0.01  # of the grid of reach boxes, in CoM heights, so that its points can be counted
@@ -55,7 +55,7 @@ HEADER = (
     "more, at the height of standing. yaw_range: how far inverse kinematics turns the sole about the vertical, at the "
     "nominal position and half way to every corner of the box, at most {heading}. A hand's nominal position is moved "
     "{inset} m into its box. max_moment of soles: 2/3 x {friction} x half the weight x the shorter half side, the "
-    "torsion of a disc by half the friction of {full}. phase_duration, sole_support and pressure_share: what legs "
+    "torsion of a disc by half the friction of {full}. phase_duration, sole_support and pressure_ratio: what legs "
     "can follow, whole soles on their surface, and room under them for what swinging limbs ask of a controller."
 )
 

@@ -206,7 +206,7 @@ TEST_CASE("friction is planned a little tighter than the surface's, in as many s
     CHECK(problem.friction[0] == doctest::Approx(0.015));
     CHECK(problem.friction[1] == doctest::Approx(0.68));
     CHECK(problem.friction[2] == doctest::Approx(0.48));
-    CHECK(problem.pyramid_share == doctest::Approx(sides == 0 ? 1.0 : std::sqrt(0.5)));
+    CHECK(problem.pyramid_ratio == doctest::Approx(sides == 0 ? 1.0 : std::sqrt(0.5)));
     for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
       REQUIRE(problem.pyramid[i].size() == static_cast<std::size_t>(sides));
       for (const Vector3d& t : problem.pyramid[i]) {

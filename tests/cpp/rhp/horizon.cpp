@@ -174,7 +174,7 @@ TEST_CASE("forces act at the corners of a share of the sole, in the paper's form
   for (bool paper : {false, true})
     for (double share : {0.5, 1.0}) {
       Options options = walkers::quick(Fidelity::rectangle, 2);
-      options.sole_share = share;
+      options.sole_ratio = share;
       options.paper = paper;
       const First first(options);
       const Eigen::Vector2d half = (paper ? 1.0 : share) * walkers::robot().end_effectors[0].half_size;
@@ -194,7 +194,7 @@ TEST_CASE("forces act at the corners of a share of the sole, in the paper's form
 
 TEST_CASE("the share of a sole does not move where single forces act") {
   Options options = walkers::quick(Fidelity::point, 2);
-  options.sole_share = 0.5;
+  options.sole_ratio = 0.5;
   const First first(options);
   int single = 0;
   for (const Horizon::Phase& phase : first.horizon.phases)

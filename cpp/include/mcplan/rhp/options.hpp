@@ -51,8 +51,8 @@ struct Options {
   double momentum_max = 2.5;       ///< [kg m^2/s] each component of L
   double momentum_rate_max = 3.5;  ///< [N m] each component of L'
   Range com_height{0.87, 1.15};    ///< of the CoM above every foot in contact, over robot.com_height [-]
-  double sole_share = 0.80;     ///< of the sole that forces make use of, `paper`: all; the rest is for those who track
-  double friction_share = 1.0;  ///< of the friction coefficient, likewise: less for ground that may be slippery
+  double sole_ratio = 0.80;     ///< of the sole that forces make use of, `paper`: all; the rest is for those who track
+  double friction_ratio = 1.0;  ///< of the friction coefficient, likewise: less for ground that may be slippery
   double foothold_margin_m = 0.03;  ///< of the sole to the edges of a surface where it has room, for swings to clear
   double psi_max = 0.55;            ///< bound of the relaxation's |a +- d|^2 [-]
   double goal_weight = 10.0;        ///< on the squared distance of the horizon's end to the goal [1/m^2]

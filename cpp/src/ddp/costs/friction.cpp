@@ -27,7 +27,7 @@ class Friction final : public CostTerm {
       const Eigen::Vector3d tangential = d - normal * n;
       const double length = tangential.norm();
       if (problem.options.friction_sides > 0) {
-        const double inside = friction * problem.pyramid_share;
+        const double inside = friction * problem.pyramid_ratio;
         for (const Eigen::Vector3d& t : problem.pyramid[step.surface])
           if (const double beyond = t.dot(d) - inside * normal; beyond > 0.0)
             add_along_direction(step, instant, beyond, t - inside * n, rows);

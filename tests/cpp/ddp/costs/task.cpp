@@ -113,7 +113,7 @@ TEST_CASE("plans that a controller follows keep upright and centred, however muc
   for (double share : {1.0, 0.999999, 0.75})
     for (bool tracked : {false, true}) {
       mcplan::Robot robot = scenes::humanoid44();
-      robot.pressure_share = share;
+      robot.pressure_ratio = share;
       robot.tracked = tracked;
       const ddp::Problem problem(scenes::flat(), robot, options);
       const ddp::Layout& at = problem.layout;
