@@ -115,7 +115,7 @@ std::string describe(const Report& report) {
   return shown(out);
 }
 
-void bind_report(py::module_& m) {
+void bind_violation(py::module_& m) {
   py::class_<Violation> violation(m, "Violation", "A constraint and the place where a plan breaks it most.");
   violation.def(
       py::init([](std::string name, int phase, std::string end_effector, double time_s, double value, double tolerance,
@@ -133,7 +133,9 @@ void bind_report(py::module_& m) {
   violation.def_readwrite("unit", &Violation::unit);
   violation.def("__str__", [](const Violation& self) { return shown(self.to_string()); });
   def_value(violation, "Violation", {"name", "phase", "end_effector", "time_s", "value", "tolerance", "unit"});
+}
 
+void bind_report(py::module_& m) {
   py::class_<Iteration> row(m, "Iteration", "One row of the iteration table.");
   row.def_readonly("index", &Iteration::index);
   row.def_readonly("cost", &Iteration::cost, "Total, at the weight of this iteration.");
@@ -235,6 +237,7 @@ void bind_plan(py::module_& m) {
   bind_parts(m);
   bind_state(m);
   bind_plan_class(m);
+  bind_violation(m);
   bind_report(m);
   bind_checker(m);
   bind_loads(m);

@@ -85,6 +85,7 @@ struct RecedingHorizon::Impl {
   int steps_left() const { return footsteps.ends() ? footsteps.count() - index : walker.options.lookahead; }
 
   Cycle run();
+  nlp::Solution solve(Cycle& cycle, Horizon& horizon_now, HorizonRequest request, const Deadline& deadline) const;
   void accept(Cycle& cycle, const Horizon& horizon_now, const nlp::Solution& solution);
 };
 
@@ -113,31 +114,7 @@ Cycle RecedingHorizon::Impl::run() {
                                                                         : nominal_guess(walker, state, built);
   };
   Horizon horizon_now = build_horizon(walker, footsteps, request);
-  nlp::Solution solution;
-  for (int attempt = 0;; ++attempt) {
-    nlp::SolverOptions how = solver_options(options, deadline.remaining_s());
-    if (attempt > 0) how.initial_barrier = 1e-4;  // close to the solution already
-    how.max_iterations = std::max(1, options.max_iterations - cycle.iterations);
-    solution = nlp::solve(horizon_now.problem, horizon_now.guess, how);
-    cycle.iterations += solution.iterations;
-    cycle.evaluation_s += solution.evaluation_s;
-    cycle.linear_solver_s += solution.linear_solver_s;
-    // Faces that were left out and matter after all: again with them, from here.
-    constexpr int kAttempts = 5;
-    const std::set<ReachRow> missed = violated_reach(walker, horizon_now, solution.x, options.constraint_tolerance);
-    if (missed.empty() || attempt == kAttempts || solution.outcome != nlp::Outcome::converged || deadline.passed()) {
-      const nlp::Problem::Worst unseen = worst_left_out(walker, horizon_now, solution.x);
-      if (unseen.value > solution.worst.value) solution.worst = unseen;
-      if (!missed.empty() && solution.outcome == nlp::Outcome::converged && deadline.passed()) {
-        solution.outcome = nlp::Outcome::time_limit;
-        solution.message = "reached time_limit_s";
-      }
-      break;
-    }
-    request.reach_rows.insert(missed.begin(), missed.end());
-    request.guess = [&](const Horizon&) { return solution.x; };
-    horizon_now = build_horizon(walker, footsteps, request);
-  }
+  const nlp::Solution solution = solve(cycle, horizon_now, std::move(request), deadline);
   cycle.status = nlp::status_of(solution.outcome);
   cycle.message = solution.message;
   cycle.variables = horizon_now.problem.variable_count();
@@ -157,6 +134,38 @@ Cycle RecedingHorizon::Impl::run() {
                                        std::string(to_string(cycle.status)) + "  " + text(cycle.iterations) +
                                        " iterations, " + text(cycle.time_s) + " s");
   return cycle;
+}
+
+/// Solve the horizon, again with the faces of reach that were left out and matter after all; `horizon_now` becomes the
+/// one that the solution is of.
+nlp::Solution RecedingHorizon::Impl::solve(Cycle& cycle, Horizon& horizon_now, HorizonRequest request,
+                                           const Deadline& deadline) const {
+  const Options& options = walker.options;
+  nlp::Solution solution;
+  for (int attempt = 0;; ++attempt) {
+    nlp::SolverOptions how = solver_options(options, deadline.remaining_s());
+    if (attempt > 0) how.initial_barrier = 1e-4;  // close to the solution already
+    how.max_iterations = std::max(1, options.max_iterations - cycle.iterations);
+    solution = nlp::solve(horizon_now.problem, horizon_now.guess, how);
+    cycle.iterations += solution.iterations;
+    cycle.evaluation_s += solution.evaluation_s;
+    cycle.linear_solver_s += solution.linear_solver_s;
+    // Faces that were left out and matter after all: again with them, from here.
+    constexpr int kAttempts = 5;
+    const std::set<ReachRow> missed = violated_reach(walker, horizon_now, solution.x, options.constraint_tolerance);
+    if (missed.empty() || attempt == kAttempts || solution.outcome != nlp::Outcome::converged || deadline.passed()) {
+      const nlp::Problem::Worst unseen = worst_left_out(walker, horizon_now, solution.x);
+      if (unseen.value > solution.worst.value) solution.worst = unseen;
+      if (!missed.empty() && solution.outcome == nlp::Outcome::converged && deadline.passed()) {
+        solution.outcome = nlp::Outcome::time_limit;
+        solution.message = "reached time_limit_s";
+      }
+      return solution;
+    }
+    request.reach_rows.insert(missed.begin(), missed.end());
+    request.guess = [&](const Horizon&) { return solution.x; };
+    horizon_now = build_horizon(walker, footsteps, request);
+  }
 }
 
 /// Take a motion that keeps the program's constraints; the checker decides whether it is called solved.

@@ -168,84 +168,94 @@ def plan_from_bytes(data: bytes) -> Plan:
     scene = _part("header.scene", scene_from_dict, header["scene"])
     robot = _part("header.robot", robot_from_dict, header["robot"])
     _check_shapes(arrays, len(robot.end_effectors), header["format"])
-    laws, points = _read_points(arrays, header["format"])
-    centers = arrays.get("centers_of_pressure_W", np.zeros_like(arrays["anchors_W"]))
-    headings = arrays.get("end_effector_yaw", np.zeros((len(arrays["com_W"]), 0)))
     plan = Plan(
         measured_start=header.get("measured_start", False) is True,
         open_end=header.get("open_end", False) is True,
         scene=scene,
         robot=robot,
         planner=header["planner"],
-        knots=[
-            Knot(
-                com_W=com,
-                com_velocity_W=velocity,
-                base_rpy=rpy,
-                base_rpy_rate=rate,
-                end_effectors_W=ends,
-                end_effector_velocities_W=end_velocities,
-                angular_momentum_W=momentum,
-                end_effector_yaw=yaw.tolist(),
-            )
-            for com, velocity, rpy, rate, ends, end_velocities, momentum, yaw in zip(
-                arrays["com_W"],
-                arrays["com_velocity_W"],
-                arrays["base_rpy"],
-                arrays["base_rpy_rate"],
-                arrays["end_effectors_W"],
-                arrays["end_effector_velocities_W"],
-                arrays.get("angular_momentum_W", np.zeros_like(arrays["com_W"])),
-                headings,
-                strict=True,
-            )
-        ],
-        phases=[
-            Phase(
-                duration=duration,
-                law=law,
-                intervals=intervals,
-                contacts=[
-                    Contact(
-                        surface=int(surface),
-                        stiffness=stiffness,
-                        anchor_W=anchor,
-                        moment_W=moment,
-                        center_of_pressure_W=center,
-                        **at_points,
-                    )
-                    for surface, stiffness, anchor, moment, center, at_points in zip(*row, strict=True)
-                ],
-            )
-            for duration, (law, intervals), *row in zip(
-                arrays["durations"],
-                laws,
-                arrays["surfaces"],
-                arrays["stiffness"],
-                arrays["anchors_W"],
-                arrays["moments_W"],
-                centers,
-                points,
-                strict=True,
-            )
-        ],
+        knots=_knots(arrays),
+        phases=_phases(arrays, header["format"]),
         final_contacts=[int(surface) for surface in arrays["final_contacts"]],
-        swings=[
-            Swing(
-                end_effector=int(end),
-                first_phase=int(first),
-                end_phase=int(last),
-                height=height,
-                lift_normal_W=normals[0],
-                land_normal_W=normals[1],
-            )
-            for (end, first, last), height, normals in zip(
-                arrays["swings"], arrays["swing_heights"], arrays["swing_normals_W"], strict=True
-            )
-        ],
+        swings=_swings(arrays),
     )
     plan.validate()
     return plan
+
+
+def _knots(arrays: dict[str, np.ndarray]) -> list[Knot]:
+    return [
+        Knot(
+            com_W=com,
+            com_velocity_W=velocity,
+            base_rpy=rpy,
+            base_rpy_rate=rate,
+            end_effectors_W=ends,
+            end_effector_velocities_W=end_velocities,
+            angular_momentum_W=momentum,
+            end_effector_yaw=yaw.tolist(),
+        )
+        for com, velocity, rpy, rate, ends, end_velocities, momentum, yaw in zip(
+            arrays["com_W"],
+            arrays["com_velocity_W"],
+            arrays["base_rpy"],
+            arrays["base_rpy_rate"],
+            arrays["end_effectors_W"],
+            arrays["end_effector_velocities_W"],
+            arrays.get("angular_momentum_W", np.zeros_like(arrays["com_W"])),
+            arrays.get("end_effector_yaw", np.zeros((len(arrays["com_W"]), 0))),
+            strict=True,
+        )
+    ]
+
+
+def _phases(arrays: dict[str, np.ndarray], version: int) -> list[Phase]:
+    laws, points = _read_points(arrays, version)
+    return [
+        Phase(
+            duration=duration,
+            law=law,
+            intervals=intervals,
+            contacts=[
+                Contact(
+                    surface=int(surface),
+                    stiffness=stiffness,
+                    anchor_W=anchor,
+                    moment_W=moment,
+                    center_of_pressure_W=center,
+                    **at_points,
+                )
+                for surface, stiffness, anchor, moment, center, at_points in zip(*row, strict=True)
+            ],
+        )
+        for duration, (law, intervals), *row in zip(
+            arrays["durations"],
+            laws,
+            arrays["surfaces"],
+            arrays["stiffness"],
+            arrays["anchors_W"],
+            arrays["moments_W"],
+            arrays.get("centers_of_pressure_W", np.zeros_like(arrays["anchors_W"])),
+            points,
+            strict=True,
+        )
+    ]
+
+
+def _swings(arrays: dict[str, np.ndarray]) -> list[Swing]:
+    return [
+        Swing(
+            end_effector=int(end),
+            first_phase=int(first),
+            end_phase=int(last),
+            height=height,
+            lift_normal_W=normals[0],
+            land_normal_W=normals[1],
+        )
+        for (end, first, last), height, normals in zip(
+            arrays["swings"], arrays["swing_heights"], arrays["swing_normals_W"], strict=True
+        )
+    ]
 
 
 def _format(plan: Plan) -> int:

@@ -104,23 +104,13 @@ def robot_from_urdf(
         InvalidInput: No such URDF, frame, joint or setup.
     """
     require("mcplan robots --from-urdf", "view", "pinocchio", "example_robot_data")
-    import pinocchio as pin
-
     setup = SETUPS.get(source)
     model, nominal, urdf = load_model(source, ends, srdf, posture)
     ends = ends_of(source, ends)
     if not any(end.kind == "foot" for end in ends):
         raise InvalidInput("ends", "needs one of kind foot at least, whose height is the ground's")
 
-    frames = [contact_frame(model, end) for end in ends]
-    data = model.createData()
-    pin.ccrba(model, data, nominal, np.zeros(model.nv))
-    mass, com = float(pin.computeTotalMass(model)), data.com[0].copy()
-    pin.framesForwardKinematics(model, data, nominal)
-    soles = [data.oMf[f].translation[2] for f, end in zip(frames, ends, strict=True) if end.kind == "foot"]
-    com_height = float(com[2] - np.mean(soles))
-    _require_size(mass, com_height, data.Ig.inertia)
-
+    mass, inertia, com_height = _centroidal(model, nominal, ends)
     limbs = {end.name: limb_of(model, nominal, end, ends) for end in ends}
     boxes = {}
     step = max(step, _LEAST_STEP * com_height)
@@ -136,7 +126,7 @@ def robot_from_urdf(
         name=Path(source).stem,
         description=setup.description if setup else "",
         mass=round(mass, 3),
-        inertia=np.diag(data.Ig.inertia).round(3),
+        inertia=np.diag(inertia).round(3),
         com_height=round(com_height, 3),
         swing_height=setup.swing_height if setup else swing_height,
         end_effectors=[_end_effector(end, _same_strength(able, end), weight) for end in ends],
@@ -144,6 +134,21 @@ def robot_from_urdf(
         posture=_posture_of(model, nominal),
         **(_SOLED if any(any(end.half_size) for end in ends) else {}),
     )
+
+
+def _centroidal(model: Any, nominal: np.ndarray, ends: tuple[End, ...]) -> tuple[float, np.ndarray, float]:
+    """Mass [kg], inertia about the CoM [kg m^2] and height of the CoM above the feet [m] in the nominal posture."""
+    import pinocchio as pin
+
+    frames = [contact_frame(model, end) for end in ends]
+    data = model.createData()
+    pin.ccrba(model, data, nominal, np.zeros(model.nv))
+    mass, com, inertia = float(pin.computeTotalMass(model)), data.com[0].copy(), data.Ig.inertia.copy()
+    pin.framesForwardKinematics(model, data, nominal)
+    soles = [data.oMf[f].translation[2] for f, end in zip(frames, ends, strict=True) if end.kind == "foot"]
+    com_height = float(com[2] - np.mean(soles))
+    _require_size(mass, com_height, inertia)
+    return mass, inertia, com_height
 
 
 def _posture_of(model: Any, nominal: np.ndarray) -> dict[str, float]:

@@ -44,8 +44,15 @@ std::string point_name(const PlanarEndEffector& end, std::size_t point) {
 /// `amount` is called for wanted rows only.
 template <class Visit>
 void IntervalRows::visit(const Trajectories& piece, const PieceModels* models, const Visit& see) const {
-  const PlanarTask& motion = plan_.motion;
-  const PlanarRobot& robot = motion.robot;
+  visit_joints(piece, models, see);
+  visit_contacts(models, see);
+  visit_collisions(models, see);
+  visit_clearances(models, see);
+}
+
+template <class Visit>
+void IntervalRows::visit_joints(const Trajectories& piece, const PieceModels* models, const Visit& see) const {
+  const PlanarRobot& robot = plan_.motion.robot;
   for (int j = 0; j < robot.joint_count(); ++j) {
     const PlanarBody& body = robot.bodies[j + 1];
     const auto name = [&] { return body.name; };
@@ -58,7 +65,12 @@ void IntervalRows::visit(const Trajectories& piece, const PieceModels* models, c
       see(Kind::torque, name,
           [&] { return scaled(absolute(Amount::of(models->torques[j])), 1.0 / body.torque_max, -1.0); });
   }
+}
 
+template <class Visit>
+void IntervalRows::visit_contacts(const PieceModels* models, const Visit& see) const {
+  const PlanarTask& motion = plan_.motion;
+  const PlanarRobot& robot = motion.robot;
   const double weight = robot.mass() * robot.gravity;
   for (std::size_t i = 0; i < constants_.contacts.size(); ++i) {
     const ContactFrame& contact = constants_.contacts[i];
@@ -86,9 +98,13 @@ void IntervalRows::visit(const Trajectories& piece, const PieceModels* models, c
     return root(Amount::of(force.x * force.x + force.y * force.y));
   });
   see(Kind::moment, nowhere, [&] { return absolute(Amount::of(models->moment_residual)); });
+}
 
+template <class Visit>
+void IntervalRows::visit_collisions(const PieceModels* models, const Visit& see) const {
+  if (!self_collision_) return;
+  const PlanarRobot& robot = plan_.motion.robot;
   for (const auto& [first, second] : robot.collision_pairs) {
-    if (!self_collision_) break;
     const PlanarBody &a = robot.bodies[first], &b = robot.bodies[second];
     for (const Capsule& one : a.capsules)
       for (const Capsule& other : b.capsules) {
@@ -98,7 +114,12 @@ void IntervalRows::visit(const Trajectories& piece, const PieceModels* models, c
             [&, of_a, of_b] { return overlap(*models, of_a, one, of_b, other); });
       }
   }
+}
 
+template <class Visit>
+void IntervalRows::visit_clearances(const PieceModels* models, const Visit& see) const {
+  const PlanarTask& motion = plan_.motion;
+  const PlanarRobot& robot = motion.robot;
   const PlanarPhase& phase = motion.phases[interval_.phase];
   const int index = interval_.interval - motion.first_interval(interval_.phase);
   for (const PlanarClearance& clearance : phase.clearances) {

@@ -35,7 +35,15 @@ class IntervalRows {
 
  private:
   template <class Visit>
-  void visit(const Trajectories& piece, const PieceModels* models, const Visit& visit) const;
+  void visit(const Trajectories& piece, const PieceModels* models, const Visit& see) const;
+  template <class Visit>
+  void visit_joints(const Trajectories& piece, const PieceModels* models, const Visit& see) const;
+  template <class Visit>
+  void visit_contacts(const PieceModels* models, const Visit& see) const;
+  template <class Visit>
+  void visit_collisions(const PieceModels* models, const Visit& see) const;
+  template <class Visit>
+  void visit_clearances(const PieceModels* models, const Visit& see) const;
 
   const PlanarPlan& plan_;
   const PhaseConstants& constants_;

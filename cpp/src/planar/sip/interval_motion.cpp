@@ -2,9 +2,7 @@
 
 #include <cmath>
 
-#include "base/cubic_spline.hpp"
 #include "mcplan/planar/plan.hpp"
-#include "planar/sip/jet.hpp"
 
 namespace mcplan::sip {
 namespace {
@@ -28,7 +26,9 @@ IntervalMotion::IntervalMotion(const PlanarTask& of, const Options& with, const 
     : motion(of), options(with), local(of, layout, interval), graph(local.count()) {
   origin_W = moment_point_W(motion, local.phase);
   add_inputs(layout);
-  add_kinematics();
+  add_angles();
+  add_base();
+  add_contact_errors();
   if (options.dynamics) add_dynamics();
 }
 
@@ -70,11 +70,11 @@ IntervalMotion::Point IntervalMotion::point(int body, const Eigen::Vector2d& p) 
           graph.linear({{1.0, b.joint.y}, {p.x(), b.sine}, {p.y(), b.cosine}})};
 }
 
-void IntervalMotion::add_kinematics() {
+/// Angles of all bodies in the world with their sines and cosines; that of the base by eq. 11 or from its own spline.
+void IntervalMotion::add_angles() {
   const PlanarRobot& robot = motion.robot;
   const PlanarPhase& phase = motion.phases[local.phase];
   const int count = static_cast<int>(robot.bodies.size());
-  const bool computed = options.free_flyer == FreeFlyer::computed;
   const double share = 1.0 / static_cast<double>(phase.contacts.size());
 
   // Angles relative to the base, as sums of joints.
@@ -88,7 +88,7 @@ void IntervalMotion::add_kinematics() {
   // theta_w = mean_i (theta_i^e - theta_i^q), eq. 11
   Terms base_angle;
   double base_offset = 0.0;
-  if (computed) {
+  if (base_computed()) {
     for (const PlanarContact& contact : phase.contacts) {
       const PlanarEndEffector& foot = robot.end_effectors[contact.end_effector];
       append(base_angle, relative[foot.body], -share);
@@ -113,6 +113,15 @@ void IntervalMotion::add_kinematics() {
     bodies[b].angle = graph.linear(merged, base_offset + offset[b], 3);
     std::tie(bodies[b].sine, bodies[b].cosine) = graph.sin_cos(bodies[b].angle, order);
   }
+}
+
+/// Where the base is, by eq. 12 or from its own splines, and with it joints and CoMs of all bodies.
+void IntervalMotion::add_base() {
+  const PlanarRobot& robot = motion.robot;
+  const PlanarPhase& phase = motion.phases[local.phase];
+  const int count = static_cast<int>(robot.bodies.size());
+  const double share = 1.0 / static_cast<double>(phase.contacts.size());
+
   // Joints relative to the base's origin: constant combinations of sines and cosines.
   struct Place {
     Terms x, y;
@@ -129,13 +138,15 @@ void IntervalMotion::add_kinematics() {
   // P_w = mean_i (P_i^e - A_w P_i^q), eq. 12
   Terms base_x, base_y;
   Eigen::Vector2d base_constant = Eigen::Vector2d::Zero();
-  if (computed) {
+  if (base_computed()) {
     for (const PlanarContact& contact : phase.contacts) {
       const PlanarEndEffector& foot = robot.end_effectors[contact.end_effector];
       const Place place = moved(joint[foot.body], foot.body, foot.position_B);
       append(base_x, place.x, -share);
       append(base_y, place.y, -share);
-      base_constant += share * (contact.position_W - origin_W);
+      // One rounding, whatever the compiler makes of this function: the last bits of plans depend on it.
+      for (int i = 0; i < 2; ++i)
+        base_constant[i] = std::fma(share, contact.position_W[i] - origin_W[i], base_constant[i]);
     }
   } else {
     base_x = {{1.0, splines_[robot.joint_count()]}};
@@ -148,15 +159,18 @@ void IntervalMotion::add_kinematics() {
     bodies[b].joint = point(parent, robot.bodies[b].joint_P);
   }
   for (int b = 0; b < count; ++b) bodies[b].com = point(b, robot.bodies[b].com_B);
+}
 
+void IntervalMotion::add_contact_errors() {
+  const PlanarPhase& phase = motion.phases[local.phase];
   for (const PlanarContact& expected : phase.contacts) {
-    const PlanarEndEffector& foot = robot.end_effectors[expected.end_effector];
+    const PlanarEndEffector& foot = motion.robot.end_effectors[expected.end_effector];
     const Point actual = point(foot.body, foot.position_B);
     Contact contact;
     const Eigen::Vector2d place = expected.position_W - origin_W;
     contact.error = {graph.linear({{1.0, actual.x}}, -place.x()), graph.linear({{1.0, actual.y}}, -place.y())};
     contact.angle_error = graph.linear({{1.0, bodies[foot.body].angle}}, foot.angle_B - expected.angle);
-    contact.free = !computed || phase.contacts.size() > 1;
+    contact.free = !base_computed() || phase.contacts.size() > 1;
     contacts.push_back(contact);
   }
 }
@@ -221,17 +235,33 @@ void IntervalMotion::add_forces(const std::array<Node, 3>& demand) {
   }
 }
 
+/// Inertial forces and moments about the origin of a body and all that hangs on it, and what contacts give to these.
+struct IntervalMotion::Subtree {
+  Terms force_x, force_y, moment;  ///< of s-derivatives, to be scaled by (2/h)^2
+  Terms weight_moment;             ///< g sum m x
+  double weight = 0.0;
+  Terms contact_x, contact_y, contact_moment;
+};
+
 void IntervalMotion::add_dynamics() {
-  // Inertial forces and moments about the origin of every subtree; the gravity of m (a - g) points up.
+  std::vector<Subtree> tree = inertial_subtrees();
+  for (int b = static_cast<int>(tree.size()) - 1; b > 0; --b) {
+    Subtree& parent = tree[motion.robot.bodies[b].parent];
+    append(parent.force_x, {{1.0, graph.linear(tree[b].force_x)}}, 1.0);
+    append(parent.force_y, {{1.0, graph.linear(tree[b].force_y)}}, 1.0);
+    append(parent.moment, {{1.0, graph.linear(tree[b].moment)}}, 1.0);
+    append(parent.weight_moment, {{1.0, graph.linear(tree[b].weight_moment, 0.0, options.order)}}, 1.0);
+    parent.weight += tree[b].weight;
+  }
+  add_forces(demand_of(tree[0]));
+  add_contact_wrenches(tree);
+  add_torques(tree);
+}
+
+/// Of each body alone.
+std::vector<IntervalMotion::Subtree> IntervalMotion::inertial_subtrees() {
   const PlanarRobot& robot = motion.robot;
-  const PlanarPhase& phase = motion.phases[local.phase];
-  const int count = static_cast<int>(robot.bodies.size()), order = options.order;
-  struct Subtree {
-    Terms force_x, force_y, moment;  ///< of s-derivatives, to be scaled by (2/h)^2
-    Terms weight_moment;             ///< g sum m x
-    double weight = 0.0;
-    Terms contact_x, contact_y, contact_moment;
-  };
+  const int count = static_cast<int>(robot.bodies.size());
   std::vector<Subtree> tree(count);
   for (int b = 0; b < count; ++b) {
     const PlanarBody& body = robot.bodies[b];
@@ -240,32 +270,31 @@ void IntervalMotion::add_dynamics() {
     tree[b].force_x = {{body.mass, acceleration.x}};
     tree[b].force_y = {{body.mass, acceleration.y}};
     tree[b].moment = {{body.inertia, graph.derivative(nodes.angle, 2)},
-                      {body.mass, cross(graph, nodes.com, acceleration, order)}};
+                      {body.mass, cross(graph, nodes.com, acceleration, options.order)}};
     tree[b].weight = body.mass * robot.gravity;
     tree[b].weight_moment = {{body.mass * robot.gravity, nodes.com.x}};
   }
-  const auto demand_of = [&](const Subtree& t) {
-    const Node moment = timed(graph.linear(t.moment), 2);
-    Terms all = t.weight_moment;
-    all.push_back({1.0, moment});
-    return std::array<Node, 3>{timed(graph.linear(t.force_x), 2),
-                               graph.linear({{1.0, timed(graph.linear(t.force_y), 2)}}, t.weight),
-                               graph.linear(all, 0.0, order)};
-  };
-  for (int b = count - 1; b > 0; --b) {
-    Subtree& parent = tree[robot.bodies[b].parent];
-    append(parent.force_x, {{1.0, graph.linear(tree[b].force_x)}}, 1.0);
-    append(parent.force_y, {{1.0, graph.linear(tree[b].force_y)}}, 1.0);
-    append(parent.moment, {{1.0, graph.linear(tree[b].moment)}}, 1.0);
-    append(parent.weight_moment, {{1.0, graph.linear(tree[b].weight_moment, 0.0, order)}}, 1.0);
-    parent.weight += tree[b].weight;
-  }
-  add_forces(demand_of(tree[0]));
+  return tree;
+}
 
-  // What the contacts take, at their actual points x_i + d_v tau: moment x_i x sum_v f_v + tau x sum_v d_v f_v.
+/// [m (a - g); moment about the origin] of a subtree, which contacts and the joint that carries it must give; the
+/// gravity of m (a - g) points up.
+std::array<IntervalMotion::Node, 3> IntervalMotion::demand_of(const Subtree& subtree) {
+  const Node moment = timed(graph.linear(subtree.moment), 2);
+  Terms all = subtree.weight_moment;
+  all.push_back({1.0, moment});
+  return {timed(graph.linear(subtree.force_x), 2),
+          graph.linear({{1.0, timed(graph.linear(subtree.force_y), 2)}}, subtree.weight),
+          graph.linear(all, 0.0, options.order)};
+}
+
+/// What the contacts take, at their actual points x_i + d_v tau: moment x_i x sum_v f_v + tau x sum_v d_v f_v.
+void IntervalMotion::add_contact_wrenches(std::vector<Subtree>& tree) {
+  const PlanarPhase& phase = motion.phases[local.phase];
+  const int order = options.order;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const PlanarContact& expected = phase.contacts[i];
-    const PlanarEndEffector& foot = robot.end_effectors[expected.end_effector];
+    const PlanarEndEffector& foot = motion.robot.end_effectors[expected.end_effector];
     const Eigen::Vector2d t = direction(expected.angle), n(-t.y(), t.x());
     Terms x, y, lever_x, lever_y;
     for (std::size_t v = 0; v < contacts[i].forces.size(); ++v) {
@@ -288,6 +317,11 @@ void IntervalMotion::add_dynamics() {
     leaf.contact_moment.push_back({1.0, cross(graph, place, total, order)});
     leaf.contact_moment.push_back({1.0, cross(graph, tau, lever, order)});
   }
+}
+
+/// Of each joint, so that its subtree gets what it demands beyond its contacts.
+void IntervalMotion::add_torques(std::vector<Subtree>& tree) {
+  const int count = static_cast<int>(tree.size());
   torques.assign(count - 1, -1);
   for (int b = count - 1; b > 0; --b) {
     const Subtree& t = tree[b];
@@ -298,92 +332,13 @@ void IntervalMotion::add_dynamics() {
     append(moment, t.contact_moment, -1.0);
     // about the joint: moment about the origin - joint x force
     const Point force{graph.linear(x), graph.linear(y)};
-    moment.push_back({-1.0, cross(graph, bodies[b].joint, force, order)});
+    moment.push_back({-1.0, cross(graph, bodies[b].joint, force, options.order)});
     torques[b - 1] = graph.linear(moment);
-    Subtree& parent = tree[robot.bodies[b].parent];
+    Subtree& parent = tree[motion.robot.bodies[b].parent];
     append(parent.contact_x, t.contact_x, 1.0);
     append(parent.contact_y, t.contact_y, 1.0);
     append(parent.contact_moment, t.contact_moment, 1.0);
   }
-}
-
-void IntervalMotion::set_splines(const Eigen::Ref<const Eigen::VectorXd>& x, bool derivatives) {
-  const int controls = static_cast<int>(local.controls.size());
-  const int durations = static_cast<int>(local.durations.size());
-  const bool fixed_basis = graph.columns(splines_[0]).size() == local.controls.size();
-  std::array<Jet, 5> spacing;
-  for (int d = 0; d < 5; ++d)
-    spacing[d] =
-        Jet::variable(x[local.duration_column(local.knot_duration[d])], local.knot_duration[d], local.knot_share[d]);
-  Eigen::Matrix4d basis = Eigen::Matrix4d::Zero();  // by distinct control point
-  std::array<Eigen::Matrix4d, Jet::kSize> first;
-  std::array<std::array<Eigen::Matrix4d, Jet::kSize>, Jet::kSize> second;
-  if (derivatives && !fixed_basis) {
-    for (int d = 0; d < durations; ++d) {
-      first[d].setZero();
-      for (int e = 0; e < durations; ++e) second[d][e].setZero();
-    }
-    const Eigen::Matrix<Jet, 4, 4> full = cubic_spline_basis(spacing);
-    for (int i = 0; i < 4; ++i)
-      for (int m = 0; m < 4; ++m) {
-        const int c = local.control[i];
-        basis(m, c) += full(m, i).value;
-        for (int d = 0; d < durations; ++d) {
-          first[d](m, c) += full(m, i).gradient[d];
-          for (int e = 0; e < durations; ++e) second[d][e](m, c) += full(m, i).hessian(d, e);
-        }
-      }
-  } else {
-    std::array<double, 5> lengths{};
-    for (int d = 0; d < 5; ++d) lengths[d] = fixed_basis ? 1.0 : spacing[d].value;
-    const Eigen::Matrix4d full = cubic_spline_basis(lengths);
-    for (int i = 0; i < 4; ++i) basis.col(local.control[i]) += full.col(i);
-  }
-  for (std::size_t j = 0; j < splines_.size(); ++j) {
-    TaylorGraph::Input& input = graph.input_of(splines_[j]);
-    const auto c = x.segment(local.control_column(static_cast<int>(j), 0), controls);
-    input.coefficients.noalias() = basis.leftCols(controls) * c;
-    if (!derivatives) continue;
-    input.tangents.leftCols(controls) = basis.leftCols(controls);
-    if (fixed_basis) continue;
-    for (int d = 0; d < durations; ++d) {
-      input.tangents.col(controls + d).noalias() = first[d].leftCols(controls) * c;
-      for (int m = 0; m < 4; ++m) {
-        Eigen::MatrixXd& curvature = input.curvature[m];
-        curvature.col(controls + d).head(controls) = first[d].row(m).head(controls);
-        curvature.row(controls + d).head(controls) = first[d].row(m).head(controls);
-        for (int e = 0; e < durations; ++e)
-          curvature(controls + d, controls + e) = second[d][e].row(m).head(controls).dot(c);
-      }
-    }
-  }
-}
-
-void IntervalMotion::set_parameters(const Eigen::Ref<const Eigen::VectorXd>& x, bool derivatives) {
-  set_splines(x, derivatives);
-  const double duration = x[local.duration_column(local.own_duration)];
-  for (const Power& power : powers_) {
-    TaylorGraph::Input& input = graph.input_of(power.node);
-    const int e = power.exponent;
-    input.coefficients[0] = power.factor * std::pow(duration, e);
-    input.tangents(0, 0) = power.factor * e * std::pow(duration, e - 1);
-    input.curvature[0](0, 0) = power.factor * e * (e - 1) * std::pow(duration, e - 2);
-  }
-  for (std::size_t i = 0; i < force_inputs_.size(); ++i)
-    graph.input_of(force_inputs_[i]).coefficients = x.segment<4>(local.force_column(4 * static_cast<int>(i)));
-  if (gain_nodes_.empty()) return;
-  ContactGain& gain = *gain_;
-  gain.update(x.segment(local.weight_column(0), local.weights));
-  for (std::size_t row = 0; row < gain_nodes_.size(); ++row)
-    for (int i = 0; i < 3; ++i) {
-      TaylorGraph::Input& input = graph.input_of(gain_nodes_[row][i]);
-      const int r = static_cast<int>(row);
-      input.coefficients[0] = gain.value()(r, i);
-      for (int a = 0; derivatives && a < local.weights; ++a) {
-        input.tangents(0, a) = gain.first(a)(r, i);
-        for (int b = 0; b < local.weights; ++b) input.curvature[0](a, b) = gain.second(a, b)(r, i);
-      }
-    }
 }
 
 }  // namespace mcplan::sip

@@ -73,10 +73,20 @@ struct IntervalMotion {
     int exponent;
   };
 
+  struct Subtree;
+
+  bool base_computed() const { return options.free_flyer == FreeFlyer::computed; }
+
   void add_inputs(const Layout& layout);
-  void add_kinematics();
+  void add_angles();
+  void add_base();
+  void add_contact_errors();
   void add_forces(const std::array<Node, 3>& demand);
   void add_dynamics();
+  std::vector<Subtree> inertial_subtrees();
+  std::array<Node, 3> demand_of(const Subtree& subtree);
+  void add_contact_wrenches(std::vector<Subtree>& tree);
+  void add_torques(std::vector<Subtree>& tree);
   void set_splines(const Eigen::Ref<const Eigen::VectorXd>& x, bool derivatives);
   Node linear_in(const std::vector<TaylorGraph::Term>& terms, double constant = 0.0) {
     return graph.linear(terms, constant);

@@ -107,6 +107,7 @@ class TaylorGraph {
   const std::vector<int>& placement(int from, int to) const;  ///< empty: the same
   void evaluate_values(Workspace& work) const;
   void evaluate_tangents(Workspace& work) const;
+  void evaluate_product_tangents(Workspace& work, const Data& node) const;
   void reverse(Workspace& work) const;
   const double* expanded(const Workspace& work, const Data& operand, int support, int stride, double* scratch) const;
 

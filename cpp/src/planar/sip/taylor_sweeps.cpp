@@ -101,6 +101,25 @@ const double* TaylorGraph::expanded(const Workspace& work, const Data& operand, 
   return scratch;
 }
 
+/// dc_{i+j} = a_i db_j + b_j da_i
+void TaylorGraph::evaluate_product_tangents(Workspace& work, const Data& node) const {
+  double* out = work.tangents.data() + node.tangent;
+  const int width = node.stride;
+  const Data &left = nodes_[node.a], &right = nodes_[node.b];
+  double* scratch = work.scratch.data();
+  const double* da = expanded(work, left, node.support, width, scratch);
+  const double* db = expanded(work, right, node.support, width, scratch + work.scratch.size() / 2);
+  const double* a = work.values.data() + left.value;
+  const double* b = work.values.data() + right.value;
+  for (int i = 0; i <= std::min(left.order, node.order); ++i)
+    for (int j = 0; j <= std::min(right.order, node.order - i); ++j) {
+      double* __restrict row = out + (i + j) * width;
+      const double* __restrict rb = db + j * width, * __restrict ra = da + i * width;
+      const double ai = a[i], bj = b[j];
+      for (int c = 0; c < width; ++c) row[c] += ai * rb[c] + bj * ra[c];
+    }
+}
+
 void TaylorGraph::evaluate_tangents(Workspace& work) const {
   for (const Data& node : nodes_) {
     double* out = work.tangents.data() + node.tangent;
@@ -125,23 +144,9 @@ void TaylorGraph::evaluate_tangents(Workspace& work) const {
           }
         }
         break;
-      case Operation::product: {
-        // dc_{i+j} = a_i db_j + b_j da_i
-        const Data &left = nodes_[node.a], &right = nodes_[node.b];
-        double* scratch = work.scratch.data();
-        const double* da = expanded(work, left, node.support, width, scratch);
-        const double* db = expanded(work, right, node.support, width, scratch + work.scratch.size() / 2);
-        const double* a = work.values.data() + left.value;
-        const double* b = work.values.data() + right.value;
-        for (int i = 0; i <= std::min(left.order, node.order); ++i)
-          for (int j = 0; j <= std::min(right.order, node.order - i); ++j) {
-            double* __restrict row = out + (i + j) * width;
-            const double* __restrict rb = db + j * width, * __restrict ra = da + i * width;
-            const double ai = a[i], bj = b[j];
-            for (int c = 0; c < width; ++c) row[c] += ai * rb[c] + bj * ra[c];
-          }
+      case Operation::product:
+        evaluate_product_tangents(work, node);
         break;
-      }
       case Operation::sine:
       case Operation::cosine: {
         // dS_k = sum_m C_{k-m} dtheta_m,  dC_k = -sum_m S_{k-m} dtheta_m
