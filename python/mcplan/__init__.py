@@ -114,17 +114,23 @@ __all__ = [
 ]
 
 if not TYPE_CHECKING:
-    # Names that lived here until 0.1.
-    _MOVED = {name: module for module in (model, errors) for name in module.__all__}
-    _RENAMED = {"PlanarMotion": PlanarTask, "WholeBodyPlan": PlanarPlan, "WholeBodyTolerances": PlanarTolerances}
-    _RENAMED |= {"PlanResult": ddp.Result, "Walk": rhp.Walk}
+    # Names that lived here until 0.1, and where they are now.
+    _MOVED = {
+        name: f"{part}.{name}" for part, module in (("model", model), ("errors", errors)) for name in module.__all__
+    }
+    _MOVED |= {"PlanarMotion": "PlanarTask", "WholeBodyPlan": "PlanarPlan", "WholeBodyTolerances": "PlanarTolerances"}
+    _MOVED |= {"PlanResult": "ddp.Result", "Walk": "rhp.Walk"}
 
     def __getattr__(name: str) -> Any:
-        if name in _RENAMED:
-            return _RENAMED[name]
-        if name in _MOVED:
-            return getattr(_MOVED[name], name)
-        raise AttributeError(f"module 'mcplan' has no attribute {name!r}", name=name, obj=None)
+        if name not in _MOVED:
+            raise AttributeError(f"module 'mcplan' has no attribute {name!r}", name=name, obj=None)
+        import sys
+        import warnings
+        from operator import attrgetter
+
+        rule = f"mcplan.{name} is mcplan.{_MOVED[name]} now; the earlier name goes with the next release"
+        warnings.warn(rule, DeprecationWarning, stacklevel=2)
+        return attrgetter(_MOVED[name])(sys.modules[__name__])
 
     def __dir__() -> list[str]:
         return __all__

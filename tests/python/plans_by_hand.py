@@ -15,7 +15,7 @@ def humanoid() -> mp.Robot:
     ends = []
     for name, side in (("right", -1.0), ("left", 1.0)):
         ends.append(
-            mp.EndEffector(
+            mp.model.EndEffector(
                 name=f"{name}_foot",
                 kind="foot",
                 half_size=[0.10, 0.05],
@@ -27,7 +27,7 @@ def humanoid() -> mp.Robot:
         )
     for name, side in (("right", -1.0), ("left", 1.0)):
         ends.append(
-            mp.EndEffector(
+            mp.model.EndEffector(
                 name=f"{name}_hand",
                 kind="hand",
                 nominal_B=[0.0, 0.225 * side, 0.0],
@@ -46,9 +46,9 @@ def humanoid() -> mp.Robot:
     )
 
 
-def rectangle(name: str, x: tuple[float, float], y: tuple[float, float], z: float, **fields) -> mp.Surface:
+def rectangle(name: str, x: tuple[float, float], y: tuple[float, float], z: float, **fields) -> mp.model.Surface:
     corners = [(x[0], y[0], z), (x[1], y[0], z), (x[1], y[1], z), (x[0], y[1], z)]
-    return mp.Surface(name=name, vertices_W=np.array(corners), friction=0.8, **fields)
+    return mp.model.Surface(name=name, vertices_W=np.array(corners), friction=0.8, **fields)
 
 
 def stairs() -> mp.Scene:
@@ -122,13 +122,13 @@ def jump(scene: mp.Scene, robot: mp.Robot) -> mp.Plan:
     return _solve(scene, robot, steps, yaw=0.0, start=start, goal=end)
 
 
-def _scene(name: str, surfaces: list[mp.Surface], goal: list[float], first: str, last: str) -> mp.Scene:
+def _scene(name: str, surfaces: list[mp.model.Surface], goal: list[float], first: str, last: str) -> mp.Scene:
     return mp.Scene(
         name=name,
         description="made by hand for a test",
         surfaces=surfaces,
-        start=mp.Stance(position_W=[0.0, 0.0, 0.0], contacts={"foot": first}),
-        goal=mp.Stance(position_W=goal, contacts={"foot": last}),
+        start=mp.model.Stance(position_W=[0.0, 0.0, 0.0], contacts={"foot": first}),
+        goal=mp.model.Stance(position_W=goal, contacts={"foot": last}),
     )
 
 
@@ -192,7 +192,7 @@ def _assemble(scene, robot, steps, standing, durations, mu, cop, p, v, yaw) -> m
         contacts = []
         for foot in (RIGHT, LEFT):
             if not standing[k, foot]:
-                contacts.append(mp.Contact())
+                contacts.append(mp.model.Contact())
                 continue
             if standing[k].all():  # share the stiffness so that the two anchors average to the centre of pressure
                 right, left = steps[k][1]
@@ -201,12 +201,14 @@ def _assemble(scene, robot, steps, standing, durations, mu, cop, p, v, yaw) -> m
                 share = share if foot == LEFT else 1.0 - share
                 shift = cop[k] - (right + np.clip(np.dot(cop[k] - right, span) / np.dot(span, span), 0.02, 0.98) * span)
                 contacts.append(
-                    mp.Contact(surface=steps[k][0][foot], stiffness=share * mu[k], anchor_W=steps[k][1][foot] + shift)
+                    mp.model.Contact(
+                        surface=steps[k][0][foot], stiffness=share * mu[k], anchor_W=steps[k][1][foot] + shift
+                    )
                 )
             else:
-                contacts.append(mp.Contact(surface=steps[k][0][foot], stiffness=mu[k], anchor_W=cop[k]))
-        contacts += [mp.Contact()] * hands
-        phases.append(mp.Phase(duration=float(durations[k]), contacts=contacts))
+                contacts.append(mp.model.Contact(surface=steps[k][0][foot], stiffness=mu[k], anchor_W=cop[k]))
+        contacts += [mp.model.Contact()] * hands
+        phases.append(mp.model.Phase(duration=float(durations[k]), contacts=contacts))
     for k in range(n + 1):
         # A knot belongs to the phase that it begins; a foot in the air is half way to its next place.
         i = min(k, n - 1)
@@ -220,7 +222,7 @@ def _assemble(scene, robot, steps, standing, durations, mu, cop, p, v, yaw) -> m
         arms = [p[k] + robot.end_effectors[2 + i].nominal_B + [swing * (2 * i - 1), 0.0, 0.0] for i in range(hands)]
         arm_velocity = [v[k]] * hands
         knots.append(
-            mp.Knot(
+            mp.model.Knot(
                 com_W=p[k],
                 com_velocity_W=v[k],
                 base_rpy=[0.0, 0.0, yaw],
@@ -231,7 +233,7 @@ def _assemble(scene, robot, steps, standing, durations, mu, cop, p, v, yaw) -> m
     swings = []
     for foot in (RIGHT, LEFT):
         swings += [
-            mp.Swing(end_effector=foot, first_phase=k, end_phase=k + 1, height=float(robot.swing_height))
+            mp.model.Swing(end_effector=foot, first_phase=k, end_phase=k + 1, height=float(robot.swing_height))
             for k in range(n)
             if not standing[k, foot]
         ]
@@ -266,7 +268,7 @@ def talos() -> mp.Robot:
             name = frame.format(side)
             nominal = data.oMf[model.getFrameId(name)].translation - com
             ends.append(
-                mp.EndEffector(
+                mp.model.EndEffector(
                     name=f"{side}_{kind}",
                     kind=kind,
                     frame=name,

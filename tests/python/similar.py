@@ -60,9 +60,9 @@ def similar_robot(robot: mp.Robot, by: Factors, durations: bool = True) -> mp.Ro
     return out
 
 
-def similar_polytope(polytope: mp.Polytope, by: Factors) -> mp.Polytope:
+def similar_polytope(polytope: mp.model.Polytope, by: Factors) -> mp.model.Polytope:
     """A x <= b with x of another size."""
-    return mp.Polytope(A=polytope.A, b=polytope.b * by.length)
+    return mp.model.Polytope(A=polytope.A, b=polytope.b * by.length)
 
 
 def similar_scene(scene: mp.Scene, by: Factors) -> mp.Scene:
@@ -90,7 +90,7 @@ def similar_plan(plan: mp.Plan, by: Factors) -> mp.Plan:
         robot=similar_robot(plan.robot, by),
         planner=plan.planner,
         knots=[
-            mp.Knot(
+            mp.model.Knot(
                 com_W=knot.com_W * by.length,
                 com_velocity_W=knot.com_velocity_W * by.velocity,
                 base_rpy=knot.base_rpy,
@@ -103,12 +103,12 @@ def similar_plan(plan: mp.Plan, by: Factors) -> mp.Plan:
             for knot in plan.knots
         ],
         phases=[
-            mp.Phase(
+            mp.model.Phase(
                 duration=phase.duration * by.time,
                 law=phase.law,
                 intervals=phase.intervals,
                 contacts=[
-                    mp.Contact(
+                    mp.model.Contact(
                         surface=contact.surface,
                         stiffness=contact.stiffness / by.time**2,
                         anchor_W=contact.anchor_W * by.length,
@@ -124,7 +124,7 @@ def similar_plan(plan: mp.Plan, by: Factors) -> mp.Plan:
         ],
         final_contacts=plan.final_contacts,
         swings=[
-            mp.Swing(
+            mp.model.Swing(
                 end_effector=swing.end_effector,
                 first_phase=swing.first_phase,
                 end_phase=swing.end_phase,

@@ -19,8 +19,8 @@ def tilted(angle: float, half_size: float = 1.0, corners: object = None, **chang
     c, s = np.cos(angle), np.sin(angle)
     turn = np.array([[c, 0, -s], [0, 1, 0], [s, 0, c]])
     square = half_size * np.array(corners or [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float)
-    surface = mp.Surface(name="ground", vertices_W=square @ turn.T, **changes)
-    stance = mp.Stance(contacts={"foot": "ground"})
+    surface = mp.model.Surface(name="ground", vertices_W=square @ turn.T, **changes)
+    stance = mp.model.Stance(contacts={"foot": "ground"})
     return mp.Scene(surfaces=[surface], start=stance, goal=stance)
 
 

@@ -22,16 +22,18 @@ def standing_plan(phases: int = 3, duration_s: float = 0.4, robot: mp.Robot | No
     ends_W = [com_W + end.nominal_B for end in robot.end_effectors]
     stiffness = scene.gravity / robot.com_height / sum(feet)
     contacts = [
-        mp.Contact(surface=0, stiffness=stiffness, anchor_W=position) if foot else mp.Contact()
+        mp.model.Contact(surface=0, stiffness=stiffness, anchor_W=position) if foot else mp.model.Contact()
         for foot, position in zip(feet, ends_W, strict=True)
     ]
-    knot = mp.Knot(com_W=com_W, end_effectors_W=ends_W, end_effector_velocities_W=np.zeros((len(ends_W), 3)))
+    knot = mp.model.Knot(com_W=com_W, end_effectors_W=ends_W, end_effector_velocities_W=np.zeros((len(ends_W), 3)))
     return mp.Plan(
         scene=scene,
         robot=robot,
         planner="by hand",
         knots=[knot] * (phases + 1),
-        phases=[mp.Phase(duration=duration_s, contacts=contacts)] * phases,
+        phases=[mp.model.Phase(duration=duration_s, contacts=contacts)] * phases,
         final_contacts=[0 if foot else -1 for foot in feet],
-        swings=[mp.Swing(end_effector=i, first_phase=0, end_phase=phases) for i, foot in enumerate(feet) if not foot],
+        swings=[
+            mp.model.Swing(end_effector=i, first_phase=0, end_phase=phases) for i, foot in enumerate(feet) if not foot
+        ],
     )

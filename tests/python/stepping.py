@@ -69,7 +69,9 @@ def stepping_plan(steps: int = 1, scene: mp.Scene | None = None, robot: mp.Robot
         knots=knots,
         phases=phases,
         final_contacts=[surface.get(i, -1) for i in range(ends)],
-        swings=[mp.Swing(end_effector=i, first_phase=k, end_phase=k + 1, height=robot.swing_height) for i, k in swings],
+        swings=[
+            mp.model.Swing(end_effector=i, first_phase=k, end_phase=k + 1, height=robot.swing_height) for i, k in swings
+        ],
         open_end=True,
     )
     plan.validate()
@@ -87,10 +89,10 @@ def _plane(scene: mp.Scene, surface: int) -> tuple[np.ndarray, np.ndarray]:
     return vertices, normal / np.linalg.norm(normal)
 
 
-def _knot(robot, com, velocity, momentum, foot_W) -> mp.Knot:
+def _knot(robot, com, velocity, momentum, foot_W) -> mp.model.Knot:
     ends = [foot_W.get(i, com + end.nominal_B) for i, end in enumerate(robot.end_effectors)]
     velocities = [np.zeros(3) if i in foot_W else velocity for i in range(len(ends))]
-    return mp.Knot(
+    return mp.model.Knot(
         com_W=com,
         com_velocity_W=velocity,
         angular_momentum_W=momentum,
@@ -127,15 +129,15 @@ def _phase(scene, robot, state, stretch, wanted):
     contacts = []
     for i in range(len(robot.end_effectors)):
         if i not in active:
-            contacts.append(mp.Contact())
+            contacts.append(mp.model.Contact())
             continue
         first = 4 * active.index(i)
         contacts.append(
-            mp.Contact(
+            mp.model.Contact(
                 surface=surface[i], points_W=points[i], point_forces_W=forces[:, first : first + 4].reshape(-1, 3)
             )
         )
-    phase = mp.Phase(duration=duration, contacts=contacts, law=mp.ForceLaw.linear, intervals=NODES - 1)
+    phase = mp.model.Phase(duration=duration, contacts=contacts, law=mp.model.ForceLaw.linear, intervals=NODES - 1)
     return phase, (position, velocity, momentum)
 
 

@@ -17,7 +17,7 @@ RESULT_TEXT = "got a PlanResult; its plan is result.plan"
 
 
 @pytest.fixture(scope="module")
-def result() -> mp.PlanResult:
+def result() -> mp.ddp.Result:
     return mp.plan("flat", phases=6, max_iterations=2, restarts=0)
 
 
@@ -59,12 +59,14 @@ WRONG: list[tuple[str, Callable[[Any], Any]]] = [
 
 def test_check_takes_of_each_kind_of_plan_what_goes_with_it(result):
     with pytest.raises(
-        mp.InvalidArgument, match="self_collision: must not be given with a Plan, which takes scene and"
+        mp.errors.InvalidArgument, match="self_collision: must not be given with a Plan, which takes scene and"
     ):
         mp.check(result.plan, self_collision=True)
     whole_body = mp.whole_body("chimney", forces="uniform", minimise="none", max_iterations=1).plan
     mp.check(whole_body, mp.PlanarTolerances(), True)
-    with pytest.raises(mp.InvalidArgument, match="scene: must not be given with a PlanarPlan, which takes tolerances"):
+    with pytest.raises(
+        mp.errors.InvalidArgument, match="scene: must not be given with a PlanarPlan, which takes tolerances"
+    ):
         mp.check(whole_body, scene=result.plan.scene)
 
 
@@ -86,7 +88,7 @@ def test_the_error_is_a_type_error_as_well():
     with pytest.raises(TypeError, match="a: must be a Plan, got None"):
         require("a", None, mp.Plan)
     with pytest.raises(TypeError, match="a: must be an EndEffector or None, got a set"):
-        require("a", set(), mp.EndEffector, optional=True)
+        require("a", set(), mp.model.EndEffector, optional=True)
     require("a", standing_plan(), mp.Scene, mp.Plan)
     require("a", None, mp.Plan, optional=True)
 
@@ -94,7 +96,7 @@ def test_the_error_is_a_type_error_as_well():
 def test_numbers_and_paths_are_taken_as_python_takes_them():
     assert [require_number("t", value) for value in (3, 0.5, True)] == [3.0, 0.5, 1.0]
     for value in ("3", b"3", 10**400, 1j, None, [1.0]):
-        with pytest.raises(mp.InvalidArgument, match="t: must be a number"):
+        with pytest.raises(mp.errors.InvalidArgument, match="t: must be a number"):
             require_number("t", value)
     for path in ("a", Path("a")):
         require_or_path("a", path)
@@ -109,5 +111,5 @@ def test_what_cannot_be_shown_is_named_by_its_class():
         def plan(self):
             raise RuntimeError
 
-    with pytest.raises(mp.InvalidArgument, match="a: must be a Plan, got a Hostile"):
+    with pytest.raises(mp.errors.InvalidArgument, match="a: must be a Plan, got a Hostile"):
         require("a", Hostile(), mp.Plan)

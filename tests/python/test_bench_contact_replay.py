@@ -72,11 +72,11 @@ def test_small_errors_of_orientation_add_up_over_the_plan():
 
 def test_moments_of_contacts_turn_both_models():
     """1 N m about the vertical for 0.5 s: 0.5 N m s, of which the tipping plan's knots know nothing."""
-    for law in (mp.ForceLaw.pendulum, mp.ForceLaw.wrench):
+    for law in (mp.model.ForceLaw.pendulum, mp.model.ForceLaw.wrench):
         plan = with_contact(tipping_plan(), 0, 0, moment_W=[0.0, 0.0, 1.0])
         contacts = [contact.__copy__() for contact in plan.phases[0].contacts]
         contacts[0].center_of_pressure_W = contacts[0].anchor_W
-        plan.phases = [mp.Phase(duration=0.5, contacts=contacts, law=law)]
+        plan.phases = [mp.model.Phase(duration=0.5, contacts=contacts, law=law)]
         assert errors(plan).momentum_Nms == pytest.approx(0.5, abs=1e-9)
         assert errors(plan).orientation_deg == pytest.approx(np.rad2deg(0.5 * 0.5**2 / 5.0), abs=1e-7)
 

@@ -21,7 +21,7 @@ def plan_of(scene: str, sequence: list[list[int]], rise_m_s: float = 0.0) -> mp.
     names = [end.name for end in robot.end_effectors]
     assert names == ["right_foot", "left_foot", "right_hand", "left_hand"]
     com_W = np.array([0.0, 0.0, robot.com_height])
-    knot = mp.Knot(
+    knot = mp.model.Knot(
         com_W=com_W,
         com_velocity_W=np.array([0.0, 0.0, rise_m_s]),
         end_effectors_W=[com_W + end.nominal_B for end in robot.end_effectors],
@@ -32,7 +32,10 @@ def plan_of(scene: str, sequence: list[list[int]], rise_m_s: float = 0.0) -> mp.
         scene=model,
         robot=robot,
         knots=[knot] * (len(rows) + 1),
-        phases=[mp.Phase(duration=0.4, contacts=[mp.Contact(surface=surface) for surface in row]) for row in rows],
+        phases=[
+            mp.model.Phase(duration=0.4, contacts=[mp.model.Contact(surface=surface) for surface in row])
+            for row in rows
+        ],
         final_contacts=rows[-1],
     )
 

@@ -49,7 +49,7 @@ def test_a_failure_names_its_seed_and_its_reason():
 def test_a_plan_that_is_called_solved_is_checked_again():
     report = SimpleNamespace(
         status=mp.Status.solved,
-        worst_violation=mp.Violation(),
+        worst_violation=mp.model.Violation(),
         message="",
         cost=1.0,
         iterations=1,
@@ -60,7 +60,9 @@ def test_a_plan_that_is_called_solved_is_checked_again():
     assert bench.judge(bench.Task(), "slope", result).good
     # Nobody carries the robot any more: what was said about the plan is wrong.
     plan = standing_plan()
-    plan.phases = [mp.Phase(duration=p.duration, contacts=[mp.Contact() for _ in p.contacts]) for p in plan.phases]
+    plan.phases = [
+        mp.model.Phase(duration=p.duration, contacts=[mp.model.Contact() for _ in p.contacts]) for p in plan.phases
+    ]
     result.plan = plan
     judged = bench.judge(bench.Task(), "slope", result)
     assert not judged.good and judged.reason.startswith("called solved, but: ")

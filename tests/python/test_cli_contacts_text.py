@@ -23,12 +23,12 @@ def table_plan(phases: int, surfaces: int, names: list[str]) -> mp.Plan:
         end.name = name
         ends.append(end)
     robot.end_effectors = ends
-    scene.surfaces = [mp.Surface(name=f"surface_number_{i}") for i in range(surfaces)]
+    scene.surfaces = [mp.model.Surface(name=f"surface_number_{i}") for i in range(surfaces)]
     rows = [[-1 if k % 5 == 0 else (k + n) % surfaces for n in range(len(names))] for k in range(phases)]
     return mp.Plan(
         scene=scene,
         robot=robot,
-        phases=[mp.Phase(duration=0.4, contacts=[mp.Contact(surface=i) for i in row]) for row in rows],
+        phases=[mp.model.Phase(duration=0.4, contacts=[mp.model.Contact(surface=i) for i in row]) for row in rows],
         final_contacts=[-1] * len(names),
     )
 
@@ -84,7 +84,9 @@ def test_wrapped_lines_hang_under_their_text():
     assert lines[0].startswith("  lead: word_0,") and all(line.startswith(" " * 8 + "word_") for line in lines[1:])
 
 
-def result_of(status: str, worst: mp.Violation, message: str, plan: mp.Plan | None = None) -> types.SimpleNamespace:
+def result_of(
+    status: str, worst: mp.model.Violation, message: str, plan: mp.Plan | None = None
+) -> types.SimpleNamespace:
     """What mcplan.plan returns, made up."""
     report = types.SimpleNamespace(
         status=status, message=message, iterations=20, time_s=0.1, worst_violation=worst, friction_use={}
@@ -94,7 +96,7 @@ def result_of(status: str, worst: mp.Violation, message: str, plan: mp.Plan | No
 
 @pytest.mark.parametrize("status", ["infeasible", "acceptable", "time_limit", "iteration_limit"])
 def test_a_violation_is_told_once(status):
-    worst = mp.Violation(
+    worst = mp.model.Violation(
         name="slip", phase=1, end_effector="left_foot", time_s=0.5, value=0.02, tolerance=1e-3, unit="m"
     )
     text = report_text(result_of(status, worst, f"the best plan violates {worst}"), [])
@@ -102,7 +104,7 @@ def test_a_violation_is_told_once(status):
 
 
 def test_a_margin_within_tolerance_is_not_called_over_the_limit():
-    worst = mp.Violation(name="orientation", phase=1, time_s=0.5, value=0.0017, tolerance=0.0175, unit="rad")
+    worst = mp.model.Violation(name="orientation", phase=1, time_s=0.5, value=0.0017, tolerance=0.0175, unit="rad")
     text = report_text(result_of("solved", worst, "the checker accepts the plan"), [])
     assert "0.0017 rad, within tolerance (0.0175)" in text and "over the limit" not in text
 

@@ -25,7 +25,12 @@ def test_demo_writes_a_plan_a_page_and_a_picture(tmp_path, capsys):
 
 def test_demo_fails_when_a_scene_is_not_solved(tmp_path, monkeypatch, capsys):
     report = SimpleNamespace(
-        status=mp.Status.infeasible, worst_violation=mp.Violation(), cost=1.0, iterations=1, switches=0, time_s=0.1
+        status=mp.Status.infeasible,
+        worst_violation=mp.model.Violation(),
+        cost=1.0,
+        iterations=1,
+        switches=0,
+        time_s=0.1,
     )
     monkeypatch.setattr(mp, "plan", lambda *_, **__: SimpleNamespace(plan=standing_plan(), report=report))
     monkeypatch.setattr(mp, "show", lambda *_, **__: SimpleNamespace(save_html=lambda path: None))
@@ -34,6 +39,8 @@ def test_demo_fails_when_a_scene_is_not_solved(tmp_path, monkeypatch, capsys):
 
 
 def test_the_worst_constraint_is_told_as_a_share_of_its_tolerance():
-    assert margin(mp.Violation()) == "-"
-    violation = mp.Violation(name="reach", phase=3, end_effector="left_foot", value=4.21e-4, tolerance=1e-3, unit="m")
+    assert margin(mp.model.Violation()) == "-"
+    violation = mp.model.Violation(
+        name="reach", phase=3, end_effector="left_foot", value=4.21e-4, tolerance=1e-3, unit="m"
+    )
     assert margin(violation) == "reach at left_foot, phase 3: 0.00042 of 0.001 m"

@@ -61,7 +61,7 @@ def test_names_never_command_the_terminal(hostile, capsys, monkeypatch, tmp_path
 
 
 def test_nor_do_names_in_what_python_prints(hostile):
-    violation = mp.Violation(
+    violation = mp.model.Violation(
         name="reach", phase=0, end_effector=f"foot{ESCAPES}", time_s=0.0, value=1.0, tolerance=0.0, unit="m"
     )
     for text in (repr(hostile), str(violation)):

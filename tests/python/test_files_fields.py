@@ -14,7 +14,7 @@ from mcplan.files.robots import robot_from_dict
 
 def test_keys_of_a_table_under_a_free_name_are_known():
     data = malformed.broken(malformed.ROBOT, ("end_effectors", 0, "partner_reach", "arm", "name_"), "x")
-    with pytest.raises(mp.InvalidRobot) as found:
+    with pytest.raises(mp.errors.InvalidRobot) as found:
         robot_from_dict(data)
     message = "end_effectors[0].partner_reach.arm.name_: no such key. Did you mean 'name'? Keys: A, b, file, name"
     assert str(found.value) == message
@@ -22,7 +22,7 @@ def test_keys_of_a_table_under_a_free_name_are_known():
 
 def test_keys_of_an_optional_table_are_known():
     data = malformed.broken(malformed.ROBOT, ("end_effectors", 0, "com_reach", "flie"), "x")
-    with pytest.raises(mp.InvalidRobot, match=r"com_reach.flie: no such key. Did you mean 'file'\?"):
+    with pytest.raises(mp.errors.InvalidRobot, match=r"com_reach.flie: no such key. Did you mean 'file'\?"):
         robot_from_dict(data)
 
 
@@ -31,7 +31,7 @@ def test_a_key_that_goes_by_another_name_in_python_is_known_by_its_own():
         malformed_planar.ROBOT, ("bodies", 0, "capsules"), [{"form": [0.0, 0.0], "to": [0.1, 0.0], "radius": 0.1}]
     )
     with pytest.raises(
-        mp.InvalidRobot, match=r"capsules\[0\].form: no such key. Did you mean 'from'\? Keys: from, to, radius"
+        mp.errors.InvalidRobot, match=r"capsules\[0\].form: no such key. Did you mean 'from'\? Keys: from, to, radius"
     ):
         planar_robot_from_dict(data)
 

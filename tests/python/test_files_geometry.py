@@ -48,14 +48,14 @@ def write(folder: Path, data: dict, name: str = "scene.toml") -> Path:
 def test_a_stance_far_from_its_surfaces_is_refused(size, field, place, where, tmp_path):
     file = write(tmp_path, floor(size, **{field: {"position": [size * x for x in place], "contacts": {"foot": "a"}}}))
     with pytest.raises(
-        mp.InvalidScene, match=rf"scene.toml: {field}.position: must be a point of the ground .* m {where} 'a'"
+        mp.errors.InvalidScene, match=rf"scene.toml: {field}.position: must be a point of the ground .* m {where} 'a'"
     ):
         load_scene(file)
 
 
 def test_start_and_goal_are_both_named(tmp_path):
     high = {"position": [0.0, 0.0, 2.0], "contacts": {"foot": "a"}}
-    with pytest.raises(mp.InvalidScene) as found:
+    with pytest.raises(mp.errors.InvalidScene) as found:
         load_scene(write(tmp_path, floor(1.0, start=high, goal=high)))
     assert [each.field for each in (found.value, *found.value.others)] == ["start.position", "goal.position"]
     assert {each.source for each in (found.value, *found.value.others)} == {str(tmp_path / "scene.toml")}
@@ -93,7 +93,7 @@ def test_ground_that_faces_down_is_warned_of_and_not_planned_on(tmp_path, capsys
         SuspiciousGeometry, match=r"surfaces\[0\].vertices: faces down, and foot stands on it at the start"
     ):
         scene = load_scene(file)
-    with pytest.raises(mp.InvalidScene, match="start.contacts: must hold the robot up: .* got 'a' faces down"):
+    with pytest.raises(mp.errors.InvalidScene, match="start.contacts: must hold the robot up: .* got 'a' faces down"):
         mp.plan(scene, "humanoid44")
     assert main(["plan", str(file)]) == 2
     lines = capsys.readouterr().err.splitlines()
@@ -116,7 +116,7 @@ def test_a_goal_out_of_a_robots_reach_is_refused_once_the_robot_is_known(tmp_pat
     data = floor(25.0, goal={"position": [1.0, 0.0, 2.0], "contacts": {"foot": "a"}})
     scene = load_scene(write(tmp_path, data))
     with pytest.raises(
-        mp.InvalidScene, match=r"goal.position: must be where humanoid44 reaches .*_foot would stand 2 m off 'a'"
+        mp.errors.InvalidScene, match=r"goal.position: must be where humanoid44 reaches .*_foot would stand 2 m off 'a'"
     ):
         mp.plan(scene, "humanoid44")
 
@@ -176,15 +176,17 @@ def test_plan_and_walk_refuse_a_stance_that_cannot_stand_alike(verb, stance, cha
     scene = load_scene("flat")
     ground = scene.surfaces[0].vertices_W
     scene.surfaces = [
-        mp.Surface(name="ground", vertices_W=ground),
-        mp.Surface(name="ceiling", vertices_W=ground[::-1] + [0.0, 0.0, 0.01]),
+        mp.model.Surface(name="ground", vertices_W=ground),
+        mp.model.Surface(name="ceiling", vertices_W=ground[::-1] + [0.0, 0.0, 0.01]),
     ]
     for place in (scene.start, scene.goal):
         place.contacts = {"foot": "ground"}
-    scene.steps = [mp.Step(end_effector=end.name, surface="ground") for end in load_robot("talos_wang").end_effectors]
+    scene.steps = [
+        mp.model.Step(end_effector=end.name, surface="ground") for end in load_robot("talos_wang").end_effectors
+    ]
     for name, value in changes.items():
         setattr(getattr(scene, stance), name, value)
-    with pytest.raises(mp.InvalidScene, match=message):
+    with pytest.raises(mp.errors.InvalidScene, match=message):
         verb(scene, "talos_wang")
 
 

@@ -58,7 +58,7 @@ def test_the_data_that_are_broken_below_are_valid(tmp_path):
 def test_a_broken_file_is_named_with_field_and_rule(case, tmp_path):
     path, value, field, rule = case
     file = write(tmp_path / "bad.toml", malformed.broken(malformed_planar.MOTION, path, value))
-    with pytest.raises(mp.InvalidMotion) as found:
+    with pytest.raises(mp.errors.InvalidMotion) as found:
         load_motion(file)
     message = str(found.value)
     assert message.startswith(f"{file}: {field}: "), message
@@ -71,15 +71,17 @@ def test_a_broken_robot_in_a_motion_is_named_as_such(case, tmp_path):
     path, value, field, _ = case
     robot = malformed.broken(malformed_planar.ROBOT, path, value)
     file = write(tmp_path / "bad.toml", {**malformed_planar.MOTION, "robot": robot})
-    with pytest.raises(mp.InvalidRobot) as found:
+    with pytest.raises(mp.errors.InvalidRobot) as found:
         load_motion(file)
     assert str(found.value).startswith(f"{file}: robot.{field}: ")
 
 
 def test_unknown_names_list_the_names_that_exist():
-    with pytest.raises(mp.UnknownMotion, match=r"no motion 'walkin' .* Did you mean 'walking'\? Built-in: cartwheel, "):
+    with pytest.raises(
+        mp.errors.UnknownMotion, match=r"no motion 'walkin' .* Did you mean 'walking'\? Built-in: cartwheel, "
+    ):
         load_motion("walkin")
-    with pytest.raises(mp.UnknownRobot, match=r"no robot 'walker' .* Did you mean 'walker9'\?"):
+    with pytest.raises(mp.errors.UnknownRobot, match=r"no robot 'walker' .* Did you mean 'walker9'\?"):
         motion_from_dict({**malformed_planar.MOTION, "robot": "walker"})
 
 

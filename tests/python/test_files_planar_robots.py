@@ -41,7 +41,7 @@ def test_a_broken_file_is_named_with_field_and_rule(case, tmp_path):
     path, value, field, rule = case
     file = tmp_path / "bad.toml"
     file.write_text(toml_text(malformed.broken(malformed_planar.ROBOT, path, value)))
-    with pytest.raises(mp.InvalidRobot) as found:
+    with pytest.raises(mp.errors.InvalidRobot) as found:
         load_planar_robot(file)
     message = str(found.value)
     assert message.startswith(f"{file}: {field}: "), message
@@ -50,7 +50,9 @@ def test_a_broken_file_is_named_with_field_and_rule(case, tmp_path):
 
 
 def test_an_unknown_name_lists_the_planar_robots():
-    with pytest.raises(mp.UnknownRobot, match=r"no robot 'climber' .* Did you mean 'climber9'\? Built-in: climber9, "):
+    with pytest.raises(
+        mp.errors.UnknownRobot, match=r"no robot 'climber' .* Did you mean 'climber9'\? Built-in: climber9, "
+    ):
         load_planar_robot("climber")
 
 

@@ -182,7 +182,7 @@ BROKEN = [
 def test_a_urdf_that_is_no_planar_robot_is_named_with_joint_or_link(described, masses, message, tmp_path):
     file = tmp_path / "bad.urdf"
     file.write_text(urdf_text(described, masses))
-    with pytest.raises(mp.InvalidRobot) as found:
+    with pytest.raises(mp.errors.InvalidRobot) as found:
         planar_robot_from_urdf(file, ENDS)
     assert str(found.value).startswith(f"{file}: {message}")
 
@@ -193,21 +193,23 @@ def test_a_urdf_that_is_no_planar_robot_is_named_with_joint_or_link(described, m
 )
 def test_a_file_that_is_no_urdf_is_named(text, message, tmp_path):
     (tmp_path / "bad.urdf").write_text(text)
-    with pytest.raises(mp.InvalidRobot, match=f"bad.urdf: {message}"):
+    with pytest.raises(mp.errors.InvalidRobot, match=f"bad.urdf: {message}"):
         planar_robot_from_urdf(tmp_path / "bad.urdf", ENDS)
-    with pytest.raises(mp.InvalidRobot, match="none.urdf: cannot be read"):
+    with pytest.raises(mp.errors.InvalidRobot, match="none.urdf: cannot be read"):
         planar_robot_from_urdf(tmp_path / "none.urdf", ENDS)
 
 
 def test_end_effectors_must_be_links_that_stand_in_the_plane(tmp_path):
     (tmp_path / "half.urdf").write_text(urdf_text(changed("wrist", rpy="0.3 0 0")))
     with pytest.raises(
-        mp.InvalidRobot, match=r"end_effectors.foot: must name a link of the URDF. Did you mean 'sole'\?"
+        mp.errors.InvalidRobot, match=r"end_effectors.foot: must name a link of the URDF. Did you mean 'sole'\?"
     ):
         planar_robot_from_urdf(tmp_path / "half.urdf", [PlanarEnd("foot", "soles")])
-    with pytest.raises(mp.InvalidRobot, match="end_effectors.hand: must name a link whose z axis lies in the plane"):
+    with pytest.raises(
+        mp.errors.InvalidRobot, match="end_effectors.hand: must name a link whose z axis lies in the plane"
+    ):
         planar_robot_from_urdf(tmp_path / "half.urdf", ENDS)
-    with pytest.raises(mp.InvalidRobot, match="end_effectors: needs one at least"):
+    with pytest.raises(mp.errors.InvalidRobot, match="end_effectors: needs one at least"):
         planar_robot_from_urdf(tmp_path / "half.urdf", [])
 
 

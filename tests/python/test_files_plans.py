@@ -71,7 +71,7 @@ def test_a_damaged_plan_in_json_is_named_with_its_file(plan, tmp_path):
     file = tmp_path / "plan.json"
     plan.save(file)
     file.write_text(re.sub('"gravity": [0-9.]+', '"gravity": "x"', file.read_text()))
-    with pytest.raises(mp.InvalidPlan) as found:
+    with pytest.raises(mp.errors.InvalidPlan) as found:
         mp.Plan.load(file)
     assert str(found.value) == f"{file}: scene.gravity: must be a number, got 'x'"
 
@@ -80,7 +80,7 @@ def test_a_plan_in_json_has_each_key_once(plan, tmp_path):
     file = tmp_path / "plan.json"
     plan.save(file)
     file.write_text(re.sub(r'("gravity": [0-9.]+)', r"\1, \1", file.read_text()))
-    with pytest.raises(mp.InvalidPlan, match="must be JSON, got the key 'gravity' twice"):
+    with pytest.raises(mp.errors.InvalidPlan, match="must be JSON, got the key 'gravity' twice"):
         mp.Plan.load(file)
 
 
@@ -147,7 +147,7 @@ def test_an_invalid_plan_is_not_saved(plan, tmp_path):
     target = tmp_path / "plan.npz"
     target.write_text("old")
     plan.knots[1].com_W[0] = np.nan
-    with pytest.raises(mp.InvalidPlan, match=r"knots\[1\]"):
+    with pytest.raises(mp.errors.InvalidPlan, match=r"knots\[1\]"):
         plan.save(target)
     assert target.read_text() == "old"
     assert [path.name for path in tmp_path.iterdir()] == ["plan.npz"]
@@ -157,7 +157,7 @@ def test_every_truncation_is_rejected(plan, tmp_path):
     data = plan_to_bytes(plan)
     for length in [0, 1, 100, *range(0, len(data), len(data) // 40), len(data) - 1]:
         (tmp_path / "cut.npz").write_bytes(data[:length])
-        with pytest.raises(mp.InvalidPlan, match=r"cut.npz: must be an .npz file written by mcplan"):
+        with pytest.raises(mp.errors.InvalidPlan, match=r"cut.npz: must be an .npz file written by mcplan"):
             load_plan(tmp_path / "cut.npz")
 
 
@@ -171,7 +171,7 @@ def test_flipped_bytes_never_crash(plan, tmp_path):
         (tmp_path / "bad.npz").write_bytes(damaged)
         try:
             load_plan(tmp_path / "bad.npz")  # a flip may hit bytes that nobody reads
-        except mp.InvalidPlan as found:
+        except mp.errors.InvalidPlan as found:
             assert "bad.npz: " in str(found)
 
 
@@ -262,7 +262,7 @@ def test_damaged_forces_at_points_are_named(damage, tmp_path):
     arrays = arrays_of(plan_to_bytes(stepping_plan()))
     change(arrays)
     (tmp_path / "bad.npz").write_bytes(bytes_of(arrays))
-    with pytest.raises(mp.InvalidPlan, match=message) as found:
+    with pytest.raises(mp.errors.InvalidPlan, match=message) as found:
         load_plan(tmp_path / "bad.npz")
     assert str(found.value).startswith(str(tmp_path / "bad.npz"))
 
@@ -307,7 +307,7 @@ def test_damaged_contact_wrenches_are_named(damage, tmp_path):
     arrays = arrays_of(plan_to_bytes(turning_plan()))
     change(arrays)
     (tmp_path / "bad.npz").write_bytes(bytes_of(arrays))
-    with pytest.raises(mp.InvalidPlan, match=message) as found:
+    with pytest.raises(mp.errors.InvalidPlan, match=message) as found:
         load_plan(tmp_path / "bad.npz")
     assert str(found.value).startswith(str(tmp_path / "bad.npz"))
 
@@ -340,14 +340,14 @@ def test_a_plan_is_written_in_the_least_format_that_holds_it(plan):
     spinning.knots[1].angular_momentum_W = [0.0, 0.0, 1.0]
     assert [format_of(headed), format_of(pressed), format_of(spinning)] == [3, 3, 2]
     again = plan_from_bytes(plan_to_bytes(headed))
-    assert again.knots[2].end_effector_yaw == (0.0, 0.0, 0.0, 0.0) and again.phases[0].law == mp.ForceLaw.pendulum
+    assert again.knots[2].end_effector_yaw == (0.0, 0.0, 0.0, 0.0) and again.phases[0].law == mp.model.ForceLaw.pendulum
     assert plan_from_bytes(plan_to_bytes(pressed)).phases[0].contacts[0].center_of_pressure_W.tolist() == [0, -0.1, 0]
 
 
 def test_a_plan_with_a_heading_for_some_soles_alone_is_not_saved(tmp_path):
     plan = turning_plan()
     plan.knots[2].end_effector_yaw = [0.0, 0.0]
-    with pytest.raises(mp.InvalidPlan, match=r"knots\[2\].end_effector_yaw: must be one per end-effector"):
+    with pytest.raises(mp.errors.InvalidPlan, match=r"knots\[2\].end_effector_yaw: must be one per end-effector"):
         plan.save(tmp_path / "plan.npz")
 
 
@@ -366,7 +366,7 @@ def test_damaged_content_is_named(damage, plan, tmp_path):
     arrays = arrays_of(plan_to_bytes(plan))
     change(arrays)
     (tmp_path / "bad.npz").write_bytes(bytes_of(arrays))
-    with pytest.raises(mp.InvalidPlan, match=message) as found:
+    with pytest.raises(mp.errors.InvalidPlan, match=message) as found:
         load_plan(tmp_path / "bad.npz")
     assert str(found.value).startswith(str(tmp_path / "bad.npz"))
 
@@ -379,7 +379,7 @@ def test_pickles_in_a_plan_file_are_never_run(plan, tmp_path):
     arrays = arrays_of(plan_to_bytes(plan))
     arrays["com_W"] = np.array([Bomb()], dtype=object)
     (tmp_path / "bad.npz").write_bytes(bytes_of(arrays))
-    with pytest.raises(mp.InvalidPlan):
+    with pytest.raises(mp.errors.InvalidPlan):
         load_plan(tmp_path / "bad.npz")
     assert not (tmp_path / "run").exists()
 

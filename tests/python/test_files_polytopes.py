@@ -52,14 +52,14 @@ def test_a_reference_is_replaced_by_what_it_names(file):
 )
 def test_a_malformed_file_is_named(content, message, file):
     (file.parent / "reach.json").write_text(content)
-    with pytest.raises(mp.InvalidRobot) as found:
+    with pytest.raises(mp.errors.InvalidRobot) as found:
         load_robot(file)
     assert message in str(found.value)
 
 
 def test_plain_data_name_no_files():
     data = malformed.broken(malformed.ROBOT, ("end_effectors", 0, "com_reach"), REFERENCE)
-    with pytest.raises(mp.InvalidRobot, match=r"com_reach.file: may be used in files alone"):
+    with pytest.raises(mp.errors.InvalidRobot, match=r"com_reach.file: may be used in files alone"):
         robot_from_dict(data)
 
 

@@ -12,7 +12,7 @@ from mcplan.files.urdf import limb_of
 from mcplan.files.urdf_setups import SETUPS
 
 
-def holds(polytope: mp.Polytope, points: np.ndarray, slack: float = 0.0) -> np.ndarray:
+def holds(polytope: mp.model.Polytope, points: np.ndarray, slack: float = 0.0) -> np.ndarray:
     return (points @ polytope.A.T <= polytope.b + slack).all(axis=1)
 
 
@@ -76,7 +76,7 @@ def test_seven_in_ten_points_are_reached_with_a_level_sole(talos):
     assert len(reached) == 50 and np.mean(reached) >= 0.7
 
 
-def overlap(one: mp.Polytope, other: mp.Polytope, low: float, high: float) -> tuple[float, float]:
+def overlap(one: mp.model.Polytope, other: mp.model.Polytope, low: float, high: float) -> tuple[float, float]:
     """Volume that two sets share in a band of heights, over that of each."""
     points = np.random.default_rng(0).uniform([-1, -1, low], [1, 1, high], (200_000, 3))
     a, b = holds(one, points), holds(other, points)

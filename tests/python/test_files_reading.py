@@ -74,7 +74,7 @@ def test_what_is_no_regular_file_is_refused_without_waiting_for_it(load, kind, t
 def test_a_file_above_the_limit_is_refused_before_it_is_read(tmp_path):
     with (tmp_path / "large.toml").open("wb") as file:
         file.truncate(200 * MOST_TOML)  # a hole: it takes no place on the disk
-    with pytest.raises(mp.InvalidScene, match=r"large.toml: may have 2 MiB at most, got 419430400 bytes"):
+    with pytest.raises(mp.errors.InvalidScene, match=r"large.toml: may have 2 MiB at most, got 419430400 bytes"):
         load_scene(tmp_path / "large.toml")
 
 
@@ -107,7 +107,7 @@ def test_polytopes_lie_beside_the_robot_or_below(name, tmp_path):
     (folder / "link.json").symlink_to(tmp_path / "reach.json")
     (folder / "loop.json").symlink_to(folder / "loop.json")
     os.mkfifo(folder / "pipe")
-    with pytest.raises(mp.InvalidRobot) as found:
+    with pytest.raises(mp.errors.InvalidRobot) as found:
         load_robot(file)
     assert found.value.field == "end_effectors[0].com_reach.file" and found.value.source == str(file)
 
@@ -149,7 +149,7 @@ def test_a_working_directory_that_is_gone_is_no_crash(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path / "gone")
     (tmp_path / "gone").rmdir()
     assert load_robot(file).end_effectors[0].com_reach.given
-    with pytest.raises(mp.UnknownRobot):
+    with pytest.raises(mp.errors.UnknownRobot):
         load_robot("robot.toml")
 
 
@@ -158,7 +158,9 @@ def test_a_urdf_elsewhere_is_refused(urdf, tmp_path):
     file = robot_file(tmp_path / "robots", urdf=urdf)
     (tmp_path / "my.urdf").write_text("<robot/>")
     (tmp_path / "robots" / "link.urdf").symlink_to(tmp_path / "my.urdf")
-    with pytest.raises(mp.InvalidRobot, match="urdf: must lie in the folder of the file that names it, or below"):
+    with pytest.raises(
+        mp.errors.InvalidRobot, match="urdf: must lie in the folder of the file that names it, or below"
+    ):
         load_robot(file)
 
 
@@ -167,7 +169,7 @@ def test_a_motion_names_robots_beside_it_alone(tmp_path):
     (tmp_path / "sub").mkdir()
     (tmp_path / "sub" / "motion.toml").write_text(text)
     (tmp_path / "robot.toml").write_text("")
-    with pytest.raises(mp.InvalidMotion, match="motion.toml: robot: must lie in the folder"):
+    with pytest.raises(mp.errors.InvalidMotion, match="motion.toml: robot: must lie in the folder"):
         mp.load_motion(tmp_path / "sub" / "motion.toml")
 
 
@@ -178,7 +180,7 @@ def test_a_motion_whose_robot_is_no_regular_file_is_named(name, tmp_path):
         toml_text({"robot": name, "surfaces": [{"name": "a"}], "phases": [{"lift": ["x"]}]})
     )
     with pytest.raises(
-        mp.InvalidMotion, match="motion.toml: robot: (must be a regular file|cannot be read: Is a directory)"
+        mp.errors.InvalidMotion, match="motion.toml: robot: (must be a regular file|cannot be read: Is a directory)"
     ):
         mp.load_motion(tmp_path / "motion.toml")
 
@@ -243,7 +245,7 @@ def claiming(shape: str, descr: str = "'<f8'", fortran: str = "False") -> bytes:
     ],
 )
 def test_an_array_is_what_is_there_and_not_what_it_claims(content, message):
-    with pytest.raises(mp.InvalidPlan, match=message):
+    with pytest.raises(mp.errors.InvalidPlan, match=message):
         read_arrays(bytes_of({"a.npy": content}))
 
 
@@ -251,7 +253,7 @@ def test_arrays_that_inflate_beyond_the_limit_are_refused_before_they_do():
     zeros = array_bytes(np.zeros(2**20))
     data = bytes_of({f"{i}.npy": zeros for i in range(3)})
     assert len(data) < 100_000
-    with pytest.raises(mp.InvalidPlan, match="may have 16 MiB at most when inflated, got 25166208 bytes"):
+    with pytest.raises(mp.errors.InvalidPlan, match="may have 16 MiB at most when inflated, got 25166208 bytes"):
         read_arrays(data, 16 * 2**20)
     assert len(read_arrays(data, 32 * 2**20)) == 3
 
@@ -260,19 +262,19 @@ def test_a_member_that_inflates_further_than_it_says_is_damaged():
     data = bytearray(bytes_of({"a.npy": array_bytes(np.zeros(2**20))}))
     entry = data.rfind(b"PK\x01\x02")
     data[entry + 24 : entry + 28] = (1000).to_bytes(4, "little")
-    with pytest.raises(mp.InvalidPlan):
+    with pytest.raises(mp.errors.InvalidPlan):
         read_arrays(bytes(data))
 
 
 def test_few_arrays_make_an_archive():
-    with pytest.raises(mp.InvalidPlan, match="may have 64 arrays at most"):
+    with pytest.raises(mp.errors.InvalidPlan, match="may have 64 arrays at most"):
         read_arrays(bytes_of({f"{i}.npy": claiming("(2,)") for i in range(65)}))
-    with pytest.raises(mp.InvalidPlan, match="may have 64 arrays at most, got a directory of"):
+    with pytest.raises(mp.errors.InvalidPlan, match="may have 64 arrays at most, got a directory of"):
         read_arrays(bytes_of({f"{i}": b"" for i in range(5000)}))
 
 
 def test_other_compressions_are_refused():
-    with pytest.raises(mp.InvalidPlan, match="a.npy: must be stored or deflated, got 14"):
+    with pytest.raises(mp.errors.InvalidPlan, match="a.npy: must be stored or deflated, got 14"):
         read_arrays(bytes_of({"a.npy": claiming("(2,)")}, zipfile.ZIP_LZMA))
 
 
@@ -280,7 +282,7 @@ def test_other_compressions_are_refused():
 def test_halves_of_characters_are_no_text(text):
     from mcplan.files.archives import read_header
 
-    with pytest.raises(mp.InvalidPlan, match="must be text") as found:
+    with pytest.raises(mp.errors.InvalidPlan, match="must be text") as found:
         read_header({"header": np.frombuffer(text.encode(), dtype=np.uint8)})
     assert str(found.value).isprintable()
 
@@ -292,7 +294,7 @@ from mcplan.files.whole_body_plans import load_any_plan, load_whole_body_plan
 before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 try:
     load_any_plan(sys.argv[1])
-except mp.InvalidPlan as found:
+except mp.errors.InvalidPlan as found:
     print(found)
 print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
 """
@@ -325,7 +327,7 @@ def test_a_plan_that_could_not_be_read_again_is_not_written(tmp_path):
     plan = standing_plan()
     plan.phases = [plan.phases[0]] * (MOST_PHASES + 1)
     plan.knots = [plan.knots[0]] * (MOST_PHASES + 2)
-    with pytest.raises(mp.InvalidPlan, match="phases: may be 10000 at most, got 10001"):
+    with pytest.raises(mp.errors.InvalidPlan, match="phases: may be 10000 at most, got 10001"):
         plan.save(tmp_path / "long.npz")
     assert not (tmp_path / "long.npz").exists()
 
@@ -351,7 +353,7 @@ def test_no_text_makes_an_error_while_an_error_is_made(line, message, tmp_path):
     (tmp_path / "bad.toml").write_text(
         line + "\n" + toml_text(malformed.broken(malformed.SCENE, ("gravity",), malformed.DELETE))
     )
-    with pytest.raises(mp.InvalidScene) as found:
+    with pytest.raises(mp.errors.InvalidScene) as found:
         load_scene(tmp_path / "bad.toml")
     assert message.replace("\\\\", "\\") in str(found.value) and all(
         x.isprintable() for x in str(found.value).splitlines()
@@ -378,7 +380,7 @@ def test_a_misspelt_required_key_is_named_once(wrong, right, tmp_path):
     data = malformed.broken(malformed.SCENE, ("surfaces", 0, right), malformed.DELETE)
     data["surfaces"][0][wrong] = malformed.SCENE["surfaces"][0][right]
     (tmp_path / "bad.toml").write_text(toml_text(data))
-    with pytest.raises(mp.InvalidScene) as found:
+    with pytest.raises(mp.errors.InvalidScene) as found:
         load_scene(tmp_path / "bad.toml")
     assert str(found.value).startswith(
         f"{tmp_path / 'bad.toml'}: surfaces[0].{wrong}: no such key. Did you mean '{right}'? Keys: "
@@ -389,7 +391,7 @@ def test_a_misspelt_required_key_is_named_once(wrong, right, tmp_path):
 def test_legal_keys_of_a_table_are_listed_once(tmp_path):
     data = {**malformed.SCENE, "gravitiy": 9.8, "zzz": 1, "nmae": "x"}
     (tmp_path / "bad.toml").write_text(toml_text(data))
-    with pytest.raises(mp.InvalidScene) as found:
+    with pytest.raises(mp.errors.InvalidScene) as found:
         load_scene(tmp_path / "bad.toml")
     first, *others = (line.removeprefix(f"{tmp_path / 'bad.toml'}: ") for line in str(found.value).splitlines())
     assert first.startswith("gravitiy: no such key. Did you mean 'gravity'? Keys: name, ")
@@ -405,7 +407,7 @@ def test_twenty_findings_are_listed_and_the_rest_is_counted(tmp_path):
         ],
     }
     (tmp_path / "bad.toml").write_text(toml_text(data))
-    with pytest.raises(mp.InvalidScene) as found:
+    with pytest.raises(mp.errors.InvalidScene) as found:
         load_scene(tmp_path / "bad.toml")
     lines = str(found.value).splitlines()
     assert len(lines) == 21 and lines[-1] == "and 50 more" and len(found.value.others) == 69

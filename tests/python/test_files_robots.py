@@ -33,7 +33,7 @@ def test_a_broken_robot_file_is_named_with_field_and_rule(case, tmp_path):
     path, value, field, rule = case
     file = tmp_path / "bad.toml"
     file.write_text(toml_text(malformed.broken(malformed.ROBOT, path, value)))
-    with pytest.raises(mp.InvalidRobot) as found:
+    with pytest.raises(mp.errors.InvalidRobot) as found:
         load_robot(file)
     message = str(found.value)
     assert message.startswith(f"{file}: {field}"), message
@@ -42,7 +42,9 @@ def test_a_broken_robot_file_is_named_with_field_and_rule(case, tmp_path):
 
 
 def test_an_unknown_name_lists_the_names_that_exist():
-    with pytest.raises(mp.UnknownRobot, match=r"no robot 'talus' and no file of that name. Did you mean 'talos'\?"):
+    with pytest.raises(
+        mp.errors.UnknownRobot, match=r"no robot 'talus' and no file of that name. Did you mean 'talos'\?"
+    ):
         load_robot("talus")
 
 
@@ -164,6 +166,6 @@ def test_a_plan_keeps_phase_durations_and_sole_support_of_its_robot(tmp_path):
 def test_a_robot_made_in_python_is_held_to_the_same_ranges(field, value, rule):
     robot = load_robot("humanoid44")
     setattr(robot, field.split("[")[0], value)
-    with pytest.raises(mp.InvalidRobot, match=rule) as found:
+    with pytest.raises(mp.errors.InvalidRobot, match=rule) as found:
         robot.validate()
     assert found.value.field == field

@@ -38,7 +38,7 @@ def test_the_data_that_are_broken_below_are_valid(tmp_path):
 def test_a_broken_scene_file_is_named_with_field_and_rule(case, tmp_path):
     path, value, field, rule = case
     file = write(tmp_path / "bad.toml", malformed.broken(malformed.SCENE, path, value))
-    with pytest.raises(mp.InvalidScene) as found:
+    with pytest.raises(mp.errors.InvalidScene) as found:
         load_scene(file)
     message = str(found.value)
     assert message.startswith(f"{file}: {field}"), message
@@ -51,19 +51,19 @@ def test_a_broken_scene_file_is_named_with_field_and_rule(case, tmp_path):
 def test_a_file_that_is_no_scene_at_all_is_named(content, rule, tmp_path):
     file = tmp_path / "bad.toml"
     file.write_bytes(content)
-    with pytest.raises(mp.InvalidScene) as found:
+    with pytest.raises(mp.errors.InvalidScene) as found:
         load_scene(file)
     assert str(found.value).startswith(f"{file}: {rule}")
 
 
 def test_a_folder_is_not_a_scene(tmp_path):
-    with pytest.raises(mp.InvalidScene, match="cannot be read: Is a directory"):
+    with pytest.raises(mp.errors.InvalidScene, match="cannot be read: Is a directory"):
         load_scene(tmp_path)
 
 
 @pytest.mark.parametrize("name", ["stares", "stares.toml", "", "x" * 5000, "a\0b"])
 def test_an_unknown_name_lists_the_names_that_exist(name):
-    with pytest.raises(mp.UnknownScene) as found:
+    with pytest.raises(mp.errors.UnknownScene) as found:
         load_scene(name)
     assert "Built-in: chimney, flat, gap, " in str(found.value)
     assert ("Did you mean 'stairs'?" in str(found.value)) == (name == "stares")
@@ -180,7 +180,7 @@ def scenes(draw):
         circle = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1) * rng.uniform(0.05, 5.0)
         turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
         surfaces.append(
-            mp.Surface(
+            mp.model.Surface(
                 name=name,
                 vertices_W=circle @ turn.T + rng.uniform(-10, 10, 3),
                 friction=draw(st.floats(1e-3, 2.0)),
@@ -190,14 +190,16 @@ def scenes(draw):
             )
         )
     stances = [
-        mp.Stance(
+        mp.model.Stance(
             position_W=draw(st.tuples(coordinates, coordinates, coordinates)),
             yaw=draw(st.floats(-6.28, 6.28)),
             contacts={draw(names): draw(st.sampled_from([s.name for s in surfaces]))},
         )
         for _ in range(2)
     ]
-    rules = draw(st.lists(st.builds(mp.ContactRule, when_free=st.just(["foot"]), require=st.lists(names, min_size=1))))
+    rules = draw(
+        st.lists(st.builds(mp.model.ContactRule, when_free=st.just(["foot"]), require=st.lists(names, min_size=1)))
+    )
     return mp.Scene(
         name=draw(names),
         description=draw(st.text(st.characters(codec="utf-8"), max_size=20)),
@@ -207,7 +209,8 @@ def scenes(draw):
         goal=stances[1],
         rules=rules,
         steps=[
-            mp.Step(end_effector=draw(names), surface=surface.name) for surface in surfaces[: draw(st.integers(0, 4))]
+            mp.model.Step(end_effector=draw(names), surface=surface.name)
+            for surface in surfaces[: draw(st.integers(0, 4))]
         ],
     )
 
@@ -244,5 +247,5 @@ def test_a_scaled_scene_has_all_its_lengths_scaled_and_nothing_else(name):
 
 @pytest.mark.parametrize("factor", [0.0, -1.0, float("nan"), float("inf")])
 def test_a_scene_is_scaled_by_positive_numbers_only(factor):
-    with pytest.raises(mp.InvalidOptions, match="scale: must be a positive number"):
+    with pytest.raises(mp.errors.InvalidOptions, match="scale: must be a positive number"):
         scaled(load_scene("flat"), factor)

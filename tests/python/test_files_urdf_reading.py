@@ -99,16 +99,16 @@ BAD = {
 def test_what_is_no_robot_is_refused_before_pinocchio_sees_it(name, tmp_path):
     text, message = BAD[name]
     (tmp_path / "bad.urdf").write_text(text)
-    with pytest.raises(mp.InvalidRobot, match=f"bad.urdf: {message}"):
-        read_urdf(tmp_path / "bad.urdf", mp.InvalidRobot)
+    with pytest.raises(mp.errors.InvalidRobot, match=f"bad.urdf: {message}"):
+        read_urdf(tmp_path / "bad.urdf", mp.errors.InvalidRobot)
 
 
 def test_all_findings_are_said(tmp_path):
     (tmp_path / "bad.urdf").write_text(
         BAD["negative"][0].replace("</robot>", joint("j", "a", "c", inside="") + "</robot>")
     )
-    with pytest.raises(mp.InvalidRobot) as found:
-        read_urdf(tmp_path / "bad.urdf", mp.InvalidRobot)
+    with pytest.raises(mp.errors.InvalidRobot) as found:
+        read_urdf(tmp_path / "bad.urdf", mp.errors.InvalidRobot)
     assert len(str(found.value).splitlines()) == 2
 
 
@@ -165,7 +165,7 @@ def test_meshes_are_regular_files_of_the_robots_package(mesh, message, tmp_path)
     for path, size in ((folder / "large.stl", 2**30), (tmp_path / "outside.stl", 1), (folder / "notes.txt", 1)):
         with path.open("wb") as made:
             made.truncate(size)
-    with pytest.raises(mp.InvalidRobot, match=f"arm: urdf: must be a readable URDF, got .*{message}"):
+    with pytest.raises(mp.errors.InvalidRobot, match=f"arm: urdf: must be a readable URDF, got .*{message}"):
         load_model(body)
 
 

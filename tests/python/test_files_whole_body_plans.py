@@ -85,7 +85,7 @@ def test_all_that_is_wrong_with_a_plan_in_json_is_named_with_its_file(plan, tmp_
     data["motion"]["phases"][0]["min_duration"] = "-inf"
     data["durations"][1] = 0.0
     file.write_text(json.dumps(data))
-    with pytest.raises(mp.InvalidPlan) as found:
+    with pytest.raises(mp.errors.InvalidPlan) as found:
         mp.PlanarPlan.load(file)
     assert str(found.value).splitlines() == [
         f"{file}: motion.robot.gravity: must be a number, got 'x'",
@@ -115,7 +115,7 @@ def test_an_invalid_plan_is_not_saved(plan, tmp_path):
     target = tmp_path / "plan.npz"
     target.write_text("old")
     plan.control_points[1, 1] = np.nan
-    with pytest.raises(mp.InvalidPlan, match="control_points"):
+    with pytest.raises(mp.errors.InvalidPlan, match="control_points"):
         plan.save(target)
     assert target.read_text() == "old"
     assert [path.name for path in tmp_path.iterdir()] == ["plan.npz"]
@@ -126,7 +126,7 @@ def test_every_truncation_is_rejected(plan, tmp_path):
     for length in [0, 1, 100, *range(0, len(data), len(data) // 40), len(data) - 1]:
         (tmp_path / "cut.npz").write_bytes(data[:length])
         for load in (load_whole_body_plan, load_any_plan):
-            with pytest.raises(mp.InvalidPlan, match=r"cut.npz: must be an .npz file written by mcplan"):
+            with pytest.raises(mp.errors.InvalidPlan, match=r"cut.npz: must be an .npz file written by mcplan"):
                 load(tmp_path / "cut.npz")
 
 
@@ -139,7 +139,7 @@ def test_flipped_bytes_never_crash(plan, tmp_path):
         (tmp_path / "bad.npz").write_bytes(damaged)
         try:
             load_whole_body_plan(tmp_path / "bad.npz")  # a flip may hit bytes that nobody reads
-        except mp.InvalidPlan as found:
+        except mp.errors.InvalidPlan as found:
             assert "bad.npz: " in str(found)
 
 
@@ -232,7 +232,7 @@ def test_damaged_content_is_named(damage, plan, tmp_path):
     arrays = arrays_of(plan_to_bytes(plan))
     change(arrays)
     (tmp_path / "bad.npz").write_bytes(bytes_of(arrays))
-    with pytest.raises(mp.InvalidPlan, match=message) as found:
+    with pytest.raises(mp.errors.InvalidPlan, match=message) as found:
         load_whole_body_plan(tmp_path / "bad.npz")
     assert str(found.value).startswith(str(tmp_path / "bad.npz"))
 
@@ -240,7 +240,7 @@ def test_damaged_content_is_named(damage, plan, tmp_path):
 def test_forces_of_the_wrong_shape_are_named():
     arrays = arrays_of(plan_to_bytes(given_forces()))
     arrays["force_polynomials"] = arrays["force_polynomials"][:3]
-    with pytest.raises(mp.InvalidPlan, match=r"force_polynomials: must have shape \(4, 208\), got \(3, 208\)"):
+    with pytest.raises(mp.errors.InvalidPlan, match=r"force_polynomials: must have shape \(4, 208\), got \(3, 208\)"):
         plan_from_bytes(bytes_of(arrays))
 
 
@@ -249,9 +249,11 @@ def test_files_of_the_two_kinds_are_told_apart(plan, tmp_path):
     standing_plan().save(tmp_path / "centroidal.npz")
     assert isinstance(load_any_plan(tmp_path / "whole.npz"), mp.PlanarPlan)
     assert isinstance(load_any_plan(tmp_path / "centroidal.npz"), mp.Plan)
-    with pytest.raises(mp.InvalidPlan, match="header.kind: must be 'whole_body', got None"):
+    with pytest.raises(mp.errors.InvalidPlan, match="header.kind: must be 'whole_body', got None"):
         mp.PlanarPlan.load(tmp_path / "centroidal.npz")
-    with pytest.raises(mp.InvalidPlan, match="header.kind: must be none: a plan of contacts and CoM, got 'whole_body'"):
+    with pytest.raises(
+        mp.errors.InvalidPlan, match="header.kind: must be none: a plan of contacts and CoM, got 'whole_body'"
+    ):
         mp.Plan.load(tmp_path / "whole.npz")
     with pytest.raises(FileNotFoundError):
         load_any_plan(tmp_path / "none.npz")
@@ -259,9 +261,13 @@ def test_files_of_the_two_kinds_are_told_apart(plan, tmp_path):
     standing_plan().save(tmp_path / "centroidal.json")
     assert isinstance(load_any_plan(tmp_path / "whole.json"), mp.PlanarPlan)
     assert isinstance(load_any_plan(tmp_path / "centroidal.json"), mp.Plan)
-    with pytest.raises(mp.InvalidPlan, match="kind: must be 'planar_plan': a plan of a planar robot, got 'plan'"):
+    with pytest.raises(
+        mp.errors.InvalidPlan, match="kind: must be 'planar_plan': a plan of a planar robot, got 'plan'"
+    ):
         mp.PlanarPlan.load(tmp_path / "centroidal.json")
-    with pytest.raises(mp.InvalidPlan, match="kind: must be 'plan': a plan of contacts and CoM, got 'planar_plan'"):
+    with pytest.raises(
+        mp.errors.InvalidPlan, match="kind: must be 'plan': a plan of contacts and CoM, got 'planar_plan'"
+    ):
         mp.Plan.load(tmp_path / "whole.json")
 
 

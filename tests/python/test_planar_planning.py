@@ -184,22 +184,52 @@ def test_enumerations_are_read_with_dashes_too():
 
 
 WRONG = [
-    ("cartweel", {}, mp.UnknownMotion, "Did you mean 'cartwheel'"),
-    ("cartwheel", {"minimise": "energy"}, mp.InvalidOptions, "minimise: must be one of torque, time, none, got 'energ"),
-    ("cartwheel", {"minimise": "torque", "dynamics": False}, mp.InvalidOptions, "minimise: must be time or none with"),
-    ("cartwheel", {"forces": "most"}, mp.InvalidOptions, "forces: must be one of uniform, per_body, per_point, param"),
-    ("cartwheel", {"contact": "glue"}, mp.InvalidOptions, "contact: must be one of tube, band, strict, got 'glue'"),
-    ("cartwheel", {"free_flyer": "no"}, mp.InvalidOptions, "free_flyer: must be one of computed, parameterised"),
-    ("cartwheel", {"continuous": "no"}, mp.InvalidOptions, "continuous: must be one of hull, extremum, grid, got"),
-    ("cartwheel", {"order": 2}, mp.InvalidOptions, r"order: must lie in \[3, 12\], got 2"),
-    ("cartwheel", {"order": 7.5}, mp.InvalidOptions, "order: must be of type int, got 7.5"),
-    ("cartwheel", {"neq": 9}, mp.InvalidOptions, r"neq: must lie in \[0, order\], got 9"),
-    ("cartwheel", {"tube_m": 0.0}, mp.InvalidOptions, "tube_m: must be a positive number, got 0"),
-    ("cartwheel", {"time_limit": -1}, mp.InvalidOptions, "time_limit_s: must be a positive number, got -1"),
-    ("cartwheel", {"tube": 1e-3}, mp.InvalidOptions, "tube: no such option. Did you mean 'tube_m'"),
-    ("cartwheel", {"total_duration_s": (2, 1)}, mp.InvalidOptions, "total_duration_s: must be two positive numbers"),
-    ("cartwheel", {"certify": True, "dynamics": False}, mp.InvalidOptions, "certify: needs dynamics"),
-    ("cartwheel", {"certify": True, "torque_limits": False}, mp.InvalidOptions, "certify: needs torque_limits"),
+    ("cartweel", {}, mp.errors.UnknownMotion, "Did you mean 'cartwheel'"),
+    (
+        "cartwheel",
+        {"minimise": "energy"},
+        mp.errors.InvalidOptions,
+        "minimise: must be one of torque, time, none, got 'energ",
+    ),
+    (
+        "cartwheel",
+        {"minimise": "torque", "dynamics": False},
+        mp.errors.InvalidOptions,
+        "minimise: must be time or none with",
+    ),
+    (
+        "cartwheel",
+        {"forces": "most"},
+        mp.errors.InvalidOptions,
+        "forces: must be one of uniform, per_body, per_point, param",
+    ),
+    (
+        "cartwheel",
+        {"contact": "glue"},
+        mp.errors.InvalidOptions,
+        "contact: must be one of tube, band, strict, got 'glue'",
+    ),
+    ("cartwheel", {"free_flyer": "no"}, mp.errors.InvalidOptions, "free_flyer: must be one of computed, parameterised"),
+    (
+        "cartwheel",
+        {"continuous": "no"},
+        mp.errors.InvalidOptions,
+        "continuous: must be one of hull, extremum, grid, got",
+    ),
+    ("cartwheel", {"order": 2}, mp.errors.InvalidOptions, r"order: must lie in \[3, 12\], got 2"),
+    ("cartwheel", {"order": 7.5}, mp.errors.InvalidOptions, "order: must be of type int, got 7.5"),
+    ("cartwheel", {"neq": 9}, mp.errors.InvalidOptions, r"neq: must lie in \[0, order\], got 9"),
+    ("cartwheel", {"tube_m": 0.0}, mp.errors.InvalidOptions, "tube_m: must be a positive number, got 0"),
+    ("cartwheel", {"time_limit": -1}, mp.errors.InvalidOptions, "time_limit_s: must be a positive number, got -1"),
+    ("cartwheel", {"tube": 1e-3}, mp.errors.InvalidOptions, "tube: no such option. Did you mean 'tube_m'"),
+    (
+        "cartwheel",
+        {"total_duration_s": (2, 1)},
+        mp.errors.InvalidOptions,
+        "total_duration_s: must be two positive numbers",
+    ),
+    ("cartwheel", {"certify": True, "dynamics": False}, mp.errors.InvalidOptions, "certify: needs dynamics"),
+    ("cartwheel", {"certify": True, "torque_limits": False}, mp.errors.InvalidOptions, "certify: needs torque_limits"),
     ("cartwheel", {"warm_start": "nowhere.npz"}, FileNotFoundError, "nowhere.npz"),
 ]
 
@@ -211,9 +241,9 @@ def test_wrong_input_is_named(motion, options, error, message):
 
 
 def test_a_warm_start_of_other_phases_or_joints_is_named(uniform):
-    with pytest.raises(mp.InvalidPlan):
+    with pytest.raises(mp.errors.InvalidPlan):
         mp.whole_body("climbing", warm_start=uniform.plan)
-    with pytest.raises(mp.InvalidPlan):
+    with pytest.raises(mp.errors.InvalidPlan):
         mp.whole_body("walking", warm_start=uniform.plan)
 
 

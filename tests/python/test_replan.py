@@ -23,7 +23,7 @@ def plan() -> mp.Plan:
     return mp.plan("flat", phases=6, max_iterations=3, restarts=0).plan
 
 
-def knot(plan: mp.Plan, **changes: Any) -> mp.Knot:
+def knot(plan: mp.Plan, **changes: Any) -> mp.model.Knot:
     """The state at the plan's start with some values replaced."""
     measured = copy.copy(plan.knots[0])
     for name, value in changes.items():
@@ -69,7 +69,7 @@ def test_any_time_within_the_plan_has_a_result(plan, where):
     ],
 )
 def test_a_measured_state_of_the_wrong_size_or_without_numbers_is_refused(plan, changes, message):
-    with pytest.raises(mp.InvalidPlan, match=message):
+    with pytest.raises(mp.errors.InvalidPlan, match=message):
         mp.replan(plan, 0.0, knot(plan, **changes), **LIMITS)
 
 
@@ -97,7 +97,7 @@ def test_a_measured_state_that_no_robot_has_ends_in_a_status_or_a_typed_error(pl
 
 def test_another_robot_is_refused_by_its_end_effectors(plan):
     with pytest.raises(
-        mp.InvalidPlan, match=r"previous.robot.end_effectors: must be one per end-effector \(2\), got 4"
+        mp.errors.InvalidPlan, match=r"previous.robot.end_effectors: must be one per end-effector \(2\), got 4"
     ):
         mp.replan(plan, 0.0, plan.knots[0], scene=mp.load_scene("rubbles"), robot=mp.load_robot("talos_wang"), **LIMITS)
 
@@ -105,7 +105,7 @@ def test_another_robot_is_refused_by_its_end_effectors(plan):
 def test_a_scene_without_the_surfaces_of_the_plan_is_refused_or_planned_in(plan):
     few = copy.copy(plan.scene)
     few.surfaces = []
-    with pytest.raises(mp.InvalidScene, match="surfaces"):
+    with pytest.raises(mp.errors.InvalidScene, match="surfaces"):
         mp.replan(plan, 0.0, plan.knots[0], scene=few, **LIMITS)
 
 

@@ -142,10 +142,10 @@ def test_a_certificate_says_what_it_found():
 
 def test_bad_options_are_refused():
     plan = reference_plan("cartwheel", "optimised_per_point")
-    with pytest.raises(mcplan.InvalidOptions, match="order"):
+    with pytest.raises(mcplan.errors.InvalidOptions, match="order"):
         sip.certify(plan, order=1)
-    with pytest.raises(mcplan.InvalidOptions, match="max_depth"):
+    with pytest.raises(mcplan.errors.InvalidOptions, match="max_depth"):
         sip.certify(plan, max_depth=-1)
     plan.control_points = np.full_like(plan.control_points, np.nan)
-    with pytest.raises(mcplan.InvalidPlan, match="control_points"):
+    with pytest.raises(mcplan.errors.InvalidPlan, match="control_points"):
         sip.certify(plan)

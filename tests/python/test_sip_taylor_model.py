@@ -163,7 +163,7 @@ def test_a_known_error_of_a_factor_is_counted():
 
 
 def test_bad_models_are_refused():
-    with pytest.raises(mcplan.InvalidOptions, match="order"):
+    with pytest.raises(mcplan.errors.InvalidOptions, match="order"):
         sip.TaylorModel([1.0], 13)
     with pytest.raises(mcplan.InvalidInput, match="coefficients"):
         sip.TaylorModel([], 3)

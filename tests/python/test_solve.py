@@ -44,7 +44,7 @@ class Options:
 
     def validate(self):
         if self.phases < 1:
-            raise mp.InvalidOptions("phases", "must be at least 1", str(self.phases))
+            raise mp.errors.InvalidOptions("phases", "must be at least 1", str(self.phases))
 
 
 class SwitchedDdp:
@@ -89,5 +89,5 @@ def test_options_go_by_their_names():
     ],
 )
 def test_a_wrong_option_is_named(options, message):
-    with pytest.raises(mp.InvalidOptions, match=message):
+    with pytest.raises(mp.errors.InvalidOptions, match=message):
         mp.plan("flat", **options)

@@ -44,6 +44,6 @@ def test_pushes_are_objects_or_four_numbers():
     ],
 )
 def test_what_is_no_option_is_told_by_name(values, message):
-    with pytest.raises(mp.InvalidOptions) as found:
+    with pytest.raises(mp.errors.InvalidOptions) as found:
         make_options(values)
     assert str(found.value).startswith(message)

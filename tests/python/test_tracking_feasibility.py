@@ -171,11 +171,11 @@ def leaning(robot: mp.Robot, share: float) -> mp.Plan:
         contacts = list(phase.contacts)
         for i in hands:
             place = np.array(plan.knots[0].end_effectors_W[i])
-            contacts[i] = mp.Contact(surface=table, stiffness=share * gravity / (com[2] - 0.6), anchor_W=place)
+            contacts[i] = mp.model.Contact(surface=table, stiffness=share * gravity / (com[2] - 0.6), anchor_W=place)
         for i, contact in enumerate(contacts):
             if i not in hands:
                 contact.stiffness *= 1.0 - len(hands) * share
-        phases.append(mp.Phase(duration=phase.duration, contacts=contacts))
+        phases.append(mp.model.Phase(duration=phase.duration, contacts=contacts))
     plan.phases = phases
     plan.final_contacts = [table if i in hands else 0 for i in range(len(robot.end_effectors))]
     plan.swings = []
@@ -203,12 +203,14 @@ def test_a_plan_without_hands_is_followed_by_a_robot_with_hands():
 def test_a_robot_without_a_foot_that_the_plan_puts_down_is_refused(standing, talos):
     lame = copy.copy(talos)
     lame.end_effectors = [end for end in talos.end_effectors if end.name != "left_foot"]
-    with pytest.raises(mp.InvalidRobot, match="talos: end_effectors: must have 'left_foot', which the plan puts down"):
+    with pytest.raises(
+        mp.errors.InvalidRobot, match="talos: end_effectors: must have 'left_foot', which the plan puts down"
+    ):
         assess(standing, lame)
 
 
 def test_a_robot_without_joints_is_refused(standing):
-    with pytest.raises(mp.InvalidRobot, match="humanoid44: urdf: must name a URDF"):
+    with pytest.raises(mp.errors.InvalidRobot, match="humanoid44: urdf: must name a URDF"):
         assess(standing, mp.load_robot("humanoid44"))
 
 

@@ -155,11 +155,11 @@ def test_a_urdf_that_cannot_be_simulated_is_refused(tmp_path, text, message):
     end = robot.end_effectors[0]
     end.frame = "base"
     robot.end_effectors = [end]
-    with pytest.raises(mp.InvalidRobot) as error:
+    with pytest.raises(mp.errors.InvalidRobot) as error:
         build(robot, simulated.level())
     assert message in str(error.value)
 
 
 def test_options_out_of_range_are_refused():
-    with pytest.raises(mp.InvalidOptions, match="mass_scale"):
+    with pytest.raises(mp.errors.InvalidOptions, match="mass_scale"):
         build(mp.load_robot("talos"), simulated.level(), Options(mass_scale=0.0))

@@ -20,7 +20,7 @@ WRONG = [
 
 
 def refused(**values):
-    with pytest.raises(mp.InvalidOptions) as found:
+    with pytest.raises(mp.errors.InvalidOptions) as found:
         Options(**values).validate()
     return found.value
 

@@ -233,11 +233,16 @@ def test_the_robot_takes_the_plans_order_of_ends(rest):
 
 
 WRONG = [
-    ("anymal", {}, mp.InvalidRobot, "end_effectors: must have the plan's 'right_foot'"),
-    ("humanoid44", {}, mp.InvalidRobot, "urdf: must name a URDF"),
-    ("talus", {}, mp.UnknownRobot, "Did you mean 'talos'"),
-    (None, {"control_step_s": 0.0015}, mp.InvalidOptions, "control_step_s: must be a multiple of simulation_step_s"),
-    (None, {"mass_scale": 9.0}, mp.InvalidOptions, "mass_scale: must lie in 0.2 to 5"),
+    ("anymal", {}, mp.errors.InvalidRobot, "end_effectors: must have the plan's 'right_foot'"),
+    ("humanoid44", {}, mp.errors.InvalidRobot, "urdf: must name a URDF"),
+    ("talus", {}, mp.errors.UnknownRobot, "Did you mean 'talos'"),
+    (
+        None,
+        {"control_step_s": 0.0015},
+        mp.errors.InvalidOptions,
+        "control_step_s: must be a multiple of simulation_step_s",
+    ),
+    (None, {"mass_scale": 9.0}, mp.errors.InvalidOptions, "mass_scale: must lie in 0.2 to 5"),
 ]
 
 
@@ -254,5 +259,5 @@ def test_a_plan_out_of_reach_is_told_before_it_is_run(rest):
 
 def test_a_plan_of_another_kind_is_told(tmp_path):
     (tmp_path / "no.npz").write_bytes(b"not a plan")
-    with pytest.raises(mp.InvalidPlan):
+    with pytest.raises(mp.errors.InvalidPlan):
         track(tmp_path / "no.npz")

@@ -61,7 +61,7 @@ def block_on(tmp_path):
         (tmp_path / "block.urdf").write_text(simulated.block())
         robot = mp.load_robot("anymal")
         robot.name, robot.urdf, robot.posture = "block", str(tmp_path / "block.urdf"), {}
-        end = mp.EndEffector(
+        end = mp.model.EndEffector(
             name="sole", frame="base", frame_offset=[0, 0, -0.05], half_size=[0.1, 0.1],
             nominal_B=[0, 0, -0.05], reach_min_B=[-1, -1, -1], reach_max_B=[1, 1, 1],
         )  # fmt: skip

@@ -19,8 +19,8 @@ def box_scene() -> mp.Scene:
     return mp.Scene(
         name="box",
         surfaces=[
-            mp.Surface(name="ground", vertices_W=ground, friction=0.8, thickness=1.0),
-            mp.Surface(name="box", vertices_W=box, friction=0.8, thickness=0.2),
+            mp.model.Surface(name="ground", vertices_W=ground, friction=0.8, thickness=1.0),
+            mp.model.Surface(name="box", vertices_W=box, friction=0.8, thickness=0.2),
         ],
     )
 
@@ -32,7 +32,7 @@ def sole_that_moves(
     model = pin.Model()
     joint = model.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), "base")
     frame = model.addFrame(pin.Frame("sole", joint, 0, pin.SE3.Identity(), pin.FrameType.OP_FRAME))
-    foot = mp.EndEffector(name="foot", kind="foot", half_size=HALF)
+    foot = mp.model.EndEffector(name="foot", kind="foot", half_size=HALF)
     urdf_model = SimpleNamespace(model=model, frames=[frame], robot=SimpleNamespace(end_effectors=[foot]))
     times = 0.1 * np.arange(len(path))
     intervals, start = [], 0
@@ -74,7 +74,7 @@ def test_an_edge_between_the_corners_is_seen():
     """A rail 2 cm wide below the middle of the sole: no corner is in it."""
     scene = box_scene()
     rail = np.array([[0.38, -0.01, 0.2], [0.46, -0.01, 0.2], [0.46, 0.01, 0.2], [0.38, 0.01, 0.2]])
-    scene.surfaces = [scene.surfaces[0], mp.Surface(name="rail", vertices_W=rail, friction=0.8, thickness=0.1)]
+    scene.surfaces = [scene.surfaces[0], mp.model.Surface(name="rail", vertices_W=rail, friction=0.8, thickness=0.1)]
     path = np.tile([0.42, 0.0, 0.193], (5, 1))
     found = sole_that_moves(path, [0, -1, -1, -1, -1], scene)["clearance"]
     assert found.value == pytest.approx(0.007) and found.note == "surface rail"

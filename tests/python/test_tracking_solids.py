@@ -10,8 +10,8 @@ from mcplan.tracking.solids import Solids
 
 def scene(turn: np.ndarray, shift: np.ndarray) -> mp.Scene:
     corners = np.array([[-0.2, -0.1, 0.0], [0.2, -0.1, 0.0], [0.2, 0.1, 0.0], [-0.2, 0.1, 0.0]])
-    box = mp.Surface(name="box", vertices_W=corners @ turn.T + shift, friction=0.8, thickness=0.3)
-    ground = mp.Surface(name="ground", vertices_W=50.0 * corners - [0, 0, 5.0], friction=0.8, thickness=1.0)
+    box = mp.model.Surface(name="box", vertices_W=corners @ turn.T + shift, friction=0.8, thickness=0.3)
+    ground = mp.model.Surface(name="ground", vertices_W=50.0 * corners - [0, 0, 5.0], friction=0.8, thickness=1.0)
     return mp.Scene(name="boxes", surfaces=[box, ground])
 
 

@@ -74,7 +74,7 @@ def test_a_prism_is_closed_and_has_the_volume_of_its_surface_times_its_depth(out
         "slope": [[0, 0, 0], [2, 0, 2 * slope], [2, 1, 2 * slope], [0, 1, 0]],
         "wall": [[0, 0, 0], [2, 0, 0], [2, 0, 1], [0, 0, 1]],
     }[outline]
-    points, triangles = prism(mp.Surface(name="s", vertices_W=corners, thickness=0.05))
+    points, triangles = prism(mp.model.Surface(name="s", vertices_W=corners, thickness=0.05))
     a, b, c = (points[triangles[:, i]] for i in range(3))
     assert (np.einsum("ni,ni->n", a, np.cross(b, c)) / 6.0).sum() == pytest.approx(2.0 * 0.05)  # outward all over
     assert np.cross(b - a, c - a).sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-12)

@@ -135,13 +135,13 @@ def test_control_characters_of_names_are_written_out(plan):
 def test_what_is_no_plan_is_named(plan):
     scene, robot = by_hand.stairs(), by_hand.humanoid()
     with pytest.raises(
-        mp.InvalidArgument,
+        mp.errors.InvalidArgument,
         match=r"plan: must be a Plan or a PlanarPlan, got a SimpleNamespace; its plan is result\.plan",
     ):
         mp.show(SimpleNamespace(plan=plan), scene, robot)
-    with pytest.raises(mp.InvalidArgument, match="scene: must be a Scene or None, got a Robot"):
+    with pytest.raises(mp.errors.InvalidArgument, match="scene: must be a Scene or None, got a Robot"):
         mp.show(plan, robot, scene)
-    with pytest.raises(mp.InvalidArgument, match="robot: must be a Robot or None, got 'humanoid44'"):
+    with pytest.raises(mp.errors.InvalidArgument, match="robot: must be a Robot or None, got 'humanoid44'"):
         mp.show(plan, scene, "humanoid44")
 
 
@@ -244,12 +244,12 @@ def test_scenes_of_any_size_and_number_of_surfaces_are_drawn_in_proportion(size,
     scene = mp.Scene(name="field")
     square = 0.17 * size * np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
     scene.surfaces = [
-        mp.Surface(
+        mp.model.Surface(
             name=f"s{i}", vertices_W=square + 0.4 * size * np.array([i % 25, i // 25, 0.0]), thickness=0.01 * size
         )
         for i in range(count)
     ]
-    scene.start, scene.goal = mp.Stance(), mp.Stance(position_W=[0.1 * size, 0, 0])
+    scene.start, scene.goal = mp.model.Stance(), mp.model.Stance(position_W=[0.1 * size, 0, 0])
     page = show_scene(scene)
     extent = np.linalg.norm(np.ptp(page.points_W, axis=0))
     corners = {}

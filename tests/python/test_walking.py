@@ -113,24 +113,39 @@ def flying_plan():
 
 
 WRONG = [
-    (("rubles",), {}, mp.UnknownScene, "Did you mean 'rubbles'"),
-    (("gap",), {}, mp.InvalidScene, "steps: must list at least one step"),
-    (("flat", "anymal"), {}, mp.InvalidRobot, 'must have exactly two of kind "foot"'),
-    (("flat", "talis"), {}, mp.UnknownRobot, "Did you mean 'talos'"),
-    (("flat",), {"fidelity": "pont"}, mp.InvalidOptions, "fidelity: must be one of single, com, rectangle, point"),
-    (("flat",), {"fidelty": "point"}, mp.InvalidOptions, "fidelty: no such option. Did you mean 'fidelity'"),
-    (("flat",), {"transcription": "rk4"}, mp.InvalidOptions, "must be one of trapezoidal, euler, got 'rk4'"),
-    (("flat",), {"lookahead": 0}, mp.InvalidOptions, r"lookahead: must lie in \[1, 10\], got 0"),
-    (("flat",), {"lookahead": 11}, mp.InvalidOptions, r"lookahead: must lie in \[1, 10\], got 11"),
-    (("flat",), {"lookahead": 2.5}, mp.InvalidOptions, "lookahead: must be of type int, got 2.5"),
-    (("flat",), {"cycles": 0}, mp.InvalidOptions, "cycles: must lie in"),
-    (("flat",), {"time_limit": -1}, mp.InvalidOptions, "time_limit_s: must be a positive number, got -1"),
-    (("flat",), {"time_limit": float("nan")}, mp.InvalidOptions, "time_limit_s: must be a positive number, got nan"),
-    (("flat",), {"single_support_s": (1.2, 0.8)}, mp.InvalidOptions, "single_support_s: must be two positive numbers"),
-    (("flat",), {"com_height": 0.9}, mp.InvalidOptions, "com_height: must be of type tuple, got 0.9"),
+    (("rubles",), {}, mp.errors.UnknownScene, "Did you mean 'rubbles'"),
+    (("gap",), {}, mp.errors.InvalidScene, "steps: must list at least one step"),
+    (("flat", "anymal"), {}, mp.errors.InvalidRobot, 'must have exactly two of kind "foot"'),
+    (("flat", "talis"), {}, mp.errors.UnknownRobot, "Did you mean 'talos'"),
+    (
+        ("flat",),
+        {"fidelity": "pont"},
+        mp.errors.InvalidOptions,
+        "fidelity: must be one of single, com, rectangle, point",
+    ),
+    (("flat",), {"fidelty": "point"}, mp.errors.InvalidOptions, "fidelty: no such option. Did you mean 'fidelity'"),
+    (("flat",), {"transcription": "rk4"}, mp.errors.InvalidOptions, "must be one of trapezoidal, euler, got 'rk4'"),
+    (("flat",), {"lookahead": 0}, mp.errors.InvalidOptions, r"lookahead: must lie in \[1, 10\], got 0"),
+    (("flat",), {"lookahead": 11}, mp.errors.InvalidOptions, r"lookahead: must lie in \[1, 10\], got 11"),
+    (("flat",), {"lookahead": 2.5}, mp.errors.InvalidOptions, "lookahead: must be of type int, got 2.5"),
+    (("flat",), {"cycles": 0}, mp.errors.InvalidOptions, "cycles: must lie in"),
+    (("flat",), {"time_limit": -1}, mp.errors.InvalidOptions, "time_limit_s: must be a positive number, got -1"),
+    (
+        ("flat",),
+        {"time_limit": float("nan")},
+        mp.errors.InvalidOptions,
+        "time_limit_s: must be a positive number, got nan",
+    ),
+    (
+        ("flat",),
+        {"single_support_s": (1.2, 0.8)},
+        mp.errors.InvalidOptions,
+        "single_support_s: must be two positive numbers",
+    ),
+    (("flat",), {"com_height": 0.9}, mp.errors.InvalidOptions, "com_height: must be of type tuple, got 0.9"),
     (("flat",), {"sequence": "nowhere.npz"}, FileNotFoundError, "nowhere.npz"),
-    (("gap",), {"sequence": flying_plan}, mp.InvalidPlan, "must have a foot on the ground for rhp, got flight"),
-    (("v_shape",), {"sequence": flying_plan}, mp.InvalidPlan, "must exist in scene v_shape"),
+    (("gap",), {"sequence": flying_plan}, mp.errors.InvalidPlan, "must have a foot on the ground for rhp, got flight"),
+    (("v_shape",), {"sequence": flying_plan}, mp.errors.InvalidPlan, "must exist in scene v_shape"),
 ]
 
 
@@ -142,7 +157,7 @@ def test_wrong_input_is_named(given, options, error, message):
 
 
 def test_hands_in_contact_are_no_walk():
-    with pytest.raises(mp.InvalidPlan, match="must have feet alone in contact for rhp, got (right|left)_hand"):
+    with pytest.raises(mp.errors.InvalidPlan, match="must have feet alone in contact for rhp, got (right|left)_hand"):
         mp.walk("gap_with_handle", sequence=mp.plan("gap_with_handle").plan)
 
 

@@ -278,6 +278,6 @@ def test_arrays_of_a_plan_can_be_changed_in_place():
     kept = plan.control_points
     plan.control_points = np.zeros((9, 13))  # what was there stays alive for those who hold it
     assert kept[0, 0] == 3.0 and plan.control_points[0, 0] == 0.0
-    with pytest.raises(mp.InvalidPlan, match="durations: must have 3 entries, got 2"):
+    with pytest.raises(mp.errors.InvalidPlan, match="durations: must have 3 entries, got 2"):
         plan.durations = plan.durations[:2]
         plan.at(0.1)

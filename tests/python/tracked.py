@@ -56,12 +56,12 @@ class Watched(QuadraticProgram):
 def two_lanes() -> mp.Scene:
     """Level ground, its right half and its left half two surfaces, with one step of the left foot on the latter."""
     scene = mp.load_scene("flat")
-    right = mp.Surface(name="right", vertices_W=[[-2, -2, 0], [4, -2, 0], [4, 0, 0], [-2, 0, 0]])
-    left = mp.Surface(name="left", vertices_W=[[-2, 0, 0], [4, 0, 0], [4, 2, 0], [-2, 2, 0]])
+    right = mp.model.Surface(name="right", vertices_W=[[-2, -2, 0], [4, -2, 0], [4, 0, 0], [-2, 0, 0]])
+    left = mp.model.Surface(name="left", vertices_W=[[-2, 0, 0], [4, 0, 0], [4, 2, 0], [-2, 2, 0]])
     scene.surfaces = [right, left]
-    scene.start = mp.Stance(contacts={"right_foot": "right", "left_foot": "left"})
+    scene.start = mp.model.Stance(contacts={"right_foot": "right", "left_foot": "left"})
     scene.goal = scene.start
-    scene.steps = [mp.Step(end_effector="left_foot", surface="left")]
+    scene.steps = [mp.model.Step(end_effector="left_foot", surface="left")]
     return scene
 
 

@@ -26,18 +26,18 @@ def turning_plan(moment_Nm: float = 3.0, tilt_m: float = 0.004) -> mp.Plan:
     apart = ends_W[feet[0], 1] - ends_W[feet[1], 1]
     phases = []
     for turn, tilt in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-        contacts = [mp.Contact() for _ in ends_W]
+        contacts = [mp.model.Contact() for _ in ends_W]
         for foot, side in zip(feet, (1, -1), strict=True):
             push = [side * turn * moment_Nm / (robot.mass * stiffness * apart), 0.0, 0.0]
-            contacts[foot] = mp.Contact(
+            contacts[foot] = mp.model.Contact(
                 surface=0,
                 stiffness=stiffness,
                 anchor_W=ends_W[foot] + push,
                 center_of_pressure_W=ends_W[foot] + [tilt * tilt_m, 0.0, 0.0],
             )
-        phases.append(mp.Phase(duration=DURATION_S, contacts=contacts, law=mp.ForceLaw.wrench))
+        phases.append(mp.model.Phase(duration=DURATION_S, contacts=contacts, law=mp.model.ForceLaw.wrench))
     knots = [
-        mp.Knot(
+        mp.model.Knot(
             com_W=com_W,
             end_effectors_W=ends_W,
             end_effector_velocities_W=np.zeros((4, 3)),
@@ -52,7 +52,9 @@ def turning_plan(moment_Nm: float = 3.0, tilt_m: float = 0.004) -> mp.Plan:
         knots=knots,
         phases=phases,
         final_contacts=[0 if i in feet else -1 for i in range(4)],
-        swings=[mp.Swing(end_effector=i, first_phase=0, end_phase=len(phases)) for i in range(4) if i not in feet],
+        swings=[
+            mp.model.Swing(end_effector=i, first_phase=0, end_phase=len(phases)) for i in range(4) if i not in feet
+        ],
         open_end=True,
     )
     for k in range(len(phases)):

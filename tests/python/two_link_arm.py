@@ -20,7 +20,7 @@ def arm_robot(folder: Path, kind: str = "hand") -> mp.Robot:
     ]
     file = folder / "arm.urdf"
     file.write_text('<robot name="arm">' + "".join(links) + '<link name="tip"/>' + "".join(joints) + "</robot>")
-    end = mp.EndEffector(
+    end = mp.model.EndEffector(
         name="hand",
         kind=kind,
         frame="tip",

@@ -64,7 +64,7 @@ def margins_of(plan: mp.Plan, *, paper: bool) -> Margins:
     surfaces = [np.array(s.vertices_W) for s in scene.surfaces]
     for k, phase in enumerate(plan.phases):
         feet = [(e, c) for e, c in enumerate(phase.contacts) if c.surface >= 0]
-        held = phase.law == mp.ForceLaw.held
+        held = phase.law == mp.model.ForceLaw.held
         n = phase.intervals
         h = phase.duration / n
         low, high = DURATIONS[len(feet)]

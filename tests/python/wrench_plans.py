@@ -10,7 +10,9 @@ from standing import standing_plan, standing_scene
 RIGHT, LEFT, RIGHT_HAND, LEFT_HAND = range(4)
 
 
-def plan_of(robot: mp.Robot, phases: list[mp.Phase], knots: list[mp.Knot], scene: mp.Scene | None = None) -> mp.Plan:
+def plan_of(
+    robot: mp.Robot, phases: list[mp.model.Phase], knots: list[mp.model.Knot], scene: mp.Scene | None = None
+) -> mp.Plan:
     """A plan of these phases and knots; who is free swings by itself."""
     swings = []
     for e in range(len(robot.end_effectors)):
@@ -20,7 +22,7 @@ def plan_of(robot: mp.Robot, phases: list[mp.Phase], knots: list[mp.Knot], scene
             if flag and first is None:
                 first = k
             elif not flag and first is not None:
-                swings.append(mp.Swing(end_effector=e, first_phase=first, end_phase=k))
+                swings.append(mp.model.Swing(end_effector=e, first_phase=first, end_phase=k))
                 first = None
     plan = mp.Plan(scene=scene or standing_scene(), robot=robot, planner="by hand", knots=knots, phases=phases)
     plan.final_contacts = [contact.surface for contact in phases[-1].contacts]
@@ -29,11 +31,13 @@ def plan_of(robot: mp.Robot, phases: list[mp.Phase], knots: list[mp.Knot], scene
     return plan
 
 
-def knot(robot: mp.Robot, com_W: np.ndarray, ends_W: np.ndarray | None = None, **fields: object) -> mp.Knot:
+def knot(robot: mp.Robot, com_W: np.ndarray, ends_W: np.ndarray | None = None, **fields: object) -> mp.model.Knot:
     """A knot with the end-effectors at rest, where they nominally are unless said otherwise."""
     com_W = np.asarray(com_W, float)
     ends_W = ends_W if ends_W is not None else np.array([com_W + end.nominal_B for end in robot.end_effectors])
-    return mp.Knot(com_W=com_W, end_effectors_W=ends_W, end_effector_velocities_W=np.zeros((len(ends_W), 3)), **fields)
+    return mp.model.Knot(
+        com_W=com_W, end_effectors_W=ends_W, end_effector_velocities_W=np.zeros((len(ends_W), 3)), **fields
+    )
 
 
 def leaning_plan(duration_s: float = 0.4) -> mp.Plan:
@@ -44,8 +48,8 @@ def leaning_plan(duration_s: float = 0.4) -> mp.Plan:
     com = np.array([0.0, 0.0, robot.com_height])
     ends = np.array([com + end.nominal_B for end in robot.end_effectors])
     scene = standing_scene()
-    contacts = [mp.Contact() for _ in ends]
-    contacts[RIGHT] = mp.Contact(
+    contacts = [mp.model.Contact() for _ in ends]
+    contacts[RIGHT] = mp.model.Contact(
         surface=0, stiffness=scene.gravity / robot.com_height, center_of_pressure_W=[0.0, -0.1, 0.0]
     )
     rate = -0.1 * robot.mass * scene.gravity
@@ -59,7 +63,7 @@ def leaning_plan(duration_s: float = 0.4) -> mp.Plan:
         base_rpy=[roll, 0.0, 0.0],
         base_rpy_rate=momentum / robot.inertia,
     )
-    phase = mp.Phase(duration=duration_s, contacts=contacts, law=mp.ForceLaw.wrench)
+    phase = mp.model.Phase(duration=duration_s, contacts=contacts, law=mp.model.ForceLaw.wrench)
     return plan_of(robot, [phase], [knot(robot, com, ends), end], scene)
 
 
@@ -79,8 +83,10 @@ def spinning_plan(momentum_W: np.ndarray, inertia: np.ndarray, phases: int = 2, 
         spin = rotation(t * (1.0 / inertia[2] - 1.0 / inertia[0]) * momentum_W[2] * np.array([0.0, 0.0, 1.0]))
         fields = {"angular_momentum_W": momentum_W, "base_rpy": rpy(precession @ spin)}
         knots.append(knot(robot, com, com_velocity_W=[0.1, 0.0, 2.0 - scene.gravity * t], **fields))
-    free = [mp.Contact() for _ in robot.end_effectors]
-    return plan_of(robot, [mp.Phase(duration=duration_s, contacts=free, law=mp.ForceLaw.wrench)] * phases, knots, scene)
+    free = [mp.model.Contact() for _ in robot.end_effectors]
+    return plan_of(
+        robot, [mp.model.Phase(duration=duration_s, contacts=free, law=mp.model.ForceLaw.wrench)] * phases, knots, scene
+    )
 
 
 def tipping_plan(ahead_m: float = 0.05, duration_s: float = 0.5) -> mp.Plan:
@@ -89,15 +95,15 @@ def tipping_plan(ahead_m: float = 0.05, duration_s: float = 0.5) -> mp.Plan:
     scene = standing_scene()
     omega = float(np.sqrt(scene.gravity / robot.com_height))
     foot = np.array([0.0, 0.0, 0.0])
-    contacts = [mp.Contact() for _ in robot.end_effectors]
-    contacts[RIGHT] = mp.Contact(surface=0, stiffness=omega**2, anchor_W=foot)
+    contacts = [mp.model.Contact() for _ in robot.end_effectors]
+    contacts[RIGHT] = mp.model.Contact(surface=0, stiffness=omega**2, anchor_W=foot)
     knots = []
     for t in (0.0, duration_s):
         com = np.array([ahead_m * np.cosh(omega * t), 0.0, robot.com_height])
         ends = np.array([com + end.nominal_B for end in robot.end_effectors])
         ends[RIGHT] = foot
         knots.append(knot(robot, com, ends, com_velocity_W=[ahead_m * omega * np.sinh(omega * t), 0.0, 0.0]))
-    return plan_of(robot, [mp.Phase(duration=duration_s, contacts=contacts)], knots, scene)
+    return plan_of(robot, [mp.model.Phase(duration=duration_s, contacts=contacts)], knots, scene)
 
 
 def hanging_plan(duration_s: float = 0.4, phases: int = 1) -> mp.Plan:
@@ -111,13 +117,13 @@ def hanging_plan(duration_s: float = 0.4, phases: int = 1) -> mp.Plan:
     pads = []
     for name, e in (("right_pad", RIGHT_HAND), ("left_pad", LEFT_HAND)):
         square = np.array([[-0.05, -0.05, 0.0], [0.05, -0.05, 0.0], [0.05, 0.05, 0.0], [-0.05, 0.05, 0.0]])
-        pads.append(mp.Surface(name=name, vertices_W=ends[e] + square))
+        pads.append(mp.model.Surface(name=name, vertices_W=ends[e] + square))
     scene.surfaces = [*scene.surfaces, *pads]
-    contacts = [mp.Contact() for _ in ends]
+    contacts = [mp.model.Contact() for _ in ends]
     for surface, e in ((1, RIGHT_HAND), (2, LEFT_HAND)):
         stiffness = 0.5 * scene.gravity / robot.com_height
-        contacts[e] = mp.Contact(surface=surface, stiffness=stiffness, center_of_pressure_W=ends[e])
-    phase = mp.Phase(duration=duration_s, contacts=contacts, law=mp.ForceLaw.wrench)
+        contacts[e] = mp.model.Contact(surface=surface, stiffness=stiffness, center_of_pressure_W=ends[e])
+    phase = mp.model.Phase(duration=duration_s, contacts=contacts, law=mp.model.ForceLaw.wrench)
     return plan_of(robot, [phase] * phases, [knot(robot, com, ends)] * (phases + 1), scene)
 
 
@@ -131,7 +137,7 @@ def standing_on_wrenches(phases: int = 2) -> mp.Plan:
             own = contact.__copy__()
             own.center_of_pressure_W = own.anchor_W
             contacts.append(own)
-        out.append(mp.Phase(duration=phase.duration, contacts=contacts, law=mp.ForceLaw.wrench))
+        out.append(mp.model.Phase(duration=phase.duration, contacts=contacts, law=mp.model.ForceLaw.wrench))
     plan.phases = out
     return plan
 
@@ -143,7 +149,7 @@ def with_contact(plan: mp.Plan, k: int, e: int, **fields: object) -> mp.Plan:
     contacts[e] = contacts[e].__copy__()
     for name, value in fields.items():
         setattr(contacts[e], name, value)
-    phases[k] = mp.Phase(duration=phases[k].duration, contacts=contacts, law=phases[k].law)
+    phases[k] = mp.model.Phase(duration=phases[k].duration, contacts=contacts, law=phases[k].law)
     plan.phases = phases
     return plan
 

@@ -22,20 +22,20 @@ def standing_wrenches(
     feet = [i for i, end in enumerate(robot.end_effectors) if end.kind == "foot"]
     ends, half = plan.knots[0].end_effectors_W, robot.end_effectors[feet[0]].half_size
     stiffness = plan.scene.gravity / robot.com_height / 2.0
-    contacts = [mp.Contact() for _ in robot.end_effectors]
+    contacts = [mp.model.Contact() for _ in robot.end_effectors]
     apart = abs(ends[feet[0]][1] - ends[feet[1]][1])
     for i in feet:
         side = np.sign(ends[i][1])
         # Both centres of pressure are moved so that their mean stays below the CoM.
         pressure = ends[i] + [0.4 * side * half[0] - ends[i][0], 0.5 * side * half[1], 0.0]
-        contacts[i] = mp.Contact(
+        contacts[i] = mp.model.Contact(
             surface=0,
             stiffness=stiffness,
             center_of_pressure_W=pressure,
             anchor_W=pressure + [side * squeeze_m, 0.0, 0.0],
             moment_W=[0.0, 0.0, -0.5 * robot.mass * stiffness * squeeze_m * (apart + half[1])],
         )
-    plan.phases = [mp.Phase(duration=duration_s, contacts=contacts, law=mp.ForceLaw.wrench)] * phases
+    plan.phases = [mp.model.Phase(duration=duration_s, contacts=contacts, law=mp.model.ForceLaw.wrench)] * phases
     plan.knots = [_with_yaws(knot, [0.0] * len(ends)) for knot in plan.knots]
     plan.validate()
     return plan
@@ -51,14 +51,14 @@ def leaning(robot: mp.Robot | None = None, yaw: float = 1.5, phases: int = 3, du
         contacts = list(phase.contacts)
         for i, contact in enumerate(phase.contacts):
             if contact.surface >= 0:
-                contacts[i] = mp.Contact(
+                contacts[i] = mp.model.Contact(
                     surface=contact.surface,
                     stiffness=contact.stiffness * rng.uniform(0.9, 1.1),
                     center_of_pressure_W=contact.center_of_pressure_W,
                     anchor_W=contact.anchor_W + [*rng.uniform(-0.05, 0.05, 2), 0.0],
                     moment_W=[0.0, 0.0, rng.uniform(-4.0, 4.0)],
                 )
-        changed.append(mp.Phase(duration=phase.duration, contacts=contacts, law=mp.ForceLaw.wrench))
+        changed.append(mp.model.Phase(duration=phase.duration, contacts=contacts, law=mp.model.ForceLaw.wrench))
     plan.phases = changed
     momentum, rpy = np.array([0.3, -0.4, 0.2]), np.array([0.10, -0.15, yaw])
     yaws = [0.2] * len(robot.end_effectors)
@@ -74,7 +74,7 @@ def turning(robot: mp.Robot, angle: float = 0.5 * np.pi, pairs: int = 3) -> mp.P
     last phase: L_z = I_z yaw' between them, all else is zero.
     """
     scene = by_hand.flat()
-    scene.goal = mp.Stance(position_W=[0.0, 0.0, 0.0], yaw=angle, contacts={"foot": "ground"})
+    scene.goal = mp.model.Stance(position_W=[0.0, 0.0, 0.0], yaw=angle, contacts={"foot": "ground"})
     yaws, feet = [0.0, 0.0], [_foothold(robot, foot, 0.0) for foot in (0, 1)]
     steps, headings = [([0, 0], list(feet), 0.6)], [list(yaws)]
     for pair in range(pairs):
@@ -99,7 +99,7 @@ def turning(robot: mp.Robot, angle: float = 0.5 * np.pi, pairs: int = 3) -> mp.P
         down = sum(contact.surface >= 0 for contact in phase.contacts)
         moment = [0.0, 0.0, (momentum[k + 1] - momentum[k]) / durations[k] / down]
         contacts = [_as_wrench(contact, moment) for contact in phase.contacts]
-        phases.append(mp.Phase(duration=phase.duration, contacts=contacts, law=mp.ForceLaw.wrench))
+        phases.append(mp.model.Phase(duration=phase.duration, contacts=contacts, law=mp.model.ForceLaw.wrench))
     for k, knot in enumerate(plan.knots):
         ends = [np.array(end) for end in knot.end_effectors_W]
         for i, end in enumerate(robot.end_effectors):
@@ -107,7 +107,7 @@ def turning(robot: mp.Robot, angle: float = 0.5 * np.pi, pairs: int = 3) -> mp.P
                 ends[i] = knot.com_W + _about_z(yaw[k]) @ end.nominal_B
         hands = [yaw[k]] * (len(ends) - 2)
         knots.append(
-            mp.Knot(
+            mp.model.Knot(
                 com_W=knot.com_W,
                 com_velocity_W=knot.com_velocity_W,
                 angular_momentum_W=[0.0, 0.0, momentum[k]],
@@ -123,7 +123,7 @@ def turning(robot: mp.Robot, angle: float = 0.5 * np.pi, pairs: int = 3) -> mp.P
     return plan
 
 
-def replayed(plan: mp.Plan, com, velocity, momentum, rpy, yaws, cuts: int = 400) -> list[mp.Knot]:
+def replayed(plan: mp.Plan, com, velocity, momentum, rpy, yaws, cuts: int = 400) -> list[mp.model.Knot]:
     """Knots of the plan's phases from a state at the start, by Runge-Kutta steps on the forces and moments.
 
     The base by small rotations R <- exp(dt omega) R, omega = R I^-1 R^T L: no rates of angles.
@@ -134,10 +134,10 @@ def replayed(plan: mp.Plan, com, velocity, momentum, rpy, yaws, cuts: int = 400)
     turned = Rotation.from_euler("xyz", rpy)
     last = np.array(rpy)
 
-    def knot() -> mp.Knot:
+    def knot() -> mp.model.Knot:
         euler = turned.as_euler("xyz")
         euler = last + (euler - last + np.pi) % (2.0 * np.pi) - np.pi
-        return mp.Knot(
+        return mp.model.Knot(
             com_W=state[0],
             com_velocity_W=state[1],
             angular_momentum_W=state[2],
@@ -165,7 +165,7 @@ def replayed(plan: mp.Plan, com, velocity, momentum, rpy, yaws, cuts: int = 400)
     return knots
 
 
-def _advanced(plan: mp.Plan, phase: mp.Phase, state, h: float):
+def _advanced(plan: mp.Plan, phase: mp.model.Phase, state, h: float):
     def rate(s):
         force, moment = np.array([0.0, 0.0, -plan.robot.mass * plan.scene.gravity]), np.zeros(3)
         for contact in phase.contacts:
@@ -185,10 +185,10 @@ def _advanced(plan: mp.Plan, phase: mp.Phase, state, h: float):
     return [s + h / 6.0 * (w + 2 * x + 2 * y + z) for s, w, x, y, z in zip(state, a, b, c, d, strict=True)]
 
 
-def _as_wrench(contact: mp.Contact, moment) -> mp.Contact:
+def _as_wrench(contact: mp.model.Contact, moment) -> mp.model.Contact:
     if contact.surface < 0:
         return contact
-    return mp.Contact(
+    return mp.model.Contact(
         surface=contact.surface,
         stiffness=contact.stiffness,
         anchor_W=contact.anchor_W,
@@ -197,8 +197,8 @@ def _as_wrench(contact: mp.Contact, moment) -> mp.Contact:
     )
 
 
-def _with_yaws(knot: mp.Knot, yaws) -> mp.Knot:
-    return mp.Knot(
+def _with_yaws(knot: mp.model.Knot, yaws) -> mp.model.Knot:
+    return mp.model.Knot(
         com_W=knot.com_W,
         com_velocity_W=knot.com_velocity_W,
         end_effectors_W=knot.end_effectors_W,
