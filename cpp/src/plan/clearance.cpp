@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "mcplan/base/error.hpp"
-#include "phase_state.hpp"
 #include "plan_shape.hpp"
 
 namespace mcplan {
@@ -87,33 +86,6 @@ double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_
   const double length = normal.norm();
   if (!middle || length < 1e-6) return clearance_depth(solids, position_W);
   return clearance_depth(solids, end_effector, position_W, sole_frame(normal / length, yaw), true);
-}
-
-double clearance_depth(const Plan& plan, const std::vector<Solid>& solids, int end_effector, const FreeStretch& stretch,
-                       double sample_s) {
-  require_shape(plan, solids.size());
-  if (stretch.first_phase < 0 || stretch.end_phase > static_cast<int>(plan.phases.size()))
-    throw InvalidInput("stretch", "must be a range of phases (0 to " + std::to_string(plan.phases.size()) + ")",
-                       text(stretch.first_phase) + " to " + text(stretch.end_phase));
-  if (end_effector < 0 || end_effector >= plan.end_effector_count())
-    throw InvalidInput("end_effector", "must be an index below " + text(plan.end_effector_count()), text(end_effector));
-  for (int k = stretch.first_phase; k < stretch.end_phase; ++k)
-    if (samples_of(plan.phases[k], sample_s) > 0) require_queryable(plan, k, 0.0);
-  double worst = 0.0, before = 0.0;
-  for (int k = stretch.first_phase; k < stretch.end_phase; ++k) {
-    const double duration = plan.phases[k].duration;
-    const int samples = samples_of(plan.phases[k], sample_s);
-    PhaseFrame frame = samples > 0 ? phase_frame(plan, k) : PhaseFrame();
-    for (ActiveSwing& active : frame.swings) straighten(active);
-    for (int i = 0; samples > 0 && i <= samples; ++i) {
-      const double tau = duration * i / samples;
-      const EndEffectorState end = state_in_phase(plan, frame, tau).end_effectors[end_effector];
-      worst = std::max(worst, clearance_depth(solids, plan.robot.end_effectors[end_effector], stretch,
-                                              (before + tau) / stretch.duration_s, end.position_W, end.yaw));
-    }
-    before += duration;
-  }
-  return worst;
 }
 
 }  // namespace mcplan

@@ -49,9 +49,4 @@ std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Soli
 double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_effector, const FreeStretch& stretch,
                        double s, const Eigen::Vector3d& position_W, double yaw);
 
-/// Largest depth [m] over a stretch, sampled every `sample_s` [s]: 0 for a swing that clears the scene. Serves to
-/// choose Swing::height, of a path that runs to the sides of the reach box and along them, without its bends there.
-double clearance_depth(const Plan& plan, const std::vector<Solid>& solids, int end_effector, const FreeStretch& stretch,
-                       double sample_s);
-
 }  // namespace mcplan

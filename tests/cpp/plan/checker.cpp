@@ -6,7 +6,7 @@
 #include <set>
 
 #include "mcplan/base/error.hpp"
-#include "plan/clearance.hpp"
+#include "plan/depths.hpp"
 #include "plan/fixtures.hpp"
 #include "plan/name_sets.hpp"
 #include "plan/swings.hpp"
@@ -455,7 +455,7 @@ TEST_CASE("solids that are set aside while they are out of reach are found again
     const auto solids = mcplan::solids_of(blocked.scene);
     for (int l = 0; l < made.plan.end_effector_count(); ++l)
       for (const auto& stretch : mcplan::free_stretches(made.plan, solids, l))
-        deepest = std::max(deepest, mcplan::clearance_depth(made.plan, solids, l, stretch, 1e-3));
+        deepest = std::max(deepest, fixtures::deepest(made.plan, solids, l, stretch, 1e-3));
     double checked = 0.0;
     for (const auto& violation : blocked.check().constraints)
       if (violation.name == "clearance") checked = violation.value;

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "mcplan/base/rotation.hpp"
+#include "plan/depths.hpp"
 #include "plan/fixtures.hpp"
 
 namespace {
@@ -146,8 +147,8 @@ TEST_CASE("a swing that is high enough clears the block, a low one meets it") {
   mcplan::Plan plan = walk();
   const auto solids = mcplan::solids_of(plan.scene);
   const auto stretch = mcplan::free_stretches(plan, solids, left_foot)[0];
-  CHECK(clearance_depth(plan, solids, left_foot, stretch, 1e-3) == 0.0);
+  CHECK(fixtures::deepest(plan, solids, left_foot, stretch, 1e-3) == 0.0);
   plan.swings[0].height = 0.01;
   // Above the middle of the block the path is close to its apex: 0.02 - 0.01.
-  CHECK(clearance_depth(plan, solids, left_foot, stretch, 1e-3) == doctest::Approx(0.01).epsilon(0.1));
+  CHECK(fixtures::deepest(plan, solids, left_foot, stretch, 1e-3) == doctest::Approx(0.01).epsilon(0.1));
 }

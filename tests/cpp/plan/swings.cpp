@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "mcplan/robot/similarity.hpp"
-#include "plan/clearance.hpp"
+#include "plan/depths.hpp"
 #include "plan/point_fixtures.hpp"
 
 using namespace fixtures;
@@ -31,7 +31,7 @@ TEST_CASE("a swing rises until it clears the scene") {
   mcplan::Plan plan = walk();
   const auto solids = mcplan::solids_of(plan.scene);
   const auto deepest = [&] {
-    return mcplan::clearance_depth(plan, solids, left_foot, mcplan::free_stretches(plan, solids, left_foot)[0], 0.001);
+    return fixtures::deepest(plan, solids, left_foot, mcplan::free_stretches(plan, solids, left_foot)[0], 0.001);
   };
   plan.swings[0].height = 0.5 * plan.robot.swing_height;
   plan.robot.swing_height = 0.01;  // too low for the block of 0.02 m
@@ -62,7 +62,7 @@ TEST_CASE("of six heights the first that clears the scene, or the one that goes 
         swing.height = factor * height;
         for (const auto& stretch : mcplan::free_stretches(plan, solids, swing.end_effector)) {
           if (stretch.first_phase != swing.first_phase || least <= 0.0) continue;
-          const double depth = mcplan::clearance_depth(plan, solids, swing.end_effector, stretch, sample_s);
+          const double depth = deepest(plan, solids, swing.end_effector, stretch, sample_s);
           if (depth >= least) continue;
           least = depth;
           best = swing.height;
