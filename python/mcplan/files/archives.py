@@ -125,6 +125,22 @@ def read_header(arrays: Mapping[str, np.ndarray]) -> dict[str, Any]:
     return header
 
 
+def require_members(header: Mapping[str, Any], **kinds: type) -> None:
+    """Raise InvalidPlan for a member of a header that is missing or of another kind."""
+    for key, kind in kinds.items():
+        if not isinstance(header.get(key), kind):
+            raise InvalidPlan(f"header.{key}", f"must be a {kind.__name__}", type(header.get(key)).__name__)
+
+
+def require_kind(arrays: Mapping[str, np.ndarray], name: str, integers: bool = False) -> None:
+    """Raise InvalidPlan for an array that is missing or has numbers of another kind."""
+    if name not in arrays:
+        raise InvalidPlan(name, "is required")
+    if arrays[name].dtype.kind not in ("iu" if integers else "f"):
+        wanted = "integers" if integers else "floating-point numbers"
+        raise InvalidPlan(name, f"must hold {wanted}", str(arrays[name].dtype))
+
+
 def _require_text(where: str, value: Any) -> None:
     """JSON may write halves of surrogate pairs, which are no characters and cannot be written again."""
     left = [(where, value)]

@@ -20,9 +20,6 @@ contact wrenches, or with headings of soles, has format 3: the arrays of format 
 
 from __future__ import annotations
 
-import codecs
-import errno
-import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -41,10 +38,8 @@ from mcplan._core import (
     plan_to_json,
 )
 from mcplan.errors import InvalidInput, InvalidPlan, shown
-from mcplan.files.archives import archive_bytes, read_arrays, read_header
-from mcplan.files.builtin import exists
-from mcplan.files.outputs import ARCHIVE, JSON, require_suffix, write_whole
-from mcplan.files.reading import MOST_PLAN, read_file
+from mcplan.files.archives import archive_bytes, read_arrays, read_header, require_kind, require_members
+from mcplan.files.plan_files import load_plan_file, write_plan_file
 from mcplan.files.robots import robot_from_dict, robot_to_dict
 from mcplan.files.scenes import scene_from_dict, scene_to_dict
 
@@ -72,9 +67,7 @@ def save_plan(plan: Plan, path: str | Path) -> None:
         OSError: The file cannot be written.
         InvalidPlan: Its sizes do not fit together or a number is not finite.
     """
-    require_suffix("path", path, (*ARCHIVE, *JSON, ""))
-    as_json = Path(path).suffix.lower() in JSON
-    write_whole(plan_to_json(plan) if as_json else plan_to_bytes(plan), path)
+    write_plan_file(plan, path, plan_to_json, plan_to_bytes)
 
 
 def load_plan(path: str | Path) -> Plan:
@@ -84,29 +77,7 @@ def load_plan(path: str | Path) -> Plan:
         InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
         FileNotFoundError: There is no such file.
     """
-    try:
-        data = read_plan_file(path)
-        return plan_from_json(data) if is_json(data, path) else plan_from_bytes(data)
-    except InvalidInput as found:
-        raise found.moved(InvalidPlan, str(path)) from None
-
-
-def is_json(data: bytes, path: str | Path) -> bool:
-    """Whether a file is to be read as JSON: it begins like an object, or has the ending of JSON and is no archive."""
-    named = Path(path).suffix.lower() in JSON and not data.startswith(b"PK")
-    return named or data[:100].removeprefix(codecs.BOM_UTF8).lstrip().startswith(b"{")
-
-
-def read_plan_file(path: str | Path) -> bytes:
-    """The content of a plan file of any kind.
-
-    Raises:
-        InvalidPlan: It cannot be read, or is no regular file or too large.
-        FileNotFoundError: There is no such file.
-    """
-    if not exists(path):
-        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path))
-    return read_file(path, MOST_PLAN, InvalidPlan)
+    return load_plan_file(path, plan_from_json, plan_from_bytes)
 
 
 def plan_to_bytes(plan: Plan) -> bytes:
@@ -328,9 +299,7 @@ def _read_header(arrays: dict[str, np.ndarray]) -> dict[str, Any]:
         raise InvalidPlan("header.kind", "must be none: a plan of contacts and CoM", shown(header["kind"]))
     if type(header.get("format")) is not int or header["format"] not in FORMATS:
         raise InvalidPlan("header.format", "must be 1, 2 or 3 for this version of mcplan", shown(header.get("format")))
-    for key, kind in (("planner", str), ("scene", dict), ("robot", dict)):
-        if not isinstance(header.get(key), kind):
-            raise InvalidPlan(f"header.{key}", f"must be a {kind.__name__}", type(header.get(key)).__name__)
+    require_members(header, planner=str, scene=dict, robot=dict)
     return header
 
 
@@ -374,12 +343,7 @@ def _check_shapes(arrays: dict[str, np.ndarray], ends: int, version: int) -> Non
         without = arrays.get("end_effector_yaw", np.empty(1)).shape == (count + 1, 0)
         expected["end_effector_yaw"] = (count + 1, 0 if without else ends)
     for name, shape in expected.items():
-        if name not in arrays:
-            raise InvalidPlan(name, "is required")
-        kinds = "iu" if name in _INTEGERS else "f"
-        if arrays[name].dtype.kind not in kinds:
-            wanted = "integers" if name in _INTEGERS else "floating-point numbers"
-            raise InvalidPlan(name, f"must hold {wanted}", str(arrays[name].dtype))
+        require_kind(arrays, name, integers=name in _INTEGERS)
         if arrays[name].shape != shape:
             raise InvalidPlan(name, f"must have shape {shape}", str(arrays[name].shape))
         if name in _INTEGERS and arrays[name].size:

@@ -34,9 +34,8 @@ from mcplan._core import (
 )
 from mcplan.errors import InvalidInput, InvalidPlan, shown
 from mcplan.files import plans
-from mcplan.files.archives import archive_bytes, read_arrays, read_header
-from mcplan.files.outputs import ARCHIVE, JSON, require_suffix, write_whole
-from mcplan.files.plans import read_plan_file
+from mcplan.files.archives import archive_bytes, read_arrays, read_header, require_kind, require_members
+from mcplan.files.plan_files import load_plan_file, write_plan_file
 
 KIND = "whole_body"
 #: Of files of runs (tracking/run_files.py), which carry a plan and are none.
@@ -59,9 +58,7 @@ def save_whole_body_plan(plan: PlanarPlan, path: str | Path) -> None:
         InvalidInput: The name promises another kind of file.
         InvalidPlan, InvalidMotion, InvalidRobot: Its sizes do not fit together or a number is out of range.
     """
-    require_suffix("path", path, (*ARCHIVE, *JSON, ""))
-    as_json = Path(path).suffix.lower() in JSON
-    write_whole(planar_plan_to_json(plan) if as_json else plan_to_bytes(plan), path)
+    write_plan_file(plan, path, planar_plan_to_json, plan_to_bytes)
 
 
 def load_whole_body_plan(path: str | Path) -> PlanarPlan:
@@ -71,11 +68,7 @@ def load_whole_body_plan(path: str | Path) -> PlanarPlan:
         InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
         FileNotFoundError: There is no such file.
     """
-    try:
-        data = read_plan_file(path)
-        return planar_plan_from_json(data) if plans.is_json(data, path) else plan_from_bytes(data)
-    except InvalidInput as found:
-        raise found.moved(InvalidPlan, str(path)) from None
+    return load_plan_file(path, planar_plan_from_json, plan_from_bytes)
 
 
 def load_any_plan(path: str | Path) -> Plan | PlanarPlan:
@@ -85,16 +78,14 @@ def load_any_plan(path: str | Path) -> Plan | PlanarPlan:
         InvalidPlan: No plan file, or its content does not fit together; the message names file, field and rule.
         FileNotFoundError: There is no such file.
     """
-    try:
-        data = read_plan_file(path)
-        if plans.is_json(data, path):
-            return any_plan_from_json(data)
+
+    def from_archive(data: bytes) -> Plan | PlanarPlan:
         kind = read_header(read_arrays(data)).get("kind")
         if kind in RUN_KINDS:
             raise InvalidPlan("", "must be a plan", "a run of one, which mcplan track saved")
         return plan_from_bytes(data) if kind == KIND else plans.plan_from_bytes(data)
-    except InvalidInput as found:
-        raise found.moved(InvalidPlan, str(path)) from None
+
+    return load_plan_file(path, any_plan_from_json, from_archive)
 
 
 def plan_to_bytes(plan: PlanarPlan) -> bytes:
@@ -169,9 +160,7 @@ def _checked_header(header: dict[str, Any]) -> dict[str, Any]:
     version = header.get("format")
     if type(version) is not int or version != FORMAT:
         raise InvalidPlan("header.format", f"must be {FORMAT} for this version of mcplan", shown(version))
-    for key, kind in (("planner", str), ("force_law", str), ("motion", dict)):
-        if not isinstance(header.get(key), kind):
-            raise InvalidPlan(f"header.{key}", f"must be a {kind.__name__}", type(header.get(key)).__name__)
+    require_members(header, planner=str, force_law=str, motion=dict)
     if header["force_law"] not in _LAWS:
         raise InvalidPlan("header.force_law", f"must be one of {', '.join(_LAWS)}", shown(header["force_law"]))
     return header
@@ -181,10 +170,7 @@ def _check_arrays(arrays: dict[str, np.ndarray]) -> None:
     """Their types and numbers of axes; what sizes they must have is known to the plan."""
     axes = {"durations": 1, "control_points": 2, "base_control_points": 2, "weights": 1, "force_polynomials": 2}
     for name, count in axes.items():
-        if name not in arrays:
-            raise InvalidPlan(name, "is required")
-        if arrays[name].dtype.kind != "f":
-            raise InvalidPlan(name, "must hold floating-point numbers", str(arrays[name].dtype))
+        require_kind(arrays, name)
         if arrays[name].ndim != count:
             raise InvalidPlan(name, f"must have {count} axes", str(arrays[name].ndim))
 

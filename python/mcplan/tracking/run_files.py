@@ -27,7 +27,7 @@ from mcplan.files import whole_body_plans
 from mcplan.files.archives import read_arrays, read_header
 from mcplan.files.builtin import exists
 from mcplan.files.outputs import ARCHIVE, require_suffix, write_whole
-from mcplan.files.plans import is_json
+from mcplan.files.plan_files import is_json
 from mcplan.files.reading import MOST_PLAN_INFLATED, MOST_RUN, MOST_RUN_INFLATED, MOST_RUN_RATIO, read_file
 
 from .options import Gains, Options, Push
