@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json as json_module
-import sys
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+
+from mcplan_bench.cli.output import say
 
 from .contacts import contacts
 from .deadlines import deadlines
@@ -55,8 +56,8 @@ def speed(
     from mcplan_bench import speed as bench
 
     require_folder("--out", out)
-    rows = bench.compare(repeats=repeats, threads=threads, progress=_say)
-    grown = growth.measure(quick, max(1, repeats - 2), threads, _say)
+    rows = bench.compare(repeats=repeats, threads=threads, progress=say)
+    grown = growth.measure(quick, max(1, repeats - 2), threads, say)
     result: dict[str, Any] = {
         "machine": records.machine(),
         "threads": threads,
@@ -123,7 +124,7 @@ def robustness(
     ):
         if not tasks:
             continue
-        outcomes = bench.run(tasks, jobs, _say)
+        outcomes = bench.run(tasks, jobs, say)
         rows = bench.summary(outcomes)
         result[part] = {"summary": rows, "outcomes": [outcome.row() for outcome in outcomes]}
         records.write_csv(out / f"{part}.csv", result[part]["outcomes"])
@@ -137,10 +138,6 @@ def robustness(
     records.write_json(out / "robustness.json", result)
     print(json_module.dumps(records.plain(result)) if json else f"Wrote {out}/robustness.json and CSV beside it")
     return 0 if enough else 1
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
 
 
 def _print_speed(rows: list[dict[str, Any]]) -> None:

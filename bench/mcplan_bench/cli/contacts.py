@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import json as json_module
-import sys
-from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
-if TYPE_CHECKING:
-    from mcplan_bench.contacts_cases import Case
-
+from mcplan_bench.cli.output import cases_named, print_sections, say, write_page
 
 CaseOption = Annotated[
     list[str] | None,
@@ -65,10 +61,10 @@ def contacts(
     from mcplan.files.outputs import require_folder
     from mcplan_bench import contacts as bench
     from mcplan_bench import records
-    from mcplan_bench.contacts_cases import setting_cases
+    from mcplan_bench.contacts_cases import CASES, setting_cases
 
     require_folder("--out", out)
-    chosen = _chosen(case or [])
+    chosen = cases_named(CASES, case or [])
     if list_cases:
         print("\n".join(entry.name for entry in chosen))
         return 0
@@ -79,14 +75,14 @@ def contacts(
     result["command"] = " ".join(["mcplan bench contacts", *words])
     verdicts: list[bool | None] = []
     if table:
-        result["rows"] = bench.run(chosen, jobs, _say)
+        result["rows"] = bench.run(chosen, jobs, say)
         verdicts += [row.holds for row in result["rows"]]
     if settings if settings is not None else not case:
-        rows = bench.run(setting_cases(), jobs, _say)
+        rows = bench.run(setting_cases(), jobs, say)
         result["settings"] = {"rows": rows, "summary": bench.settings_summary(rows)}
         verdicts.append(result["settings"]["summary"]["holds"])
     if speed if speed is not None else not case:
-        result["speed"] = bench.compare_speed(repeats, progress=_say)
+        result["speed"] = bench.compare_speed(repeats, progress=say)
         verdicts += [row["holds"] for row in result["speed"]]
     result["holds"] = False not in verdicts
     written = _write(result, out, markdown)
@@ -98,18 +94,7 @@ def contacts(
     return 0 if result["holds"] else 1
 
 
-def _chosen(names: list[str]) -> list[Case]:
-    from mcplan.errors import InvalidInput
-    from mcplan_bench.contacts_cases import CASES
-
-    for name in names:
-        if not any(fnmatchcase(case.name, name) for case in CASES):
-            raise InvalidInput("--case", f"must name one of {', '.join(case.name for case in CASES)}", repr(name))
-    return [case for case in CASES if not names or any(fnmatchcase(case.name, name) for name in names)]
-
-
 def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Path]:
-    from mcplan.files.outputs import write_whole
     from mcplan_bench import records
     from mcplan_bench.contacts_text import markdown as page
 
@@ -122,10 +107,7 @@ def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Pat
     if "speed" in result:
         written.append(records.write_csv(out / "speed.csv", plain["speed"]))
     if markdown is not None:
-        markdown.parent.mkdir(parents=True, exist_ok=True)
-        before = markdown.read_text(encoding="utf-8") if markdown.is_file() else ""
-        write_whole(page(result, before), markdown)
-        written.append(markdown)
+        written.append(write_page(markdown, lambda before: page(result, before)))
     return written
 
 
@@ -142,17 +124,6 @@ def _plain(result: dict[str, Any]) -> dict[str, Any]:
 
 
 def _print(result: dict[str, Any]) -> None:
-    from mcplan.cli.table import print_table
     from mcplan_bench.contacts_text import sections
 
-    for section in sections(result):
-        print(section.title)
-        if section.rows:
-            print_table(section.rows, section.head)
-        for note in section.notes:
-            print(f"  {note}")
-        print()
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
+    print_sections(sections(result))

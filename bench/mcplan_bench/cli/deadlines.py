@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json as json_module
-import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from mcplan_bench.cli.output import say
 
 
 def deadlines(
@@ -27,8 +28,8 @@ def deadlines(
     from mcplan_bench import deadlines as bench
     from mcplan_bench import records
 
-    rows = bench.overruns(quick, _say)
-    idle = bench.idle_surfaces(quick, _say)
+    rows = bench.overruns(quick, say)
+    idle = bench.idle_surfaces(quick, say)
     result = {"machine": records.machine(), "overruns": rows, "idle_surfaces": idle}
     records.write_csv(out / "overruns.csv", rows)
     records.write_csv(out / "idle_surfaces.csv", idle)
@@ -42,7 +43,3 @@ def deadlines(
     print("Idle surfaces: " + ", ".join(f"{row['idle']}: {row['cpu_s']:.2f} s" for row in idle))
     print(f"Wrote {out}/deadlines.json, overruns.csv, idle_surfaces.csv")
     return 0
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)

@@ -7,6 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
+from mcplan_bench.cli.output import say
+
 PaperArgument = Annotated[str, typer.Argument(metavar="PAPER", help="Paper: lengagne, tazaki or wang.")]
 OutOption = Annotated[
     Path | None, typer.Option("--out", metavar="DIR", help="Folder for all that is written; default: out/PAPER.")
@@ -81,7 +83,7 @@ def reproduce(
     if paper == "lengagne":
         from mcplan_bench.reproduce import lengagne
 
-        written = lengagne.reproduce(folder, quick, _say_aside, **options)
+        written = lengagne.reproduce(folder, quick, say, **options)
     elif paper == "wang":
         from mcplan_bench.reproduce import wang
 
@@ -114,9 +116,3 @@ def _numbers(text: str) -> list[int]:
 
 def _say(text: str) -> None:
     print(text, flush=True)
-
-
-def _say_aside(text: str) -> None:
-    import sys
-
-    print(text, file=sys.stderr, flush=True)

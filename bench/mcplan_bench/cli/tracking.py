@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import functools
 import json as json_module
-import sys
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+from mcplan_bench.cli.output import cases_named, print_sections, say, write_page
 
 if TYPE_CHECKING:
     from mcplan_bench.tracking import Keep
@@ -91,13 +92,13 @@ def tracking(
     result["command"] = _command(short, case or [], table, seeds if robustness else None, jobs)
     holds: list[bool | None] = []
     if table:
-        result["rows"] = bench.table(chosen, jobs, _say, _keep(html, strips))
+        result["rows"] = bench.table(chosen, jobs, say, _keep(html, strips))
         holds += [row.holds for row in result["rows"]]
     if robustness:
         result["robustness"] = _robustness(seeds, jobs, case)
         holds += [row["holds"] for row in result["robustness"]["summary"]]
     if speed if speed is not None else not (short or case):
-        _say("speed: on one core")
+        say("speed: on one core")
         result["speed"] = tracking_speed.measure()
         holds.append(result["speed"]["holds"])
     result["holds"] = False not in holds
@@ -114,7 +115,7 @@ def _robustness(seeds: int, jobs: int, case: list[str] | None) -> dict[str, Any]
     from mcplan_bench.tracking_cases import DISTURBED
 
     disturbed = [entry for entry in DISTURBED if not case or any(fnmatchcase(entry.name, name) for name in case)]
-    outcomes = tracking_robustness.run(seeds, jobs, _say, disturbed)
+    outcomes = tracking_robustness.run(seeds, jobs, say, disturbed)
     return {"seeds": seeds, "summary": tracking_robustness.summary(outcomes, disturbed), "outcomes": outcomes}
 
 
@@ -142,14 +143,9 @@ def _command(short: bool, case: list[str], table: bool, seeds: int | None, jobs:
 
 
 def _chosen(short: bool, names: list[str]) -> list[Case]:
-    from mcplan.errors import InvalidInput
     from mcplan_bench.tracking_cases import CASES, SHORT
 
-    cases = SHORT if short else CASES
-    for name in names:
-        if not any(fnmatchcase(case.name, name) for case in cases):
-            raise InvalidInput("--case", f"must name one of {', '.join(case.name for case in cases)}", repr(name))
-    return [case for case in cases if not names or any(fnmatchcase(case.name, name) for name in names)]
+    return cases_named(SHORT if short else CASES, names)
 
 
 def _keep(html: Path | None, strips: Path | None) -> Keep | None:
@@ -172,7 +168,6 @@ def _draw(html: Path | None, strips: Path | None, case: Case, run: Any) -> None:
 
 
 def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Path]:
-    from mcplan.files.outputs import write_whole
     from mcplan_bench import records
     from mcplan_bench.tracking_text import markdown as page
 
@@ -183,10 +178,7 @@ def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Pat
     if "robustness" in result:
         written.append(records.write_csv(out / "robustness.csv", plain["robustness"]["outcomes"]))
     if markdown is not None:
-        markdown.parent.mkdir(parents=True, exist_ok=True)
-        before = markdown.read_text(encoding="utf-8") if markdown.is_file() else ""
-        write_whole(page(result, before), markdown)
-        written.append(markdown)
+        written.append(write_page(markdown, lambda before: page(result, before)))
     return written
 
 
@@ -205,17 +197,7 @@ def _plain(result: dict[str, Any]) -> dict[str, Any]:
 
 
 def _print(result: dict[str, Any], written: list[Path]) -> None:
-    from mcplan.cli.table import print_table
     from mcplan_bench.tracking_text import sections
 
-    for section in sections(result):
-        print(section.title)
-        print_table(section.rows, section.head)
-        for note in section.notes:
-            print(f"  {note}")
-        print()
+    print_sections(sections(result))
     print(f"Wrote {', '.join(str(path) for path in written)}")
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
