@@ -32,7 +32,7 @@ CPP_ROOMS = {
 #: is internal and lies in cpp/src; it becomes public, and installed, by its name here.
 PUBLIC = {
     ".": "mcplan version",
-    "base": "deadline error logging range rotation status",
+    "base": "deadline error logging range rotation status suspicion",
     "model": "data",
     "scene": "polygon scene scene_files",
     "robot": "robot robot_files similarity standing",

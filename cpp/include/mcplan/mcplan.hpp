@@ -6,6 +6,7 @@
 #include "mcplan/base/range.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "mcplan/base/status.hpp"
+#include "mcplan/base/suspicion.hpp"
 #include "mcplan/ddp/options.hpp"
 #include "mcplan/ddp/plan.hpp"
 #include "mcplan/ddp/switched_ddp.hpp"

@@ -105,6 +105,7 @@ Value schema_of(const std::string& name) {
 }
 
 void bind_scene_files(py::module_& m) {
+  def_suspicious_geometry<Scene>(m, "scene");
   m.def(
       "load_scene", [](const py::object& source) { return load_scene(path_from(source)); }, py::arg("source"),
       "A built-in scene by its name, or one from a TOML file. Raises UnknownScene, InvalidScene.");
@@ -129,6 +130,7 @@ void bind_scene_files(py::module_& m) {
 }
 
 void bind_robot_files(py::module_& m) {
+  def_suspicious_geometry<Robot>(m, "robot");
   m.def(
       "load_robot", [](const py::object& source) { return load_robot(path_from(source)); }, py::arg("source"),
       "A built-in robot by its name, or one from a TOML file. Raises UnknownRobot, InvalidRobot.");

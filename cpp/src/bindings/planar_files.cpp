@@ -108,6 +108,7 @@ void bind_planar_plan_files(py::module_& m) {
 }  // namespace
 
 void bind_planar_files(py::module_& m) {
+  def_suspicious_geometry<PlanarRobot>(m, "robot");
   bind_planar_robot_files(m);
   bind_planar_task_files(m);
   bind_planar_plan_files(m);

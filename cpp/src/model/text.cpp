@@ -126,6 +126,18 @@ std::string number_text(double value) {
   return (text[0] == '-' ? "-" : "") + digits;
 }
 
+std::string digits(double value, const char* format) {
+  char out[40];
+  std::snprintf(out, sizeof out, format, value);
+  return out;
+}
+
+std::string digits(const Eigen::Ref<const Eigen::VectorXd>& values, const char* format) {
+  std::string out;
+  for (double value : values) out += (out.empty() ? "" : ", ") + digits(value, format);
+  return "[" + out + "]";
+}
+
 std::string quote(std::string_view text) {
   const char mark = text.find('\'') != text.npos && text.find('"') == text.npos ? '"' : '\'';
   std::string out(1, mark);

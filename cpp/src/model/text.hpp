@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,10 @@ namespace mcplan::model {
 
 /// Shortest decimal number that reads back as the same double: 0.1, 1e-05, 2.0, nan, inf.
 std::string number_text(double value);
+
+/// A number, or numbers in brackets, by a format of printf, such as "%.4g".
+std::string digits(double value, const char* format);
+std::string digits(const Eigen::Ref<const Eigen::VectorXd>& values, const char* format);
 
 /// In quotes, with control characters and those that no terminal shows written out.
 std::string quote(std::string_view text);

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/scene/polygon.hpp"
+#include "model/text.hpp"
 
 namespace mcplan {
 namespace {
@@ -14,16 +14,6 @@ namespace {
 /// How far outside of its reach box an end-effector may stand at start and goal, in CoM heights: poses of a real robot,
 /// which bends, lie outside of the box by less.
 constexpr double max_outside = 0.25;
-
-std::string digits(const char* format, double value) {
-  char out[32];
-  std::snprintf(out, sizeof out, format, value);
-  return out;
-}
-
-std::string point_text(const Eigen::Vector3d& point) {
-  return "[" + digits("%.4g", point.x()) + ", " + digits("%.4g", point.y()) + ", " + digits("%.4g", point.z()) + "]";
-}
 
 void require_upward_force(const Scene& scene, const Stance& stance, const std::string& field) {
   std::vector<int> named;
@@ -48,11 +38,11 @@ void require_within_reach(const Scene& scene, const Robot& robot, const Stance& 
     const Eigen::Vector3d outside =
         (end_effector.reach_min_B - place_B).cwiseMax(place_B - end_effector.reach_max_B).cwiseMax(0.0);
     if (resolved.contacts[l] < 0 || !(outside.norm() > max_outside * robot.com_height)) continue;
-    const std::string off = digits("%.2g", (place_B - end_effector.nominal_B).norm());
+    const std::string off = model::digits((place_B - end_effector.nominal_B).norm(), "%.2g");
     throw InvalidScene(field + ".position",
                        "must be where " + robot.name + " reaches the surfaces that its contacts name",
-                       point_text(stance.position_W) + ": " + end_effector.name + " would stand " + off + " m off " +
-                           text(scene.surfaces[resolved.contacts[l]].name));
+                       model::digits(stance.position_W, "%.4g") + ": " + end_effector.name + " would stand " + off +
+                           " m off " + text(scene.surfaces[resolved.contacts[l]].name));
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 #include "mcplan/base/error.hpp"
@@ -10,9 +9,11 @@
 #include "model/find.hpp"
 #include "model/read.hpp"
 #include "model/reading.hpp"
+#include "model/text.hpp"
 #include "model/toml.hpp"
 #include "model/write.hpp"
 #include "model/writing.hpp"
+#include "scene/ground.hpp"
 #include "scene_fields.hpp"
 
 namespace mcplan {
@@ -22,21 +23,6 @@ using Eigen::Vector3d;
 
 // How far a stance may be off all its surfaces, in lengths of the scene: above or below one of them, and beside.
 constexpr double max_above = 0.05, max_beside = 0.25;
-constexpr double walkable = 0.5;  // z of the normal of ground
-
-/// Length of the diagonal of the box around all surfaces [m].
-double scene_size(const Scene& scene) {
-  Eigen::AlignedBox3d box;
-  for (const Surface& surface : scene.surfaces)
-    for (const Vector3d& vertex : surface.vertices_W) box.extend(vertex);
-  return box.diagonal().norm();
-}
-
-std::string digits(double value, const char* format) {
-  char out[40];
-  std::snprintf(out, sizeof out, format, value);
-  return out;
-}
 
 /// The ground below the CoM must not be far from every surface that the stance names.
 void require_ground_below(const Scene& scene, const Stance& stance, const std::string& field) {
@@ -56,14 +42,20 @@ void require_ground_below(const Scene& scene, const Stance& stance, const std::s
     over = along > 0.999 && std::abs(polygon.normal_W().z()) > walkable;
   }
   if (nearest <= (over ? max_above : max_beside) * scene_size(scene)) return;
-  std::string at;
-  for (int i = 0; i < 3; ++i) at += (i ? ", " : "") + digits(stance.position_W[i], "%.4g");
-  throw InvalidScene(
-      field + ".position", "must be a point of the ground below the robot, near the surfaces that its contacts name",
-      "[" + at + "], " + digits(nearest, "%.3g") + " m " + (over ? "off " : "beside ") + model::quote(near_name));
+  throw InvalidScene(field + ".position",
+                     "must be a point of the ground below the robot, near the surfaces that its contacts name",
+                     model::digits(stance.position_W, "%.4g") + ", " + model::digits(nearest, "%.3g") + " m " +
+                         (over ? "off " : "beside ") + model::quote(near_name));
 }
 
 }  // namespace
+
+double scene_size(const Scene& scene) {
+  Eigen::AlignedBox3d box;
+  for (const Surface& surface : scene.surfaces)
+    for (const Vector3d& vertex : surface.vertices_W) box.extend(vertex);
+  return box.diagonal().norm();
+}
 
 namespace model {
 

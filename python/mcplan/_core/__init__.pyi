@@ -112,6 +112,7 @@ __all__: list[str] = [
     "scene_to_dict",
     "schema_text",
     "sip",
+    "suspicious_geometry",
     "toml_from",
     "toml_text",
 ]
@@ -3235,6 +3236,24 @@ def scene_to_dict(scene: Scene) -> dict:
 def schema_text(name: str) -> str:
     """
     The JSON schema of the files of a kind: 'scene', 'robot', 'planar_robot' or 'motion'.
+    """
+
+@typing.overload
+def suspicious_geometry(scene: Scene) -> list[tuple[str, str, str]]:
+    """
+    What is legal and can hardly be meant: field, rule and value of each finding.
+    """
+
+@typing.overload
+def suspicious_geometry(robot: Robot) -> list[tuple[str, str, str]]:
+    """
+    What is legal and can hardly be meant: field, rule and value of each finding.
+    """
+
+@typing.overload
+def suspicious_geometry(robot: PlanarRobot) -> list[tuple[str, str, str]]:
+    """
+    What is legal and can hardly be meant: field, rule and value of each finding.
     """
 
 def toml_from(content: bytes) -> dict:

@@ -10,7 +10,7 @@ from mcplan import _core
 from mcplan._core import PlanarTask
 from mcplan.errors import UnknownMotion
 from mcplan.files import builtin
-from mcplan.files.geometry import require_planar_robot_meant
+from mcplan.files.geometry import warn_of_geometry
 from mcplan.files.outputs import write_whole
 from mcplan.files.toml import toml_text
 
@@ -24,7 +24,7 @@ def load_motion(source: str | Path) -> PlanarTask:
     """Load a motion by its built-in name or from a TOML file; see mcplan.load_motion."""
     path = builtin.find(source, "motions", UnknownMotion)
     motion = _core.read_planar_task(path)
-    require_planar_robot_meant(motion.robot, str(path), "robot.")
+    warn_of_geometry(motion.robot, str(path), "robot.")
     return motion
 
 

@@ -10,7 +10,7 @@ from mcplan import _core
 from mcplan._core import PlanarRobot
 from mcplan.errors import UnknownRobot
 from mcplan.files import builtin
-from mcplan.files.geometry import require_planar_robot_meant
+from mcplan.files.geometry import warn_of_geometry
 from mcplan.files.outputs import write_whole
 from mcplan.files.toml import toml_text
 
@@ -24,7 +24,7 @@ def load_planar_robot(source: str | Path) -> PlanarRobot:
     """Load a planar robot by its built-in name or from a TOML file; see mcplan.load_planar_robot."""
     path = builtin.find(source, "planar_robots", UnknownRobot)
     robot = _core.read_planar_robot(path)
-    require_planar_robot_meant(robot, str(path))
+    warn_of_geometry(robot, str(path))
     return robot
 
 

@@ -10,7 +10,7 @@ from mcplan import _core
 from mcplan._core import Robot
 from mcplan.errors import UnknownRobot
 from mcplan.files import builtin
-from mcplan.files.geometry import require_robot_meant
+from mcplan.files.geometry import warn_of_geometry
 from mcplan.files.outputs import write_whole
 from mcplan.files.toml import toml_text
 
@@ -38,7 +38,7 @@ def load_robot(source: str | Path) -> Robot:
     """Load a robot by its built-in name or from a TOML file; see mcplan.load_robot."""
     path = _find(source)
     robot = _core.read_robot(path)
-    require_robot_meant(robot, str(path))
+    warn_of_geometry(robot, str(path))
     return robot
 
 

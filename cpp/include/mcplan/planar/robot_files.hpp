@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "mcplan/base/suspicion.hpp"
 #include "mcplan/model/data.hpp"  // which tells where the built-in planar robots lie
 #include "mcplan/planar/robot.hpp"
 
@@ -15,6 +17,10 @@ PlanarRobot load_planar_robot(const std::string& name_or_path);
 
 /// The planar robot of a TOML file. Throws InvalidRobot.
 PlanarRobot read_planar_robot(const std::filesystem::path& file);
+
+/// What of a planar robot can hardly be meant: a gravity that contradicts the lengths. Loading says nothing of it.
+/// Throws InvalidRobot.
+std::vector<Suspicion> suspicious_geometry(const PlanarRobot& robot);
 
 /// Writes a TOML file, which is complete or not there at all. Throws InvalidRobot, std::filesystem::filesystem_error.
 void save_planar_robot(const PlanarRobot& robot, const std::filesystem::path& file);

@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "mcplan/base/suspicion.hpp"
 #include "mcplan/model/data.hpp"  // which tells where the built-in robots lie
 #include "mcplan/robot/robot.hpp"
 
@@ -15,6 +17,10 @@ Robot load_robot(const std::string& name_or_path);
 /// The robot of a TOML file. What it names (its URDF, files of reach polytopes) lies beside it or below. Throws
 /// InvalidRobot.
 Robot read_robot(const std::filesystem::path& file);
+
+/// What of a robot can hardly be meant: numbers that look like millimetres, degrees, milliseconds or grams, and an
+/// inertia that no body has. Loading says nothing of it. Throws InvalidRobot.
+std::vector<Suspicion> suspicious_geometry(const Robot& robot);
 
 /// Writes a TOML file, which is complete or not there at all; reach polytopes are inline. Throws InvalidRobot,
 /// std::filesystem::filesystem_error.

@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "mcplan/base/suspicion.hpp"
 #include "mcplan/model/data.hpp"  // which tells where the built-in scenes lie
 #include "mcplan/scene/scene.hpp"
 
@@ -19,6 +21,10 @@ Scene read_scene(const std::filesystem::path& file);
 /// Throws InvalidScene where a scene is not valid, or its start or goal hangs in the air, lies under its ground, or
 /// lies far beside all surfaces that it names. load_scene() asks for it, too.
 void require_ground(const Scene& scene);
+
+/// What of a scene can hardly be meant: lengths that look like millimetres, ground that faces down, a gravity that
+/// contradicts the lengths. Loading says nothing of it. Throws InvalidScene.
+std::vector<Suspicion> suspicious_geometry(const Scene& scene);
 
 /// Writes a TOML file, which is complete or not there at all. Throws InvalidScene, std::filesystem::filesystem_error.
 void save_scene(const Scene& scene, const std::filesystem::path& file);

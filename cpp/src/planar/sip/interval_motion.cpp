@@ -144,7 +144,9 @@ void IntervalMotion::add_base() {
       const Place place = moved(joint[foot.body], foot.body, foot.position_B);
       append(base_x, place.x, -share);
       append(base_y, place.y, -share);
-      base_constant += share * (contact.position_W - origin_W);
+      // One rounding, whatever the compiler makes of this function: the last bits of plans depend on it.
+      for (int i = 0; i < 2; ++i)
+        base_constant[i] = std::fma(share, contact.position_W[i] - origin_W[i], base_constant[i]);
     }
   } else {
     base_x = {{1.0, splines_[robot.joint_count()]}};
