@@ -11,7 +11,6 @@ namespace {
 
 using ddp::Method;
 using ddp::Model;
-using ddp::Options;
 using ddp::StiffnessInput;
 using ddp::SwitchedDdp;
 using ddp::Weights;
@@ -25,12 +24,12 @@ void bind_weights(py::module_& m) {
           [term](Weights& self, double weight) { self.own[term->name()] = weight; }, term->own_weight().meaning);
 }
 
-void bind_options(py::module_& m) {
+void bind_ddp_options(py::module_& m) {
   bind_enum<Method>(m);
   bind_enum<Model>(m);
   bind_enum<StiffnessInput>(m);
   bind_weights(m);
-  bind_fields<Options>(m).def("validate", &Options::validate,
+  bind_fields<ddp::Options>(m).def("validate", &ddp::Options::validate,
                               "Raise InvalidOptions naming all that is out of its range.");
 }
 
@@ -38,16 +37,16 @@ void bind_options(py::module_& m) {
 
 void bind_ddp(py::module_& parent) {
   py::module_ m = parent.def_submodule("ddp", "Contact-sequence search by switched differential dynamic programming.");
-  bind_options(m);
+  bind_ddp_options(m);
   m.attr("Result") = parent.attr("PlanResult");
   py::class_<SwitchedDdp> c(
       m, "SwitchedDdp",
       "Contact-sequence search for one scene and robot. Solves release the GIL; Ctrl-C ends them, and "
       "Interrupted carries the best plan so far.");
-  c.def(py::init([](const Scene& scene, const Robot& robot, const Options& options) {
+  c.def(py::init([](const Scene& scene, const Robot& robot, const ddp::Options& options) {
           return SwitchedDdp(scene, robot, watched(options));
         }),
-        py::arg("scene"), py::arg("robot"), py::arg_v("options", Options(), "Options()"));
+        py::arg("scene"), py::arg("robot"), py::arg_v("options", ddp::Options(), "Options()"));
   c.def(
       "solve", [](SwitchedDdp& self) { return interruptible([&] { return self.solve(); }); },
       "Plan from the scene's start to its goal.");

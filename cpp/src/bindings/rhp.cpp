@@ -10,16 +10,15 @@ namespace {
 
 using rhp::Cycle;
 using rhp::Fidelity;
-using rhp::Options;
 using rhp::RecedingHorizon;
 using rhp::State;
 using rhp::Transcription;
 using rhp::Walk;
 
-void bind_options(py::module_& m) {
+void bind_rhp_options(py::module_& m) {
   bind_enum<Fidelity>(m);
   bind_enum<Transcription>(m);
-  bind_fields<Options>(m).def("validate", &Options::validate,
+  bind_fields<rhp::Options>(m).def("validate", &rhp::Options::validate,
                               "Raise InvalidOptions naming all that is out of its range.");
 }
 
@@ -84,21 +83,21 @@ void bind_results(py::module_& m) {
 
 void bind_rhp(py::module_& parent) {
   py::module_ m = parent.def_submodule("rhp", "Multi-fidelity receding-horizon planning of walks on two feet.");
-  bind_options(m);
+  bind_rhp_options(m);
   bind_state(m);
   bind_results(m);
   py::class_<RecedingHorizon> c(m, "RecedingHorizon",
                                 "One nonlinear program a cycle, of whose steps the first is executed. Solves release "
                                 "the GIL; Ctrl-C ends them, and Interrupted carries the walk or the cycle.");
-  c.def(py::init([](const Scene& scene, const Robot& robot, const Options& options) {
+  c.def(py::init([](const Scene& scene, const Robot& robot, const rhp::Options& options) {
           return RecedingHorizon(scene, robot, watched(options));
         }),
-        py::arg("scene"), py::arg("robot"), py::arg_v("options", Options(), "Options()"),
+        py::arg("scene"), py::arg("robot"), py::arg_v("options", rhp::Options(), "Options()"),
         "The contact sequence is scene.steps; after its end the feet go on in turn on its last surface.");
-  c.def(py::init([](const Scene& scene, const Robot& robot, const Plan& sequence, const Options& options) {
+  c.def(py::init([](const Scene& scene, const Robot& robot, const Plan& sequence, const rhp::Options& options) {
           return RecedingHorizon(scene, robot, sequence, watched(options));
         }),
-        py::arg("scene"), py::arg("robot"), py::arg("sequence"), py::arg_v("options", Options(), "Options()"),
+        py::arg("scene"), py::arg("robot"), py::arg("sequence"), py::arg_v("options", rhp::Options(), "Options()"),
         "Contact sequence and start are those of a plan; the walk comes to rest after its last step.");
   c.def(
       "walk",
