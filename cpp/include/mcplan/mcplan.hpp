@@ -44,6 +44,7 @@
 #include "mcplan/nlp/solver.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "mcplan/plan/clearance.hpp"
+#include "mcplan/plan/force_laws.hpp"
 #include "mcplan/plan/friction_use.hpp"
 #include "mcplan/plan/loads.hpp"
 #include "mcplan/plan/plan.hpp"
