@@ -54,6 +54,7 @@
 #include "mcplan/plan/similar.hpp"
 #include "mcplan/plan/swings.hpp"
 #include "mcplan/planar/checker.hpp"
+#include "mcplan/planar/force_laws.hpp"
 #include "mcplan/planar/plan.hpp"
 #include "mcplan/planar/plan_files.hpp"
 #include "mcplan/planar/robot.hpp"
