@@ -104,7 +104,7 @@ class ContactMeasures:
 
 
 def measure_contacts(plan: Plan, sample_s: float = 1e-3) -> ContactMeasures:
-    """Measure a plan under ForceLaw.pendulum or ForceLaw.wrench.
+    """Measure a plan without forces at points.
 
     Args:
         plan: A plan of at least one phase.

@@ -25,7 +25,7 @@ _STEP = 0.004
 class Contacts:
     """The contacts of P phases and E end-effectors; free ones have stiffness and moment as the plan says, so that leaks show.
 
-    Under ForceLaw.pendulum the force acts at its anchor.
+    Without contact wrenches the force acts at its anchor.
     """
 
     durations_s: Array  # (P,)
@@ -69,21 +69,19 @@ def contacts(plan: Plan) -> Contacts:
     Raises:
         InvalidInput: A phase has forces at points.
     """
-    from mcplan.model import ForceLaw
-
     for k, phase in enumerate(plan.phases):
-        if phase.law not in (ForceLaw.pendulum, ForceLaw.wrench):
-            raise InvalidInput(f"phases[{k}].law", "must be pendulum or wrench", str(phase.law))
+        if phase.has_points:
+            raise InvalidInput(f"phases[{k}].law", "must have no forces at points", str(phase.law))
     rows = [phase.contacts for phase in plan.phases]
     anchors = np.array([[c.anchor_W for c in row] for row in rows])
     pressure = np.array([[c.center_of_pressure_W for c in row] for row in rows])
-    pendulum = np.array([phase.law == ForceLaw.pendulum for phase in plan.phases])
+    wrenches = np.array([phase.has_wrenches for phase in plan.phases])
     return Contacts(
         durations_s=np.array([phase.duration for phase in plan.phases]),
         surfaces=np.array([[c.surface for c in row] for row in rows]),
         stiffness=np.array([[c.stiffness for c in row] for row in rows]),
         anchors_W=anchors,
-        pressure_W=np.where(pendulum[:, None, None], anchors, pressure),
+        pressure_W=np.where(wrenches[:, None, None], pressure, anchors),
         moments_W=np.array([[c.moment_W for c in row] for row in rows]),
     )
 
@@ -96,7 +94,7 @@ def replay(plan: Plan, sample_s: float = 1e-3) -> Replay:
     with f_l = m mu_l (p - s_l), by Runge-Kutta steps of order 4, all phases side by side.
 
     Args:
-        plan: Under ForceLaw.pendulum or ForceLaw.wrench.
+        plan: Without forces at points.
         sample_s: Longest time between samples [s].
     """
     given = contacts(plan)
@@ -160,15 +158,13 @@ def replay_errors(plan: Plan, replayed: Replay) -> ReplayErrors:
 def _knots(plan: Plan) -> Array:
     """CoM, velocity, angular momentum and rotation of each knot in a row (N + 1, 18).
 
-    The base of ForceLaw.pendulum rotates by small angles, I theta'' = sum tau_l: its momentum is I theta'.
+    Where the momentum is no state, the base rotates by small angles, I theta'' = sum tau_l: its momentum is I theta'.
     """
-    from mcplan.model import ForceLaw
-
     inertia = np.asarray(plan.robot.inertia)
     rows = []
     for k, knot in enumerate(plan.knots):
-        pendulum = plan.phases[min(k, len(plan.phases) - 1)].law == ForceLaw.pendulum
-        momentum = inertia * knot.base_rpy_rate if pendulum else knot.angular_momentum_W
+        has_momentum = plan.phases[min(k, len(plan.phases) - 1)].has_momentum
+        momentum = knot.angular_momentum_W if has_momentum else inertia * knot.base_rpy_rate
         rotation = from_rpy(np.asarray(knot.base_rpy)).ravel()
         rows.append(np.concatenate([knot.com_W, knot.com_velocity_W, momentum, rotation]))
     return np.array(rows)

@@ -87,5 +87,5 @@ def test_phases_of_different_length_end_at_their_own_knots():
 
 
 def test_forces_at_points_are_refused():
-    with pytest.raises(mp.InvalidInput, match=r"phases\[0\].law: must be pendulum or wrench"):
+    with pytest.raises(mp.InvalidInput, match=r"phases\[0\].law: must have no forces at points"):
         replay(stepping_plan())

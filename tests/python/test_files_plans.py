@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import mcplan as mp
+from mcplan.files import plans
 from mcplan.files.plans import load_plan, plan_from_bytes, plan_to_bytes
 from mcplan.files.whole_body_plans import load_any_plan
 from mcplan.showing import load
@@ -329,6 +330,61 @@ def test_contact_wrenches_come_back_exactly(headings, tmp_path):
         assert repr(other.phases) == repr(plan.phases) and repr(other.knots) == repr(plan.knots)
         assert repr(other.robot) == repr(plan.robot) and plan_to_bytes(other) == plan_to_bytes(plan)
     assert format_of(plan) == 3
+
+
+def plan_under(law: mp.ForceLaw) -> mp.Plan:
+    """A plan whose first phase is under a law."""
+    if law == mp.ForceLaw.pendulum:
+        return standing_plan()
+    if law == mp.ForceLaw.wrench:
+        return turning_plan()
+    plan = stepping_plan()
+    first = plan.phases[0]
+    first.law = law
+    for contact in first.contacts:  # held forces have one node less
+        contact.point_forces_W = contact.point_forces_W[: first.node_count() * len(contact.points_W)]
+    return plan
+
+
+def test_files_number_laws_in_their_order_in_the_enum():
+    """Numbers of files that exist: a new law stands behind these."""
+    assert list(mp.ForceLaw.__members__)[:4] == ["pendulum", "held", "linear", "wrench"]
+    assert list(plans._LAWS) == list(mp.ForceLaw.__members__.values())
+    assert [int(law) for law in plans._LAWS] == list(range(len(plans._LAWS)))
+    first = list(plans._FORMAT_OF_LAW.values())
+    assert first == sorted(first) and set(first) <= set(plans.FORMATS)
+
+
+@pytest.mark.parametrize("name", mp.ForceLaw.__members__)
+@pytest.mark.parametrize("ending", ["npz", "json"])
+def test_a_phase_of_every_law_passes_through_a_file_unchanged(name, ending, tmp_path):
+    law = mp.ForceLaw.__members__[name]
+    plan = plan_under(law)
+    plan.phases[0].duration += 1 / 3e6
+    plan.save(tmp_path / f"plan.{ending}")
+    (tmp_path / "again").mkdir()
+    other = mp.Plan.load(tmp_path / f"plan.{ending}")
+    other.save(tmp_path / "again" / f"plan.{ending}")
+    phase = other.phases[0]
+    assert phase == plan.phases[0] and other == plan and states(other) == states(plan)
+    assert (phase.law, phase.intervals) == (law, plan.phases[0].intervals)
+    assert (tmp_path / "again" / f"plan.{ending}").read_bytes() == (tmp_path / f"plan.{ending}").read_bytes()
+
+
+def test_a_phase_says_what_its_law_has():
+    has = {law: mp.Phase(law=law, intervals=3) for law in mp.ForceLaw.__members__.values()}
+    assert [phase.has_points for phase in has.values()] == [False, True, True, False]
+    assert [phase.has_momentum for phase in has.values()] == [False, True, True, True]
+    assert [phase.has_wrenches for phase in has.values()] == [False, False, False, True]
+    assert [phase.node_count() for phase in has.values()] == [0, 3, 4, 0]
+
+
+def test_a_number_that_no_law_has_is_refused():
+    phase = mp.Phase()
+    for wrong in (mp.ForceLaw(7), mp.ForceLaw(-1), "held", 1):
+        with pytest.raises(TypeError):
+            phase.law = wrong
+    assert phase.law == mp.ForceLaw.pendulum
 
 
 def test_a_plan_is_written_in_the_least_format_that_holds_it(plan):

@@ -69,7 +69,7 @@ void def_field(py::class_<T>& c, const F& f) {
     def_matrix(c, f.name, f.member, doc.c_str());
   else if constexpr (std::is_base_of_v<Eigen::MatrixBase<M>, M>)
     def_vector(c, f.name, f.member, doc.c_str());
-  else if constexpr (std::is_arithmetic_v<M> || std::is_enum_v<M> || std::is_same_v<M, std::string> ||
+  else if constexpr (std::is_arithmetic_v<M> || model::HasNames<M>::value || std::is_same_v<M, std::string> ||
                      std::is_same_v<M, Range> || IsNested<M>::value || model::IsCallback<M>::value)
     c.def_readwrite(f.name, f.member, doc.c_str());
   else
@@ -117,15 +117,22 @@ void def_state(py::class_<T>& c, std::index_sequence<I...>) {
       }));
 }
 
+/// A repr that can be pasted.
+template <class E>
+void def_enum_repr(py::enum_<E>& c, const char* name) {
+  c.def(
+      "__repr__",
+      [name](E value) { return std::string(name) + "." + std::string(py::str(py::cast(value).attr("name"))); },
+      py::prepend());
+}
+
 /// Class of an enum as its table says, whose repr can be pasted.
 template <class E>
 void bind_enum(py::module_& m) {
   using Table = model::Names<E>;
   py::enum_<E> c(m, Table::name, Table::meaning);
   for (const auto& [name, value, meaning] : Table::all) c.value(name, value, meaning);
-  c.def(
-      "__repr__", [](E value) { return Table::name + ("." + std::string(py::str(py::cast(value).attr("name")))); },
-      py::prepend());
+  def_enum_repr(c, Table::name);
 }
 
 /// Class of a struct as its table says: constructor by keywords, members, repr that can be pasted, equality, copies,

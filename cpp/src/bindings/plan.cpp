@@ -5,9 +5,13 @@
 #include "mcplan/plan/loads.hpp"
 #include "mcplan/plan/plan_files.hpp"
 #include "mcplan/plan/report.hpp"
+#include "named_types.hpp"
 #include "plan/plan_fields.hpp"
 #include "plan/tolerances_fields.hpp"
 #include "signals.hpp"
+
+template <>
+struct pybind11::detail::type_caster<mcplan::ForceLaw> : mcplan::bindings::NamedTypeCaster<mcplan::ForceLaw> {};
 
 namespace mcplan::bindings {
 namespace {
@@ -16,9 +20,15 @@ using Eigen::Vector3d;
 
 void bind_parts(py::module_& m) {
   bind_fields<Contact>(m);
-  bind_fields<Phase>(m).def(
-      "node_count", &Phase::node_count,
-      "Instants at which forces are given: `intervals` when held, one more when linear, 0 without such.");
+  py::class_<Phase> phase = bind_fields<Phase>(m);
+  phase.def("node_count", &Phase::node_count,
+            "Instants at which forces are given: `intervals` when held, one more when linear, 0 without such.");
+  phase.def_property_readonly("has_points", &Phase::has_points,
+                              "Whether forces act at points, not as one force that follows the CoM.");
+  phase.def_property_readonly("has_momentum", &Phase::has_momentum,
+                              "Whether the angular momentum is a state of knots, not what the base has by its rates.");
+  phase.def_property_readonly("has_wrenches", &Phase::has_wrenches,
+                              "Whether contacts have a centre of pressure and a moment that turn the base.");
   bind_fields<Knot>(m);
   bind_fields<Swing>(m);
 }
@@ -233,7 +243,7 @@ void bind_loads(py::module_& m) {
 }  // namespace
 
 void bind_plan(py::module_& m) {
-  bind_enum<ForceLaw>(m);
+  bind_named_types<ForceLaw>(m);
   bind_parts(m);
   bind_state(m);
   bind_plan_class(m);

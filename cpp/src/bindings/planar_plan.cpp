@@ -2,9 +2,14 @@
 
 #include "fields.hpp"
 #include "mcplan/planar/checker.hpp"
+#include "named_types.hpp"
 #include "planar/plan_fields.hpp"
 #include "planar/tolerances_fields.hpp"
 #include "signals.hpp"
+
+template <>
+struct pybind11::detail::type_caster<mcplan::PlanarForceLaw>
+    : mcplan::bindings::NamedTypeCaster<mcplan::PlanarForceLaw> {};
 
 namespace mcplan::bindings {
 namespace {
@@ -44,13 +49,7 @@ void bind_state(py::module_& m) {
             {"time", "phase", "configuration", "torque", "base_residual", "forces", "contact_error", "com_W",
              "com_velocity_W", "angular_momentum"});
 
-  py::enum_<PlanarForceLaw>(m, "PlanarForceLaw", "Where the contact forces of a planar plan come from.")
-      .value("least_norm", PlanarForceLaw::least_norm, "Weighted least norm that balances the motion.")
-      .value("polynomial", PlanarForceLaw::polynomial, "Cubic in time over each interval, given.")
-      .def(
-          "__repr__",
-          [](PlanarForceLaw law) { return "PlanarForceLaw." + std::string(py::str(py::cast(law).attr("name"))); },
-          py::prepend());
+  bind_named_types<PlanarForceLaw>(m);
 }
 
 std::string describe(const PlanarPlan& plan) {

@@ -89,7 +89,7 @@ VectorXd input_of(const Problem& problem, const Phase& phase, const VectorXd& x,
   }
   for (int l = 0; l < at.ends(); ++l) {
     const Contact& contact = phase.contacts[problem.active[l]];
-    if (contact.surface == kFree || phase.law != ForceLaw::wrench) continue;
+    if (contact.surface == kFree || !phase.has_wrenches()) continue;
     const Vector3d acting = contact.center_of_pressure_W / units.length;
     u.segment(at.pressure(l), at.pressure_count(l)) =
         at.offsets(l).pressure.transpose() * (acting - x.segment<3>(at.end(l)));
@@ -122,7 +122,7 @@ Plan to_plan(const Problem& problem, const Incumbent& incumbent, bool swing_heig
     Phase phase;
     phase.duration = std::max(u[at.duration()] * units.time, kPhaseMin_s * problem.similarity.time);
     phase.contacts.resize(ends);
-    if (wrench) phase.law = ForceLaw::wrench;
+    if (wrench) phase.law = laws::Wrench();
     for (int l = 0; l < at.ends(); ++l) {
       Contact& contact = phase.contacts[problem.active[l]];
       contact.surface = incumbent.sequence[k][l];
@@ -157,7 +157,7 @@ Incumbent from_plan(const Problem& problem, const Plan& plan, int first) {
     VectorXd x = VectorXd::Zero(at.nx());
     x.segment<3>(at.com()) = knot.com_W / units.length;
     x.segment<3>(at.velocity()) = knot.com_velocity_W / units.velocity();
-    const bool has_momentum = problem.model == Model::wrench && plan.phases[0].law != ForceLaw::pendulum;
+    const bool has_momentum = problem.model == Model::wrench && plan.phases[0].has_momentum();
     const Vector3d momentum =
         has_momentum ? knot.angular_momentum_W : Vector3d(problem.robot.inertia.cwiseProduct(knot.base_rpy_rate));
     for (int a = 0; a < at.axis_count(); ++a) {

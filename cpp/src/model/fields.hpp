@@ -9,6 +9,7 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "value.hpp"
@@ -149,6 +150,20 @@ template <class E>
 struct Names;
 template <class E>
 using Choice = std::tuple<const char*, E, const char*>;
+
+/// The choices of a variant of types without members, which say their own `name` and `meaning`: it is read, written and
+/// bound like an enum.
+template <class V>
+struct NamesOfTypes;
+template <class... Types>
+struct NamesOfTypes<std::variant<Types...>> {
+  static constexpr Choice<std::variant<Types...>> all[] = {{Types::name, Types{}, Types::meaning}...};
+};
+
+template <class V, class = void>
+struct HasNames : std::false_type {};
+template <class V>
+struct HasNames<V, std::void_t<decltype(Names<V>::all)>> : std::true_type {};
 
 template <class T, class = void>
 struct HasFields : std::false_type {};

@@ -164,7 +164,7 @@ bool read_pair(const Value& value, std::pair<Item, Item>& out, const Rules& rule
 
 template <class V>
 bool read_value(const Value& value, V& out, const Rules& rules, const Place& at, Reading& reading) {
-  if constexpr (std::is_enum_v<V>) {
+  if constexpr (HasNames<V>::value) {
     return read_enum(value, out, at, reading);
   } else if constexpr (HasFields<V>::value || IsInFile<V>::value) {
     return read_struct(value, out, at, reading);

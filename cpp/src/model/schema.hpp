@@ -41,7 +41,7 @@ Value value_schema(const Rules& rules, Value::Table& definitions) {
     out = number_schema(rules);
   } else if constexpr (std::is_same_v<V, std::string>) {
     out = text_schema(rules);
-  } else if constexpr (std::is_enum_v<V>) {
+  } else if constexpr (HasNames<V>::value) {
     Value::Array names;
     for (const auto& entry : Names<V>::all) names.push_back(std::get<0>(entry));
     out.set("enum", std::move(names));

@@ -49,7 +49,7 @@ Value written_value(const V& value, const Rules& rules = {}, const Writing& writ
     return written_index(value, rules, writing);
   } else if constexpr (std::is_same_v<V, double>) {
     return written_number(value, writing);
-  } else if constexpr (std::is_enum_v<V>) {
+  } else if constexpr (HasNames<V>::value) {
     for (const auto& entry : Names<V>::all)
       if (std::get<1>(entry) == value) return std::get<0>(entry);
     return {};

@@ -70,27 +70,6 @@ void check_contact_permission(const Problem& problem, Findings& findings) {
     }
 }
 
-/// The anchor s_l, or every point s at which a force acts, lies on the sole: |d_i| <= half_size_i along the sole and
-/// d_n = 0, d = s - p_l. Otherwise the force would act on the robot where the robot does not touch anything. Under
-/// contact wrenches s_l says no more than the force's direction; there `center_of_pressure` says where it acts.
-void check_anchor(const Problem& problem, const Sample& sample, Findings& findings) {
-  if (problem.has_wrenches(sample.phase)) return;
-  for (int l = 0; l < problem.end_effector_count(); ++l) {
-    const int surface = problem.surface(sample.phase, l);
-    if (surface < 0) continue;
-    const Contact& contact = problem.plan.phases[sample.phase].contacts[l];
-    const Eigen::Vector2d& half = problem.robot.end_effectors[l].half_size;
-    const Vector3d& normal = problem.solids[surface].polygon.normal_W();
-    const Vector3d& position = sample.at.end_effectors[l].position_W;
-    const double yaw = sole_yaw(problem, sample, l);
-    const Place place{sample.phase, l, sample.time_s};
-    if (!problem.has_points(sample.phase))
-      findings.offer(Constraint::anchor, beyond_sole(half, normal, yaw, contact.anchor_W - position), place);
-    for (const Vector3d& point : contact.points_W)
-      findings.offer(Constraint::anchor, beyond_sole(half, normal, yaw, point - position), place);
-  }
-}
-
 /// path_continuity: |p(knot, from the left) - p(knot, from the right)|; within a phase jump().
 void Travel::check_continuity(const Problem& problem, const Sample& sample, int l, Findings& findings) {
   const Seen now = seen(sample.at, sample.since_start_s, l);

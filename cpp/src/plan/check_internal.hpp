@@ -92,8 +92,8 @@ struct Problem {
   std::vector<double> knot_times;
 
   bool has_points(int k) const { return plan.phases[k].has_points(); }
-  bool has_wrenches(int k) const { return plan.phases[k].law == ForceLaw::wrench; }
-  bool has_momentum(int k) const { return has_points(k) || has_wrenches(k); }
+  bool has_wrenches(int k) const { return plan.phases[k].has_wrenches(); }
+  bool has_momentum(int k) const { return plan.phases[k].has_momentum(); }
   int phase_count() const { return static_cast<int>(plan.phases.size()); }
   int end_effector_count() const { return static_cast<int>(robot.end_effectors.size()); }
 
@@ -127,11 +127,12 @@ struct Sample {
   const PhaseView* view = nullptr;
   int phase = 0;
   double since_start_s = 0.0, time_s = 0.0;
-  Replay replay;                          ///< what the checker integrated
-  Eigen::Matrix3d r_WB;                   ///< of the replay
-  PlanState at;                           ///< what the plan says
-  Eigen::Matrix3d r_at_WB;                ///< of the angles that it says
-  std::vector<Eigen::Vector3d> forces_W;  ///< per end-effector, from replay.com_W or from its points [N]
+  Replay replay;                           ///< what the checker integrated
+  Eigen::Matrix3d r_WB;                    ///< of the replay
+  PlanState at;                            ///< what the plan says
+  Eigen::Matrix3d r_at_WB;                 ///< of the angles that it says
+  std::vector<Eigen::Vector3d> forces_W;   ///< per end-effector, from replay.com_W or from its points [N]
+  std::vector<Eigen::Vector3d> moments_W;  ///< per end-effector in contact, about where the plan has it [N m]
   std::vector<std::vector<Eigen::Vector3d>> cone_forces_W;  ///< per end-effector, what friction holds one by one: the
                                                             ///< forces at its points, or the one of the pendulum
 };
@@ -145,23 +146,6 @@ void contact_forces(const Problem& problem, Sample& sample);
 void check_dynamics(const Problem& problem, const Sample& phase_end, Findings& findings);
 void check_at_consistency(const Problem& problem, const Sample& sample, Findings& findings);
 
-/// check_point_forces.cpp: the laws with forces at points, evaluated once more and without the plan's own code.
-int interval_of(const Phase& phase, double since_start);
-Eigen::Vector3d point_force(const Phase& phase, const Contact& contact, int point, int interval, double since_start);
-Replay point_force_rate(const Problem& problem, int phase, const Replay& state, int interval, double since_start);
-void turn_base(const Problem& problem, int phase, double since_start, Replay& state);
-
-/// check_wrench.cpp: contact wrenches, whose momentum turns the base.
-Replay wrench_rate(const Problem& problem, int phase, const Replay& state);
-void set_angles(Replay& state);  ///< unit length, and the angles, of an integrated quaternion
-void check_orientation_at_knot(const Problem& problem, const Sample& phase_end, Findings& findings);
-void check_orientation(const Problem& problem, const Sample& sample, Findings& findings);
-void check_turning_rate(const Problem& problem, int phase, Findings& findings);
-void check_at_wrenches(const Problem& problem, const Sample& sample, Findings& findings);
-void check_normal_moment(const Problem& problem, Findings& findings);
-void check_torsion(const Problem& problem, const Sample& sample, Findings& findings);
-void check_center_of_pressure(const Problem& problem, const Sample& sample, Findings& findings);
-
 /// check_numbers.cpp: both return whether the rest can be evaluated.
 bool check_finite(const Problem& problem, Findings& findings);
 bool check_phase_duration(const Problem& problem, Findings& findings);
@@ -170,7 +154,6 @@ bool check_phase_duration(const Problem& problem, Findings& findings);
 void check_contact_place(const Problem& problem, const Sample& sample, Findings& findings);
 void check_final_contact_place(const Problem& problem, const Sample& last, Findings& findings);
 void check_contact_permission(const Problem& problem, Findings& findings);
-void check_anchor(const Problem& problem, const Sample& sample, Findings& findings);
 
 /// Heading of a sole: its own where the knots say it, otherwise the base's.
 double sole_yaw(const Problem& problem, const Sample& sample, int l);
@@ -211,8 +194,6 @@ void check_stiffness_sign(const Problem& problem, Findings& findings);
 void check_pull(const Problem& problem, const Sample& sample, Findings& findings);
 void check_friction(const Problem& problem, const Sample& sample, Findings& findings);
 void check_force_cap(const Problem& problem, const Sample& sample, Findings& findings);
-void check_moment_cap(const Problem& problem, Findings& findings);
-void check_sole_moment(const Problem& problem, const Sample& sample, Findings& findings);
 
 /// check_space.cpp
 void check_reach(const Problem& problem, const Sample& sample, Findings& findings);

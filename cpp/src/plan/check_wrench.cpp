@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "check_internal.hpp"
+#include "check_laws.hpp"
 #include "mcplan/base/rotation.hpp"
 
 /// Contact wrenches, from the forces alone: each contact gives f_l = m mu_l (p - s_l) at a_l, and a moment tau_l.
@@ -31,8 +31,6 @@ Vector3d angular_velocity(const Vector3d& rpy, const Vector3d& rate) {
 double angle_between(const Matrix3d& a, const Matrix3d& b) {
   return 2.0 * std::asin(std::min((a - b).norm() / std::sqrt(8.0), 1.0));
 }
-
-}  // namespace
 
 /// p'' = sum_l f_l / m - g,  L' = sum_l ((a_l - p) x f_l + tau_l),  q' = (0, omega) q / 2  with  omega = R I^-1 R^T L.
 Replay wrench_rate(const Problem& problem, int phase, const Replay& state) {
@@ -68,8 +66,7 @@ void check_orientation_at_knot(const Problem& problem, const Sample& phase_end, 
 }
 
 /// What the plan says of the base at an instant is what the integration says, in angles and as a quaternion.
-void check_orientation(const Problem& problem, const Sample& sample, Findings& findings) {
-  if (!problem.has_wrenches(sample.phase)) return;
+void check_orientation(const Sample& sample, Findings& findings) {
   const Place place{sample.phase, -1, sample.time_s};
   const Vector4d& q = sample.at.base_quat_wxyz;
   findings.offer(Constraint::orientation, angle_between(sample.r_WB, sample.r_at_WB), place);
@@ -111,23 +108,21 @@ void check_at_wrenches(const Problem& problem, const Sample& sample, Findings& f
 
 /// tau_l is along the surface's normal n, |tau_l - n (n . tau_l)| = 0, and |n . tau_l| <= max_moment's third entry.
 /// A moment along the surface is what the centre of pressure does.
-void check_normal_moment(const Problem& problem, Findings& findings) {
-  for (int k = 0; k < problem.phase_count(); ++k)
-    for (int l = 0; l < problem.end_effector_count(); ++l) {
-      const Contact& contact = problem.plan.phases[k].contacts[l];
-      if (contact.surface < 0 || !problem.has_wrenches(k)) continue;
-      const Vector3d& n = problem.solids[contact.surface].polygon.normal_W();
-      const double torsion = n.dot(contact.moment_W);
-      findings.offer(Constraint::moment, (contact.moment_W - torsion * n).norm(), problem.at_knot(k, l));
-      findings.offer(Constraint::moment, std::abs(torsion) - problem.robot.end_effectors[l].max_moment[2],
-                     problem.at_knot(k, l));
-    }
+void check_normal_moment(const Problem& problem, int phase, Findings& findings) {
+  for (int l = 0; l < problem.end_effector_count(); ++l) {
+    const Contact& contact = problem.plan.phases[phase].contacts[l];
+    if (contact.surface < 0) continue;
+    const Vector3d& n = problem.solids[contact.surface].polygon.normal_W();
+    const double torsion = n.dot(contact.moment_W);
+    findings.offer(Constraint::moment, (contact.moment_W - torsion * n).norm(), problem.at_knot(phase, l));
+    findings.offer(Constraint::moment, std::abs(torsion) - problem.robot.end_effectors[l].max_moment[2],
+                   problem.at_knot(phase, l));
+  }
 }
 
 /// |n . tau_l| <= friction a (n . f_l): the moment that friction under a sole gives, with a its shorter half side.
 /// Point contacts and grasps are held by max_moment alone.
 void check_torsion(const Problem& problem, const Sample& sample, Findings& findings) {
-  if (!problem.has_wrenches(sample.phase)) return;
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const int index = problem.surface(sample.phase, l);
     const double half = problem.robot.end_effectors[l].half_size.minCoeff();
@@ -143,7 +138,6 @@ void check_torsion(const Problem& problem, const Sample& sample, Findings& findi
 /// a_l lies on the sole, a rectangle about p_l with the sole's own heading (on p_l itself, without a sole), and where
 /// the sole touches: on the surface's plane and in its polygon.
 void check_center_of_pressure(const Problem& problem, const Sample& sample, Findings& findings) {
-  if (!problem.has_wrenches(sample.phase)) return;
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const int surface = problem.surface(sample.phase, l);
     if (surface < 0) continue;
@@ -157,6 +151,56 @@ void check_center_of_pressure(const Problem& problem, const Sample& sample, Find
     findings.offer(Constraint::center_of_pressure, std::abs(polygon.height(center)), place);
     findings.offer(Constraint::center_of_pressure, beyond_polygon(polygon, center), place);
   }
+}
+
+}  // namespace
+
+Replay LawCheck<laws::Wrench>::start(const Problem& problem, int phase) {
+  const Knot& knot = problem.plan.knots[phase];
+  return {knot.com_W,       knot.com_velocity_W,     knot.base_rpy,
+          Vector3d::Zero(), knot.angular_momentum_W, quat_wxyz_from_rpy(knot.base_rpy)};
+}
+
+Replay LawCheck<laws::Wrench>::advance(const Problem& problem, int phase, const Replay& from, double /*since_start*/,
+                                       double h) {
+  // The base turns by h |omega|, which errs by 1e-8 rad a second at 0.02.
+  const double turning = std::ceil(from.momentum_W.norm() / problem.robot.inertia.minCoeff() * h / 0.02);
+  const int steps = static_cast<int>(std::clamp(std::max(stiffness_steps(problem, phase, h), turning), 1.0, 64.0));
+  Replay state = from;
+  for (int i = 0; i < steps; ++i) {
+    state = rk4(state, h / steps, [&](double, const Replay& at) { return wrench_rate(problem, phase, at); });
+    set_angles(state);
+  }
+  return state;
+}
+
+void LawCheck<laws::Wrench>::set_forces(const Problem& problem, Sample& sample) {
+  for (int l = 0; l < problem.end_effector_count(); ++l) {
+    const Contact& contact = problem.plan.phases[sample.phase].contacts[l];
+    sample.forces_W[l] = problem.robot.mass * contact.stiffness * (sample.replay.com_W - contact.anchor_W);
+    sample.cone_forces_W[l] = {sample.forces_W[l]};
+    const Vector3d arm = contact.center_of_pressure_W - sample.at.end_effectors[l].position_W;
+    sample.moments_W[l] = contact.moment_W + arm.cross(sample.forces_W[l]);
+  }
+}
+
+void LawCheck<laws::Wrench>::check_numbers(const Problem& problem, int phase, Findings& findings) {
+  check_normal_moment(problem, phase, findings);
+}
+
+void LawCheck<laws::Wrench>::check_state(const Problem& problem, const Sample& sample, Findings& findings) {
+  check_at_wrenches(problem, sample, findings);
+  check_orientation(sample, findings);
+}
+
+void LawCheck<laws::Wrench>::check_bounds(const Problem& problem, const Sample& sample, Findings& findings) {
+  check_torsion(problem, sample, findings);
+  check_center_of_pressure(problem, sample, findings);
+}
+
+void LawCheck<laws::Wrench>::check_end(const Problem& problem, const Sample& phase_end, Findings& findings) {
+  check_turning_rate(problem, phase_end.phase, findings);
+  check_orientation_at_knot(problem, phase_end, findings);
 }
 
 }  // namespace mcplan::checks

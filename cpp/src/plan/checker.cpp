@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "check_internal.hpp"
+#include "check_laws.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "model/read.hpp"
@@ -82,16 +82,12 @@ void require_samples(const Plan& plan, const Tolerances& tolerances) {
 void check_sample(const Problem& problem, const Sample& sample, Travel& travel, Surroundings& surroundings,
                   Findings& findings) {
   check_at_consistency(problem, sample, findings);
-  check_orientation(problem, sample, findings);
   check_contact_place(problem, sample, findings);
-  check_anchor(problem, sample, findings);
-  check_center_of_pressure(problem, sample, findings);
   travel.check(problem, sample, findings);
   check_pull(problem, sample, findings);
   check_friction(problem, sample, findings);
   check_force_cap(problem, sample, findings);
-  check_sole_moment(problem, sample, findings);
-  check_torsion(problem, sample, findings);
+  with_law(problem, sample.phase, [&](auto law) { law.check_bounds(problem, sample, findings); });
   check_reach(problem, sample, findings);
   check_yaw_range(problem, sample, findings);
   surroundings.check_clearance(problem, sample, findings);
@@ -155,8 +151,8 @@ CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, cons
   check_contact_permission(problem, findings);
   check_free_force(problem, findings);
   check_stiffness_sign(problem, findings);
-  check_moment_cap(problem, findings);
-  check_normal_moment(problem, findings);
+  for (int k = 0; k < problem.phase_count(); ++k)
+    with_law(problem, k, [&](auto law) { law.check_numbers(problem, k, findings); });
   check_sequence_switch(problem, findings);
   check_sequence_rule(problem, findings);
   check_reach_at_knots(problem, findings);

@@ -2,14 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
+#include <variant>
 
-#include "base/entire_functions.hpp"
-#include "base/turning.hpp"
+#include "hermite.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/base/rotation.hpp"
+#include "phase_instant.hpp"
 #include "phase_state.hpp"
-#include "plan/point_forces.hpp"
 #include "plan_shape.hpp"
 
 namespace mcplan {
@@ -17,148 +16,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Quintic Hermite segment with zero acceleration at both ends; s = t / h in [0, 1].
-struct Hermite {
-  Vector3d position, velocity;
-
-  Hermite(const Vector3d& p0, const Vector3d& v0, const Vector3d& p1, const Vector3d& v1, double h, double s) {
-    const double s2 = s * s, s3 = s2 * s, s4 = s3 * s, s5 = s4 * s;
-    const double blend = 10.0 * s3 - 15.0 * s4 + 6.0 * s5;
-    const double blend_rate = 30.0 * s2 - 60.0 * s3 + 30.0 * s4;
-    const double in0 = s - 6.0 * s3 + 8.0 * s4 - 3.0 * s5, in0_rate = 1.0 - 18.0 * s2 + 32.0 * s3 - 15.0 * s4;
-    const double in1 = -4.0 * s3 + 7.0 * s4 - 3.0 * s5, in1_rate = -12.0 * s2 + 28.0 * s3 - 15.0 * s4;
-    position = p0 + blend * (p1 - p0) + h * (in0 * v0 + in1 * v1);
-    velocity = blend_rate / h * (p1 - p0) + in0_rate * v0 + in1_rate * v1;
-  }
-};
-
 /// Heading of a sole at s in [0, 1] of a phase: smooth between the knots, at rest there.
 double sole_yaw(const Knot& from, const Knot& to, std::size_t l, double s, double base_yaw) {
   if (from.end_effector_yaw.size() <= l || to.end_effector_yaw.size() <= l) return base_yaw;
   const double blend = s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
   return from.end_effector_yaw[l] + blend * (to.end_effector_yaw[l] - from.end_effector_yaw[l]);
-}
-
-/// p'' = Lambda p - sum mu_l s_l - g, solved by the entire functions (docs/theory/ddp.md, "Closed form"), and the
-/// small-angle rotation of the paper, eqs. (10)-(11): theta'' = I^-1 sum tau_l.
-void pendulum_motion(const Plan& plan, const Phase& phase, const Knot& from, double tau, PlanState& state) {
-  double stiffness = 0.0;
-  Vector3d pull(0.0, 0.0, plan.scene.gravity), moment = Vector3d::Zero();
-  for (const Contact& contact : phase.contacts) {
-    stiffness += contact.stiffness;
-    pull += contact.stiffness * contact.anchor_W;
-    moment += contact.moment_W;
-  }
-  const EntireFunctions f(stiffness * tau * tau);
-  const Vector3d acceleration = stiffness * from.com_W - pull;
-  state.com_W = from.com_W + tau * f(1) * from.com_velocity_W + tau * tau * f(2) * acceleration;
-  state.com_velocity_W = f(0) * from.com_velocity_W + tau * f(1) * acceleration;
-  state.com_acceleration_W = stiffness * state.com_W - pull;
-
-  const Vector3d spin_up = moment.cwiseQuotient(plan.robot.inertia);
-  state.base_rpy = from.base_rpy + tau * from.base_rpy_rate + 0.5 * tau * tau * spin_up;
-  state.base_rpy_rate = from.base_rpy_rate + tau * spin_up;
-  state.angular_momentum_W = plan.robot.inertia.cwiseProduct(state.base_rpy_rate);
-
-  for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
-    const Contact& contact = phase.contacts[l];
-    state.end_effectors[l].force_W = plan.robot.mass * contact.stiffness * (state.com_W - contact.anchor_W);
-    if (contact.surface >= 0) state.end_effectors[l].center_of_pressure_W = contact.anchor_W;
-  }
-}
-
-/// The pendulum about s_l with forces that act at a_l. With P(t) the integral of the CoM's position and rho = sum mu_l
-/// r_l, r_l = s_l - a_l,
-///
-///     L(t) = L + m (P(t) x rho - t sum mu_l a_l x r_l) + t sum tau_l
-void wrench_motion(const Plan& plan, const Phase& phase, const Knot& from, double tau, PlanState& state) {
-  const double mass = plan.robot.mass;
-  double stiffness = 0.0;
-  Vector3d pull(0.0, 0.0, plan.scene.gravity), rho = Vector3d::Zero(), steady = Vector3d::Zero();
-  for (const Contact& contact : phase.contacts) {
-    const Vector3d line = contact.anchor_W - contact.center_of_pressure_W;
-    stiffness += contact.stiffness;
-    pull += contact.stiffness * contact.anchor_W;
-    rho += contact.stiffness * line;
-    steady += contact.moment_W / mass - contact.stiffness * contact.center_of_pressure_W.cross(line);
-  }
-  const Vector3d acceleration = stiffness * from.com_W - pull;
-  const auto momentum_at = [&](double t, const EntireFunctions& f) -> Vector3d {
-    const Vector3d travelled = t * from.com_W + t * t * (f(2) * from.com_velocity_W + t * f(3) * acceleration);
-    return from.angular_momentum_W + mass * (travelled.cross(rho) + t * steady);
-  };
-  const EntireFunctions f(stiffness * tau * tau), half(0.25 * stiffness * tau * tau);
-  state.com_W = from.com_W + tau * f(1) * from.com_velocity_W + tau * tau * f(2) * acceleration;
-  state.com_velocity_W = f(0) * from.com_velocity_W + tau * f(1) * acceleration;
-  state.com_acceleration_W = stiffness * state.com_W - pull;
-  state.angular_momentum_W = momentum_at(tau, f);
-  state.base_rpy = Turning(from.base_rpy, from.angular_momentum_W, plan.robot.inertia)
-                       .rpy(momentum_at(0.5 * tau, half), state.angular_momentum_W, tau);
-  state.base_rpy_rate = rpy_rate(state.base_rpy, state.angular_momentum_W, plan.robot.inertia);
-
-  for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
-    const Contact& contact = phase.contacts[l];
-    EndEffectorState& end = state.end_effectors[l];
-    end.force_W = mass * contact.stiffness * (state.com_W - contact.anchor_W);
-    if (contact.surface >= 0) end.center_of_pressure_W = contact.center_of_pressure_W;
-  }
-}
-
-/// a = sum (n . f_i) p_i / sum (n . f_i), where the forces at points press at all.
-void set_center_of_pressure(const Plan& plan, int surface, EndEffectorState& end) {
-  if (end.points_W.empty() || surface < 0 || surface >= static_cast<int>(plan.scene.surfaces.size())) return;
-  const std::vector<Vector3d>& corners = plan.scene.surfaces[surface].vertices_W;
-  if (corners.size() < 3) return;
-  const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[1]);  // of any length
-  double pressed = 0.0;
-  Vector3d sum = Vector3d::Zero();
-  for (std::size_t i = 0; i < end.points_W.size(); ++i) {
-    const double press = normal.dot(end.point_forces_W[i]);
-    pressed += press;
-    sum += press * end.points_W[i];
-  }
-  if (pressed > 1e-9 * normal.norm()) end.center_of_pressure_W = sum / pressed;
-}
-
-/// CoM and angular momentum from the forces at points; the base on its own quintic.
-void point_force_motion(const Plan& plan, const Phase& phase, const Knot& from, const Knot& to, double tau,
-                        PlanState& state) {
-  const double mass = plan.robot.mass, gravity = plan.scene.gravity;
-  const CentroidalState motion =
-      integrate_phase(phase, {from.com_W, from.com_velocity_W, from.angular_momentum_W}, tau, mass, gravity);
-  state.com_W = motion.com_W;
-  state.com_velocity_W = motion.com_velocity_W;
-  state.angular_momentum_W = motion.angular_momentum_W;
-
-  const Hermite base(from.base_rpy, from.base_rpy_rate, to.base_rpy, to.base_rpy_rate, phase.duration,
-                     tau / phase.duration);
-  state.base_rpy = base.position;
-  state.base_rpy_rate = base.velocity;
-
-  const IntervalTime at = interval_time(phase, tau);
-  state.com_acceleration_W = Vector3d(0.0, 0.0, -gravity);
-  for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
-    EndEffectorState& end = state.end_effectors[l];
-    end.points_W = phase.contacts[l].points_W;
-    end.point_forces_W = point_forces(phase, phase.contacts[l], at);
-    end.force_W = Vector3d::Zero();
-    for (const Vector3d& force : end.point_forces_W) end.force_W += force;
-    state.com_acceleration_W += end.force_W / mass;
-    set_center_of_pressure(plan, phase.contacts[l].surface, end);
-  }
-}
-
-/// tau_l and the moment of the force about the end-effector: (a_l - p_l) x f_l, under ForceLaw::pendulum with s_l for
-/// a_l, or sum (p_i - p_l) x f_i over the points. Needs position, forces and centre of pressure.
-void set_moment(const Phase& phase, const Contact& contact, EndEffectorState& end) {
-  if (phase.has_points()) {
-    end.moment_W = Vector3d::Zero();
-    for (std::size_t i = 0; i < end.points_W.size(); ++i)
-      end.moment_W += (end.points_W[i] - end.position_W).cross(end.point_forces_W[i]);
-    return;
-  }
-  end.moment_W = contact.moment_W;
-  if (contact.surface >= 0) end.moment_W += (end.center_of_pressure_W - end.position_W).cross(end.force_W);
 }
 
 }  // namespace
@@ -224,12 +86,7 @@ PlanState state_in_phase(const Plan& plan, const PhaseFrame& frame, double since
   state.end_effectors.resize(phase.contacts.size());
   for (std::size_t l = 0; l < phase.contacts.size(); ++l)
     state.end_effectors[l].center_of_pressure_W = from.end_effectors_W[l];
-  if (phase.law == ForceLaw::pendulum)
-    pendulum_motion(plan, phase, from, tau, state);
-  else if (phase.law == ForceLaw::wrench)
-    wrench_motion(plan, phase, from, tau, state);
-  else
-    point_force_motion(plan, phase, from, to, tau, state);
+  std::visit([&](auto law) { law.set_motion({plan, phase, from, to, tau}, state); }, phase.law);
   const Eigen::Matrix3d r_WB = rotation_from_rpy(state.base_rpy);
   state.base_quat_wxyz = quat_wxyz_from_rotation(r_WB);
 
@@ -246,11 +103,9 @@ PlanState state_in_phase(const Plan& plan, const PhaseFrame& frame, double since
     EndEffectorState& end = state.end_effectors[active.swing->end_effector];
     put_on_path(active, tau, state, r_WB, end);
   }
-  for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
-    EndEffectorState& end = state.end_effectors[l];
+  for (EndEffectorState& end : state.end_effectors)
     if (end.surface < 0) end.center_of_pressure_W = end.position_W;
-    set_moment(phase, phase.contacts[l], end);
-  }
+  std::visit([&](auto law) { law.set_moments(phase, state); }, phase.law);
   return state;
 }
 

@@ -11,15 +11,9 @@ namespace mcplan::model {
 constexpr std::size_t max_phases = 10'000, max_swings = 40'000, max_points = 100'000;
 
 template <>
-struct Names<ForceLaw> {
+struct Names<ForceLaw> : NamesOfTypes<ForceLaw> {
   static constexpr const char* name = "ForceLaw";
   static constexpr const char* meaning = "How contact forces depend on time within a phase.";
-  static constexpr Choice<ForceLaw> all[] = {
-      {"pendulum", ForceLaw::pendulum, "f(t) = mass stiffness (com(t) - anchor): the multi-contact pendulum."},
-      {"held", ForceLaw::held, "Forces at points, constant over each of `intervals` equal intervals."},
-      {"linear", ForceLaw::linear, "Forces at points, linear over each of `intervals` equal intervals."},
-      {"wrench", ForceLaw::wrench,
-       "f(t) = mass stiffness (com(t) - anchor), acting at center_of_pressure, with a moment about the normal."}};
 };
 
 template <>

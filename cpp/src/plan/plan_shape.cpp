@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "mcplan/base/error.hpp"
 
@@ -40,20 +41,6 @@ void require_knot(const Plan& plan, int k, std::size_t ends) {
   require_count(indexed("knots", k) + ".end_effector_velocities", knot.end_effector_velocities_W.size(), ends, kEach);
 }
 
-void require_point_forces(const Phase& phase, const std::string& field) {
-  if (phase.intervals < 1 || phase.intervals > Phase::max_intervals)
-    throw InvalidPlan(field + ".intervals",
-                      "must lie in [1, " + text(Phase::max_intervals) + "] where forces act at points",
-                      text(phase.intervals));
-  const std::size_t nodes = static_cast<std::size_t>(phase.node_count());
-  for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
-    const Contact& contact = phase.contacts[l];
-    if (contact.point_forces_W.size() != nodes * contact.points_W.size())
-      require_count(field + ".contacts[" + std::to_string(l) + "].point_forces", contact.point_forces_W.size(),
-                    nodes * contact.points_W.size(), "one per node and point");
-  }
-}
-
 }  // namespace
 
 void require_queryable(const Plan& plan, int k, double since_start) {
@@ -74,7 +61,7 @@ void require_queryable(const Plan& plan, int k, double since_start) {
   constexpr double kRounding = 1e-9;
   if (!(since_start >= -kRounding && since_start <= phase.duration + kRounding))
     throw InvalidInput("since_start", "must lie in [0, " + text(phase.duration) + "] s", text(since_start));
-  if (phase.has_points()) require_point_forces(phase, indexed("phases", k));
+  std::visit([&](auto law) { law.require_queryable(phase, k); }, phase.law);
   for (std::size_t i = 0; i < plan.swings.size(); ++i) {
     const Swing& swing = plan.swings[i];
     if (k < swing.first_phase || k >= swing.end_phase) continue;

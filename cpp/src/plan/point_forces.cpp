@@ -3,18 +3,46 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace mcplan {
 namespace {
 
 using Eigen::Vector3d;
 
-/// Of one point, `fraction` of the way through an interval.
-Vector3d force_of(const Phase& phase, const Contact& contact, std::size_t point, int interval, double fraction) {
-  const std::size_t points = contact.points_W.size();
-  const Vector3d& begin = contact.point_forces_W[interval * points + point];
-  if (phase.law == ForceLaw::held) return begin;
-  return begin + fraction * (contact.point_forces_W[(interval + 1) * points + point] - begin);
+/// Of one point.
+template <class Law>
+Vector3d force_of(const Law& law, const Contact& contact, std::size_t point, const IntervalTime& at) {
+  if constexpr (Law::has_points)
+    return law.point_force_W(contact, point, at);
+  else
+    return Vector3d::Zero();
+}
+
+template <class Law>
+Wrench resultant(const Law& law, const Phase& phase, const IntervalTime& at, const Vector3d& about_W) {
+  Wrench sum;
+  for (const Contact& contact : phase.contacts)
+    for (std::size_t i = 0; i < contact.points_W.size(); ++i) {
+      const Vector3d force = force_of(law, contact, i, at);
+      sum.force_W += force;
+      sum.moment_W += (contact.points_W[i] - about_W).cross(force);
+    }
+  return sum;
+}
+
+template <class Law>
+CentroidalState integrate(const Law& law, const Phase& phase, const CentroidalState& from, double since_start,
+                          double mass, double gravity) {
+  const IntervalTime last = interval_time(phase, since_start);
+  const double length = phase.duration / phase.intervals;
+  CentroidalState state = from;
+  for (int j = 0; j <= last.interval; ++j) {
+    const IntervalTime end = j < last.interval ? IntervalTime{j, length, 1.0} : last;
+    state = integrate_interval(state, resultant(law, phase, {j, 0.0, 0.0}, state.com_W),
+                               resultant(law, phase, end, state.com_W), end.since_s, mass, gravity);
+  }
+  return state;
 }
 
 }  // namespace
@@ -49,32 +77,21 @@ IntervalTime interval_time(const Phase& phase, double since_start) {
 
 std::vector<Vector3d> point_forces(const Phase& phase, const Contact& contact, const IntervalTime& at) {
   std::vector<Vector3d> forces(contact.points_W.size());
-  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] = force_of(phase, contact, i, at.interval, at.fraction);
+  std::visit(
+      [&](auto law) {
+        for (std::size_t i = 0; i < forces.size(); ++i) forces[i] = force_of(law, contact, i, at);
+      },
+      phase.law);
   return forces;
 }
 
 Wrench wrench_at(const Phase& phase, const IntervalTime& at, const Vector3d& about_W) {
-  Wrench sum;
-  for (const Contact& contact : phase.contacts)
-    for (std::size_t i = 0; i < contact.points_W.size(); ++i) {
-      const Vector3d force = force_of(phase, contact, i, at.interval, at.fraction);
-      sum.force_W += force;
-      sum.moment_W += (contact.points_W[i] - about_W).cross(force);
-    }
-  return sum;
+  return std::visit([&](auto law) { return resultant(law, phase, at, about_W); }, phase.law);
 }
 
 CentroidalState integrate_phase(const Phase& phase, const CentroidalState& from, double since_start, double mass,
                                 double gravity) {
-  const IntervalTime last = interval_time(phase, since_start);
-  const double length = phase.duration / phase.intervals;
-  CentroidalState state = from;
-  for (int j = 0; j <= last.interval; ++j) {
-    const IntervalTime end = j < last.interval ? IntervalTime{j, length, 1.0} : last;
-    state = integrate_interval(state, wrench_at(phase, {j, 0.0, 0.0}, state.com_W), wrench_at(phase, end, state.com_W),
-                               end.since_s, mass, gravity);
-  }
-  return state;
+  return std::visit([&](auto law) { return integrate(law, phase, from, since_start, mass, gravity); }, phase.law);
 }
 
 }  // namespace mcplan

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/plan.hpp"
@@ -37,26 +38,7 @@ void validate_contact(const Phase& phase, const Contact& contact, int surfaces, 
   if (!(std::isfinite(contact.stiffness) && contact.anchor_W.allFinite() && contact.moment_W.allFinite() &&
         contact.center_of_pressure_W.allFinite() && finite(contact.points_W) && finite(contact.point_forces_W)))
     throw InvalidPlan(field, "must be finite numbers", "nan or inf");
-
-  const int points = static_cast<int>(contact.points_W.size());
-  if (points > 0 && !phase.has_points())
-    throw InvalidPlan(field + ".points", "must be none where the law has no forces at points", text(points));
-  if (points > 0 && contact.surface < 0)
-    throw InvalidPlan(field + ".points", "must be none at a free end-effector", text(points));
-  const int wanted = phase.node_count() * points;
-  if (static_cast<int>(contact.point_forces_W.size()) != wanted)
-    throw InvalidPlan(field + ".point_forces", "must be one per node and point (" + text(wanted) + ")",
-                      text(static_cast<int>(contact.point_forces_W.size())));
-  if (!phase.has_points()) return;
-  if (contact.stiffness != 0.0)
-    throw InvalidPlan(field + ".stiffness", "must be 0 where forces act at points", text(contact.stiffness));
-  if (contact.anchor_W != Vector3d::Zero())
-    throw InvalidPlan(field + ".anchor", "must be 0 where forces act at points", text(contact.anchor_W));
-  if (contact.moment_W != Vector3d::Zero())
-    throw InvalidPlan(field + ".moment", "must be 0 where forces act at points", text(contact.moment_W));
-  if (contact.center_of_pressure_W != Vector3d::Zero())
-    throw InvalidPlan(field + ".center_of_pressure", "must be 0 where forces act at points",
-                      text(contact.center_of_pressure_W));
+  std::visit([&](auto law) { law.validate_contact(phase, contact, field); }, phase.law);
 }
 
 void validate_phase(const Phase& phase, int ends, int surfaces, const std::string& field) {
@@ -65,12 +47,7 @@ void validate_phase(const Phase& phase, int ends, int surfaces, const std::strin
   if (static_cast<int>(phase.contacts.size()) != ends)
     throw InvalidPlan(field + ".contacts", "must be one per end-effector (" + text(ends) + ")",
                       text(static_cast<int>(phase.contacts.size())));
-  if (!phase.has_points() && phase.intervals != 0)
-    throw InvalidPlan(field + ".intervals", "must be 0 where the law has no forces at points", text(phase.intervals));
-  if (phase.has_points() && (phase.intervals < 1 || phase.intervals > Phase::max_intervals))
-    throw InvalidPlan(field + ".intervals",
-                      "must lie in [1, " + text(Phase::max_intervals) + "] where forces act at points",
-                      text(phase.intervals));
+  std::visit([&](auto law) { law.validate(phase, field); }, phase.law);
   for (int l = 0; l < ends; ++l)
     validate_contact(phase, phase.contacts[l], surfaces, field + ".contacts[" + std::to_string(l) + "]");
 }

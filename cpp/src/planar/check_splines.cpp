@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <variant>
 
 #include "checks.hpp"
 
@@ -31,6 +32,17 @@ const std::string* name_of(const PlanarRobot& robot, Eigen::Index row) {
   return &robot.bodies[row < robot.joint_count() ? row + 1 : 0].name;
 }
 
+/// Calls use(numbers, phase) for what a force law reads.
+template <class Use>
+void for_each_force_number(planar_laws::LeastNorm /*law*/, const PlanarPlan& plan, const Use& use) {
+  for (std::size_t k = 0; k < plan.weights.size(); ++k) use(plan.weights[k], static_cast<int>(k));
+}
+template <class Use>
+void for_each_force_number(planar_laws::Polynomial /*law*/, const PlanarPlan& plan, const Use& use) {
+  for (std::size_t i = 0; i < plan.force_polynomials.size(); ++i)
+    use(plan.force_polynomials[i], plan.motion.phase_of(static_cast<int>(i)));
+}
+
 }  // namespace
 
 /// Every number is finite; the value counts those that are not.
@@ -45,11 +57,7 @@ bool check_finite(const PlanarPlan& plan, Findings& findings) {
   offer(plan.base_control_points, -1);
   for (std::size_t k = 0; k < plan.durations.size(); ++k)
     offer(Eigen::Matrix<double, 1, 1>(plan.durations[k]), static_cast<int>(k));
-  if (plan.force_law == PlanarForceLaw::least_norm)
-    for (std::size_t k = 0; k < plan.weights.size(); ++k) offer(plan.weights[k], static_cast<int>(k));
-  else
-    for (std::size_t i = 0; i < plan.force_polynomials.size(); ++i)
-      offer(plan.force_polynomials[i], plan.motion.phase_of(static_cast<int>(i)));
+  std::visit([&](auto law) { for_each_force_number(law, plan, offer); }, plan.force_law);
   return all;
 }
 

@@ -1,6 +1,7 @@
 #include "evaluation.hpp"
 
 #include <cmath>
+#include <variant>
 
 #include "base/cubic_spline.hpp"
 
@@ -43,11 +44,7 @@ void at_polynomials(const Eigen::Matrix<double, Eigen::Dynamic, 4>& rows, double
 }
 
 PhaseGain phase_gain(const PlanarPlan& plan, int phase) {
-  PhaseGain out;
-  if (plan.force_law != PlanarForceLaw::least_norm) return out;
-  out.moment_point_W = moment_point_W(plan.motion, phase);
-  out.gain = least_norm_gain(plan.motion, phase, plan.weights[phase]);
-  return out;
+  return std::visit([&](auto law) { return law.gain(plan, phase); }, plan.force_law);
 }
 
 void Evaluation::at(const IntervalSplines& splines, const PhaseGain& gain, double s) {
@@ -130,20 +127,11 @@ void Evaluation::compute_momentum() {
   state.angular_momentum -= mass * cross(state.com_W, state.com_velocity_W);
 }
 
-/// Forces from the gain or the polynomials, at the actual places of the points. What is left over at the base without
-/// any force is what all forces together have to give.
+/// Forces as the law gives them, at the actual places of the points.
 void Evaluation::compute_forces(const IntervalSplines& splines, const PhaseGain& gain, double s) {
   const PlanarTask& motion = plan_.motion;
   const PlanarPhase& phase = motion.phases[splines.phase];
-  if (plan_.force_law == PlanarForceLaw::least_norm) {
-    const Vector3d wanted = planar_inverse_dynamics(motion.robot, frames, {}).base_residual;
-    const Vector2d to_base_W = frames[0].position_W - gain.moment_point_W;
-    components_.noalias() =
-        gain.gain * Vector3d(wanted.x(), wanted.y(), wanted.z() + cross(to_base_W, wanted.head<2>()));
-  } else {
-    components_.noalias() =
-        plan_.force_polynomials[splines.interval].transpose() * Eigen::Vector4d(1.0, s, s * s, s * s * s);
-  }
+  std::visit([&](auto law) { law.set_components({plan_, splines, gain, frames, s}, components_); }, plan_.force_law);
 
   state.forces.clear();
   for (std::size_t i = 0; i < phase.contacts.size(); ++i) {

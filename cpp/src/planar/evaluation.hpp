@@ -22,16 +22,35 @@ struct IntervalSplines {
 };
 IntervalSplines interval_splines(const PlanarPlan& plan, int interval, const std::vector<double>& lengths);
 
+}  // namespace mcplan::planar
+
+namespace mcplan::planar_laws {
+
+/// From what has to be given, [m (a - g); moment about the moment point], to the forces that give it.
+struct Gain {
+  Eigen::Vector2d moment_point_W = Eigen::Vector2d::Zero();
+  Eigen::MatrixXd gain;  ///< (2 points) x 3; empty under laws whose forces do not follow from the motion
+};
+
+struct Instant {
+  const PlanarPlan& plan;
+  const planar::IntervalSplines& splines;
+  const Gain& gain;
+  const std::vector<PlanarMotionOfFrame>& frames;  ///< of the bodies
+  double s = 0.0;                                  ///< -1..1 over the interval
+};
+
+}  // namespace mcplan::planar_laws
+
+namespace mcplan::planar {
+
 /// Position, velocity and acceleration at s of polynomials that stand in rows.
 void at_polynomials(const Eigen::Matrix<double, Eigen::Dynamic, 4>& rows, double length, double s,
                     Eigen::Ref<Eigen::VectorXd> position, Eigen::Ref<Eigen::VectorXd> velocity,
                     Eigen::Ref<Eigen::VectorXd> acceleration);
 
-/// The constant gain of a phase under the least-norm law.
-struct PhaseGain {
-  Eigen::Vector2d moment_point_W = Eigen::Vector2d::Zero();
-  Eigen::MatrixXd gain;  ///< (2 points) x 3; empty under other laws
-};
+/// The constant gain of a phase, which its force law gives.
+using PhaseGain = planar_laws::Gain;
 PhaseGain phase_gain(const PlanarPlan& plan, int phase);
 
 /// Everything at s of an interval but time; also the frames of all bodies. Keeps its memory from call to call.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <utility>
-
 #include "mcplan/planar/plan.hpp"
 #include "model/fields.hpp"
 #include "planar/task_fields.hpp"
@@ -12,9 +10,9 @@ namespace mcplan::model {
 constexpr int max_planar_intervals = 20'000;
 
 template <>
-struct Names<PlanarForceLaw> {
-  static constexpr std::pair<const char*, PlanarForceLaw> all[] = {{"least_norm", PlanarForceLaw::least_norm},
-                                                                   {"polynomial", PlanarForceLaw::polynomial}};
+struct Names<PlanarForceLaw> : NamesOfTypes<PlanarForceLaw> {
+  static constexpr const char* name = "PlanarForceLaw";
+  static constexpr const char* meaning = "Where the contact forces of a planar plan come from.";
 };
 
 template <>

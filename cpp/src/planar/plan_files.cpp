@@ -1,5 +1,7 @@
 #include "mcplan/planar/plan_files.hpp"
 
+#include <variant>
+
 #include "mcplan/base/error.hpp"
 #include "model/read.hpp"
 #include "model/write.hpp"
@@ -23,10 +25,7 @@ std::string planar_plan_to_json(const PlanarPlan& plan) {
   plan.validate();
   require_few_intervals(plan.motion);
   PlanarPlan said = plan;  // without what its force law does not look at
-  if (plan.force_law == PlanarForceLaw::least_norm)
-    said.force_polynomials.clear();
-  else
-    said.weights.clear();
+  std::visit([&](auto law) { law.clear_others(said); }, plan.force_law);
   model::Writing exactly;
   exactly.exact = true;
   return model::plan_json(model::written(said, exactly), model::planar_plan_kind);

@@ -1,22 +1,11 @@
-#include <cmath>
+#include <variant>
 
 #include "evaluation.hpp"
+#include "require.hpp"
 
 namespace mcplan {
 namespace planar {
 namespace {
-
-template <class Size>
-void require_size(const std::string& field, Size size, std::size_t wanted) {
-  if (static_cast<std::size_t>(size) != wanted)
-    throw InvalidPlan(field, "must have " + std::to_string(wanted) + " entries", std::to_string(size));
-}
-
-void require_matrix(const std::string& field, const Eigen::MatrixXd& matrix, Eigen::Index rows, Eigen::Index columns) {
-  if (matrix.rows() != rows || matrix.cols() != columns)
-    throw InvalidPlan(field, "must be " + std::to_string(rows) + " x " + std::to_string(columns),
-                      std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols()));
-}
 
 void require_index(const std::string& field, int value, std::size_t count) {
   if (value < 0 || value >= static_cast<int>(count))
@@ -47,13 +36,6 @@ void require_indices(const PlanarTask& motion) {
   }
 }
 
-std::size_t point_count(const PlanarTask& motion, const PlanarPhase& phase) {
-  std::size_t count = 0;
-  for (const PlanarContact& contact : phase.contacts)
-    count += motion.robot.end_effectors[contact.end_effector].points.size();
-  return count;
-}
-
 }  // namespace
 
 void require_shape(const PlanarPlan& plan) {
@@ -65,49 +47,19 @@ void require_shape(const PlanarPlan& plan) {
   require_matrix("control_points", plan.control_points, motion.robot.joint_count(), intervals + 3);
   if (plan.base_control_points.size() > 0)
     require_matrix("base_control_points", plan.base_control_points, 3, intervals + 3);
-  if (plan.force_law == PlanarForceLaw::least_norm) {
-    require_size("weights", plan.weights.size(), phases);
-    for (std::size_t k = 0; k < phases; ++k)
-      require_size("weights[" + std::to_string(k) + "]", plan.weights[k].size(), point_count(motion, motion.phases[k]));
-    return;
-  }
-  require_size("force_polynomials", plan.force_polynomials.size(), intervals);
-  for (int i = 0; i < intervals; ++i)
-    require_matrix("force_polynomials[" + std::to_string(i) + "]", plan.force_polynomials[i], 4,
-                   2 * point_count(motion, motion.phases[motion.phase_of(i)]));
+  std::visit([&](auto law) { law.require_shape(plan); }, plan.force_law);
 }
 
 }  // namespace planar
-
-namespace {
-
-void require_positive(const std::string& field, double value) {
-  if (!(std::isfinite(value) && value > 0.0)) throw InvalidPlan(field, "must be a positive number", text(value));
-}
-
-void require_finite(const std::string& field, const Eigen::MatrixXd& matrix) {
-  if (!matrix.allFinite()) throw InvalidPlan(field, "must be finite numbers", "nan or inf");
-}
-
-}  // namespace
 
 void PlanarPlan::validate() const {
   motion.validate();
   planar::require_shape(*this);
   for (std::size_t k = 0; k < durations.size(); ++k)
-    require_positive("durations[" + std::to_string(k) + "]", durations[k]);
-  require_finite("control_points", control_points);
-  require_finite("base_control_points", base_control_points);
-  if (force_law == PlanarForceLaw::least_norm) {
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-      for (Eigen::Index v = 0; v < weights[k].size(); ++v)
-        require_positive("weights[" + std::to_string(k) + "][" + std::to_string(v) + "]", weights[k][v]);
-      least_norm_gain(motion, static_cast<int>(k), weights[k]);
-    }
-  } else {
-    for (std::size_t i = 0; i < force_polynomials.size(); ++i)
-      require_finite("force_polynomials[" + std::to_string(i) + "]", force_polynomials[i]);
-  }
+    planar::require_positive("durations[" + std::to_string(k) + "]", durations[k]);
+  planar::require_finite("control_points", control_points);
+  planar::require_finite("base_control_points", base_control_points);
+  std::visit([&](auto law) { law.validate(*this); }, force_law);
 }
 
 }  // namespace mcplan

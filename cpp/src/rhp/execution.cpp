@@ -26,7 +26,10 @@ CentroidalState centroidal(const State& state) { return {state.com_W, state.com_
 Phase make_phase(const Walker& walker, const Horizon& horizon, const VectorXd& x, const Horizon::Phase& from) {
   Phase phase;
   phase.duration = x[from.duration];
-  phase.law = walker.options.transcription == Transcription::euler ? ForceLaw::held : ForceLaw::linear;
+  if (walker.options.transcription == Transcription::euler)
+    phase.law = laws::Held();
+  else
+    phase.law = laws::Linear();
   phase.intervals = walker.options.intervals;
   phase.contacts.resize(walker.robot.end_effectors.size());
   for (int foot = 0; foot < 2; ++foot) {

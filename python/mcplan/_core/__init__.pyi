@@ -979,6 +979,21 @@ class Phase:
     @duration.setter
     def duration(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def has_momentum(self) -> bool:
+        """
+        Whether the angular momentum is a state of knots, not what the base has by its rates.
+        """
+    @property
+    def has_points(self) -> bool:
+        """
+        Whether forces act at points, not as one force that follows the CoM.
+        """
+    @property
+    def has_wrenches(self) -> bool:
+        """
+        Whether contacts have a centre of pressure and a moment that turn the base.
+        """
+    @property
     def intervals(self) -> int:
         """
         Of the forces at points, equally long; 0 where there are none.

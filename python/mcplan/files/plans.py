@@ -48,8 +48,9 @@ from mcplan.files.scenes import scene_from_dict, scene_to_dict
 FORMATS = (1, 2, 3)
 UNITS = "SI: m, kg, s, N, rad; stiffness in 1/s^2; _W: world frame, z up"
 _INTEGERS = {"surfaces", "final_contacts", "swings", "laws", "intervals", "point_counts"}
-_LAWS = (ForceLaw.pendulum, ForceLaw.held, ForceLaw.linear, ForceLaw.wrench)
-_LAST_LAW = {2: 2, 3: 3}  # by format
+#: The first format that has a law; a law's number in files is its place here, so that new ones stand at the end.
+_FORMAT_OF_LAW = {ForceLaw.pendulum: 1, ForceLaw.held: 2, ForceLaw.linear: 2, ForceLaw.wrench: 3}
+_LAWS = tuple(_FORMAT_OF_LAW)
 #: Of a plan in a file: each takes a hundred times the memory of its numbers once it is read.
 MOST_PHASES, MOST_SWINGS = 10_000, 40_000
 
@@ -231,14 +232,12 @@ def _swings(arrays: dict[str, np.ndarray]) -> list[Swing]:
 
 def _format(plan: Plan) -> int:
     """The least format that holds all that the plan says."""
-    if (
-        any(phase.law == ForceLaw.wrench for phase in plan.phases)
-        or any(knot.end_effector_yaw for knot in plan.knots)
-        or any(contact.center_of_pressure_W.any() for phase in plan.phases for contact in phase.contacts)
+    if any(knot.end_effector_yaw for knot in plan.knots) or any(
+        contact.center_of_pressure_W.any() for phase in plan.phases for contact in phase.contacts
     ):
         return 3
-    points = any(phase.law != ForceLaw.pendulum for phase in plan.phases)
-    return 2 if points or any(knot.angular_momentum_W.any() for knot in plan.knots) else 1
+    laws = max((_FORMAT_OF_LAW[phase.law] for phase in plan.phases), default=1)
+    return max(laws, 2) if any(knot.angular_momentum_W.any() for knot in plan.knots) else laws
 
 
 def _point_arrays(plan: Plan) -> dict[str, np.ndarray]:
@@ -259,7 +258,8 @@ def _read_points(arrays: dict[str, np.ndarray], version: int) -> tuple[list[Any]
     count, ends = arrays["surfaces"].shape
     if version == 1:
         return [(ForceLaw.pendulum, 0)] * count, [[{}] * ends] * count
-    for name, most in (("laws", _LAST_LAW[version]), ("intervals", 100_000), ("point_counts", 100_000)):
+    last_law = sum(first <= version for first in _FORMAT_OF_LAW.values()) - 1
+    for name, most in (("laws", last_law), ("intervals", 100_000), ("point_counts", 100_000)):
         bad = arrays[name][(arrays[name] < 0) | (arrays[name] > most)]
         if bad.size:
             raise InvalidPlan(name, f"must lie in [0, {most}]", str(bad[0]))

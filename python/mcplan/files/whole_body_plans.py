@@ -44,7 +44,9 @@ FORMAT = 1
 #: Of a plan in a file, in all phases together.
 MOST_INTERVALS = 20_000
 UNITS = "SI: m, kg, s, N, rad; _W: world frame, x forward, y up; _B: frame of a body; _P: frame of its parent"
-_LAWS = {"least_norm": PlanarForceLaw.least_norm, "polynomial": PlanarForceLaw.polynomial}
+_LAWS = dict(PlanarForceLaw.__members__)
+#: The array that has a law's numbers; the other one is empty.
+_ARRAY_OF_LAW = {PlanarForceLaw.least_norm: "weights", PlanarForceLaw.polynomial: "force_polynomials"}
 
 
 def save_whole_body_plan(plan: PlanarPlan, path: str | Path) -> None:
@@ -100,8 +102,9 @@ def plan_to_bytes(plan: PlanarPlan) -> bytes:
         "force_law": plan.force_law.name,
         "motion": planar_task_to_plain(plan.motion),
     }
-    weights = plan.weights if plan.force_law == PlanarForceLaw.least_norm else ()
-    polynomials = plan.force_polynomials if plan.force_law == PlanarForceLaw.polynomial else ()
+    own = _ARRAY_OF_LAW[plan.force_law]
+    weights = plan.weights if own == "weights" else ()
+    polynomials = plan.force_polynomials if own == "force_polynomials" else ()
     arrays = {
         "durations": np.array(plan.durations, dtype=float),
         "control_points": np.array(plan.control_points),
@@ -132,8 +135,9 @@ def plan_from_bytes(data: bytes) -> PlanarPlan:
     law = _LAWS[header["force_law"]]
     points = _point_counts(motion)
     intervals = [count for phase, count in zip(motion.phases, points, strict=True) for _ in range(phase.intervals)]
-    weights = _cut(arrays, "weights", points if law == PlanarForceLaw.least_norm else [])
-    columns = [2 * count for count in intervals] if law == PlanarForceLaw.polynomial else []
+    own = _ARRAY_OF_LAW[law]
+    weights = _cut(arrays, "weights", points if own == "weights" else [])
+    columns = [2 * count for count in intervals] if own == "force_polynomials" else []
     plan = PlanarPlan(
         motion=motion,
         planner=header["planner"],

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from mcplan._core import ForceLaw, plan_loads
+from mcplan._core import plan_loads
 
 if TYPE_CHECKING:
     from mcplan._core import Plan
@@ -30,8 +30,8 @@ class Loads:
 
 
 def loads_of(plan: Plan) -> Loads | None:
-    """Loads of a plan of ForceLaw.wrench; None for others."""
-    if not plan.phases or any(phase.law != ForceLaw.wrench for phase in plan.phases):
+    """Loads of a plan of contact wrenches; None for others."""
+    if not plan.phases or not all(phase.has_wrenches for phase in plan.phases):
         return None
     found = plan_loads(plan, STEP_S)
     names = [end.name for end in plan.robot.end_effectors]

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan._core import ForceLaw
-
 from .rotations import about_z, between, from_rpy, polygon_normal, sole_frame
 
 if TYPE_CHECKING:
@@ -54,7 +52,7 @@ class Samples:
     angular_momentum_W: Array  # (n, 3) about the CoM [kg m^2/s]
     surfaces: NDArray[np.int64]  # (n, e), -1: free
     intervals: list[Interval]
-    has_wrenches: bool = False  # centre of pressure and moment are the plan's own, of ForceLaw.wrench
+    has_wrenches: bool = False  # centre of pressure and moment are the plan's own
 
     @property
     def has_points(self) -> bool:
@@ -95,7 +93,7 @@ def sample_at(plan: Plan, scene: Scene, robot: Robot, times: Array) -> Samples:
     surfaces = np.array([[e.surface for e in row] for row in end_effectors], int)
     points_W, point_forces_W = _padded(end_effectors, "points_W"), _padded(end_effectors, "point_forces_W")
     pressure_W = _centres_of_pressure(scene, positions_W, surfaces, points_W, point_forces_W)
-    wrenches = np.array([plan.phases[s.phase].law == ForceLaw.wrench for s in states])
+    wrenches = np.array([plan.phases[s.phase].has_wrenches for s in states])
     planned_W = np.array([[e.center_of_pressure_W for e in row] for row in end_effectors], float)
     pressure_W = np.where(wrenches[:, None, None], planned_W, pressure_W)
     moments_W = np.array([[e.moment_W for e in row] for row in end_effectors], float)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan._core import ForceLaw
 from mcplan.kinematics.rotations import rotations_of
 from mcplan.kinematics.samples import Samples, sample_at
 
@@ -94,7 +93,7 @@ def references(plan: Plan, robot: Robot, dt_s: float, hold_s: float) -> Referenc
     momentum = samples.angular_momentum_W * scale
     momentum[over] = 0.0
     momentum_rate = np.gradient(momentum, dt_s, axis=0)
-    if all(phase.law == ForceLaw.wrench for phase in plan.phases):
+    if all(phase.has_wrenches for phase in plan.phases):
         momentum_rate = scale * moment_about_com(samples)
         momentum_rate[over] = 0.0
     forces, moments = samples.forces_W * scale, samples.moments_W * scale

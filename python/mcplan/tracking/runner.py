@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan._core import ForceLaw, Plan, Robot
+from mcplan._core import Plan, Robot
 from mcplan.errors import InvalidInput, InvalidRobot
 from mcplan.extras import require
 from mcplan.files.robots import list_robots_with
@@ -86,7 +86,7 @@ def track(
     on_ground[2] += options.ground_shift_m
     simulation.reset(on_ground, np.zeros(urdf_model.model.nv))
     posture = start
-    if any(phase.law in (ForceLaw.held, ForceLaw.linear) for phase in plan.phases):
+    if any(phase.has_points for phase in plan.phases):
         # Such plans know nothing of the base: its rotation has to suit the legs.
         posture = postures_along(urdf_model, plan, desired.count, options.control_step_s)
         desired = desired.with_base(posture[:, 3:7])

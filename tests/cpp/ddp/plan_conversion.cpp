@@ -110,7 +110,7 @@ TEST_CASE("contact wrenches in the plan: where they act, what they point away fr
   for (int k = 0; k < 18; ++k) {
     const VectorXd &x = walk.now.trajectory.x[k], &u = walk.now.trajectory.u[k];
     const mcplan::Phase& phase = plan.phases[k];
-    CHECK(phase.law == mcplan::ForceLaw::wrench);
+    CHECK(std::holds_alternative<mcplan::laws::Wrench>(phase.law));
     for (int l : {0, 1}) {
       const mcplan::Contact& contact = phase.contacts[l];
       if (contact.surface == kFree) continue;

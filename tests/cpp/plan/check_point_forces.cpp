@@ -74,7 +74,7 @@ TEST_CASE("checker rejects a force at a point that the knots do not follow") {
   CHECK(broken([](Plan& p) { p.knots[2].angular_momentum_W.x() += 1e-7; }, false) == Names{"dynamics"});
   CHECK(broken(
             [](Plan& p) {
-              p.phases[0].law = mcplan::ForceLaw::held;
+              p.phases[0].law = mcplan::laws::Held();
               p.phases[0].intervals = 5;
             },
             false) == Names{"dynamics"});
@@ -212,7 +212,7 @@ TEST_CASE("checker throws on points and forces that do not fit together") {
   throws([](Plan& p) { p.phases[0].intervals = 0; });
   throws([](Plan& p) { p.phases[0].intervals = -1; });
   throws([](Plan& p) { p.phases[0].intervals = 6; });
-  throws([](Plan& p) { p.phases[0].law = mcplan::ForceLaw::pendulum; });
+  throws([](Plan& p) { p.phases[0].law = mcplan::laws::Pendulum(); });
   throws([](Plan& p) { p.phases[0].contacts[0].points_W.pop_back(); });
   throws([](Plan& p) { p.phases[0].contacts[0].point_forces_W.pop_back(); });
 }

@@ -85,7 +85,7 @@ TEST_CASE("checker accepts vertical forces whose line passes 0.1 m beside the fo
   // Of the paper's law the same anchors are wrong.
   CHECK(broken(
             [](Plan& p) {
-              for (auto& phase : p.phases) phase.law = mcplan::ForceLaw::pendulum;
+              for (auto& phase : p.phases) phase.law = mcplan::laws::Pendulum();
             },
             stand_on_wrenches())
             .count("anchor") == 1);
@@ -316,7 +316,7 @@ TEST_CASE("checker accepts a walk whose phases have different laws") {
   give_wrenches(plan);
   replay_wrench_knots(plan);
   for (std::size_t k = 0; k < plan.phases.size(); k += 3) {
-    plan.phases[k].law = mcplan::ForceLaw::pendulum;
+    plan.phases[k].law = mcplan::laws::Pendulum();
     for (auto& contact : plan.phases[k].contacts) contact.center_of_pressure_W.setZero();
   }
   const CheckResult result = check(plan);

@@ -350,7 +350,7 @@ TEST_CASE("at() rejects forces that do not fit their points instead of reading b
 TEST_CASE("a walk without points says so, and free flight keeps what it spins") {
   for (const auto& end : walk().at(0.1).end_effectors) CHECK(end.points_W.empty());
   Plan thrown = flight();
-  thrown.phases[0].law = mcplan::ForceLaw::linear;
+  thrown.phases[0].law = mcplan::laws::Linear();
   thrown.phases[0].intervals = 3;
   thrown.knots[0].angular_momentum_W = {0.3, -0.2, 0.1};
   for (double t : {0.0, 0.13, 0.4}) {

@@ -20,7 +20,7 @@ Plan drawn(unsigned seed, double stiffness) {
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   const auto vector = [&](double scale) { return Vector3d(scale * u(random), scale * u(random), scale * u(random)); };
   Plan plan = flight();
-  plan.phases[0].law = mcplan::ForceLaw::wrench;
+  plan.phases[0].law = mcplan::laws::Wrench();
   mcplan::Knot& from = plan.knots[0];
   from.com_W += vector(0.2);
   from.com_velocity_W = vector(1.0);

@@ -55,7 +55,8 @@ inline mcplan::Plan step_on_corners() {
     mcplan::Phase phase;
     phase.duration = durations[k];
     phase.intervals = intervals[k];
-    phase.law = k == 2 ? mcplan::ForceLaw::held : mcplan::ForceLaw::linear;
+    phase.law = mcplan::laws::Linear();
+    if (k == 2) phase.law = mcplan::laws::Held();
     phase.contacts.resize(4);
     for (int foot : {left_foot, right_foot}) {
       if (k == 1 && foot == left_foot) continue;

@@ -50,7 +50,7 @@ TEST_CASE("validate names the field of forces at points that does not fit") {
   CHECK(of_step([](Plan& p) { p.knots[1].angular_momentum_W.y() = INFINITY; }) == "knots[1]");
   CHECK(of_step([](Plan& p) { p.phases[0].intervals = 0; }) == "phases[0].intervals");
   CHECK(of_step([](Plan& p) { p.phases[0].intervals = 3; }) == "phases[0].contacts[0].point_forces");
-  CHECK(of_step([](Plan& p) { p.phases[2].law = mcplan::ForceLaw::linear; }) == "phases[2].contacts[0].point_forces");
+  CHECK(of_step([](Plan& p) { p.phases[2].law = mcplan::laws::Linear(); }) == "phases[2].contacts[0].point_forces");
   CHECK(of_step([](Plan& p) { p.phases[1].contacts[1].points_W.pop_back(); }) == "phases[1].contacts[1].point_forces");
   CHECK(of_step([](Plan& p) { p.phases[1].contacts[1].points_W[2].x() = std::nan(""); }) == "phases[1].contacts[1]");
   CHECK(of_step([](Plan& p) { p.phases[1].contacts[1].point_forces_W[7].x() = NAN; }) == "phases[1].contacts[1]");

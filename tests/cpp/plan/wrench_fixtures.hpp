@@ -93,7 +93,7 @@ inline void replay_wrench_knots(mcplan::Plan& plan, int first = 0) {
 /// The forces of a pendulum's plan act at their anchors, and every sole heads straight ahead.
 inline void give_wrenches(mcplan::Plan& plan) {
   for (auto& phase : plan.phases) {
-    phase.law = mcplan::ForceLaw::wrench;
+    phase.law = mcplan::laws::Wrench();
     for (auto& contact : phase.contacts) contact.center_of_pressure_W = contact.anchor_W;
   }
   for (auto& knot : plan.knots) knot.end_effector_yaw.assign(4, 0.0);
@@ -132,7 +132,7 @@ inline mcplan::Plan stand_on_wrenches() {
   knot.end_effector_yaw.assign(4, 0.0);
   mcplan::Phase phase;
   phase.duration = kPhase;
-  phase.law = mcplan::ForceLaw::wrench;
+  phase.law = mcplan::laws::Wrench();
   phase.contacts.resize(4);
   for (int foot : {left_foot, right_foot}) {
     phase.contacts[foot].surface = ground;
@@ -151,7 +151,7 @@ inline mcplan::Plan spinning_flight(const Vector3d& momentum, const Vector3d& in
   mcplan::Plan plan = flight();
   plan.robot.inertia = inertia;
   plan.measured_start = plan.open_end = true;
-  plan.phases[0].law = mcplan::ForceLaw::wrench;
+  plan.phases[0].law = mcplan::laws::Wrench();
   plan.knots[0].com_velocity_W = {0.5, 0.0, 2.0};
   plan.knots[0].angular_momentum_W = momentum;
   plan.knots[1] = plan.knots[0];

@@ -40,7 +40,7 @@ void give_forces(P& plan, int interval, const Eigen::Matrix<double, 8, 1>& chang
   const double weight = plan.motion.robot.mass() * plan.motion.robot.gravity;
   Eigen::MatrixXd polynomial = Eigen::MatrixXd::Zero(4, 8);
   for (int v = 0; v < 4; ++v) polynomial(0, 2 * v + 1) = weight / 4.0;
-  plan.force_law = mcplan::PlanarForceLaw::polynomial;
+  plan.force_law = mcplan::planar_laws::Polynomial();
   plan.force_polynomials.assign(plan.motion.interval_count(), polynomial);
   plan.force_polynomials[interval].row(0) += change.transpose();
 }

@@ -52,7 +52,7 @@ PlanarPlan with_polynomials(PlanarPlan plan, int phase, double since_start) {
         polynomial.row(0).segment<2>(2 * v) << state.forces[v].tangential, state.forces[v].normal;
     plan.force_polynomials.push_back(polynomial);
   }
-  plan.force_law = mcplan::PlanarForceLaw::polynomial;
+  plan.force_law = mcplan::planar_laws::Polynomial();
   plan.weights.clear();
   return plan;
 }

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <filesystem>
 #include <random>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/plan_files.hpp"
@@ -30,15 +33,23 @@ PlanarPlan noisy_plan() {
   return plan;
 }
 
-/// One with forces and a base of its own.
-PlanarPlan plan_of_polynomials() {
+/// A plan of each force law: one that has none does not compile.
+PlanarPlan plan_under(planar_laws::LeastNorm /*law*/) { return noisy_plan(); }
+
+/// With a base of its own.
+PlanarPlan plan_under(planar_laws::Polynomial /*law*/) {
   PlanarPlan plan = noisy_plan();
-  plan.force_law = PlanarForceLaw::polynomial;
+  plan.force_law = planar_laws::Polynomial();
   plan.weights.clear();
   plan.base_control_points = Eigen::MatrixXd::Random(3, plan.control_points.cols());
   for (int i = 0; i < plan.motion.interval_count(); ++i)
     plan.force_polynomials.push_back(Eigen::MatrixXd::Random(4, 8));
   return plan;
+}
+
+template <std::size_t... I>
+std::vector<PlanarPlan> plans_of_all_laws(std::index_sequence<I...> /*laws*/) {
+  return {plan_under(std::variant_alternative_t<I, PlanarForceLaw>())...};
 }
 
 std::string planar_field(const std::string& text) {
@@ -58,11 +69,13 @@ std::string with(std::string text, const std::string& from, const std::string& t
 
 }  // namespace
 
-TEST_CASE("planar plans of both force laws survive a file to the last bit") {
+TEST_CASE("planar plans of every force law survive a file to the last bit") {
   const fs::path file = fs::temp_directory_path() / ("mcplan_planar_plan_" + std::to_string(getpid()) + ".json");
-  for (const PlanarPlan& plan : {noisy_plan(), plan_of_polynomials()}) {
+  constexpr std::size_t laws = std::variant_size_v<PlanarForceLaw>;
+  for (const PlanarPlan& plan : plans_of_all_laws(std::make_index_sequence<laws>())) {
     plan.save(file.string());
     const PlanarPlan back = load_planar_plan(file.string());
+    CHECK(back.force_law == plan.force_law);
     CHECK(back == plan);
     const double t = 0.37 * plan.duration();
     CHECK(back.at(t).torque == plan.at(t).torque);

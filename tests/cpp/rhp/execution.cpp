@@ -50,7 +50,8 @@ TEST_CASE("the plan of a step has the forces of its control nodes, in newtons an
     for (int q = 0; q < 3; ++q) {
       const Horizon::Phase& phase = any.horizon.phases[q];
       CHECK(plan.phases[q].duration == any.x[phase.duration]);
-      CHECK(plan.phases[q].law == (transcription == Transcription::euler ? ForceLaw::held : ForceLaw::linear));
+      const bool held = transcription == Transcription::euler;
+      CHECK(plan.phases[q].law == (held ? ForceLaw(laws::Held()) : ForceLaw(laws::Linear())));
       for (int k = 0; k < phase.control_count; ++k) {
         const Horizon::Control& control = any.horizon.controls[phase.first_control + k];
         // Sum and moment about the world's origin do not depend on the order of the points.

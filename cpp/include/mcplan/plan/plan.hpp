@@ -2,36 +2,27 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "mcplan/plan/force_laws.hpp"
 #include "mcplan/robot/robot.hpp"
 #include "mcplan/scene/scene.hpp"
 
 namespace mcplan {
 
-/// How contact forces depend on time within a phase. All give the CoM in closed form.
-enum class ForceLaw {
-  pendulum,  ///< f_l(t) = m mu_l (p(t) - s_l): the multi-contact pendulum (Tazaki, sec. II, eq. 5, mu = lambda^2)
-  held,      ///< forces at points, constant over each of `intervals` equal intervals
-  linear,    ///< forces at points, linear over each of `intervals` equal intervals: the CoM is cubic, L of degree 4
-  wrench,    ///< f_l(t) = m mu_l (p(t) - s_l), acting at a_l, with a moment about the normal: a pendulum with contacts
-             ///< as they are, whose forces need not point at the CoM (docs/theory/ddp.md, "Contact wrenches")
-};
-
-/// What one end-effector does during one phase. Under ForceLaw::pendulum stiffness, anchor and moment say its force,
-/// under ForceLaw::wrench these and the centre of pressure; otherwise the forces at its points do, and those four stay
-/// zero.
+/// What one end-effector does during one phase. Under laws::Pendulum stiffness, anchor and moment say its force, under
+/// laws::Wrench these and the centre of pressure; otherwise the forces at its points do, and those four stay zero.
 struct Contact {
   int surface = -1;                                    ///< index into scene.surfaces, -1: free
   double stiffness = 0.0;                              ///< mu_l [1/s^2], 0 when free
   Eigen::Vector3d anchor_W = Eigen::Vector3d::Zero();  ///< s_l [m], through which the line of force passes
   Eigen::Vector3d moment_W = Eigen::Vector3d::Zero();  ///< contact moment [N m], constant over the phase; along the
-                                                       ///< surface's normal under ForceLaw::wrench
+                                                       ///< surface's normal under laws::Wrench
   std::vector<Eigen::Vector3d> points_W;               ///< [m] where forces act, e.g. the corners of the sole
   std::vector<Eigen::Vector3d>
       point_forces_W;  ///< [N] node by node, a force for each point: Phase::node_count() x points
-  Eigen::Vector3d center_of_pressure_W =
-      Eigen::Vector3d::Zero();  ///< a_l [m], where the force acts under ForceLaw::wrench
+  Eigen::Vector3d center_of_pressure_W = Eigen::Vector3d::Zero();  ///< a_l [m], where the force acts under laws::Wrench
 };
 
 /// A stretch of time with constant contacts.
@@ -40,14 +31,29 @@ struct Phase {
 
   double duration = 0.0;          ///< [s]
   std::vector<Contact> contacts;  ///< one per end-effector
-  ForceLaw law = ForceLaw::pendulum;
-  int intervals = 0;  ///< of the forces at points, equally long; 0 where there are none
+  ForceLaw law;                   ///< how forces depend on time; laws::Pendulum where nothing is said
+  int intervals = 0;              ///< of the forces at points, equally long; 0 where there are none
 
   /// Whether forces act at points, not as one force that follows the CoM.
-  bool has_points() const { return law == ForceLaw::held || law == ForceLaw::linear; }
+  bool has_points() const {
+    return std::visit([](auto kind) { return kind.has_points; }, law);
+  }
+
+  /// Whether the angular momentum is a state, Knot::angular_momentum_W, not what the base has by its rates.
+  bool has_momentum() const {
+    return std::visit([](auto kind) { return kind.has_momentum; }, law);
+  }
+
+  /// Whether contacts have wrenches: a force at a centre of pressure of their own, and a moment about the normal, which
+  /// together turn the base.
+  bool has_wrenches() const {
+    return std::visit([](auto kind) { return kind.has_wrenches; }, law);
+  }
 
   /// Instants at which forces are given: `intervals` when held (at the begin of each), one more when linear.
-  int node_count() const { return has_points() ? intervals + (law == ForceLaw::linear ? 1 : 0) : 0; }
+  int node_count() const {
+    return std::visit([this](auto kind) { return kind.node_count(intervals); }, law);
+  }
 };
 
 /// State at the instant between two phases.
@@ -99,15 +105,8 @@ struct PlanState {
 
 /// A motion: phases with constant contacts between knots. Plain data; carries the scene and the robot it was made for.
 ///
-/// Under ForceLaw::pendulum the base turns as a rigid body, I theta'' = sum_l tau_l, and the angular momentum is
-/// I theta': Knot::angular_momentum_W is not looked at. With forces at points p_i the angular momentum is a state,
-///
-///     L' = sum_i (p_i - p) x f_i,
-///
-/// and the base follows the quintic through its knots, since the limbs carry what the base does not. Under
-/// ForceLaw::wrench the angular momentum is a state, too, and turns the base, as a rigid body, by any angle:
-///
-///     L' = sum_l ((a_l - p) x f_l + tau_l),   theta' = E(theta) R I^-1 R^T L.
+/// What moves the CoM, turns the base and changes the angular momentum, each phase's force law says
+/// (plan/force_laws.hpp). Where the angular momentum is no state, Knot::angular_momentum_W is not looked at.
 class Plan {
  public:
   Scene scene;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mcplan/planar/force_laws.hpp"
 #include "mcplan/planar/robot.hpp"
 #include "mcplan/planar/task.hpp"
 
@@ -32,12 +33,6 @@ struct PlanarState {
   double angular_momentum = 0.0;  ///< about the CoM [kg m^2/s]
 };
 
-/// Where contact forces come from.
-enum class PlanarForceLaw {
-  least_norm,  ///< weighted least norm that balances the motion (Lengagne et al., sec. IV)
-  polynomial,  ///< cubic in time over each interval, given (sec. III-C)
-};
-
 /// A motion of a planar robot: joint splines, phase durations and what fixes the contact forces. Everything
 /// else follows in closed form at any instant: base, velocities, accelerations, forces, torques. Plain data; carries
 /// the task it was made for.
@@ -49,8 +44,8 @@ enum class PlanarForceLaw {
 ///
 ///     angle = mean_i (expected_i - relative_i),    position = mean_i (expected_i - R(angle) relative_i)
 ///
-/// Forces under least_norm, at points x_v with tangent t and outward normal n of the expected contacts, about the mean
-/// p of the phase's expected points:
+/// Forces under planar_laws::LeastNorm, at points x_v with tangent t and outward normal n of the expected contacts,
+/// about the mean p of the phase's expected points:
 ///
 ///     min 1/2 sum_v weight_v (10 f_t^2 + f_n^2)    s.t.  sum_v [f_v; (x_v - p) x f_v] = [m (a - g); moment about p]
 ///
@@ -58,13 +53,13 @@ enum class PlanarForceLaw {
 class PlanarPlan {
  public:
   PlanarTask motion;
-  std::string planner;                  ///< e.g. "sip"
-  std::vector<double> durations;        ///< of the phases [s]
-  Eigen::MatrixXd control_points;       ///< joints x (intervals + 3) [rad]
-  Eigen::MatrixXd base_control_points;  ///< 3 x (intervals + 3): x, y [m], angle [rad]; empty: computed
-  PlanarForceLaw force_law = PlanarForceLaw::least_norm;
-  std::vector<Eigen::VectorXd> weights;            ///< least_norm: of each phase, contact by contact, point by point
-  std::vector<Eigen::MatrixXd> force_polynomials;  ///< polynomial: of each interval, 4 x (2 * points of its phase):
+  std::string planner;                             ///< e.g. "sip"
+  std::vector<double> durations;                   ///< of the phases [s]
+  Eigen::MatrixXd control_points;                  ///< joints x (intervals + 3) [rad]
+  Eigen::MatrixXd base_control_points;             ///< 3 x (intervals + 3): x, y [m], angle [rad]; empty: computed
+  PlanarForceLaw force_law;                        ///< planar_laws::LeastNorm where nothing is said
+  std::vector<Eigen::VectorXd> weights;            ///< LeastNorm: of each phase, contact by contact, point by point
+  std::vector<Eigen::MatrixXd> force_polynomials;  ///< Polynomial: of each interval, 4 x (2 * points of its phase):
                                                    ///< coefficients of s^0..s^3, s = -1..1, of tangential and normal
                                                    ///< force [N], contact by contact, point by point
 

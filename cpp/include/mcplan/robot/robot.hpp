@@ -30,7 +30,7 @@ struct EndEffector {
   Eigen::Vector3d reach_min_B = Eigen::Vector3d::Zero();  ///< [m] box of reachable positions relative to the CoM
   Eigen::Vector3d reach_max_B = Eigen::Vector3d::Zero();
   double max_force = std::numeric_limits<double>::infinity();  ///< [N] largest norm of the contact force
-  /// [N m] largest contact moment about each world axis; under ForceLaw::wrench the third about the surface's normal,
+  /// [N m] largest contact moment about each world axis; under laws::Wrench the third about the surface's normal,
   /// the others being what the centre of pressure does.
   Eigen::Vector3d max_moment = Eigen::Vector3d::Zero();
   /// [rad] how far the sole may be turned against the base about the vertical while it is in contact: min <= 0 <= max.

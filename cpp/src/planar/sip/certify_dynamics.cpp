@@ -4,12 +4,37 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <variant>
 
 namespace mcplan::sip::proof {
 namespace {
 
 /// Sine and cosine of the library are within an ulp.
 Constant direction(double angle) { return {{std::cos(angle), std::sin(angle)}, kEpsilon}; }
+
+/// The gain of a phase under a force law, and how far its forces fall short of what they have to give.
+void set_gain(planar_laws::LeastNorm /*law*/, const PlanarPlan& plan, int phase, PhaseConstants& out) {
+  out.gain = least_norm_gain(plan.motion, phase, plan.weights[phase]);
+  Eigen::MatrixXd g(3, 2 * out.points), g_error(3, 2 * out.points);
+  for (const ContactFrame& contact : out.contacts)
+    for (std::size_t k = 0; k < contact.points.size(); ++k) {
+      const Eigen::Vector2d along = contact.points[k] * contact.tangent_W.value;
+      const Eigen::Vector2d arm = contact.position_W.value + along - out.moment_point_W;
+      const double size = contact.position_W.value.lpNorm<1>() + along.lpNorm<1>() + out.moment_point_W.lpNorm<1>();
+      for (int d = 0; d < 2; ++d) {
+        const Eigen::Vector2d& v = d == 0 ? contact.tangent_W.value : contact.normal_W.value;
+        const int column = 2 * (contact.first_point + static_cast<int>(k)) + d;
+        g.col(column) << v, arm.x() * v.y() - arm.y() * v.x();
+        g_error.col(column) << kEpsilon, kEpsilon, 8.0 * kEpsilon * size;
+      }
+    }
+  const Eigen::Matrix3d difference = Eigen::Matrix3d::Identity() - g * out.gain;
+  out.leak = difference.cwiseAbs() + (g_error + (g.cols() + 4) * kEpsilon * g.cwiseAbs()) * out.gain.cwiseAbs() +
+             2.0 * kEpsilon * Eigen::Matrix3d::Identity();
+}
+
+/// None: the forces are given.
+void set_gain(planar_laws::Polynomial /*law*/, const PlanarPlan& /*plan*/, int /*phase*/, PhaseConstants& /*out*/) {}
 
 }  // namespace
 
@@ -49,25 +74,7 @@ PhaseConstants phase_constants(const PlanarPlan& plan, int phase) {
     out.contacts.push_back(frame);
   }
   out.moment_point_W = moment_point_W(motion, phase);
-  if (plan.force_law != PlanarForceLaw::least_norm) return out;
-
-  out.gain = least_norm_gain(motion, phase, plan.weights[phase]);
-  Eigen::MatrixXd g(3, 2 * out.points), g_error(3, 2 * out.points);
-  for (const ContactFrame& contact : out.contacts)
-    for (std::size_t k = 0; k < contact.points.size(); ++k) {
-      const Eigen::Vector2d along = contact.points[k] * contact.tangent_W.value;
-      const Eigen::Vector2d arm = contact.position_W.value + along - out.moment_point_W;
-      const double size = contact.position_W.value.lpNorm<1>() + along.lpNorm<1>() + out.moment_point_W.lpNorm<1>();
-      for (int d = 0; d < 2; ++d) {
-        const Eigen::Vector2d& v = d == 0 ? contact.tangent_W.value : contact.normal_W.value;
-        const int column = 2 * (contact.first_point + static_cast<int>(k)) + d;
-        g.col(column) << v, arm.x() * v.y() - arm.y() * v.x();
-        g_error.col(column) << kEpsilon, kEpsilon, 8.0 * kEpsilon * size;
-      }
-    }
-  const Eigen::Matrix3d difference = Eigen::Matrix3d::Identity() - g * out.gain;
-  out.leak = difference.cwiseAbs() + (g_error + (g.cols() + 4) * kEpsilon * g.cwiseAbs()) * out.gain.cwiseAbs() +
-             2.0 * kEpsilon * Eigen::Matrix3d::Identity();
+  std::visit([&](auto law) { set_gain(law, plan, phase, out); }, plan.force_law);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <variant>
 
 namespace mcplan::sip::proof {
 namespace {
@@ -36,6 +37,19 @@ Amount beyond_cone(const TaylorModel& tangential, const TaylorModel& normal, dou
 
 std::string point_name(const PlanarEndEffector& end, std::size_t point) {
   return end.name + " point " + std::to_string(point);
+}
+
+/// The forces that a law has by itself, not by the motion: polynomials over an interval, (tangential, normal) point by
+/// point.
+std::vector<UncertainPolynomial> given_forces(planar_laws::LeastNorm /*law*/, const PlanarPlan& /*plan*/,
+                                              int /*interval*/) {
+  return {};
+}
+std::vector<UncertainPolynomial> given_forces(planar_laws::Polynomial /*law*/, const PlanarPlan& plan, int interval) {
+  const Eigen::MatrixXd& coefficients = plan.force_polynomials[interval];
+  std::vector<UncertainPolynomial> out;
+  for (Eigen::Index i = 0; i < coefficients.cols(); ++i) out.push_back({coefficients.col(i), 0.0});
+  return out;
 }
 
 }  // namespace
@@ -159,12 +173,9 @@ std::vector<Amount> IntervalRows::evaluate(double middle, double half_width, con
     dynamics = dynamics || needs_dynamics(rows_[i].kind);
   }
   const Trajectories piece = interval_.restricted(middle, half_width);
-  std::vector<UncertainPolynomial> forces;
-  if (plan_.force_law == PlanarForceLaw::polynomial) {
-    const Eigen::MatrixXd& coefficients = plan_.force_polynomials[interval_.interval];
-    for (Eigen::Index i = 0; i < coefficients.cols(); ++i)
-      forces.push_back(UncertainPolynomial{coefficients.col(i), 0.0}.restricted(middle, half_width));
-  }
+  std::vector<UncertainPolynomial> forces =
+      std::visit([&](auto law) { return given_forces(law, plan_, interval_.interval); }, plan_.force_law);
+  for (UncertainPolynomial& force : forces) force = force.restricted(middle, half_width);
   PieceModels models(plan_, constants_, piece, order_, std::move(forces));
   if (kinematics) models.kinematics();
   if (dynamics) models.dynamics();

@@ -1,6 +1,7 @@
 // Parameters of a program and plans, one made into the other.
 #include <Eigen/LU>
 #include <cmath>
+#include <variant>
 
 #include "planar/sip/program.hpp"
 #include "planar/sip/rows.hpp"
@@ -46,11 +47,17 @@ std::vector<int> contact_of_points(const PlanarTask& motion, int phase) {
   return out;
 }
 
-/// Log weights of a phase from the plan's weights of its points, relative to the first one.
-Eigen::VectorXd log_weights_of(const PlanarPlan& plan, const PlanarTask& motion, const Options& options, int phase,
-                               int count) {
+/// Log weights of a phase: all the same under a law that has no weights.
+template <class Law>
+Eigen::VectorXd log_weights_of(Law /*law*/, const PlanarPlan& /*plan*/, const PlanarTask& /*motion*/,
+                               const Options& /*options*/, int /*phase*/, int count) {
+  return Eigen::VectorXd::Zero(count);
+}
+
+/// From the plan's weights of the points, relative to the first one.
+Eigen::VectorXd log_weights_of(planar_laws::LeastNorm /*law*/, const PlanarPlan& plan, const PlanarTask& motion,
+                               const Options& options, int phase, int count) {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(count);
-  if (plan.force_law != PlanarForceLaw::least_norm) return out;
   const Eigen::VectorXd logs = plan.weights[phase].array().log();
   if (options.forces == Forces::per_point) {
     out = logs.tail(count).array() - logs[0];
@@ -68,7 +75,11 @@ Eigen::VectorXd log_weights_of(const PlanarPlan& plan, const PlanarTask& motion,
 }
 
 /// Cubic through the plan's forces at four instants of an interval: (tangential, normal) point by point, 4 x 2 points.
-Eigen::MatrixXd forces_of(const PlanarPlan& plan, int phase, double begin, double length) {
+template <class Law>
+Eigen::MatrixXd forces_of(Law /*law*/, const PlanarPlan& plan, int interval) {
+  const int phase = plan.motion.phase_of(interval);
+  const double length = plan.durations[phase] / plan.motion.phases[phase].intervals;
+  const double begin = (interval - plan.motion.first_interval(phase)) * length;
   Eigen::Matrix4d at;
   Eigen::MatrixXd forces;
   for (int i = 0; i < 4; ++i) {
@@ -82,6 +93,11 @@ Eigen::MatrixXd forces_of(const PlanarPlan& plan, int phase, double begin, doubl
     }
   }
   return at.inverse() * forces;
+}
+
+/// The plan's own.
+Eigen::MatrixXd forces_of(planar_laws::Polynomial /*law*/, const PlanarPlan& plan, int interval) {
+  return plan.force_polynomials[interval];
 }
 
 }  // namespace
@@ -110,15 +126,12 @@ Eigen::VectorXd parameters_of(const PlanarPlan& plan, const PlanarTask& motion, 
     x[layout.duration_of_phase(static_cast<int>(p))] += plan.durations[p];
   for (std::size_t p = 0; p < layout.weights.size(); ++p)
     if (layout.weights[p] > 0)
-      x.segment(layout.first_weight[p], layout.weights[p]) =
-          log_weights_of(plan, motion, options, static_cast<int>(p), layout.weights[p]);
+      x.segment(layout.first_weight[p], layout.weights[p]) = std::visit(
+          [&](auto law) { return log_weights_of(law, plan, motion, options, static_cast<int>(p), layout.weights[p]); },
+          plan.force_law);
   for (int k = 0; k < layout.intervals; ++k) {
     if (layout.forces[k] == 0) continue;
-    const int phase = motion.phase_of(k), index = k - motion.first_interval(phase);
-    const double length = plan.durations[phase] / motion.phases[phase].intervals;
-    const Eigen::MatrixXd forces = plan.force_law == PlanarForceLaw::polynomial
-                                       ? plan.force_polynomials[k]
-                                       : forces_of(plan, phase, index * length, length);
+    const Eigen::MatrixXd forces = std::visit([&](auto law) { return forces_of(law, plan, k); }, plan.force_law);
     for (int c = 0; c < forces.cols(); ++c) x.segment<4>(layout.first_force[k] + 4 * c) = forces.col(c);
   }
   return x;
@@ -142,7 +155,7 @@ PlanarPlan plan_of(const PlanarTask& motion, const Options& options, const Layou
     if (layout.splines > joints) plan.base_control_points.col(i) = x.segment<3>(at + joints);
   }
   if (options.dynamics && options.forces == Forces::parameters) {
-    plan.force_law = PlanarForceLaw::polynomial;
+    plan.force_law = planar_laws::Polynomial();
     for (int k = 0; k < layout.intervals; ++k)
       plan.force_polynomials.push_back(
           Eigen::Map<const Eigen::MatrixXd>(x.data() + layout.first_force[k], 4, layout.forces[k] / 4));

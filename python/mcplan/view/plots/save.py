@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mcplan._core import ForceLaw
 from mcplan.view.pictures.picture import picture
 from mcplan.view.sheets import save_figures
 
@@ -52,9 +51,9 @@ def _figures(plan: Plan, report: Report | None) -> dict[str, Figure]:
         "forces": plot_forces(plan),
         "friction": plot_friction(plan),
     }
-    if any(phase.intervals for phase in plan.phases):
+    if any(phase.has_points for phase in plan.phases):
         figures |= {"pressure": plot_pressure(plan), "timing": plot_timing(plan)}
-    elif any(phase.law == ForceLaw.wrench for phase in plan.phases):
+    elif any(phase.has_wrenches for phase in plan.phases):
         figures |= {"pressure": plot_pressure(plan), "turning": plot_turning(plan)}
     if report is not None and report.history:
         figures["cost"] = plot_cost(report)

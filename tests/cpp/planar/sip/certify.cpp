@@ -60,7 +60,7 @@ PlanarPlan random_plan(int seed) {
     for (double& c : plan.base_control_points.reshaped()) c += size * normal(random);
   }
   if (seed % 2 == 0) {
-    plan.force_law = PlanarForceLaw::polynomial;
+    plan.force_law = planar_laws::Polynomial();
     for (int i = 0; i < intervals; ++i) {
       const int points = plan.motion.phase_of(i) == 1 ? 2 : 4;
       Eigen::MatrixXd forces(4, 2 * points);

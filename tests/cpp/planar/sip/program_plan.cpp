@@ -8,7 +8,6 @@
 #include "planar/robots.hpp"
 
 using namespace mcplan::sip;
-using mcplan::PlanarForceLaw;
 using mcplan::PlanarPlan;
 using mcplan::PlanarTask;
 
@@ -128,7 +127,7 @@ TEST_CASE("least-norm forces become polynomials through them, and those mean not
   const Options given = with(Forces::parameters, true);
   const Layout layout(motion, given);
   const PlanarPlan polynomial = plan_of(motion, given, layout, parameters_of(least_norm, motion, given, layout));
-  CHECK(polynomial.force_law == PlanarForceLaw::polynomial);
+  CHECK(std::holds_alternative<mcplan::planar_laws::Polynomial>(polynomial.force_law));
   const double length = least_norm.durations[1] / 4.0;
   for (double s : {-1.0 / 3.0, 1.0 / 3.0}) {  // inner instants of the fit, of phase 1's second interval
     const double t = (1.0 + 0.5 * (s + 1.0)) * length;

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "mcplan/plan/plan.hpp"
+
+namespace mcplan {
+
+/// What a force law is given of an instant: the phase, the knots at its ends, and the time since it began.
+struct PhaseInstant {
+  const Plan& plan;
+  const Phase& phase;
+  const Knot& from;
+  const Knot& to;
+  double since_start = 0.0;  ///< [s]
+};
+
+}  // namespace mcplan

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <string>
+
+#include "mcplan/base/error.hpp"
+#include "mcplan/planar/task.hpp"
+
+/// What validate.cpp and the force laws hold a plan's arrays to. All throw InvalidPlan.
+namespace mcplan::planar {
+
+template <class Size>
+void require_size(const std::string& field, Size size, std::size_t wanted) {
+  if (static_cast<std::size_t>(size) != wanted)
+    throw InvalidPlan(field, "must have " + std::to_string(wanted) + " entries", std::to_string(size));
+}
+
+inline void require_matrix(const std::string& field, const Eigen::MatrixXd& matrix, Eigen::Index rows,
+                           Eigen::Index columns) {
+  if (matrix.rows() != rows || matrix.cols() != columns)
+    throw InvalidPlan(field, "must be " + std::to_string(rows) + " x " + std::to_string(columns),
+                      std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols()));
+}
+
+inline void require_positive(const std::string& field, double value) {
+  if (!(std::isfinite(value) && value > 0.0)) throw InvalidPlan(field, "must be a positive number", text(value));
+}
+
+inline void require_finite(const std::string& field, const Eigen::MatrixXd& matrix) {
+  if (!matrix.allFinite()) throw InvalidPlan(field, "must be finite numbers", "nan or inf");
+}
+
+/// Points in contact in a phase.
+inline std::size_t point_count(const PlanarTask& motion, const PlanarPhase& phase) {
+  std::size_t count = 0;
+  for (const PlanarContact& contact : phase.contacts)
+    count += motion.robot.end_effectors[contact.end_effector].points.size();
+  return count;
+}
+
+}  // namespace mcplan::planar
