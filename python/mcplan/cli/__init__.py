@@ -37,6 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(words: list[str]) -> int:
     try:
+        _require_no_empty(words)
         from mcplan.cli.app import app, complete
 
         complete(words[0])
@@ -58,6 +59,19 @@ def _run(words: list[str]) -> int:
         if type(found).__name__ == "Abort":
             return CODE
         raise
+
+
+def _require_no_empty(words: list[str]) -> None:
+    """Refuse an empty word before a path is made of it, which would be the working folder.
+
+    Raises:
+        InvalidInput: No option or argument of any verb may be empty; shells make that of a variable that is not set.
+    """
+    for before, word in zip(["", *words], words, strict=False):
+        option, is_value, value = word.partition("=")
+        if word == "" or (word.startswith("--") and is_value and value == ""):
+            where = option if word else f"the word after {before}" if before else "the first word"
+            raise InvalidInput(where, "must not be empty: is a variable of the shell not set?")
 
 
 @contextlib.contextmanager
