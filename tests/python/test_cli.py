@@ -267,10 +267,14 @@ BAD_WORDS = [
     ),
     (("robots", "--from-urdf", "g1", "--posture", "knee"), "--posture: must read JOINT=ANGLE"),
     (("robots", "--posture", "knee=1"), "--posture: needs --from-urdf"),
-    (("plan", "flat", "--scale", "0"), "scale: must be a positive number, got 0.0"),
-    (("plan", "flat", "--sole-inside", "3"), "sole_inside: must be at most 2, got 3"),
-    (("robots", "--from-urdf", "talos", "--end", "foot=nowhere"), "ends.foot: must name a link of the URDF"),
-    (("robots", "--from-urdf", "solo12"), "ends: must be given for a robot other than talos, anymal"),
+    (("plan", "flat", "--scale", "0"), "--scale: must lie in [0.001, 1000], got 0.0"),
+    (("plan", "flat", "--sole-inside", "3"), "--sole-inside: must be at most 2, got 3"),
+    (("robots", "--from-urdf", "talos", "--end", "foot=nowhere"), "--end foot: must name a link of the URDF"),
+    (
+        ("robots", "--from-urdf", "talos", "--posture", "leg_left_4_jiont=1"),
+        "--posture leg_left_4_jiont: must name a joint of the URDF that has one angle. Did you mean 'leg_left_4_joint'?",
+    ),
+    (("robots", "--from-urdf", "solo12"), "--end: must be given for a robot other than talos, anymal"),
 ]
 
 

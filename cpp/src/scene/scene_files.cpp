@@ -60,7 +60,7 @@ void require_ground_below(const Scene& scene, const Stance& stance, const std::s
   for (int i = 0; i < 3; ++i) at += (i ? ", " : "") + digits(stance.position_W[i], "%.4g");
   throw InvalidScene(
       field + ".position", "must be a point of the ground below the robot, near the surfaces that its contacts name",
-      "[" + at + "], " + digits(nearest, "%.3g") + " m " + (over ? "off " : "beside ") + model::quote(near_name));
+      "[" + at + "], " + digits(nearest, "%.3g") + " m " + (over ? "off " : "beside ") + model::shown(near_name));
 }
 
 }  // namespace

@@ -10,7 +10,9 @@ from typing import Any
 
 from mcplan.cli.interrupts import CODE, Watch
 from mcplan.cli.terminal import guarded, printable
-from mcplan.errors import InvalidInput, MissingExtra, SuspiciousGeometry, UnknownName
+from mcplan.errors import InvalidInput, MissingExtra, SimplerDrawing, SuspiciousGeometry, SuspiciousName, UnknownName
+
+_OURS = (SimplerDrawing, SuspiciousGeometry, SuspiciousName)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -81,12 +83,13 @@ def _warnings_as_lines() -> Iterator[None]:
         others = warnings.showwarning
 
         def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
-            if issubclass(category, SuspiciousGeometry):
+            if issubclass(category, _OURS):
                 print(f"warning: {printable(' '.join(str(message).split()))}", file=sys.stderr)
             else:
                 others(message, category, *where, **more)
 
-        warnings.simplefilter("always", SuspiciousGeometry)
+        for ours in _OURS:
+            warnings.simplefilter("always", ours)
         warnings.showwarning = show
         yield
 

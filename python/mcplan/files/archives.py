@@ -11,7 +11,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from mcplan.errors import InvalidPlan, shown
+from mcplan.errors import InvalidPlan, shown, written
 from mcplan.files.reading import MOST_PLAN_INFLATED, size_text
 
 _RULE = "must be an .npz file written by mcplan"
@@ -120,9 +120,21 @@ def read_header(arrays: Mapping[str, np.ndarray]) -> dict[str, Any]:
     except (ValueError, RecursionError) as found:
         raise InvalidPlan("header", "must be JSON", _first_line(found)) from None
     if not isinstance(header, dict):
-        raise InvalidPlan("header", "must be a JSON object", type(header).__name__)
+        raise InvalidPlan("header", "must be a JSON object", written(header))
     _require_text("header", header)
     return header
+
+
+def require_members(header: Mapping[str, Any], members: Mapping[str, type]) -> None:
+    """That a header has members of these types, texts or objects.
+
+    Raises:
+        InvalidPlan: One is missing or of another type.
+    """
+    for key, kind in members.items():
+        if not isinstance(header.get(key), kind):
+            rule = f"must be {'a string' if kind is str else 'an object'}"
+            raise InvalidPlan(f"header.{key}", rule, written(header[key]) if key in header else "nothing")
 
 
 def _require_text(where: str, value: Any) -> None:
@@ -136,7 +148,7 @@ def _require_text(where: str, value: Any) -> None:
         elif isinstance(value, list):
             left += [(f"{where}[{i}]", inner) for i, inner in enumerate(value) if not isinstance(inner, float)]
         elif isinstance(value, str) and any("\ud800" <= character <= "\udfff" for character in value):
-            raise InvalidPlan(where, "must be text", shown(value))
+            raise InvalidPlan(where, "must be text", written(value))
 
 
 def _first_line(error: BaseException) -> str:

@@ -40,8 +40,8 @@ from mcplan._core import (
     plan_from_json,
     plan_to_json,
 )
-from mcplan.errors import InvalidInput, InvalidPlan, shown
-from mcplan.files.archives import archive_bytes, read_arrays, read_header
+from mcplan.errors import InvalidInput, InvalidPlan, written
+from mcplan.files.archives import archive_bytes, read_arrays, read_header, require_members
 from mcplan.files.builtin import exists
 from mcplan.files.outputs import ARCHIVE, JSON, require_suffix, write_whole
 from mcplan.files.reading import MOST_PLAN, read_file
@@ -315,12 +315,12 @@ def _part(field: str, read: Callable[[Any], Any], data: Any) -> Any:
 def _read_header(arrays: dict[str, np.ndarray]) -> dict[str, Any]:
     header = read_header(arrays)
     if header.get("kind") is not None:
-        raise InvalidPlan("header.kind", "must be none: a plan of contacts and CoM", shown(header["kind"]))
+        raise InvalidPlan("header.kind", "must be none: a plan of contacts and CoM", written(header["kind"]))
     if type(header.get("format")) is not int or header["format"] not in FORMATS:
-        raise InvalidPlan("header.format", "must be 1, 2 or 3 for this version of mcplan", shown(header.get("format")))
-    for key, kind in (("planner", str), ("scene", dict), ("robot", dict)):
-        if not isinstance(header.get(key), kind):
-            raise InvalidPlan(f"header.{key}", f"must be a {kind.__name__}", type(header.get(key)).__name__)
+        raise InvalidPlan(
+            "header.format", "must be 1, 2 or 3 for this version of mcplan", written(header.get("format"))
+        )
+    require_members(header, {"planner": str, "scene": dict, "robot": dict})
     return header
 
 
