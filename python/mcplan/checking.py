@@ -8,6 +8,7 @@ from mcplan import _core
 from mcplan._core import CheckResult, Plan, PlanarPlan, PlanarTolerances, Robot, Scene, Tolerances
 from mcplan.arguments import require, titled
 from mcplan.errors import InvalidArgument
+from mcplan.files.meeting import warn_of_names
 
 _TAKES: dict[type, dict[str, tuple[type, ...]]] = {
     Plan: {"scene": (Scene, type(None)), "robot": (Robot, type(None)), "tolerances": (Tolerances,)},
@@ -43,10 +44,16 @@ def check(plan: Any, *given: Any, **named: Any) -> CheckResult:
         Interrupted: Ctrl-C, with what was found by then.
     """
     try:
-        return _core.check(plan, *given, **named)
+        found = _core.check(plan, *given, **named)
     except TypeError:  # only now is it worth a look which argument it was
         _require_taken(plan, given, named)
         raise
+    if isinstance(plan, Plan):
+        scene, robot = (
+            named.get(name, given[i] if i < len(given) else None) for i, name in enumerate(("scene", "robot"))
+        )
+        warn_of_names(scene or plan.scene, robot or plan.robot)
+    return found
 
 
 def _require_taken(plan: Any, given: tuple[Any, ...], named: dict[str, Any]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import json
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -17,7 +18,9 @@ __all__ = [
     "InvalidScene",
     "MissingExtra",
     "PlanViolated",
+    "SimplerDrawing",
     "SuspiciousGeometry",
+    "SuspiciousName",
     "UnknownMotion",
     "UnknownName",
     "UnknownRobot",
@@ -48,6 +51,20 @@ def shown(value: Any, most: int = _MOST_TEXT) -> str:
     except Exception:  # whole numbers of more digits than Python writes, what is nested too deep, or is not ours
         text = f"a whole number of {value.bit_length()} bits" if isinstance(value, int) else f"a {type(value).__name__}"
     text = printable(text)
+    return text if len(text) <= most else text[: most - 3] + "..."
+
+
+def written(value: Any, most: int = _MOST_TEXT) -> str:
+    """A value from a file as text for a message, in the words of the file and not of Python: true, null, "x".
+
+    Args:
+        value: As JSON has them; others are shown as Python does.
+        most: Characters at most.
+    """
+    try:
+        text = printable(json.dumps(value, ensure_ascii=False))
+    except (TypeError, ValueError, RecursionError):
+        return shown(value, most)
     return text if len(text) <= most else text[: most - 3] + "..."
 
 
@@ -149,6 +166,14 @@ class InvalidArgument(InvalidInput, TypeError):
 
 class SuspiciousGeometry(UserWarning):
     """A file says what it can hardly mean, such as lengths in millimetres. It is read nevertheless."""
+
+
+class SuspiciousName(UserWarning):
+    """A scene has a name of an end-effector that the robot has almost, or none that it has. It is passed over."""
+
+
+class SimplerDrawing(UserWarning):
+    """A robot is drawn as a stick robot, since its meshes cannot be: none to be read, or no posture follows the plan."""
 
 
 class UnknownName(ValueError):

@@ -77,12 +77,22 @@ def _set(target: Any, name: str, value: Any, prefix: str = "") -> None:
     try:
         setattr(target, name, value)
     except TypeError:
-        raise InvalidOptions(prefix + name, _type_rule(target, name), shown(value)) from None
+        raise InvalidOptions(prefix + name, _type_rule(target, name, value), shown(value)) from None
 
 
-def _type_rule(target: Any, name: str) -> str:
-    """What type an option has, by its value."""
+def _type_rule(target: Any, name: str, given: Any) -> str:
+    """What an option takes, by its value; whole numbers are refused only where they do not fit."""
     value = getattr(target, name)
+    if type(value) is int and type(given) is int:
+        return "must be at least 0" if given < 0 and not _takes(target, name, -1) else "must have fewer digits"
     if value is None:  # options that are empty by default are callbacks
         return "must be a function or None"
     return f"must be of type {type(value).__name__}"
+
+
+def _takes(target: Any, name: str, value: Any) -> bool:
+    try:
+        setattr(copy.copy(target), name, value)
+    except TypeError:
+        return False
+    return True

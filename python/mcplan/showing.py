@@ -96,8 +96,11 @@ def show(plan: Shown, scene: Scene | None = None, robot: Robot | None = None, re
         from mcplan.view.pages.show_run import show_run
 
         return show_run(plan)
+    from mcplan.files.meeting import warn_of_names
     from mcplan.view.pages.show import show as show_plan
 
+    if scene is not None or robot is not None:
+        warn_of_names(scene or plan.scene, robot or plan.robot)
     return show_plan(plan, scene, robot, report)
 
 

@@ -9,6 +9,7 @@ from typing import Any
 from mcplan._core import Plan, Robot, Scene, require_standing, rhp
 from mcplan.arguments import require_or_path
 from mcplan.errors import Interrupted, InvalidInput
+from mcplan.files.meeting import warn_of_names
 from mcplan.options import fill, start
 from mcplan.solve import robot_of, scene_of
 
@@ -49,6 +50,7 @@ def planner_of(scene: Scene, robot: Robot, sequence: Plan | None, options: rhp.O
     Raises:
         InvalidScene: Without a sequence, which has a start of its own: the robot cannot stand at the scene's start or goal.
     """
+    warn_of_names(scene, robot)
     if sequence is None:
         planner = rhp.RecedingHorizon(scene, robot, options)
         require_standing(scene, robot)

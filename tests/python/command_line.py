@@ -1,8 +1,11 @@
-"""What a command printed, taken apart."""
+"""The verbs of the command, and what it printed, taken apart."""
 
 import json
 
 import pytest
+import typer
+
+from mcplan.cli import app
 
 
 def one_line_error(result: tuple[int, str, str]) -> str:
@@ -16,3 +19,14 @@ def one_line_error(result: tuple[int, str, str]) -> str:
 def strict(text: str) -> dict:
     """JSON without NaN and Infinity."""
     return json.loads(text, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
+
+
+def commands() -> list[tuple[tuple[str, ...], typer.core.TyperCommand]]:
+    """Each verb, those of other distributions and their sub-verbs included, with the words that lead to it."""
+    app.complete("bench")
+    pending, found = [((), typer.main.get_command(app.app))], []
+    while pending:
+        words, command = pending.pop()
+        found.append((words, command))
+        pending += [((*words, name), below) for name, below in getattr(command, "commands", {}).items()]
+    return found

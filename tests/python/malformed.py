@@ -165,7 +165,7 @@ SCENE_BREAKS: list[Break] = [
     # Stances and rules
     (("steps", 0, "end_effector"), DELETE, "steps[0].end_effector", "is required"),
     (("steps", 0, "end_effector"), "", "steps[0].end_effector", "must not be empty"),
-    (("steps", 0, "surface"), "roof", "steps[0].surface", "must name a surface (floor, pad), got 'roof'"),
+    (("steps", 0, "surface"), "roof", "steps[0].surface", 'must name a surface (floor, pad), got "roof"'),
     (("steps", 0), "floor", "steps[0]", "must be a table"),
     (("start",), DELETE, "start", "is required"),
     (("goal",), DELETE, "goal", "is required"),
@@ -183,7 +183,7 @@ SCENE_BREAKS: list[Break] = [
         ("start", "contacts"),
         {"foot": "flor"},
         "start.contacts.foot",
-        "must name a surface (floor, pad), got 'flor'",
+        'must name a surface (floor, pad), got "flor"',
     ),
     (("start", "contacts"), {"foot": 0}, "start.contacts.foot", "must be a string"),
     (("start", "heading"), 0.0, "start.heading", "no such key. Keys: position, yaw, contacts"),
@@ -198,7 +198,7 @@ ROBOT_BREAKS: list[Break] = [
     (("mass",), 0.0, "mass", "must be a positive number"),
     (("mass",), -1.0, "mass", "must be a positive number"),
     (("mass",), NAN, "mass", "must be a finite number"),
-    (("mass",), "heavy", "mass", "must be a number, got 'heavy'"),
+    (("mass",), "heavy", "mass", 'must be a number, got "heavy"'),
     (("inertia",), DELETE, "inertia", "is required"),
     (("inertia",), 1.0, "inertia", "must be a list"),
     (("inertia",), [1.0, 1.0], "inertia", "needs at least 3 entries, got 2"),
@@ -323,7 +323,7 @@ NOT_SCENE_FILES: list[tuple[bytes, str]] = [
     (b"\x00\x01\x02\x03", "is not TOML: "),
     (b"PK\x03\x04\x14\x00\x00\x00\x08\x00\xb7\xac\xce", "must be UTF-8 text"),
     (b"surfaces = " + b"[" * 5000 + b"]" * 5000, "is not TOML: nested too deep"),
-    (b"surfaces = 2026-01-01\n", "surfaces: must be a list, got datetime.date(2026, 1, 1)"),
+    (b"surfaces = 2026-01-01\n", "surfaces: must be a list, got 2026-01-01"),
 ]
 
 

@@ -64,7 +64,7 @@ PYTHON_ROOMS = {
     "option_types": {"_core"},  # generated
     "model": {"_core"},
     "arguments": {"_core", "errors"},
-    "checking": {"_core", "errors", "arguments"},
+    "checking": {"_core", "errors", "arguments", "files"},
     "files": _GROUND,
     "loading": _GROUND | {"files"},
     "solve": _GROUND | {"files"},

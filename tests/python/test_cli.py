@@ -10,11 +10,10 @@ import types
 from pathlib import Path
 
 import pytest
-import typer
 
 import malformed
 import mcplan as mp
-from command_line import one_line_error
+from command_line import commands, one_line_error
 from mcplan.cli import app, main
 from mcplan.files.motions import list_motions, load_motion
 from mcplan.files.planar_robots import list_planar_robots, load_planar_robot
@@ -71,12 +70,12 @@ def test_lists_of_verbs_show_whole_summaries_at_80_columns(words, capsys, monkey
 
 
 def test_a_help_line_says_what_an_option_is():
-    app.complete("bench")
-    pending, lines = [typer.main.get_command(app.app)], {}
-    while pending:
-        command = pending.pop()
-        pending += getattr(command, "commands", {}).values()
-        lines |= {(command.name, param.name): param.help for param in command.params if param.name != "help"}
+    lines = {
+        (command.name, param.name): param.help
+        for _, command in commands()
+        for param in command.params
+        if param.name != "help"
+    }
     assert len(lines) > 100
     assert {
         name: line for name, line in lines.items() if not re.fullmatch(r"(?!Of )[A-Za-z].{7,}[.)]", line or "")
@@ -268,10 +267,14 @@ BAD_WORDS = [
     ),
     (("robots", "--from-urdf", "g1", "--posture", "knee"), "--posture: must read JOINT=ANGLE"),
     (("robots", "--posture", "knee=1"), "--posture: needs --from-urdf"),
-    (("plan", "flat", "--scale", "0"), "scale: must be a positive number, got 0.0"),
-    (("plan", "flat", "--sole-inside", "3"), "sole_inside: must be at most 2, got 3"),
-    (("robots", "--from-urdf", "talos", "--end", "foot=nowhere"), "ends.foot: must name a link of the URDF"),
-    (("robots", "--from-urdf", "solo12"), "ends: must be given for a robot other than talos, anymal"),
+    (("plan", "flat", "--scale", "0"), "--scale: must lie in [0.001, 1000], got 0.0"),
+    (("plan", "flat", "--sole-inside", "3"), "--sole-inside: must be at most 2, got 3"),
+    (("robots", "--from-urdf", "talos", "--end", "foot=nowhere"), "--end foot: must name a link of the URDF"),
+    (
+        ("robots", "--from-urdf", "talos", "--posture", "leg_left_4_jiont=1"),
+        "--posture leg_left_4_jiont: must name a joint of the URDF that has one angle. Did you mean 'leg_left_4_joint'?",
+    ),
+    (("robots", "--from-urdf", "solo12"), "--end: must be given for a robot other than talos, anymal"),
 ]
 
 

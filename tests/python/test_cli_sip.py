@@ -238,18 +238,21 @@ def test_switches_reach_the_planner(options_of):
 WRONG = [
     (("cartweel",), "no motion 'cartweel' and no file of that name. Did you mean 'cartwheel'?"),
     ((), "Missing argument 'TASK'"),
-    (("cartwheel", "--forces", "most"), "forces: must be one of uniform, per_body, per_point, parameters, got 'most'"),
-    (("cartwheel", "--minimise", "energy"), "minimise: must be one of torque, time, none, got 'energy'"),
-    (("cartwheel", "--contact", "glue"), "contact: must be one of tube, band, strict, got 'glue'"),
-    (("cartwheel", "--order", 13), "order: must lie in [3, 12], got 13"),
-    (("cartwheel", "--neq", -1), "neq: must lie in [0, order], got -1"),
-    (("cartwheel", "--free-flyer", "x"), "free_flyer: must be one of computed, parameterised, got 'x'"),
-    (("cartwheel", "--continuous", "x"), "continuous: must be one of hull, extremum, grid, got 'x'"),
-    (("cartwheel", "--hessian", "x"), "hessian: must be one of automatic, exact, gauss_newton, limited_memory, got"),
-    (("cartwheel", "--max-iterations", 0), "max_iterations: must lie in [1, 1000000], got 0"),
-    (("cartwheel", "--time-limit", -1), "time_limit_s: must be a positive number, got -1"),
-    (("cartwheel", "--kinematics", "--minimise", "torque"), "minimise: must be time or none without dynamics"),
-    (("cartwheel", "--kinematics", "--certify"), "certify: needs dynamics"),
+    (
+        ("cartwheel", "--forces", "most"),
+        "--forces: must be one of uniform, per_body, per_point, parameters, got 'most'",
+    ),
+    (("cartwheel", "--minimise", "energy"), "--minimise: must be one of torque, time, none, got 'energy'"),
+    (("cartwheel", "--contact", "glue"), "--contact: must be one of tube, band, strict, got 'glue'"),
+    (("cartwheel", "--order", 13), "--order: must lie in [3, 12], got 13"),
+    (("cartwheel", "--neq", -1), "--neq: must lie in [0, order], got -1"),
+    (("cartwheel", "--free-flyer", "x"), "--free-flyer: must be one of computed, parameterised, got 'x'"),
+    (("cartwheel", "--continuous", "x"), "--continuous: must be one of hull, extremum, grid, got 'x'"),
+    (("cartwheel", "--hessian", "x"), "--hessian: must be one of automatic, exact, gauss_newton, limited_memory, got"),
+    (("cartwheel", "--max-iterations", 0), "--max-iterations: must lie in [1, 1000000], got 0"),
+    (("cartwheel", "--time-limit", -1), "--time-limit: must be a positive number, got -1"),
+    (("cartwheel", "--kinematics", "--minimise", "torque"), "--minimise: must be time or none without dynamics"),
+    (("cartwheel", "--kinematics", "--certify"), "--certify: needs dynamics"),
     (("cartwheel", "--warm-start", "none.npz"), "none.npz: No such file or directory"),
     (("cartwheel", "-o", "/nowhere/at/all.npz"), "--output: must lie in a folder that exists, got /nowhere/at/all.npz"),
     (("cartwheel", "--html", "/nowhere/x.html"), "--html: must lie in a folder that exists, got /nowhere/x.html"),
@@ -266,8 +269,9 @@ def test_wrong_input_gives_one_line_and_exit_code_2(words, message, capsys):
 
 def test_all_options_that_are_out_of_range_are_named(capsys):
     code, _, err = run(capsys, "cartwheel", "--tube", 0, "--order", 13)
-    fields = ["tube_m: must be a positive number", "tube_rad: must be a positive number", "order: must lie in [3, 12]"]
-    assert code == 2 and all(field in err for field in fields)
+    assert code == 2 and err == (
+        "error: --tube: must be a positive number, got 0\nerror: --order: must lie in [3, 12], got 13\n"
+    )
 
 
 def test_a_warm_start_that_does_not_fit_is_named(capsys, plan_file):

@@ -48,7 +48,7 @@ def write(folder: Path, data: dict, name: str = "scene.toml") -> Path:
 def test_a_stance_far_from_its_surfaces_is_refused(size, field, place, where, tmp_path):
     file = write(tmp_path, floor(size, **{field: {"position": [size * x for x in place], "contacts": {"foot": "a"}}}))
     with pytest.raises(
-        mp.errors.InvalidScene, match=rf"scene.toml: {field}.position: must be a point of the ground .* m {where} 'a'"
+        mp.errors.InvalidScene, match=rf"scene.toml: {field}.position: must be a point of the ground .* m {where} \"a\""
     ):
         load_scene(file)
 
@@ -93,7 +93,7 @@ def test_ground_that_faces_down_is_warned_of_and_not_planned_on(tmp_path, capsys
         SuspiciousGeometry, match=r"surfaces\[0\].vertices: faces down, and foot stands on it at the start"
     ):
         scene = load_scene(file)
-    with pytest.raises(mp.errors.InvalidScene, match="start.contacts: must hold the robot up: .* got 'a' faces down"):
+    with pytest.raises(mp.errors.InvalidScene, match='start.contacts: must hold the robot up: .* got "a" faces down'):
         mp.plan(scene, "humanoid44")
     assert main(["plan", str(file)]) == 2
     lines = capsys.readouterr().err.splitlines()
@@ -116,7 +116,8 @@ def test_a_goal_out_of_a_robots_reach_is_refused_once_the_robot_is_known(tmp_pat
     data = floor(25.0, goal={"position": [1.0, 0.0, 2.0], "contacts": {"foot": "a"}})
     scene = load_scene(write(tmp_path, data))
     with pytest.raises(
-        mp.errors.InvalidScene, match=r"goal.position: must be where humanoid44 reaches .*_foot would stand 2 m off 'a'"
+        mp.errors.InvalidScene,
+        match=r"goal.position: must be where humanoid44 reaches .*_foot would stand 2 m off \"a\"",
     ):
         mp.plan(scene, "humanoid44")
 
@@ -162,14 +163,18 @@ def test_other_units_of_a_robot_are_warned_of(changes, message, tmp_path):
 @pytest.mark.parametrize(
     ("stance", "changes", "message"),
     [
-        ("start", {"contacts": {"foot": "ceiling"}}, "start.contacts: must hold the robot up: .* 'ceiling' faces down"),
-        ("goal", {"contacts": {"foot": "ceiling"}}, "goal.contacts: must hold the robot up: .* 'ceiling' faces down"),
+        ("start", {"contacts": {"foot": "ceiling"}}, 'start.contacts: must hold the robot up: .* "ceiling" faces down'),
+        ("goal", {"contacts": {"foot": "ceiling"}}, 'goal.contacts: must hold the robot up: .* "ceiling" faces down'),
         (
             "start",
             {"position_W": [0.0, 0.0, 2.0]},
-            r"start.position: must be where talos_wang .* stand 2 m off 'ground'",
+            r"start.position: must be where talos_wang .* stand 2 m off \"ground\"",
         ),
-        ("goal", {"position_W": [1.0, 0.0, 2.0]}, r"goal.position: must be where talos_wang .* stand 2 m off 'ground'"),
+        (
+            "goal",
+            {"position_W": [1.0, 0.0, 2.0]},
+            r"goal.position: must be where talos_wang .* stand 2 m off \"ground\"",
+        ),
     ],
 )
 def test_plan_and_walk_refuse_a_stance_that_cannot_stand_alike(verb, stance, changes, message):

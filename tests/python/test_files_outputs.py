@@ -91,6 +91,7 @@ def test_a_pipe_gets_the_whole_file_and_stays(tmp_path):
         ("/proc/plan.npz", OSError),
         ("n" * 300 + ".npz", OSError),
         ("loop.npz", OSError),
+        ("", FileNotFoundError),
     ],
 )
 def test_errors_name_the_file_that_was_asked_for(tmp_path, monkeypatch, path, error):

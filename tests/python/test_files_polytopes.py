@@ -37,10 +37,10 @@ def test_a_reference_is_replaced_by_what_it_names(file):
     ("content", "message"),
     [
         ("{", "hopper.toml: end_effectors[0].com_reach.file: must be a JSON file, got reach.json: "),
-        ("[1, 2]", "hopper.toml: end_effectors[0].com_reach.file: must hold an object `polytopes`, got 'reach.json'"),
+        ("[1, 2]", 'hopper.toml: end_effectors[0].com_reach.file: must hold an object `polytopes`, got "reach.json"'),
         (
             '{"polytopes": {"con": {}, "foot": {}}}',
-            "end_effectors[0].com_reach.name: must be in reach.json (con, foot). Did you mean 'con'?, got 'com'",
+            "end_effectors[0].com_reach.name: must be in reach.json (con, foot). Did you mean 'con'?, got \"com\"",
         ),
         ('{"polytopes": {"com": 3}}', "reach.json: com: "),
         ('{"polytopes": {"com": {"A": [[0, 0]], "b": [1]}}}', "reach.json: com: A[0]: needs at least 3 entries, got 2"),

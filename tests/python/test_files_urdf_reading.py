@@ -43,15 +43,15 @@ BAD = {
     "a deep chain": (chain(MOST_CHAIN + 1), "link l200: may be at most the link number 200 of its chain, got 201"),
     "one name twice": (robot(link("a"), link("a")), "link a: must have a name of its own"),
     "no name": (robot("<link/>"), "link: must have a name of its own"),
-    "two roots": (robot(*PAIR), r"link: must be one without a joint above it, the root, got 2: \['a', 'b'\]"),
+    "two roots": (robot(*PAIR), r'link: must be one without a joint above it, the root, got 2: \["a", "b"\]'),
     "none": (robot(), "link: must be one without a joint above it"),
-    "a loop": (robot(*PAIR, joint("j", "a", "b"), joint("k", "b", "a")), "joint k: may not close a loop, got 'a'"),
+    "a loop": (robot(*PAIR, joint("j", "a", "b"), joint("k", "b", "a")), 'joint k: may not close a loop, got "a"'),
     "itself": (robot(link("a"), joint("j", "a", "a")), "joint j: may not close a loop"),
     "two parents": (
         robot(*PAIR, joint("j", "a", "b"), joint("k", "a", "b")),
         "joint k: must be the only joint that carries",
     ),
-    "no such link": (robot(*PAIR, joint("j", "a", "c")), "joint j.child: must name a link, got 'c'"),
+    "no such link": (robot(*PAIR, joint("j", "a", "c")), 'joint j.child: must name a link, got "c"'),
     "nan": (
         robot(link("a", INERTIA.replace('value="1"', 'value="nan"'))),
         "link a: mass.value: must be a finite number",

@@ -88,7 +88,7 @@ def test_all_that_is_wrong_with_a_plan_in_json_is_named_with_its_file(plan, tmp_
     with pytest.raises(mp.errors.InvalidPlan) as found:
         mp.PlanarPlan.load(file)
     assert str(found.value).splitlines() == [
-        f"{file}: motion.robot.gravity: must be a number, got 'x'",
+        f'{file}: motion.robot.gravity: must be a number, got "x"',
         f"{file}: motion.phases[0].min_duration: must be a finite number, got -inf",
         f"{file}: durations[1]: must be a positive number, got 0.0",
     ]
@@ -173,22 +173,22 @@ def in_motion(change):
 DAMAGE = {
     "no header": (without("header"), "header: is required"),
     "header no JSON": (put("header", lambda a: a[:-1]), "header: must be JSON"),
-    "no kind": (header(kind=None), "header.kind: must be 'whole_body', got None"),
-    "another kind": (header(kind="half_body"), "header.kind: must be 'whole_body', got 'half_body'"),
+    "no kind": (header(kind=None), 'header.kind: must be "whole_body", got null'),
+    "another kind": (header(kind="half_body"), 'header.kind: must be "whole_body", got "half_body"'),
     "future format": (header(format=2), "header.format: must be 1 for this version of mcplan, got 2"),
     "format true": (header(format=True), "header.format: must be 1"),
-    "planner a number": (header(planner=1), "header.planner: must be a str, got int"),
+    "planner a number": (header(planner=1), "header.planner: must be a string, got 1"),
     "law of nobody": (
         header(force_law="magic"),
-        "header.force_law: must be one of least_norm, polynomial, got 'magic'",
+        'header.force_law: must be one of least_norm, polynomial, got "magic"',
     ),
     "another law": (header(force_law="polynomial"), r"weights: must have shape \(0,\)"),
-    "no motion": (header(motion=[]), "header.motion: must be a dict, got list"),
+    "no motion": (header(motion=[]), r"header.motion: must be an object, got \[\]"),
     "motion empty": (header(motion={}), "header.motion.robot: is required"),
     "motion with more": (in_motion(lambda m: m.update(speed=1)), "header.motion.speed: no such key. Keys: name,"),
     "mass text": (
         in_motion(lambda m: m["robot"]["bodies"][2].update(mass="heavy")),
-        r"header.motion.robot.bodies\[2\].mass: must be a number, got 'heavy'",
+        r"header.motion.robot.bodies\[2\].mass: must be a number, got \"heavy\"",
     ),
     "no mass": (
         in_motion(lambda m: m["robot"]["bodies"][2].update(mass=0.0)),
@@ -209,7 +209,7 @@ DAMAGE = {
     ),
     "contact in the air": (
         in_motion(lambda m: m["phases"][0]["contacts"][0].update(position_W=[0.0, 0.1])),
-        r"header.motion.phases\[0\].contacts\[0\].position: must lie on surface 'ground'",
+        r"header.motion.phases\[0\].contacts\[0\].position: must lie on surface \"ground\"",
     ),
     "no durations": (without("durations"), "durations: is required"),
     "too few durations": (put("durations", lambda a: a[1:]), "durations: must have 3 entries, got 2"),
@@ -249,10 +249,10 @@ def test_files_of_the_two_kinds_are_told_apart(plan, tmp_path):
     standing_plan().save(tmp_path / "centroidal.npz")
     assert isinstance(load_any_plan(tmp_path / "whole.npz"), mp.PlanarPlan)
     assert isinstance(load_any_plan(tmp_path / "centroidal.npz"), mp.Plan)
-    with pytest.raises(mp.errors.InvalidPlan, match="header.kind: must be 'whole_body', got None"):
+    with pytest.raises(mp.errors.InvalidPlan, match='header.kind: must be "whole_body", got null'):
         mp.PlanarPlan.load(tmp_path / "centroidal.npz")
     with pytest.raises(
-        mp.errors.InvalidPlan, match="header.kind: must be none: a plan of contacts and CoM, got 'whole_body'"
+        mp.errors.InvalidPlan, match='header.kind: must be none: a plan of contacts and CoM, got "whole_body"'
     ):
         mp.Plan.load(tmp_path / "whole.npz")
     with pytest.raises(FileNotFoundError):
@@ -262,11 +262,11 @@ def test_files_of_the_two_kinds_are_told_apart(plan, tmp_path):
     assert isinstance(load_any_plan(tmp_path / "whole.json"), mp.PlanarPlan)
     assert isinstance(load_any_plan(tmp_path / "centroidal.json"), mp.Plan)
     with pytest.raises(
-        mp.errors.InvalidPlan, match="kind: must be 'planar_plan': a plan of a planar robot, got 'plan'"
+        mp.errors.InvalidPlan, match='kind: must be "planar_plan": a plan of a planar robot, got "plan"'
     ):
         mp.PlanarPlan.load(tmp_path / "centroidal.json")
     with pytest.raises(
-        mp.errors.InvalidPlan, match="kind: must be 'plan': a plan of contacts and CoM, got 'planar_plan'"
+        mp.errors.InvalidPlan, match='kind: must be "plan": a plan of contacts and CoM, got "planar_plan"'
     ):
         mp.Plan.load(tmp_path / "whole.json")
 

@@ -97,7 +97,7 @@ def test_bad_urdf_robots_are_named(tmp_path):
         ({"urdf": "/nowhere/robot.urdf"}, "talos: urdf: must be a readable URDF"),
         ({"urdf": str(broken)}, "talos: urdf: must be a readable URDF"),
         ({"urdf": "example-robot-data:nobody"}, "talos: urdf: must be a readable URDF"),
-        ({"posture": {"third_arm": 0.1}}, "talos: posture: must name joints of the URDF, got 'third_arm'"),
+        ({"posture": {"third_arm": 0.1}}, 'talos: posture: must name joints of the URDF, got "third_arm"'),
     ]
     for change, message in cases:
         robot = by_hand.talos()
@@ -111,7 +111,7 @@ def test_bad_urdf_robots_are_named(tmp_path):
 def test_frame_that_the_urdf_lacks_is_named(tmp_path):
     robot = arm_robot(tmp_path)
     robot.end_effectors[0].frame = "thumb"
-    message = r"arm: end_effectors\[0\].frame: must name a frame of the URDF, got 'thumb'"
+    message = r'arm: end_effectors\[0\].frame: must name a frame of the URDF, got "thumb"'
     with pytest.raises(mp.errors.InvalidRobot, match=message):
         load_model(robot)
 

@@ -6,6 +6,7 @@ import gzip
 import pytest
 
 import plans_by_hand as by_hand
+from mcplan.errors import SimplerDrawing
 from mcplan.kinematics.samples import sample
 from mcplan.view import show
 from mcplan.view.robot_urdf import CannotFollow, urdf_robot
@@ -35,6 +36,6 @@ def test_a_plan_out_of_reach_falls_back_to_the_stick_robot(talos):
     plan = by_hand.walk(by_hand.flat(), tall)
     with pytest.raises(CannotFollow, match=r"misses .* at \d"):
         urdf_robot(sample(plan, plan.scene, talos, 10.0), talos)
-    with pytest.warns(UserWarning, match="stick robot instead"):
+    with pytest.warns(SimplerDrawing, match="stick robot instead"):
         page = show(plan)
     assert b"robot/left_foot_upper" in gzip.decompress(page.payload)

@@ -32,7 +32,7 @@ def pictures(out: Path) -> list[Path]:
     for terrain in TERRAINS:
         saved = out / f"walk_{terrain}.npz"
         if saved.exists():
-            written.append(picture(Plan.load(saved), path=out / f"figure_4_{terrain}.png"))
+            written.append(picture(Plan.load(saved), path=out / f"figure_4_{terrain}.png", meshes=False))
     return written
 
 

@@ -46,7 +46,11 @@ std::string text(double value) {
 
 std::string text(int value) { return std::to_string(value); }
 
-std::string text(const std::string& value) { return "'" + value + "'"; }
+std::string text(const std::string& value) {
+  std::string out = "\"";
+  for (const char c : value) out.append(c == '"' || c == '\\' ? 1 : 0, '\\') += c;
+  return out + "\"";
+}
 
 std::string text(const Eigen::Ref<const Eigen::VectorXd>& value) {
   std::ostringstream out;

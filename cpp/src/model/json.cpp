@@ -63,7 +63,7 @@ class ValueBuilder {
     std::sort(keys_.begin(), keys_.end());
     const auto again = std::adjacent_find(keys_.begin(), keys_.end());
     if (again == keys_.end()) return true;
-    reason = "the key " + quote(*again) + " twice";
+    reason = "the key " + shown(std::string(*again)) + " twice";
     return false;
   }
 

@@ -57,15 +57,38 @@ void append_escaped(std::string& out, const Character& c, std::string_view text)
   out += code;
 }
 
-/// Appends until the text is longer than what a message shows.
+/// In quotes of one kind, with control characters and those that no terminal shows written out.
+std::string quoted(std::string_view text, char mark) {
+  std::string out(1, mark);
+  while (!text.empty()) {
+    const Character c = character(text);
+    if (c.code == '\n' || c.code == '\r' || c.code == '\t') {
+      out += c.code == '\n' ? "\\n" : c.code == '\r' ? "\\r" : "\\t";
+    } else if (c.code == static_cast<char32_t>(mark) || c.code == '\\') {
+      out += '\\';
+      out += text[0];
+    } else if (c.sound && (c.code == ' ' || is_shown(c.code))) {
+      out += text.substr(0, c.bytes);
+    } else {
+      append_escaped(out, c, text);
+    }
+    text.remove_prefix(c.bytes);
+  }
+  return out + mark;
+}
+
+/// A text as files write it; what is longer than a message shows is cut.
+std::string string_in_file(std::string_view text) { return quoted(prefix(text, max_shown + 1), '"'); }
+
+/// Appends, as files write it, until the text is longer than what a message shows.
 void append_shown(std::string& out, const Value& value) {
   if (out.size() > 4 * max_shown) return;
-  if (const auto* const flag = value.get<bool>()) out += *flag ? "True" : "False";
+  if (const auto* const flag = value.get<bool>()) out += *flag ? "true" : "false";
   if (const auto* const whole = value.get<std::int64_t>()) out += std::to_string(*whole);
   if (const auto* const number = value.get<double>()) out += number_text(*number);
-  if (const auto* const text = value.get<std::string>()) out += quote(prefix(*text, max_shown + 1));
+  if (const auto* const text = value.get<std::string>()) out += string_in_file(*text);
   if (const auto* const other = value.get<Value::Other>()) out += other->text;
-  if (value.get<Value::Null>()) out += "None";
+  if (value.get<Value::Null>()) out += "null";
   if (const auto* const array = value.get<Value::Array>()) {
     out += '[';
     for (std::size_t i = 0; i < array->size() && out.size() <= 4 * max_shown; ++i) {
@@ -77,10 +100,12 @@ void append_shown(std::string& out, const Value& value) {
   if (const auto* const table = value.get<Value::Table>()) {
     out += '{';
     for (std::size_t i = 0; i < table->size() && out.size() <= 4 * max_shown; ++i) {
-      out += (i > 0 ? ", " : "") + quote(prefix((*table)[i].key, max_shown + 1)) + ": ";
+      const std::string& key = (*table)[i].key;
+      out += (i > 0 ? ", " : " ") + (is_bare_key(key) ? std::string(prefix(key, max_shown + 1)) : string_in_file(key)) +
+             " = ";
       append_shown(out, (*table)[i].value);
     }
-    out += '}';
+    out += table->empty() ? "}" : " }";
   }
 }
 
@@ -139,23 +164,13 @@ std::string digits(const Eigen::Ref<const Eigen::VectorXd>& values, const char* 
 }
 
 std::string quote(std::string_view text) {
-  const char mark = text.find('\'') != text.npos && text.find('"') == text.npos ? '"' : '\'';
-  std::string out(1, mark);
-  while (!text.empty()) {
-    const Character c = character(text);
-    if (c.code == '\n' || c.code == '\r' || c.code == '\t') {
-      out += c.code == '\n' ? "\\n" : c.code == '\r' ? "\\r" : "\\t";
-    } else if (c.code == static_cast<char32_t>(mark) || c.code == '\\') {
-      out += '\\';
-      out += text[0];
-    } else if (c.sound && (c.code == ' ' || is_shown(c.code))) {
-      out += text.substr(0, c.bytes);
-    } else {
-      append_escaped(out, c, text);
-    }
-    text.remove_prefix(c.bytes);
-  }
-  return out + mark;
+  return quoted(text, text.find('\'') != text.npos && text.find('"') == text.npos ? '"' : '\'');
+}
+
+bool is_bare_key(const std::string& key) {
+  return !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
 }
 
 std::string printable(std::string_view text) {

@@ -22,7 +22,10 @@ std::string quote(std::string_view text);
 /// Control characters, and those that no terminal shows, written out.
 std::string printable(std::string_view text);
 
-/// A value as text for a message, 60 characters at most.
+/// Whether a key may stand in TOML without quotes.
+bool is_bare_key(const std::string& key);
+
+/// A value as text for a message, in the words of TOML: true, "x", { a = 1 }. 60 characters at most.
 std::string shown(const Value& value);
 
 /// Characters of UTF-8 text.

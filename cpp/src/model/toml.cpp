@@ -11,6 +11,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <tuple>
 
 #include "mcplan/base/error.hpp"
@@ -52,15 +53,25 @@ bool has_long_key(std::string_view text) {
 
 std::string date_text(const toml::date& date) {
   char out[40];
-  std::snprintf(out, sizeof out, "%d, %d, %d", date.year, date.month, date.day);
+  std::snprintf(out, sizeof out, "%04d-%02d-%02d", date.year, date.month, date.day);
   return out;
 }
 
 std::string time_text(const toml::time& time) {
   char out[60];
-  std::snprintf(out, sizeof out, "%d, %d, %d, %u", time.hour, time.minute, time.second,
-                static_cast<unsigned>(time.nanosecond / 1000));
+  std::snprintf(out, sizeof out, "%02d:%02d:%02d", time.hour, time.minute, time.second);
+  if (time.nanosecond > 0) std::snprintf(out + 8, sizeof out - 8, ".%09u", static_cast<unsigned>(time.nanosecond));
   return out;
+}
+
+std::string date_time_text(const toml::date_time& both) {
+  const std::string text = date_text(both.date) + "T" + time_text(both.time);
+  if (!both.offset) return text;
+  const int minutes = both.offset->minutes;
+  char out[20];
+  std::snprintf(out, sizeof out, "%c%02d:%02d", minutes < 0 ? '-' : '+', std::abs(minutes) / 60,
+                std::abs(minutes) % 60);
+  return text + out;
 }
 
 Value value_of(const toml::node& node, int depth);
@@ -94,10 +105,9 @@ Value value_of(const toml::node& node, int depth) {
   if (const auto* const whole = node.as_integer()) return static_cast<std::int64_t>(whole->get());
   if (const auto* const number = node.as_floating_point()) return number->get();
   if (const auto* const flag = node.as_boolean()) return flag->get();
-  if (const auto* const date = node.as_date()) return Value::Other{"datetime.date(" + date_text(date->get()) + ")"};
-  if (const auto* const time = node.as_time()) return Value::Other{"datetime.time(" + time_text(time->get()) + ")"};
-  const toml::date_time both = node.as_date_time()->get();
-  return Value::Other{"datetime.datetime(" + date_text(both.date) + ", " + time_text(both.time) + ")"};
+  if (const auto* const date = node.as_date()) return Value::Other{date_text(date->get())};
+  if (const auto* const time = node.as_time()) return Value::Other{time_text(time->get())};
+  return Value::Other{date_time_text(node.as_date_time()->get())};
 }
 
 // --- writing ---
@@ -148,12 +158,7 @@ std::string toml_string(std::string_view text) {
   return out + "\"";
 }
 
-std::string toml_key(const std::string& key) {
-  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  });
-  return bare ? key : toml_string(key);
-}
+std::string toml_key(const std::string& key) { return is_bare_key(key) ? key : toml_string(key); }
 
 std::string inline_text(const Value& value) {
   if (const auto* const flag = value.get<bool>()) return *flag ? "true" : "false";

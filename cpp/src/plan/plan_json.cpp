@@ -52,7 +52,8 @@ Value plan_fields(Value data, const PlanKind& kind) {
   auto* const table = data.get<Value::Table>();
   if (!table) throw InvalidPlan("", "must be a JSON object", shown(data));
   const auto said = [&](const char* key) { return data.find(key) ? shown(*data.find(key)) : "nothing"; };
-  if (!is_of(data, kind)) throw InvalidPlan("kind", "must be " + quote(kind.kind) + ": " + kind.meaning, said("kind"));
+  if (!is_of(data, kind))
+    throw InvalidPlan("kind", "must be " + shown(std::string(kind.kind)) + ": " + kind.meaning, said("kind"));
   const auto* const format = data.find("format") ? data.find("format")->get<std::int64_t>() : nullptr;
   if (!format || *format != kind.format)
     throw InvalidPlan("format", "must be " + text(kind.format) + " for this version of mcplan", said("format"));

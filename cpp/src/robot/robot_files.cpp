@@ -34,7 +34,7 @@ Value polytope_entries(const std::string& path, const std::string& field, const 
   }
   const Value* const entries = data.find("polytopes");
   if (!entries || !entries->get<Value::Table>())
-    throw InvalidInput(field, "must hold an object `polytopes`", model::quote(name));
+    throw InvalidInput(field, "must hold an object `polytopes`", model::shown(name));
   return *entries;
 }
 

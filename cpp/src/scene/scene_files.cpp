@@ -42,10 +42,11 @@ void require_ground_below(const Scene& scene, const Stance& stance, const std::s
     over = along > 0.999 && std::abs(polygon.normal_W().z()) > walkable;
   }
   if (nearest <= (over ? max_above : max_beside) * scene_size(scene)) return;
-  throw InvalidScene(field + ".position",
-                     "must be a point of the ground below the robot, near the surfaces that its contacts name",
-                     model::digits(stance.position_W, "%.4g") + ", " + model::digits(nearest, "%.3g") + " m " +
-                         (over ? "off " : "beside ") + model::quote(near_name));
+  std::string at;
+  for (int i = 0; i < 3; ++i) at += (i ? ", " : "") + digits(stance.position_W[i], "%.4g");
+  throw InvalidScene(
+      field + ".position", "must be a point of the ground below the robot, near the surfaces that its contacts name",
+      "[" + at + "], " + digits(nearest, "%.3g") + " m " + (over ? "off " : "beside ") + model::shown(near_name));
 }
 
 }  // namespace

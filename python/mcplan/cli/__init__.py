@@ -10,7 +10,9 @@ from typing import Any
 
 from mcplan.cli.interrupts import CODE, Watch
 from mcplan.cli.terminal import guarded, printable
-from mcplan.errors import InvalidInput, MissingExtra, SuspiciousGeometry, UnknownName
+from mcplan.errors import InvalidInput, MissingExtra, SimplerDrawing, SuspiciousGeometry, SuspiciousName, UnknownName
+
+_OURS = (SimplerDrawing, SuspiciousGeometry, SuspiciousName)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -37,6 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(words: list[str]) -> int:
     try:
+        _require_no_empty(words)
         from mcplan.cli.app import app, complete
 
         complete(words[0])
@@ -60,6 +63,19 @@ def _run(words: list[str]) -> int:
         raise
 
 
+def _require_no_empty(words: list[str]) -> None:
+    """Refuse an empty word before a path is made of it, which would be the working folder.
+
+    Raises:
+        InvalidInput: No option or argument of any verb may be empty; shells make that of a variable that is not set.
+    """
+    for before, word in zip(["", *words], words, strict=False):
+        option, is_value, value = word.partition("=")
+        if word == "" or (word.startswith("--") and is_value and value == ""):
+            where = option if word else f"the word after {before}" if before else "the first word"
+            raise InvalidInput(where, "must not be empty: is a variable of the shell not set?")
+
+
 @contextlib.contextmanager
 def _warnings_as_lines() -> Iterator[None]:
     """Warnings of ours are one line on stderr, each time."""
@@ -67,12 +83,13 @@ def _warnings_as_lines() -> Iterator[None]:
         others = warnings.showwarning
 
         def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
-            if issubclass(category, SuspiciousGeometry):
+            if issubclass(category, _OURS):
                 print(f"warning: {printable(' '.join(str(message).split()))}", file=sys.stderr)
             else:
                 others(message, category, *where, **more)
 
-        warnings.simplefilter("always", SuspiciousGeometry)
+        for ours in _OURS:
+            warnings.simplefilter("always", ours)
         warnings.showwarning = show
         yield
 

@@ -49,8 +49,8 @@ def check(
     Example: mcplan check plan.npz --robot talos
     """
     from mcplan._core import PlanarPlan
-    from mcplan._core import check as run
     from mcplan._core.sip import certify as prove
+    from mcplan.checking import check as run
     from mcplan.errors import InvalidInput
     from mcplan.files.whole_body_plans import load_any_plan
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mcplan.cli.contacts_text import contact_rows
+from mcplan.cli.given_options import named_as_typed
 
 if TYPE_CHECKING:
     from mcplan._core import PlanResult
@@ -60,6 +61,11 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.
 VerboseOption = Annotated[bool, typer.Option("-v", "--verbose", help="Print the table of iterations on stderr.")]
 
 
+@named_as_typed(
+    *("scale", "sole_inside", "phases", "model", "method", "time_limit", "threads", "seed"),
+    time_limit_s="--time-limit",
+    flight_duration_min_s="--min-flight",
+)
 def plan(
     scene: SceneArgument,
     robot: RobotOption = "humanoid44",

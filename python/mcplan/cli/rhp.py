@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mcplan.cli.given_options import named_as_typed
+
 if TYPE_CHECKING:
     from mcplan import rhp as engine
     from mcplan._core import Plan, Robot, Scene
@@ -51,6 +53,9 @@ VerboseOption = Annotated[
 QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print no line per cycle on stderr.")]
 
 
+@named_as_typed(
+    "scale", "fidelity", "lookahead", "cycles", "transcription", "paper", "lifted_psi", time_limit_s="--time-limit"
+)
 def rhp(
     terrain: TerrainArgument,
     robot: RobotOption = None,

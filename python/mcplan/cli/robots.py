@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from mcplan.cli.given_options import named_as_typed
 from mcplan.cli.terminal import say
 
 if TYPE_CHECKING:
@@ -51,6 +52,7 @@ SeedOption = Annotated[int, typer.Option("--seed", metavar="SEED", help="Seed of
 OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file for the robot.")]
 
 
+@named_as_typed("posture", "srdf", "faces", "seed", source="--from-urdf", ends="--end")
 def robots(
     name: NameArgument = None,
     from_urdf: FromUrdfOption = None,

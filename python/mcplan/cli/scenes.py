@@ -75,11 +75,14 @@ def scenes(
 def _page(scene: Scene, robot: str | None) -> Page:
     """The scene with the robot asked for, else with the paper's humanoid or, where that cannot stand, with none."""
     from mcplan.errors import InvalidScene
+    from mcplan.files.meeting import warn_of_names
     from mcplan.files.robots import load_robot
     from mcplan.view import show_scene
 
     if robot is not None:
-        return show_scene(scene, load_robot(robot))
+        chosen = load_robot(robot)
+        warn_of_names(scene, chosen)
+        return show_scene(scene, chosen)
     try:
         return show_scene(scene, load_robot("humanoid44"))
     except InvalidScene:

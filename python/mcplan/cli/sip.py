@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mcplan.cli.given_options import named_as_typed
+
 if TYPE_CHECKING:
     from mcplan import sip as engine
     from mcplan._core import PlanarTask
@@ -95,6 +97,14 @@ VerboseOption = Annotated[bool, typer.Option("-v", "--verbose", help="Print the 
 QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print no progress on stderr.")]
 
 
+@named_as_typed(
+    *("forces", "minimise", "contact", "order", "neq", "free_flyer", "free_durations", "continuous", "self_collision"),
+    *("warm_start", "hessian", "max_iterations", "certify"),
+    dynamics="--kinematics",
+    tube_m="--tube",
+    tube_rad="--tube",
+    time_limit_s="--time-limit",
+)
 def sip(
     motion: MotionArgument,
     forces: ForcesOption = "per-point",

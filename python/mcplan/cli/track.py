@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mcplan.cli.given_options import named_as_typed
+
 if TYPE_CHECKING:
     from mcplan._core import Plan, PlanarPlan, Robot
     from mcplan.planar.tracking import Suitability
@@ -61,6 +63,15 @@ QuietOption = Annotated[
 ]
 
 
+@named_as_typed(
+    "robot",
+    "assist",
+    "mass_scale",
+    "seed",
+    pushes="--push",
+    friction_scale="--friction",
+    ground_shift_m="--ground-shift",
+)
 def track(
     plan: PlanArgument,
     robot: RobotOption = None,

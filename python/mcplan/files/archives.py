@@ -11,7 +11,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from mcplan.errors import InvalidPlan, shown
+from mcplan.errors import InvalidPlan, shown, written
 from mcplan.files.reading import MOST_PLAN_INFLATED, size_text
 
 _RULE = "must be an .npz file written by mcplan"
@@ -120,16 +120,17 @@ def read_header(arrays: Mapping[str, np.ndarray]) -> dict[str, Any]:
     except (ValueError, RecursionError) as found:
         raise InvalidPlan("header", "must be JSON", _first_line(found)) from None
     if not isinstance(header, dict):
-        raise InvalidPlan("header", "must be a JSON object", type(header).__name__)
+        raise InvalidPlan("header", "must be a JSON object", written(header))
     _require_text("header", header)
     return header
 
 
 def require_members(header: Mapping[str, Any], **kinds: type) -> None:
-    """Raise InvalidPlan for a member of a header that is missing or of another kind."""
+    """Raise InvalidPlan for a member of a header that is missing or of another type: texts or objects."""
     for key, kind in kinds.items():
         if not isinstance(header.get(key), kind):
-            raise InvalidPlan(f"header.{key}", f"must be a {kind.__name__}", type(header.get(key)).__name__)
+            rule = f"must be {'a string' if kind is str else 'an object'}"
+            raise InvalidPlan(f"header.{key}", rule, written(header[key]) if key in header else "nothing")
 
 
 def require_kind(arrays: Mapping[str, np.ndarray], name: str, integers: bool = False) -> None:
@@ -152,7 +153,7 @@ def _require_text(where: str, value: Any) -> None:
         elif isinstance(value, list):
             left += [(f"{where}[{i}]", inner) for i, inner in enumerate(value) if not isinstance(inner, float)]
         elif isinstance(value, str) and any("\ud800" <= character <= "\udfff" for character in value):
-            raise InvalidPlan(where, "must be text", shown(value))
+            raise InvalidPlan(where, "must be text", written(value))
 
 
 def _first_line(error: BaseException) -> str:

@@ -47,6 +47,7 @@ def whole_file(path: str | Path) -> Iterator[Path]:
     Raises:
         OSError: The file cannot be written; ``filename`` is the path as given.
     """
+    _require_named(path)
     target = Path(path)
     with _told_of(target):
         through = is_special(target)
@@ -85,7 +86,9 @@ def require_suffix(field: str, path: str | Path, suffixes: Sequence[str]) -> Non
 
     Raises:
         InvalidInput: It ends in none of the suffixes, which the message lists, and is no device or pipe.
+        FileNotFoundError: It is empty.
     """
+    _require_named(path)
     target = Path(path)
     if target.suffix.lower() in suffixes or is_special(target):
         return
@@ -132,6 +135,18 @@ def require_folder(field: str, path: Path | None) -> None:
     require_writable(field, folder, path)
 
 
+def made_folder(path: str | Path) -> Path:
+    """A folder for several files, which is made if it does not exist.
+
+    Raises:
+        OSError: The folder cannot be made; or the path is empty.
+    """
+    _require_named(path)
+    folder = Path(path)
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
 def require_writable(field: str, folder: Path, path: Path) -> None:
     """Raises InvalidInput if no file can be made in the folder; the message names `path`."""
     try:
@@ -139,6 +154,12 @@ def require_writable(field: str, folder: Path, path: Path) -> None:
     except OSError as found:
         rule = "must lie in a folder that can be written to"
         raise InvalidInput(field, rule, f"{path} ({found.strerror})") from None
+
+
+def _require_named(path: str | Path) -> None:
+    """An empty path is none: ``Path`` makes the working folder of it."""
+    if not os.fspath(path):
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), "")
 
 
 def _require_replaceable(target: Path) -> None:

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from mcplan._core import Capsule, PlanarBody, PlanarEndEffector, PlanarRobot
-from mcplan.errors import InvalidRobot, did_you_mean
+from mcplan.errors import InvalidInput, InvalidRobot, did_you_mean
 from mcplan.extras import require
 from mcplan.files.urdf_reading import build_model, read_urdf
 
@@ -70,8 +70,9 @@ def planar_robot_from_urdf(
 
     Raises:
         MissingExtra: Pinocchio is not installed.
-        InvalidRobot: A joint is about another axis, slides or mimics another one, joints form a loop, a link has no mass
-            or no inertia, or an end-effector's link does not exist or is turned out of the plane.
+        InvalidInput: There are no ends, or one's link does not exist or is turned out of the plane.
+        InvalidRobot: A joint is about another axis, slides or mimics another one, joints form a loop, or a link has no mass
+            or no inertia; the message names the file.
     """
     require("mcplan robots --planar --from-urdf", "view", "pinocchio")
     source = str(path)
@@ -99,7 +100,7 @@ def _robot(model: Any, ends: Sequence[PlanarEnd], radius: float) -> PlanarRobot:
     import pinocchio as pin
 
     if not ends:
-        raise InvalidRobot("end_effectors", "needs one at least")
+        raise InvalidInput("ends", "needs one at least")
     data, neutral = model.createData(), pin.neutral(model)
     pin.computeJointJacobians(model, data, neutral)
     pin.framesForwardKinematics(model, data, neutral)
@@ -189,13 +190,13 @@ def _end_effector(model: Any, data: Any, end: PlanarEnd, plane: _Plane) -> Plana
     links = [frame.name for frame in model.frames if model.existBodyName(frame.name)]
     if end.frame not in links:
         rule = f"must name a link of the URDF. {did_you_mean(end.frame, links)}There are: {', '.join(links)}"
-        raise InvalidRobot(f"end_effectors.{end.name}", rule, repr(end.frame))
+        raise InvalidInput(f"ends.{end.name}", rule, repr(end.frame))
     index = model.getBodyId(end.frame)
     joint, placement = model.frames[index].parentJoint, data.oMf[index]
     outward = placement.rotation[:, 1 if abs(plane.normal[2]) > 0.5 else 2]
     if abs(outward @ plane.normal) > _PARALLEL:
         rule = f"must name a link whose {'y' if abs(plane.normal[2]) > 0.5 else 'z'} axis lies in the plane"
-        raise InvalidRobot(f"end_effectors.{end.name}", rule, repr(end.frame))
+        raise InvalidInput(f"ends.{end.name}", rule, repr(end.frame))
     along, above = plane.project(outward)
     return PlanarEndEffector(
         name=end.name,

@@ -37,7 +37,7 @@ from mcplan._core import (
     plan_from_json,
     plan_to_json,
 )
-from mcplan.errors import InvalidInput, InvalidPlan, shown
+from mcplan.errors import InvalidInput, InvalidPlan, written
 from mcplan.files.archives import archive_bytes, read_arrays, read_header, require_kind, require_members
 from mcplan.files.plan_files import load_plan_file, write_plan_file
 from mcplan.files.robots import robot_from_dict, robot_to_dict
@@ -296,9 +296,11 @@ def _part(field: str, read: Callable[[Any], Any], data: Any) -> Any:
 def _read_header(arrays: dict[str, np.ndarray]) -> dict[str, Any]:
     header = read_header(arrays)
     if header.get("kind") is not None:
-        raise InvalidPlan("header.kind", "must be none: a plan of contacts and CoM", shown(header["kind"]))
+        raise InvalidPlan("header.kind", "must be none: a plan of contacts and CoM", written(header["kind"]))
     if type(header.get("format")) is not int or header["format"] not in FORMATS:
-        raise InvalidPlan("header.format", "must be 1, 2 or 3 for this version of mcplan", shown(header.get("format")))
+        raise InvalidPlan(
+            "header.format", "must be 1, 2 or 3 for this version of mcplan", written(header.get("format"))
+        )
     require_members(header, planner=str, scene=dict, robot=dict)
     return header
 

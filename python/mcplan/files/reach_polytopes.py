@@ -81,7 +81,7 @@ def add_reach_polytopes(
     """
     require("mcplan robots --reach-polytopes", "view", "pinocchio", "example_robot_data", "scipy")
     if faces < 6:
-        raise InvalidInput("--faces", "must be at least 6", str(faces))
+        raise InvalidInput("faces", "must be at least 6", str(faces))
     if samples < 1000:
         raise InvalidInput("samples", "must be at least 1000", str(samples))
     model, nominal, _ = load_model(source, tuple(ends), srdf, posture)
@@ -90,7 +90,7 @@ def add_reach_polytopes(
     made = {end.name: end for end in robot.end_effectors}
     clouds = {}
     for number, foot in enumerate(feet):
-        limb = limb_of(model, nominal, foot, tuple(ends))
+        limb = limb_of(model, nominal, foot, tuple(ends), source)
         clouds[foot.name] = leg_samples(limb, samples, np.random.default_rng([seed, number]))
         if len(clouds[foot.name]) < 100:
             raise InvalidInput(
@@ -198,7 +198,7 @@ def _reduced(points: np.ndarray, nominal: np.ndarray, faces: int) -> tuple[Polyt
     from scipy.spatial import ConvexHull
 
     if len(points) < 100:
-        raise InvalidInput("--reach-polytopes", "needs at least 100 samples within the rules", str(len(points)))
+        raise InvalidInput("samples", "must give 100 points within the rules at least", str(len(points)))
     whole = ConvexHull(points)
     polytope = inner_polytope(np.vstack([nominal, points]), faces)
     share = volume(polytope) / whole.volume

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,9 @@ from mcplan.files import builtin
 from mcplan.files.geometry import warn_of_geometry
 from mcplan.files.outputs import write_whole
 from mcplan.files.toml import toml_text
+
+#: Factors on a scene's lengths: between robots as small as a grain and as high as a mountain.
+SCALES = (1e-3, 1e3)
 
 
 def list_scenes() -> list[str]:
@@ -72,10 +74,10 @@ def scaled(scene: Scene, factor: float) -> Scene:
         factor: E.g. the ratio of two robots' CoM heights.
 
     Raises:
-        InvalidOptions: The factor is not a positive number.
+        InvalidOptions: The factor is out of the range of SCALES.
     """
-    if not (math.isfinite(factor) and factor > 0.0):
-        raise InvalidOptions("scale", "must be a positive number", str(factor))
+    if not SCALES[0] <= factor <= SCALES[1]:
+        raise InvalidOptions("scale", f"must lie in [{SCALES[0]:g}, {SCALES[1]:g}]", str(factor))
     out = scene.__copy__()
     for surface in out.surfaces:
         surface.vertices_W = factor * surface.vertices_W

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from mcplan._core import EndEffector, Robot
-from mcplan.errors import InvalidInput, shown
+from mcplan.errors import InvalidInput, did_you_mean, shown, written
 from mcplan.extras import require
 from mcplan.files.builtin import exists
 from mcplan.files.reach import HEADING_MOST, Limb, explore, headings_reached, largest_box
@@ -101,7 +101,7 @@ def robot_from_urdf(
 
     Raises:
         MissingExtra: Pinocchio is not installed.
-        InvalidInput: No such URDF, frame, joint or setup.
+        InvalidInput: No such URDF, frame, joint or setup (an argument is named), or something in a file (the file is).
     """
     require("mcplan robots --from-urdf", "view", "pinocchio", "example_robot_data")
     setup = SETUPS.get(source)
@@ -110,8 +110,8 @@ def robot_from_urdf(
     if not any(end.kind == "foot" for end in ends):
         raise InvalidInput("ends", "needs one of kind foot at least, whose height is the ground's")
 
-    mass, inertia, com_height = _centroidal(model, nominal, ends)
-    limbs = {end.name: limb_of(model, nominal, end, ends) for end in ends}
+    mass, inertia, com_height = _centroidal(model, nominal, ends, source)
+    limbs = {end.name: limb_of(model, nominal, end, ends, source) for end in ends}
     boxes = {}
     step = max(step, _LEAST_STEP * com_height)
     for end in ends:
@@ -136,7 +136,7 @@ def robot_from_urdf(
     )
 
 
-def _centroidal(model: Any, nominal: np.ndarray, ends: tuple[End, ...]) -> tuple[float, np.ndarray, float]:
+def _centroidal(model: Any, nominal: np.ndarray, ends: tuple[End, ...], source: str) -> tuple[float, np.ndarray, float]:
     """Mass [kg], inertia about the CoM [kg m^2] and height of the CoM above the feet [m] in the nominal posture."""
     import pinocchio as pin
 
@@ -147,7 +147,7 @@ def _centroidal(model: Any, nominal: np.ndarray, ends: tuple[End, ...]) -> tuple
     pin.framesForwardKinematics(model, data, nominal)
     soles = [data.oMf[f].translation[2] for f, end in zip(frames, ends, strict=True) if end.kind == "foot"]
     com_height = float(com[2] - np.mean(soles))
-    _require_size(mass, com_height, inertia)
+    _require_size(mass, com_height, inertia, source)
     return mass, inertia, com_height
 
 
@@ -158,15 +158,15 @@ def _posture_of(model: Any, nominal: np.ndarray) -> dict[str, float]:
     }
 
 
-def _require_size(mass: float, com_height: float, inertia: np.ndarray) -> None:
+def _require_size(mass: float, com_height: float, inertia: np.ndarray, source: str) -> None:
     """A robot that stands and is no larger than a crane: lengths of URDFs are easily given in millimetres."""
     if not (np.isfinite(mass) and mass > 0.0):
-        raise InvalidInput("mass", "must be a positive number: links need their inertial", f"{mass:g} kg")
+        raise InvalidInput("mass", "must be a positive number: links need their inertial", f"{mass:g} kg", source)
     if not (np.isfinite(inertia).all() and np.diag(inertia).min() > 0.0):
-        raise InvalidInput("inertia", "must be positive about every axis", shown(np.diag(inertia).tolist()))
+        raise InvalidInput("inertia", "must be positive about every axis", written(np.diag(inertia).tolist()), source)
     if not 1e-3 < com_height < MOST_COM_HEIGHT:
         rule = f"must lie between 0.001 and {MOST_COM_HEIGHT:g} m above the feet; lengths are in metres"
-        raise InvalidInput("com_height", rule, f"{com_height:g} m")
+        raise InvalidInput("com_height", rule, f"{com_height:g} m", source)
 
 
 def header(command: str, step: float = 0.02, own_posture: bool = False) -> str:
@@ -215,8 +215,12 @@ def contact_frame(model: Any, end: End) -> int:
     return model.getFrameId(name)
 
 
-def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...]) -> Limb:
-    """The limb that carries an end-effector: the joints on the way to it that carry no other one."""
+def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...], source: str = "") -> Limb:
+    """The limb that carries an end-effector: the joints on the way to it that carry no other one.
+
+    Raises:
+        InvalidInput: There is no such joint, or one has more than an angle: the message names the source, the URDF.
+    """
     import pinocchio as pin
 
     def carriers(frame: str) -> list[int]:
@@ -228,7 +232,7 @@ def limb_of(model: Any, posture: np.ndarray, end: End, ends: tuple[End, ...]) ->
         raise InvalidInput(f"ends.{end.name}", "must be moved by a joint that moves no other one", shown(end.frame))
     for joint in own:
         if model.nqs[joint] != 1:
-            raise InvalidInput(f"joint {model.names[joint]}", "must have one angle and limits")
+            raise InvalidInput(f"joint {model.names[joint]}", "must have one angle and limits", "", source)
     locked = [j for j in range(2, model.njoints) if j not in own]  # joint 1 is the free base: its mass counts
     reduced = pin.buildReducedModel(model, locked, posture)
     nominal = np.array([posture[model.idx_qs[j]] for j in own])
@@ -263,12 +267,16 @@ def load_model(
     model, nominal, urdf = _read(source, srdf)
     for end in ends_of(source, ends):
         if not model.existBodyName(end.frame):
-            raise InvalidInput(f"ends.{end.name}", "must name a link of the URDF", repr(end.frame))
+            links = [frame.name for frame in model.frames if model.existBodyName(frame.name)]
+            rule = f"must name a link of the URDF. {did_you_mean(end.frame, links)}".rstrip(" .")
+            raise InvalidInput(f"ends.{end.name}", rule, repr(end.frame))
     if posture is None:
         posture = SETUPS[source].posture if source in SETUPS else {}
     for joint, angle in posture.items():
         if not model.existJointName(joint) or model.nqs[model.getJointId(joint)] != 1:
-            raise InvalidInput(f"posture.{joint}", "must name a joint of the URDF that has one angle")
+            near = did_you_mean(joint, [name for name, size in zip(model.names, model.nqs, strict=True) if size == 1])
+            rule = f"must name a joint of the URDF that has one angle. {near}".rstrip(" .")
+            raise InvalidInput(f"posture.{joint}", rule)
         nominal[model.idx_qs[model.getJointId(joint)]] = angle
     return model, nominal, urdf
 
@@ -277,7 +285,7 @@ def _read(source: str, srdf: str | None) -> tuple[Any, np.ndarray, str]:
     import pinocchio as pin
 
     if exists(source):
-        model = build_model(read_urdf(source, InvalidInput, "--from-urdf", ""), InvalidInput, source)
+        model = build_model(read_urdf(source, InvalidInput), InvalidInput, source)
         if srdf is None:
             return model, pin.neutral(model), source
         return model, _first_posture(model, srdf), source
@@ -286,23 +294,21 @@ def _read(source: str, srdf: str | None) -> tuple[Any, np.ndarray, str]:
     try:
         loaded = example_robot_data.load(source)
     except Exception as found:  # its loaders raise what the file system or the parser happen to raise
-        raise InvalidInput(
-            "--from-urdf", "must be a URDF file or a name of example-robot-data", repr(source)
-        ) from found
+        raise InvalidInput("source", "must be a URDF file or a name of example-robot-data", repr(source)) from found
     return loaded.model, loaded.q0.copy(), f"example-robot-data:{source}"
 
 
 def _first_posture(model: Any, srdf: str) -> np.ndarray:
     import pinocchio as pin
 
-    xml = read_xml(srdf, InvalidInput, "--srdf", "")
+    xml = read_xml(srdf, InvalidInput)
     try:
         pin.loadReferenceConfigurationsFromXML(model, xml.text)
         posture = np.array(next(iter(model.referenceConfigurations)).data())
     except Exception as found:  # of Pinocchio's parser; StopIteration: there is none
-        raise InvalidInput("--srdf", "must hold a posture (group_state) of the robot", shown(srdf)) from found
+        raise InvalidInput("", "must hold a posture (group_state) of the robot", "none", srdf) from found
     if posture.shape != (model.nq,) or not np.isfinite(posture).all():
-        raise InvalidInput("--srdf", "must hold a posture of finite angles", shown(srdf))
+        raise InvalidInput("group_state", "must hold a posture of finite angles", "another", srdf)
     return posture
 
 

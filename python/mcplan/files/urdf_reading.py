@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 from xml.parsers import expat
 
-from mcplan.errors import InvalidInput, shown, together
+from mcplan.errors import InvalidInput, shown, together, written
 from mcplan.files.reading import MOST_MESH, MOST_URDF, read_file, require_regular_file
 
 #: Links of a robot, and of a chain of them from the root.
@@ -74,7 +74,7 @@ def read_urdf(path: str | Path, error: type[InvalidInput], field: str = "", sour
     prefix = f"{field}: " if field else ""
     if xml.root.tag != "robot":
         rule = f"{prefix}must be a URDF file, with the root element robot"
-        raise error("", rule, shown(xml.root.tag), source)
+        raise error("", rule, written(xml.root.tag), source)
     found = chain(_tree_findings(xml.root), _number_findings(xml.root), _mesh_findings(xml.root, Path(path)))
     findings = [error(f"{prefix}{where}", rule, value, source) for where, rule, value in islice(found, _MOST_FINDINGS)]
     if findings:
@@ -159,7 +159,7 @@ def _tree_findings(root: ElementTree.Element) -> Iterator[_Found]:
         yield "link", f"may be {MOST_LINKS} at most", str(len(links))
         return
     for name in sorted({name for name in links if not name or links.count(name) > 1}):
-        yield f"link {name}".strip(), "must have a name of its own", shown(name)
+        yield f"link {name}".strip(), "must have a name of its own", written(name)
     parents: dict[str, str] = {}
     broken = False
     for joint in root.findall("joint"):
@@ -181,17 +181,17 @@ def _joint_findings(joint: Any, field: str, links: set[str], parents: dict[str, 
             yield f"{field}.{key}", "is required", ""
             return
         if ends[key] not in links:
-            yield f"{field}.{key}", "must name a link", shown(ends[key])
+            yield f"{field}.{key}", "must name a link", written(ends[key])
             return
     parent, child = ends["parent"], ends["child"]
     if child in parents:
-        yield field, "must be the only joint that carries its link (no loops)", shown(child)
+        yield field, "must be the only joint that carries its link (no loops)", written(child)
         return
     above, steps = parent, 0
     while above in parents and above != child and steps <= len(parents):
         above, steps = parents[above], steps + 1
     if above == child:
-        yield field, "may not close a loop", shown(child)
+        yield field, "may not close a loop", written(child)
         return
     parents[child] = parent
 
@@ -199,7 +199,7 @@ def _joint_findings(joint: Any, field: str, links: set[str], parents: dict[str, 
 def _chain_findings(links: list[str], parents: dict[str, str]) -> Iterator[_Found]:
     roots = [name for name in links if name not in parents]
     if len(roots) != 1:
-        yield "link", "must be one without a joint above it, the root", f"{len(roots)}: {shown(roots)}"
+        yield "link", "must be one without a joint above it, the root", f"{len(roots)}: {written(roots)}"
         return
     depth = {roots[0]: 1}
     for link in links:
@@ -222,7 +222,7 @@ def _number_findings(root: ElementTree.Element) -> Iterator[_Found]:
                 value = element.get(name)
                 if value is not None and not _are_numbers(value, count, element.tag == "limit"):
                     rule = "must be a finite number" if count == 1 else f"must be {count} finite numbers"
-                    yield f"{part.tag} {part.get('name')}: {element.tag}.{name}", rule, shown(value)
+                    yield f"{part.tag} {part.get('name')}: {element.tag}.{name}", rule, written(value)
         for limit in part.findall("limit"):
             ends = [limit.get("lower", "0"), limit.get("upper", "0")]
             if all(_are_numbers(end, 1, True) for end in ends) and float(ends[0]) > float(ends[1]):
@@ -231,7 +231,7 @@ def _number_findings(root: ElementTree.Element) -> Iterator[_Found]:
             yield from _inertial_findings(inertial, f"{part.tag} {part.get('name')}")
         for mass in part.findall("inertial/mass"):
             if _are_numbers(mass.get("value", "0"), 1, False) and float(mass.get("value", "0")) < 0.0:
-                yield f"{part.tag} {part.get('name')}: mass.value", "must not be negative", shown(mass.get("value"))
+                yield f"{part.tag} {part.get('name')}: mass.value", "must not be negative", written(mass.get("value"))
 
 
 def _inertial_findings(inertial: Any, field: str) -> Iterator[_Found]:
@@ -268,10 +268,10 @@ def _mesh_findings(root: ElementTree.Element, urdf: Path) -> Iterator[_Found]:
                     yield (
                         field,
                         "must lie in the robot's package: in the folder above the URDF's, or below",
-                        shown(name),
+                        written(name),
                     )
                 elif candidate.suffix.lower() not in _MESH_TYPES:
-                    yield field, f"must end in {', '.join(_MESH_TYPES)}", shown(name)
+                    yield field, f"must end in {', '.join(_MESH_TYPES)}", written(name)
                 else:
                     try:
                         require_regular_file(candidate, MOST_MESH, InvalidInput, field)

@@ -32,7 +32,7 @@ from mcplan._core import (
     planar_task_from_plain,
     planar_task_to_plain,
 )
-from mcplan.errors import InvalidInput, InvalidPlan, shown
+from mcplan.errors import InvalidInput, InvalidPlan, written
 from mcplan.files import plans
 from mcplan.files.archives import archive_bytes, read_arrays, read_header, require_kind, require_members
 from mcplan.files.plan_files import load_plan_file, write_plan_file
@@ -160,13 +160,13 @@ def _point_counts(motion: PlanarTask) -> list[int]:
 
 def _checked_header(header: dict[str, Any]) -> dict[str, Any]:
     if header.get("kind") != KIND:
-        raise InvalidPlan("header.kind", f"must be {KIND!r}", shown(header.get("kind")))
+        raise InvalidPlan("header.kind", f"must be {written(KIND)}", written(header.get("kind")))
     version = header.get("format")
     if type(version) is not int or version != FORMAT:
-        raise InvalidPlan("header.format", f"must be {FORMAT} for this version of mcplan", shown(version))
+        raise InvalidPlan("header.format", f"must be {FORMAT} for this version of mcplan", written(version))
     require_members(header, planner=str, force_law=str, motion=dict)
     if header["force_law"] not in _LAWS:
-        raise InvalidPlan("header.force_law", f"must be one of {', '.join(_LAWS)}", shown(header["force_law"]))
+        raise InvalidPlan("header.force_law", f"must be one of {', '.join(_LAWS)}", written(header["force_law"]))
     return header
 
 

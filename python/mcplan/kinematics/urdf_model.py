@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan.errors import InvalidRobot, shown
+from mcplan.errors import InvalidRobot, shown, written
 from mcplan.extras import require
 from mcplan.files.robots import PACKAGE, list_robots_with
 from mcplan.files.urdf_reading import build_model, package_folders, read_urdf
@@ -49,10 +49,9 @@ class UrdfModel:
     path: Path
 
 
-def _others(robot: Robot) -> str:
-    """Which robots to take instead of one without joints."""
-    names = list_robots_with([end.name for end in robot.end_effectors], joints=True)
-    return f"; plan for one that has (--robot): {', '.join(names)}" if names else ""
+def _others() -> str:
+    """Which robots to plan for instead of one without joints."""
+    return f"; plan for one that has, such as {', '.join(list_robots_with((), joints=True))}"
 
 
 def load_model(robot: Robot) -> UrdfModel:
@@ -63,7 +62,7 @@ def load_model(robot: Robot) -> UrdfModel:
         InvalidRobot: The robot names no URDF, it cannot be read, or it lacks a frame or joint that the robot names.
     """
     if not robot.urdf:
-        raise InvalidRobot("urdf", f"must name a URDF: this robot has no joints{_others(robot)}", "", robot.name)
+        raise InvalidRobot("urdf", f"must name a URDF: this robot has no joints{_others()}", "", robot.name)
     require(f"the joints of {robot.name}", "view", "pinocchio")
     import pinocchio as pin  # type: ignore[import-untyped]
 
@@ -92,7 +91,7 @@ def load_model(robot: Robot) -> UrdfModel:
     neutral[:7] = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
     for joint, angle in robot.posture.items():
         if not model.existJointName(joint):
-            raise InvalidRobot("posture", "must name joints of the URDF", repr(joint), robot.name)
+            raise InvalidRobot("posture", "must name joints of the URDF", written(joint), robot.name)
         neutral[model.joints[model.getJointId(joint)].idx_q] = angle
     armature = model.armature.copy()
     armature[6:] = np.where(armature[6:] > 0.0, armature[6:], ARMATURE)
@@ -121,7 +120,7 @@ def _contact_frames(model: Any, neutral: Array, robot: Robot) -> list[int]:
     for number, end in enumerate(robot.end_effectors):
         if not model.existFrame(end.frame):
             field = f"end_effectors[{number}].frame"
-            raise InvalidRobot(field, "must name a frame of the URDF", repr(end.frame), robot.name)
+            raise InvalidRobot(field, "must name a frame of the URDF", written(end.frame), robot.name)
     data = model.createData()
     pin.framesForwardKinematics(model, data, neutral)
     frames = []

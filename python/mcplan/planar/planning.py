@@ -95,7 +95,7 @@ def require_provable(options: sip.Options) -> None:
     """Raises InvalidOptions where a certificate would be about constraints that the planner leaves out."""
     for name in _PROVED:
         if not getattr(options, name):
-            raise InvalidOptions("certify", f"needs {name}, since a certificate is about all constraints", "True")
+            raise InvalidOptions("certify", f"needs {name}, since a certificate is about all constraints")
 
 
 def motion_of(motion: PlanarTask | str | Path) -> PlanarTask:

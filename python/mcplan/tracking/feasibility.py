@@ -103,7 +103,7 @@ def _matched(plan: Plan, urdf_model: UrdfModel, samples: Samples) -> tuple[UrdfM
     for i, name in enumerate(names):
         if name not in mine and (samples.surfaces[:, i] >= 0).any():
             others = list_robots_with([end.name for end in plan.robot.end_effectors], joints=True)
-            take = f" (--robot: {', '.join(others)})" if others else ""
+            take = f", as {', '.join(others)} have" if others else ""
             own = ", ".join(end.name for end in robot.end_effectors)
             raise InvalidRobot("end_effectors", f"must have {name!r}, which the plan puts down{take}", own, robot.name)
     order = [names.index(name) for name in mine]

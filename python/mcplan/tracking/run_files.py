@@ -22,7 +22,7 @@ from typing import Any, Protocol, TypeVar, cast
 import numpy as np
 
 from mcplan._core import __version__
-from mcplan.errors import InvalidInput, shown
+from mcplan.errors import InvalidInput, shown, written
 from mcplan.files import whole_body_plans
 from mcplan.files.archives import read_arrays, read_header
 from mcplan.files.builtin import exists
@@ -121,10 +121,12 @@ def load_run(
         if not isinstance(kind, str) or kind not in (RUN, PLANAR_RUN):
             if otherwise is not None:
                 return otherwise(path)
-            raise InvalidInput("header.kind", f"must be {RUN!r} or {PLANAR_RUN!r}: no file of a run", shown(kind))
+            raise InvalidInput(
+                "header.kind", f"must be {written(RUN)} or {written(PLANAR_RUN)}: no file of a run", written(kind)
+            )
         if header.get("format") != FORMAT:
             raise InvalidInput(
-                "header.format", f"must be {FORMAT} for this version of mcplan", shown(header.get("format"))
+                "header.format", f"must be {FORMAT} for this version of mcplan", written(header.get("format"))
             )
         if kind not in makers:
             others = {

@@ -114,7 +114,7 @@ def robot_for(plan: Plan, robot: Robot | str | Path | None) -> Robot:
     for end in plan.robot.end_effectors:
         if end.name not in own:
             others = list_robots_with([e.name for e in plan.robot.end_effectors], joints=True)
-            take = f" (--robot: {', '.join(others)})" if others else ""
+            take = f", as {', '.join(others)} have" if others else ""
             rule = f"must have the plan's {end.name!r}{take}"
             raise InvalidRobot("end_effectors", rule, ", ".join(own) or "none", robot.name)
     ordered = robot.__copy__()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from typing import TYPE_CHECKING
 
+from mcplan.errors import SimplerDrawing
 from mcplan.kinematics.samples import Samples
 
 from .figure import Figure
@@ -23,5 +24,5 @@ def figure_of(samples: Samples, robot: Robot, colours: list[str]) -> Figure:
     try:
         return urdf_robot(samples, robot)
     except CannotFollow as error:
-        warnings.warn(f"{error}; drawing a stick robot instead", stacklevel=3)
+        warnings.warn(f"{error}; drawing a stick robot instead", SimplerDrawing, stacklevel=3)
         return stick_robot(samples, robot, colours)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan.extras import require
-from mcplan.files.outputs import whole_file
+from mcplan.files.outputs import made_folder, whole_file
 
 from .colours import TEXT
 
@@ -44,8 +44,7 @@ def save_figure(figure: Figure, path: str | Path, **options: Any) -> Path:
 
 def save_figures(figures: Mapping[str, Figure], folder: str | Path) -> list[Path]:
     """Write each figure to NAME.png in a folder, which is made if it does not exist; the files written."""
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = made_folder(folder)
     return [save_figure(figure, folder / f"{name}.png") for name, figure in figures.items()]
 
 

@@ -22,7 +22,8 @@ TEST_CASE("typed errors are caught as bad input") {
 TEST_CASE("values are written short") {
   CHECK(text(0.25) == "0.25");
   CHECK(text(-3) == "-3");
-  CHECK(text(std::string("stares")) == "'stares'");
+  CHECK(text(std::string("stares")) == "\"stares\"");
+  CHECK(text(std::string("a \"b\"\\")) == "\"a \\\"b\\\"\\\\\"");
   CHECK(text(Eigen::Vector3d(1, 0.5, -2)) == "[1, 0.5, -2]");
   CHECK(text(Eigen::VectorXd()) == "[]");
 }

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <random>
 
+#include "model/toml.hpp"
+
 using namespace mcplan;
 
 TEST_CASE("numbers are written in the fewest digits that read back, as Python writes them") {
@@ -50,8 +52,21 @@ TEST_CASE("texts are quoted so that a terminal shows them and does not obey them
 TEST_CASE("values are shown in 60 characters at most") {
   const model::Value long_list(model::Value::Array(1000, model::Value(1.5)));
   CHECK(model::length(model::shown(long_list)) == 60);
-  CHECK(model::shown(model::Value(model::Value::Array{model::Value(1), model::Value(true), model::Value("x")})) ==
-        "[1, True, 'x']");
+}
+
+TEST_CASE("values are shown in the words of the file that has them") {
+  using model::Value;
+  CHECK(model::shown(Value(Value::Array{Value(1), Value(true), Value("x")})) == "[1, true, \"x\"]");
+  CHECK(model::shown(Value(false)) == "false");
+  CHECK(model::shown(Value()) == "null");
+  CHECK(model::shown(Value("it's \"so\"\\\n\x1b")) == "\"it's \\\"so\\\"\\\\\\n\\x1b\"");
+  CHECK(model::shown(Value(Value::Table{{"a", Value(1.5)}, {"b c", Value(Value::Table{})}})) ==
+        "{ a = 1.5, \"b c\" = {} }");
+  for (const char* const written : {"true", "\"x\"", "[1, 2.5]", "{ a = [true] }", "2026-01-01", "07:32:00", "1e+30",
+                                    "2026-01-01T07:32:00", "2026-01-01T07:32:00-07:30", "nan", "-inf"}) {
+    CAPTURE(written);
+    CHECK(model::shown(*model::parse_toml(std::string("key = ") + written).find("key")) == written);
+  }
 }
 
 TEST_CASE("what is no UTF-8 is found where it begins") {

@@ -110,7 +110,7 @@ TEST_CASE("other endings, other files and plans in space are refused") {
     plan_from_json(planar_plan_to_json(noisy_plan()));
     FAIL("it was read");
   } catch (const InvalidPlan& found) {
-    CHECK(std::string(found.what()) == "kind: must be 'plan': a plan of contacts and CoM, got 'planar_plan'");
+    CHECK(std::string(found.what()) == "kind: must be \"plan\": a plan of contacts and CoM, got \"planar_plan\"");
   }
 }
 

@@ -106,7 +106,7 @@ TEST_CASE("the field of a motion that is out of its range is named") {
 }
 
 TEST_CASE("a contact off its surface, beyond its extent or turned against it is named") {
-  CHECK(error([](M& m) { m.phases[1].contacts[1].position_W.y() = 1e-3; }).rule == "must lie on surface 'ground'");
+  CHECK(error([](M& m) { m.phases[1].contacts[1].position_W.y() = 1e-3; }).rule == "must lie on surface \"ground\"");
   CHECK(field([](M& m) { m.phases[1].contacts[1].position_W.x() = NAN; }) == "phases[1].contacts[1].position[0]");
   CHECK(field([](M& m) { m.phases[1].contacts[1].angle = 1e-3; }) == "phases[1].contacts[1].angle");
   CHECK(field([](M& m) { m.phases[1].contacts[1].angle = M_PI; }) == "phases[1].contacts[1].angle");
@@ -123,7 +123,7 @@ TEST_CASE("two contacts further apart than the limbs between them can stretch ar
   CHECK(field([spare](M& m) { step(m, 0, spare - 1e-3); }) == "accepted");
   const Error found = error([spare](M& m) { step(m, 0, spare + 1e-3); });
   CHECK(found.field == "phases[0].contacts[1].position");
-  CHECK(found.rule.find("of 'left_foot', all that the limbs between them can stretch") != std::string::npos);
+  CHECK(found.rule.find("of \"left_foot\", all that the limbs between them can stretch") != std::string::npos);
 }
 
 TEST_CASE("nothing jumps from one phase to the next") {

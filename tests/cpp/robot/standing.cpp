@@ -64,14 +64,14 @@ TEST_CASE("a stance that cannot stand is refused by name, and both stances in on
   const std::string down = "must hold the robot up: corners of ground run counter-clockwise seen from above, got ";
   CHECK(refused([](mcplan::Scene& scene) {
           scene.start.contacts = {{"foot", "ceiling"}};
-        }) == "start.contacts: " + down + "'ceiling' faces down");
+        }) == "start.contacts: " + down + "\"ceiling\" faces down");
   const std::string both = refused([](mcplan::Scene& scene) {
     scene.start.contacts = {{"left_foot", "ceiling"}, {"right_foot", "ceiling"}};
     scene.goal.position_W.z() += 2.0;
   });
   CHECK(both.find("start.contacts: " + down +
-                  "'ceiling' faces down\ngoal.position: must be where humanoid44 reaches") == 0);
-  CHECK(both.find("_foot would stand 2 m off 'ground'") != both.npos);
+                  "\"ceiling\" faces down\ngoal.position: must be where humanoid44 reaches") == 0);
+  CHECK(both.find("_foot would stand 2 m off \"ground\"") != both.npos);
   // A hand may press from below while feet stand.
   CHECK(refused([](mcplan::Scene& scene) { scene.start.contacts["left_hand"] = "ceiling"; }).find(down) ==
         std::string::npos);

@@ -54,7 +54,7 @@ TEST_CASE("one reading says all that is wrong with a file") {
     for (const InvalidInput& other : found.others()) fields.push_back(other.field());
     CHECK(fields == std::vector<std::string>{"gravity", "surfaces[0].friction", "colour", "surfaces[0].vertices",
                                              "goal.yaw", "goal.contacts.foot"});
-    CHECK(std::string(found.what()).rfind(file.string() + ": gravity: must be a number, got 'heavy'\n", 0) == 0);
+    CHECK(std::string(found.what()).rfind(file.string() + ": gravity: must be a number, got \"heavy\"\n", 0) == 0);
   }
   fs::remove(file);
 }

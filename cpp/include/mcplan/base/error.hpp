@@ -109,7 +109,7 @@ class Validation {
 /// Short texts for the `value` of an error.
 std::string text(double value);
 std::string text(int value);
-std::string text(const std::string& value);  ///< quoted
+std::string text(const std::string& value);  ///< in quotes, as files write it
 std::string text(const Eigen::Ref<const Eigen::VectorXd>& value);
 
 }  // namespace mcplan

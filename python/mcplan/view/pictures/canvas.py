@@ -12,6 +12,9 @@ from mcplan.view.shapes import Mesh
 
 Array = NDArray[np.float64]
 
+#: Polygons of a layer that a picture in vectors has as such; more are an image in it.
+_MOST_IN_VECTORS = 20_000
+
 
 class Canvas:
     """Collects polygons of a picture in layers; within a layer, nearer ones cover farther ones.
@@ -134,6 +137,7 @@ class Canvas:
                 edgecolors=edges,
                 linewidths=0.35,
                 zorder=layer,
+                rasterized=len(polygons) > _MOST_IN_VECTORS,
             )
             axes.add_collection(shown)
         axes.set_aspect("equal")

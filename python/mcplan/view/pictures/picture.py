@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+import warnings
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.errors import InvalidRobot, MissingExtra, SimplerDrawing
 from mcplan.extras import require
 from mcplan.kinematics.rotations import pose, with_axis_z
 from mcplan.kinematics.samples import Samples, sample
+from mcplan.view.coarse import coarse
 from mcplan.view.colours import COM, FORCE, GRASP, OUTLINE, PAD, TEXT, end_effector_colours, mix, plain
 from mcplan.view.extent import extent_of
 from mcplan.view.figure import Figure
+from mcplan.view.figure_choice import figure_of
 from mcplan.view.plan_drawing import WEIGHT_ARROW, contact_plate
 from mcplan.view.robot_stick import stick_robot
 from mcplan.view.scene_drawing import SurfaceDrawing, edges, is_pad, surface_drawings
 from mcplan.view.shapes import cone, ellipsoid
 from mcplan.view.sheets import save_figure
 from mcplan.view.viewpoint import camera_direction, sun_direction, view_points
+from mcplan.view.winding import both_sides
 
 from .canvas import Canvas
 
@@ -28,6 +34,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+#: Smallest details of meshes that are drawn, in CoM heights.
+CELL = 0.012
 #: Layers of the canvas, back to front.
 SOLIDS, LINES, MARKS, BODIES, COM_PATH = range(1, 6)
 
@@ -38,15 +46,18 @@ def picture(
     robot: Robot | None = None,
     path: str | Path = "plan.png",
     poses: int | None = None,
+    meshes: bool = True,
 ) -> Path:
     """Write a PNG of a plan.
 
     Args:
         plan: The plan.
         scene: Drawn around it; None: the plan's own.
-        robot: Drawn along it as a stick robot; None: the plan's own.
+        robot: Drawn along it; None: the plan's own.
         path: File to write.
         poses: Number of postures drawn, at equal displacements of the CoM; None: as many as there is space for.
+        meshes: Draw a robot with a URDF with its meshes, as ``show`` does, and as a stick robot where a warning says why
+            they cannot be; False: always as a stick robot.
 
     Raises:
         MissingExtra: matplotlib is not installed.
@@ -68,7 +79,8 @@ def picture(
     _paint_surfaces(canvas, drawings)
     _paint_plan(canvas, samples, robot, colours)
     chosen = pose_indices(samples, robot, poses)
-    figure, weight = stick_robot(samples, robot, colours), float(robot.mass) * float(scene.gravity)
+    figure = _figure(samples, robot, colours) if meshes else stick_robot(samples, robot, colours)
+    weight = float(robot.mass) * float(scene.gravity)
     for rank, n in enumerate(chosen):
         # The past is pale; the last posture has full colour.
         fade = 0.62 * (1.0 - rank / max(len(chosen) - 1, 1)) ** 0.8
@@ -106,6 +118,19 @@ def pose_indices(samples: Samples, robot: Robot, poses: int | None = None) -> li
     )
 
 
+def _figure(samples: Samples, robot: Robot, colours: list[str]) -> Figure:
+    """The robot with its meshes, as coarse as the picture allows, or as a stick robot."""
+    try:
+        figure = figure_of(samples, robot, colours)
+    except (InvalidRobot, MissingExtra) as found:
+        warnings.warn(f"{found}; drawing a stick robot instead", SimplerDrawing, stacklevel=3)
+        return stick_robot(samples, robot, colours)
+    if figure.kind == "stick":
+        return figure
+    cell_m = CELL * float(robot.com_height)
+    return replace(figure, parts=[replace(part, mesh=both_sides(coarse(part.mesh, cell_m))) for part in figure.parts])
+
+
 def _paint_surfaces(canvas: Canvas, drawings: list[SurfaceDrawing]) -> None:
     for drawing in drawings:
         # Ground lies below a robot; pads and walls may be before or behind a limb.
@@ -138,7 +163,7 @@ def _paint_robot(
 ) -> None:
     scale = float(robot.com_height) / 0.7
     for part in figure.parts:
-        canvas.mesh(part.mesh.moved(part.poses[n]), part.colour, BODIES, fade=fade, whole=True)
+        canvas.mesh(part.mesh.moved(part.poses[n]), part.colour, BODIES, fade=fade, whole=figure.kind == "stick")
     ball = ellipsoid((0.030 * scale,) * 3).moved(pose(np.eye(3), samples.com_W[n]))
     canvas.mesh(ball, COM, COM_PATH, whole=True, lift=0.1)
     for end in range(len(robot.end_effectors)):

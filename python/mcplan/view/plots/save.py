@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mcplan.files.outputs import made_folder
 from mcplan.view.pictures.picture import picture
 from mcplan.view.sheets import save_figures
 
@@ -38,8 +39,7 @@ def save_plots(plan: Plan, report: Report | None, directory: str | Path) -> list
         InvalidPlan: The plan's arrays do not fit together.
         OSError: The directory cannot be written to.
     """
-    directory = Path(directory)
-    directory.mkdir(parents=True, exist_ok=True)
+    directory = made_folder(directory)
     return [picture(plan, path=directory / "picture.png"), *save_figures(_figures(plan, report), directory)]
 
 

@@ -1,0 +1,37 @@
+"""Errors of arguments in the words of who typed the command: the option, not what the library calls it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from mcplan.errors import InvalidArgument, InvalidInput, InvalidOptions, apart, together
+
+
+@contextmanager
+def named_as_typed(*names: str, **options: str) -> Iterator[None]:
+    """Errors of arguments name options instead. Stands above a verb as its decorator.
+
+    What is wrong inside of a file stays as it is, and so does what is malformed: a scene, a robot, a motion, a plan.
+
+    Args:
+        names: Of arguments whose options are called the same: ``"time_limit"`` is ``--time-limit``.
+        options: Option by the name of the argument, where they differ; ``ends="--end"`` makes "--end foot" of "ends.foot".
+    """
+    typed = {name: f"--{name.replace('_', '-')}" for name in names} | options
+    try:
+        yield
+    except InvalidInput as found:
+        if type(found) not in (InvalidInput, InvalidOptions, InvalidArgument):
+            raise
+        named: dict[str, InvalidInput] = {}
+        for single in (_named(each, typed) for each in apart(found)):
+            named.setdefault(single.field, single)  # one option may set several arguments
+        raise together(list(named.values())) from None
+
+
+def _named(found: InvalidInput, typed: dict[str, str]) -> InvalidInput:
+    name, _, part = found.field.partition(".")
+    if found.source or name not in typed:
+        return found
+    return type(found)(f"{typed[name]} {part}".strip(), found.rule, found.value)

@@ -1,0 +1,105 @@
+"""mcplan.cli.given_options: errors of what was typed name the option as it was typed."""
+
+from __future__ import annotations
+
+import pytest
+
+from command_line import commands, one_line_error
+from mcplan.cli import main
+from mcplan.cli.given_options import named_as_typed
+from mcplan.errors import InvalidInput, InvalidOptions, InvalidScene, together
+
+
+def run(capsys, *words) -> tuple[int, str, str]:
+    return main([str(word) for word in words]), *capsys.readouterr()
+
+
+#: Values that no engine takes, of all options that an engine judges.
+BAD = {
+    "plan flat": {
+        "--scale": ("1e-300", "0", "inf", "nan"),
+        "--sole-inside": ("3",),
+        "--min-flight": ("-1",),
+        "--phases": ("-1", "99999999999"),
+        "--model": ("x",),
+        "--method": ("x",),
+        "--time-limit": ("-1",),
+        "--threads": ("0",),
+        "--seed": ("-1", "9" * 30),
+    },
+    "rhp flat": {
+        "--scale": ("1e300",),
+        "--fidelity": ("x",),
+        "--lookahead": ("99",),
+        "--cycles": ("0",),
+        "--transcription": ("x",),
+        "--time-limit": ("0",),
+    },
+    "sip walking": {
+        "--forces": ("x",),
+        "--minimise": ("x",),
+        "--contact": ("x",),
+        "--tube": ("-1",),
+        "--order": ("99",),
+        "--neq": ("99",),
+        "--free-flyer": ("x",),
+        "--continuous": ("x",),
+        "--hessian": ("x",),
+        "--max-iterations": ("-1",),
+        "--time-limit": ("-1",),
+    },
+    "track none.npz": {
+        "--mass-scale": ("0",),
+        "--friction": ("-1",),
+        "--ground-shift": ("1e9",),
+        "--seed": ("-1",),
+        "--push": ("40",),
+    },
+    "robots --from-urdf g1": {
+        "--end": ("foot=nowhere", "foot"),
+        "--posture": ("nowhere=1", "knee"),
+        "--srdf": (),
+        "--faces": (),
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("verb", "option", "value"),
+    [(verb, option, value) for verb, options in BAD.items() for option, values in options.items() for value in values],
+)
+def test_errors_name_the_option_that_was_typed(verb, option, value, capsys):
+    message = one_line_error(run(capsys, *verb.split(), option, value))
+    assert message.startswith((f"{option}: ", f"{option} ")), message
+    assert "of type" not in message
+
+
+def test_every_option_that_takes_a_number_or_a_choice_is_tried():
+    tried = {(verb.split()[0], option) for verb, options in BAD.items() for option in options}
+    texts = {"--robot", "--sequence", "--warm-start", "--from-urdf", "-o", "--free-durations"}
+    paths = {"--output", "--html", "--plots", "--strip", "--video", "--save"}
+    for words, command in commands():
+        if words not in {(verb,) for verb, _ in tried}:
+            continue
+        for param in command.params:
+            taken = {name for name in param.opts if name.startswith("--")} - texts - paths
+            if getattr(param, "is_flag", False) or not taken:
+                continue
+            assert {(words[0], option) for option in taken} <= tried | {("robots", "--seed")}
+
+
+def test_only_arguments_are_renamed_and_an_option_is_told_once():
+    both = together(
+        [InvalidOptions("tube_m", "must be a positive number", "-1"), InvalidOptions("tube_rad", "so", "-5")]
+    )
+    with pytest.raises(InvalidOptions) as found, named_as_typed(tube_m="--tube", tube_rad="--tube"):
+        raise both
+    assert str(found.value) == "--tube: must be a positive number, got -1"
+    for kept in (
+        InvalidScene("seed", "must be none"),
+        InvalidInput("seed", "is odd", "", "file.toml"),
+        InvalidInput("x", "y"),
+    ):
+        with pytest.raises(InvalidInput) as found, named_as_typed("seed"):
+            raise kept
+        assert str(found.value) == str(kept)
