@@ -96,7 +96,7 @@ void measure(const mcplan::Scene& scene, int phases, int repeats) {
   const double expand_us = median_us(repeats, [&] {
     model.expand(guess, schedule);
     for (const Neighbour& n : neighbours)
-      for (int l = 0; l < problem.layout.ends(); ++l) model.block(n.step, l, n.state[l]);
+      for (int l = 0; l < problem.layout.end_effector_count(); ++l) model.block(n.step, l, n.state[l]);
   });
 
   std::printf("%s: N = %d, nx = %d, nu = %d, %d neighbours\n", scene.name.c_str(), problem.steps, problem.layout.nx(),

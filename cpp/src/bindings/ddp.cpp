@@ -30,7 +30,7 @@ void bind_ddp_options(py::module_& m) {
   bind_enum<StiffnessInput>(m);
   bind_weights(m);
   bind_fields<ddp::Options>(m).def("validate", &ddp::Options::validate,
-                              "Raise InvalidOptions naming all that is out of its range.");
+                                   "Raise InvalidOptions naming all that is out of its range.");
 }
 
 }  // namespace

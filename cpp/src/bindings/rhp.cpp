@@ -19,7 +19,7 @@ void bind_rhp_options(py::module_& m) {
   bind_enum<Fidelity>(m);
   bind_enum<Transcription>(m);
   bind_fields<rhp::Options>(m).def("validate", &rhp::Options::validate,
-                              "Raise InvalidOptions naming all that is out of its range.");
+                                   "Raise InvalidOptions naming all that is out of its range.");
 }
 
 void bind_state(py::module_& m) {

@@ -36,7 +36,7 @@ Incumbent Attempts::cheapest(std::vector<Guess>& guesses, const Tuning& tuning, 
     if (!discover && stepping_ahead) break;
     Incumbent& now = guesses[i].start;
     if (discover) ending = search_.discover(now, guesses[i].discover_with, tuning);
-    if (ending == Ending::done) ending = search_.polish(now, kPolishIterations, kRoughCalm, lowest, tuning);
+    if (ending == Ending::done) ending = search_.polish(now, kPolishIterations, kRoughTolerance, lowest, tuning);
     // A guess that breaks down numerically is dropped, the others may still do.
     if (ending == Ending::broke_down) {
       ending = Ending::done;
@@ -62,7 +62,7 @@ Ending Attempts::attempt(std::vector<Guess> guesses, const Tuning& tuning) {
     Tuning hard = tuning;
     hard.limit_weight *= kHardening;
     const double never = std::numeric_limits<double>::infinity();
-    ending = search_.polish(chosen, kFinalIterations, kFinalCalm, never, hard);
+    ending = search_.polish(chosen, kFinalIterations, kFinalTolerance, never, hard);
   }
   last_ = chosen;
   // Out of time there is a plan already, and none for another one.
@@ -141,7 +141,7 @@ double Attempts::further_inside() const {
   const Options& options = problem_.options;
   const Robot& robot = problem_.robot;
   const double on_surface = options.sole_inside < 0.0 ? robot.sole_support : options.sole_inside;
-  double further_m = (on_surface >= 1.0 ? kToeRoom_m : kClearanceMin_m) * problem_.similarity.length;
+  double further_m = (on_surface >= 1.0 ? kExtraMargin_m : kClearanceMin_m) * problem_.similarity.length;
   for (const EndEffector& end : robot.end_effectors)
     if (on_surface < 1.0) further_m = std::max(further_m, kClearanceShare * end.half_size.maxCoeff());
   return further_m / problem_.units.length;
@@ -163,7 +163,7 @@ Ending Attempts::restart(Ending ending, const ContactSequence& initial) {
     std::vector<Guess> others{{again, proximal}};
     // A foot too close to the next step catches it with its toe: the same motion with footholds further inside.
     if (best_->best() && best_->best()->worst.name == "clearance" && !last_.sequence.empty()) {
-      tuning.toe_room += further_inside();
+      tuning.extra_margin += further_inside();
       others.insert(others.begin(), Guess{last_});
     }
     ending = attempt(std::move(others), tuning);

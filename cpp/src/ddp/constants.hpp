@@ -89,10 +89,10 @@ constexpr double kPolishProximal = 10.0, kTrialProximal = 3.0;
 constexpr int kPolishIterations = 60, kFinalIterations = 120;
 /// Converged when the merit changes by less than this fraction, of a guess and in the last polish, ... Chosen, as are
 /// the next two.
-constexpr double kRoughCalm = 1e-3, kFinalCalm = 1e-4;
+constexpr double kRoughTolerance = 1e-3, kFinalTolerance = 1e-4;
 /// ... so many times running with no defect above that.
-constexpr int kCalmIterations = 3;
-constexpr double kCalmDefect = 1e-4;
+constexpr int kConvergedIterations = 3;
+constexpr double kConvergedDefect = 1e-4;
 /// Progress comes in bursts, so it is judged over so many iterations, and extrapolated by so many times as many.
 /// Chosen.
 constexpr int kWindow = 5;
@@ -114,7 +114,7 @@ constexpr std::size_t kWorthThreads = 400;
 // Exact contacts.
 
 /// Weight on what is held: far above all others (1e6 at most), low enough to leave the factorisation its digits.
-constexpr double kHeld = 1e10;
+constexpr double kFixed = 1e10;
 /// The stiff costs count a little, so that the change avoids the limits, but not so much that it runs through the
 /// inputs that are soft (durations above all) beyond where the linear model holds. Chosen.
 constexpr double kCostShare = 1e-3;
@@ -139,7 +139,7 @@ constexpr RestartSetting kRestarts[] = {{10.0, 0.30}, {100.0, 0.40}, {30.0, 0.35
 /// ("Deviations"): 300 random scenes solved, 289 without.
 constexpr double kClearanceShare = 0.6, kClearanceMin_m = 0.04;
 /// Where soles are kept on their surface anyway, a toe's room is enough [m]. Measured likewise.
-constexpr double kToeRoom_m = 0.03;
+constexpr double kExtraMargin_m = 0.03;
 /// A violation within this factor of its tolerance is called acceptable, beyond it infeasible. Chosen.
 constexpr double kAcceptable = 10.0;
 

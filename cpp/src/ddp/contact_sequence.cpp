@@ -18,7 +18,7 @@ ContactRules::ContactRules(std::vector<std::vector<int>> surfaces, std::vector<S
 }
 
 bool ContactRules::allowed(const ContactState& state) const {
-  for (int l = 0; l < ends(); ++l)
+  for (int l = 0; l < end_effector_count(); ++l)
     if (state[l] != kFree &&
         (state[l] < 0 || state[l] >= static_cast<int>(may_touch_[l].size()) || !may_touch_[l][state[l]]))
       return false;
@@ -33,7 +33,7 @@ bool ContactRules::allowed(const ContactState& state) const {
 
 bool ContactRules::may_follow(const ContactState& from, const ContactState& to) const {
   int switches = 0;
-  for (int l = 0; l < ends(); ++l) {
+  for (int l = 0; l < end_effector_count(); ++l) {
     if (from[l] == to[l]) continue;
     if (from[l] != kFree && to[l] != kFree) return false;
     if (++switches > 1 && one_switch_) return false;
@@ -55,7 +55,7 @@ std::vector<ContactState> ContactRules::successors(const ContactState& state, in
   if (one_switch_) {
     if (allowed(state)) out.push_back(state);
     ContactState next = state;
-    for (int l = 0; l < ends(); ++l) {
+    for (int l = 0; l < end_effector_count(); ++l) {
       if (state[l] != kFree) {
         next[l] = kFree;
         if (allowed(next)) out.push_back(next);
@@ -70,20 +70,20 @@ std::vector<ContactState> ContactRules::successors(const ContactState& state, in
     return out;
   }
   // Any set of makes and breaks: an odometer over each end-effector's own choices.
-  std::vector<std::vector<int>> choices(ends());
-  for (int l = 0; l < ends(); ++l) {
+  std::vector<std::vector<int>> choices(end_effector_count());
+  for (int l = 0; l < end_effector_count(); ++l) {
     choices[l] = {state[l]};
     const std::vector<int> made = state[l] == kFree ? makes(l, k, also) : std::vector<int>{kFree};
     choices[l].insert(choices[l].end(), made.begin(), made.end());
   }
-  std::vector<std::size_t> digit(ends(), 0);
+  std::vector<std::size_t> digit(end_effector_count(), 0);
   for (;;) {
-    ContactState next(ends());
-    for (int l = 0; l < ends(); ++l) next[l] = choices[l][digit[l]];
+    ContactState next(end_effector_count());
+    for (int l = 0; l < end_effector_count(); ++l) next[l] = choices[l][digit[l]];
     if (allowed(next)) out.push_back(next);
     int l = 0;
-    while (l < ends() && ++digit[l] == choices[l].size()) digit[l++] = 0;
-    if (l == ends()) return out;
+    while (l < end_effector_count() && ++digit[l] == choices[l].size()) digit[l++] = 0;
+    if (l == end_effector_count()) return out;
   }
 }
 
@@ -92,12 +92,12 @@ std::vector<ContactState> ContactRules::all_states(std::size_t limit) const {
   for (const auto& list : surfaces_) count *= 1.0 + static_cast<double>(list.size());
   if (count > static_cast<double>(limit)) return {};
   std::vector<ContactState> out;
-  ContactState state(ends(), kFree);
-  std::vector<std::size_t> digit(ends(), 0);
+  ContactState state(end_effector_count(), kFree);
+  std::vector<std::size_t> digit(end_effector_count(), 0);
   for (;;) {
     if (allowed(state)) out.push_back(state);
     int l = 0;
-    for (; l < ends(); ++l) {
+    for (; l < end_effector_count(); ++l) {
       if (digit[l] < surfaces_[l].size()) {
         state[l] = surfaces_[l][digit[l]++];
         break;
@@ -105,13 +105,13 @@ std::vector<ContactState> ContactRules::all_states(std::size_t limit) const {
       digit[l] = 0;
       state[l] = kFree;
     }
-    if (l == ends()) return out;
+    if (l == end_effector_count()) return out;
   }
 }
 
 bool ContactRules::valid(const ContactSequence& sequence) const {
   for (std::size_t k = 0; k < sequence.size(); ++k) {
-    if (static_cast<int>(sequence[k].size()) != ends() || !allowed(sequence[k])) return false;
+    if (static_cast<int>(sequence[k].size()) != end_effector_count() || !allowed(sequence[k])) return false;
     if (k > 0 && !may_follow(sequence[k - 1], sequence[k])) return false;
   }
   return true;

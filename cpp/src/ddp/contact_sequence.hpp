@@ -35,7 +35,7 @@ class ContactRules {
 
   bool looks_everywhere() const { return near_.empty(); }
 
-  int ends() const { return static_cast<int>(surfaces_.size()); }
+  int end_effector_count() const { return static_cast<int>(surfaces_.size()); }
   const std::vector<int>& surfaces(int l) const { return surfaces_[l]; }
 
   /// Permissions and scene rules.

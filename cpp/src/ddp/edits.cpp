@@ -71,7 +71,7 @@ std::vector<ContactSequence> swing_edits(const ContactRules& rules, const Contac
       for (int k = s.first; k <= s.last; ++k) without[k][s.end] = s.before;
       editor.keep(without);
       // The same steps, another end-effector that stands all the while.
-      for (int other = 0; other < rules.ends(); ++other) {
+      for (int other = 0; other < rules.end_effector_count(); ++other) {
         if (other == s.end) continue;
         const int stands = sequence[s.first - 1][other];
         bool throughout = stands != kFree;

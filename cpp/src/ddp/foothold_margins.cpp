@@ -12,18 +12,18 @@ namespace mcplan::ddp {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-double Problem::foothold_margin(int l, int surface, int edge, double toe_room) const {
+double Problem::foothold_margin(int l, int surface, int edge, double extra_margin) const {
   const double margin = foothold_margins_[l][surface][edge];
   double further = margin + edge_margin;
-  if (toe_room > 0.0 && limits[l].half_width > 0.0)
-    further = std::max(further, std::min(margin + toe_room, kNarrow * widths_[surface][edge]) + edge_margin);
+  if (extra_margin > 0.0 && limits[l].half_width > 0.0)
+    further = std::max(further, std::min(margin + extra_margin, kNarrow * widths_[surface][edge]) + edge_margin);
   return std::max(margin, std::min(further, slack_[l][surface][edge]));
 }
 
 /// How far inside each edge the end-effectors have to stand at the start and at the goal: no margin may ask for more.
 void Problem::make_slack() {
   slack_.clear();
-  for (int l = 0; l < layout.ends(); ++l) {
+  for (int l = 0; l < layout.end_effector_count(); ++l) {
     std::vector<std::vector<double>>& of_end = slack_.emplace_back();
     for (std::size_t i = 0; i < polygons.size(); ++i) {
       std::vector<double>& of_surface = of_end.emplace_back();
@@ -43,7 +43,7 @@ void Problem::make_slack() {
 
 void Problem::make_foothold_margins() {
   const double start_heading = start_yaw.empty() ? goal_yaw : start_yaw.front();
-  const double share = options.sole_inside < 0.0 ? robot.sole_support : options.sole_inside;
+  const double ratio = options.sole_inside < 0.0 ? robot.sole_support : options.sole_inside;
   for (const Polygon& polygon : polygons) {
     std::vector<double>& of_surface = widths_.emplace_back();
     for (int i = 0; i < polygon.edge_count(); ++i) {
@@ -72,7 +72,7 @@ void Problem::make_foothold_margins() {
           const Vector3d along = across.cross(polygon.normal_W());
           extent = std::max(extent, half[0] * std::abs(along.dot(outward)) + half[1] * std::abs(across.dot(outward)));
         }
-        of_surface.push_back(std::min(share * extent, std::max(kNarrow * width, width - share * extent)));
+        of_surface.push_back(std::min(ratio * extent, std::max(kNarrow * width, width - ratio * extent)));
       }
     }
   }

@@ -25,12 +25,12 @@ struct Reached {
 
 ContactSequence initial_sequence(LocalModel& model, std::size_t beam, const StopRequest& stop) {
   const Problem& problem = model.problem();
-  const int n = problem.steps, ends = problem.layout.ends();
+  const int n = problem.steps, end_effectors = problem.layout.end_effector_count();
   const bool one_switch = problem.options.one_switch_per_step;
   const auto cost_of = [&](int k, const ContactState& state) {
     double cost = state_cost(problem, state);
     if (const Rows* rows = model.state_block(k, state)) cost += rows->cost();
-    for (int l = 0; l < ends; ++l) cost += model.block(k, l, state[l]).cost();
+    for (int l = 0; l < end_effectors; ++l) cost += model.block(k, l, state[l]).cost();
     return cost;
   };
 

@@ -26,34 +26,34 @@ class Layout {
   struct Moment {
     int end_effector;
     Eigen::Vector3d direction_W;  ///< unit vector
-    double most;                  ///< largest absolute value, in units of the problem
+    double max;                   ///< largest absolute value, in units of the problem
   };
 
   Layout() = default;
-  Layout(std::vector<Offsets> ends, std::vector<int> axes, std::vector<Moment> moments)
-      : ends_(std::move(ends)), axes_(std::move(axes)), moments_(std::move(moments)) {
-    int next = 4 * this->ends();
-    for (const Offsets& e : ends_) {
+  Layout(std::vector<Offsets> end_effectors, std::vector<int> axes, std::vector<Moment> moments)
+      : end_effectors_(std::move(end_effectors)), axes_(std::move(axes)), moments_(std::move(moments)) {
+    int next = 4 * end_effector_count();
+    for (const Offsets& e : end_effectors_) {
       pressure_.push_back(next);
       next += static_cast<int>(e.pressure.cols());
     }
-    for (const Offsets& e : ends_) {
+    for (const Offsets& e : end_effectors_) {
       force_line_.push_back(next);
       next += static_cast<int>(e.force_line.cols());
     }
     first_moment_ = next;
   }
 
-  int ends() const { return static_cast<int>(ends_.size()); }
-  const Offsets& offsets(int l) const { return ends_[l]; }
+  int end_effector_count() const { return static_cast<int>(end_effectors_.size()); }
+  const Offsets& offsets(int l) const { return end_effectors_[l]; }
   const std::vector<int>& axes() const { return axes_; }           ///< active base axes: 0 roll, 1 pitch, 2 yaw
   const std::vector<Moment>& moments() const { return moments_; }  ///< which moments are inputs
   int axis_count() const { return static_cast<int>(axes_.size()); }
   int moment_count() const { return static_cast<int>(moments_.size()); }
-  int pressure_count(int l) const { return static_cast<int>(ends_[l].pressure.cols()); }
-  int force_line_count(int l) const { return static_cast<int>(ends_[l].force_line.cols()); }
+  int pressure_count(int l) const { return static_cast<int>(end_effectors_[l].pressure.cols()); }
+  int force_line_count(int l) const { return static_cast<int>(end_effectors_[l].force_line.cols()); }
 
-  int nx() const { return 6 + 2 * axis_count() + 3 * ends(); }
+  int nx() const { return 6 + 2 * axis_count() + 3 * end_effector_count(); }
   int nu() const { return first_moment_ + moment_count() + 1; }
   int nz() const { return nx() + nu(); }
 
@@ -66,7 +66,7 @@ class Layout {
 
   // Offsets in u.
   static constexpr int stride(int l) { return 3 * l; }
-  int stiffness(int l = 0) const { return 3 * ends() + l; }
+  int stiffness(int l = 0) const { return 3 * end_effector_count() + l; }
   int pressure(int l) const { return pressure_[l]; }
   int force_line(int l) const { return force_line_[l]; }
   int moment(int i = 0) const { return first_moment_ + i; }
@@ -74,11 +74,11 @@ class Layout {
 
   /// c_l, from the end-effector to where its force acts.
   Eigen::Vector3d pressure_offset(const Eigen::VectorXd& u, int l) const {
-    return ends_[l].pressure * u.segment(pressure(l), pressure_count(l));
+    return end_effectors_[l].pressure * u.segment(pressure(l), pressure_count(l));
   }
   /// r_l, from where the force acts to the line on which it points at the CoM.
   Eigen::Vector3d line_offset(const Eigen::VectorXd& u, int l) const {
-    return ends_[l].force_line * u.segment(force_line(l), force_line_count(l));
+    return end_effectors_[l].force_line * u.segment(force_line(l), force_line_count(l));
   }
   /// a_l = p_l + c_l, where the force acts: the centre of pressure.
   Eigen::Vector3d acting_point(const Eigen::VectorXd& x, const Eigen::VectorXd& u, int l) const {
@@ -91,16 +91,16 @@ class Layout {
   /// g += (d a_l / dz)' along.
   void add_along_acting_point(int l, const Eigen::Vector3d& along, Eigen::Ref<Eigen::VectorXd> g) const {
     g.segment<3>(end(l)) += along;
-    g.segment(nx() + pressure(l), pressure_count(l)) += ends_[l].pressure.transpose() * along;
+    g.segment(nx() + pressure(l), pressure_count(l)) += end_effectors_[l].pressure.transpose() * along;
   }
   /// g += (d s_l / dz)' along.
   void add_along_line_point(int l, const Eigen::Vector3d& along, Eigen::Ref<Eigen::VectorXd> g) const {
     add_along_acting_point(l, along, g);
-    g.segment(nx() + force_line(l), force_line_count(l)) += ends_[l].force_line.transpose() * along;
+    g.segment(nx() + force_line(l), force_line_count(l)) += end_effectors_[l].force_line.transpose() * along;
   }
 
  private:
-  std::vector<Offsets> ends_;
+  std::vector<Offsets> end_effectors_;
   std::vector<int> axes_;
   std::vector<Moment> moments_;
   std::vector<int> pressure_, force_line_;

@@ -12,15 +12,15 @@ using Eigen::VectorXd;
 namespace {
 
 /// Turn the quadratic of step k into the metric of the least change.
-void hold_inputs(const Problem& problem, int k, const std::vector<char>* held, Quadratic& q) {
-  const int nx = problem.layout.nx(), held_states = nx - (problem.model == Model::wrench ? 0 : Layout::angle());
+void hold_inputs(const Problem& problem, int k, const std::vector<char>* fixed, Quadratic& q) {
+  const int nx = problem.layout.nx(), fixed_states = nx - (problem.model == Model::wrench ? 0 : Layout::angle());
   q.g.setZero();
   q.h *= kCostShare;
   q.h.diagonal().array() += 1.0;
-  if (k == 0) q.h.diagonal().segment(nx - held_states, held_states).array() += kHeld;
-  if (!held) return;
-  for (std::size_t i = 0; i < held->size(); ++i)
-    if ((*held)[i]) q.h(nx + static_cast<int>(i), nx + static_cast<int>(i)) += kHeld;
+  if (k == 0) q.h.diagonal().segment(nx - fixed_states, fixed_states).array() += kFixed;
+  if (!fixed) return;
+  for (std::size_t i = 0; i < fixed->size(); ++i)
+    if ((*fixed)[i]) q.h(nx + static_cast<int>(i), nx + static_cast<int>(i)) += kFixed;
 }
 
 }  // namespace
@@ -32,9 +32,10 @@ LocalModel::LocalModel(const Problem& problem)
       base_rows_(problem.layout.nz(), true) {
   for (Stage& stage : stages_) {
     stage.flight = Rows(problem.layout.nz(), true);
-    for (int l = 0; l < problem.layout.ends(); ++l) stage.blocks.emplace_back(problem.rules.surfaces(l).size() + 1);
+    for (int l = 0; l < problem.layout.end_effector_count(); ++l)
+      stage.blocks.emplace_back(problem.rules.surfaces(l).size() + 1);
   }
-  for (int l = 0; l < problem.layout.ends(); ++l) {
+  for (int l = 0; l < problem.layout.end_effector_count(); ++l) {
     choice_.emplace_back(problem.polygons.size(), 0);
     int choice = 0;
     for (int surface : problem.rules.surfaces(l)) choice_[l][surface] = ++choice;
@@ -57,7 +58,7 @@ void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) 
     stage.base.g.setZero(at.nz());
     stage.base.h.setZero(at.nz(), at.nz());
     base_rows_.accumulate(stage.base.c, stage.base.g, stage.base.h, scratch_);
-    if (schedule.held_inputs) hold_inputs(*problem_, k, last ? nullptr : &(*schedule.held_inputs)[k], stage.base);
+    if (schedule.fixed_inputs) hold_inputs(*problem_, k, last ? nullptr : &(*schedule.fixed_inputs)[k], stage.base);
     stage.flight_made = false;
     if (last) {
       stage.base.g.conservativeResize(at.nx());
@@ -71,7 +72,7 @@ void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) 
     stage.defect.segment<3>(at.velocity()) = stage.dynamics.velocity;
     stage.defect.segment(at.angle(), at.axis_count()) = stage.dynamics.angle;
     stage.defect.segment(at.momentum(), at.axis_count()) = stage.dynamics.momentum;
-    for (int l = 0; l < at.ends(); ++l)
+    for (int l = 0; l < at.end_effector_count(); ++l)
       stage.defect.segment<3>(at.end(l)) = x.segment<3>(at.end(l)) + u->segment<3>(at.stride(l));
     stage.defect -= trajectory.x[k + 1];
     if (schedule.interior_weight > 0.0) make_instants(*problem_, pendulum_, x, *u, stage.instants);
@@ -113,11 +114,11 @@ const Rows* LocalModel::state_block(int k, const ContactState& state) {
 }
 
 void LocalModel::add_contacts(int k, const ContactState& state, Quadratic& q) {
-  if (schedule_.held_inputs) return;
+  if (schedule_.fixed_inputs) return;
   if (k == steps()) {
     // Rows at the last knot touch x alone but are stored over z.
     const int nx = problem_->layout.nx();
-    for (int l = 0; l < problem_->layout.ends(); ++l) {
+    for (int l = 0; l < problem_->layout.end_effector_count(); ++l) {
       const Rows& rows = block(k, l, state[l]);
       q.c += rows.cost();
       for (int r = 0; r < rows.count(); ++r) {
@@ -130,7 +131,8 @@ void LocalModel::add_contacts(int k, const ContactState& state, Quadratic& q) {
   }
   q.c += state_cost(*problem_, state);
   if (const Rows* rows = state_block(k, state)) rows->accumulate(q.c, q.g, q.h, scratch_);
-  for (int l = 0; l < problem_->layout.ends(); ++l) block(k, l, state[l]).accumulate(q.c, q.g, q.h, scratch_);
+  for (int l = 0; l < problem_->layout.end_effector_count(); ++l)
+    block(k, l, state[l]).accumulate(q.c, q.g, q.h, scratch_);
 }
 
 Evaluator::Evaluator(const Problem& problem)
@@ -149,7 +151,7 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
     StepView about{*problem_, pendulum_, schedule, k, x, u, instants_};
     write_terms(Scope::step, about, rows_);
     if (about.between_knots()) make_instants(*problem_, pendulum_, x, *u, instants_);
-    for (int l = 0; l < problem_->layout.ends(); ++l) {
+    for (int l = 0; l < problem_->layout.end_effector_count(); ++l) {
       about.l = l;
       about.surface = sequence[k][l];
       about.sole_yaw = trajectory.sole_yaw[k][l];
@@ -164,7 +166,7 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
     out.defect_sum += next_.segment<3>(at.com()).norm() + next_.segment<3>(at.velocity()).norm() +
                       next_.segment(at.angle(), at.axis_count()).lpNorm<1>() +
                       next_.segment(at.momentum(), at.axis_count()).norm();
-    for (int l = 0; l < at.ends(); ++l) out.defect_sum += next_.segment<3>(at.end(l)).norm();
+    for (int l = 0; l < at.end_effector_count(); ++l) out.defect_sum += next_.segment<3>(at.end(l)).norm();
     out.defect_max = std::max(out.defect_max, next_.lpNorm<Eigen::Infinity>());
   }
   if (schedule.interior_weight > 0.0) write_change_cost(*problem_, sequence, rows_);

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "base/turning.hpp"
+#include "base/base_rotation.hpp"
 
 namespace mcplan::ddp {
 
@@ -44,7 +44,7 @@ Pendulum::Drive Pendulum::drive(const VectorXd& x, const VectorXd& u) const {
     d.angle[layout_.axes()[a]] = x[layout_.angle(a)];
     d.momentum[layout_.axes()[a]] = x[layout_.momentum(a)];
   }
-  for (int l = 0; l < layout_.ends(); ++l) {
+  for (int l = 0; l < layout_.end_effector_count(); ++l) {
     const double m = mu(u, l);
     const Vector3d acting = layout_.acting_point(x, u, l), line = layout_.line_offset(u, l);
     d.total += m;
@@ -88,7 +88,7 @@ void Pendulum::momentum_jacobian(const Drive& d, const VectorXd& x, const Vector
   out.middleCols<3>(layout_.com()) = cross_with(t * f(1) * d.rho);
   out.middleCols<3>(layout_.velocity()) = cross_with(t2 * f(2) * d.rho);
   for (int a = 0; a < layout_.axis_count(); ++a) out(layout_.axes()[a], layout_.momentum(a)) = 1.0;
-  for (int l = 0; l < layout_.ends(); ++l) {
+  for (int l = 0; l < layout_.end_effector_count(); ++l) {
     const double m = mu(u, l);
     const Vector3d acting = layout_.acting_point(x, u, l), line = layout_.line_offset(u, l);
     const Matrix3d shift = cross_with(m * (end * d.rho - t * line));
@@ -137,8 +137,8 @@ void Pendulum::turn_rows(const Drive& d, const VectorXd& x, const VectorXd& u, c
   }
   const EntireFunctions half(0.25 * d.total * t * t);
   s.momentum = momentum_at(d, f, t);
-  Turning::Derivatives turned;
-  Turning(d.angle, d.momentum, inertia_).differentiate(momentum_at(d, half, 0.5 * t), s.momentum, t, turned);
+  BaseRotation::Derivatives turned;
+  BaseRotation(d.angle, d.momentum, inertia_).differentiate(momentum_at(d, half, 0.5 * t), s.momentum, t, turned);
   s.angle = turned.rpy;
   s.angle_inverse = turned.d_rpy.inverse();
   auto angle = s.turn.topRows<3>();
@@ -156,10 +156,10 @@ void Pendulum::turn_rows(const Drive& d, const VectorXd& x, const VectorXd& u, c
 }
 
 void Pendulum::step(const VectorXd& x, const VectorXd& u, double fraction, PendulumStep& s) const {
-  const int ends = layout_.ends();
-  s.mu.resize(ends);
-  s.p_mu.resize(3, ends);
-  s.v_mu.resize(3, ends);
+  const int end_effectors = layout_.end_effector_count();
+  s.mu.resize(end_effectors);
+  s.p_mu.resize(3, end_effectors);
+  s.v_mu.resize(3, end_effectors);
   s.slope = fraction;
   s.duration = fraction * u[layout_.duration()];
   const double t = s.duration, t2 = t * t;
@@ -175,7 +175,7 @@ void Pendulum::step(const VectorXd& x, const VectorXd& u, double fraction, Pendu
   s.velocity = f(0) * d.v + t * f(1) * d.acceleration;
   s.acceleration = d.total * s.com - d.pull;
   const double d0 = f.derivative(0) * t2, d1 = f.derivative(1) * t2, d2 = f.derivative(2) * t2;
-  for (int l = 0; l < ends; ++l) {
+  for (int l = 0; l < end_effectors; ++l) {
     s.mu[l] = mu(u, l);
     const Vector3d lever = d.p - layout_.line_point(x, u, l);
     const double chain = input_ == StiffnessInput::lambda ? 2.0 * u[layout_.stiffness(l)] : 1.0;
@@ -199,7 +199,7 @@ void Pendulum::next(const VectorXd& x, const VectorXd& u, VectorXd& x_next) cons
     x_next[layout_.angle(a)] = angle[layout_.axes()[a]];
     x_next[layout_.momentum(a)] = momentum[layout_.axes()[a]];
   }
-  for (int l = 0; l < layout_.ends(); ++l)
+  for (int l = 0; l < layout_.end_effector_count(); ++l)
     x_next.segment<3>(layout_.end(l)) = x.segment<3>(layout_.end(l)) + u.segment<3>(layout_.stride(l));
 }
 
@@ -207,7 +207,7 @@ void Pendulum::previous(const VectorXd& x_next, const VectorXd& u, VectorXd& x) 
   // The end-effectors first: the pendulum swings about where they were at the start of the phase.
   const double h = u[layout_.duration()];
   VectorXd from = x_next, back = u;
-  for (int l = 0; l < layout_.ends(); ++l) {
+  for (int l = 0; l < layout_.end_effector_count(); ++l) {
     from.segment<3>(layout_.end(l)) -= u.segment<3>(layout_.stride(l));
     back.segment<3>(layout_.stride(l)).setZero();
   }
@@ -218,9 +218,9 @@ void Pendulum::previous(const VectorXd& x_next, const VectorXd& u, VectorXd& x) 
   const Drive d = drive(x, u);
   const EntireFunctions f(d.total * h * h), half(0.25 * d.total * h * h);
   const Vector3d middle = momentum_at(d, half, 0.5 * h), end = momentum_at(d, f, h);
-  Turning::Derivatives turned;
+  BaseRotation::Derivatives turned;
   for (int i = 0; i < 4; ++i) {
-    Turning(x.segment<3>(layout_.angle()), d.momentum, inertia_).differentiate(middle, end, h, turned);
+    BaseRotation(x.segment<3>(layout_.angle()), d.momentum, inertia_).differentiate(middle, end, h, turned);
     x.segment<3>(layout_.angle()) -= turned.d_rpy.inverse() * (turned.rpy - x_next.segment<3>(layout_.angle()));
   }
 }
@@ -236,7 +236,7 @@ void Pendulum::times_jacobian(const PendulumStep& s, const MatrixXd& m, MatrixXd
     out.setZero();
   out.middleCols<3>(layout_.com()) += s.pp * mp + s.vp * mv;
   out.middleCols<3>(layout_.velocity()) += s.pv * mp + s.pp * mv;
-  for (int l = 0; l < layout_.ends(); ++l) {
+  for (int l = 0; l < layout_.end_effector_count(); ++l) {
     const auto end = m.middleCols<3>(layout_.end(l));
     pushed_ = (s.p_end * s.mu[l]) * mp + (s.v_end * s.mu[l]) * mv;
     out.middleCols<3>(layout_.end(l)) += end + pushed_;
@@ -257,7 +257,7 @@ void Pendulum::apply(const PendulumStep& s, const VectorXd& dx, const VectorXd& 
   const Vector3d dp = dx.segment<3>(layout_.com()), dv = dx.segment<3>(layout_.velocity());
   Vector3d p = s.pp * dp + s.pv * dv + dt * s.velocity;
   Vector3d v = s.vp * dp + s.pp * dv + dt * s.acceleration;
-  for (int l = 0; l < layout_.ends(); ++l) {
+  for (int l = 0; l < layout_.end_effector_count(); ++l) {
     const Vector3d end = dx.segment<3>(layout_.end(l));
     const Vector3d line = end + layout_.pressure_offset(du, l) + layout_.line_offset(du, l);
     const double dm = du[layout_.stiffness(l)];
@@ -277,7 +277,7 @@ void Pendulum::add_transposed(const PendulumStep& s, const VectorXd& w, Eigen::R
   const Vector3d p = w.segment<3>(layout_.com()), v = w.segment<3>(layout_.velocity());
   g.segment<3>(layout_.com()) += s.pp * p + s.vp * v;
   g.segment<3>(layout_.velocity()) += s.pv * p + s.pp * v;
-  for (int l = 0; l < layout_.ends(); ++l) {
+  for (int l = 0; l < layout_.end_effector_count(); ++l) {
     const Vector3d end = w.segment<3>(layout_.end(l));
     layout_.add_along_line_point(l, s.mu[l] * (s.p_end * p + s.v_end * v), g);
     g.segment<3>(layout_.end(l)) += end;
@@ -293,7 +293,7 @@ void Pendulum::add_along(const PendulumStep& s, const Vector3d& along_com, const
   const int nx = layout_.nx(), axes = layout_.axis_count();
   g.segment<3>(layout_.com()) += s.pp * along_com;
   g.segment<3>(layout_.velocity()) += s.pv * along_com;
-  for (int l = 0; l < layout_.ends(); ++l) {
+  for (int l = 0; l < layout_.end_effector_count(); ++l) {
     layout_.add_along_line_point(l, s.mu[l] * s.p_end * along_com, g);
     g[nx + layout_.stiffness(l)] += s.p_mu.col(l).dot(along_com);
   }
@@ -327,7 +327,7 @@ void Pendulum::substitute_inverse(const PendulumStep& s, MatrixXd& m) const {
   }
   const auto yp = m.middleCols<3>(layout_.com());
   const auto yv = m.middleCols<3>(layout_.velocity());
-  for (int l = 0; l < layout_.ends(); ++l) {
+  for (int l = 0; l < layout_.end_effector_count(); ++l) {
     pushed_ = (s.p_end * s.mu[l]) * yp + (s.v_end * s.mu[l]) * yv;
     m.middleCols<3>(layout_.end(l)) -= pushed_;
     m.middleCols<3>(nx + layout_.stride(l)) -= m.middleCols<3>(layout_.end(l));
@@ -344,7 +344,7 @@ void Pendulum::apply_inverse(const PendulumStep& s, const VectorXd& w, VectorXd&
   const int axes = layout_.axis_count();
   out = w;
   Vector3d p = w.segment<3>(layout_.com()), v = w.segment<3>(layout_.velocity());
-  for (int l = 0; l < layout_.ends(); ++l) {
+  for (int l = 0; l < layout_.end_effector_count(); ++l) {
     const Vector3d end = w.segment<3>(layout_.end(l));
     p -= s.p_end * s.mu[l] * end;
     v -= s.v_end * s.mu[l] * end;

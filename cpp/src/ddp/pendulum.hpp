@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "base/base_rotation.hpp"
 #include "base/entire_functions.hpp"
-#include "base/turning.hpp"
 #include "ddp/layout.hpp"
 #include "mcplan/ddp/options.hpp"
 
@@ -42,7 +42,7 @@ struct PendulumStep {
 ///     L(t) = L + P(t) x rho + t kappa,   rho = sum mu_l r_l,   kappa = sum (tau_l - mu_l a_l x r_l)
 ///
 /// with the entire functions F_n (base/entire_functions.hpp): no case distinction, exact in flight. Non-dimensional:
-/// mass 1, g = e_z. The base turns by theta' = E(theta) R I^-1 R^T L (base/turning.hpp).
+/// mass 1, g = e_z. The base turns by theta' = E(theta) R I^-1 R^T L (base/base_rotation.hpp).
 ///
 /// Model::lipm is Tazaki's (sec. II): without c_l and r_l, so that forces act at p_l and point at the CoM, and with
 /// E = R = 1, so that theta(t) = theta + t I^-1 L + t^2/2 I^-1 sum_l tau_l.
@@ -77,7 +77,7 @@ class Pendulum {
    private:
     const Pendulum* pendulum_;
     Drive drive_;
-    Turning turning_;
+    BaseRotation turning_;
   };
 
   /// x+ = f(x, u).

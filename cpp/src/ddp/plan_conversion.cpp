@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/turning.hpp"
+#include "base/base_rotation.hpp"
 #include "ddp/constants.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "plan/swings.hpp"
@@ -35,11 +35,12 @@ Knot make_knot(const Problem& problem, const VectorXd& x) {
     knot.end_effectors_W.push_back(knot.com_W + r_WB * end.nominal_B);
     knot.end_effector_velocities_W.push_back(knot.com_velocity_W);
   }
-  for (int l = 0; l < at.ends(); ++l) knot.end_effectors_W[problem.active[l]] = x.segment<3>(at.end(l)) * units.length;
+  for (int l = 0; l < at.end_effector_count(); ++l)
+    knot.end_effectors_W[problem.active[l]] = x.segment<3>(at.end(l)) * units.length;
   return knot;
 }
 
-bool touches(const Plan& plan, int k, int e) {
+bool in_contact(const Plan& plan, int k, int e) {
   const int n = static_cast<int>(plan.phases.size());
   if (k < 0 || k > n) return false;
   return (k == n ? plan.final_contacts[e] : plan.phases[k].contacts[e].surface) != kFree;
@@ -48,11 +49,11 @@ bool touches(const Plan& plan, int k, int e) {
 /// Zero where a contact begins or ends, else the mean velocity between the neighbouring knots.
 void set_swing_velocities(const Problem& problem, Plan& plan) {
   const int n = static_cast<int>(plan.phases.size());
-  for (int l = 0; l < problem.layout.ends(); ++l) {
+  for (int l = 0; l < problem.layout.end_effector_count(); ++l) {
     const int e = problem.active[l];
     for (int k = 0; k <= n; ++k) {
       Vector3d& velocity = plan.knots[k].end_effector_velocities_W[e];
-      if (touches(plan, k - 1, e) || touches(plan, k, e)) {
+      if (in_contact(plan, k - 1, e) || in_contact(plan, k, e)) {
         velocity.setZero();
         continue;
       }
@@ -69,9 +70,9 @@ void set_sole_yaw(const Problem& problem, const Trajectory& trajectory, Plan& pl
   for (int k = 0; k <= problem.steps; ++k) {
     std::vector<double>& yaw = plan.knots[k].end_effector_yaw;
     yaw.assign(problem.robot.end_effectors.size(), plan.knots[k].base_rpy.z());
-    for (int l = 0; l < problem.layout.ends(); ++l) {
+    for (int l = 0; l < problem.layout.end_effector_count(); ++l) {
       const int e = problem.active[l];
-      const bool just_left = k > 0 && touches(plan, k - 1, e);
+      const bool just_left = k > 0 && in_contact(plan, k - 1, e);
       yaw[e] = trajectory.sole_yaw[just_left ? k - 1 : k][l];
     }
   }
@@ -82,12 +83,12 @@ VectorXd input_of(const Problem& problem, const Phase& phase, const VectorXd& x,
   const Layout& at = problem.layout;
   const Units& units = problem.units;
   VectorXd u = VectorXd::Zero(at.nu());
-  for (int l = 0; l < at.ends(); ++l) {
+  for (int l = 0; l < at.end_effector_count(); ++l) {
     u.segment<3>(at.stride(l)) = x_next.segment<3>(at.end(l)) - x.segment<3>(at.end(l));
     const double mu = phase.contacts[problem.active[l]].stiffness / units.stiffness();
     u[at.stiffness(l)] = problem.options.stiffness_input == StiffnessInput::lambda ? std::sqrt(std::max(mu, 0.0)) : mu;
   }
-  for (int l = 0; l < at.ends(); ++l) {
+  for (int l = 0; l < at.end_effector_count(); ++l) {
     const Contact& contact = phase.contacts[problem.active[l]];
     if (contact.surface == kFree || !phase.has_wrenches()) continue;
     const Vector3d acting = contact.center_of_pressure_W / units.length;
@@ -115,15 +116,15 @@ Plan to_plan(const Problem& problem, const Incumbent& incumbent, bool swing_heig
   plan.scene = problem.scene;
   plan.robot = problem.robot;
   plan.planner = "ddp";
-  const int ends = static_cast<int>(problem.robot.end_effectors.size());
+  const int end_effectors = static_cast<int>(problem.robot.end_effectors.size());
   for (int k = 0; k <= problem.steps; ++k) plan.knots.push_back(make_knot(problem, incumbent.trajectory.x[k]));
   for (int k = 0; k < problem.steps; ++k) {
     const VectorXd& u = incumbent.trajectory.u[k];
     Phase phase;
     phase.duration = std::max(u[at.duration()] * units.time, kPhaseMin_s * problem.similarity.time);
-    phase.contacts.resize(ends);
+    phase.contacts.resize(end_effectors);
     if (wrench) phase.law = laws::Wrench();
-    for (int l = 0; l < at.ends(); ++l) {
+    for (int l = 0; l < at.end_effector_count(); ++l) {
       Contact& contact = phase.contacts[problem.active[l]];
       contact.surface = incumbent.sequence[k][l];
       contact.anchor_W = at.line_point(incumbent.trajectory.x[k], u, l) * units.length;
@@ -136,8 +137,9 @@ Plan to_plan(const Problem& problem, const Incumbent& incumbent, bool swing_heig
     }
     plan.phases.push_back(phase);
   }
-  plan.final_contacts.assign(ends, kFree);
-  for (int l = 0; l < at.ends(); ++l) plan.final_contacts[problem.active[l]] = incumbent.sequence[problem.steps][l];
+  plan.final_contacts.assign(end_effectors, kFree);
+  for (int l = 0; l < at.end_effector_count(); ++l)
+    plan.final_contacts[problem.active[l]] = incumbent.sequence[problem.steps][l];
   if (wrench) set_sole_yaw(problem, incumbent.trajectory, plan);
   set_swing_velocities(problem, plan);
   choose_swings(plan, swing_heights);
@@ -165,7 +167,7 @@ Incumbent from_plan(const Problem& problem, const Plan& plan, int first) {
       x[at.momentum(a)] = momentum[at.axes()[a]] / units.angular_momentum();
     }
     ContactState state;
-    for (int l = 0; l < at.ends(); ++l) {
+    for (int l = 0; l < at.end_effector_count(); ++l) {
       const int e = problem.active[l];
       x.segment<3>(at.end(l)) = knot.end_effectors_W[e] / units.length;
       const bool last = k == problem.steps;

@@ -37,7 +37,7 @@ bool StepPricing::prepare(LocalModel& model, const ValueFunctions& values, int k
       spans_.push_back({kWholeState, kFree, total, whole->count()});
       total += whole->count();
     }
-    for (int l = 0; l < at.ends(); ++l) {
+    for (int l = 0; l < at.end_effector_count(); ++l) {
       const bool known =
           std::any_of(spans_.begin(), spans_.end(), [&](const Span& s) { return s.end == l && s.contact == state[l]; });
       if (known) continue;
@@ -130,7 +130,7 @@ const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctio
     for (const ContactState& state : candidates[k]) {
       neighbours_.push_back({k, state, std::numeric_limits<double>::infinity()});
       // Blocks are made on demand; make them all before threads read them.
-      for (int l = 0; l < model.problem().layout.ends(); ++l) model.block(k, l, state[l]);
+      for (int l = 0; l < model.problem().layout.end_effector_count(); ++l) model.block(k, l, state[l]);
       model.state_block(k, state);
     }
   }

@@ -63,7 +63,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
   const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
   base_rpy = Vector3d(0.0, 0.0, from.yaw);
-  start_yaw.assign(layout.ends(), from.yaw);
+  start_yaw.assign(layout.end_effector_count(), from.yaw);
   goal_yaw = to.yaw;
   make_foothold_margins();
   steps = options.phases > 0 ? options.phases : automatic_steps(from, to);
@@ -175,7 +175,7 @@ VectorXd Problem::state_of(const ResolvedStance& stance) const {
   x.segment<3>(layout.com()) = stance.com_W / units.length;
   for (int a = 0; a < layout.axis_count(); ++a)
     if (layout.axes()[a] == 2) x[layout.angle(a)] = stance.yaw;
-  for (int l = 0; l < layout.ends(); ++l)
+  for (int l = 0; l < layout.end_effector_count(); ++l)
     x.segment<3>(layout.end(l)) = stance.end_effectors_W[active[l]] / units.length;
   return x;
 }
@@ -219,20 +219,20 @@ ContactSequence Problem::to_active(const ContactSequence& sequence) const {
 }
 
 void Problem::look_near(int count) {
-  std::size_t most = 0;
-  for (int l = 0; l < layout.ends(); ++l) most = std::max(most, rules.surfaces(l).size());
+  std::size_t max_surfaces = 0;
+  for (int l = 0; l < layout.end_effector_count(); ++l) max_surfaces = std::max(max_surfaces, rules.surfaces(l).size());
   rules.look_near({});
-  if (count <= 0 || most <= static_cast<std::size_t>(count)) return;
+  if (count <= 0 || max_surfaces <= static_cast<std::size_t>(count)) return;
   const SurfaceBoxes boxes(polygons);
   std::vector<std::vector<std::vector<int>>> near(steps + 1);
   std::vector<std::pair<double, int>> distances;  // a heap of the nearest
   for (int k = 0; k <= steps; ++k)
-    for (int l = 0; l < layout.ends(); ++l) {
+    for (int l = 0; l < layout.end_effector_count(); ++l) {
       const Vector3d due = reference.x[k].segment<3>(layout.end(l));
       distances.clear();
       for (int surface : rules.surfaces(l)) {
         const bool full = distances.size() == static_cast<std::size_t>(count);
-        if (full && boxes.least_squared_distance(surface, due) > distances.front().first) continue;
+        if (full && boxes.min_squared_distance(surface, due) > distances.front().first) continue;
         const std::pair<double, int> here((polygons[surface].nearest(due) - due).squaredNorm(), surface);
         if (full && !(here < distances.front())) continue;
         if (full) std::pop_heap(distances.begin(), distances.end());
@@ -260,10 +260,10 @@ void Problem::set_start(const Knot& measured, const ContactState& contacts) {
     start[layout.angle(a)] = measured.base_rpy[layout.axes()[a]];
     start[layout.momentum(a)] = momentum[layout.axes()[a]] / units.angular_momentum();
   }
-  for (int l = 0; l < layout.ends(); ++l)
+  for (int l = 0; l < layout.end_effector_count(); ++l)
     start_yaw[l] = static_cast<int>(measured.end_effector_yaw.size()) > active[l] ? measured.end_effector_yaw[active[l]]
                                                                                   : measured.base_rpy.z();
-  for (int l = 0; l < layout.ends(); ++l)
+  for (int l = 0; l < layout.end_effector_count(); ++l)
     start.segment<3>(layout.end(l)) = measured.end_effectors_W[active[l]] / units.length;
   start_contacts = contacts;
   const VectorXd measured_start = start;

@@ -38,7 +38,7 @@ struct Trajectory {
 struct Tuning {
   double limit_weight = Weights().limit;  ///< on limits at the knots and, at the full weights, between them
   double duration_initial = 0.0;          ///< first guess of all phases
-  double toe_room = 0.0;                  ///< further margin of soles, where one has caught an edge
+  double extra_margin = 0.0;              ///< further margin of soles, where one has caught an edge
 };
 
 /// Limits and nominal position of an end-effector, non-dimensional.
@@ -93,9 +93,9 @@ class Problem {
 
   /// How far inside edge i of a surface an end-effector's footholds are planned: edge_margin, and the share
   /// Options::sole_inside of how far its sole, headed anywhere from start to goal, extends towards that edge; for
-  /// soles `toe_room` as well. Never past the middle of a surface that is too narrow, and with `toe_room` no further
-  /// than where the end-effector has to stand at the start or the goal.
-  double foothold_margin(int l, int surface, int edge, double toe_room = 0.0) const;
+  /// soles `extra_margin` as well. Never past the middle of a surface that is too narrow, and with `extra_margin` no
+  /// further than where the end-effector has to stand at the start or the goal.
+  double foothold_margin(int l, int surface, int edge, double extra_margin = 0.0) const;
 
   /// Roll, pitch, yaw of a state.
   Eigen::Vector3d rpy(const Eigen::VectorXd& x) const;

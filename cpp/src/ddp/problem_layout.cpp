@@ -38,7 +38,7 @@ Matrix3Xd force_line_directions(const Vector3d& nominal, const std::vector<Polyg
 
 Layout wrench_layout(const std::vector<EndLimits>& limits, const std::vector<Polygon>& polygons,
                      const std::vector<std::vector<int>>& surfaces) {
-  std::vector<Layout::Offsets> ends;
+  std::vector<Layout::Offsets> end_effectors;
   std::vector<Layout::Moment> moments;
   for (std::size_t l = 0; l < limits.size(); ++l) {
     const std::optional<Vector3d> normal = common_normal(polygons, surfaces[l]);
@@ -50,15 +50,15 @@ Layout wrench_layout(const std::vector<EndLimits>& limits, const std::vector<Pol
         offsets.pressure = Eigen::Matrix3d::Identity();
     }
     offsets.force_line = force_line_directions(limits[l].nominal, polygons, surfaces[l]);
-    ends.push_back(offsets);
-    const double most = limits[l].moment_max.z();
-    if (most <= 0.0) continue;
+    end_effectors.push_back(offsets);
+    const double max_moment = limits[l].moment_max.z();
+    if (max_moment <= 0.0) continue;
     if (normal)
-      moments.push_back({static_cast<int>(l), *normal, most});
+      moments.push_back({static_cast<int>(l), *normal, max_moment});
     else
-      for (int i = 0; i < 3; ++i) moments.push_back({static_cast<int>(l), Vector3d::Unit(i), most});
+      for (int i = 0; i < 3; ++i) moments.push_back({static_cast<int>(l), Vector3d::Unit(i), max_moment});
   }
-  return Layout(ends, {0, 1, 2}, moments);
+  return Layout(end_effectors, {0, 1, 2}, moments);
 }
 
 Layout lipm_layout(const std::vector<EndLimits>& limits, bool all_axes) {

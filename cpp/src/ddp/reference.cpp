@@ -52,7 +52,7 @@ void Problem::make_reference(const VectorXd& goal) {
     for (int a = 0; a < layout.axis_count(); ++a)
       x[layout.momentum(a)] = inertia[layout.axes()[a]] * rate * way[layout.angle(a)];
     if (yaw_from != yaw_to)
-      for (int l = 0; l < layout.ends(); ++l) {
+      for (int l = 0; l < layout.end_effector_count(); ++l) {
         const auto offset = [&](const VectorXd& at, double yaw) -> Vector3d {
           return level(yaw).transpose() * (at.segment<3>(layout.end(l)) - at.segment<3>(layout.com()));
         };
@@ -65,8 +65,8 @@ void Problem::make_reference(const VectorXd& goal) {
 }
 
 void Problem::set_sole_yaw(const ContactSequence& sequence, Trajectory& t) const {
-  t.sole_yaw.assign(steps + 1, std::vector<double>(layout.ends()));
-  for (int l = 0; l < layout.ends(); ++l)
+  t.sole_yaw.assign(steps + 1, std::vector<double>(layout.end_effector_count()));
+  for (int l = 0; l < layout.end_effector_count(); ++l)
     for (int k = 0; k <= steps; ++k) {
       t.sole_yaw[k][l] = rpy(t.x[k]).z();
       if (sequence[k][l] == kFree) continue;
@@ -84,7 +84,7 @@ void Problem::set_sole_yaw(const ContactSequence& sequence, Trajectory& t) const
 
 /// Footholds where the reference is in the middle of each contact, straight lines between them.
 void Problem::place_footholds(const ContactSequence& sequence, Trajectory& guess) const {
-  for (int l = 0; l < layout.ends(); ++l) {
+  for (int l = 0; l < layout.end_effector_count(); ++l) {
     int known = 0;  // the last knot whose position stands
     for (int k = 0; k <= steps; ++k) {
       if (sequence[k][l] == kFree) continue;
@@ -111,9 +111,9 @@ Trajectory Problem::initial_guess(const ContactSequence& sequence, const Tuning&
     int standing = 0;
     if (!sequence.empty())
       for (int contact : sequence[k]) standing += contact != kFree;
-    for (int l = 0; l < layout.ends(); ++l) {
+    for (int l = 0; l < layout.end_effector_count(); ++l) {
       u.segment<3>(layout.stride(l)) = guess.x[k + 1].segment<3>(layout.end(l)) - guess.x[k].segment<3>(layout.end(l));
-      double mu = 1.0 / layout.ends();
+      double mu = 1.0 / layout.end_effector_count();
       if (!sequence.empty()) mu = sequence[k][l] == kFree ? 0.0 : 1.0 / standing;
       u[layout.stiffness(l)] = options.stiffness_input == StiffnessInput::lambda ? std::sqrt(mu) : mu;
     }
@@ -121,7 +121,9 @@ Trajectory Problem::initial_guess(const ContactSequence& sequence, const Tuning&
     guess.u.push_back(u);
   }
   // Without a sequence every sole goes with the base.
-  set_sole_yaw(sequence.empty() ? ContactSequence(steps + 1, ContactState(layout.ends(), kFree)) : sequence, guess);
+  set_sole_yaw(
+      sequence.empty() ? ContactSequence(steps + 1, ContactState(layout.end_effector_count(), kFree)) : sequence,
+      guess);
   return guess;
 }
 

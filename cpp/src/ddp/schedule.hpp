@@ -17,7 +17,7 @@ struct Schedule {
   /// Not null: only the least change that closes the dynamics defects is sought, whatever it costs. Held (by a
   /// weight so large that their change is rounding) are the base and the end-effectors at the start and, at every step,
   /// the inputs that are marked here.
-  const std::vector<std::vector<char>>* held_inputs = nullptr;
+  const std::vector<std::vector<char>>* fixed_inputs = nullptr;
 };
 
 }  // namespace mcplan::ddp

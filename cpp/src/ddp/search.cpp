@@ -184,12 +184,12 @@ Ending Search::discover(Incumbent& now, double proximal_weight, const Tuning& tu
   return Ending::done;
 }
 
-Ending Search::polish(Incumbent& now, int iterations, double calm, double give_up_above, const Tuning& tuning) {
+Ending Search::polish(Incumbent& now, int iterations, double tolerance, double give_up_above, const Tuning& tuning) {
   Schedule schedule = full_schedule(tuning);
   schedule.proximal_weight = polish_proximal_;
   double last = std::numeric_limits<double>::infinity();
   double window_start = last;
-  int calm_iterations = 0;
+  int converged_iterations = 0;
   Ending ending = Ending::done;
   for (int i = 0; i < iterations; ++i) {
     if (should_stop(ending)) return ending;
@@ -197,8 +197,9 @@ Ending Search::polish(Incumbent& now, int iterations, double calm, double give_u
     if (ending != Ending::done) return ending;
     if (watcher_) watcher_(now, tuning);
     const double merit = now.evaluation.merit();
-    calm_iterations = std::abs(last - merit) < calm * std::abs(merit) ? calm_iterations + 1 : 0;
-    if (calm_iterations >= kCalmIterations && now.evaluation.defect_max < kCalmDefect) return Ending::done;
+    converged_iterations = std::abs(last - merit) < tolerance * std::abs(merit) ? converged_iterations + 1 : 0;
+    if (converged_iterations >= kConvergedIterations && now.evaluation.defect_max < kConvergedDefect)
+      return Ending::done;
     if (i % kWindow == kWindow - 1) {
       if (i > kWindow && merit - kWindowsAhead * (window_start - merit) > give_up_above) return Ending::done;
       window_start = merit;
@@ -254,7 +255,7 @@ Ending Search::refine(Incumbent& now, const Tuning& tuning) {
       Incumbent trial = now;
       trial.sequence = changes[i];
       const double merit = now.evaluation.merit();
-      ending = polish(trial, kTrialIterations, kRoughCalm, merit, tuning);
+      ending = polish(trial, kTrialIterations, kRoughTolerance, merit, tuning);
       improved = trial.evaluation.merit() < merit * (1.0 - kTrialGain);
       if (improved) {
         const int switches = differences(trial.sequence, now.sequence);

@@ -54,7 +54,7 @@ class Search {
 
   /// Gauss-Newton at the full weights until the merit is calm. Gives up once the merit, extrapolated, stays above
   /// `give_up_above`.
-  Ending polish(Incumbent& now, int iterations, double calm, double give_up_above, const Tuning& tuning);
+  Ending polish(Incumbent& now, int iterations, double tolerance, double give_up_above, const Tuning& tuning);
 
   /// Best-neighbour search on the true cost: neighbours and swing edits, cheapest by the local model first, each
   /// polished for a few iterations and kept if the merit falls.

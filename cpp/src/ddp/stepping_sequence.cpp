@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 ContactSequence stepping_sequence(const Problem& problem, int first_mover) {
   const int n = problem.steps;
   std::vector<int> movers;
-  for (int l = 0; l < problem.layout.ends(); ++l)
+  for (int l = 0; l < problem.layout.end_effector_count(); ++l)
     if (problem.start_contacts[l] != kFree && problem.goal_contacts[l] != kFree) movers.push_back(l);
   if (movers.empty()) return {};
 
@@ -32,11 +32,11 @@ ContactSequence stepping_sequence(const Problem& problem, int first_mover) {
     } else {
       // In the middle of its stance the end-effector should be where the reference is.
       const int middle = std::min((k + 1 + next_swing) / 2, n);
-      const Vector3d wanted = problem.reference.x[middle].segment<3>(problem.layout.end(l));
+      const Vector3d desired = problem.reference.x[middle].segment<3>(problem.layout.end(l));
       double nearest = std::numeric_limits<double>::infinity();
       for (int surface : problem.rules.surfaces(l)) {
-        if (boxes.least_squared_distance(surface, wanted) > nearest * nearest) continue;
-        const double distance = (problem.polygons[surface].nearest(wanted) - wanted).norm();
+        if (boxes.min_squared_distance(surface, desired) > nearest * nearest) continue;
+        const double distance = (problem.polygons[surface].nearest(desired) - desired).norm();
         if (distance >= nearest) continue;
         nearest = distance;
         now[l] = surface;

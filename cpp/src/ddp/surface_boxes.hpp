@@ -16,7 +16,7 @@ class SurfaceBoxes {
   }
 
   /// No more than the squared distance of the polygon, however little flat it is within what a scene admits.
-  double least_squared_distance(int polygon, const Eigen::Vector3d& point) const {
+  double min_squared_distance(int polygon, const Eigen::Vector3d& point) const {
     constexpr double kFlat = 1e-3;
     return (1.0 - kFlat) * boxes_[polygon].squaredExteriorDistance(point) - kFlat;
   }

@@ -194,10 +194,11 @@ namespace {
 
 /// What replan() relies on beyond a plan that is valid in itself.
 void require_fit(const Plan& previous, const Knot& measured, const Robot& robot) {
-  const std::size_t ends = robot.end_effectors.size();
-  const auto require_count = [ends](const std::string& field, std::size_t count) {
-    if (count != ends)
-      throw InvalidPlan(field, "must be one per end-effector (" + std::to_string(ends) + ")", std::to_string(count));
+  const std::size_t end_effectors = robot.end_effectors.size();
+  const auto require_count = [end_effectors](const std::string& field, std::size_t count) {
+    if (count != end_effectors)
+      throw InvalidPlan(field, "must be one per end-effector (" + std::to_string(end_effectors) + ")",
+                        std::to_string(count));
   };
   require_count("previous.robot.end_effectors", previous.robot.end_effectors.size());
   require_count("measured.end_effectors_W", measured.end_effectors_W.size());

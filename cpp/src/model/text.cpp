@@ -217,12 +217,12 @@ std::string nearest(std::string_view name, const std::vector<std::string>& legal
   constexpr double cutoff = 0.6;
   if (length(name) > max_shown) return "";  // comparing takes the square of the length
   std::string best;
-  double most = cutoff;
+  double max_ratio = cutoff;
   for (const std::string& entry : legal) {
     if (length(entry) > max_shown || name.size() + entry.size() == 0) continue;
     const double ratio = 2.0 * in_common(entry, name) / static_cast<double>(name.size() + entry.size());
-    if (ratio > most || (ratio == most && entry > best)) {
-      most = ratio;
+    if (ratio > max_ratio || (ratio == max_ratio && entry > best)) {
+      max_ratio = ratio;
       best = entry;
     }
   }

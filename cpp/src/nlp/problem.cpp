@@ -115,13 +115,13 @@ void Problem::add_cost(std::unique_ptr<Piece> piece) {
 }
 
 void Problem::finish_for_values() {
-  int most_variables = 0, most_rows = 0;
+  int max_variables = 0, max_rows = 0;
   for (const Block& block : blocks_) {
-    most_variables = std::max(most_variables, block.piece->size());
-    most_rows = std::max(most_rows, block.piece->rows());
+    max_variables = std::max(max_variables, block.piece->size());
+    max_rows = std::max(max_rows, block.piece->rows());
   }
-  x_.resize(most_variables);
-  f_.resize(most_rows);
+  x_.resize(max_variables);
+  f_.resize(max_rows);
 }
 
 bool Problem::finish(const StopRequest& stop) {

@@ -83,11 +83,11 @@ void Travel::check_continuity(const Problem& problem, const Sample& sample, int 
 /// where it is smooth. Where that is much, the halves say whether the path bends or jumps, down to a quarter of a
 /// millisecond.
 double Travel::jump(const Problem& problem, const Sample& sample, int l, const Seen& a, const Seen& b) {
-  constexpr int kMostInstants = 100000;
+  constexpr int kMaxInstants = 100000;
   const double duration = b.since_start_s - a.since_start_s;
   const double found = (b.position_W - a.position_W - 0.5 * duration * (a.velocity_W + b.velocity_W)).norm();
   const double tolerance = problem.tolerances.slip;
-  if (found <= tolerance || duration <= 2.5e-4 * problem.similarity.time || ++looked_closer_ > kMostInstants)
+  if (found <= tolerance || duration <= 2.5e-4 * problem.similarity.time || ++looked_closer_ > kMaxInstants)
     return found;
   const double middle = a.since_start_s + 0.5 * duration;
   const Seen between = seen(state_in_phase(problem.plan, sample.view->frame, middle), middle, l);

@@ -54,11 +54,11 @@ void check_friction(const Problem& problem, const Sample& sample, Findings& find
     const int index = problem.surface(sample.phase, l);
     if (index < 0 || problem.scene.surfaces[index].grasp) continue;
     const Vector3d& n = problem.solids[index].polygon.normal_W();
-    const double friction = problem.scene.surfaces[index].friction, least = problem.tolerances.force;
+    const double friction = problem.scene.surfaces[index].friction, min_force = problem.tolerances.force;
     for (const Vector3d& force : sample.cone_forces_W[l]) {
       const double normal = n.dot(force), tangential = (force - normal * n).norm();
-      if (normal < -least) continue;
-      if (normal < least && tangential <= least) continue;
+      if (normal < -min_force) continue;
+      if (normal < min_force && tangential <= min_force) continue;
       findings.offer(Constraint::friction, (tangential - friction * normal) / std::max(normal, unit),
                      {sample.phase, l, sample.time_s});
     }

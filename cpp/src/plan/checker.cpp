@@ -17,9 +17,9 @@ using namespace checks;
 /// Instants between two questions to the caller: a millisecond or so.
 constexpr int kSamplesPerPoll = 256;
 
-void require_size(const std::string& field, std::size_t size, std::size_t wanted) {
-  if (size != wanted)
-    throw InvalidPlan(field, "must have " + std::to_string(wanted) + " entries", std::to_string(size));
+void require_size(const std::string& field, std::size_t size, std::size_t expected) {
+  if (size != expected)
+    throw InvalidPlan(field, "must have " + std::to_string(expected) + " entries", std::to_string(size));
 }
 
 void require_surface(const std::string& field, int surface, const Scene& scene) {
@@ -30,10 +30,10 @@ void require_surface(const std::string& field, int surface, const Scene& scene) 
 
 void require_points(const Phase& phase, const std::string& field) {
   const bool has_points = phase.has_points();
-  constexpr int kMost = 100000;
-  if (has_points ? phase.intervals < 1 || phase.intervals > kMost : phase.intervals != 0)
+  constexpr int kMax = 100000;
+  if (has_points ? phase.intervals < 1 || phase.intervals > kMax : phase.intervals != 0)
     throw InvalidPlan(field + ".intervals",
-                      has_points ? "must lie in [1, " + text(kMost) + "]" : "must be 0 where no forces act at points",
+                      has_points ? "must lie in [1, " + text(kMax) + "]" : "must be 0 where no forces act at points",
                       text(phase.intervals));
   for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
     const std::string contact = field + ".contacts[" + std::to_string(l) + "]";
@@ -45,36 +45,36 @@ void require_points(const Phase& phase, const std::string& field) {
 
 /// Sizes and indices alone: numbers that make no sense are violations with a name, not exceptions.
 void require_shape(const Plan& plan, const Scene& scene, const Robot& robot) {
-  const std::size_t n = plan.phases.size(), ends = robot.end_effectors.size();
+  const std::size_t n = plan.phases.size(), end_effectors = robot.end_effectors.size();
   if (n == 0) throw InvalidPlan("phases", "needs at least one phase", "none");
   require_size("knots", plan.knots.size(), n + 1);
-  require_size("robot.end_effectors", plan.robot.end_effectors.size(), ends);
-  require_size("final_contacts", plan.final_contacts.size(), ends);
+  require_size("robot.end_effectors", plan.robot.end_effectors.size(), end_effectors);
+  require_size("final_contacts", plan.final_contacts.size(), end_effectors);
   for (std::size_t k = 0; k <= n; ++k) {
     const std::string field = "knots[" + std::to_string(k) + "]";
-    require_size(field + ".end_effectors", plan.knots[k].end_effectors_W.size(), ends);
-    require_size(field + ".end_effector_velocities", plan.knots[k].end_effector_velocities_W.size(), ends);
+    require_size(field + ".end_effectors", plan.knots[k].end_effectors_W.size(), end_effectors);
+    require_size(field + ".end_effector_velocities", plan.knots[k].end_effector_velocities_W.size(), end_effectors);
     require_size(field + ".end_effector_yaw", plan.knots[k].end_effector_yaw.size(),
-                 plan.knots[0].end_effector_yaw.empty() ? 0 : ends);
+                 plan.knots[0].end_effector_yaw.empty() ? 0 : end_effectors);
   }
   for (std::size_t k = 0; k < n; ++k) {
     const std::string field = "phases[" + std::to_string(k) + "].contacts";
-    require_size(field, plan.phases[k].contacts.size(), ends);
+    require_size(field, plan.phases[k].contacts.size(), end_effectors);
     for (const Contact& contact : plan.phases[k].contacts) require_surface(field, contact.surface, scene);
     require_points(plan.phases[k], "phases[" + std::to_string(k) + "]");
   }
   for (int surface : plan.final_contacts) require_surface("final_contacts", surface, scene);
   for (const Swing& swing : plan.swings)
-    if (swing.end_effector < 0 || swing.end_effector >= static_cast<int>(ends) || swing.first_phase < 0 ||
+    if (swing.end_effector < 0 || swing.end_effector >= static_cast<int>(end_effectors) || swing.first_phase < 0 ||
         swing.end_phase <= swing.first_phase || swing.end_phase > static_cast<int>(n))
       throw InvalidPlan("swings", "must name an end-effector and a range of phases", text(swing.end_effector));
 }
 
 void require_samples(const Plan& plan, const Tolerances& tolerances) {
   model::require_ranges<InvalidOptions>(tolerances, "tolerances");
-  constexpr double kMost = 2e6;
+  constexpr double kMax = 2e6;
   const double samples = plan.duration() / tolerances.sample_s;
-  if (samples > kMost)
+  if (samples > kMax)
     throw InvalidOptions("tolerances.sample_s", "must cut the plan into at most 2e6 samples",
                          text(samples) + " samples");
 }

@@ -29,8 +29,8 @@ std::map<std::string, double> friction_use(const Plan& plan, double sample_s) {
         if (end.surface < 0 || end.force_W.norm() < least_force) continue;
         const double normal = normals[end.surface].dot(end.force_W);
         const double tangential = (end.force_W - normal * normals[end.surface]).norm();
-        double& most = use[plan.robot.end_effectors[l].name];
-        most = std::max(most, normal > 0.0 ? tangential / normal : std::numeric_limits<double>::infinity());
+        double& max_use = use[plan.robot.end_effectors[l].name];
+        max_use = std::max(max_use, normal > 0.0 ? tangential / normal : std::numeric_limits<double>::infinity());
       }
     }
   }

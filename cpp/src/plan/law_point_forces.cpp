@@ -5,8 +5,8 @@
 
 #include "hermite.hpp"
 #include "mcplan/base/error.hpp"
-#include "plan/point_forces.hpp"
 #include "phase_instant.hpp"
+#include "plan/point_forces.hpp"
 
 namespace mcplan::laws {
 namespace {

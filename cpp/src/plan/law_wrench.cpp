@@ -1,7 +1,7 @@
 #include <Eigen/Geometry>
 
+#include "base/base_rotation.hpp"
 #include "base/entire_functions.hpp"
-#include "base/turning.hpp"
 #include "phase_instant.hpp"
 
 namespace mcplan::laws {
@@ -37,7 +37,7 @@ void Wrench::set_motion(const PhaseInstant& at, PlanState& state) {
   state.com_velocity_W = f(0) * from.com_velocity_W + tau * f(1) * acceleration;
   state.com_acceleration_W = stiffness * state.com_W - pull;
   state.angular_momentum_W = momentum_at(tau, f);
-  state.base_rpy = Turning(from.base_rpy, from.angular_momentum_W, plan.robot.inertia)
+  state.base_rpy = BaseRotation(from.base_rpy, from.angular_momentum_W, plan.robot.inertia)
                        .rpy(momentum_at(0.5 * tau, half), state.angular_momentum_W, tau);
   state.base_rpy_rate = rpy_rate(state.base_rpy, state.angular_momentum_W, plan.robot.inertia);
 

@@ -25,9 +25,9 @@ Prefix prefix_of(double amount, const std::string& unit) {
   constexpr std::array<const char*, 7> prefixable{"m", "m/s", "N", "N m", "s", "rad", "rad/s"};
   const bool plain = amount >= kPlainMin && amount < kPlainMax;
   if (plain || std::find(prefixable.begin(), prefixable.end(), unit) == prefixable.end()) return none;
-  const double least = amount < kPlainMin ? 0.1 : 1.0;
+  const double min_shown = amount < kPlainMin ? 0.1 : 1.0;
   for (const Prefix& p : prefixes)
-    if (amount >= least * p.factor && amount < 1e3 * least * p.factor) return p;
+    if (amount >= min_shown * p.factor && amount < 1e3 * min_shown * p.factor) return p;
   return none;
 }
 

@@ -11,7 +11,7 @@
 namespace mcplan {
 namespace {
 
-bool touches(const Plan& plan, int k, int end_effector) {
+bool in_contact(const Plan& plan, int k, int end_effector) {
   const int n = static_cast<int>(plan.phases.size());
   if (k < 0 || k > n) return false;
   return (k == n ? plan.final_contacts[end_effector] : plan.phases[k].contacts[end_effector].surface) >= 0;
@@ -60,7 +60,8 @@ void choose_swings(Plan& plan, bool heights) {
       swing.end_phase = stretch.end_phase;
       swing.lift_normal_W = stretch.lift_normal_W;
       swing.land_normal_W = stretch.land_normal_W;
-      const bool leaves = touches(plan, stretch.first_phase - 1, e), arrives = touches(plan, stretch.end_phase, e);
+      const bool leaves = in_contact(plan, stretch.first_phase - 1, e),
+                 arrives = in_contact(plan, stretch.end_phase, e);
       swing.height = leaves || arrives ? usual_height : 0.0;
       plan.swings.push_back(swing);
       if (swing.height == 0.0 || !heights) continue;

@@ -21,8 +21,8 @@ std::vector<Vector3d> nominal_footholds(const Walker& walker, const State& state
   for (int i = 0; i < steps; ++i) {
     const Footstep step = footsteps[first + i];
     const Vector3d &stance = feet[1 - step.foot], &own = feet[step.foot];
-    const Vector3d wanted = stance + kStride_m * forward + left * left.dot(own - stance);
-    feet[step.foot] = walker.nearest_foothold_W(step.foot, step.surface, wanted);
+    const Vector3d desired = stance + kStride_m * forward + left * left.dot(own - stance);
+    feet[step.foot] = walker.nearest_foothold_W(step.foot, step.surface, desired);
     out.push_back(feet[step.foot]);
   }
   return out;

@@ -212,7 +212,7 @@ class Builder {
       const double unit = force_limit(placement.foot, phase.single_force);
       const int com = out_.nodes[control.node].com;
       // The duration is fixed in these phases.
-      const double time = share(k) * problem().variable_lower()[phase.duration] / options_.intervals;
+      const double time = ratio(k) * problem().variable_lower()[phase.duration] / options_.intervals;
       if (!options_.lifted_psi) {
         problem().add_constraint(std::make_unique<TorqueBound>(com, placement, point, unit), -kInfinity, psi_max);
         problem().add_cost(std::make_unique<TorqueCost>(com, placement, point, unit, time));
@@ -227,7 +227,7 @@ class Builder {
   }
 
   /// Weight of control node k of a phase in an integral over the phase, over h: rectangles or trapezoids.
-  double share(int k) const { return euler_ || (k > 0 && k < options_.intervals) ? 1.0 : 0.5; }
+  double ratio(int k) const { return euler_ || (k > 0 && k < options_.intervals) ? 1.0 : 0.5; }
 
   void add_dynamics(const Horizon::Phase& phase) {
     const int n = options_.intervals;
@@ -270,7 +270,7 @@ class Builder {
     }
     if (phase.centroidal)
       for (int k = 0; k < phase.control_count; ++k)
-        square("momentum_cost", out_.nodes[phase.first_node + k].momentum, share(k));
+        square("momentum_cost", out_.nodes[phase.first_node + k].momentum, ratio(k));
   }
 
   Polytope needed_faces(int node, int placement) {

@@ -326,15 +326,15 @@ double Walk::momentum_per_m() const {
 }
 
 double Walk::drift_com_m() const {
-  double most = 0.0;
-  for (const Cycle& cycle : cycles) most = std::max(most, cycle.drift_com_m);
-  return most;
+  double max_drift = 0.0;
+  for (const Cycle& cycle : cycles) max_drift = std::max(max_drift, cycle.drift_com_m);
+  return max_drift;
 }
 
 double Walk::drift_momentum() const {
-  double most = 0.0;
-  for (const Cycle& cycle : cycles) most = std::max(most, cycle.drift_momentum);
-  return most;
+  double max_drift = 0.0;
+  for (const Cycle& cycle : cycles) max_drift = std::max(max_drift, cycle.drift_momentum);
+  return max_drift;
 }
 
 }  // namespace mcplan::rhp

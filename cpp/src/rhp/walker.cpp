@@ -50,10 +50,10 @@ Walker::Walker(const Scene& scene_in, const Robot& robot_in, const Options& opti
   com_height_m = com_height_range(robot, options);
   goal_com_W = resolve_stance(scene, robot, scene.goal, "goal").com_W;
 
-  const std::array<int, 2> ends = two_feet(robot);
+  const std::array<int, 2> end_effectors = two_feet(robot);
   for (int i = 0; i < 2; ++i) {
-    const EndEffector& foot = robot.end_effectors[ends[i]];
-    const EndEffector& other = robot.end_effectors[ends[1 - i]];
+    const EndEffector& foot = robot.end_effectors[end_effectors[i]];
+    const EndEffector& other = robot.end_effectors[end_effectors[1 - i]];
     Polytope com_reach = com_reach_of(foot), partner_reach = partner_reach_of(foot, other);
     if (!options.all_faces) {
       const Vector3d far(kFarthest_m, kFarthest_m, 0.0);
@@ -64,7 +64,7 @@ Walker::Walker(const Scene& scene_in, const Robot& robot_in, const Options& opti
       partner_reach =
           without_implied_rows(partner_reach, -far - rise * Vector3d::UnitZ(), far + rise * Vector3d::UnitZ());
     }
-    feet[i].end_effector = ends[i];
+    feet[i].end_effector = end_effectors[i];
     feet[i].half_size = foot.half_size;
     // A force without a cap still needs a scale: four times the weight is beyond any walk.
     feet[i].max_force = std::min(foot.max_force, 4.0 * robot.mass * scene.gravity);
@@ -111,19 +111,19 @@ Vector3d moved_inside(const Polygon& polygon, const Eigen::Matrix3d& frame, cons
 Vector2d Walker::taken_size(int foot, int surface) const {
   const Polygon& polygon = surfaces[surface];
   const Eigen::Matrix3d frame = frame_W(surface);
-  for (double share : {1.0, 0.5, 0.25}) {
+  for (double ratio : {1.0, 0.5, 0.25}) {
     if (options.paper) break;
-    const Vector2d half = feet[foot].half_size.array() + share * options.foothold_margin_m;
+    const Vector2d half = feet[foot].half_size.array() + ratio * options.foothold_margin_m;
     if (sticks_out(polygon, frame, half, moved_inside(polygon, frame, half, polygon.centroid_W())).first <= 1e-9)
       return half;
   }
   return feet[foot].half_size;
 }
 
-Vector3d Walker::nearest_foothold_W(int foot, int surface, const Vector3d& wanted_W) const {
+Vector3d Walker::nearest_foothold_W(int foot, int surface, const Vector3d& desired_W) const {
   const Polygon& polygon = surfaces[surface];
   return moved_inside(polygon, frame_W(surface), taken_size(foot, surface),
-                      wanted_W - polygon.normal_W() * polygon.height(wanted_W));
+                      desired_W - polygon.normal_W() * polygon.height(desired_W));
 }
 
 int Walker::foot_of(int end_effector) const {

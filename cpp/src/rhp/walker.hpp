@@ -63,9 +63,9 @@ struct Walker {
   /// Frame of a foot on a surface: columns t1 (the heading projected on it), t2, n.
   Eigen::Matrix3d frame_W(int surface) const;
 
-  /// The point of the surface nearest to `wanted_W` at which the whole sole of the foot fits, by repeated projection;
+  /// The point of the surface nearest to `desired_W` at which the whole sole of the foot fits, by repeated projection;
   /// on a surface too small for the sole, where it sticks out least.
-  Eigen::Vector3d nearest_foothold_W(int foot, int surface, const Eigen::Vector3d& wanted_W) const;
+  Eigen::Vector3d nearest_foothold_W(int foot, int surface, const Eigen::Vector3d& desired_W) const;
 
   /// Half size of the sole with foothold_margin_m around it, or with a half, a quarter or nothing of that where a
   /// surface is too small.

@@ -116,11 +116,12 @@ bool may_touch(const Surface& surface, const EndEffector& end_effector) {
 }
 
 ResolvedStance resolve_stance(const Scene& scene, const Robot& robot, const Stance& stance, const std::string& field) {
-  const auto& ends = robot.end_effectors;
+  const auto& end_effectors = robot.end_effectors;
   for (const auto& [who, surface] : stance.contacts)
-    if (std::none_of(ends.begin(), ends.end(), [&w = who](const EndEffector& e) { return addresses(w, e); })) {
+    if (std::none_of(end_effectors.begin(), end_effectors.end(),
+                     [&w = who](const EndEffector& e) { return addresses(w, e); })) {
       std::string names;
-      for (const auto& e : ends) names += (names.empty() ? "" : ", ") + e.name;
+      for (const auto& e : end_effectors) names += (names.empty() ? "" : ", ") + e.name;
       throw InvalidScene(field + ".contacts",
                          "must name end-effectors of " + robot.name + " (" + names + ") or their kind", text(who));
     }
@@ -129,7 +130,7 @@ ResolvedStance resolve_stance(const Scene& scene, const Robot& robot, const Stan
   out.com_W = stance.position_W + robot.com_height * Vector3d::UnitZ();
   out.yaw = stance.yaw;
   const Eigen::Matrix3d r_WB = rotation_from_rpy({0.0, 0.0, stance.yaw});
-  for (const EndEffector& e : ends) {
+  for (const EndEffector& e : end_effectors) {
     auto contact = stance.contacts.find(e.name);
     if (contact == stance.contacts.end()) contact = stance.contacts.find(e.kind);
     Vector3d position = out.com_W + r_WB * e.nominal_B;

@@ -11,8 +11,8 @@ namespace {
 /// Numbers that no valid robot has give 0: plans are asked questions before anybody has validated them.
 int exponent_of(double ratio, int step) {
   if (!(std::isfinite(ratio) && ratio > 0.0)) return 0;
-  constexpr int kMost = 240;  // products of three factors stay finite
-  const int log2 = std::clamp(std::ilogb(2.0 * ratio), -kMost, kMost);
+  constexpr int kMax = 240;  // products of three factors stay finite
+  const int log2 = std::clamp(std::ilogb(2.0 * ratio), -kMax, kMax);
   const int steps = static_cast<int>(std::floor(static_cast<double>(log2) / step));
   return steps * step;
 }

@@ -116,7 +116,7 @@ TEST_CASE("neighbours differ at one step and leave a valid sequence, and none is
       const Problem problem(scene, scenes::humanoid44(), options);
       const ContactSequence sequence = support::random_sequence(problem, random);
       std::vector<std::vector<int>> surfaces;
-      for (int l = 0; l < problem.layout.ends(); ++l) surfaces.push_back(problem.rules.surfaces(l));
+      for (int l = 0; l < problem.layout.end_effector_count(); ++l) surfaces.push_back(problem.rules.surfaces(l));
       for (int k = 1; k < problem.steps; ++k) {
         const States expected = filtered(surfaces, [&](const ContactState& state) {
           ContactSequence changed = sequence;

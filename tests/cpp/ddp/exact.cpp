@@ -22,7 +22,7 @@ void check_exact(const Problem& problem, const Incumbent& now) {
     const VectorXd &x = now.trajectory.x[k], &u = now.trajectory.u[k];
     pendulum.next(x, u, next);
     defect = std::max(defect, (next - now.trajectory.x[k + 1]).cwiseAbs().maxCoeff());
-    for (int l = 0; l < at.ends(); ++l) {
+    for (int l = 0; l < at.end_effector_count(); ++l) {
       const int surface = now.sequence[k][l];
       const Vector3d pressure = at.pressure_offset(u, l);
       if (surface == kFree) {
@@ -47,7 +47,7 @@ void check_exact(const Problem& problem, const Incumbent& now) {
       const Vector3d& about = at.moments()[i].direction_W;
       const int surface = now.sequence[k][l];
       if (surface != kFree && (problem.model == Model::lipm || about.dot(problem.polygons[surface].normal_W()) > 0.999))
-        most = std::min(at.moments()[i].most,
+        most = std::min(at.moments()[i].max,
                         torsion_arm(problem, l, surface) * pendulum.mu(u, l) *
                             problem.polygons[surface].normal_W().dot(x.segment<3>(at.com()) - at.line_point(x, u, l)));
       CHECK(std::abs(u[at.moment(i)]) <= most);

@@ -36,7 +36,7 @@ Integrated integrate(const Case& c, int steps) {
     VectorXd out = VectorXd::Zero(y.size());
     const Vector3d p = y.segment<3>(at.com()), momentum = momentum_of(y);
     Vector3d acceleration(0, 0, -1), torque = Vector3d::Zero();
-    for (int l = 0; l < at.ends(); ++l) {
+    for (int l = 0; l < at.end_effector_count(); ++l) {
       const Vector3d acts =
           c.x.segment<3>(at.end(l)) + at.offsets(l).pressure * c.u.segment(at.pressure(l), at.pressure_count(l));
       const Vector3d line = acts + at.offsets(l).force_line * c.u.segment(at.force_line(l), at.force_line_count(l));
@@ -70,7 +70,7 @@ Integrated integrate(const Case& c, int steps) {
     y += dt / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
   }
   Integrated out{y.head(nx), Eigen::Map<const Matrix3d>(y.data() + nx)};
-  for (int l = 0; l < at.ends(); ++l) out.x.segment<3>(at.end(l)) += c.u.segment<3>(at.stride(l));
+  for (int l = 0; l < at.end_effector_count(); ++l) out.x.segment<3>(at.end(l)) += c.u.segment<3>(at.stride(l));
   return out;
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("every entry of the Jacobian agrees with differences, from stiff conta
         REQUIRE(jacobian.cols() == at.nz());
         CHECK((jacobian - expected).cwiseAbs().maxCoeff() <= 1e-8);
         // A mu input sees what contact would give even without any; lambda does not.
-        const double seen = jacobian.middleCols(at.nx() + at.stiffness(), at.ends()).norm();
+        const double seen = jacobian.middleCols(at.nx() + at.stiffness(), at.end_effector_count()).norm();
         if (scale == 0.0) CHECK((seen > 0.1) == (input == StiffnessInput::mu));
       }
 }
@@ -156,7 +156,7 @@ TEST_CASE("the base turns as its rotation does: one step a phase is enough for a
   const auto in_parts = [&](const Case& c, int parts) {
     VectorXd x = c.x, u = c.u;
     u[at.duration()] /= parts;
-    for (int l = 0; l < at.ends(); ++l) u.segment<3>(at.stride(l)).setZero();
+    for (int l = 0; l < at.end_effector_count(); ++l) u.segment<3>(at.stride(l)).setZero();
     for (int i = 0; i < parts; ++i) x = next(c, x, u);
     return x;
   };
@@ -206,7 +206,7 @@ TEST_CASE("a pressure offset is an end-effector that stands elsewhere") {
   const Layout& at = shape.layout;
   const Case c = draw(random, shape, StiffnessInput::mu, 1.0);
   VectorXd x = c.x, u = c.u;
-  for (int l = 0; l < at.ends(); ++l) {
+  for (int l = 0; l < at.end_effector_count(); ++l) {
     x.segment<3>(at.end(l)) += at.pressure_offset(u, l);
     u.segment(at.pressure(l), at.pressure_count(l)).setZero();
   }
@@ -269,7 +269,7 @@ TEST_CASE("the limit of vanishing stiffness is flight, from both sides and witho
       CAPTURE(shape.name);
       CAPTURE(mu);
       VectorXd u = flight.u;
-      u.segment(at.stiffness(), at.ends()).setConstant(mu);
+      u.segment(at.stiffness(), at.end_effector_count()).setConstant(mu);
       CHECK((next(flight, flight.x, u) - there).norm() <= 50.0 * std::abs(mu) + 1e-15);
     }
   }

@@ -67,7 +67,7 @@ inline Case draw(Random& random, const Shape& shape, StiffnessInput input, doubl
          noise(random, at.nu(), 0.5)};
   c.x.segment(at.angle(), at.axis_count()) *= 0.5;
   c.x.segment(at.momentum(), at.axis_count()) *= spin;
-  for (int l = 0; l < at.ends(); ++l) {
+  for (int l = 0; l < at.end_effector_count(); ++l) {
     const double mu = scale * uniform(random, 0.5, 1.0);
     c.u[at.stiffness(l)] = input == StiffnessInput::lambda ? std::sqrt(mu) : sign * mu;
     c.u.segment(at.force_line(l), at.force_line_count(l)) *= spin;

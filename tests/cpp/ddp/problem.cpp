@@ -156,7 +156,7 @@ TEST_CASE("a rule whose demand nobody can meet keeps the others on the ground") 
   mcplan::Scene scene = scenes::gap_with_rail();
   scene.surfaces.resize(2);  // no pads
   const Problem problem(scene, scenes::humanoid44(), phases(18));
-  REQUIRE(problem.layout.ends() == 2);
+  REQUIRE(problem.layout.end_effector_count() == 2);
   CHECK_FALSE(problem.rules.allowed({kFree, kFree}));
   CHECK(problem.rules.allowed({0, kFree}));
 }

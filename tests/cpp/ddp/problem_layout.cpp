@@ -32,7 +32,7 @@ TEST_CASE("soles that know one plane press within it and twist about its normal"
       CHECK(at.offsets(l).force_line == Eigen::Matrix3d::Identity().leftCols(2));  // far below the CoM
       CHECK(at.moments()[l].end_effector == l);
       CHECK((at.moments()[l].direction_W - normal).norm() <= 1e-15);
-      CHECK(at.moments()[l].most == doctest::Approx(1.0 / (44.0 * 9.8 * 0.7)));
+      CHECK(at.moments()[l].max == doctest::Approx(1.0 / (44.0 * 9.8 * 0.7)));
     }
   }
 }
@@ -40,7 +40,7 @@ TEST_CASE("soles that know one plane press within it and twist about its normal"
 TEST_CASE("soles that know several planes have all directions; points neither press aside nor twist") {
   const Problem problem(gap_with_walls(), scenes::humanoid44(), phases(18));
   const Layout& at = problem.layout;
-  REQUIRE(at.ends() == 4);
+  REQUIRE(at.end_effector_count() == 4);
   for (int l : {0, 1}) CHECK(at.offsets(l).pressure == Eigen::Matrix3d::Identity());
   REQUIRE(at.moment_count() == 6);
   for (int i = 0; i < 6; ++i) {

@@ -92,7 +92,7 @@ inline ddp::ContactSequence random_sequence(const ddp::Problem& problem, Random&
 /// Every valid sequence from start to goal, by trying all states at all steps in between.
 inline std::vector<ddp::ContactSequence> every_sequence(const ddp::Problem& problem) {
   std::vector<ddp::ContactState> states{{}};
-  for (int l = 0; l < problem.layout.ends(); ++l) {
+  for (int l = 0; l < problem.layout.end_effector_count(); ++l) {
     std::vector<ddp::ContactState> longer;
     for (const auto& state : states) {
       std::vector<int> choices = problem.rules.surfaces(l);

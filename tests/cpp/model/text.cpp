@@ -49,7 +49,7 @@ TEST_CASE("texts are quoted so that a terminal shows them and does not obey them
   CHECK(model::quote("\xff") == "'\\xff'");
 }
 
-TEST_CASE("values are shown in 60 characters at most") {
+TEST_CASE("values are shown in 60 characters at max_ratio") {
   const model::Value long_list(model::Value::Array(1000, model::Value(1.5)));
   CHECK(model::length(model::shown(long_list)) == 60);
 }

@@ -354,7 +354,7 @@ TEST_CASE("checker rejects another goal") {
   CHECK(broken([](Case& c) { c.scene.goal.contacts["right_foot"] = "patch"; }) == Names{"goal"});
 }
 
-TEST_CASE("checker rejects a plan that ends in motion") {
+TEST_CASE("checker rejects a plan that end_effectors in motion") {
   CHECK(broken([](Case& c) {
           c.plan.knots.pop_back();
           c.plan.phases.pop_back();

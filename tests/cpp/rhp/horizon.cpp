@@ -172,12 +172,12 @@ TEST_CASE("horizons of the four fidelities have the models of the paper's table"
 
 TEST_CASE("forces act at the corners of a share of the sole, in the paper's form of all of it") {
   for (bool paper : {false, true})
-    for (double share : {0.5, 1.0}) {
+    for (double ratio : {0.5, 1.0}) {
       Options options = walkers::quick(Fidelity::rectangle, 2);
-      options.sole_ratio = share;
+      options.sole_ratio = ratio;
       options.paper = paper;
       const First first(options);
-      const Eigen::Vector2d half = (paper ? 1.0 : share) * walkers::robot().end_effectors[0].half_size;
+      const Eigen::Vector2d half = (paper ? 1.0 : ratio) * walkers::robot().end_effectors[0].half_size;
       for (const Horizon::Control& control : first.horizon.controls) {
         std::map<int, std::set<std::pair<int, int>>> corners;  // by placement, as signs
         for (const ContactPoint& point : control.points) {

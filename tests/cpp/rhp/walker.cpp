@@ -34,7 +34,7 @@ double overhang(const Walker& walker, int surface, const Vector3d& centre) {
 
 }  // namespace
 
-TEST_CASE("steps go on in turn on the last surface, unless the sequence ends") {
+TEST_CASE("steps go on in turn on the last surface, unless the sequence end_effectors") {
   const Footsteps steps({{0, 3}, {1, 4}, {0, 7}}, false);
   CHECK_FALSE(steps.ends());
   for (int i = 3; i < 9; ++i) {
@@ -72,15 +72,15 @@ TEST_CASE("a foothold near any point has the whole sole and a margin on its surf
   Random random(1);
   for (int trial = 0; trial < 200; ++trial) {
     const int surface = 1 + trial % 4;
-    const Vector3d wanted = walker.surfaces[surface].centroid_W() + random.three();
-    const Vector3d foothold = walker.nearest_foothold_W(0, surface, wanted);
+    const Vector3d desired = walker.surfaces[surface].centroid_W() + random.three();
+    const Vector3d foothold = walker.nearest_foothold_W(0, surface, desired);
     CHECK(overhang(walker, surface, foothold) < -walker.options.foothold_margin_m + 1e-6);
     CHECK(std::abs(walker.surfaces[surface].height(foothold)) < 1e-12);
     CHECK((walker.nearest_foothold_W(0, surface, foothold) - foothold).norm() < 1e-6);
   }
 }
 
-TEST_CASE("reach is turned with the heading, faces that cannot matter are gone unless all are wanted") {
+TEST_CASE("reach is turned with the heading, faces that cannot matter are gone unless all are desired") {
   Options options = walkers::quick();
   options.all_faces = true;
   const double yaw = 1.1;

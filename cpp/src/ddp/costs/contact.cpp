@@ -27,9 +27,9 @@ class InContact final : public CostTerm {
     // of gap_with_rail find the hands at factor 1, 16 of 16 at 2).
     const bool paper = problem.options.method == Method::paper;
     const double edge_weight = weight * (paper ? 1.0 : problem.options.weights.overshoot_factor);
-    const double toe_room = step.schedule.tuning.toe_room;
+    const double extra_margin = step.schedule.tuning.extra_margin;
     for (int i = 0; i < polygon.edge_count(); ++i) {
-      const double margin = paper ? 0.0 : problem.foothold_margin(l, step.surface, i, toe_room);
+      const double margin = paper ? 0.0 : problem.foothold_margin(l, step.surface, i, extra_margin);
       const double beyond = polygon.overshoot(i, p) + margin;
       if (beyond > 0.0) along(edge_weight, beyond, polygon.edge_outward_W(i));
     }

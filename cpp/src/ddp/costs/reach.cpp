@@ -11,7 +11,7 @@ class Reach final : public CostTerm {
   void write(const StepView& step, Rows& rows) const override {
     const Layout& at = step.problem.layout;
     const Eigen::Vector3d com = step.x.segment<3>(at.com()), rpy = step.problem.rpy(step.x);
-    for (int l = 0; l < at.ends(); ++l) write_reach(step, l, com, rpy, nullptr, rows);
+    for (int l = 0; l < at.end_effector_count(); ++l) write_reach(step, l, com, rpy, nullptr, rows);
   }
 };
 

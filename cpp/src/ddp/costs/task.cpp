@@ -60,11 +60,11 @@ class Task final : public CostTerm {
     const Layout& at = step.problem.layout;
     const Weights& w = step.problem.options.weights;
     const auto add = [&](double weight, int i) { rows.add_single(weight, (*step.u)[i], at.nx() + i); };
-    for (int l = 0; l < at.ends(); ++l) {
+    for (int l = 0; l < at.end_effector_count(); ++l) {
       for (int i = 0; i < 3; ++i) add(w.stride, at.stride(l) + i);
       add(w.stiffness, at.stiffness(l));
     }
-    for (int l = 0; l < at.ends(); ++l) {
+    for (int l = 0; l < at.end_effector_count(); ++l) {
       for (int i = 0; i < at.pressure_count(l); ++i) add(centred * w.center_of_pressure, at.pressure(l) + i);
       for (int i = 0; i < at.force_line_count(l); ++i) add(stiffer * w.force_line, at.force_line(l) + i);
     }

@@ -67,9 +67,9 @@ Eigen::Matrix3Xd pyramid_edges(const Placement& placement, double friction, int 
 void add_force_box(nlp::Problem& problem, const Placement& placement, const ContactPoint& point, double limit,
                    double friction) {
   const Eigen::Matrix3d& axes = placement.axes_W;
-  const double most = limit / kForceUnit;
+  const double max_force = limit / kForceUnit;
   const bool edges = point.edges_W.cols() > 0, level = std::abs(axes(2, 2) - 1.0) < 1e-12;
-  if (level && !edges) problem.set_bounds(point.variable + 2, 0.0, most);
+  if (level && !edges) problem.set_bounds(point.variable + 2, 0.0, max_force);
   std::vector<int> variables;
   append(variables, point.variable, point.count());
   for (int component : {2, 0, 1}) {
@@ -78,7 +78,7 @@ void add_force_box(nlp::Problem& problem, const Placement& placement, const Cont
     const bool never_below = edges && point.edges_W.row(component).minCoeff() >= 0.0;
     problem.add_constraint(std::make_unique<nlp::LinearPiece>("force_box", variables,
                                                               MatrixXd(point.directions_W(placement).row(component))),
-                           never_below ? -nlp::kInfinity : -most, most);
+                           never_below ? -nlp::kInfinity : -max_force, max_force);
   }
 }
 

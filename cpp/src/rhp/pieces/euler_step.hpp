@@ -18,7 +18,7 @@ class EulerStep : public nlp::Piece {
   void hessian(const nlp::ConstVector& x, const nlp::ConstVector& weights, nlp::Matrix H) const override;
 
  private:
-  double share_;  ///< h / T
+  double ratio_;  ///< h / T
 };
 
 }  // namespace mcplan::rhp

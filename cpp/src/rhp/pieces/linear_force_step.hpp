@@ -22,7 +22,7 @@ class LinearForceVelocity : public nlp::Piece {
   void hessian(const nlp::ConstVector& x, const nlp::ConstVector& weights, nlp::Matrix H) const override;
 
  private:
-  double share_;  ///< h / T
+  double ratio_;  ///< h / T
 };
 
 /// c1 - c0 - h v0 - h^2 (2 a0 + a1) / 6 = 0.
@@ -34,7 +34,7 @@ class LinearForcePosition : public nlp::Piece {
   void hessian(const nlp::ConstVector& x, const nlp::ConstVector& weights, nlp::Matrix H) const override;
 
  private:
-  double share_;
+  double ratio_;
 };
 
 /// L1 - L0 - h (R0 + R1) / 2 + m h^2/6 v0 x (a0 - a1) - m h^3/12 a0 x a1 - m g h^3/24 (a0 + a1) x e_z = 0,
@@ -49,7 +49,7 @@ class LinearForceMomentum : public nlp::Piece {
   void hessian(const nlp::ConstVector& x, const nlp::ConstVector& weights, nlp::Matrix H) const override;
 
  private:
-  double share_, mass_, gravity_;
+  double ratio_, mass_, gravity_;
 };
 
 }  // namespace mcplan::rhp

@@ -127,7 +127,7 @@ inline VectorXd nominal(const ddp::Problem& problem) {
   const Eigen::Vector3d com(0.3, -0.2, 1.1), rpy(0.3, -0.2, 1.0);
   x.segment<3>(problem.layout.com()) = com;
   x.segment<3>(problem.layout.angle()) = rpy;
-  for (int l = 0; l < problem.layout.ends(); ++l)
+  for (int l = 0; l < problem.layout.end_effector_count(); ++l)
     x.segment<3>(problem.layout.end(l)) = com + mcplan::rotation_from_rpy(rpy) * problem.limits[l].nominal;
   return x;
 }

@@ -91,9 +91,9 @@ TEST_CASE("contact: after a caught edge the soles of feet, not the points of han
   const ddp::Pendulum pendulum(at, problem.inertia, problem.options.stiffness_input, problem.model);
   const int index = ddp::cost_term_index("contact");
   const std::vector<ddp::Instant> none;
-  const auto overstepped = [&](int l, int surface, double toe_room) {
+  const auto overstepped = [&](int l, int surface, double extra_margin) {
     ddp::Schedule schedule;
-    schedule.tuning.toe_room = toe_room;
+    schedule.tuning.extra_margin = extra_margin;
     VectorXd x = VectorXd::Zero(at.nx());
     const Vector3d edge = problem.scene.surfaces[surface].vertices_W[1] / 0.7;
     x.segment<3>(at.end(l)) = edge + Vector3d(-0.01, l == 2 ? 0.1 : 1.0, 0.0);

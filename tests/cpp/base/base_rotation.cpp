@@ -1,4 +1,4 @@
-#include "base/turning.hpp"
+#include "base/base_rotation.hpp"
 
 #include <doctest/doctest.h>
 
@@ -67,7 +67,7 @@ double difference_error(const Matrix3d& jacobian, const Vector3d& x,
 
 Vector3d turned_rpy(const Vector3d& rpy, const Vector3d& begin, const Vector3d& middle, const Vector3d& end,
                     const Vector3d& inertia, double h) {
-  return mcplan::Turning(rpy, begin, inertia).rpy(middle, end, h);
+  return mcplan::BaseRotation(rpy, begin, inertia).rpy(middle, end, h);
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ TEST_CASE("rates of the angles turn the rotation as the momentum asks") {
     for (int k = 0; k < 3; ++k) r_rate += rate[k] * mcplan::rotation_derivative(rpy, k);
     const Vector3d omega = r * (r.transpose() * momentum).cwiseQuotient(kInertia);
     CHECK((r_rate - cross_matrix(omega) * r).norm() < 1e-12 * std::max(1.0, rate.norm()));
-    CHECK(mcplan::turning_rate(rpy, momentum, kInertia).rate == rate);
+    CHECK(mcplan::rpy_rate_derivatives(rpy, momentum, kInertia).rate == rate);
   }
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("derivatives of the rates are their differences") {
   for (int i = 0; i < 200; ++i) {
     CAPTURE(i);
     const Vector3d rpy = any_angles(random), momentum = random.vector(5.0);
-    const auto out = mcplan::turning_rate(rpy, momentum, kInertia);
+    const auto out = mcplan::rpy_rate_derivatives(rpy, momentum, kInertia);
     CHECK(difference_error(out.d_rpy, rpy, [&](const Vector3d& x) { return mcplan::rpy_rate(x, momentum, kInertia); }) <
           1e-7);
     CHECK(difference_error(out.d_momentum, momentum,
@@ -107,8 +107,8 @@ TEST_CASE("derivatives of a turn are its differences, of all that it depends on"
     const Vector3d rpy = random.vector(1.0), begin = random.vector(3.0), middle = random.vector(3.0),
                    end = random.vector(3.0);
     const double h = 0.1 + 0.004 * i;
-    mcplan::Turning::Derivatives out;
-    mcplan::Turning(rpy, begin, kInertia).differentiate(middle, end, h, out);
+    mcplan::BaseRotation::Derivatives out;
+    mcplan::BaseRotation(rpy, begin, kInertia).differentiate(middle, end, h, out);
     CHECK(out.rpy == turned_rpy(rpy, begin, middle, end, kInertia, h));
     CHECK(difference_error(out.d_rpy, rpy,
                            [&](const Vector3d& x) { return turned_rpy(x, begin, middle, end, kInertia, h); }) < 1e-8);

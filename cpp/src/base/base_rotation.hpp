@@ -10,7 +10,7 @@ namespace mcplan {
 ///
 /// with E the matrix that takes an angular velocity to rates of the angles: no small-angle assumption, singular at a
 /// pitch of 90 degrees alone. Units: rad, kg m^2, kg m^2/s (or any consistent ones).
-struct TurningRate {
+struct RpyRate {
   Eigen::Vector3d rate;        ///< theta'
   Eigen::Matrix3d d_rpy;       ///< d theta' / d theta
   Eigen::Matrix3d d_momentum;  ///< d theta' / d L
@@ -20,14 +20,15 @@ struct TurningRate {
 Eigen::Vector3d rpy_rate(const Eigen::Vector3d& rpy, const Eigen::Vector3d& momentum_W, const Eigen::Vector3d& inertia);
 
 /// theta' with derivatives.
-TurningRate turning_rate(const Eigen::Vector3d& rpy, const Eigen::Vector3d& momentum_W, const Eigen::Vector3d& inertia);
+RpyRate rpy_rate_derivatives(const Eigen::Vector3d& rpy, const Eigen::Vector3d& momentum_W,
+                             const Eigen::Vector3d& inertia);
 
 /// Sines and cosines of roll, pitch and yaw.
 struct RpyTrig {
   double sr, cr, sp, cp, sy, cy;
 
   explicit RpyTrig(const Eigen::Vector3d& rpy);
-  RpyTrig turned_by(const Eigen::Vector3d& by) const;  ///< of rpy + by, cheap where that is small
+  RpyTrig plus(const Eigen::Vector3d& by) const;  ///< of rpy + by, cheap where that is small
 };
 
 /// Where a base turns from a given state, as a function of time: theta(h) by one Runge-Kutta step of order 4 on the
@@ -35,9 +36,9 @@ struct RpyTrig {
 /// momentum and base"), so this is the one approximation of the model. Measured on the phases of gap_with_rail, against
 /// a fine integration: 2.4e-3 rad at most in a phase; one exponential map with the mean angular velocity errs by two to
 /// five times that.
-class Turning {
+class BaseRotation {
  public:
-  Turning(const Eigen::Vector3d& rpy, const Eigen::Vector3d& begin_W, const Eigen::Vector3d& inertia);
+  BaseRotation(const Eigen::Vector3d& rpy, const Eigen::Vector3d& begin_W, const Eigen::Vector3d& inertia);
 
   /// theta(h), for the momenta at h/2 and h.
   Eigen::Vector3d rpy(const Eigen::Vector3d& middle_W, const Eigen::Vector3d& end_W, double h) const;

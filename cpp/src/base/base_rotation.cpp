@@ -1,4 +1,4 @@
-#include "base/turning.hpp"
+#include "base/base_rotation.hpp"
 
 #include <cmath>
 
@@ -27,11 +27,11 @@ void add_angle(double& sine, double& cosine, double by) {
 }
 
 /// A momentum turned into the base step by step.
-struct Turns {
+struct RatesOfAngles {
   const RpyTrig& t;
   Vector3d after_yaw, after_pitch, in_base;
 
-  Turns(const RpyTrig& trig, const Vector3d& l)
+  RatesOfAngles(const RpyTrig& trig, const Vector3d& l)
       : t(trig),
         after_yaw(t.cy * l[0] + t.sy * l[1], t.cy * l[1] - t.sy * l[0], l[2]),
         after_pitch(pitched(after_yaw)),
@@ -48,34 +48,34 @@ struct Turns {
 };
 
 Vector3d rate_of(const RpyTrig& trig, const Vector3d& momentum_W, const Vector3d& inertia) {
-  const Turns turns(trig, momentum_W);
-  return turns.rates(turns.in_base.cwiseQuotient(inertia));
+  const RatesOfAngles angles(trig, momentum_W);
+  return angles.rates(angles.in_base.cwiseQuotient(inertia));
 }
 
-TurningRate differentiated(const RpyTrig& t, const Vector3d& momentum_W, const Vector3d& inertia) {
-  const Turns turns(t, momentum_W);
-  const Vector3d omega = turns.in_base.cwiseQuotient(inertia);
-  TurningRate out;
-  out.rate = turns.rates(omega);
+RpyRate differentiated(const RpyTrig& t, const Vector3d& momentum_W, const Vector3d& inertia) {
+  const RatesOfAngles angles(t, momentum_W);
+  const Vector3d omega = angles.in_base.cwiseQuotient(inertia);
+  RpyRate out;
+  out.rate = angles.rates(omega);
 
   // The momentum seen from the base turns against each angle.
-  const Vector3d by_roll(0.0, turns.in_base[2], -turns.in_base[1]);
-  const Vector3d by_pitch = turns.rolled({-turns.after_pitch[2], 0.0, turns.after_pitch[0]});
-  const Vector3d by_yaw = turns.rolled(turns.pitched({turns.after_yaw[1], -turns.after_yaw[0], 0.0}));
-  out.d_rpy.col(0) = turns.rates(by_roll.cwiseQuotient(inertia));
-  out.d_rpy.col(1) = turns.rates(by_pitch.cwiseQuotient(inertia));
-  out.d_rpy.col(2) = turns.rates(by_yaw.cwiseQuotient(inertia));
+  const Vector3d by_roll(0.0, angles.in_base[2], -angles.in_base[1]);
+  const Vector3d by_pitch = angles.rolled({-angles.after_pitch[2], 0.0, angles.after_pitch[0]});
+  const Vector3d by_yaw = angles.rolled(angles.pitched({angles.after_yaw[1], -angles.after_yaw[0], 0.0}));
+  out.d_rpy.col(0) = angles.rates(by_roll.cwiseQuotient(inertia));
+  out.d_rpy.col(1) = angles.rates(by_pitch.cwiseQuotient(inertia));
+  out.d_rpy.col(2) = angles.rates(by_yaw.cwiseQuotient(inertia));
   // And the rates' own dependence on roll and pitch.
   const double level = t.sr * omega[1] + t.cr * omega[2], level_by_roll = t.cr * omega[1] - t.sr * omega[2];
   out.d_rpy.col(0) += Vector3d(t.sp / t.cp * level_by_roll, -level, level_by_roll / t.cp);
   out.d_rpy.col(1) += level / (t.cp * t.cp) * Vector3d(1.0, 0.0, t.sp);
 
-  const Vector3d x = turns.rolled(turns.pitched({t.cy, -t.sy, 0.0}));
-  const Vector3d y = turns.rolled(turns.pitched({t.sy, t.cy, 0.0}));
-  const Vector3d z = turns.rolled(turns.pitched({0.0, 0.0, 1.0}));
-  out.d_momentum.col(0) = turns.rates(x.cwiseQuotient(inertia));
-  out.d_momentum.col(1) = turns.rates(y.cwiseQuotient(inertia));
-  out.d_momentum.col(2) = turns.rates(z.cwiseQuotient(inertia));
+  const Vector3d x = angles.rolled(angles.pitched({t.cy, -t.sy, 0.0}));
+  const Vector3d y = angles.rolled(angles.pitched({t.sy, t.cy, 0.0}));
+  const Vector3d z = angles.rolled(angles.pitched({0.0, 0.0, 1.0}));
+  out.d_momentum.col(0) = angles.rates(x.cwiseQuotient(inertia));
+  out.d_momentum.col(1) = angles.rates(y.cwiseQuotient(inertia));
+  out.d_momentum.col(2) = angles.rates(z.cwiseQuotient(inertia));
   return out;
 }
 
@@ -89,7 +89,7 @@ RpyTrig::RpyTrig(const Vector3d& rpy)
       sy(std::sin(rpy[2])),
       cy(std::cos(rpy[2])) {}
 
-RpyTrig RpyTrig::turned_by(const Vector3d& by) const {
+RpyTrig RpyTrig::plus(const Vector3d& by) const {
   RpyTrig out = *this;
   add_angle(out.sr, out.cr, by[0]);
   add_angle(out.sp, out.cp, by[1]);
@@ -101,28 +101,28 @@ Vector3d rpy_rate(const Vector3d& rpy, const Vector3d& momentum_W, const Vector3
   return rate_of(RpyTrig(rpy), momentum_W, inertia);
 }
 
-TurningRate turning_rate(const Vector3d& rpy, const Vector3d& momentum_W, const Vector3d& inertia) {
+RpyRate rpy_rate_derivatives(const Vector3d& rpy, const Vector3d& momentum_W, const Vector3d& inertia) {
   return differentiated(RpyTrig(rpy), momentum_W, inertia);
 }
 
-Turning::Turning(const Vector3d& rpy, const Vector3d& begin_W, const Vector3d& inertia)
+BaseRotation::BaseRotation(const Vector3d& rpy, const Vector3d& begin_W, const Vector3d& inertia)
     : rpy_(rpy), begin_W_(begin_W), inertia_(inertia), trig_(rpy) {
   begin_rate_ = rate_of(trig_, begin_W, inertia);
 }
 
-Vector3d Turning::rpy(const Vector3d& middle_W, const Vector3d& end_W, double h) const {
-  const Vector3d b = rate_of(trig_.turned_by(0.5 * h * begin_rate_), middle_W, inertia_);
-  const Vector3d c = rate_of(trig_.turned_by(0.5 * h * b), middle_W, inertia_);
-  const Vector3d d = rate_of(trig_.turned_by(h * c), end_W, inertia_);
+Vector3d BaseRotation::rpy(const Vector3d& middle_W, const Vector3d& end_W, double h) const {
+  const Vector3d b = rate_of(trig_.plus(0.5 * h * begin_rate_), middle_W, inertia_);
+  const Vector3d c = rate_of(trig_.plus(0.5 * h * b), middle_W, inertia_);
+  const Vector3d d = rate_of(trig_.plus(h * c), end_W, inertia_);
   return rpy_ + h / 6.0 * (begin_rate_ + 2.0 * b + 2.0 * c + d);
 }
 
-void Turning::differentiate(const Vector3d& middle_W, const Vector3d& end_W, double h, Derivatives& out) const {
+void BaseRotation::differentiate(const Vector3d& middle_W, const Vector3d& end_W, double h, Derivatives& out) const {
   // Columns: theta, momentum at the begin, in the middle, at the end, h.
   using Columns = Eigen::Matrix<double, 3, 13>;
   const auto stage = [&](const Vector3d& slope, const Columns& d_slope, double step, double d_step, const Vector3d& l,
                          int column, Vector3d& rate, Columns& d_rate) {
-    const TurningRate g = differentiated(trig_.turned_by(step * slope), l, inertia_);
+    const RpyRate g = differentiated(trig_.plus(step * slope), l, inertia_);
     Columns at = step * d_slope;
     at.leftCols<3>() += Matrix3d::Identity();
     at.col(12) += d_step * slope;
