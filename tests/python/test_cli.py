@@ -110,6 +110,10 @@ def test_version(capsys):
     assert re.fullmatch(re.escape(mp.__version__) + r"\nIpopt 3\.\d+\.\d+\n", output)
 
 
+def test_the_version_is_an_option_too(capsys):
+    assert run(capsys, "--version") == run(capsys, "version")
+
+
 def test_the_command_runs_as_a_process():
     done = subprocess.run([sys.executable, "-m", "mcplan", "plan", "stares"], capture_output=True, text=True)
     assert done.returncode == 2 and done.stdout == ""

@@ -273,3 +273,12 @@ def test_forces_off_by_more_than_a_quarter_are_other_forces(capsys, wheel, monke
         told = replace(result, measures=replace(result.measures, force_rms=share))
         monkeypatch.setattr("mcplan.following.track_any", lambda *_, told=told: told)
         assert run(capsys, wheel)[0] == code
+
+
+def test_the_line_of_a_video_says_how_long_it_still_takes(capsys, monkeypatch):
+    now_s = iter([0.0, 10.0, 10.0, 40.0, 40.0])
+    monkeypatch.setattr("mcplan.cli.track_text.time.monotonic", lambda: next(now_s))
+    progress = Progress(silent=False)
+    progress.drawn(1, 101)
+    progress.drawn(11, 101)  # 3 s a picture, and 90 are left
+    assert capsys.readouterr().err == "video: picture 1 of 101\nvideo: picture 11 of 101, 270 s left\n"

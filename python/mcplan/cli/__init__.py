@@ -40,6 +40,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(words: list[str]) -> int:
     try:
         _require_no_empty(words)
+        if words == ["--version"]:
+            words = ["version"]
         from mcplan.cli.app import app, complete
 
         complete(words[0])

@@ -43,12 +43,14 @@ PostureOption = Annotated[
 ReachPolytopesOption = Annotated[
     bool, typer.Option("--reach-polytopes", help="Add the reach of feet as polytopes, for rhp.")
 ]
-FacesOption = Annotated[int, typer.Option("--faces", metavar="N", help="Maximum number of faces of a polytope.")]
+FacesOption = Annotated[
+    int | None, typer.Option("--faces", metavar="N", min=6, help="Maximum number of faces of a polytope (30).")
+]
 StrengthOption = Annotated[
     bool,
     typer.Option("--strength", help="Print the forces that the arms of robot NAME can exert, over random postures."),
 ]
-SeedOption = Annotated[int, typer.Option("--seed", metavar="SEED", help="Seed of the random postures.")]
+SeedOption = Annotated[int, typer.Option("--seed", metavar="SEED", min=0, help="Seed of the random postures.")]
 OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file for the robot.")]
 
 
@@ -61,7 +63,7 @@ def robots(
     srdf: SrdfOption = None,
     posture: PostureOption = None,
     reach_polytopes: ReachPolytopesOption = False,
-    faces: FacesOption = 30,
+    faces: FacesOption = None,
     strength: StrengthOption = False,
     seed: SeedOption = 0,
     output: OutputOption = None,
@@ -85,6 +87,7 @@ def robots(
     ):
         if given and from_urdf is None:
             raise InvalidInput(option, "needs --from-urdf")
+    count = _faces(reach_polytopes, faces)
     if name is not None and from_urdf is not None:
         raise InvalidInput("NAME", "may not stand beside --from-urdf", name)
     for option, given in (
@@ -99,7 +102,7 @@ def robots(
     if from_urdf is not None and planar:
         planar_robots.planar_robot_from_urdf(from_urdf, end or [], output)
     elif from_urdf is not None:
-        _from_urdf(from_urdf, end or [], srdf, posture or [], output, faces if reach_polytopes else None, seed)
+        _from_urdf(from_urdf, end or [], srdf, posture or [], output, count, seed)
     elif name is None:
         _print_list()
     elif planar_robots.is_planar(name):
@@ -110,6 +113,16 @@ def robots(
         _print_robot(robot)
         if strength:
             robots_strength.print_strengths(strengths)
+
+
+def _faces(reach_polytopes: bool, faces: int | None) -> int | None:
+    """Of the polytopes; None: without them."""
+    from mcplan.errors import InvalidInput
+    from mcplan.files.reach_polytopes import FACES
+
+    if faces is not None and not reach_polytopes:
+        raise InvalidInput("--faces", "needs --reach-polytopes")
+    return (faces or FACES) if reach_polytopes else None
 
 
 def _print_list() -> None:

@@ -29,6 +29,7 @@ class Progress:
         self.terminal = sys.stderr.isatty()
         self.begin_s = self.shown_s = time.monotonic()  # in a file a short run leaves no line
         self.width = 0
+        self.drawing_s = 0.0  # when the first picture of a video was made
 
     def simulated(self, now_s: float, end_s: float) -> None:
         """So much is simulated."""
@@ -38,7 +39,12 @@ class Progress:
 
     def drawn(self, count: int, of: int) -> None:
         """So many pictures of a video are made."""
-        self._show(f"video: picture {count} of {of}")
+        if count <= 1:
+            self.drawing_s = time.monotonic()
+            self._show(f"video: picture {count} of {of}")
+            return
+        left_s = (time.monotonic() - self.drawing_s) * (of - count) / (count - 1)
+        self._show(f"video: picture {count} of {of}, {left_s:.0f} s left")
 
     def working(self, what: str) -> None:
         """Show a task whose progress has no steps."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,9 +64,6 @@ def picture(
         InvalidPlan: The plan's arrays do not fit together.
     """
     require("mcplan.view.picture", "view", "matplotlib")
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure as Sheet
-
     scene = scene if scene is not None else plan.scene
     robot = robot if robot is not None else plan.robot
     plan.validate()
@@ -85,8 +82,17 @@ def picture(
         # The past is pale; the last posture has full colour.
         fade = 0.62 * (1.0 - rank / max(len(chosen) - 1, 1)) ** 0.8
         _paint_robot(canvas, figure, samples, robot, n, fade, weight)
+    sheet = _sheet(canvas, points, [drawing.mesh.vertices for drawing in drawings])
+    _legend(sheet, scene, robot, colours)
+    return save_figure(sheet, path)
 
-    flat, _ = canvas.project(np.vstack([points, *[d.mesh.vertices for d in drawings]]))
+
+def _sheet(canvas: Canvas, points: Array, solids: list[Array]) -> Any:
+    """A figure of matplotlib with what the canvas has: the points, and solids that reach a little beyond."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure as Sheet
+
+    flat, _ = canvas.project(np.vstack([points, *solids]))
     need, _ = canvas.project(points)
     low, high = need.min(axis=0), need.max(axis=0)
     # Solids that reach a little beyond what must be seen are shown whole.
@@ -101,8 +107,7 @@ def picture(
     canvas.paint(axes)
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
-    _legend(sheet, scene, robot, colours)
-    return save_figure(sheet, path)
+    return sheet
 
 
 def pose_indices(samples: Samples, robot: Robot, poses: int | None = None) -> list[int]:
