@@ -114,14 +114,4 @@ void PointForces::validate_contact(const Phase& phase, const Contact& contact, c
   require_zero(contact.center_of_pressure_W, zero, field, "center_of_pressure");
 }
 
-Vector3d Held::point_force_W(const Contact& contact, std::size_t point, const IntervalTime& at) {
-  return contact.point_forces_W[at.interval * contact.points_W.size() + point];
-}
-
-Vector3d Linear::point_force_W(const Contact& contact, std::size_t point, const IntervalTime& at) {
-  const std::size_t points = contact.points_W.size();
-  const Vector3d& begin = contact.point_forces_W[at.interval * points + point];
-  return begin + at.fraction * (contact.point_forces_W[(at.interval + 1) * points + point] - begin);
-}
-
 }  // namespace mcplan::laws

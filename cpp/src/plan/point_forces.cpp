@@ -13,10 +13,12 @@ using Eigen::Vector3d;
 /// Of one point.
 template <class Law>
 Vector3d force_of(const Law& law, const Contact& contact, std::size_t point, const IntervalTime& at) {
-  if constexpr (Law::has_points)
-    return law.point_force_W(contact, point, at);
-  else
+  if constexpr (Law::has_points) {
+    const std::size_t points = contact.points_W.size();
+    return law.point_force_W(&contact.point_forces_W[at.interval * points + point], points, at.fraction);
+  } else {
     return Vector3d::Zero();
+  }
 }
 
 template <class Law>

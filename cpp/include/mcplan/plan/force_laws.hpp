@@ -15,7 +15,6 @@
 namespace mcplan {
 
 struct Contact;
-struct IntervalTime;  // plan/point_forces.hpp
 struct Phase;
 struct PhaseInstant;  // what a law is given of an instant: the plan, the phase, its knots
 struct PlanState;
@@ -82,7 +81,13 @@ struct Held : PointForces {
   static constexpr const char* meaning = "Forces at points, constant over each of `intervals` equal intervals.";
 
   static int node_count(int intervals) { return intervals; }
-  static Eigen::Vector3d point_force_W(const Contact& contact, std::size_t point, const IntervalTime& at);
+
+  /// Force [N] of a point, `fraction` of the way through an interval. `node`: what Contact::point_forces_W has for it
+  /// where the interval begins; a node has as many forces as there are `points`.
+  static const Eigen::Vector3d& point_force_W(const Eigen::Vector3d* node, std::size_t /*points*/,
+                                              double /*fraction*/) {
+    return *node;
+  }
 };
 
 /// From f_j to f_{j+1} over interval j.
@@ -91,7 +96,10 @@ struct Linear : PointForces {
   static constexpr const char* meaning = "Forces at points, linear over each of `intervals` equal intervals.";
 
   static int node_count(int intervals) { return intervals + 1; }
-  static Eigen::Vector3d point_force_W(const Contact& contact, std::size_t point, const IntervalTime& at);
+
+  static Eigen::Vector3d point_force_W(const Eigen::Vector3d* node, std::size_t points, double fraction) {
+    return *node + fraction * (node[points] - *node);
+  }
 };
 
 /// Two laws of one type are the same: they have no numbers.
