@@ -97,7 +97,7 @@ class DdpOptions(TypedDict, total=False):
     reach_margin_m: float
     """[m] The reach box is planned smaller by this. The default goes with the size of the robot."""
     sole_inside: float
-    """[-] Ratio of a sole's half size by which footholds keep from the edges of their surface; 1: the whole sole is on
+    """[-] Share of a sole's half size by which footholds keep from the edges of their surface; 1: the whole sole is on
     it, where it is large enough; negative: the robot's sole_support."""
     friction: bool
     """Hold the friction cones."""

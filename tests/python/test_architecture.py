@@ -36,11 +36,11 @@ PUBLIC = {
     "model": "data",
     "scene": "polygon scene scene_files",
     "robot": "robot robot_files similarity standing",
-    "plan": "checker friction_use loads plan plan_files report",
+    "plan": "checker force_laws friction_use loads plan plan_files report",
     "ddp": "options plan switched_ddp",
     "nlp": "derivative_check piece problem solver",
     "rhp": "options receding_horizon walk",
-    "planar": "checker plan plan_files robot robot_files task task_files",
+    "planar": "checker force_laws plan plan_files robot robot_files task task_files",
     "planar/sip": "certificate options plan planner",
 }
 #: Sources that know a parser: nobody else includes one, and no public header.

@@ -171,7 +171,7 @@ def test_the_measures_become_json():
 
 
 def test_plans_with_forces_at_points_are_refused():
-    with pytest.raises(mp.InvalidInput, match="must be pendulum or wrench"):
+    with pytest.raises(mp.InvalidInput, match="must have no forces at points"):
         measure_contacts(stepping_plan())
 
 

@@ -25,7 +25,7 @@ def warned(scene: mp.Scene, robot: mp.Robot) -> list[str]:
 def table_for(*names: str, scene: str = "flat") -> mp.Scene:
     """A scene, and a table for those of some names."""
     scene = mp.load_scene(scene)
-    table = mp.Surface(
+    table = mp.model.Surface(
         name="table", vertices_W=scene.surfaces[0].vertices_W + [0.0, 0.0, 1.0], end_effectors=list(names)
     )
     scene.surfaces = [*scene.surfaces, table]

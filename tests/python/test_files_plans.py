@@ -332,11 +332,11 @@ def test_contact_wrenches_come_back_exactly(headings, tmp_path):
     assert format_of(plan) == 3
 
 
-def plan_under(law: mp.ForceLaw) -> mp.Plan:
+def plan_under(law: mp.model.ForceLaw) -> mp.Plan:
     """A plan whose first phase is under a law."""
-    if law == mp.ForceLaw.pendulum:
+    if law == mp.model.ForceLaw.pendulum:
         return standing_plan()
-    if law == mp.ForceLaw.wrench:
+    if law == mp.model.ForceLaw.wrench:
         return turning_plan()
     plan = stepping_plan()
     first = plan.phases[0]
@@ -348,17 +348,17 @@ def plan_under(law: mp.ForceLaw) -> mp.Plan:
 
 def test_files_number_laws_in_their_order_in_the_enum():
     """Numbers of files that exist: a new law stands behind these."""
-    assert list(mp.ForceLaw.__members__)[:4] == ["pendulum", "held", "linear", "wrench"]
-    assert list(plans._LAWS) == list(mp.ForceLaw.__members__.values())
+    assert list(mp.model.ForceLaw.__members__)[:4] == ["pendulum", "held", "linear", "wrench"]
+    assert list(plans._LAWS) == list(mp.model.ForceLaw.__members__.values())
     assert [int(law) for law in plans._LAWS] == list(range(len(plans._LAWS)))
     first = list(plans._FORMAT_OF_LAW.values())
     assert first == sorted(first) and set(first) <= set(plans.FORMATS)
 
 
-@pytest.mark.parametrize("name", mp.ForceLaw.__members__)
+@pytest.mark.parametrize("name", mp.model.ForceLaw.__members__)
 @pytest.mark.parametrize("ending", ["npz", "json"])
 def test_a_phase_of_every_law_passes_through_a_file_unchanged(name, ending, tmp_path):
-    law = mp.ForceLaw.__members__[name]
+    law = mp.model.ForceLaw.__members__[name]
     plan = plan_under(law)
     plan.phases[0].duration += 1 / 3e6
     plan.save(tmp_path / f"plan.{ending}")
@@ -372,7 +372,7 @@ def test_a_phase_of_every_law_passes_through_a_file_unchanged(name, ending, tmp_
 
 
 def test_a_phase_says_what_its_law_has():
-    has = {law: mp.Phase(law=law, intervals=3) for law in mp.ForceLaw.__members__.values()}
+    has = {law: mp.model.Phase(law=law, intervals=3) for law in mp.model.ForceLaw.__members__.values()}
     assert [phase.has_points for phase in has.values()] == [False, True, True, False]
     assert [phase.has_momentum for phase in has.values()] == [False, True, True, True]
     assert [phase.has_wrenches for phase in has.values()] == [False, False, False, True]
@@ -380,11 +380,11 @@ def test_a_phase_says_what_its_law_has():
 
 
 def test_a_number_that_no_law_has_is_refused():
-    phase = mp.Phase()
-    for wrong in (mp.ForceLaw(7), mp.ForceLaw(-1), "held", 1):
+    phase = mp.model.Phase()
+    for wrong in (mp.model.ForceLaw(7), mp.model.ForceLaw(-1), "held", 1):
         with pytest.raises(TypeError):
             phase.law = wrong
-    assert phase.law == mp.ForceLaw.pendulum
+    assert phase.law == mp.model.ForceLaw.pendulum
 
 
 def test_a_plan_is_written_in_the_least_format_that_holds_it(plan):

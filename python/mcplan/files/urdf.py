@@ -25,7 +25,7 @@ from mcplan.files.builtin import exists
 from mcplan.files.reach import HEADING_MOST, Limb, explore, headings_reached, largest_box
 from mcplan.files.strength import POINTS, strengths_in_box
 from mcplan.files.urdf_reading import build_model, read_urdf, read_xml
-from mcplan.files.urdf_setups import SETUPS, End, Setup
+from mcplan.files.urdf_setups import HEADER, SETUPS, End, Setup
 
 GRAVITY = 9.81
 MOST_COM_HEIGHT = 50.0  # [m] beyond, lengths are not in metres
@@ -44,20 +44,6 @@ _SOLED: dict[str, Any] = {
 _LEAST_STEP = 0.01  # of the grid of reach boxes, in CoM heights, so that its points can be counted
 _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
-
-HEADER = (
-    "Mass, inertia (its diagonal, about the CoM) and com_height are those of the URDF in {posture}. Reach "
-    "boxes: the largest box around the nominal position whose every grid point ({step} m apart) is reached by inverse "
-    "kinematics within the joint limits: base upright, other limbs nominal, soles level, feet on their own side of the "
-    "body. Left and right are given the same box, force and turn. max_force: the largest contact force that the "
-    "limb's torque limits bear beside its own weight (tau = g(q) - J^T f), the median over postures at {points} random "
-    "points, rounded down: of hands, upward and all over the box; of feet, upward or towards the CoM, whichever is "
-    "more, at the height of standing. yaw_range: how far inverse kinematics turns the sole about the vertical, at the "
-    "nominal position and half way to every corner of the box, at most {heading}. A hand's nominal position is moved "
-    "{inset} m into its box. max_moment of soles: 2/3 x {friction} x half the weight x the shorter half side, the "
-    "torsion of a disc by half the friction of {full}. phase_duration, sole_support and pressure_ratio: what legs "
-    "can follow, whole soles on their surface, and room under them for what swinging limbs ask of a controller."
-)
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/nlp/solver.hpp"
 #include "mcplan/version.hpp"
+#include "planar/sip/attempts.hpp"
 #include "planar/sip/program.hpp"
 
 namespace mcplan::sip {
@@ -15,29 +16,6 @@ namespace {
 
 constexpr int kKinematicOrder = 5;      // of angles and places, to a tenth of a millimetre
 constexpr double kCloseBarrier = 1e-4;  // the start is nearly the solution
-
-/// One way of solving a program.
-struct Attempt {
-  HessianChoice hessian;
-  bool adaptive_barrier;
-  double initial_barrier;
-  int max_iterations;
-};
-
-// Without a cost second derivatives say little: L-BFGS, the weak pull's own Hessian, and the exact one each solve what
-// the others do not. With one the exact Hessian converges in some tens of iterations where Gauss-Newton, which leaves
-// out the constraints' curvature, needs hundreds (docs/theory/sip.md).
-std::vector<Attempt> attempts_for(const Options& options, bool cost) {
-  const int most = options.max_iterations, some = std::min(most, 200);
-  if (options.hessian != HessianChoice::automatic) return {{options.hessian, !cost, cost ? 0.01 : 0.1, most}};
-  if (cost)
-    return {{HessianChoice::exact, false, 0.01, std::min(most, 400)},
-            {HessianChoice::exact, true, 0.1, std::min(most, 400)},
-            {HessianChoice::gauss_newton, true, 0.1, most}};
-  return {{HessianChoice::limited_memory, true, 0.1, some},
-          {HessianChoice::gauss_newton, true, 0.1, some},
-          {HessianChoice::exact, true, 0.1, most}};
-}
 
 bool ends_all(nlp::Outcome outcome) {
   return outcome == nlp::Outcome::converged || outcome == nlp::Outcome::time_limit ||

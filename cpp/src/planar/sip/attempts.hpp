@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "mcplan/planar/sip/options.hpp"
+
+namespace mcplan::sip {
+
+/// One way of solving a program.
+struct Attempt {
+  HessianChoice hessian;
+  bool adaptive_barrier;
+  double initial_barrier;
+  int max_iterations;
+};
+
+/// All ways to try, in turn. Without a cost second derivatives say little: L-BFGS, the weak pull's own Hessian, and the exact one each solve what
+/// the others do not. With one the exact Hessian converges in some tens of iterations where Gauss-Newton, which leaves
+/// out the constraints' curvature, needs hundreds (docs/theory/sip.md).
+inline std::vector<Attempt> attempts_for(const Options& options, bool cost) {
+  const int most = options.max_iterations, some = std::min(most, 200);
+  if (options.hessian != HessianChoice::automatic) return {{options.hessian, !cost, cost ? 0.01 : 0.1, most}};
+  if (cost)
+    return {{HessianChoice::exact, false, 0.01, std::min(most, 400)},
+            {HessianChoice::exact, true, 0.1, std::min(most, 400)},
+            {HessianChoice::gauss_newton, true, 0.1, most}};
+  return {{HessianChoice::limited_memory, true, 0.1, some},
+          {HessianChoice::gauss_newton, true, 0.1, some},
+          {HessianChoice::exact, true, 0.1, most}};
+}
+
+}  // namespace mcplan::sip
