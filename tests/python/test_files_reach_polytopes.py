@@ -107,7 +107,7 @@ def test_feet_stay_apart_and_on_their_sides(talos):
 
 @pytest.mark.parametrize(
     ("options", "message"),
-    [({"faces": 5}, "--faces: must be at least 6, got 5"), ({"samples": 10}, "samples: must be at least 1000, got 10")],
+    [({"faces": 5}, "faces: must be at least 6, got 5"), ({"samples": 10}, "samples: must be at least 1000, got 10")],
 )
 def test_numbers_out_of_range_are_named(options, message):
     pytest.importorskip("pinocchio")

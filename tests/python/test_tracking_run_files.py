@@ -96,7 +96,7 @@ def test_kinds_are_told_apart(result, tmp_path):
     result.recording.plan.save(plan)
     with pytest.raises(mp.InvalidInput, match=r"planar.npz: header.kind: must be that of a robot with a URDF"):
         TrackingResult.load(planar)
-    with pytest.raises(mp.InvalidInput, match=r"plan.npz: header.kind: must be 'run' or 'planar_run'"):
+    with pytest.raises(mp.InvalidInput, match=r"plan.npz: header.kind: must be \"run\" or \"planar_run\""):
         Recording.load(plan)
     result.save(plan)
     with pytest.raises(mp.InvalidInput, match="header.kind: must be that of a planar robot"):
