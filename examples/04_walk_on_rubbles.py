@@ -6,7 +6,7 @@ import mcplan as mp
 
 scene = mp.load_scene("rubbles")
 robot = mp.load_robot("talos_wang")
-planner = mp.receding_horizon(scene, robot, fidelity="point", lookahead=3, time_limit=5.0)
+planner = mp.receding_horizon(scene, robot, fidelity="point", lookahead=3, time_limit=60.0)
 
 noise = np.random.default_rng(0)
 for _ in range(3):
