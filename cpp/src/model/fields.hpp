@@ -39,9 +39,9 @@ struct Field {
 
   const char* name;  ///< of the member, in C++ and Python
   M T::*member;
-  const char* unit;     ///< "" where it has none
-  const char* meaning;  ///< one line
-  const char* key;      ///< in files
+  const char* unit;               ///< "" where it has none
+  const char* meaning;            ///< one line
+  const char* key;                ///< in files
   const char* earlier = nullptr;  ///< key of files that an earlier version wrote
   Rules rules{};
   bool is_required = false;   ///< files must have it

@@ -20,12 +20,12 @@ void require_matrix(const std::string& field, const Eigen::MatrixXd& matrix, Eig
 
 void require_index(const std::string& field, int value, std::size_t count) {
   if (value < 0 || value >= static_cast<int>(count))
-    throw InvalidMotion(field, "must be an index below " + std::to_string(count), text(value));
+    throw InvalidPlanarTask(field, "must be an index below " + std::to_string(count), text(value));
 }
 
-/// Indices of the motion alone; all else is for PlanarTask::validate().
-void require_indices(const PlanarTask& motion) {
-  const PlanarRobot& robot = motion.robot;
+/// Indices of the task alone; all else is for PlanarTask::validate().
+void require_indices(const PlanarTask& task) {
+  const PlanarRobot& robot = task.robot;
   if (robot.bodies.empty()) throw InvalidRobot("bodies", "needs at least one body, the base", "none");
   for (std::size_t b = 1; b < robot.bodies.size(); ++b)
     if (robot.bodies[b].parent < 0 || robot.bodies[b].parent >= static_cast<int>(b))
@@ -33,48 +33,49 @@ void require_indices(const PlanarTask& motion) {
                          text(robot.bodies[b].parent));
   for (const PlanarEndEffector& end : robot.end_effectors)
     require_index("end_effectors", end.body, robot.bodies.size());
-  if (motion.phases.empty()) throw InvalidMotion("phases", "needs at least one phase", "none");
-  for (std::size_t k = 0; k < motion.phases.size(); ++k) {
-    const PlanarPhase& phase = motion.phases[k];
+  if (task.phases.empty()) throw InvalidPlanarTask("phases", "needs at least one phase", "none");
+  for (std::size_t k = 0; k < task.phases.size(); ++k) {
+    const PlanarPhase& phase = task.phases[k];
     const std::string field = "phases[" + std::to_string(k) + "].contacts";
     if (phase.intervals < 1)
-      throw InvalidMotion("phases[" + std::to_string(k) + "].intervals", "must be at least 1", text(phase.intervals));
-    if (phase.contacts.empty()) throw InvalidMotion(field, "needs at least one contact", "none");
+      throw InvalidPlanarTask("phases[" + std::to_string(k) + "].intervals", "must be at least 1",
+                              text(phase.intervals));
+    if (phase.contacts.empty()) throw InvalidPlanarTask(field, "needs at least one contact", "none");
     for (const PlanarContact& contact : phase.contacts) {
       require_index(field, contact.end_effector, robot.end_effectors.size());
-      require_index(field, contact.surface, motion.surfaces.size());
+      require_index(field, contact.surface, task.surfaces.size());
     }
   }
 }
 
-std::size_t point_count(const PlanarTask& motion, const PlanarPhase& phase) {
+std::size_t point_count(const PlanarTask& task, const PlanarPhase& phase) {
   std::size_t count = 0;
   for (const PlanarContact& contact : phase.contacts)
-    count += motion.robot.end_effectors[contact.end_effector].points.size();
+    count += task.robot.end_effectors[contact.end_effector].points.size();
   return count;
 }
 
 }  // namespace
 
 void require_shape(const PlanarPlan& plan) {
-  const PlanarTask& motion = plan.motion;
-  require_indices(motion);
-  const std::size_t phases = motion.phases.size();
-  const int intervals = motion.interval_count();
+  const PlanarTask& task = plan.task;
+  require_indices(task);
+  const std::size_t phases = task.phases.size();
+  const int intervals = task.interval_count();
   require_size("durations", plan.durations.size(), phases);
-  require_matrix("control_points", plan.control_points, motion.robot.joint_count(), intervals + 3);
+  require_matrix("control_points", plan.control_points, task.robot.joint_count(), intervals + 3);
   if (plan.base_control_points.size() > 0)
     require_matrix("base_control_points", plan.base_control_points, 3, intervals + 3);
   if (plan.force_law == PlanarForceLaw::least_norm) {
     require_size("weights", plan.weights.size(), phases);
     for (std::size_t k = 0; k < phases; ++k)
-      require_size("weights[" + std::to_string(k) + "]", plan.weights[k].size(), point_count(motion, motion.phases[k]));
+      require_size("weights[" + std::to_string(k) + "]", plan.weights[k].size(), point_count(task, task.phases[k]));
     return;
   }
   require_size("force_polynomials", plan.force_polynomials.size(), intervals);
   for (int i = 0; i < intervals; ++i)
     require_matrix("force_polynomials[" + std::to_string(i) + "]", plan.force_polynomials[i], 4,
-                   2 * point_count(motion, motion.phases[motion.phase_of(i)]));
+                   2 * point_count(task, task.phases[task.phase_of(i)]));
 }
 
 }  // namespace planar
@@ -92,7 +93,7 @@ void require_finite(const std::string& field, const Eigen::MatrixXd& matrix) {
 }  // namespace
 
 void PlanarPlan::validate() const {
-  motion.validate();
+  task.validate();
   planar::require_shape(*this);
   for (std::size_t k = 0; k < durations.size(); ++k)
     require_positive("durations[" + std::to_string(k) + "]", durations[k]);
@@ -102,7 +103,7 @@ void PlanarPlan::validate() const {
     for (std::size_t k = 0; k < weights.size(); ++k) {
       for (Eigen::Index v = 0; v < weights[k].size(); ++v)
         require_positive("weights[" + std::to_string(k) + "][" + std::to_string(v) + "]", weights[k][v]);
-      least_norm_gain(motion, static_cast<int>(k), weights[k]);
+      least_norm_gain(task, static_cast<int>(k), weights[k]);
     }
   } else {
     for (std::size_t i = 0; i < force_polynomials.size(); ++i)

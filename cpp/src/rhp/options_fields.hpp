@@ -64,7 +64,8 @@ struct Fields<rhp::Options> {
       field("sole_ratio", &Options::sole_ratio, "-", "Ratio of the sole that forces make use of; paper: all.")
           .within(0.0, 1.0)
           .above(0.0),
-      field("friction_ratio", &Options::friction_ratio, "-", "Ratio of the friction coefficient that forces make use of; paper: all.")
+      field("friction_ratio", &Options::friction_ratio, "-",
+            "Ratio of the friction coefficient that forces make use of; paper: all.")
           .within(0.0, 1.0)
           .above(0.0),
       field("foothold_margin_m", &Options::foothold_margin_m, "m",

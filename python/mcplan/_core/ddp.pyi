@@ -516,7 +516,7 @@ class Options:
     @property
     def sole_inside(self) -> float:
         """
-        [-] Ratio of a sole's half size by which footholds keep from the edges of their surface; 1: the whole sole is on it, where it is large enough; negative: the robot's sole_support.
+        [-] Share of a sole's half size by which footholds keep from the edges of their surface; 1: the whole sole is on it, where it is large enough; negative: the robot's sole_support.
         """
     @sole_inside.setter
     def sole_inside(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...

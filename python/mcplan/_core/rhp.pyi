@@ -206,19 +206,19 @@ class Options:
     @foothold_margin_m.setter
     def foothold_margin_m(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def friction_rows(self) -> bool:
-        """
-        Friction as rows, not as edges of the pyramid.
-        """
-    @friction_rows.setter
-    def friction_rows(self, arg0: bool) -> None: ...
-    @property
     def friction_ratio(self) -> float:
         """
         [-] Ratio of the friction coefficient that forces make use of; paper: all.
         """
     @friction_ratio.setter
     def friction_ratio(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def friction_rows(self) -> bool:
+        """
+        Friction as rows, not as edges of the pyramid.
+        """
+    @friction_rows.setter
+    def friction_rows(self, arg0: bool) -> None: ...
     @property
     def friction_sides(self) -> int:
         """

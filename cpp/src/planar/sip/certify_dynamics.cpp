@@ -28,10 +28,10 @@ Vector& Vector::add_scaled(double factor, const Vector& other, double factor_err
 TaylorModel cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
 
 PhaseConstants phase_constants(const PlanarPlan& plan, int phase) {
-  const PlanarTask& motion = plan.motion;
+  const PlanarTask& task = plan.task;
   PhaseConstants out;
-  for (const PlanarContact& contact : motion.phases[phase].contacts) {
-    const PlanarEndEffector& end = motion.robot.end_effectors[contact.end_effector];
+  for (const PlanarContact& contact : task.phases[phase].contacts) {
+    const PlanarEndEffector& end = task.robot.end_effectors[contact.end_effector];
     ContactFrame frame;
     frame.end_effector = contact.end_effector;
     frame.surface = contact.surface;
@@ -48,10 +48,10 @@ PhaseConstants phase_constants(const PlanarPlan& plan, int phase) {
     out.points += static_cast<int>(end.points.size());
     out.contacts.push_back(frame);
   }
-  out.moment_point_W = moment_point_W(motion, phase);
+  out.moment_point_W = moment_point_W(task, phase);
   if (plan.force_law != PlanarForceLaw::least_norm) return out;
 
-  out.gain = least_norm_gain(motion, phase, plan.weights[phase]);
+  out.gain = least_norm_gain(task, phase, plan.weights[phase]);
   Eigen::MatrixXd g(3, 2 * out.points), g_error(3, 2 * out.points);
   for (const ContactFrame& contact : out.contacts)
     for (std::size_t k = 0; k < contact.points.size(); ++k) {
@@ -74,7 +74,7 @@ PhaseConstants phase_constants(const PlanarPlan& plan, int phase) {
 PieceModels::PieceModels(const PlanarPlan& plan, const PhaseConstants& constants, const Trajectories& piece, int order,
                          std::vector<UncertainPolynomial> forces)
     : plan_(plan),
-      robot_(plan.motion.robot),
+      robot_(plan.task.robot),
       constants_(constants),
       piece_(piece),
       force_polynomials_(std::move(forces)),
