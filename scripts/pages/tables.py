@@ -155,10 +155,10 @@ def robots() -> str:
         low, high = r.phase_duration
         rows.append(
             [f"`{name}`", f"{r.mass:.1f}", f"{r.com_height:.2f}", limbs, f"{low:g} to {high:g}", f"{r.swing_height:g}"]
-            + [f"{r.sole_support:g}", f"{r.pressure_share:g}"]
+            + [f"{r.sole_support:g}", f"{r.pressure_ratio:g}"]
         )
     head = ["robot", "mass [kg]", "CoM at [m]", "end-effectors", "`phase_duration` [s]", "`swing_height` [m]"]
-    return table([*head, "`sole_support`", "`pressure_share`"], rows)
+    return table([*head, "`sole_support`", "`pressure_ratio`"], rows)
 
 
 def scenes() -> str:
