@@ -58,8 +58,8 @@ def rhp(scene: str, fidelity: str) -> mp.Plan:
     return mp.walk(scene, fidelity=fidelity, lookahead=2, cycles=4, sequence=None).plan
 
 
-def sip(motion: str, minimise: str) -> mp.PlanarPlan:
-    return mp.whole_body(motion, minimise=minimise).plan
+def sip(task: str, minimise: str) -> mp.PlanarPlan:
+    return mp.whole_body(task, minimise=minimise).plan
 
 
 def cases() -> Iterator[tuple[str, Callable[[], mp.Plan | mp.PlanarPlan]]]:
@@ -75,8 +75,8 @@ def cases() -> Iterator[tuple[str, Callable[[], mp.Plan | mp.PlanarPlan]]]:
     for scene in WALKS:
         for fidelity in ("single", "point"):
             yield f"rhp {scene} {fidelity}", lambda scene=scene, fidelity=fidelity: rhp(scene, fidelity)
-    for motion in names("motions"):
-        yield f"sip {motion} none", lambda motion=motion: sip(motion, "none")
+    for task in names("planar_tasks"):
+        yield f"sip {task} none", lambda task=task: sip(task, "none")
     yield "sip cartwheel torque", lambda: sip("cartwheel", "torque")
 
 

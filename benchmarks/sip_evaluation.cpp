@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "mcplan/planar/sip/planner.hpp"
-#include "motions.hpp"
 #include "planar/sip/program.hpp"
+#include "tasks.hpp"
 
 namespace {
 
@@ -97,13 +97,13 @@ struct Times {
 };
 
 Times evaluation(int repeats, bool json) {
-  const PlanarTask motion = sip_motions::walking();
+  const PlanarTask task = planar_tasks::walking();
   const sip::Options options;  // case 3, a duration per phase, hull, tube, all constraints
-  const sip::Layout layout(motion, options);
+  const sip::Layout layout(task, options);
   // Values and derivatives of the last two points are kept: four in turn are computed anew each time.
   std::vector<VectorXd> points;
-  for (unsigned seed = 1; seed <= 4; ++seed) points.push_back(sip_motions::random_parameters(motion, layout, seed));
-  const sip::Program program(motion, options, sip::Curvature::exact, 1.0, points[0]);
+  for (unsigned seed = 1; seed <= 4; ++seed) points.push_back(planar_tasks::random_parameters(task, layout, seed));
+  const sip::Program program(task, options, sip::Curvature::exact, 1.0, points[0]);
   const nlp::Problem& problem = program.problem();
   const auto point = [&](int i) -> const VectorXd& { return points[i % points.size()]; };
   VectorXd f(problem.row_count()), gradient(problem.variable_count());
@@ -156,7 +156,7 @@ Times evaluation(int repeats, bool json) {
 }
 
 void shares(const char* title, const sip::Options& options) {
-  const sip::Result result = sip::Planner(sip_motions::walking(), options).solve();
+  const sip::Result result = sip::Planner(planar_tasks::walking(), options).solve();
   const auto& timing = result.report.timing_s;
   const auto part = [&](const char* name) { return timing.count(name) > 0 ? timing.at(name) : 0.0; };
   const double all = result.report.time_s, evaluated = part("evaluation"), solved = part("linear_solver");

@@ -11,7 +11,7 @@ int main() {
   mcplan::rhp::Options options;
   options.fidelity = mcplan::rhp::Fidelity::point;
   options.lookahead = 3;
-  options.time_limit_s = 60.0; // of each cycle
+  options.time_limit_s = 60.0;  // of each cycle
   auto planner = mcplan::rhp::RecedingHorizon(scene, robot, options);
 
   std::mt19937 seed(0);

@@ -15,17 +15,17 @@ void print(const char* name, const mcplan::sip::Result& found) {
 }  // namespace
 
 int main() {
-  const mcplan::PlanarTask motion = mcplan::load_planar_task("cartwheel");
+  const mcplan::PlanarTask task = mcplan::load_planar_task("cartwheel");
 
   // First with forces that share the load evenly, then with a weight for each point of contact, from where the first
   // ends.
   mcplan::sip::Options options;
   options.time_limit_s = 60.0;
   options.forces = mcplan::sip::Forces::uniform;
-  const mcplan::sip::Result even = mcplan::sip::Planner(motion, options).solve();
+  const mcplan::sip::Result even = mcplan::sip::Planner(task, options).solve();
   print("uniform", even);
   options.forces = mcplan::sip::Forces::per_point;
-  const mcplan::sip::Result result = mcplan::sip::Planner(motion, options).solve(even.plan);
+  const mcplan::sip::Result result = mcplan::sip::Planner(task, options).solve(even.plan);
   print("per point", result);
   if (result.report.status != mcplan::Status::solved) {
     std::printf("%s\n", result.report.message.c_str());
@@ -40,7 +40,7 @@ int main() {
   std::printf(" N m\n");
   for (const mcplan::PlanarPointForce& force : state.forces)
     std::printf("  point %d of limb %s: %.0f N into the limb, %.0f N along\n", force.point,
-                motion.robot.end_effectors[force.end_effector].name.c_str(), force.normal, force.tangential);
+                task.robot.end_effectors[force.end_effector].name.c_str(), force.normal, force.tangential);
   result.plan.save("cartwheel.json");
   return certificate.proved() ? 0 : 1;
 }

@@ -70,8 +70,8 @@ def cases() -> Iterator[tuple[str, str, Solve]]:
     yield "ddp", "stairs, replanned", _replan(mp.load_scene("stairs"))
     for terrain in ("flat", "rubbles"):
         yield "rhp", terrain, _step(terrain)
-    for motion in ("cartwheel", "walking", "climbing", "stairs"):
-        yield "sip", motion, _move(motion)
+    for task in ("cartwheel", "walking", "climbing", "stairs"):
+        yield "sip", task, _move(task)
 
 
 def _plan(scene: Scene, **options: Any) -> Solve:

@@ -175,8 +175,8 @@ def plan_of(case: Case) -> Planned:
     began = time.perf_counter()
     found: Any
     if case.planner == "sip":
-        motion = mcplan.load_motion(case.scene)
-        found = mcplan.whole_body(with_clearances(motion) if case.clearances else motion, **case.planning)
+        task = mcplan.load_planar_task(case.scene)
+        found = mcplan.whole_body(with_clearances(task) if case.clearances else task, **case.planning)
     else:
         scene = scaled(mcplan.load_scene(case.scene), case.scale)
         if case.gap_m:
@@ -220,7 +220,7 @@ def described(plan: Plan | PlanarPlan) -> dict[str, Any]:
     from mcplan import Plan
 
     if not isinstance(plan, Plan):
-        return {"duration_s": plan.duration(), "mass_planned_kg": plan.motion.robot.mass()}
+        return {"duration_s": plan.duration(), "mass_planned_kg": plan.task.robot.mass()}
     feet = {i for i, end in enumerate(plan.robot.end_effectors) if end.kind == "foot"}
     return {
         "duration_s": plan.duration(),
@@ -259,7 +259,7 @@ def measured(run: TrackingResult | PlanarResult) -> dict[str, Any]:
     if not isinstance(run, TrackingResult):
         use = np.abs(run.recording.torques).max(axis=0) / run.recording.torque_limits
         values["torque_joint"] = run.recording.joints[int(use.argmax())]
-        return values | {"fell": not run.measures.completed, "mass_kg": run.recording.plan.motion.robot.mass()}
+        return values | {"fell": not run.measures.completed, "mass_kg": run.recording.plan.task.robot.mass()}
     return values | _torques(run.recording) | {"mass_kg": float(run.recording.simulated_robot.mass)}
 
 

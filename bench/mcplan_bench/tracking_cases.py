@@ -69,13 +69,13 @@ class Case:
     Attributes:
         name: Of the row.
         planner: ddp, rhp or sip.
-        scene: Built-in scene, or motion of a planar robot.
+        scene: Built-in scene or planar task.
         robot: That tracks the plan.
         demand: None: the run is reported and nothing is demanded of it.
         scale: Factor on the lengths of the scene.
         assist: Hold the base with a clipped wrench.
         planned_for: Robot that the plan is made for, if it is not the one that tracks it.
-        clearances: Keep the feet of a planar motion above the ground (``with_clearances``).
+        clearances: Keep the feet of a planar task above the ground (``with_clearances``).
         strong_hands: Plan as if hands bore any force: what a plan then asks of arms is what their robot lacks.
         gap_m: Width of the gap between the surfaces `before` and `after`; 0: the scene's.
         planning: Options of the planner.
@@ -112,12 +112,12 @@ def _walk(scene: str, fidelity: str) -> Case:
     return Case(f"{scene}/{fidelity}", "rhp", scene, "talos", demand, planned_for="talos_wang", planning=planning)
 
 
-def _planar(motion: str, robot: str, clearances: bool = False, **planning: Any) -> Case:
+def _planar(task: str, robot: str, clearances: bool = False, **planning: Any) -> Case:
     options = {**PLANNING, **planning}
-    return Case(motion, "sip", motion, robot, FORCES_AS_PLANNED, clearances=clearances, planning=options)
+    return Case(task, "sip", task, robot, FORCES_AS_PLANNED, clearances=clearances, planning=options)
 
 
-#: Shortest and longest phase of planar motions of many steps [s].
+#: Shortest and longest phase of planar tasks of many steps [s].
 PHASES_S = (0.3, 5.0)
 
 CASES: tuple[Case, ...] = (

@@ -33,7 +33,7 @@ class Kind:
 
     def __init__(self, plan: Any, contacts: tuple[int, ...], swinging: tuple[int, ...], friction: float) -> None:
         begin = time.thread_time()
-        robot = plan.motion.robot
+        robot = plan.task.robot
         self.made: Interval = interval(robot, list(contacts), list(swinging), friction, INSTANTS)
         it = self.made
         inputs = [it.variables, it.places]
@@ -68,15 +68,15 @@ def spacings(plan: Any) -> np.ndarray:
 
 def kinds_of(plan: Any) -> dict[Any, Kind]:
     """The functions, with the variables of every interval of the plan."""
-    motion = plan.motion
+    task = plan.task
     kinds: dict[Any, Kind] = {}
     around = spacings(plan)
     control = np.array(plan.control_points)
     k = 0
-    for phase, weights in zip(motion.phases, plan.weights, strict=True):
+    for phase, weights in zip(task.phases, plan.weights, strict=True):
         contacts = tuple(contact.end_effector for contact in phase.contacts)
         swinging = tuple(clearance.end_effector for clearance in phase.clearances)
-        friction = motion.surfaces[phase.contacts[0].surface].friction
+        friction = task.surfaces[phase.contacts[0].surface].friction
         for _ in range(phase.intervals):
             key = (contacts, swinging, friction)
             if key not in kinds:
@@ -95,10 +95,10 @@ def largest_error(plan: Any, kinds: dict[Any, Kind]) -> tuple[float, float]:
     taken = dict.fromkeys(kinds, 0)
     lengths = plan.interval_lengths()
     k = 0
-    for p, phase in enumerate(plan.motion.phases):
+    for p, phase in enumerate(plan.task.phases):
         contacts = tuple(contact.end_effector for contact in phase.contacts)
         swinging = tuple(clearance.end_effector for clearance in phase.clearances)
-        key = (contacts, swinging, plan.motion.surfaces[phase.contacts[0].surface].friction)
+        key = (contacts, swinging, plan.task.surfaces[phase.contacts[0].surface].friction)
         for i in range(phase.intervals):
             n = taken[key]
             taken[key] += 1

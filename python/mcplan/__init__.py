@@ -25,7 +25,7 @@ from mcplan import starting as _starting  # noqa: F401  first: Ctrl-C while the 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mcplan import ddp, rhp, sip
+from mcplan import ddp, moved, rhp, sip
 from mcplan import errors as errors
 from mcplan import model as model
 from mcplan._core import (
@@ -43,7 +43,7 @@ from mcplan._core import (
 from mcplan.checking import check
 from mcplan.ddp import plan, replan
 from mcplan.errors import Interrupted, InvalidInput, MissingExtra, PlanViolated, UnknownName
-from mcplan.loading import load_motion, load_planar_robot, load_robot, load_scene
+from mcplan.loading import load_planar_robot, load_planar_task, load_robot, load_scene
 from mcplan.rhp import receding_horizon, walk
 from mcplan.showing import show
 from mcplan.sip import whole_body
@@ -51,12 +51,10 @@ from mcplan.sip import whole_body
 if TYPE_CHECKING:
     # Names that lived here until 0.1.
     from mcplan.errors import InvalidArgument as InvalidArgument
-    from mcplan.errors import InvalidMotion as InvalidMotion
     from mcplan.errors import InvalidOptions as InvalidOptions
     from mcplan.errors import InvalidPlan as InvalidPlan
     from mcplan.errors import InvalidRobot as InvalidRobot
     from mcplan.errors import InvalidScene as InvalidScene
-    from mcplan.errors import UnknownMotion as UnknownMotion
     from mcplan.errors import UnknownRobot as UnknownRobot
     from mcplan.errors import UnknownScene as UnknownScene
     from mcplan.model import CheckResult as CheckResult
@@ -79,6 +77,7 @@ if TYPE_CHECKING:
 
     PlanarMotion, WholeBodyPlan, WholeBodyTolerances = PlanarTask, PlanarPlan, PlanarTolerances
     PlanResult = ddp.Result
+    InvalidMotion, UnknownMotion, load_motion = errors.InvalidPlanarTask, errors.UnknownPlanarTask, load_planar_task
 
 __all__ = [
     "Interrupted",
@@ -98,8 +97,8 @@ __all__ = [
     "__version__",
     "check",
     "ddp",
-    "load_motion",
     "load_planar_robot",
+    "load_planar_task",
     "load_robot",
     "load_scene",
     "plan",
@@ -119,17 +118,17 @@ if not TYPE_CHECKING:
         name: f"{part}.{name}" for part, module in (("model", model), ("errors", errors)) for name in module.__all__
     }
     _MOVED |= {"PlanarMotion": "PlanarTask", "WholeBodyPlan": "PlanarPlan", "WholeBodyTolerances": "PlanarTolerances"}
-    _MOVED |= {"PlanResult": "ddp.Result", "Walk": "rhp.Walk"}
+    _MOVED |= {"PlanResult": "ddp.Result", "Walk": "rhp.Walk", "load_motion": "load_planar_task"}
+    _MOVED |= {"InvalidMotion": "errors.InvalidPlanarTask", "UnknownMotion": "errors.UnknownPlanarTask"}
+    PlanarPlan.motion = moved.attribute("PlanarPlan", "motion", "task")
 
     def __getattr__(name: str) -> Any:
         if name not in _MOVED:
             raise AttributeError(f"module 'mcplan' has no attribute {name!r}", name=name, obj=None)
         import sys
-        import warnings
         from operator import attrgetter
 
-        rule = f"mcplan.{name} is mcplan.{_MOVED[name]} now; the earlier name goes with the next release"
-        warnings.warn(rule, DeprecationWarning, stacklevel=2)
+        moved.tell(name, _MOVED[name])
         return attrgetter(_MOVED[name])(sys.modules[__name__])
 
     def __dir__() -> list[str]:

@@ -40,7 +40,7 @@ def check(plan: Any, *given: Any, **named: Any) -> CheckResult:
     Raises:
         InvalidArgument: An argument is of another type, such as the result that has the plan.
         InvalidPlan: The arrays of the plan do not fit together.
-        InvalidScene, InvalidRobot, InvalidMotion: What it is checked against is malformed.
+        InvalidScene, InvalidRobot, InvalidPlanarTask: What it is checked against is malformed.
         Interrupted: Ctrl-C, with what was found by then.
     """
     try:

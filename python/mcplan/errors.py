@@ -5,15 +5,15 @@ from __future__ import annotations
 import difflib
 import json
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 __all__ = [
     "Interrupted",
     "InvalidArgument",
     "InvalidInput",
-    "InvalidMotion",
     "InvalidOptions",
     "InvalidPlan",
+    "InvalidPlanarTask",
     "InvalidRobot",
     "InvalidScene",
     "MissingExtra",
@@ -21,8 +21,8 @@ __all__ = [
     "SimplerDrawing",
     "SuspiciousGeometry",
     "SuspiciousName",
-    "UnknownMotion",
     "UnknownName",
+    "UnknownPlanarTask",
     "UnknownRobot",
     "UnknownScene",
 ]
@@ -148,8 +148,8 @@ class InvalidRobot(InvalidInput):
     """A robot is malformed."""
 
 
-class InvalidMotion(InvalidInput):
-    """A motion is malformed."""
+class InvalidPlanarTask(InvalidInput):
+    """A planar task is malformed."""
 
 
 class InvalidOptions(InvalidInput):
@@ -211,10 +211,10 @@ class UnknownRobot(UnknownName):
     kind = "robot"
 
 
-class UnknownMotion(UnknownName):
-    """No such motion."""
+class UnknownPlanarTask(UnknownName):
+    """No such planar task."""
 
-    kind = "motion"
+    kind = "planar task"
 
 
 class PlanViolated(RuntimeError):
@@ -265,3 +265,18 @@ def nearest(name: str, legal: Iterable[str]) -> str:
         return ""
     near = difflib.get_close_matches(name, [entry for entry in legal if len(entry) <= _MOST_TEXT], n=1)
     return near[0] if near else ""
+
+
+if TYPE_CHECKING:
+    # Names of until 0.1.
+    InvalidMotion, UnknownMotion = InvalidPlanarTask, UnknownPlanarTask
+else:
+    _MOVED = {"InvalidMotion": "InvalidPlanarTask", "UnknownMotion": "UnknownPlanarTask"}
+
+    def __getattr__(name: str) -> Any:
+        if name not in _MOVED:
+            raise AttributeError(f"module 'mcplan.errors' has no attribute {name!r}", name=name, obj=None)
+        from mcplan import moved
+
+        moved.tell(f"errors.{name}", f"errors.{_MOVED[name]}")
+        return globals()[_MOVED[name]]

@@ -61,20 +61,20 @@ def load_planar_robot(source: str | Path) -> PlanarRobot:
     return load(source)
 
 
-def load_motion(source: str | Path) -> PlanarTask:
-    """Load a motion of a planar robot by its built-in name or from a TOML file.
+def load_planar_task(source: str | Path) -> PlanarTask:
+    """Load a planar task by its built-in name or from a TOML file.
 
     Args:
-        source: Name listed by ``mcplan motions``, or path of a file.
+        source: Name listed by ``mcplan tasks``, or path of a file.
 
     Returns:
-        The motion: its planar robot, surfaces (world frame W, x forward, y up, [m]) and one stance for each phase.
+        The task: its planar robot, surfaces (world frame W, x forward, y up, [m]) and one stance for each phase.
 
     Raises:
-        InvalidMotion: A field is missing or out of range; the message names file, field, value and rule.
+        InvalidPlanarTask: A field is missing or out of range; the message names file, field, value and rule.
         InvalidRobot: The same of its robot.
-        UnknownMotion, UnknownRobot: No such name and no such file; the message lists the names that exist.
+        UnknownPlanarTask, UnknownRobot: No such name and no such file; the message lists the names that exist.
     """
-    from mcplan.files.motions import load_motion as load
+    from mcplan.files.planar_tasks import load_planar_task as load
 
     return load(source)

@@ -208,7 +208,7 @@ class SipOptions(TypedDict, total=False):
     total_duration_s: tuple[float, float]
     """[s] Where free_durations is off: min, max."""
     phase_duration_s: tuple[float, float]
-    """[s] Where free_durations is on: min, max; the motion's own limits hold as well."""
+    """[s] Where free_durations is on: min, max; the task's own limits hold as well."""
     contact: Literal["tube", "band", "strict"] | sip.ContactMode
     """How an end-effector in contact is held where it should be."""
     tube_m: float
@@ -230,7 +230,7 @@ class SipOptions(TypedDict, total=False):
     torque_limits: bool
     """Joint torques within their limits."""
     clearance: bool
-    """Swinging end-effectors outside solids, as the motion says."""
+    """Swinging end-effectors outside solids, as the task says."""
     self_collision: bool
     """The robot's collision pairs keep clear of each other."""
     clearance_m: float

@@ -63,7 +63,7 @@ def show(plan: Shown, scene: Scene | None = None, robot: Robot | None = None, re
     """Draw a plan or a run in the browser; the result has ``save_html(path)``.
 
     Args:
-        plan: The plan, or what track() found of one. A whole-body plan is drawn with its own motion, a run with its own
+        plan: The plan, or what track() found of one. A whole-body plan is drawn with its own task, a run with its own
             plan; they take no scene and no robot.
         scene: Drawn around it; None: the plan's own.
         robot: Drawn along it; None: the plan's own. With a URDF its meshes are drawn, else a stick robot.
@@ -83,7 +83,7 @@ def show(plan: Shown, scene: Scene | None = None, robot: Robot | None = None, re
     require("robot", robot, Robot, optional=True)
     require("report", report, Report, optional=True)
     if isinstance(plan, PlanarPlan):
-        _require_own("a whole-body plan is drawn with its own motion", scene=scene, robot=robot)
+        _require_own("a whole-body plan is drawn with its own task", scene=scene, robot=robot)
         from mcplan.planar.view.pages import show_whole_body
 
         return show_whole_body(plan, report)

@@ -56,7 +56,7 @@ __all__ = [
 
 
 def whole_body(
-    motion: PlanarTask | str | Path,
+    task: PlanarTask | str | Path,
     options: Options | None = None,
     *,
     minimise: str | None = None,
@@ -73,7 +73,7 @@ def whole_body(
     ends the search with Interrupted, which carries the result with the best motion so far.
 
     Args:
-        motion: A motion, or what load_motion takes: its robot, surfaces and the stance of each phase.
+        task: A planar task, or what load_planar_task takes: its robot, surfaces and the stance of each phase.
         options: How to plan; None: the defaults.
         minimise: "torque" (integral of the squared torques), "time" or "none" (any motion within the constraints, in
             one duration for all intervals). None: what `options` say; without them "torque", or "none" with
@@ -95,14 +95,14 @@ def whole_body(
     Raises:
         InvalidArgument: An argument is of another type.
         InvalidOptions: No such option, its value is out of range, or it does not go with another one.
-        InvalidMotion: The motion is malformed.
+        InvalidPlanarTask: The task is malformed.
         InvalidRobot: Its robot is malformed.
         InvalidPlan: The warm start has other phases or joints, or is malformed.
-        UnknownMotion, UnknownRobot: No such name and no such file.
+        UnknownPlanarTask, UnknownRobot: No such name and no such file.
     """
     from mcplan.planar.planning import whole_body as solve
 
-    return solve(motion, warm_start, certify, minimise, named, options)
+    return solve(task, warm_start, certify, minimise, named, options)
 
 
 plan = whole_body

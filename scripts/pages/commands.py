@@ -114,13 +114,13 @@ def _refused(verb: Any, option: Any, value: str) -> str | None:
 
 
 def _unknown_name(verb: str, positional: list[str]) -> str | None:
-    scenes, motions = known.LISTS["scenes"], known.LISTS["motions"]
+    scenes, tasks = known.LISTS["scenes"], known.LISTS["planar tasks"]
     lists = {
         "plan": scenes,
         "rhp": scenes,
         "scenes": scenes,
-        "sip": motions,
-        "motions": motions,
+        "sip": tasks,
+        "tasks": tasks,
         "robots": lambda: known.LISTS["robots"]() + known.LISTS["planar robots"](),
         "reproduce": lambda: list(PAPERS),
     }

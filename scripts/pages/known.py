@@ -12,8 +12,8 @@ from pathlib import Path
 
 import mcplan
 from mcplan import Status, Tolerances
-from mcplan.files.motions import list_motions
 from mcplan.files.planar_robots import list_planar_robots
+from mcplan.files.planar_tasks import list_planar_tasks
 from mcplan.files.robots import list_robots
 from mcplan.files.scenes import list_scenes
 from mcplan.tracking.measures import Measures
@@ -51,7 +51,7 @@ def _fidelities() -> list[str]:
 
 @cache
 def _sip_json() -> list[str]:
-    """Keys of `mcplan sip --json`, of a motion that is found at once."""
+    """Keys of `mcplan sip --json`, of a task that is solved at once."""
     with tempfile.TemporaryDirectory() as folder:
         return list(json.loads(made.run("mcplan sip walking --kinematics --minimise none --json -q", Path(folder))))
 
@@ -94,7 +94,7 @@ LISTS: dict[str, Callable[[], list[str]]] = {
     "scenes": list_scenes,
     "robots": list_robots,
     "planar robots": list_planar_robots,
-    "motions": list_motions,
+    "planar tasks": list_planar_tasks,
     "fidelities": _fidelities,
     "keys of mcplan plan": _plan_json,
     "keys of mcplan sip": _sip_json,

@@ -128,7 +128,7 @@ def value(expression: str) -> Any:
             "robot": mcplan.load_robot,
             "planar_robot": mcplan.load_planar_robot,
             "scene": mcplan.load_scene,
-            "motion": mcplan.load_motion,
+            "task": mcplan.load_planar_task,
             "math": math,
         },
     )

@@ -183,7 +183,7 @@ def scenes() -> str:
 def file_limits() -> str:
     """Largest sizes of files that are read."""
     rows = [
-        ["scene, robot or motion (TOML)", size_text(reading.MOST_TOML)],
+        ["scene, robot or planar task (TOML)", size_text(reading.MOST_TOML)],
         ["reach polytopes (JSON)", size_text(reading.MOST_POLYTOPES)],
         ["URDF or SRDF", size_text(reading.MOST_URDF)],
         ["mesh", size_text(reading.MOST_MESH)],

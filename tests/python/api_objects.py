@@ -17,11 +17,11 @@ def valid_objects() -> list[Any]:
     wrench = mp.plan(scene, humanoid, phases=6, max_iterations=8, restarts=0).plan
     pendulum = mp.plan(scene, humanoid, phases=6, max_iterations=8, restarts=0, model="lipm").plan
     walk = mp.walk("rubbles", walker, cycles=2, lookahead=1)
-    motion = mp.load_motion("chimney")
-    whole_body = mp.whole_body(motion, forces="uniform", minimise="none", max_iterations=10).plan
+    task = mp.load_planar_task("chimney")
+    whole_body = mp.whole_body(task, forces="uniform", minimise="none", max_iterations=10).plan
     climb = mp.whole_body("climbing", forces="parameters", minimise="none", max_iterations=3).plan
     scenes = [scene, mp.load_scene("gap_with_rail"), mp.load_scene("rubbles")]
-    return [*scenes, humanoid, walker, wrench, pendulum, walk.plan, motion, whole_body, climb]
+    return [*scenes, humanoid, walker, wrench, pendulum, walk.plan, task, whole_body, climb]
 
 
 def save(path: Path) -> None:

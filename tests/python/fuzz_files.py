@@ -22,14 +22,14 @@ from typing import Any
 
 import numpy as np
 
-from mcplan import load_motion, load_planar_robot, load_robot, load_scene
+from mcplan import load_planar_robot, load_planar_task, load_robot, load_scene
 from mcplan._core import plan_to_json, planar_plan_to_json
 from mcplan.cli import main as command
 from mcplan.errors import InvalidInput, UnknownName
 from mcplan.files.archives import read_arrays
 from mcplan.files.builtin import DATA
-from mcplan.files.motions import motion_to_dict
 from mcplan.files.planar_robots import planar_robot_to_dict
+from mcplan.files.planar_tasks import planar_task_to_dict
 from mcplan.files.plans import plan_from_bytes, plan_to_bytes
 from mcplan.files.robots import robot_to_dict
 from mcplan.files.scenes import scene_to_dict
@@ -134,8 +134,8 @@ def _run() -> bytes:
 
 
 def _inline() -> bytes:
-    """A motion with its robot as a table."""
-    return _plain(motion_to_dict(load_motion("cartwheel")))
+    """A planar task with its robot as a table."""
+    return _plain(planar_task_to_dict(load_planar_task("cartwheel")))
 
 
 def _plain(value: Any) -> bytes:
@@ -148,8 +148,9 @@ VALID: dict[str, Callable[[], list[bytes]]] = {
     "robot": lambda: [_plain(robot_to_dict(load_robot(name))) for name in ("humanoid44", "anymal", "talos_wang")],
     "polytopes": lambda: [_polytopes()],
     "planar_robot": lambda: [_plain(planar_robot_to_dict(load_planar_robot(name))) for name in ("walker9", "climber9")],
-    "motion": lambda: (
-        [(DATA / "motions" / f"{name}.toml").read_bytes() for name in ("cartwheel", "stairs", "walking")] + [_inline()]
+    "planar_task": lambda: (
+        [(DATA / "planar_tasks" / f"{name}.toml").read_bytes() for name in ("cartwheel", "stairs", "walking")]
+        + [_inline()]
     ),
     "plan": _plans,
     "plan_in_json": _plans_in_json,
@@ -375,8 +376,8 @@ def read(kind: str, file: Path, number: int) -> None:
             load_robot(file.parent / "names_polytopes.toml")
         case "planar_robot":
             toml_text(planar_robot_to_dict(load_planar_robot(file)))
-        case "motion":
-            toml_text(motion_to_dict(load_motion(file)))
+        case "planar_task":
+            toml_text(planar_task_to_dict(load_planar_task(file)))
         case "plan" | "plan_in_json" | "whole_body_plan" | "whole_body_plan_in_json":
             load_any_plan(file)
         case "run":
@@ -410,7 +411,7 @@ COMMANDS = {
     "scene": ("scenes",),
     "robot": ("robots",),
     "planar_robot": ("robots",),
-    "motion": ("motions",),
+    "planar_task": ("tasks",),
     "plan": ("check",),
     "plan_in_json": ("check",),
     "whole_body_plan": ("check",),

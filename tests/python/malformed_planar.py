@@ -1,4 +1,4 @@
-"""Valid planar robot and motion data to break in one place, and the ways in which they are broken."""
+"""Valid planar robot and task data to break in one place, and the ways in which they are broken."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ ROBOT: dict[str, Any] = {
     "collision_pairs": [["left", "right"]],
 }
 
-MOTION: dict[str, Any] = {
+TASK: dict[str, Any] = {
     "name": "step",
     "robot": ROBOT,
     "surfaces": [
@@ -113,7 +113,7 @@ ROBOT_BREAKS: list[Break] = [
     (("collision_pairs", 0, 1), "hip", "collision_pairs[0]", "must be bodies with capsules"),
 ]
 
-MOTION_BREAKS: list[Break] = [
+TASK_BREAKS: list[Break] = [
     (("robot",), DELETE, "robot", "is required"),
     (("robot",), 9, "robot", "must be a name, a path or a table"),
     (("robot",), "", "robot", 'must be a name, a path or a table, got ""'),

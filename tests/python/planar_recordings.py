@@ -20,7 +20,7 @@ def recorded(plan: PlanarPlan, rate_hz: float = 200.0) -> PlanarRecording:
     """A run in which the base is off by OFFSET, the first joint by TURN, forces and torques by their factors."""
     times = np.arange(0.0, plan.duration(), 1.0 / rate_hz)
     samples = sample_whole_body(plan, times)
-    robot = plan.motion.robot
+    robot = plan.task.robot
     base, q = samples.base + OFFSET, samples.q.copy()
     q[:, 0] += TURN
     positions, angles = body_frames(robot, base, q)

@@ -51,39 +51,39 @@ def jacobian(robot: mp.PlanarRobot, body: int, point_W: np.ndarray, origins: lis
     return out
 
 
-def contact_error(motion: mp.PlanarTask, phase: int, posture: np.ndarray) -> np.ndarray:
+def contact_error(task: mp.PlanarTask, phase: int, posture: np.ndarray) -> np.ndarray:
     """x, y [m] and angle [rad] of each contact, actual minus expected."""
-    origins, angles = frames(motion.robot, posture)
+    origins, angles = frames(task.robot, posture)
     out = []
-    for contact in motion.phases[phase].contacts:
-        end = motion.robot.end_effectors[contact.end_effector]
+    for contact in task.phases[phase].contacts:
+        end = task.robot.end_effectors[contact.end_effector]
         out += [*(origins[end.body] + turned(end.position_B, angles[end.body]) - contact.position_W)]
         out.append(angles[end.body] + end.angle_B - contact.angle)
     return np.array(out)
 
 
-def stand(motion: mp.PlanarTask, phase: int, posture: np.ndarray, rest: np.ndarray) -> Standing:
+def stand(task: mp.PlanarTask, phase: int, posture: np.ndarray, rest: np.ndarray) -> Standing:
     """The posture of a phase near a given one, joints near `rest`, CoM over the contacts where it can be."""
-    robot = motion.robot
+    robot = task.robot
     low = np.array([body.position_min for body in robot.bodies[1:]])
     high = np.array([body.position_max for body in robot.bodies[1:]])
     inset = RANGE_MARGIN * (high - low)
     free = [np.inf] * 3
     bounds = np.r_[np.negative(free), low + inset], np.r_[free, high - inset]
-    middle = np.mean([contact.position_W[0] for contact in motion.phases[phase].contacts])
+    middle = np.mean([contact.position_W[0] for contact in task.phases[phase].contacts])
 
     def residual(x: np.ndarray) -> np.ndarray:
         balance = BALANCE * (com(robot, x)[0] - middle)
-        return np.r_[contact_error(motion, phase, x), balance, COMFORT * (x[3:] - rest)]
+        return np.r_[contact_error(task, phase, x), balance, COMFORT * (x[3:] - rest)]
 
     def exact(x: np.ndarray) -> np.ndarray:
-        return np.r_[contact_error(motion, phase, x), 1e-4 * residual(x)[-1 - rest.size :]]
+        return np.r_[contact_error(task, phase, x), 1e-4 * residual(x)[-1 - rest.size :]]
 
     start = np.clip(posture, bounds[0], bounds[1])
     near: OptimizeResult = least_squares(residual, start, bounds=bounds)
     found = least_squares(exact, np.clip(near.x, bounds[0], bounds[1]), bounds=bounds, xtol=1e-12, ftol=1e-12)
-    error = float(np.abs(contact_error(motion, phase, found.x)).max())
-    return Standing(found.x, error, least_load(motion, phase, found.x))
+    error = float(np.abs(contact_error(task, phase, found.x)).max())
+    return Standing(found.x, error, least_load(task, phase, found.x))
 
 
 def com(robot: mp.PlanarRobot, posture: np.ndarray) -> np.ndarray:
@@ -96,12 +96,12 @@ def com(robot: mp.PlanarRobot, posture: np.ndarray) -> np.ndarray:
     return np.sum(moments, axis=0) / robot.mass()
 
 
-def least_load(motion: mp.PlanarTask, phase: int, posture: np.ndarray) -> float:
+def least_load(task: mp.PlanarTask, phase: int, posture: np.ndarray) -> float:
     """Smallest largest |torque| / limit of all forces in their cones that hold the posture still; infinity: none do.
 
     A linear program over tangential and normal forces (share of the weight) and the load.
     """
-    robot = motion.robot
+    robot = task.robot
     origins, angles = frames(robot, posture)
     weight = robot.mass() * robot.gravity
     gravity = np.zeros(posture.size)
@@ -109,8 +109,8 @@ def least_load(motion: mp.PlanarTask, phase: int, posture: np.ndarray) -> float:
         point_W = origins[number] + turned(body.com_B, angles[number])
         gravity += body.mass * robot.gravity * jacobian(robot, number, point_W, origins)[1]
     columns, cones = [], []
-    for contact in motion.phases[phase].contacts:
-        surface, end = motion.surfaces[contact.surface], robot.end_effectors[contact.end_effector]
+    for contact in task.phases[phase].contacts:
+        surface, end = task.surfaces[contact.surface], robot.end_effectors[contact.end_effector]
         for point in end.points:
             lever = jacobian(robot, end.body, contact.position_W + point * surface.tangent_W, origins)
             columns += [lever.T @ surface.tangent_W, lever.T @ surface.normal_W]

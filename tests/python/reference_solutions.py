@@ -1,6 +1,6 @@
 """Plans of Lengagne et al.'s motions that an earlier implementation found: tests/data/lengagne_reference.json.
 
-Robots and motions stand there as in the headers of plan files; a motion names its robot. Of each joint's control points
+Robots and tasks stand there as in the headers of plan files; a task names its robot. Of each joint's control points
 only those that are free are written down: the first and the last one are there three times, which is rest.
 """
 
@@ -33,22 +33,22 @@ def _content() -> dict[str, Any]:
 
 
 def reference_names() -> list[tuple[str, str]]:
-    """Motion and name of every solution, e.g. ("walking", "feasible_per_point")."""
-    return [(entry["motion"], entry["name"]) for entry in _content()["solutions"]]
+    """Task and name of every solution, e.g. ("walking", "feasible_per_point")."""
+    return [(entry["task"], entry["name"]) for entry in _content()["solutions"]]
 
 
-def reference_motion(name: str) -> PlanarTask:
+def reference_task(name: str) -> PlanarTask:
     """One of cartwheel, climbing, climbing_steep and walking."""
-    plain = _content()["motions"][name]
+    plain = _content()["tasks"][name]
     return planar_task_from_plain({**plain, "robot": _content()["robots"][plain["robot"]]})
 
 
-def reference_plan(motion: str, name: str) -> PlanarPlan:
+def reference_plan(task: str, name: str) -> PlanarPlan:
     """A new plan of one of reference_names()."""
-    entry = next(e for e in _content()["solutions"] if (e["motion"], e["name"]) == (motion, name))
+    entry = next(e for e in _content()["solutions"] if (e["task"], e["name"]) == (task, name))
     free = np.array(entry["free_control_points"])
     return PlanarPlan(
-        motion=reference_motion(motion),
+        task=reference_task(task),
         planner="reference",
         durations=entry["durations"],
         control_points=np.hstack([free[:, :1], free[:, :1], free, free[:, -1:], free[:, -1:]]),

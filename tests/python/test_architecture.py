@@ -57,7 +57,8 @@ _FRONT |= {"ddp", "rhp", "sip"}
 PYTHON_ROOMS = {
     "__main__": {"cli"},
     "_core": set(),
-    "errors": set(),
+    "moved": set(),
+    "errors": {"moved"},
     "starting": set(),  # the command's first moments
     "extras": {"errors"},
     "options": {"errors", "arguments"},
@@ -79,7 +80,7 @@ PYTHON_ROOMS = {
     "showing": _GROUND | _LOOKED_AT,
     "following": _GROUND | _LOOKED_AT - {"view"},
     "cli": _GROUND | _FRONT | {"starting", ""},
-    "": _GROUND | _FRONT | {"starting"},
+    "": _GROUND | _FRONT | {"starting", "moved"},
 }
 # The same inside of rooms; "" is what lies in the room's own folder, except for its __init__, which may import them all.
 INNER_ROOMS = {

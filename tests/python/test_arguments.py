@@ -38,7 +38,7 @@ WRONG: list[tuple[str, Callable[[Any], Any]]] = [
     ("robot: must be a Robot or None, got 0", lambda r: mp.replan(r.plan, 0.0, r.plan.knots[0], robot=0)),
     ("scene: must be a Scene, a name or a path, got b'flat'", lambda r: mp.walk(b"flat")),
     (f"sequence: must be a Plan or a path, {RESULT_TEXT}", lambda r: mp.receding_horizon("flat", sequence=r)),
-    ("motion: must be a PlanarTask, a name or a path, got a Plan", lambda r: mp.whole_body(r.plan)),
+    ("task: must be a PlanarTask, a name or a path, got a Plan", lambda r: mp.whole_body(r.plan)),
     (
         "warm_start: must be a PlanarPlan or a path, got a Plan",
         lambda r: mp.whole_body("chimney", warm_start=r.plan),
@@ -53,7 +53,7 @@ WRONG: list[tuple[str, Callable[[Any], Any]]] = [
     ("source: must be a name or a path, got None", lambda r: mp.load_scene(None)),
     ("source: must be a name or a path, got 3", lambda r: mp.load_robot(3)),
     ("source: must be a name or a path, got b'climber9'", lambda r: mp.load_planar_robot(b"climber9")),
-    ("source: must be a name or a path, got a list", lambda r: mp.load_motion([])),
+    ("source: must be a name or a path, got a list", lambda r: mp.load_planar_task([])),
 ]
 
 

@@ -39,8 +39,8 @@ def test_the_table_has_what_is_demanded():
             assert case.planning == {"fidelity": fidelity, "cycles": 14}
             assert (case.planned_for, case.robot, case.demand.com_rms_m) == ("talos_wang", "talos", 0.015)
             assert case.demand.refusable == (fidelity == "com")
-    for motion in ("cartwheel", "climbing", "walking"):
-        demand = named(motion).demand
+    for task in ("cartwheel", "climbing", "walking"):
+        demand = named(task).demand
         assert (demand.force_rms, demand.drift_m) == (0.10, 0.01)
     assert named("flat/talos").demand.steps == 6
     assert named("slope/talos").demand is None

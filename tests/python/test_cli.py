@@ -15,8 +15,8 @@ import malformed
 import mcplan as mp
 from command_line import commands, one_line_error
 from mcplan.cli import app, main
-from mcplan.files.motions import list_motions, load_motion
 from mcplan.files.planar_robots import list_planar_robots, load_planar_robot
+from mcplan.files.planar_tasks import list_planar_tasks, load_planar_task
 from mcplan.files.robots import list_robots, load_robot
 from mcplan.files.scenes import list_scenes, load_scene, scene_to_dict
 from mcplan.files.terrains import random_patches
@@ -127,7 +127,7 @@ def test_the_command_runs_as_a_process():
     [
         ("scenes", list_scenes()),
         ("robots", [*list_robots(), *list_planar_robots()]),
-        ("tasks", list_motions()),
+        ("tasks", list_planar_tasks()),
     ],
 )
 def test_lists_have_a_described_line_each(verb, names, capsys):
@@ -199,21 +199,21 @@ def test_a_planar_robot_is_marked_and_printed_with_its_bodies(name, capsys):
     assert {part.name for part in (*robot.bodies, *robot.end_effectors)} <= first_words
 
 
-@pytest.mark.parametrize("name", list_motions())
-def test_a_motion_is_printed_with_a_line_for_each_phase(name, capsys):
+@pytest.mark.parametrize("name", list_planar_tasks())
+def test_a_task_is_printed_with_a_line_for_each_phase(name, capsys):
     code, out, _ = run(capsys, "tasks", name)
-    motion = load_motion(name)
+    task = load_planar_task(name)
     assert code == 0 and out.startswith(f"{name}: ")
     head, *lines = out.split("\n\n")[-1].splitlines()
     assert head.split()[:2] == ["phase", "intervals"]
-    assert [line.split()[:2] for line in lines] == [[str(k), str(p.intervals)] for k, p in enumerate(motion.phases)]
+    assert [line.split()[:2] for line in lines] == [[str(k), str(p.intervals)] for k, p in enumerate(task.phases)]
 
 
-def test_a_motion_is_copied(capsys, tmp_path):
+def test_a_task_is_copied(capsys, tmp_path):
     file = tmp_path / "mine.toml"
     assert run(capsys, "tasks", "stairs", "-o", file) == (0, f"Wrote {file}\n", "")
     assert file.read_text().startswith(f"# Made by: mcplan tasks stairs -o {file}\n")
-    assert repr(load_motion(file)) == repr(load_motion("stairs"))
+    assert repr(load_planar_task(file)) == repr(load_planar_task("stairs"))
 
 
 def test_a_plan_that_holds_is_ok(capsys, tmp_path):
@@ -254,7 +254,7 @@ BAD_WORDS = [
     (("scenes", "--html", "x.html"), "--html: needs the NAME of a scene"),
     (("robots", "humanoid4"), "no robot 'humanoid4' and no file of that name. Did you mean 'humanoid44'?"),
     (("robots", "walker"), "no robot 'walker' and no file of that name. Did you mean 'walker9'? Built-in: anymal, "),
-    (("tasks", "stare"), "no motion 'stare' and no file of that name. Did you mean 'stairs'? Built-in: cartwheel"),
+    (("tasks", "stare"), "no planar task 'stare' and no file of that name. Did you mean 'stairs'? Built-in: cartwheel"),
     (("tasks", "-o", "x.toml"), "--output: needs the NAME of a task"),
     (("check",), "Missing argument 'PLAN'"),
     (("check", "none.npz"), "none.npz: No such file or directory"),

@@ -13,7 +13,7 @@ from mcplan.cli.sip_text import Progress, iteration_state
 
 FIGURES = {"status", "iterations", "time_s", "evaluation_s", "parameters", "constraints", "cost", "durations_s"}
 FIGURES |= {"drift_m", "drift_rad", "worst_violation", "certified"}
-BESIDES = {"message", "linear_solver_s", "cost_terms", "motion", "robot", "version"}
+BESIDES = {"message", "linear_solver_s", "cost_terms", "task", "motion", "robot", "version"}
 FAST = ("--forces", "uniform", "--minimise", "none")  # 1 s
 FASTEST = ("--kinematics", "--order", 5)  # 0.2 s
 
@@ -42,7 +42,7 @@ def options_of(monkeypatch):
     def parse(*words) -> mp.sip.Options:
         seen = []
 
-        def planner(motion, options):
+        def planner(task, options):
             seen.append(options)
             raise Seen
 
@@ -60,7 +60,8 @@ def test_json_holds_every_figure_and_nothing_else_is_printed(capsys, tmp_path):
     report = strict(out)
     assert (code, err) == (0, "")
     assert set(report) == FIGURES | BESIDES
-    expected = {"motion": "cartwheel", "robot": "climber9", "status": "solved", "parameters": 82, "certified": True}
+    assert report["motion"] == report["task"]  # its earlier name
+    expected = {"task": "cartwheel", "robot": "climber9", "status": "solved", "parameters": 82, "certified": True}
     assert {name: report[name] for name in expected} == expected and report["version"] == mp.__version__
     assert 0.0 < report["evaluation_s"] + report["linear_solver_s"] < report["time_s"]
     assert set(report["worst_violation"]) == {"name", "phase", "end_effector", "time_s", "value", "tolerance", "unit"}
@@ -236,7 +237,7 @@ def test_switches_reach_the_planner(options_of):
 
 
 WRONG = [
-    (("cartweel",), "no motion 'cartweel' and no file of that name. Did you mean 'cartwheel'?"),
+    (("cartweel",), "no planar task 'cartweel' and no file of that name. Did you mean 'cartwheel'?"),
     ((), "Missing argument 'TASK'"),
     (
         ("cartwheel", "--forces", "most"),

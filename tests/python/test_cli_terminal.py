@@ -144,7 +144,7 @@ def test_closed_streams_are_no_failure(stream):
         (["plan", "flat", "--html", "page.png"], "--html", ".html, .htm"),
         (["sip", "cartwheel", "--strip", "a.mp4"], "--strip", ".png, .pdf, .svg"),
         (["scenes", "flat", "-o", "scene.npz"], "--output", ".toml"),
-        (["tasks", "walking", "-o", "motion.json"], "--output", ".toml"),
+        (["tasks", "walking", "-o", "task.json"], "--output", ".toml"),
     ],
 )
 def test_a_name_of_another_kind_is_refused_before_the_work(words, option, legal, capsys, tmp_path, monkeypatch):

@@ -7,8 +7,8 @@ import pytest
 import malformed
 import malformed_planar
 import mcplan as mp
-from mcplan.files.motions import motion_from_dict
 from mcplan.files.planar_robots import planar_robot_from_dict
+from mcplan.files.planar_tasks import planar_task_from_dict
 from mcplan.files.robots import robot_from_dict
 
 
@@ -36,11 +36,11 @@ def test_a_key_that_goes_by_another_name_in_python_is_known_by_its_own():
         planar_robot_from_dict(data)
 
 
-def test_findings_of_a_robot_within_a_motion_have_its_place():
+def test_findings_of_a_robot_within_a_task_have_its_place():
     robot = malformed.broken(malformed_planar.ROBOT, ("gravity",), "down")
     robot = malformed.broken(robot, ("bodies", 0, "mass"), -1.0)
-    data = {**malformed_planar.MOTION, "robot": robot, "phases": []}
+    data = {**malformed_planar.TASK, "robot": robot, "phases": []}
     with pytest.raises(mp.InvalidInput) as found:
-        motion_from_dict(data)
+        planar_task_from_dict(data)
     fields = [each.field for each in (found.value, *found.value.others)]
     assert fields == ["robot.gravity", "robot.bodies[0].mass", "phases"]

@@ -14,8 +14,8 @@ from mcplan.cli import main
 from mcplan.errors import SuspiciousGeometry
 from mcplan.files.generate import random_scene
 from mcplan.files.geometry import require_meant
-from mcplan.files.motions import motion_to_dict
 from mcplan.files.planar_robots import planar_robot_to_dict
+from mcplan.files.planar_tasks import planar_task_to_dict
 from mcplan.files.robots import list_robots, load_robot, robot_to_dict
 from mcplan.files.scenes import list_scenes, load_scene, scaled, scene_to_dict
 from mcplan.files.toml import toml_text
@@ -226,8 +226,10 @@ def test_the_gravity_of_a_planar_robot_is_held_against_its_limbs(metre, tmp_path
     for body in robot.bodies:
         body.joint_P = metre * body.joint_P
     file = write(tmp_path, planar_robot_to_dict(robot))
-    motion = write(
-        tmp_path, {**motion_to_dict(mp.load_motion("climbing")), "robot": planar_robot_to_dict(robot)}, "m.toml"
+    task = write(
+        tmp_path,
+        {**planar_task_to_dict(mp.load_planar_task("climbing")), "robot": planar_robot_to_dict(robot)},
+        "m.toml",
     )
     if metre == 1.0:
         with pytest.warns(
@@ -235,7 +237,7 @@ def test_the_gravity_of_a_planar_robot_is_held_against_its_limbs(metre, tmp_path
         ):
             mp.load_planar_robot(file)
         with pytest.warns(SuspiciousGeometry, match="m.toml: robot.gravity: goes with lengths in metres"):
-            mp.load_motion(motion)
+            mp.load_planar_task(task)
     else:
         with warnings.catch_warnings():
             warnings.simplefilter("error")

@@ -21,7 +21,7 @@ from mcplan.files.planar_robots import (
 )
 from mcplan.files.toml import toml_text
 from plain_toml import tomllib
-from reference_solutions import reference_motion
+from reference_solutions import reference_task
 
 NEAR = {"rtol": 0.0, "atol": 1e-12}
 
@@ -90,9 +90,9 @@ class TestBuiltIn:
             assert [ends[0] - foot.radius, ends[1] + foot.radius] == pytest.approx(sorted(end.points))
 
 
-@pytest.mark.parametrize(("name", "motion"), [("climber9", "cartwheel"), ("walker9", "walking")])
-def test_built_in_robots_have_the_numbers_of_the_reference(name, motion):
-    robot, reference = load_planar_robot(name), reference_motion(motion).robot
+@pytest.mark.parametrize(("name", "task"), [("climber9", "cartwheel"), ("walker9", "walking")])
+def test_built_in_robots_have_the_numbers_of_the_reference(name, task):
+    robot, reference = load_planar_robot(name), reference_task(task).robot
     for body, expected in zip(robot.bodies, reference.bodies, strict=True):
         assert body.parent == expected.parent
         for key in ("joint_P", "offset", "mass", "com_B", "inertia"):

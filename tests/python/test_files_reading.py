@@ -32,7 +32,7 @@ LOADERS = [
     load_scene,
     load_robot,
     mp.load_planar_robot,
-    mp.load_motion,
+    mp.load_planar_task,
     load_plan,
     load_any_plan,
     load_whole_body_plan,
@@ -164,33 +164,33 @@ def test_a_urdf_elsewhere_is_refused(urdf, tmp_path):
         load_robot(file)
 
 
-def test_a_motion_names_robots_beside_it_alone(tmp_path):
+def test_a_task_names_robots_beside_it_alone(tmp_path):
     text = toml_text({"robot": "../robot.toml", "surfaces": [{"name": "a"}], "phases": [{"lift": ["x"]}]})
     (tmp_path / "sub").mkdir()
-    (tmp_path / "sub" / "motion.toml").write_text(text)
+    (tmp_path / "sub" / "task.toml").write_text(text)
     (tmp_path / "robot.toml").write_text("")
-    with pytest.raises(mp.errors.InvalidMotion, match="motion.toml: robot: must lie in the folder"):
-        mp.load_motion(tmp_path / "sub" / "motion.toml")
+    with pytest.raises(mp.errors.InvalidPlanarTask, match="task.toml: robot: must lie in the folder"):
+        mp.load_planar_task(tmp_path / "sub" / "task.toml")
 
 
 @pytest.mark.parametrize("name", [".", "pipe"])
-def test_a_motion_whose_robot_is_no_regular_file_is_named(name, tmp_path):
+def test_a_task_whose_robot_is_no_regular_file_is_named(name, tmp_path):
     os.mkfifo(tmp_path / "pipe")
-    (tmp_path / "motion.toml").write_text(
+    (tmp_path / "task.toml").write_text(
         toml_text({"robot": name, "surfaces": [{"name": "a"}], "phases": [{"lift": ["x"]}]})
     )
     with pytest.raises(
-        mp.errors.InvalidMotion, match="motion.toml: robot: (must be a regular file|cannot be read: Is a directory)"
+        mp.errors.InvalidPlanarTask, match="task.toml: robot: (must be a regular file|cannot be read: Is a directory)"
     ):
-        mp.load_motion(tmp_path / "motion.toml")
+        mp.load_planar_task(tmp_path / "task.toml")
 
 
-def test_a_motion_in_the_working_directory_names_a_robot_beside_it(tmp_path, monkeypatch):
+def test_a_task_in_the_working_directory_names_a_robot_beside_it(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.toml").write_bytes((DATA / "planar_robots" / "climber9.toml").read_bytes())
-    text = (DATA / "motions" / "cartwheel.toml").read_text().replace('"climber9"', '"mine.toml"')
-    (tmp_path / "motion.toml").write_text(text)
-    assert mp.load_motion("motion.toml").robot.mass() == 24.5
+    text = (DATA / "planar_tasks" / "cartwheel.toml").read_text().replace('"climber9"', '"mine.toml"')
+    (tmp_path / "task.toml").write_text(text)
+    assert mp.load_planar_task("task.toml").robot.mass() == 24.5
 
 
 def test_the_robots_that_mcplan_brings_may_be_links(tmp_path, monkeypatch):

@@ -12,8 +12,8 @@ import malformed
 import malformed_planar
 from mcplan.errors import InvalidInput
 from mcplan.files.builtin import DATA
-from mcplan.files.motions import motion_from_dict
 from mcplan.files.planar_robots import planar_robot_from_dict
+from mcplan.files.planar_tasks import planar_task_from_dict
 from mcplan.files.robots import robot_from_dict
 from mcplan.files.scenes import scene_from_dict
 from mcplan.files.schema import KINDS, schema_text
@@ -31,7 +31,7 @@ def test_schemas_are_current(name):
         ("scene", malformed.SCENE),
         ("robot", malformed.ROBOT),
         ("planar_robot", malformed_planar.ROBOT),
-        ("motion", malformed_planar.MOTION),
+        ("planar_task", malformed_planar.TASK),
     ],
 )
 def test_a_schema_accepts_valid_data_and_rejects_an_unknown_key(name, data):
@@ -71,7 +71,7 @@ def can_be_said(case: malformed.Break) -> bool:
             ("scene", malformed.SCENE, scene_from_dict, malformed.SCENE_BREAKS),
             ("robot", malformed.ROBOT, robot_from_dict, malformed.ROBOT_BREAKS),
             ("planar_robot", malformed_planar.ROBOT, planar_robot_from_dict, malformed_planar.ROBOT_BREAKS),
-            ("motion", malformed_planar.MOTION, motion_from_dict, malformed_planar.MOTION_BREAKS),
+            ("planar_task", malformed_planar.TASK, planar_task_from_dict, malformed_planar.TASK_BREAKS),
         )
         for case in breaks
         if can_be_said(case)

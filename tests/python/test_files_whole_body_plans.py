@@ -6,6 +6,7 @@ import copy
 import io
 import json
 import pickle
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from mcplan import _core
 from mcplan._core import planar_task_from_plain, planar_task_to_plain
 from mcplan.cli import main
 from mcplan.files.whole_body_plans import load_any_plan, load_whole_body_plan, plan_from_bytes, plan_to_bytes
-from reference_solutions import reference_motion, reference_plan
+from reference_solutions import reference_plan, reference_task
 from standing import standing_plan
 
 
@@ -28,7 +29,7 @@ def given_forces() -> mp.PlanarPlan:
     """A plan with forces and a base of its own."""
     plan, rng = reference_plan("walking", "feasible_uniform"), np.random.default_rng(1)
     plan.force_law = _core.PlanarForceLaw.polynomial
-    points = [2 * len(phase.contacts) for phase in plan.motion.phases for _ in range(phase.intervals)]
+    points = [2 * len(phase.contacts) for phase in plan.task.phases for _ in range(phase.intervals)]
     plan.force_polynomials = [rng.normal(size=(4, 2 * count)) for count in points]
     plan.weights = []
     plan.base_control_points = rng.normal(size=(3, plan.control_points.shape[1]))
@@ -53,12 +54,12 @@ def states(plan: mp.PlanarPlan) -> list:
 @pytest.mark.parametrize("make", [lambda: reference_plan("cartwheel", "optimised_per_point"), given_forces])
 def test_a_plan_comes_back_exactly(make, tmp_path):
     plan = make()
-    plan.motion.phases[1].poses = [_core.PlanarPose(body=3, fraction=1 / 3, max=[1.0, np.inf, 1e-17])]
+    plan.task.phases[1].poses = [_core.PlanarPose(body=3, fraction=1 / 3, max=[1.0, np.inf, 1e-17])]
     plan.save(tmp_path / "plan.npz")
     loaded = mp.PlanarPlan.load(tmp_path / "plan.npz")
     for other in (loaded, pickle.loads(pickle.dumps(plan)), copy.deepcopy(plan)):
         assert states(other) == states(plan)
-        assert repr(other.motion) == repr(plan.motion)
+        assert repr(other.task) == repr(plan.task)
         assert other.planner == "reference" and other.force_law == plan.force_law
         assert plan_to_bytes(other) == plan_to_bytes(plan)
 
@@ -66,30 +67,41 @@ def test_a_plan_comes_back_exactly(make, tmp_path):
 @pytest.mark.parametrize("make", [lambda: reference_plan("cartwheel", "optimised_per_point"), given_forces])
 def test_a_plan_comes_back_exactly_from_json(make, tmp_path):
     plan = make()
-    plan.motion.phases[1].poses = [_core.PlanarPose(body=3, fraction=1 / 3, max=[1.0, np.inf, 1e-17])]
+    plan.task.phases[1].poses = [_core.PlanarPose(body=3, fraction=1 / 3, max=[1.0, np.inf, 1e-17])]
     plan.save(tmp_path / "plan.json")
     for other in (mp.PlanarPlan.load(tmp_path / "plan.json"), load_any_plan(tmp_path / "plan.json")):
         assert other == plan and states(other) == states(plan)
         assert plan_to_bytes(other) == plan_to_bytes(plan)
     header = json.loads((tmp_path / "plan.json").read_text())
     assert (header["kind"], header["format"], header["mcplan"]) == ("planar_plan", 2, mp.__version__)
-    assert header["motion"]["phases"][1]["poses"][0]["max"] == [1.0, "inf", 1e-17]
-    assert header["motion"] == json.loads(arrays_of(plan_to_bytes(plan))["header"].tobytes())["motion"]
+    assert header["task"]["phases"][1]["poses"][0]["max"] == [1.0, "inf", 1e-17]
+    assert header["task"] == json.loads(arrays_of(plan_to_bytes(plan))["header"].tobytes())["task"]
+
+
+@pytest.mark.parametrize("ending", ["npz", "json"])
+def test_a_file_of_0_1_whose_task_is_called_motion_is_read_and_written_anew(plan, ending, tmp_path):
+    file = Path(__file__).parents[1] / f"data/planar_plan_of_0_1.{ending}"
+    for load in (mp.PlanarPlan.load, load_any_plan):
+        assert load(file) == plan
+    mp.PlanarPlan.load(file).save(tmp_path / f"again.{ending}")
+    text = (tmp_path / f"again.{ending}").read_bytes()
+    header = json.loads(text if ending == "json" else arrays_of(text)["header"].tobytes())
+    assert header["task"]["name"] == "cartwheel" and "motion" not in header
 
 
 def test_all_that_is_wrong_with_a_plan_in_json_is_named_with_its_file(plan, tmp_path):
     file = tmp_path / "plan.json"
     plan.save(file)
     data = json.loads(file.read_text())
-    data["motion"]["robot"]["gravity"] = "x"
-    data["motion"]["phases"][0]["min_duration"] = "-inf"
+    data["task"]["robot"]["gravity"] = "x"
+    data["task"]["phases"][0]["min_duration"] = "-inf"
     data["durations"][1] = 0.0
     file.write_text(json.dumps(data))
     with pytest.raises(mp.errors.InvalidPlan) as found:
         mp.PlanarPlan.load(file)
     assert str(found.value).splitlines() == [
-        f'{file}: motion.robot.gravity: must be a number, got "x"',
-        f"{file}: motion.phases[0].min_duration: must be a finite number, got -inf",
+        f'{file}: task.robot.gravity: must be a number, got "x"',
+        f"{file}: task.phases[0].min_duration: must be a finite number, got -inf",
         f"{file}: durations[1]: must be a positive number, got 0.0",
     ]
 
@@ -108,7 +120,7 @@ def test_the_header_says_what_it_holds(plan):
     header = json.loads(arrays_of(plan_to_bytes(plan))["header"].tobytes())
     assert header["kind"] == "whole_body" and header["format"] == 1 and header["mcplan"] == mp.__version__
     assert "m, kg, s" in header["units"]
-    assert header["motion"]["robot"]["name"] == "climber9"
+    assert header["task"]["robot"]["name"] == "climber9"
 
 
 def test_an_invalid_plan_is_not_saved(plan, tmp_path):
@@ -159,13 +171,13 @@ def header(**changes):
     return change
 
 
-def in_motion(change):
-    """Change the motion of the header in place."""
+def in_task(change):
+    """Change the task of the header in place."""
 
     def apply(arrays):
-        motion = json.loads(arrays["header"].tobytes())["motion"]
-        change(motion)
-        header(motion=motion)(arrays)
+        task = json.loads(arrays["header"].tobytes())["task"]
+        change(task)
+        header(task=task)(arrays)
 
     return apply
 
@@ -183,33 +195,33 @@ DAMAGE = {
         'header.force_law: must be one of least_norm, polynomial, got "magic"',
     ),
     "another law": (header(force_law="polynomial"), r"weights: must have shape \(0,\)"),
-    "no motion": (header(motion=[]), r"header.motion: must be an object, got \[\]"),
-    "motion empty": (header(motion={}), "header.motion.robot: is required"),
-    "motion with more": (in_motion(lambda m: m.update(speed=1)), "header.motion.speed: no such key. Keys: name,"),
+    "no task": (header(task=[]), r"header.task: must be an object, got \[\]"),
+    "task empty": (header(task={}), "header.task.robot: is required"),
+    "task with more": (in_task(lambda m: m.update(speed=1)), "header.task.speed: no such key. Keys: name,"),
     "mass text": (
-        in_motion(lambda m: m["robot"]["bodies"][2].update(mass="heavy")),
-        r"header.motion.robot.bodies\[2\].mass: must be a number, got \"heavy\"",
+        in_task(lambda m: m["robot"]["bodies"][2].update(mass="heavy")),
+        r"header.task.robot.bodies\[2\].mass: must be a number, got \"heavy\"",
     ),
     "no mass": (
-        in_motion(lambda m: m["robot"]["bodies"][2].update(mass=0.0)),
-        r"header.motion.robot.bodies\[2\].mass: must be a positive number, got 0",
+        in_task(lambda m: m["robot"]["bodies"][2].update(mass=0.0)),
+        r"header.task.robot.bodies\[2\].mass: must be a positive number, got 0",
     ),
-    "loop": (in_motion(lambda m: m["robot"]["bodies"][2].update(parent=2)), r"bodies\[2\].parent: .* \(no loops\)"),
+    "loop": (in_task(lambda m: m["robot"]["bodies"][2].update(parent=2)), r"bodies\[2\].parent: .* \(no loops\)"),
     "half an interval": (
-        in_motion(lambda m: m["phases"][0].update(intervals=2.5)),
+        in_task(lambda m: m["phases"][0].update(intervals=2.5)),
         "intervals: must be a whole number",
     ),
     "huge index": (
-        in_motion(lambda m: m["phases"][0]["contacts"][0].update(surface=2**40)),
+        in_task(lambda m: m["phases"][0]["contacts"][0].update(surface=2**40)),
         "surface: must be a whole number of 32 bits",
     ),
     "flat place": (
-        in_motion(lambda m: m["phases"][0]["contacts"][0].update(position_W=[1.0])),
+        in_task(lambda m: m["phases"][0]["contacts"][0].update(position_W=[1.0])),
         "position_W: needs at least 2 entries, got 1",
     ),
     "contact in the air": (
-        in_motion(lambda m: m["phases"][0]["contacts"][0].update(position_W=[0.0, 0.1])),
-        r"header.motion.phases\[0\].contacts\[0\].position: must lie on surface \"ground\"",
+        in_task(lambda m: m["phases"][0]["contacts"][0].update(position_W=[0.0, 0.1])),
+        r"header.task.phases\[0\].contacts\[0\].position: must lie on surface \"ground\"",
     ),
     "no durations": (without("durations"), "durations: is required"),
     "too few durations": (put("durations", lambda a: a[1:]), "durations: must have 3 entries, got 2"),
@@ -271,12 +283,12 @@ def test_files_of_the_two_kinds_are_told_apart(plan, tmp_path):
         mp.Plan.load(tmp_path / "whole.json")
 
 
-def test_motions_come_back_exactly_from_json():
+def test_tasks_come_back_exactly_from_json():
     for name in ("cartwheel", "climbing", "climbing_steep", "walking"):
-        motion = reference_motion(name)
-        motion.surfaces[0].to = 3.5  # the other end stays open
-        plain = json.loads(json.dumps(planar_task_to_plain(motion), allow_nan=False))
-        assert repr(planar_task_from_plain(plain)) == repr(motion)
+        task = reference_task(name)
+        task.surfaces[0].to = 3.5  # the other end stays open
+        plain = json.loads(json.dumps(planar_task_to_plain(task), allow_nan=False))
+        assert repr(planar_task_from_plain(plain)) == repr(task)
 
 
 def test_the_command_checks_whole_body_plans(plan, tmp_path, capsys):
@@ -288,6 +300,6 @@ def test_the_command_checks_whole_body_plans(plan, tmp_path, capsys):
     plan.save(target)
     assert main(["check", str(target), "--json"]) == 1
     report = json.loads(capsys.readouterr().out)
-    assert (report["motion"], report["robot"], report["ok"]) == ("cartwheel", "climber9", False)
+    assert (report["task"], report["robot"], report["ok"]) == ("cartwheel", "climber9", False)
     assert "drift" in {violation["name"] for violation in report["violations"]}
     assert len(report["constraints"]) == 16

@@ -40,8 +40,31 @@ def test_names_that_have_moved_can_still_be_had_and_say_where_they_are():
             earlier = getattr(mp, name)
         assert isinstance(earlier, type) and told[0].filename == __file__
         assert earlier is eval(str(told[0].message).split()[2], {"mcplan": mp})
+    with pytest.warns(DeprecationWarning, match=r"^mcplan\.load_motion is mcplan\.load_planar_task now"):
+        assert mp.load_motion is mp.load_planar_task
     with pytest.raises(AttributeError, match="module 'mcplan' has no attribute 'Walks'"):
         mp.Walks  # noqa: B018
+
+
+@pytest.mark.parametrize(
+    ("name", "now"), [("InvalidMotion", "InvalidPlanarTask"), ("UnknownMotion", "UnknownPlanarTask")]
+)
+def test_errors_of_planar_tasks_are_caught_by_their_earlier_names(name, now):
+    with pytest.warns(DeprecationWarning, match=rf"^mcplan\.errors\.{name} is mcplan\.errors\.{now} now") as told:
+        assert getattr(errors, name) is getattr(errors, now)
+    assert len(told) == 1 and told[0].filename == __file__ and name not in errors.__all__
+    with pytest.raises(AttributeError, match="module 'mcplan.errors' has no attribute 'InvalidMotions'"):
+        errors.InvalidMotions  # noqa: B018
+
+
+def test_the_task_of_a_plan_can_be_read_and_written_by_its_earlier_name():
+    plan = mp.PlanarPlan(task=mp.load_planar_task("stairs"))
+    with pytest.warns(DeprecationWarning, match=r"^mcplan\.PlanarPlan\.motion is mcplan\.PlanarPlan\.task now") as told:
+        assert plan.motion.name == "stairs"
+    assert len(told) == 1 and told[0].filename == __file__
+    with pytest.warns(DeprecationWarning) as told:
+        plan.motion = mp.load_planar_task("chimney")
+    assert len(told) == 1 and plan.task == mp.load_planar_task("chimney")
 
 
 @pytest.mark.parametrize("module", [mp.ddp, errors, model, mp.rhp, mp.sip], ids=lambda module: module.__name__)
@@ -54,7 +77,7 @@ def test_every_name_of_a_public_module_is_documented(module):
 def test_every_public_name_exists_and_is_documented():
     for name in mp.__all__:
         assert getattr(mp, name) is not None
-    for name in ("load_scene", "load_robot", "load_planar_robot", "load_motion", "plan", "check", "show"):
+    for name in ("load_scene", "load_robot", "load_planar_robot", "load_planar_task", "plan", "check", "show"):
         assert len(getattr(mp, name).__doc__) > 100
 
 
@@ -69,8 +92,8 @@ def test_every_public_name_exists_and_is_documented():
         ("PlanViolated", RuntimeError),
         ("UnknownScene", ValueError),
         ("UnknownRobot", ValueError),
-        ("InvalidMotion", errors.InvalidInput),
-        ("UnknownMotion", ValueError),
+        ("InvalidPlanarTask", errors.InvalidInput),
+        ("UnknownPlanarTask", ValueError),
     ],
 )
 def test_errors_are_what_their_callers_expect(name, base):

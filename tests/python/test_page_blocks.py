@@ -19,7 +19,7 @@ STAIRS = 'mp.plan("stairs_broad", "talos", sole_inside=1.0).plan.save("stairs.np
 BEFORE = {
     "README.md": STAIRS,
     "docs/feasibility.md": 'mp.plan("stairs", "talos").plan.save("stairs.npz")',
-    "docs/motions.md": 'mp.files.motions.save_motion(mp.load_motion("walking"), "my_motion.toml")',
+    "docs/planar_tasks.md": 'mp.files.planar_tasks.save_planar_task(mp.load_planar_task("walking"), "my_task.toml")',
     "docs/plans_and_checker.md": 'scene, robot = mp.load_scene("flat"), mp.load_robot("humanoid44")\n'
     "scenes = [scene]\nfirst = mp.plan(scene, robot)\nplan, measured = first.plan, first.plan.knots[0]",
     "docs/rhp.md": "follow, estimate = print, [0.1, 0.0, 0.0]",
@@ -37,7 +37,7 @@ def test_the_python_of_a_page_runs(name, tmp_path):
             pytest.skip(f"needs {package}")
     blocks = [text for _, text in Page.read(ROOT / name).blocks("python")]
     text = "\n".join(
-        ["import mcplan", "import mcplan as mp", "import mcplan.files.motions", BEFORE.get(name, ""), *blocks]
+        ["import mcplan", "import mcplan as mp", "import mcplan.files.planar_tasks", BEFORE.get(name, ""), *blocks]
     )
     env = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
     done = subprocess.run([sys.executable, "-c", text], cwd=tmp_path, env=env, capture_output=True, text=True)

@@ -133,10 +133,10 @@ def test_torques_of_random_robots_are_those_of_pinocchio(seed):
     np.testing.assert_allclose(ours.base_residual, residual, atol=1e-12 * size, rtol=1e-11)
 
 
-@pytest.mark.parametrize(("motion", "name"), reference_names())
-def test_torques_along_whole_body_plans_are_those_of_pinocchio(motion, name):
-    plan = reference_plan(motion, name)
-    robot = plan.motion.robot
+@pytest.mark.parametrize(("task", "name"), reference_names())
+def test_torques_along_whole_body_plans_are_those_of_pinocchio(task, name):
+    plan = reference_plan(task, name)
+    robot = plan.task.robot
     for t in np.linspace(0.0, plan.duration(), 37):
         state = plan.at(t)
         forces = [(robot.end_effectors[f.end_effector].body, f.position_W, f.force_W) for f in state.forces]

@@ -20,10 +20,10 @@ def uniform():
     return mp.whole_body("cartwheel", forces="uniform", certify=True)
 
 
-def iterations_of(motion="cartwheel", **options) -> list[str]:
+def iterations_of(task="cartwheel", **options) -> list[str]:
     """Lines that the solver logs."""
     lines: list[str] = []
-    mp.whole_body(motion, logger=lambda level, line: lines.append(line), **options)
+    mp.whole_body(task, logger=lambda level, line: lines.append(line), **options)
     return lines
 
 
@@ -73,7 +73,7 @@ def test_without_a_cost_the_motion_has_one_duration_and_with_one_each_phase_its_
 def test_the_shortest_kinematic_motion_keeps_each_phase_at_its_least():
     fast = mp.whole_body("cartwheel", minimise="time", dynamics=False, order=5)
     assert fast.report.status == mp.Status.solved
-    lowest = [max(phase.min_duration, 0.2) for phase in fast.plan.motion.phases]
+    lowest = [max(phase.min_duration, 0.2) for phase in fast.plan.task.phases]
     np.testing.assert_allclose(fast.plan.durations, lowest, rtol=1e-2)
 
 
@@ -116,7 +116,7 @@ def test_an_interrupt_in_the_logger_ends_the_search_and_not_the_program():
 
 @pytest.mark.usefixtures("ctrl_c")
 def test_an_interrupt_without_a_logger_ends_the_search():
-    planner = mp.sip.Planner(mp.load_motion("climbing"))
+    planner = mp.sip.Planner(mp.load_planar_task("climbing"))
     timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
     with pytest.raises(mp.Interrupted) as stop:
@@ -184,7 +184,7 @@ def test_enumerations_are_read_with_dashes_too():
 
 
 WRONG = [
-    ("cartweel", {}, mp.errors.UnknownMotion, "Did you mean 'cartwheel'"),
+    ("cartweel", {}, mp.errors.UnknownPlanarTask, "Did you mean 'cartwheel'"),
     (
         "cartwheel",
         {"minimise": "energy"},
@@ -234,10 +234,10 @@ WRONG = [
 ]
 
 
-@pytest.mark.parametrize(("motion", "options", "error", "message"), WRONG, ids=lambda v: str(v)[:40])
-def test_wrong_input_is_named(motion, options, error, message):
+@pytest.mark.parametrize(("task", "options", "error", "message"), WRONG, ids=lambda v: str(v)[:40])
+def test_wrong_input_is_named(task, options, error, message):
     with pytest.raises(error, match=message):
-        mp.whole_body(motion, **options)
+        mp.whole_body(task, **options)
 
 
 def test_a_warm_start_of_other_phases_or_joints_is_named(uniform):
@@ -248,9 +248,9 @@ def test_a_warm_start_of_other_phases_or_joints_is_named(uniform):
 
 
 def test_a_stance_that_joint_limits_forbid_is_not_solved_and_named():
-    motion = mp.load_motion("cartwheel")
-    motion.phases[2].contacts[1].position_W = [2.55, 0.0]  # limbs stretch so far, but not with feet flat on the ground
-    result = mp.whole_body(motion, dynamics=False, max_iterations=30, order=5)
+    task = mp.load_planar_task("cartwheel")
+    task.phases[2].contacts[1].position_W = [2.55, 0.0]  # limbs stretch so far, but not with feet flat on the ground
+    result = mp.whole_body(task, dynamics=False, max_iterations=30, order=5)
     assert result.report.status not in (mp.Status.solved, mp.Status.acceptable)
     worst = result.report.worst_violation
     assert (

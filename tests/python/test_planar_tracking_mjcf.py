@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mcplan import _core, load_motion
+from mcplan import _core, load_planar_task
 from test_planar_dynamics import random_configuration, random_robot
 
 mujoco = pytest.importorskip("mujoco")
@@ -92,11 +92,11 @@ def test_motors_push_their_own_joints_up_to_their_limits(seed):
 @pytest.mark.parametrize("name", ["stairs", "climbing", "chimney"])
 @pytest.mark.parametrize("shift_m", [0.0, 0.03])
 def test_a_ray_against_a_surface_ends_on_it(name, shift_m):
-    motion = load_motion(name)
-    model = build(motion, ground_shift_m=shift_m)
+    task = load_planar_task(name)
+    model = build(task, ground_shift_m=shift_m)
     data = mujoco.MjData(model.mj)
     mujoco.mj_kinematics(model.mj, data)
-    for i, surface in enumerate(motion.surfaces):
+    for i, surface in enumerate(task.surfaces):
         ends = np.clip([surface.from_, surface.to], -1.0, 1.0)
         for along in np.linspace(*ends, 7)[1:-1]:
             place = surface.origin_W + along * surface.tangent_W + [0.0, shift_m]
@@ -118,7 +118,7 @@ def test_a_ray_against_a_surface_ends_on_it(name, shift_m):
 
 
 def test_scales_reach_masses_and_friction():
-    motion = load_motion("cartwheel")
-    model = build(motion, mass_scale=1.1, friction_scale=0.5)
-    assert model.mj.body_subtreemass[0] == pytest.approx(1.1 * motion.robot.mass(), rel=1e-12)
-    assert model.mj.geom_friction[model.surface_geoms[0], 0] == pytest.approx(0.5 * motion.surfaces[0].friction)
+    task = load_planar_task("cartwheel")
+    model = build(task, mass_scale=1.1, friction_scale=0.5)
+    assert model.mj.body_subtreemass[0] == pytest.approx(1.1 * task.robot.mass(), rel=1e-12)
+    assert model.mj.geom_friction[model.surface_geoms[0], 0] == pytest.approx(0.5 * task.surfaces[0].friction)

@@ -24,8 +24,8 @@ def configuration(simulation: PlanarSimulation) -> _core.PlanarConfiguration:
 
 def test_torques_and_contact_forces_explain_the_accelerations():
     plan = cartwheel()
-    robot = plan.motion.robot
-    simulation = PlanarSimulation(build(plan.motion, step_s=2e-4))
+    robot = plan.task.robot
+    simulation = PlanarSimulation(build(plan.task, step_s=2e-4))
     simulation.reset(plan.at(0.0).configuration)
     touched = set()
     for t in np.arange(0.0, plan.duration(), 0.01):
@@ -50,7 +50,7 @@ def test_torques_and_contact_forces_explain_the_accelerations():
 
 def test_feedback_is_what_motors_add_to_the_torques():
     plan = cartwheel()
-    simulation = PlanarSimulation(build(plan.motion))
+    simulation = PlanarSimulation(build(plan.task))
     asked = plan.at(0.1)
     simulation.reset(plan.at(0.0).configuration)
     added = simulation.apply(asked.torque, asked.configuration.q, asked.configuration.velocity)
@@ -59,7 +59,7 @@ def test_feedback_is_what_motors_add_to_the_torques():
 
 
 def test_time_and_warnings_begin_anew():
-    simulation = PlanarSimulation(build(cartwheel().motion, step_s=1e-3))
+    simulation = PlanarSimulation(build(cartwheel().task, step_s=1e-3))
     simulation.reset(cartwheel().at(0.0).configuration)
     simulation.advance(30)
     assert simulation.time_s == pytest.approx(0.03)

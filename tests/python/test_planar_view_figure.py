@@ -6,11 +6,11 @@ import pytest
 from mcplan._core import Capsule
 from mcplan.planar.view.figure import convex_hull, end_colours, limbs_of, shapes_of, size_of
 from mcplan.view.colours import COOL, WARM
-from reference_solutions import reference_motion
+from reference_solutions import reference_task
 
 
 def robot(name: str):
-    return reference_motion({"climber9": "climbing", "walker9": "walking"}[name]).robot
+    return reference_task({"climber9": "climbing", "walker9": "walking"}[name]).robot
 
 
 def test_limbs_are_the_chains_below_the_trunk():

@@ -46,9 +46,9 @@ def test_frames_share_one_scale_and_equal_axes(plan):
 def test_the_robot_stands_where_exact_kinematics_has_it(plan):
     t = 0.7
     (axes,) = film_strip(plan, frames=[t]).axes
-    shapes, drawn = shapes_of(plan.motion.robot), patches(axes, ROBOT)
+    shapes, drawn = shapes_of(plan.task.robot), patches(axes, ROBOT)
     assert len(drawn) == len(shapes)
-    frames = planar_kinematics(plan.motion.robot, plan.at(t).configuration)
+    frames = planar_kinematics(plan.task.robot, plan.at(t).configuration)
     for shape, patch in zip(shapes, drawn, strict=True):
         frame = frames[shape.body]
         cos, sin = np.cos(frame.angle), np.sin(frame.angle)
@@ -59,7 +59,7 @@ def test_the_robot_stands_where_exact_kinematics_has_it(plan):
 def test_arrows_and_cones_stand_at_the_points_in_contact(plan):
     t = 0.7
     (axes,) = film_strip(plan, frames=[t]).axes
-    robot, forces = plan.motion.robot, plan.at(t).forces
+    robot, forces = plan.task.robot, plan.at(t).forces
     scale = 0.55 * size_of(robot) / (robot.mass() * robot.gravity)
     cones = patches(axes, CONES)
     assert np.array([c.get_xy()[0] for c in cones]) == pytest.approx(np.array([f.position_W for f in forces]), abs=1e-9)
@@ -82,7 +82,7 @@ def test_forces_and_cones_can_be_left_out(plan):
 
 def test_surfaces_are_hatched(plan):
     (axes,) = film_strip(plan, frames=1).axes
-    assert len(patches(axes, GROUND)) == len(plan.motion.surfaces)
+    assert len(patches(axes, GROUND)) == len(plan.task.surfaces)
     assert all(patch.get_hatch() for patch in patches(axes, GROUND))
 
 
@@ -111,7 +111,7 @@ def test_legend_fits_into_the_figure():
 
 def test_postures_pale_towards_the_past(plan):
     (axes,) = stroboscope(plan, postures=3).axes
-    count = len(shapes_of(plan.motion.robot))
+    count = len(shapes_of(plan.task.robot))
     robots = patches(axes, ROBOT)
     assert len(robots) == 3 * count
     lightness = [
@@ -123,7 +123,7 @@ def test_postures_pale_towards_the_past(plan):
 def test_postures_show_every_cone_once(plan):
     (axes,) = stroboscope(plan, postures=20).axes
     apexes = np.array([cone.get_xy()[0] for cone in patches(axes, CONES)])
-    places = {(c.end_effector, *np.round(c.position_W, 6)) for phase in plan.motion.phases for c in phase.contacts}
+    places = {(c.end_effector, *np.round(c.position_W, 6)) for phase in plan.task.phases for c in phase.contacts}
     assert len(apexes) == 2 * len(places)
 
 

@@ -5,13 +5,13 @@ import pytest
 
 from mcplan._core import PlanarContact, PlanarPhase, PlanarSurface, PlanarTask
 from mcplan.planar.view.ground import cone_outline, slabs_of
-from reference_solutions import reference_motion
+from reference_solutions import reference_task
 
 
-def motion_on(*surfaces: PlanarSurface, contacts: dict[int, tuple[float, float]]) -> PlanarTask:
+def task_on(*surfaces: PlanarSurface, contacts: dict[int, tuple[float, float]]) -> PlanarTask:
     """Contacts at points by surface."""
     touching = [PlanarContact(end_effector=0, surface=s, position_W=at, angle=0.0) for s, at in contacts.items()]
-    robot = reference_motion("walking").robot
+    robot = reference_task("walking").robot
     phases = [PlanarPhase(contacts=[contact]) for contact in touching]
     return PlanarTask(name="made", robot=robot, surfaces=list(surfaces), phases=phases)
 
@@ -20,7 +20,7 @@ POINTS = np.array([[-0.3, 0.0], [1.0, 1.5]])
 
 
 def test_floor_reaches_under_the_motion_and_no_further():
-    (slab,) = slabs_of(motion_on(PlanarSurface(name="floor"), contacts={0: (0.0, 0.0)}), POINTS, 0.1, 0.2)
+    (slab,) = slabs_of(task_on(PlanarSurface(name="floor"), contacts={0: (0.0, 0.0)}), POINTS, 0.1, 0.2)
     assert slab.front_W == pytest.approx(np.array([[-0.4, 0.0], [1.1, 0.0]]))
     assert slab.outline_W[:, 1].min() == pytest.approx(-0.2)
     assert not slab.is_wall
@@ -29,7 +29,7 @@ def test_floor_reaches_under_the_motion_and_no_further():
 def test_floor_and_wall_end_where_they_meet_and_share_the_corner():
     wall = PlanarSurface(name="wall", origin_W=(-0.2, 0.0), angle=-0.5 * np.pi)
     slabs = slabs_of(
-        motion_on(PlanarSurface(name="floor"), wall, contacts={0: (0.0, 0.0), 1: (-0.2, 1.0)}), POINTS, 0.1, 0.2
+        task_on(PlanarSurface(name="floor"), wall, contacts={0: (0.0, 0.0), 1: (-0.2, 1.0)}), POINTS, 0.1, 0.2
     )
     floor, wall = sorted(slabs, key=lambda slab: slab.name)
     assert floor.front_W[0] == pytest.approx([-0.2, 0.0])
@@ -42,7 +42,7 @@ def test_floor_and_wall_end_where_they_meet_and_share_the_corner():
 def test_a_surface_that_ends_is_drawn_to_its_end():
     plank = PlanarSurface(name="plank", origin_W=(0.2, 0.5), from_=-0.1, to=0.3)
     slabs = slabs_of(
-        motion_on(PlanarSurface(name="floor"), plank, contacts={0: (0.0, 0.0), 1: (0.2, 0.5)}), POINTS, 0.1, 0.2
+        task_on(PlanarSurface(name="floor"), plank, contacts={0: (0.0, 0.0), 1: (0.2, 0.5)}), POINTS, 0.1, 0.2
     )
     drawn = {slab.name: slab for slab in slabs}
     assert drawn["plank"].front_W == pytest.approx(np.array([[0.1, 0.5], [0.5, 0.5]]))
@@ -53,7 +53,7 @@ def test_a_surface_that_ends_is_drawn_to_its_end():
 def test_a_riser_in_the_solid_of_its_tread_has_none_of_its_own():
     riser = PlanarSurface(name="riser", origin_W=(0.3, 0.0), angle=0.5 * np.pi, from_=0.0, to=0.12)
     tread = PlanarSurface(name="tread", origin_W=(0.3, 0.12), from_=0.0, to=0.4)
-    slabs = slabs_of(motion_on(riser, tread, contacts={1: (0.4, 0.12)}), POINTS, 0.1, 0.2)
+    slabs = slabs_of(task_on(riser, tread, contacts={1: (0.4, 0.12)}), POINTS, 0.1, 0.2)
     drawn = {slab.name: slab for slab in slabs}
     assert len(drawn["riser"].outline_W) == 0
     assert drawn["riser"].front_W == pytest.approx(np.array([[0.3, 0.0], [0.3, 0.12]]))
@@ -62,14 +62,14 @@ def test_a_riser_in_the_solid_of_its_tread_has_none_of_its_own():
 
 @pytest.mark.parametrize("name", ["cartwheel", "climbing", "climbing_steep", "walking"])
 def test_solids_are_convex_counter_clockwise_and_behind_their_surface(name):
-    motion = reference_motion(name)
-    slabs = slabs_of(motion, POINTS, 0.1, 0.1)
-    assert len(slabs) == len(motion.surfaces)
+    task = reference_task(name)
+    slabs = slabs_of(task, POINTS, 0.1, 0.1)
+    assert len(slabs) == len(task.surfaces)
     for slab in slabs:
         edges = np.roll(slab.outline_W, -1, axis=0) - slab.outline_W
         after = np.roll(edges, -1, axis=0)
         assert (edges[:, 0] * after[:, 1] - edges[:, 1] * after[:, 0]).min() > 0.0
-        surface = motion.surfaces[slab.surface]
+        surface = task.surfaces[slab.surface]
         assert ((slab.outline_W - surface.origin_W) @ surface.normal_W).max() < 1e-9
 
 

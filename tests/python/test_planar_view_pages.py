@@ -33,7 +33,7 @@ def html(plan):
 
 def test_every_body_moves_as_exact_kinematics_says(plan, html):
     clips = clips_of(html)
-    bodies = plan.motion.robot.bodies
+    bodies = plan.task.robot.bodies
     moving = {path.removeprefix("robot/") for path in clips if path.startswith("robot/")}
     assert moving == {body.name for body in bodies}
     for i, body in enumerate(bodies):
@@ -42,7 +42,7 @@ def test_every_body_moves_as_exact_kinematics_says(plan, html):
         turns = floats(turning["values"]).reshape(-1, 4)
         for n in range(0, len(times), 7):
             state = plan.at(min(float(times[n]), plan.duration()))
-            expected = planar_kinematics(plan.motion.robot, state.configuration)[i]
+            expected = planar_kinematics(plan.task.robot, state.configuration)[i]
             # The plane is x forward, z up: counter-clockwise there is about -y.
             assert places[n] == pytest.approx([expected.position_W[0], 0.0, expected.position_W[1]], abs=2e-5)
             half = 0.5 * expected.angle
@@ -62,7 +62,7 @@ def test_com_ball_follows_the_plan(plan, html):
 
 def test_arrows_start_at_the_points_and_are_as_long_as_the_forces(plan, html):
     clips = clips_of(html)
-    robot, size = plan.motion.robot, SIZE[plan.motion.name]
+    robot, size = plan.task.robot, SIZE[plan.task.name]
     length_per_newton = 0.55 * size / (robot.mass() * robot.gravity)
     knots, checked = np.array(plan.knot_times()), 0
     for e, end in enumerate(robot.end_effectors):
@@ -99,9 +99,9 @@ def visible(clip: dict, t: float) -> bool:
 def test_cones_stand_exactly_while_there_is_contact(plan, html):
     clips = clips_of(html)
     knots = np.array(plan.knot_times())
-    for k, phase in enumerate(plan.motion.phases):
+    for k, phase in enumerate(plan.task.phases):
         for t in (knots[k] + 1e-3, 0.5 * (knots[k] + knots[k + 1]), knots[k + 1] - 1e-3):
-            for e, end in enumerate(plan.motion.robot.end_effectors):
+            for e, end in enumerate(plan.task.robot.end_effectors):
                 own = [c for path, c in clips.items() if path.startswith(f"cones/{end.name}/")]
                 expected = len(end.points) * any(c.end_effector == e for c in phase.contacts)
                 assert sum(visible(c, t) for c in own) == expected, (end.name, t)
@@ -110,9 +110,9 @@ def test_cones_stand_exactly_while_there_is_contact(plan, html):
 def test_cones_are_as_wide_as_friction_says():
     plan = reference_plan("climbing", "optimised_per_point")
     meshes = {c["path"]: c["object"] for c in commands_of(mp.show(plan).html()) if c["type"] == "set_object"}
-    (wall,) = [s for s in plan.motion.surfaces if s.name == "wall"]
-    end = next(c.end_effector for c in plan.motion.phases[0].contacts if plan.motion.surfaces[c.surface] == wall)
-    name = plan.motion.robot.end_effectors[end].name
+    (wall,) = [s for s in plan.task.surfaces if s.name == "wall"]
+    end = next(c.end_effector for c in plan.task.phases[0].contacts if plan.task.surfaces[c.surface] == wall)
+    name = plan.task.robot.end_effectors[end].name
     path = next(p for p in meshes if p.startswith(f"/meshcat/cones/{name}/"))
     array = meshes[path]["geometries"][0]["data"]["attributes"]["position"]["array"]
     corners = floats(array).reshape(-1, 3)[:, [0, 2]]
@@ -125,7 +125,7 @@ def test_cones_are_as_wide_as_friction_says():
 def test_ground_lies_under_the_feet(plan, html):
     """No corner of a slab lies outside of its surface."""
     meshes = {c["path"]: c["object"] for c in commands_of(html) if c["type"] == "set_object"}
-    for surface in plan.motion.surfaces:
+    for surface in plan.task.surfaces:
         solid = meshes[f"/meshcat/scene/{surface.name}/solid"]["geometries"][0]["data"]["attributes"]["position"]
         corners = floats(solid["array"]).reshape(-1, 3)[:, [0, 2]]
         height = (corners - surface.origin_W) @ surface.normal_W
@@ -136,9 +136,9 @@ def test_ground_lies_under_the_feet(plan, html):
 def test_caption_tells_how_the_plan_was_found(plan):
     report = SimpleNamespace(status="solved", iterations=73, time_s=1.25, cost=808.51)
     html = show_whole_body(plan, report).html()
-    robot, seconds = plan.motion.robot, f"{plan.duration():.2f} s"
+    robot, seconds = plan.task.robot, f"{plan.duration():.2f} s"
     for text in (
-        plan.motion.name,
+        plan.task.name,
         f"{robot.name}: 9 phases, {seconds}",
         "73 iterations, 1.25 s",
         "cost 808.5",
@@ -156,14 +156,14 @@ def test_page_stands_alone_and_is_the_same_twice(plan, html):
 
 def test_names_cannot_break_out_of_the_page():
     plan = reference_plan("walking", "optimised_per_point")
-    motion = plan.motion
-    motion.name = "<script>alert(1)</script>"
-    plan.motion = motion
+    task = plan.task
+    task.name = "<script>alert(1)</script>"
+    plan.task = task
     assert "<script>alert" not in mp.show(plan).html()
 
 
 def test_a_scene_for_a_whole_body_plan_is_refused(plan):
-    with pytest.raises(mp.InvalidInput, match="scene: a whole-body plan is drawn with its own motion, got 'flat'"):
+    with pytest.raises(mp.InvalidInput, match="scene: a whole-body plan is drawn with its own task, got 'flat'"):
         mp.show(plan, mp.load_scene("flat"))
 
 

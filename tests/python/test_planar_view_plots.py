@@ -38,9 +38,9 @@ def panels(figure) -> dict:
 )
 def test_curves_are_the_plans(plan, plot, value):
     drawn = panels(plot(plan))
-    assert len(drawn) == plan.motion.robot.joint_count()
+    assert len(drawn) == plan.task.robot.joint_count()
     knots = np.array(plan.knot_times())
-    for joint, body in enumerate(plan.motion.robot.bodies[1:]):
+    for joint, body in enumerate(plan.task.robot.bodies[1:]):
         times, values = drawn[body.name.replace("_", " ")].lines[0].get_data()
         checked = 0
         for t, y in list(zip(times, values, strict=True))[::37]:
@@ -58,7 +58,7 @@ def test_limits_are_the_robots(plan):
         (plot_torques, lambda b: (-b.torque_max, b.torque_max)),
     ):
         drawn = panels(plot(plan))
-        for body in plan.motion.robot.bodies[1:]:
+        for body in plan.task.robot.bodies[1:]:
             axes = drawn[body.name.replace("_", " ")]
             edges = sorted(line.get_ydata()[0] for line in axes.lines[1:])
             assert edges == pytest.approx(limits(body))
@@ -69,8 +69,8 @@ def test_titles_say_how_much_of_the_torque_is_used(plan):
     largest = np.max([np.abs(plan.at(t).torque) for t in np.linspace(0.0, plan.duration(), 4000)], axis=0)
     for axes in plot_torques(plan).axes:
         name, _, used = axes.get_title(loc="left").partition(": ")
-        joint = [b.name.replace("_", " ") for b in plan.motion.robot.bodies].index(name) - 1
-        limit = plan.motion.robot.bodies[joint + 1].torque_max
+        joint = [b.name.replace("_", " ") for b in plan.task.robot.bodies].index(name) - 1
+        limit = plan.task.robot.bodies[joint + 1].torque_max
         share, _, rest = used.partition(" % of ")
         assert float(share) == pytest.approx(100.0 * largest[joint] / limit, abs=1.0)
         assert rest == f"{limit:g} N m"
@@ -78,13 +78,13 @@ def test_titles_say_how_much_of_the_torque_is_used(plan):
 
 def test_joints_without_limits_are_drawn_without():
     plan = reference_plan("walking", "optimised_per_point")
-    motion = plan.motion
-    robot = motion.robot
+    task = plan.task
+    robot = task.robot
     bodies = list(robot.bodies)
     bodies[1].torque_max = np.inf
     robot.bodies = bodies
-    motion.robot = robot
-    plan.motion = motion
+    task.robot = robot
+    plan.task = task
     axes = panels(plot_torques(plan))[bodies[1].name.replace("_", " ")]
     assert len(axes.lines) == 1
     assert np.isfinite(axes.get_ylim()).all()
@@ -124,9 +124,9 @@ def test_drift_is_that_of_the_contacts_and_stands_below_the_tolerance(plan):
 def test_a_foot_in_the_air_has_no_drift(plan):
     left = plot_drift(plan).axes[0].lines[0]
     times, values = left.get_data()
-    knots, phases = plan.knot_times(), plan.motion.phases
+    knots, phases = plan.knot_times(), plan.task.phases
     for k, phase in enumerate(phases):
-        touching = any(plan.motion.robot.end_effectors[c.end_effector].name == "left_foot" for c in phase.contacts)
+        touching = any(plan.task.robot.end_effectors[c.end_effector].name == "left_foot" for c in phase.contacts)
         inside = (times > knots[k] + 1e-6) & (times < knots[k + 1] - 1e-6)
         assert np.isfinite(values[inside]).all() == touching
         assert np.isfinite(values[inside]).any() == touching

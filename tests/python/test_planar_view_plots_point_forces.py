@@ -20,7 +20,7 @@ def drawn(axes, name: str):
 
 def test_forces_at_every_point_are_the_plans(plan):
     figure = plot_point_forces(plan)
-    ends = plan.motion.robot.end_effectors
+    ends = plan.task.robot.end_effectors
     knots = np.array(plan.knot_times())
     assert len(figure.axes) == sum(len(end.points) for end in ends)
     for number, axes in enumerate(figure.axes):
@@ -47,12 +47,12 @@ def test_the_band_is_friction_times_normal(plan):
         assert corners[:, 1].min() == pytest.approx(-2.0 * np.nanmax(normal), rel=1e-9)
 
 
-@pytest.mark.parametrize("motion", ["cartwheel", "climbing", "walking"])
-def test_forces_are_drawn_within_their_cones(motion):
-    plan = reference_plan(motion, "optimised_per_point")
-    weight = plan.motion.robot.mass() * plan.motion.robot.gravity
+@pytest.mark.parametrize("task", ["cartwheel", "climbing", "walking"])
+def test_forces_are_drawn_within_their_cones(task):
+    plan = reference_plan(task, "optimised_per_point")
+    weight = plan.task.robot.mass() * plan.task.robot.gravity
     figure = plot_cones(plan)
-    assert len(figure.axes) == len(plan.motion.robot.end_effectors)
+    assert len(figure.axes) == len(plan.task.robot.end_effectors)
     for axes in figure.axes:
         assert axes.get_aspect() == 1.0
         edge_x, edge_y = drawn(axes, "friction cone").get_data()

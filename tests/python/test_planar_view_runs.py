@@ -32,7 +32,7 @@ def recording():
 
 def test_com_of_the_bodies_is_the_plans_own(recording):
     samples = sample_whole_body(recording.plan, recording.times_s)
-    com = com_of(recording.plan.motion.robot, samples.positions_W, samples.angles)
+    com = com_of(recording.plan.task.robot, samples.positions_W, samples.angles)
     assert com == pytest.approx(samples.com_W, abs=1e-9)
 
 

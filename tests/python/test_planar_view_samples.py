@@ -15,7 +15,7 @@ def plan(request):
 
 def test_bodies_and_soles_are_those_of_exact_kinematics(plan):
     samples = sample_whole_body(plan, frame_times(plan.duration(), 20.0))
-    robot = plan.motion.robot
+    robot = plan.task.robot
     for n, t in enumerate(samples.times_s):
         frames = planar_kinematics(robot, plan.at(min(float(t), plan.duration())).configuration)
         assert samples.positions_W[n] == pytest.approx(np.array([f.position_W for f in frames]), abs=1e-12)
@@ -39,7 +39,7 @@ def test_both_sides_of_every_boundary_are_sampled(plan):
 def test_forces_stand_where_there_is_contact_and_nowhere_else(plan):
     samples = sample_phases(plan, 50.0)
     for n in range(samples.count):
-        phase = plan.motion.phases[samples.phases[n]]
+        phase = plan.task.phases[samples.phases[n]]
         touching = {c.end_effector: c.surface for c in phase.contacts}
         for e in range(samples.surfaces.shape[1]):
             assert samples.surfaces[n, e] == touching.get(e, -1)
@@ -48,12 +48,12 @@ def test_forces_stand_where_there_is_contact_and_nowhere_else(plan):
             assert np.isfinite(samples.errors[n, e]).all() == (e in touching)
 
 
-@pytest.mark.parametrize(("motion", "name"), reference_names())
-def test_components_are_those_of_the_force(motion, name):
-    plan = reference_plan(motion, name)
+@pytest.mark.parametrize(("task", "name"), reference_names())
+def test_components_are_those_of_the_force(task, name):
+    plan = reference_plan(task, name)
     samples = sample_whole_body(plan, frame_times(plan.duration(), 10.0))
     for n, e, p in np.argwhere(np.isfinite(samples.normal)):
-        surface = plan.motion.surfaces[samples.surfaces[n, e]]
+        surface = plan.task.surfaces[samples.surfaces[n, e]]
         force = samples.tangential[n, e, p] * surface.tangent_W + samples.normal[n, e, p] * surface.normal_W
         # Soles stand as the plan expects them, which is along the surface.
         assert samples.forces_W[n, e, p] == pytest.approx(force, abs=1e-6)

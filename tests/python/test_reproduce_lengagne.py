@@ -35,7 +35,7 @@ def planner(config):
     from mcplan.planar.planning import make_options
 
     options = config.options()
-    return mcplan.sip.Planner(mcplan.load_motion(config.motion), make_options(options.pop("minimise"), options))
+    return mcplan.sip.Planner(mcplan.load_planar_task(config.motion), make_options(options.pop("minimise"), options))
 
 
 @pytest.fixture(scope="module")
@@ -72,7 +72,7 @@ def test_forces_as_parameters_make_338():
 
 @pytest.mark.parametrize("motion", paper.MOTIONS)
 def test_a_duration_per_phase_adds_one_for_each_phase_but_the_first(motion):
-    phases = len(mcplan.load_motion(motion).phases)
+    phases = len(mcplan.load_planar_task(motion).phases)
     for case, forces in paper.CASES.items():
         with_durations = planner(Config(4, motion, "tube", forces=forces)).parameters
         assert with_durations == paper.TABLE_3[motion, case].parameters + phases - 1
@@ -83,7 +83,7 @@ def test_the_papers_rows_are_those_of_its_counting_rule():
     contact_intervals = {"cartwheel": 16, "climbing": 86, "walking": 52}
     for motion, base in zip(paper.MOTIONS, (198, 684, 684), strict=True):
         count = contact_intervals[motion]
-        assert count == sum(len(p.contacts) * p.intervals for p in mcplan.load_motion(motion).phases)
+        assert count == sum(len(p.contacts) * p.intervals for p in mcplan.load_planar_task(motion).phases)
         for neq in range(4):
             assert paper.TABLE_1[motion, neq].constraints == base + 3 * (neq + 1) * count
             assert paper.TABLE_2[motion, neq].constraints == base + 3 * (neq + 1) * count

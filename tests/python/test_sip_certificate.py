@@ -33,9 +33,9 @@ def moved(plan, joint: int, index: int, amount: float):
     return plan
 
 
-@pytest.mark.parametrize(("motion", "name"), reference_names())
-def test_reference_solutions_are_certified(motion, name):
-    certificate = sip.certify(reference_plan(motion, name), TOLERANCES)
+@pytest.mark.parametrize(("task", "name"), reference_names())
+def test_reference_solutions_are_certified(task, name):
+    certificate = sip.certify(reference_plan(task, name), TOLERANCES)
     assert certificate.proved(), str(certificate)
     assert certificate.rounding < 1e-5
 
@@ -48,8 +48,8 @@ def test_a_tube_left_by_ten_nanoradians_is_a_violation():
     assert angle.where == "left_foot"
 
 
-@pytest.mark.parametrize(("motion", "name"), OPTIMISED)
-def test_a_control_point_moved_by_three_degrees_is_refused(motion, name):
+@pytest.mark.parametrize(("task", "name"), OPTIMISED)
+def test_a_control_point_moved_by_three_degrees_is_refused(task, name):
     """By 0.05 rad, at any joint and time; what is violated is named, and lies where the control point acts.
 
     A few moves leave the plan feasible: those of a swinging limb. Samples of exact kinematics tell which.
@@ -57,7 +57,7 @@ def test_a_control_point_moved_by_three_degrees_is_refused(motion, name):
     rng = np.random.default_rng(7)
     refused = 0
     for _ in range(12):
-        plan = reference_plan(motion, name)
+        plan = reference_plan(task, name)
         joint, index = (int(rng.integers(0, size)) for size in plan.control_points.shape)
         moved(plan, joint, index, 0.05)
         certificate = sip.certify(plan, TOLERANCES)
@@ -67,8 +67,8 @@ def test_a_control_point_moved_by_three_degrees_is_refused(motion, name):
         assert expected <= violated, (joint, index)
         assert certificate.proved() == (not expected), (joint, index, str(certificate))
         refused += not certificate.proved()
-        intervals = [(k, i) for k, phase in enumerate(plan.motion.phases) for i in range(phase.intervals)]
-        lengths = [plan.durations[k] / plan.motion.phases[k].intervals for k, _ in intervals]
+        intervals = [(k, i) for k, phase in enumerate(plan.task.phases) for i in range(phase.intervals)]
+        lengths = [plan.durations[k] / plan.task.phases[k].intervals for k, _ in intervals]
         begins = np.concatenate([[0.0], np.cumsum(lengths)])
         first, end = max(index - 3, 0), min(index + 1, len(lengths))
         for constraint in violated:  # control point i acts on intervals i - 3 .. i alone
@@ -76,9 +76,9 @@ def test_a_control_point_moved_by_three_degrees_is_refused(motion, name):
     assert refused >= 6
 
 
-@pytest.mark.parametrize(("motion", "name"), OPTIMISED)
-def test_tolerances_just_below_the_sampled_maxima_are_violated(motion, name):
-    plan = reference_plan(motion, name)
+@pytest.mark.parametrize(("task", "name"), OPTIMISED)
+def test_tolerances_just_below_the_sampled_maxima_are_violated(task, name):
+    plan = reference_plan(task, name)
     most = sampled(plan, 1e-4)
     below = PlanarTolerances(
         limit=most["torque"] - 1e-5 * (1.0 + abs(most["torque"])),

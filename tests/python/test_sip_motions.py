@@ -18,7 +18,7 @@ SLOW = pytest.mark.slow
 
 #: Those of the climber up the slope take some ten seconds each.
 FEASIBLE = [
-    *[(motion, forces) for motion in ("cartwheel", "walking") for forces in CASES],
+    *[(task, forces) for task in ("cartwheel", "walking") for forces in CASES],
     *[pytest.param("climbing", forces, marks=SLOW) for forces in CASES],
     # Of the steep one case 1 is feasible too, and hard to find.
     *[pytest.param("climbing_steep", forces, marks=SLOW) for forces in CASES[1:]],
@@ -26,9 +26,9 @@ FEASIBLE = [
 
 
 @functools.cache
-def feasible(motion: str, forces: str) -> sip.Result:
+def feasible(task: str, forces: str) -> sip.Result:
     """Without a cost, as in the paper's Table III, but with limits of torques."""
-    return mp.whole_body(motion, minimise="none", forces=forces)
+    return mp.whole_body(task, minimise="none", forces=forces)
 
 
 @functools.cache
@@ -42,7 +42,7 @@ def cheapest_cartwheels() -> tuple[sip.Result, ...]:
 
 
 def peer_of(plan: mp.PlanarPlan) -> Peer:
-    plain = planar_task_to_plain(plan.motion)
+    plain = planar_task_to_plain(plan.task)
     return Peer(plain["robot"], plain, plan.durations, plan.control_points, plan.weights)
 
 
@@ -62,9 +62,9 @@ def assert_kept(plan: mp.PlanarPlan, tube_m: float = 1e-3, tube_rad: float = 5e-
         assert np.abs(at.residual).max() < 1e-9
 
 
-@pytest.mark.parametrize(("motion", "forces"), FEASIBLE)
-def test_a_motion_is_found_from_nothing(motion, forces):
-    result = feasible(motion, forces)
+@pytest.mark.parametrize(("task", "forces"), FEASIBLE)
+def test_a_motion_is_found_from_nothing(task, forces):
+    result = feasible(task, forces)
     assert result.report.status == mp.Status.solved, result.report.message
     assert result.report.iterations <= 150
     assert result.drift_m <= 1.5e-3
@@ -73,17 +73,17 @@ def test_a_motion_is_found_from_nothing(motion, forces):
     assert_kept(result.plan)
 
 
-@pytest.mark.parametrize(("motion", "forces"), FEASIBLE)
-def test_a_motion_that_is_found_is_proved(motion, forces):
-    certificate = sip.certify(feasible(motion, forces).plan)
+@pytest.mark.parametrize(("task", "forces"), FEASIBLE)
+def test_a_motion_that_is_found_is_proved(task, forces):
+    certificate = sip.certify(feasible(task, forces).plan)
     assert certificate.proved(), str(certificate)
 
 
 @pytest.mark.parametrize(
-    "motion", ["cartwheel", "walking", pytest.param("climbing", marks=SLOW), pytest.param("climbing_steep", marks=SLOW)]
+    "task", ["cartwheel", "walking", pytest.param("climbing", marks=SLOW), pytest.param("climbing_steep", marks=SLOW)]
 )
-def test_contacts_stay_within_a_tenth_of_a_millimetre_where_asked(motion):
-    result = mp.whole_body(motion, minimise="none", tube_m=1e-4, tube_rad=5e-4)
+def test_contacts_stay_within_a_tenth_of_a_millimetre_where_asked(task):
+    result = mp.whole_body(task, minimise="none", tube_m=1e-4, tube_rad=5e-4)
     assert result.report.status == mp.Status.solved, result.report.message
     assert result.drift_m <= 1.5e-4
     assert result.drift_rad <= 5e-4
@@ -107,19 +107,19 @@ def test_more_freedom_of_the_forces_costs_no_more():
     assert costs[2] <= costs[1] <= costs[0]
 
 
-@pytest.mark.parametrize("motion", [pytest.param("walking", marks=SLOW), pytest.param("climbing", marks=SLOW)])
-def test_the_cheapest_walk_and_climb_are_at_least_as_cheap_as_the_reference(motion):
-    reference = {"walking": 438.3, "climbing": 808.5}[motion]
-    result = mp.whole_body(motion)
+@pytest.mark.parametrize("task", [pytest.param("walking", marks=SLOW), pytest.param("climbing", marks=SLOW)])
+def test_the_cheapest_walk_and_climb_are_at_least_as_cheap_as_the_reference(task):
+    reference = {"walking": 438.3, "climbing": 808.5}[task]
+    result = mp.whole_body(task)
     assert result.report.status == mp.Status.solved, result.report.message
     assert result.report.cost <= 1.01 * reference
     assert_kept(result.plan)
 
 
 @SLOW
-@pytest.mark.parametrize("motion", ["stairs", "chimney"])
-def test_motions_of_our_own_are_solved_and_proved(motion):
-    result = mp.whole_body(motion, certify=True)
+@pytest.mark.parametrize("task", ["stairs", "chimney"])
+def test_motions_of_our_own_are_solved_and_proved(task):
+    result = mp.whole_body(task, certify=True)
     assert result.report.status == mp.Status.solved, result.report
     assert result.certificate is not None and result.certificate.proved(), result.certificate
     assert_kept(result.plan)
@@ -149,16 +149,16 @@ def test_a_cartwheel_in_other_forms_is_found(options: dict[str, Any]):
 
 
 def test_limbs_that_would_touch_are_kept_apart():
-    plain = planar_task_to_plain(mp.load_motion("cartwheel"))
+    plain = planar_task_to_plain(mp.load_planar_task("cartwheel"))
     bodies = [body["name"] for body in plain["robot"]["bodies"]]
     shins = [bodies.index("B_lower"), bodies.index("C_lower")]
     plain["robot"]["collision_pairs"] = [shins]
     for shin in shins:  # thick ones: the motion that is found without minding them overlaps by two centimetres
         plain["robot"]["bodies"][shin]["capsules"][0]["radius"] = 0.15
-    motion = planar_task_from_plain(plain)
+    task = planar_task_from_plain(plain)
     overlaps = {}
     for minded in (False, True):
-        result = mp.whole_body(motion, minimise="none", self_collision=minded, time_limit=60.0)
+        result = mp.whole_body(task, minimise="none", self_collision=minded, time_limit=60.0)
         assert result.report.status == mp.Status.solved, result.report.message
         found = mp.check(result.plan, self_collision=True).constraints
         overlaps[minded] = next(v.value for v in found if v.name == "collision")

@@ -13,25 +13,25 @@ from whole_body_peer import Peer
 CONTENT = json.loads(FILE.read_text())
 
 
-def peer_of(motion: str, name: str) -> Peer:
-    entry = next(e for e in CONTENT["solutions"] if (e["motion"], e["name"]) == (motion, name))
-    task = CONTENT["motions"][motion]
+def peer_of(task: str, name: str) -> Peer:
+    entry = next(e for e in CONTENT["solutions"] if (e["task"], e["name"]) == (task, name))
+    plain = CONTENT["tasks"][task]
     free = np.array(entry["free_control_points"])
     points = np.hstack([free[:, :1], free[:, :1], free, free[:, -1:], free[:, -1:]])
-    return Peer(CONTENT["robots"][task["robot"]], task, entry["durations"], points, entry["weights"])
+    return Peer(CONTENT["robots"][plain["robot"]], plain, entry["durations"], points, entry["weights"])
 
 
-@pytest.mark.parametrize(("motion", "name"), TORQUE_INTEGRALS)
-def test_the_peer_finds_the_stated_costs(motion, name):
+@pytest.mark.parametrize(("task", "name"), TORQUE_INTEGRALS)
+def test_the_peer_finds_the_stated_costs(task, name):
     # They come from polynomials of order 8. The longest intervals, 0.33 s, are those of walking per point: what order 8
     # leaves out makes 438.2 of 438.27 there.
-    rel = 2e-4 if (motion, name) == ("walking", "optimised_per_point") else 1e-4
-    assert peer_of(motion, name).torque_integral() == pytest.approx(TORQUE_INTEGRALS[motion, name], rel=rel)
+    rel = 2e-4 if (task, name) == ("walking", "optimised_per_point") else 1e-4
+    assert peer_of(task, name).torque_integral() == pytest.approx(TORQUE_INTEGRALS[task, name], rel=rel)
 
 
-@pytest.mark.parametrize(("motion", "name"), reference_names())
-def test_limits_cones_and_contacts_hold_at_one_kilohertz(motion, name):
-    peer = peer_of(motion, name)
+@pytest.mark.parametrize(("task", "name"), reference_names())
+def test_limits_cones_and_contacts_hold_at_one_kilohertz(task, name):
+    peer = peer_of(task, name)
     weight = peer.weight()
     low, high = peer.limit("position_min"), peer.limit("position_max")
     for phase in range(len(peer.durations)):
@@ -47,9 +47,9 @@ def test_limits_cones_and_contacts_hold_at_one_kilohertz(motion, name):
         assert np.abs(at.residual).max() < 1e-9
 
 
-@pytest.mark.parametrize(("motion", "name"), reference_names())
-def test_plans_are_at_every_instant_what_the_peer_says(motion, name):
-    peer, plan = peer_of(motion, name), reference_plan(motion, name)
+@pytest.mark.parametrize(("task", "name"), reference_names())
+def test_plans_are_at_every_instant_what_the_peer_says(task, name):
+    peer, plan = peer_of(task, name), reference_plan(task, name)
     for phase, duration in enumerate(peer.durations):
         at = peer.sample(phase, np.array([0.0, 0.13, 0.5, 0.77, 0.999]) * duration)
         for n, time in enumerate(at.times):
@@ -67,10 +67,10 @@ def test_plans_are_at_every_instant_what_the_peer_says(motion, name):
             np.testing.assert_allclose(state.torque, at.torques[n], atol=1e-7)
 
 
-@pytest.mark.parametrize(("motion", "name"), reference_names())
-def test_the_peer_agrees_with_pinocchio(motion, name):
+@pytest.mark.parametrize(("task", "name"), reference_names())
+def test_the_peer_agrees_with_pinocchio(task, name):
     pytest.importorskip("pinocchio")
-    peer = peer_of(motion, name)
+    peer = peer_of(task, name)
     for phase, duration in enumerate(peer.durations):
         at = peer.sample(phase, np.linspace(0.0, duration, 7))
         torques, residual = peer.pinocchio_torques(phase, at)

@@ -11,7 +11,7 @@ from scipy.interpolate import BSpline
 
 import mcplan as mp
 from mcplan import _core
-from reference_solutions import TORQUE_INTEGRALS, reference_motion, reference_names, reference_plan
+from reference_solutions import TORQUE_INTEGRALS, reference_names, reference_plan, reference_task
 
 PLANS = [("cartwheel", "optimised_per_point"), ("climbing", "feasible_per_body"), ("walking", "optimised_uniform")]
 
@@ -26,7 +26,7 @@ def torque_integral(plan: mp.PlanarPlan, nodes: int = 12) -> float:
     """Of the squared torques, by Gauss-Legendre quadrature over each interval."""
     s, weights = np.polynomial.legendre.leggauss(nodes)
     total = 0.0
-    for k, phase in enumerate(plan.motion.phases):
+    for k, phase in enumerate(plan.task.phases):
         length = plan.durations[k] / phase.intervals
         for i in range(phase.intervals):
             torques = [plan.at_phase(k, length * (i + (x + 1.0) / 2.0)).torque for x in s]
@@ -34,24 +34,24 @@ def torque_integral(plan: mp.PlanarPlan, nodes: int = 12) -> float:
     return total
 
 
-@pytest.mark.parametrize(("motion", "name"), TORQUE_INTEGRALS)
-def test_reference_solutions_have_their_stated_cost(motion, name):
+@pytest.mark.parametrize(("task", "name"), TORQUE_INTEGRALS)
+def test_reference_solutions_have_their_stated_cost(task, name):
     # What is stated comes from polynomials of order 8 and has four to six digits.
-    rough = (motion, name) == ("walking", "optimised_per_point")  # longest intervals: 438.27 by exact dynamics
-    plan = reference_plan(motion, name)
-    assert torque_integral(plan) == pytest.approx(TORQUE_INTEGRALS[motion, name], rel=2e-4 if rough else 1e-4)
+    rough = (task, name) == ("walking", "optimised_per_point")  # longest intervals: 438.27 by exact dynamics
+    plan = reference_plan(task, name)
+    assert torque_integral(plan) == pytest.approx(TORQUE_INTEGRALS[task, name], rel=2e-4 if rough else 1e-4)
 
 
-@pytest.mark.parametrize(("motion", "name"), reference_names())
-def test_reference_solutions_are_accepted(motion, name):
+@pytest.mark.parametrize(("task", "name"), reference_names())
+def test_reference_solutions_are_accepted(task, name):
     # One of them drifts by 1e-8 rad more than the 5 mrad it was allowed.
-    result = mp.check(reference_plan(motion, name), tolerances=mp.PlanarTolerances(drift_angle=5.001e-3))
+    result = mp.check(reference_plan(task, name), tolerances=mp.PlanarTolerances(drift_angle=5.001e-3))
     assert result.ok(), str(result)
 
 
-@pytest.mark.parametrize(("motion", "name"), PLANS)
-def test_joints_are_the_b_splines_of_scipy(motion, name):
-    plan = reference_plan(motion, name)
+@pytest.mark.parametrize(("task", "name"), PLANS)
+def test_joints_are_the_b_splines_of_scipy(task, name):
+    plan = reference_plan(task, name)
     lengths = np.array(plan.interval_lengths())
     lengths = np.concatenate([np.repeat(lengths[0], 3), lengths, np.repeat(lengths[-1], 3)])
     knots = np.concatenate([[0.0], np.cumsum(lengths)]) - lengths[:3].sum()
@@ -63,9 +63,9 @@ def test_joints_are_the_b_splines_of_scipy(motion, name):
         np.testing.assert_allclose(x.acceleration, spline(t, 2), atol=1e-8)
 
 
-@pytest.mark.parametrize(("motion", "name"), PLANS)
-def test_velocities_and_accelerations_are_those_of_the_positions(motion, name):
-    plan, h = reference_plan(motion, name), 1e-6
+@pytest.mark.parametrize(("task", "name"), PLANS)
+def test_velocities_and_accelerations_are_those_of_the_positions(task, name):
+    plan, h = reference_plan(task, name), 1e-6
     for t in np.linspace(0.0, plan.duration(), 43)[1:-1]:
         k, since = phase_and_time(plan, t)
         if not h < since < plan.durations[k] - h:
@@ -77,21 +77,21 @@ def test_velocities_and_accelerations_are_those_of_the_positions(motion, name):
         np.testing.assert_allclose(now.base_acceleration, derivative, atol=1e-4 * speed)
 
 
-def expected_points(motion: mp.PlanarTask, phase: int) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+def expected_points(task: mp.PlanarTask, phase: int) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Place, tangent and normal of every point, contact by contact."""
     out = []
-    for contact in motion.phases[phase].contacts:
+    for contact in task.phases[phase].contacts:
         tangent = np.array([np.cos(contact.angle), np.sin(contact.angle)])
-        for point in motion.robot.end_effectors[contact.end_effector].points:
+        for point in task.robot.end_effectors[contact.end_effector].points:
             out.append((contact.position_W + point * tangent, tangent, np.array([-tangent[1], tangent[0]])))
     return out
 
 
-def wrench_matrix(motion: mp.PlanarTask, phase: int) -> np.ndarray:
+def wrench_matrix(task: mp.PlanarTask, phase: int) -> np.ndarray:
     """From (tangential, normal) of all points to force and moment about the mean of the points."""
-    points = expected_points(motion, phase)
+    points = expected_points(task, phase)
     mean = np.mean([place for place, _, _ in points], axis=0)
-    np.testing.assert_allclose(_core.moment_point_W(motion, phase), mean, atol=1e-14)
+    np.testing.assert_allclose(_core.moment_point_W(task, phase), mean, atol=1e-14)
     columns = []
     for place, *directions in points:
         arm = place - mean
@@ -100,9 +100,9 @@ def wrench_matrix(motion: mp.PlanarTask, phase: int) -> np.ndarray:
 
 
 @pytest.mark.parametrize("seed", range(10))
-@pytest.mark.parametrize("motion", ["cartwheel", "climbing", "climbing_steep", "walking"])
-def test_the_gain_solves_the_weighted_least_norm_problem(motion, seed):
-    task, rng = reference_motion(motion), np.random.default_rng(seed)
+@pytest.mark.parametrize("name", ["cartwheel", "climbing", "climbing_steep", "walking"])
+def test_the_gain_solves_the_weighted_least_norm_problem(name, seed):
+    task, rng = reference_task(name), np.random.default_rng(seed)
     for phase in range(len(task.phases)):
         matrix = wrench_matrix(task, phase)
         weights = np.exp(rng.uniform(-5.0, 5.0, matrix.shape[1] // 2))
@@ -126,21 +126,21 @@ def test_scaling_the_weights_leaves_the_forces():
 
 def test_a_symmetric_stance_at_rest_shares_the_weight():
     plan = reference_plan("walking", "feasible_uniform")
-    robot = plan.motion.robot
+    robot = plan.task.robot
     for end in robot.end_effectors:
         end.points = [-0.1, 0.1]
-    plan.motion.phases = plan.motion.phases[:1]
+    plan.task.phases = plan.task.phases[:1]
     plan.durations, plan.weights = [1.0], [np.ones(4)]
     plan.control_points = np.zeros((9, 6))
     # Feet as far behind the CoM as before it.
-    for contact, side in zip(plan.motion.phases[0].contacts, (-1.0, 1.0), strict=True):
+    for contact, side in zip(plan.task.phases[0].contacts, (-1.0, 1.0), strict=True):
         contact.position_W = [0.3 * side, 0.0]
     com_x = plan.at(0.0).com_W[0]
-    for contact in plan.motion.phases[0].contacts:
+    for contact in plan.task.phases[0].contacts:
         contact.position_W[0] += com_x - plan.at(0.0).com_W[0]
     base = np.zeros((3, 6))
     base[:] = plan.at(0.0).configuration.base[:, None]
-    base[0] -= plan.at(0.0).com_W[0] - _core.moment_point_W(plan.motion, 0)[0]
+    base[0] -= plan.at(0.0).com_W[0] - _core.moment_point_W(plan.task, 0)[0]
     plan.base_control_points = base
     weight = robot.mass() * robot.gravity
     for force in plan.at(0.5).forces:
@@ -150,9 +150,9 @@ def test_a_symmetric_stance_at_rest_shares_the_weight():
 
 def moved(plan: mp.PlanarPlan, by: np.ndarray) -> mp.PlanarPlan:
     out = copy.deepcopy(plan)
-    for surface in out.motion.surfaces:
+    for surface in out.task.surfaces:
         surface.origin_W += by
-    for phase in out.motion.phases:
+    for phase in out.task.phases:
         for contact in phase.contacts:
             contact.position_W += by
     return out
@@ -161,10 +161,10 @@ def moved(plan: mp.PlanarPlan, by: np.ndarray) -> mp.PlanarPlan:
 def turned(plan: mp.PlanarPlan, angle: float) -> mp.PlanarPlan:
     out = copy.deepcopy(plan)
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-    for surface in out.motion.surfaces:
+    for surface in out.task.surfaces:
         surface.origin_W = turn @ surface.origin_W
         surface.angle += angle
-    for phase in out.motion.phases:
+    for phase in out.task.phases:
         for contact in phase.contacts:
             contact.position_W = turn @ contact.position_W
             contact.angle += angle
@@ -174,20 +174,20 @@ def turned(plan: mp.PlanarPlan, angle: float) -> mp.PlanarPlan:
 def mirrored(plan: mp.PlanarPlan) -> mp.PlanarPlan:
     """x becomes -x. A contact frame's y axis is mirrored, its x axis then points the other way along the sole."""
     out, flip = copy.deepcopy(plan), np.array([-1.0, 1.0])
-    for body in out.motion.robot.bodies:
+    for body in out.task.robot.bodies:
         body.joint_P *= flip
         body.com_B *= flip
         body.offset *= -1.0
         body.position_min, body.position_max = -body.position_max, -body.position_min
-    for end in out.motion.robot.end_effectors:
+    for end in out.task.robot.end_effectors:
         end.position_B *= flip
         end.angle_B *= -1.0
         end.points = [-point for point in end.points]
-    for surface in out.motion.surfaces:
+    for surface in out.task.surfaces:
         surface.origin_W *= flip
         surface.angle *= -1.0
         surface.from_, surface.to = -surface.to, -surface.from_
-    for phase in out.motion.phases:
+    for phase in out.task.phases:
         for contact in phase.contacts:
             contact.position_W *= flip
             contact.angle *= -1.0
@@ -205,9 +205,9 @@ def along(plan: mp.PlanarPlan) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     )
 
 
-@pytest.mark.parametrize(("motion", "name"), PLANS)
-def test_torques_and_forces_do_not_depend_on_where_the_world_begins(motion, name):
-    plan = reference_plan(motion, name)
+@pytest.mark.parametrize(("task", "name"), PLANS)
+def test_torques_and_forces_do_not_depend_on_where_the_world_begins(task, name):
+    plan = reference_plan(task, name)
     other = moved(plan, np.array([3.0, -7.0]))
     for ours, wanted in zip(along(other), along(plan), strict=True):
         np.testing.assert_allclose(ours, wanted, atol=1e-8)
@@ -216,18 +216,18 @@ def test_torques_and_forces_do_not_depend_on_where_the_world_begins(motion, name
     assert shifted.angular_momentum == pytest.approx(state.angular_momentum, abs=1e-10)
 
 
-@pytest.mark.parametrize(("motion", "name"), PLANS)
-def test_without_gravity_they_do_not_depend_on_which_way_is_up(motion, name):
-    plan = reference_plan(motion, name)
-    plan.motion.robot.gravity = 0.0
+@pytest.mark.parametrize(("task", "name"), PLANS)
+def test_without_gravity_they_do_not_depend_on_which_way_is_up(task, name):
+    plan = reference_plan(task, name)
+    plan.task.robot.gravity = 0.0
     for angle in (0.9, -2.0):
         for ours, wanted in zip(along(turned(plan, angle)), along(plan), strict=True):
             np.testing.assert_allclose(ours, wanted, atol=1e-8)
 
 
-@pytest.mark.parametrize(("motion", "name"), PLANS)
-def test_a_mirrored_motion_has_mirrored_torques_and_forces(motion, name):
-    plan = reference_plan(motion, name)
+@pytest.mark.parametrize(("task", "name"), PLANS)
+def test_a_mirrored_motion_has_mirrored_torques_and_forces(task, name):
+    plan = reference_plan(task, name)
     other = mirrored(plan)
     torque, tangential, normal = along(plan)
     for ours, wanted in zip(along(other), (-torque, -tangential, normal), strict=True):
@@ -256,18 +256,18 @@ def test_drift_is_that_of_the_checker():
 
 
 def test_plain_data_can_be_copied_pickled_and_pasted():
-    motion = reference_motion("climbing")
-    motion.phases[1].poses = [_core.PlanarPose(body=0, fraction=0.5, min=[-np.inf, 0.3, 0.0], max=[1.0, np.inf, 0.5])]
-    robot = motion.robot
+    task = reference_task("climbing")
+    task.phases[1].poses = [_core.PlanarPose(body=0, fraction=0.5, min=[-np.inf, 0.3, 0.0], max=[1.0, np.inf, 0.5])]
+    robot = task.robot
     robot.bodies[1].capsules = [_core.Capsule(from_B=[0.0, 0.0], to_B=[0.0, -0.4], radius=0.05)]
     robot.bodies[4].capsules = [_core.Capsule(from_B=[0.0, 0.0], to_B=[0.0, -0.4], radius=0.05)]
     robot.collision_pairs = [(1, 4)]
-    for value in (motion, robot):
+    for value in (task, robot):
         for other in (copy.deepcopy(value), pickle.loads(pickle.dumps(value)), eval(repr(value), vars(_core))):
             assert repr(other) == repr(value)
-    other = copy.deepcopy(motion)
+    other = copy.deepcopy(task)
     other.robot.bodies[0].mass = 5.0
-    assert motion.robot.bodies[0].mass == 8.0
+    assert task.robot.bodies[0].mass == 8.0
 
 
 def test_arrays_of_a_plan_can_be_changed_in_place():

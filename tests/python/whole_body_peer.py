@@ -51,16 +51,16 @@ class Samples:
 
 
 class Peer:
-    """A plan from plain data: `motion` and `robot` as in plan files, free control points, durations, weights."""
+    """A plan from plain data: `task` and `robot` as in plan files, free control points, durations, weights."""
 
     def __init__(
-        self, robot: dict[str, Any], motion: dict[str, Any], durations: Any, points: np.ndarray, weights: Any
+        self, robot: dict[str, Any], task: dict[str, Any], durations: Any, points: np.ndarray, weights: Any
     ) -> None:
-        self.robot, self.motion = robot, motion
+        self.robot, self.task = robot, task
         self.bodies = robot["bodies"]
         self.durations = np.asarray(durations, dtype=float)
         self.weights = [np.asarray(w, dtype=float) for w in weights]
-        counts = [phase["intervals"] for phase in motion["phases"]]
+        counts = [phase["intervals"] for phase in task["phases"]]
         lengths = np.repeat(self.durations / counts, counts)
         lengths = np.concatenate([np.repeat(lengths[0], 3), lengths, np.repeat(lengths[-1], 3)])
         knots = np.concatenate([[0.0], np.cumsum(lengths)]) - lengths[:3].sum()
@@ -84,8 +84,8 @@ class Peer:
     def contacts(self, phase: int) -> list[tuple[dict[str, Any], dict[str, Any], float]]:
         """Contact, end-effector and friction coefficient."""
         return [
-            (c, self.robot["end_effectors"][c["end_effector"]], self.motion["surfaces"][c["surface"]]["friction"])
-            for c in self.motion["phases"][phase]["contacts"]
+            (c, self.robot["end_effectors"][c["end_effector"]], self.task["surfaces"][c["surface"]]["friction"])
+            for c in self.task["phases"][phase]["contacts"]
         ]
 
     def sample(self, phase: int, times: np.ndarray) -> Samples:
@@ -209,7 +209,7 @@ class Peer:
         """Of the squared torques [N^2 m^2 s], by Gauss-Legendre quadrature over each interval."""
         s, w = np.polynomial.legendre.leggauss(nodes)
         total = 0.0
-        for k, phase in enumerate(self.motion["phases"]):
+        for k, phase in enumerate(self.task["phases"]):
             length = self.durations[k] / phase["intervals"]
             for i in range(phase["intervals"]):
                 torques = self.sample(k, length * (i + (s + 1.0) / 2.0)).torques

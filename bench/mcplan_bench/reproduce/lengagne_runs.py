@@ -142,15 +142,15 @@ def run(
 def without_heights(plan: PlanarPlan) -> PlanarPlan:
     """A copy whose swinging limbs need not be high in the middle of a phase, only out of solids."""
     out = copy.deepcopy(plan)
-    motion = out.motion
-    phases = list(motion.phases)
+    task = out.task
+    phases = list(task.phases)
     for phase in phases:
         clearances = list(phase.clearances)
         for clearance in clearances:
             clearance.middle_height = -math.inf
         phase.clearances = clearances
-    motion.phases = phases
-    out.motion = motion
+    task.phases = phases
+    out.task = task
     return out
 
 

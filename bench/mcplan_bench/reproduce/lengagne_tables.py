@@ -65,7 +65,7 @@ def equalities(name: str, table: int, neq: int) -> int:
     """Rows of strict contact constraints: x, y and angle of each contact, of all but one where the base is computed."""
     import mcplan
 
-    phases = mcplan.load_motion(name).phases
+    phases = mcplan.load_planar_task(name).phases
     left_out = FREE_FLYER[table] == "computed"
     return 3 * (neq + 1) * sum((len(phase.contacts) - left_out) * phase.intervals for phase in phases)
 

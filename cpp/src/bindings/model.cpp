@@ -100,8 +100,8 @@ Value schema_of(const std::string& name) {
   if (name == "scene") return model::schema<Scene>();
   if (name == "robot") return model::schema<Robot>();
   if (name == "planar_robot") return model::schema<model::InFile<PlanarRobot>>();
-  if (name == "motion") return model::schema<model::InFile<PlanarTask>>();
-  throw InvalidInput("name", "must be scene, robot, planar_robot or motion", text(name));
+  if (name == "planar_task") return model::schema<model::InFile<PlanarTask>>();
+  throw InvalidInput("name", "must be scene, robot, planar_robot or planar_task", text(name));
 }
 
 void bind_scene_files(py::module_& m) {
@@ -161,13 +161,13 @@ void bind_model(py::module_& m) {
   bind_scene_files(m);
   bind_robot_files(m);
   m.def("built_in", &built_in, py::arg("kind"),
-        "Sorted names of the built-in 'scenes', 'robots', 'planar_robots' or 'motions'.");
+        "Sorted names of the built-in 'scenes', 'robots', 'planar_robots' or 'planar_tasks'.");
   m.def(
       "data_folder", [] { return path_text(data_folder().string()); },
-      "The folder of the built-in scenes, robots and motions.");
+      "The folder of the built-in scenes, robots and planar tasks.");
   m.def(
       "schema_text", [](const std::string& name) { return model::json_text(schema_of(name), 2) + "\n"; },
-      py::arg("name"), "The JSON schema of the files of a kind: 'scene', 'robot', 'planar_robot' or 'motion'.");
+      py::arg("name"), "The JSON schema of the files of a kind: 'scene', 'robot', 'planar_robot' or 'planar_task'.");
   m.def(
       "toml_text",
       [](const py::object& data, const py::object& header) {

@@ -39,14 +39,14 @@ void translate(std::exception_ptr pointer) {
     raise_unknown("UnknownScene", error);
   } catch (const UnknownRobot& error) {
     raise_unknown("UnknownRobot", error);
-  } catch (const UnknownMotion& error) {
-    raise_unknown("UnknownMotion", error);
+  } catch (const UnknownPlanarTask& error) {
+    raise_unknown("UnknownPlanarTask", error);
   } catch (const InvalidScene& error) {
     raise("InvalidScene", error);
   } catch (const InvalidRobot& error) {
     raise("InvalidRobot", error);
-  } catch (const InvalidMotion& error) {
-    raise("InvalidMotion", error);
+  } catch (const InvalidPlanarTask& error) {
+    raise("InvalidPlanarTask", error);
   } catch (const InvalidOptions& error) {
     raise("InvalidOptions", error);
   } catch (const InvalidPlan& error) {

@@ -119,9 +119,9 @@ void bind_task(py::module_& m) {
   bind_fields<PlanarClearance>(m);
   bind_fields<PlanarPose>(m);
   bind_fields<PlanarPhase>(m);
-  py::class_<PlanarTask> motion = bind_fields<PlanarTask>(m);
-  motion.def("interval_count", &PlanarTask::interval_count, "Of all phases.");
-  motion.def(
+  py::class_<PlanarTask> task = bind_fields<PlanarTask>(m);
+  task.def("interval_count", &PlanarTask::interval_count, "Of all phases.");
+  task.def(
       "first_interval",
       [](const PlanarTask& self, int k) {
         if (k < 0 || k > static_cast<int>(self.phases.size()))
@@ -129,7 +129,7 @@ void bind_task(py::module_& m) {
         return self.first_interval(k);
       },
       py::arg("phase"), "Index of the first interval of a phase.");
-  motion.def(
+  task.def(
       "phase_of",
       [](const PlanarTask& self, int interval) {
         if (interval < 0 || interval >= self.interval_count())
@@ -137,8 +137,8 @@ void bind_task(py::module_& m) {
         return self.phase_of(interval);
       },
       py::arg("interval"), "Phase that an interval belongs to.");
-  motion.def("validate", &PlanarTask::validate,
-             "Raise InvalidMotion (InvalidRobot for the robot) naming all that is out of its range.");
+  task.def("validate", &PlanarTask::validate,
+           "Raise InvalidPlanarTask (InvalidRobot for the robot) naming all that is out of its range.");
 }
 
 }  // namespace

@@ -45,11 +45,12 @@ void bind_planar_task_files(py::module_& m) {
   m.def(
       "load_planar_task", [](const py::object& source) { return load_planar_task(path_from(source)); },
       py::arg("source"),
-      "A built-in motion by its name, or one from a TOML file. Raises UnknownMotion, UnknownRobot, InvalidMotion, "
+      "A built-in planar task by its name, or one from a TOML file. Raises UnknownPlanarTask, UnknownRobot, "
+      "InvalidPlanarTask, "
       "InvalidRobot.");
   m.def(
       "read_planar_task", [](const py::object& path) { return read_planar_task(path_from(path)); }, py::arg("path"),
-      "A motion from a TOML file. Raises InvalidMotion, InvalidRobot, UnknownRobot.");
+      "A planar task from a TOML file. Raises InvalidPlanarTask, InvalidRobot, UnknownRobot.");
   m.def(
       "planar_task_from_dict",
       [](const py::object& data, const py::object& source, const py::object& folder) {
@@ -59,11 +60,11 @@ void bind_planar_task_files(py::module_& m) {
         } catch (const InvalidRobot&) {
           throw;
         } catch (const InvalidInput& found) {
-          throw moved<InvalidMotion>(found);
+          throw moved<InvalidPlanarTask>(found);
         }
       },
       py::arg("data"), py::arg("source") = "", py::arg("folder") = py::none(),
-      "The motion of plain data with the keys of a motion file. The robot that it names is looked for in `folder`; "
+      "The planar task of plain data with the keys of its file. The robot that it names is looked for in `folder`; "
       "None: in the working directory.");
   m.def(
       "planar_task_to_dict",
@@ -72,7 +73,8 @@ void bind_planar_task_files(py::module_& m) {
         return py::dict(plain(model::planar_task_data(task)));
       },
       py::arg("task"),
-      "Plain data with the keys of a motion file: the robot inline, all contacts of each phase; what is at its default "
+      "Plain data with the keys of a planar task's file: the robot inline, all contacts of each phase; what is at its "
+      "default "
       "is left out.");
   m.def(
       "planar_task_to_plain",
@@ -81,10 +83,11 @@ void bind_planar_task_files(py::module_& m) {
         exactly.exact = true;
         return py::dict(plain(model::written(task, exactly)));
       },
-      py::arg("task"), "All that a motion holds under the names of its members; infinite numbers as texts.");
+      py::arg("task"), "All that a planar task holds under the names of its members; infinite numbers as texts.");
   m.def(
       "planar_task_from_plain", [](const py::object& data) { return model::planar_task_from_exact(value_from(data)); },
-      py::arg("data"), "Inverse of planar_task_to_plain. Raises InvalidMotion; says nothing of what relates fields.");
+      py::arg("data"),
+      "Inverse of planar_task_to_plain. Raises InvalidPlanarTask; says nothing of what relates fields.");
 }
 
 void bind_planar_plan_files(py::module_& m) {

@@ -21,7 +21,7 @@ void bind_state(py::module_& m) {
   py::class_<PlanarPointForce> force(m, "PlanarPointForce", "Contact force at one point of an end-effector.");
   force.def_readonly("contact", &PlanarPointForce::contact, "Index into the phase's contacts.");
   force.def_readonly("end_effector", &PlanarPointForce::end_effector, "Index into robot.end_effectors.");
-  force.def_readonly("surface", &PlanarPointForce::surface, "Index into motion.surfaces.");
+  force.def_readonly("surface", &PlanarPointForce::surface, "Index into task.surfaces.");
   force.def_readonly("point", &PlanarPointForce::point, "Index into the end-effector's points.");
   force.def_readonly("position_W", &PlanarPointForce::position_W, "Actual place of the point [m].");
   force.def_readonly("force_W", &PlanarPointForce::force_W, "On the robot [N].");
@@ -53,7 +53,7 @@ void bind_state(py::module_& m) {
 }
 
 std::string describe(const PlanarPlan& plan) {
-  return "<PlanarPlan of " + shown(plan.motion.robot.name) + ", " + shown(plan.motion.name) + ": " +
+  return "<PlanarPlan of " + shown(plan.task.robot.name) + ", " + shown(plan.task.name) + ": " +
          std::to_string(plan.durations.size()) + " phases, " + text(plan.duration()) + " s>";
 }
 
@@ -69,7 +69,7 @@ void bind_plan_class(py::module_& m) {
            "PlanarState `since_start` [s] after the start of phase k: says which side of a boundary is meant.");
   plan.def("validate", &PlanarPlan::validate,
            "Raise InvalidPlan when sizes do not fit together, a duration or weight is not positive or a number is not "
-           "finite; InvalidMotion and InvalidRobot for the motion.");
+           "finite; InvalidPlanarTask and InvalidRobot for the task.");
   plan.def(
       "save",
       [](py::object self, py::object path) {
@@ -89,27 +89,27 @@ void bind_plan_class(py::module_& m) {
 }
 
 void bind_functions(py::module_& m) {
-  const auto require_phase = [](const PlanarTask& motion, int phase) {
-    motion.validate();
-    if (phase < 0 || phase >= static_cast<int>(motion.phases.size()))
-      throw InvalidInput("phase", "must lie in [0, " + std::to_string(motion.phases.size() - 1) + "]", text(phase));
+  const auto require_phase = [](const PlanarTask& task, int phase) {
+    task.validate();
+    if (phase < 0 || phase >= static_cast<int>(task.phases.size()))
+      throw InvalidInput("phase", "must lie in [0, " + std::to_string(task.phases.size() - 1) + "]", text(phase));
   };
   m.def(
       "least_norm_gain",
-      [require_phase](const PlanarTask& motion, int phase, const VectorXd& weights) {
-        require_phase(motion, phase);
-        return least_norm_gain(motion, phase, weights);
+      [require_phase](const PlanarTask& task, int phase, const VectorXd& weights) {
+        require_phase(task, phase);
+        return least_norm_gain(task, phase, weights);
       },
-      py::arg("motion"), py::arg("phase"), py::arg("weights"),
+      py::arg("task"), py::arg("phase"), py::arg("weights"),
       "(2 points) x 3: gain from [m (a - g); moment about moment_point_W] to the forces (tangential, normal) of all "
       "points of a phase.");
   m.def(
       "moment_point_W",
-      [require_phase](const PlanarTask& motion, int phase) {
-        require_phase(motion, phase);
-        return moment_point_W(motion, phase);
+      [require_phase](const PlanarTask& task, int phase) {
+        require_phase(task, phase);
+        return moment_point_W(task, phase);
       },
-      py::arg("motion"), py::arg("phase"), "Mean of the phase's expected points [m].");
+      py::arg("task"), py::arg("phase"), "Mean of the phase's expected points [m].");
 }
 
 void bind_checker(py::module_& m) {
@@ -122,7 +122,7 @@ void bind_checker(py::module_& m) {
         return interruptible([&] { return check(plan, tolerances, self_collision, SignalWatch::stop); });
       },
       py::arg("plan"), py::arg("tolerances") = PlanarTolerances(), py::arg("self_collision") = false,
-      "Check a planar plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidMotion "
+      "Check a planar plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidPlanarTask "
       "or InvalidRobot where it is malformed, and Interrupted with what was found by then.");
 
   py::class_<Drift> drift(m, "Drift", "Largest distance and angle of a contact from where it should be.");

@@ -102,7 +102,8 @@ void bind_certificate(py::module_& m) {
       py::arg("plan"), py::arg("tolerances") = PlanarTolerances(), py::arg("order") = CertifyOptions().order,
       py::arg("max_depth") = CertifyOptions().max_depth, py::arg("self_collision") = false,
       "Prove every inequality of a planar plan at every instant, with Taylor models of `order` (2 to 12) on "
-      "intervals that are halved up to `max_depth` (0 to 40) times. Raises InvalidPlan, InvalidMotion, InvalidRobot, "
+      "intervals that are halved up to `max_depth` (0 to 40) times. Raises InvalidPlan, InvalidPlanarTask, "
+      "InvalidRobot, "
       "InvalidOptions.");
 }
 

@@ -52,7 +52,7 @@ void bind_result(py::module_& m) {
       [](JudgedResult& self, std::optional<Certificate> value) { self.certificate = std::move(value); },
       "What is proved of the plan, a copy; None: not asked for.", py::return_value_policy::copy);
   c.def("__repr__", [](const JudgedResult& self) {
-    return "<sip.Result: " + shown(self.plan.motion.name) + ", " + std::string(py::str(py::cast(self.report.status))) +
+    return "<sip.Result: " + shown(self.plan.task.name) + ", " + std::string(py::str(py::cast(self.report.status))) +
            ", " + std::to_string(self.report.iterations) + " iterations, " + std::to_string(self.parameters) +
            " parameters, " + std::to_string(self.constraints) + " constraints>";
   });
@@ -64,9 +64,9 @@ void bind_planner_class(py::module_& m) {
       "Whole-body planning of a planar robot through a sequence of contact stances by semi-infinite "
       "programming (Lengagne et al., 2010). Solves release the GIL; Ctrl-C ends them, and Interrupted "
       "carries the best plan so far.");
-  c.def(py::init([](const PlanarTask& motion, const Options& options) { return Planner(motion, watched(options)); }),
-        py::arg("motion"), py::arg_v("options", Options(), "Options()"),
-        "Raises InvalidMotion, InvalidRobot, InvalidOptions.");
+  c.def(py::init([](const PlanarTask& task, const Options& options) { return Planner(task, watched(options)); }),
+        py::arg("task"), py::arg_v("options", Options(), "Options()"),
+        "Raises InvalidPlanarTask, InvalidRobot, InvalidOptions.");
   c.def(
       "solve",
       [](Planner& self) {

@@ -73,7 +73,7 @@ fs::path find(const std::string& source, const std::string& kind, const std::str
   if (kind == "robots") {
     const std::vector<std::string> planar = built_in("planar_robots");
     if (std::find(planar.begin(), planar.end(), source) != planar.end())
-      hint = source + " is a planar robot: it comes with its motions, for mcplan sip. ";
+      hint = source + " is a planar robot: it comes with its planar tasks, for mcplan sip. ";
   }
   unknown(
       "no " + word + " " + model::quote(source) + " and no file of that name. " + hint + "Built-in: " + joined(legal),

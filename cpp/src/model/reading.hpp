@@ -8,7 +8,7 @@ namespace mcplan::model {
 
 // What may be read how far; also in docs/scenes_and_robots.md, "Limits of files".
 constexpr std::size_t kib = 1024, mib = 1024 * kib;
-constexpr std::size_t max_toml_bytes = 2 * mib;        ///< of a scene, robot or motion
+constexpr std::size_t max_toml_bytes = 2 * mib;        ///< of a scene, robot or planar task
 constexpr std::size_t max_polytope_bytes = 8 * mib;    ///< of a JSON file with reach polytopes
 constexpr std::size_t max_plan_bytes = 64 * mib;       ///< of a plan as it lies on the disk
 constexpr std::size_t max_json_plan_bytes = 16 * mib;  ///< of a plan in JSON

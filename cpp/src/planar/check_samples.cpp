@@ -17,7 +17,7 @@ double distance_to_segment(const Vector2d& point, const Vector2d& from, const Ve
   return (point - from - share * along).norm();
 }
 
-const PlanarRobot& robot_of(const Sample& sample) { return sample.plan.motion.robot; }
+const PlanarRobot& robot_of(const Sample& sample) { return sample.plan.task.robot; }
 
 const std::string* end_effector_name(const Sample& sample, int who) {
   return &robot_of(sample).end_effectors[who].name;
@@ -46,7 +46,7 @@ void check_joints(const Sample& sample, Findings& findings) {
 
 /// Distance and angle of every contact from where it should be.
 void check_drift(const Sample& sample, Findings& findings) {
-  const PlanarPhase& phase = sample.plan.motion.phases[sample.phase];
+  const PlanarPhase& phase = sample.plan.task.phases[sample.phase];
   for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
     const Eigen::Vector3d& error = sample.at.state.contact_error[i];
     const Place place{sample.phase, end_effector_name(sample, phase.contacts[i].end_effector), nullptr, sample.time_s};
@@ -65,11 +65,11 @@ void check_balance(const Sample& sample, Findings& findings) {
 
 /// |f_t| <= mu f_n and f_n >= 0 at every point, in shares of the robot's weight.
 void check_forces(const Sample& sample, Findings& findings) {
-  const PlanarTask& motion = sample.plan.motion;
-  const double weight = motion.robot.mass() * motion.robot.gravity;
+  const PlanarTask& task = sample.plan.task;
+  const double weight = task.robot.mass() * task.robot.gravity;
   for (const PlanarPointForce& force : sample.at.state.forces) {
     const Place place{sample.phase, end_effector_name(sample, force.end_effector), nullptr, sample.time_s};
-    const double beyond = std::abs(force.tangential) - motion.surfaces[force.surface].friction * force.normal;
+    const double beyond = std::abs(force.tangential) - task.surfaces[force.surface].friction * force.normal;
     findings.offer(Constraint::friction, beyond / weight, place);
     findings.offer(Constraint::pull, -force.normal / weight, place);
   }
@@ -78,16 +78,16 @@ void check_forces(const Sample& sample, Findings& findings) {
 /// Depth of the end-effector's points in the solid behind the surface, which ends where the surface does; and their
 /// height at the begin of interval n / 2, wherever they are along the surface.
 void check_clearance(const Sample& sample, Findings& findings) {
-  const PlanarTask& motion = sample.plan.motion;
-  const PlanarPhase& phase = motion.phases[sample.phase];
+  const PlanarTask& task = sample.plan.task;
+  const PlanarPhase& phase = task.phases[sample.phase];
   for (const PlanarClearance& clearance : phase.clearances) {
     const int end = clearance.end_interval < 0 ? phase.intervals : clearance.end_interval;
     const bool inside = sample.interval_of_phase >= clearance.first_interval && sample.interval_of_phase < end;
     const bool middle =
         sample.begin && sample.interval_of_phase == phase.intervals / 2 && !std::isinf(clearance.middle_height);
     if (!inside && !middle) continue;
-    const PlanarSurface& surface = motion.surfaces[clearance.surface];
-    const PlanarEndEffector& end_effector = motion.robot.end_effectors[clearance.end_effector];
+    const PlanarSurface& surface = task.surfaces[clearance.surface];
+    const PlanarEndEffector& end_effector = task.robot.end_effectors[clearance.end_effector];
     const PlanarMotionOfFrame sole =
         planar_point(sample.at.frames[end_effector.body], end_effector.position_B, end_effector.angle_B);
     const Place place{sample.phase, &end_effector.name, nullptr, sample.time_s};

@@ -40,7 +40,7 @@ void for_each_force_number(planar_laws::LeastNorm /*law*/, const PlanarPlan& pla
 template <class Use>
 void for_each_force_number(planar_laws::Polynomial /*law*/, const PlanarPlan& plan, const Use& use) {
   for (std::size_t i = 0; i < plan.force_polynomials.size(); ++i)
-    use(plan.force_polynomials[i], plan.motion.phase_of(static_cast<int>(i)));
+    use(plan.force_polynomials[i], plan.task.phase_of(static_cast<int>(i)));
 }
 
 }  // namespace
@@ -115,17 +115,17 @@ void check_rest(const std::vector<IntervalSplines>& splines, const PlanarRobot& 
 /// min <= x, y, angle of the body <= max at the given fraction of the phase.
 void check_poses(const PlanarPlan& plan, Findings& findings) {
   const std::vector<double> starts = plan.knot_times();
-  for (std::size_t k = 0; k < plan.motion.phases.size(); ++k)
-    for (const PlanarPose& pose : plan.motion.phases[k].poses) {
+  for (std::size_t k = 0; k < plan.task.phases.size(); ++k)
+    for (const PlanarPose& pose : plan.task.phases[k].poses) {
       const double since_start = pose.fraction * plan.durations[k];
       const PlanarState state = plan.at_phase(static_cast<int>(k), since_start);
-      const PlanarMotionOfFrame frame = planar_kinematics(plan.motion.robot, state.configuration)[pose.body];
+      const PlanarMotionOfFrame frame = planar_kinematics(plan.task.robot, state.configuration)[pose.body];
       const Eigen::Vector3d place(frame.position_W.x(), frame.position_W.y(), frame.angle);
       const double beyond = std::max((pose.min - place).maxCoeff(), (place - pose.max).maxCoeff());
       if (beyond > -std::numeric_limits<double>::infinity())
         findings.offer(
             Constraint::pose, beyond,
-            {static_cast<int>(k), &plan.motion.robot.bodies[pose.body].name, nullptr, starts[k] + since_start});
+            {static_cast<int>(k), &plan.task.robot.bodies[pose.body].name, nullptr, starts[k] + since_start});
     }
 }
 

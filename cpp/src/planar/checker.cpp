@@ -94,14 +94,14 @@ bool for_each_sample(const PlanarPlan& plan, const std::vector<IntervalSplines>&
 std::vector<IntervalSplines> all_splines(const PlanarPlan& plan) {
   const std::vector<double> lengths = plan.interval_lengths();
   std::vector<IntervalSplines> splines;
-  for (int k = 0; k < plan.motion.interval_count(); ++k) splines.push_back(interval_splines(plan, k, lengths));
+  for (int k = 0; k < plan.task.interval_count(); ++k) splines.push_back(interval_splines(plan, k, lengths));
   return splines;
 }
 
-/// What check() and largest_drift() ask for before they evaluate anything. Motion and robot are exceptions when
+/// What check() and largest_drift() ask for before they evaluate anything. Task and robot are exceptions when
 /// malformed, as scene and robot of other plans are.
 void require_well_formed(const PlanarPlan& plan) {
-  plan.motion.validate();
+  plan.task.validate();
   require_shape(plan);
 }
 
@@ -123,8 +123,8 @@ CheckResult check(const PlanarPlan& plan, const PlanarTolerances& tolerances, bo
   require_samples(plan, tolerances.sample_s);
 
   const std::vector<IntervalSplines> splines = all_splines(plan);
-  check_continuity(splines, plan.motion.robot, findings);
-  check_rest(splines, plan.motion.robot, findings);
+  check_continuity(splines, plan.task.robot, findings);
+  check_rest(splines, plan.task.robot, findings);
   check_poses(plan, findings);
   const bool complete = for_each_sample(plan, splines, tolerances.sample_s, stop, [&](const Sample& sample) {
     check_joints(sample, findings);

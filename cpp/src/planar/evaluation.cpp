@@ -26,7 +26,7 @@ IntervalSplines interval_splines(const PlanarPlan& plan, int interval, const std
   const Eigen::Matrix4d basis = cubic_spline_basis<double>(spacing_about(lengths, interval));
   IntervalSplines out;
   out.interval = interval;
-  out.phase = plan.motion.phase_of(interval);
+  out.phase = plan.task.phase_of(interval);
   out.length = lengths[interval];
   out.joints = plan.control_points.middleCols<4>(interval) * basis.transpose();
   if (plan.base_control_points.size() > 0)
@@ -48,10 +48,10 @@ PhaseGain phase_gain(const PlanarPlan& plan, int phase) {
 }
 
 void Evaluation::at(const IntervalSplines& splines, const PhaseGain& gain, double s) {
-  const PlanarTask& motion = plan_.motion;
-  const PlanarPhase& phase = motion.phases[splines.phase];
+  const PlanarTask& task = plan_.task;
+  const PlanarPhase& phase = task.phases[splines.phase];
   PlanarConfiguration& x = state.configuration;
-  const Eigen::Index joints = motion.robot.joint_count();
+  const Eigen::Index joints = task.robot.joint_count();
   x.q.resize(joints);
   x.velocity.resize(joints);
   x.acceleration.resize(joints);
@@ -62,7 +62,7 @@ void Evaluation::at(const IntervalSplines& splines, const PhaseGain& gain, doubl
     compute_base(phase);
 
   state.phase = splines.phase;
-  frames = planar_kinematics(motion.robot, x);
+  frames = planar_kinematics(task.robot, x);
   compute_contacts(phase);
   compute_momentum();
   compute_forces(splines, gain, s);
@@ -78,12 +78,12 @@ void Evaluation::compute_base(const PlanarPhase& phase) {
   x.base.setZero();
   x.base_velocity.setZero();
   x.base_acceleration.setZero();
-  frames = planar_kinematics(plan_.motion.robot, x);
+  frames = planar_kinematics(plan_.task.robot, x);
 
   const double share = 1.0 / static_cast<double>(phase.contacts.size());
   soles.clear();
   for (const PlanarContact& contact : phase.contacts) {
-    soles.push_back(sole_of(plan_.motion.robot, frames, contact.end_effector));
+    soles.push_back(sole_of(plan_.task.robot, frames, contact.end_effector));
     x.base[2] += share * (contact.angle - soles.back().angle);
     x.base_velocity[2] -= share * soles.back().rate;
     x.base_acceleration[2] -= share * soles.back().angular_acceleration;
@@ -103,14 +103,14 @@ void Evaluation::compute_contacts(const PlanarPhase& phase) {
   soles.clear();
   state.contact_error.clear();
   for (const PlanarContact& contact : phase.contacts) {
-    soles.push_back(sole_of(plan_.motion.robot, frames, contact.end_effector));
+    soles.push_back(sole_of(plan_.task.robot, frames, contact.end_effector));
     const Vector2d off_W = soles.back().position_W - contact.position_W;
     state.contact_error.emplace_back(off_W.x(), off_W.y(), soles.back().angle - contact.angle);
   }
 }
 
 void Evaluation::compute_momentum() {
-  const PlanarRobot& robot = plan_.motion.robot;
+  const PlanarRobot& robot = plan_.task.robot;
   state.com_W.setZero();
   state.com_velocity_W.setZero();
   state.angular_momentum = 0.0;  // about the world's origin, until the CoM is known
@@ -129,14 +129,14 @@ void Evaluation::compute_momentum() {
 
 /// Forces as the law gives them, at the actual places of the points.
 void Evaluation::compute_forces(const IntervalSplines& splines, const PhaseGain& gain, double s) {
-  const PlanarTask& motion = plan_.motion;
-  const PlanarPhase& phase = motion.phases[splines.phase];
+  const PlanarTask& task = plan_.task;
+  const PlanarPhase& phase = task.phases[splines.phase];
   std::visit([&](auto law) { law.set_components({plan_, splines, gain, frames, s}, components_); }, plan_.force_law);
 
   state.forces.clear();
   for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
     const PlanarContact& contact = phase.contacts[i];
-    const PlanarEndEffector& end = motion.robot.end_effectors[contact.end_effector];
+    const PlanarEndEffector& end = task.robot.end_effectors[contact.end_effector];
     const Vector2d tangent_W(std::cos(contact.angle), std::sin(contact.angle));
     for (std::size_t point = 0; point < end.points.size(); ++point) {
       const Eigen::Index v = 2 * static_cast<Eigen::Index>(state.forces.size());
@@ -157,8 +157,8 @@ void Evaluation::compute_forces(const IntervalSplines& splines, const PhaseGain&
 void Evaluation::compute_torques() {
   forces_.clear();
   for (const PlanarPointForce& force : state.forces)
-    forces_.push_back({plan_.motion.robot.end_effectors[force.end_effector].body, force.position_W, force.force_W});
-  const PlanarInverseDynamics dynamics = planar_inverse_dynamics(plan_.motion.robot, frames, forces_);
+    forces_.push_back({plan_.task.robot.end_effectors[force.end_effector].body, force.position_W, force.force_W});
+  const PlanarInverseDynamics dynamics = planar_inverse_dynamics(plan_.task.robot, frames, forces_);
   state.torque = dynamics.torque;
   state.base_residual = dynamics.base_residual;
 }

@@ -9,7 +9,7 @@
 /// made once, the rest at each instant.
 namespace mcplan::planar {
 
-/// Throws InvalidPlan where a plan's arrays do not fit together, InvalidMotion where its motion names what is not
+/// Throws InvalidPlan where a plan's arrays do not fit together, InvalidPlanarTask where its task names what is not
 /// there: what an evaluation needs not to read beyond an array. Says nothing of the numbers.
 void require_shape(const PlanarPlan& plan);
 

@@ -16,12 +16,12 @@ struct ExpectedPoint {
 };
 
 /// Contact by contact, point by point.
-std::vector<ExpectedPoint> expected_points(const PlanarTask& motion, int phase) {
+std::vector<ExpectedPoint> expected_points(const PlanarTask& task, int phase) {
   std::vector<ExpectedPoint> out;
-  for (const PlanarContact& contact : motion.phases[phase].contacts) {
+  for (const PlanarContact& contact : task.phases[phase].contacts) {
     const Vector2d tangent_W(std::cos(contact.angle), std::sin(contact.angle));
     const Vector2d normal_W(-tangent_W.y(), tangent_W.x());
-    for (double point : motion.robot.end_effectors[contact.end_effector].points)
+    for (double point : task.robot.end_effectors[contact.end_effector].points)
       out.push_back({contact.position_W + point * tangent_W, tangent_W, normal_W});
   }
   return out;
@@ -35,12 +35,12 @@ Vector2d mean_of(const std::vector<ExpectedPoint>& points) {
 
 }  // namespace
 
-Vector2d moment_point_W(const PlanarTask& motion, int phase) { return mean_of(expected_points(motion, phase)); }
+Vector2d moment_point_W(const PlanarTask& task, int phase) { return mean_of(expected_points(task, phase)); }
 
 /// f = gamma G^T Omega^-1 d with Omega = G gamma G^T; gamma holds the inverse of what each component costs.
-Eigen::MatrixXd least_norm_gain(const PlanarTask& motion, int phase, const Eigen::VectorXd& weights) {
+Eigen::MatrixXd least_norm_gain(const PlanarTask& task, int phase, const Eigen::VectorXd& weights) {
   constexpr double kTangential = 10.0;  // the paper's alpha
-  const std::vector<ExpectedPoint> points = expected_points(motion, phase);
+  const std::vector<ExpectedPoint> points = expected_points(task, phase);
   const Eigen::Index count = static_cast<Eigen::Index>(points.size());
   const std::string field = "weights[" + std::to_string(phase) + "]";
   if (weights.size() != count)
@@ -64,7 +64,7 @@ Eigen::MatrixXd least_norm_gain(const PlanarTask& motion, int phase, const Eigen
   }
   constexpr double kLeast = 1e-6;  // [m]
   if (!(spread > kLeast))
-    throw InvalidPlan("motion.phases[" + std::to_string(phase) + "].contacts",
+    throw InvalidPlan("task.phases[" + std::to_string(phase) + "].contacts",
                       "must have two points apart from each other, to balance a moment", std::to_string(spread) + " m");
   const Eigen::MatrixXd weighted = gamma.asDiagonal() * g.transpose();
   const Eigen::Matrix3d omega = g * weighted;
@@ -85,9 +85,9 @@ std::vector<double> PlanarPlan::knot_times() const {
 
 std::vector<double> PlanarPlan::interval_lengths() const {
   std::vector<double> lengths;
-  const std::size_t phases = std::min(durations.size(), motion.phases.size());
+  const std::size_t phases = std::min(durations.size(), task.phases.size());
   for (std::size_t k = 0; k < phases; ++k)
-    for (int i = 0; i < motion.phases[k].intervals; ++i) lengths.push_back(durations[k] / motion.phases[k].intervals);
+    for (int i = 0; i < task.phases[k].intervals; ++i) lengths.push_back(durations[k] / task.phases[k].intervals);
   return lengths;
 }
 
@@ -116,12 +116,12 @@ PlanarState PlanarPlan::at_phase(int k, double since_start) const {
     throw InvalidInput("since_start", "must lie in [0, " + text(durations[k]) + "] s", text(since_start));
 
   const std::vector<double> lengths = interval_lengths();
-  const int intervals = motion.phases[k].intervals;
+  const int intervals = task.phases[k].intervals;
   const double length = durations[k] / intervals;
   const double place = length > 0.0 ? since_start / length : 0.0;  // zero: a duration that has no such part
   const int i = static_cast<int>(std::clamp(place, 0.0, intervals - 1.0));
   planar::Evaluation evaluation(*this);
-  evaluation.at(planar::interval_splines(*this, motion.first_interval(k) + i, lengths), planar::phase_gain(*this, k),
+  evaluation.at(planar::interval_splines(*this, task.first_interval(k) + i, lengths), planar::phase_gain(*this, k),
                 std::clamp(2.0 * (place - i) - 1.0, -1.0, 1.0));
   evaluation.state.time = since_start;
   for (int before = 0; before < k; ++before) evaluation.state.time += durations[before];

@@ -20,9 +20,9 @@ struct Fields<PlanarPlan> {
   static constexpr const char* name = "PlanarPlan";
   static constexpr const char* meaning =
       "A motion of a planar robot: joint splines, durations of the phases, and what fixes the contact forces. Carries "
-      "the motion (task) it was made for.";
+      "the planar task it was made for.";
   static constexpr auto all = std::make_tuple(
-      field("motion", &PlanarPlan::motion, "", "PlanarTask that it was made for.").required(),
+      field("task", &PlanarPlan::task, "", "PlanarTask that it was made for.").formerly("motion").required(),
       field("planner", &PlanarPlan::planner, "", "Which planner made it, e.g. sip."),
       field("durations", &PlanarPlan::durations, "s", "Of the phases. Assign a list to change them.")
           .required()

@@ -12,10 +12,10 @@ namespace mcplan {
 namespace {
 
 /// The points of the splines are as many as the intervals.
-void require_few_intervals(const PlanarTask& motion) {
-  const int count = motion.interval_count();
+void require_few_intervals(const PlanarTask& task) {
+  const int count = task.interval_count();
   if (count > model::max_planar_intervals)
-    throw InvalidPlan("motion.phases", "may have " + text(model::max_planar_intervals) + " intervals at most",
+    throw InvalidPlan("task.phases", "may have " + text(model::max_planar_intervals) + " intervals at most",
                       text(count));
 }
 
@@ -23,7 +23,7 @@ void require_few_intervals(const PlanarTask& motion) {
 
 std::string planar_plan_to_json(const PlanarPlan& plan) {
   plan.validate();
-  require_few_intervals(plan.motion);
+  require_few_intervals(plan.task);
   PlanarPlan said = plan;  // without what its force law does not look at
   std::visit([&](auto law) { law.clear_others(said); }, plan.force_law);
   model::Writing exactly;
@@ -42,15 +42,15 @@ PlanarPlan model::planar_plan_from(const Value& fields) {
   if (require_few_keys(fields, reading.found)) read_struct(fields, plan, Place(), reading);
   reading.found.raise<InvalidPlan>();
   try {
-    plan.motion.validate();
-  } catch (const InvalidMotion& bad) {
-    throw moved<InvalidPlan>(bad, "", "motion");
+    plan.task.validate();
+  } catch (const InvalidPlanarTask& bad) {
+    throw moved<InvalidPlan>(bad, "", "task");
   } catch (const InvalidRobot& bad) {
-    throw moved<InvalidPlan>(bad, "", "motion.robot");
+    throw moved<InvalidPlan>(bad, "", "task.robot");
   }
-  require_few_intervals(plan.motion);
+  require_few_intervals(plan.task);
   // Of a matrix without rows nobody writes the columns.
-  if (plan.control_points.rows() == 0) plan.control_points.resize(0, plan.motion.interval_count() + 3);
+  if (plan.control_points.rows() == 0) plan.control_points.resize(0, plan.task.interval_count() + 3);
   plan.validate();
   return plan;
 }

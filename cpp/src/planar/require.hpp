@@ -32,10 +32,10 @@ inline void require_finite(const std::string& field, const Eigen::MatrixXd& matr
 }
 
 /// Points in contact in a phase.
-inline std::size_t point_count(const PlanarTask& motion, const PlanarPhase& phase) {
+inline std::size_t point_count(const PlanarTask& task, const PlanarPhase& phase) {
   std::size_t count = 0;
   for (const PlanarContact& contact : phase.contacts)
-    count += motion.robot.end_effectors[contact.end_effector].points.size();
+    count += task.robot.end_effectors[contact.end_effector].points.size();
   return count;
 }
 

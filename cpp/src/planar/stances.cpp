@@ -125,7 +125,7 @@ bool Stances::wrong(const std::string& field, const std::string& rule, const std
   return false;
 }
 
-InvalidMotion Stances::located(const InvalidMotion& found) const {
+InvalidPlanarTask Stances::located(const InvalidPlanarTask& found) const {
   const int k = index_after(found.field(), "phases"), i = index_after(found.field(), ".contacts");
   const auto phase = static_cast<std::size_t>(k), contact = static_cast<std::size_t>(i);
   if (k < 0 || i < 0 || phase >= phases_.size() || contact >= phases_[phase].size()) return found;

@@ -21,7 +21,7 @@ class Stances {
 
   /// What is wrong with a contact that next() has returned, as the file calls it. What stood in the phase before
   /// already lies in what is new against that.
-  InvalidMotion located(const InvalidMotion& found) const;
+  InvalidPlanarTask located(const InvalidPlanarTask& found) const;
 
  private:
   struct Written {

@@ -18,37 +18,37 @@ std::string indexed(const std::string& field, std::size_t i) { return field + "[
 
 void require_index(const std::string& field, int value, std::size_t count, const std::string& of_what) {
   if (value < 0 || value >= static_cast<int>(count))
-    throw InvalidMotion(field, "must be the index of " + of_what + " (below " + std::to_string(count) + ")",
-                        text(value));
+    throw InvalidPlanarTask(field, "must be the index of " + of_what + " (below " + std::to_string(count) + ")",
+                            text(value));
 }
 
 void require_extent(const PlanarSurface& surface, const std::string& field) {
   if (!(surface.from < surface.to))
-    throw InvalidMotion(field + ".to", "must exceed from", text(surface.from) + " to " + text(surface.to));
+    throw InvalidPlanarTask(field + ".to", "must exceed from", text(surface.from) + " to " + text(surface.to));
 }
 
 /// On its surface, with all points within its extent, and not turned against it (whole turns aside).
-void validate_contact(const PlanarTask& motion, const PlanarContact& contact, const std::string& field) {
-  require_index(field + ".end_effector", contact.end_effector, motion.robot.end_effectors.size(), "an end-effector");
-  require_index(field + ".surface", contact.surface, motion.surfaces.size(), "a surface");
+void validate_contact(const PlanarTask& task, const PlanarContact& contact, const std::string& field) {
+  require_index(field + ".end_effector", contact.end_effector, task.robot.end_effectors.size(), "an end-effector");
+  require_index(field + ".surface", contact.surface, task.surfaces.size(), "a surface");
 
-  const PlanarSurface& surface = motion.surfaces[contact.surface];
+  const PlanarSurface& surface = task.surfaces[contact.surface];
   const std::string where = "surface " + text(surface.name);
   const Vector2d from_origin_W = contact.position_W - surface.origin_W;
   const double height = from_origin_W.dot(surface.normal_W());
   if (std::abs(height) > kPlace)
-    throw InvalidMotion(field + ".position", "must lie on " + where, text(height) + " m off it");
+    throw InvalidPlanarTask(field + ".position", "must lie on " + where, text(height) + " m off it");
   const double turned = std::remainder(contact.angle - surface.angle, 2.0 * M_PI);
   if (std::abs(turned) > kPlace)
-    throw InvalidMotion(field + ".angle", "must be that of " + where + ", " + text(surface.angle) + ", up to turns",
-                        text(contact.angle));
-  for (double point : motion.robot.end_effectors[contact.end_effector].points) {
+    throw InvalidPlanarTask(field + ".angle", "must be that of " + where + ", " + text(surface.angle) + ", up to turns",
+                            text(contact.angle));
+  for (double point : task.robot.end_effectors[contact.end_effector].points) {
     const double along = from_origin_W.dot(surface.tangent_W()) + point;
     if (along < surface.from - kPlace || along > surface.to + kPlace)
-      throw InvalidMotion(field + ".position",
-                          "must keep all points within the extent of " + where + ", " + text(surface.from) + " to " +
-                              text(surface.to) + " m",
-                          text(along));
+      throw InvalidPlanarTask(field + ".position",
+                              "must keep all points within the extent of " + where + ", " + text(surface.from) +
+                                  " to " + text(surface.to) + " m",
+                              text(along));
   }
 }
 
@@ -75,74 +75,74 @@ double longest_stretch(const PlanarRobot& robot, int first, int second) {
   return length + (from_P - to_P).norm();
 }
 
-void require_reachable(const PlanarTask& motion, const PlanarContact& a, const PlanarContact& b,
+void require_reachable(const PlanarTask& task, const PlanarContact& a, const PlanarContact& b,
                        const std::string& field) {
-  const auto& ends = motion.robot.end_effectors;
+  const auto& ends = task.robot.end_effectors;
   if (a.end_effector == b.end_effector) {
     if ((a.position_W - b.position_W).norm() > kPlace || std::abs(a.angle - b.angle) > kPlace)
-      throw InvalidMotion(
+      throw InvalidPlanarTask(
           field + ".position",
           "must be where " + text(ends[a.end_effector].name) + " stands in the phase before, which it does not leave",
           text(b.position_W) + " rad " + text(b.angle));
     return;
   }
   const double distance = (a.position_W - b.position_W).norm();
-  const double stretch = longest_stretch(motion.robot, a.end_effector, b.end_effector);
+  const double stretch = longest_stretch(task.robot, a.end_effector, b.end_effector);
   if (distance > stretch + kPlace)
-    throw InvalidMotion(field + ".position",
-                        "must be within " + text(stretch) + " m of " + text(ends[a.end_effector].name) +
-                            ", all that the limbs between them can stretch",
-                        text(distance) + " m");
+    throw InvalidPlanarTask(field + ".position",
+                            "must be within " + text(stretch) + " m of " + text(ends[a.end_effector].name) +
+                                ", all that the limbs between them can stretch",
+                            text(distance) + " m");
 }
 
-void validate_clearance(const PlanarTask& motion, const PlanarPhase& phase, const PlanarClearance& clearance,
+void validate_clearance(const PlanarTask& task, const PlanarPhase& phase, const PlanarClearance& clearance,
                         const std::string& field) {
-  require_index(field + ".end_effector", clearance.end_effector, motion.robot.end_effectors.size(), "an end-effector");
-  require_index(field + ".surface", clearance.surface, motion.surfaces.size(), "a surface");
+  require_index(field + ".end_effector", clearance.end_effector, task.robot.end_effectors.size(), "an end-effector");
+  require_index(field + ".surface", clearance.surface, task.surfaces.size(), "a surface");
   for (const PlanarContact& contact : phase.contacts)
     if (contact.end_effector == clearance.end_effector)
-      throw InvalidMotion(field + ".end_effector", "must not be in contact in this phase",
-                          text(motion.robot.end_effectors[clearance.end_effector].name));
+      throw InvalidPlanarTask(field + ".end_effector", "must not be in contact in this phase",
+                              text(task.robot.end_effectors[clearance.end_effector].name));
   if (clearance.first_interval < 0 || clearance.first_interval >= phase.intervals)
-    throw InvalidMotion(field + ".first_interval",
-                        "must be an interval of the phase (below " + text(phase.intervals) + ")",
-                        text(clearance.first_interval));
+    throw InvalidPlanarTask(field + ".first_interval",
+                            "must be an interval of the phase (below " + text(phase.intervals) + ")",
+                            text(clearance.first_interval));
   if (clearance.end_interval != -1 &&
       (clearance.end_interval <= clearance.first_interval || clearance.end_interval > phase.intervals))
-    throw InvalidMotion(
+    throw InvalidPlanarTask(
         field + ".end_interval",
         "must be -1 or lie in [" + text(clearance.first_interval + 1) + ", " + text(phase.intervals) + "]",
         text(clearance.end_interval));
   if (!(clearance.middle_height < std::numeric_limits<double>::infinity()))
-    throw InvalidMotion(field + ".middle_height", "must be a number below infinity", text(clearance.middle_height));
+    throw InvalidPlanarTask(field + ".middle_height", "must be a number below infinity", text(clearance.middle_height));
 }
 
-void validate_pose(const PlanarTask& motion, const PlanarPose& pose, const std::string& field) {
-  require_index(field + ".body", pose.body, motion.robot.bodies.size(), "a body");
+void validate_pose(const PlanarTask& task, const PlanarPose& pose, const std::string& field) {
+  require_index(field + ".body", pose.body, task.robot.bodies.size(), "a body");
   const char* components[] = {"x", "y", "angle"};
   for (int i = 0; i < 3; ++i)
     if (!(pose.min[i] <= pose.max[i]))
-      throw InvalidMotion(field + ".max", std::string("must not be below min in ") + components[i],
-                          text(pose.min[i]) + " to " + text(pose.max[i]));
+      throw InvalidPlanarTask(field + ".max", std::string("must not be below min in ") + components[i],
+                              text(pose.min[i]) + " to " + text(pose.max[i]));
 }
 
-void validate_contacts(const PlanarTask& motion, const PlanarPhase& phase, const std::string& field) {
+void validate_contacts(const PlanarTask& task, const PlanarPhase& phase, const std::string& field) {
   std::set<int> standing;
   for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
     const std::string contact = indexed(field + ".contacts", i);
-    validate_contact(motion, phase.contacts[i], contact);
+    validate_contact(task, phase.contacts[i], contact);
     if (!standing.insert(phase.contacts[i].end_effector).second)
-      throw InvalidMotion(contact + ".end_effector", "must not be in contact twice in a phase",
-                          text(motion.robot.end_effectors[phase.contacts[i].end_effector].name));
+      throw InvalidPlanarTask(contact + ".end_effector", "must not be in contact twice in a phase",
+                              text(task.robot.end_effectors[phase.contacts[i].end_effector].name));
     for (std::size_t other = 0; other < i; ++other)
-      require_reachable(motion, phase.contacts[other], phase.contacts[i], contact);
+      require_reachable(task, phase.contacts[other], phase.contacts[i], contact);
   }
 }
 
 void require_duration(const PlanarPhase& phase, const std::string& field) {
   if (phase.max_duration < phase.min_duration)
-    throw InvalidMotion(field + ".max_duration", "must be positive and not below min_duration",
-                        text(phase.min_duration) + " to " + text(phase.max_duration));
+    throw InvalidPlanarTask(field + ".max_duration", "must be positive and not below min_duration",
+                            text(phase.min_duration) + " to " + text(phase.max_duration));
 }
 
 /// Whether a contact of a phase stands as it did in the phase before.
@@ -179,7 +179,7 @@ void PlanarTask::validate() const {
   model::Findings found;
   model::check_struct(*this, model::Place(), found);
   model::relations(*this, found);
-  found.raise<InvalidMotion>();
+  found.raise<InvalidPlanarTask>();
 }
 
 void model::relations(const PlanarTask& task, Findings& found, const InTheFile& in_the_file) {
@@ -187,7 +187,7 @@ void model::relations(const PlanarTask& task, Findings& found, const InTheFile& 
     try {
       each();
       return true;
-    } catch (const InvalidMotion& wrong) {
+    } catch (const InvalidPlanarTask& wrong) {
       found.add(in_the_file ? in_the_file(wrong) : wrong);
       return false;
     }
@@ -198,7 +198,7 @@ void model::relations(const PlanarTask& task, Findings& found, const InTheFile& 
     const std::string field = indexed("surfaces", i);
     found.check({field + ".name"}, [&] {
       if (!names.insert(surface.name).second)
-        throw InvalidMotion(field + ".name", "must be unique", text(surface.name));
+        throw InvalidPlanarTask(field + ".name", "must be unique", text(surface.name));
     });
     if (found.sound(field + ".extent") && found.sound(field + ".from") && found.sound(field + ".to"))
       check([&] { require_extent(surface, field); });

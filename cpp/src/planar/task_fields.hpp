@@ -233,20 +233,20 @@ struct FileKeys<PlanarTask> {
 };
 
 /// Says where a file has what is wrong at a place in memory.
-using InTheFile = std::function<InvalidMotion(const InvalidMotion&)>;
+using InTheFile = std::function<InvalidPlanarTask(const InvalidPlanarTask&)>;
 
 /// What is wrong with a task beyond its robot and the ranges of its fields; what has findings is left out.
 void relations(const PlanarTask& task, Findings& found, const InTheFile& in_the_file = nullptr);
 
 /// The task of the plain data of a file; `folder`: where its robot is looked for, nullptr: the working directory.
-/// Throws InvalidMotion, InvalidRobot with all that is wrong, UnknownRobot.
+/// Throws InvalidPlanarTask, InvalidRobot with all that is wrong, UnknownRobot.
 PlanarTask planar_task_from(const Value& data, const std::string& source = "",
                             const std::filesystem::path* folder = nullptr);
 
 /// The plain data of a file, with the robot inline and all contacts of each phase.
 Value planar_task_data(const PlanarTask& task);
 
-/// What written() with Writing::exact made. Throws InvalidMotion with all that is wrong.
+/// What written() with Writing::exact made. Throws InvalidPlanarTask with all that is wrong.
 PlanarTask planar_task_from_exact(const Value& data);
 
 }  // namespace mcplan::model

@@ -133,7 +133,7 @@ void take_phases(const std::vector<InFile<PlanarPhase>>& entries, bool robot_is_
 }
 
 /// The field of a surface as the file calls it.
-InvalidMotion with_extent(const InvalidMotion& found) {
+InvalidPlanarTask with_extent(const InvalidPlanarTask& found) {
   static const std::regex ends("^(surfaces\\[\\d+\\])\\.(from|to)$");
   return {std::regex_replace(found.field(), ends, "$1.extent"), found.rule(), found.value()};
 }
@@ -145,7 +145,7 @@ namespace model {
 PlanarTask planar_task_from(const Value& data, const std::string& source, const std::filesystem::path* folder) {
   Reading reading;
   reading.source = source;
-  if (!require_few_keys(data, reading.found)) reading.found.raise<InvalidMotion>(source);
+  if (!require_few_keys(data, reading.found)) reading.found.raise<InvalidPlanarTask>(source);
   RobotOfTask robot(data.find("robot"), folder, reading);
   reading.lists["surfaces"] = names_in(data.find("surfaces"));
   InFile<PlanarTask> file;
@@ -155,10 +155,10 @@ PlanarTask planar_task_from(const Value& data, const std::string& source, const 
   take_surfaces(file.keys.surfaces, task);
   planar::Stances stances(task, reading.found);
   take_phases(file.keys.phases, robot.is_read, stances, task, reading);
-  relations(task, reading.found, [&](const InvalidMotion& found) { return with_extent(stances.located(found)); });
+  relations(task, reading.found, [&](const InvalidPlanarTask& found) { return with_extent(stances.located(found)); });
   if (robot.unknown && reading.found.empty()) throw *robot.unknown;
   if (robot.is_wrong) reading.found.raise<InvalidRobot>(source);
-  reading.found.raise<InvalidMotion>(source);
+  reading.found.raise<InvalidPlanarTask>(source);
   return task;
 }
 
@@ -190,14 +190,15 @@ PlanarTask planar_task_from_exact(const Value& data) {
   reading.exact = true;
   PlanarTask task;
   if (require_few_keys(data, reading.found)) read_struct(data, task, Place(), reading);
-  reading.found.raise<InvalidMotion>();
+  reading.found.raise<InvalidPlanarTask>();
   return task;
 }
 
 }  // namespace model
 
 PlanarTask load_planar_task(const std::string& name_or_path) {
-  return read_planar_task(model::find(name_or_path, "motions", "motion", &model::throw_unknown<UnknownMotion>));
+  return read_planar_task(
+      model::find(name_or_path, "planar_tasks", "planar task", &model::throw_unknown<UnknownPlanarTask>));
 }
 
 PlanarTask read_planar_task(const std::filesystem::path& file) {
@@ -210,7 +211,7 @@ PlanarTask read_planar_task(const std::filesystem::path& file) {
   } catch (const InvalidRobot&) {
     throw;
   } catch (const InvalidInput& found) {
-    model::throw_as<InvalidMotion>(found, source);
+    model::throw_as<InvalidPlanarTask>(found, source);
   }
 }
 

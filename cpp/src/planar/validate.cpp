@@ -9,12 +9,12 @@ namespace {
 
 void require_index(const std::string& field, int value, std::size_t count) {
   if (value < 0 || value >= static_cast<int>(count))
-    throw InvalidMotion(field, "must be an index below " + std::to_string(count), text(value));
+    throw InvalidPlanarTask(field, "must be an index below " + std::to_string(count), text(value));
 }
 
-/// Indices of the motion alone; all else is for PlanarTask::validate().
-void require_indices(const PlanarTask& motion) {
-  const PlanarRobot& robot = motion.robot;
+/// Indices of the task alone; all else is for PlanarTask::validate().
+void require_indices(const PlanarTask& task) {
+  const PlanarRobot& robot = task.robot;
   if (robot.bodies.empty()) throw InvalidRobot("bodies", "needs at least one body, the base", "none");
   for (std::size_t b = 1; b < robot.bodies.size(); ++b)
     if (robot.bodies[b].parent < 0 || robot.bodies[b].parent >= static_cast<int>(b))
@@ -22,16 +22,17 @@ void require_indices(const PlanarTask& motion) {
                          text(robot.bodies[b].parent));
   for (const PlanarEndEffector& end : robot.end_effectors)
     require_index("end_effectors", end.body, robot.bodies.size());
-  if (motion.phases.empty()) throw InvalidMotion("phases", "needs at least one phase", "none");
-  for (std::size_t k = 0; k < motion.phases.size(); ++k) {
-    const PlanarPhase& phase = motion.phases[k];
+  if (task.phases.empty()) throw InvalidPlanarTask("phases", "needs at least one phase", "none");
+  for (std::size_t k = 0; k < task.phases.size(); ++k) {
+    const PlanarPhase& phase = task.phases[k];
     const std::string field = "phases[" + std::to_string(k) + "].contacts";
     if (phase.intervals < 1)
-      throw InvalidMotion("phases[" + std::to_string(k) + "].intervals", "must be at least 1", text(phase.intervals));
-    if (phase.contacts.empty()) throw InvalidMotion(field, "needs at least one contact", "none");
+      throw InvalidPlanarTask("phases[" + std::to_string(k) + "].intervals", "must be at least 1",
+                              text(phase.intervals));
+    if (phase.contacts.empty()) throw InvalidPlanarTask(field, "needs at least one contact", "none");
     for (const PlanarContact& contact : phase.contacts) {
       require_index(field, contact.end_effector, robot.end_effectors.size());
-      require_index(field, contact.surface, motion.surfaces.size());
+      require_index(field, contact.surface, task.surfaces.size());
     }
   }
 }
@@ -39,12 +40,12 @@ void require_indices(const PlanarTask& motion) {
 }  // namespace
 
 void require_shape(const PlanarPlan& plan) {
-  const PlanarTask& motion = plan.motion;
-  require_indices(motion);
-  const std::size_t phases = motion.phases.size();
-  const int intervals = motion.interval_count();
+  const PlanarTask& task = plan.task;
+  require_indices(task);
+  const std::size_t phases = task.phases.size();
+  const int intervals = task.interval_count();
   require_size("durations", plan.durations.size(), phases);
-  require_matrix("control_points", plan.control_points, motion.robot.joint_count(), intervals + 3);
+  require_matrix("control_points", plan.control_points, task.robot.joint_count(), intervals + 3);
   if (plan.base_control_points.size() > 0)
     require_matrix("base_control_points", plan.base_control_points, 3, intervals + 3);
   std::visit([&](auto law) { law.require_shape(plan); }, plan.force_law);
@@ -53,7 +54,7 @@ void require_shape(const PlanarPlan& plan) {
 }  // namespace planar
 
 void PlanarPlan::validate() const {
-  motion.validate();
+  task.validate();
   planar::require_shape(*this);
   for (std::size_t k = 0; k < durations.size(); ++k)
     planar::require_positive("durations[" + std::to_string(k) + "]", durations[k]);

@@ -2584,7 +2584,7 @@ class PlanarTask:
         """
     def validate(self) -> None:
         """
-        Raise InvalidMotion (InvalidRobot for the robot) naming all that is out of its range.
+        Raise InvalidPlanarTask (InvalidRobot for the robot) naming all that is out of its range.
         """
     @property
     def description(self) -> str:
@@ -2662,7 +2662,7 @@ class PlanarPointForce:
     @property
     def surface(self) -> int:
         """
-        Index into motion.surfaces.
+        Index into task.surfaces.
         """
     @property
     def tangential(self) -> float:
@@ -2767,7 +2767,7 @@ class PlanarForceLaw:
 
 class PlanarPlan:
     """
-    A motion of a planar robot: joint splines, durations of the phases, and what fixes the contact forces. Carries the motion (task) it was made for.
+    A motion of a planar robot: joint splines, durations of the phases, and what fixes the contact forces. Carries the planar task it was made for.
     """
 
     __hash__: typing.ClassVar[None] = None
@@ -2783,7 +2783,7 @@ class PlanarPlan:
     def __init__(
         self,
         *,
-        motion: PlanarTask = ...,
+        task: PlanarTask = ...,
         planner: str = "",
         durations: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [],
         control_points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] = ...,
@@ -2828,7 +2828,7 @@ class PlanarPlan:
         """
     def validate(self) -> None:
         """
-        Raise InvalidPlan when sizes do not fit together, a duration or weight is not positive or a number is not finite; InvalidMotion and InvalidRobot for the motion.
+        Raise InvalidPlan when sizes do not fit together, a duration or weight is not positive or a number is not finite; InvalidPlanarTask and InvalidRobot for the task.
         """
     @property
     def base_control_points(self) -> typing.Any:
@@ -2868,12 +2868,12 @@ class PlanarPlan:
         self, arg1: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]]
     ) -> None: ...
     @property
-    def motion(self) -> PlanarTask:
+    def motion(self) -> typing.Any:
         """
-        PlanarTask that it was made for.
+        Earlier name of ``task``, for one release.
         """
     @motion.setter
-    def motion(self, arg1: PlanarTask) -> None: ...
+    def motion(self, value: typing.Any) -> None: ...
     @property
     def planner(self) -> str:
         """
@@ -2881,6 +2881,13 @@ class PlanarPlan:
         """
     @planner.setter
     def planner(self, arg0: str) -> None: ...
+    @property
+    def task(self) -> PlanarTask:
+        """
+        PlanarTask that it was made for.
+        """
+    @task.setter
+    def task(self, arg1: PlanarTask) -> None: ...
     @property
     def weights(self) -> tuple:
         """
@@ -3030,7 +3037,7 @@ def any_plan_from_json(content: bytes) -> Plan | PlanarPlan:
 
 def built_in(kind: str) -> list[str]:
     """
-    Sorted names of the built-in 'scenes', 'robots', 'planar_robots' or 'motions'.
+    Sorted names of the built-in 'scenes', 'robots', 'planar_robots' or 'planar_tasks'.
     """
 
 @typing.overload
@@ -3042,12 +3049,12 @@ def check(plan: Plan, scene: Scene = None, robot: Robot = None, tolerances: Tole
 @typing.overload
 def check(plan: PlanarPlan, tolerances: PlanarTolerances = ..., self_collision: bool = False) -> CheckResult:
     """
-    Check a planar plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidMotion or InvalidRobot where it is malformed, and Interrupted with what was found by then.
+    Check a planar plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidPlanarTask or InvalidRobot where it is malformed, and Interrupted with what was found by then.
     """
 
 def data_folder() -> typing.Any:
     """
-    The folder of the built-in scenes, robots and motions.
+    The folder of the built-in scenes, robots and planar tasks.
     """
 
 def largest_drift(plan: PlanarPlan, sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> Drift:
@@ -3056,7 +3063,7 @@ def largest_drift(plan: PlanarPlan, sample_s: typing.SupportsFloat | typing.Supp
     """
 
 def least_norm_gain(
-    motion: PlanarTask,
+    task: PlanarTask,
     phase: typing.SupportsInt | typing.SupportsIndex,
     weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
@@ -3071,7 +3078,7 @@ def load_planar_robot(source: typing.Any) -> PlanarRobot:
 
 def load_planar_task(source: typing.Any) -> PlanarTask:
     """
-    A built-in motion by its name, or one from a TOML file. Raises UnknownMotion, UnknownRobot, InvalidMotion, InvalidRobot.
+    A built-in planar task by its name, or one from a TOML file. Raises UnknownPlanarTask, UnknownRobot, InvalidPlanarTask, InvalidRobot.
     """
 
 def load_robot(source: typing.Any) -> Robot:
@@ -3090,7 +3097,7 @@ def may_touch(surface: Surface, end_effector: EndEffector) -> bool:
     """
 
 def moment_point_W(
-    motion: PlanarTask, phase: typing.SupportsInt | typing.SupportsIndex
+    task: PlanarTask, phase: typing.SupportsInt | typing.SupportsIndex
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
     """
     Mean of the phase's expected points [m].
@@ -3154,22 +3161,22 @@ def planar_robot_to_dict(robot: PlanarRobot) -> dict:
 
 def planar_task_from_dict(data: typing.Any, source: typing.Any = "", folder: typing.Any = None) -> PlanarTask:
     """
-    The motion of plain data with the keys of a motion file. The robot that it names is looked for in `folder`; None: in the working directory.
+    The planar task of plain data with the keys of its file. The robot that it names is looked for in `folder`; None: in the working directory.
     """
 
 def planar_task_from_plain(data: typing.Any) -> PlanarTask:
     """
-    Inverse of planar_task_to_plain. Raises InvalidMotion; says nothing of what relates fields.
+    Inverse of planar_task_to_plain. Raises InvalidPlanarTask; says nothing of what relates fields.
     """
 
 def planar_task_to_dict(task: PlanarTask) -> dict:
     """
-    Plain data with the keys of a motion file: the robot inline, all contacts of each phase; what is at its default is left out.
+    Plain data with the keys of a planar task's file: the robot inline, all contacts of each phase; what is at its default is left out.
     """
 
 def planar_task_to_plain(task: PlanarTask) -> dict:
     """
-    All that a motion holds under the names of its members; infinite numbers as texts.
+    All that a planar task holds under the names of its members; infinite numbers as texts.
     """
 
 def quat_wxyz_from_rpy(
@@ -3186,7 +3193,7 @@ def read_planar_robot(path: typing.Any) -> PlanarRobot:
 
 def read_planar_task(path: typing.Any) -> PlanarTask:
     """
-    A motion from a TOML file. Raises InvalidMotion, InvalidRobot, UnknownRobot.
+    A planar task from a TOML file. Raises InvalidPlanarTask, InvalidRobot, UnknownRobot.
     """
 
 def read_robot(path: typing.Any) -> Robot:
@@ -3250,7 +3257,7 @@ def scene_to_dict(scene: Scene) -> dict:
 
 def schema_text(name: str) -> str:
     """
-    The JSON schema of the files of a kind: 'scene', 'robot', 'planar_robot' or 'motion'.
+    The JSON schema of the files of a kind: 'scene', 'robot', 'planar_robot' or 'planar_task'.
     """
 
 @typing.overload

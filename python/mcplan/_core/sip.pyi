@@ -460,7 +460,7 @@ class Options:
     @property
     def clearance(self) -> bool:
         """
-        Swinging end-effectors outside solids, as the motion says.
+        Swinging end-effectors outside solids, as the task says.
         """
     @clearance.setter
     def clearance(self, arg0: bool) -> None: ...
@@ -614,7 +614,7 @@ class Options:
     @property
     def phase_duration_s(self) -> tuple[float, float]:
         """
-        [s] Where free_durations is on: min, max; the motion's own limits hold as well.
+        [s] Where free_durations is on: min, max; the task's own limits hold as well.
         """
     @phase_duration_s.setter
     def phase_duration_s(self, arg0: tuple[float, float]) -> None: ...
@@ -726,9 +726,9 @@ class Planner:
     """
     Whole-body planning of a planar robot through a sequence of contact stances by semi-infinite programming (Lengagne et al., 2010). Solves release the GIL; Ctrl-C ends them, and Interrupted carries the best plan so far.
     """
-    def __init__(self, motion: mcplan._core.PlanarTask, options: Options = ...) -> None:
+    def __init__(self, task: mcplan._core.PlanarTask, options: Options = ...) -> None:
         """
-        Raises InvalidMotion, InvalidRobot, InvalidOptions.
+        Raises InvalidPlanarTask, InvalidRobot, InvalidOptions.
         """
     @typing.overload
     def solve(self) -> Result:
@@ -759,5 +759,5 @@ def certify(
     self_collision: bool = False,
 ) -> Certificate:
     """
-    Prove every inequality of a planar plan at every instant, with Taylor models of `order` (2 to 12) on intervals that are halved up to `max_depth` (0 to 40) times. Raises InvalidPlan, InvalidMotion, InvalidRobot, InvalidOptions.
+    Prove every inequality of a planar plan at every instant, with Taylor models of `order` (2 to 12) on intervals that are halved up to `max_depth` (0 to 40) times. Raises InvalidPlan, InvalidPlanarTask, InvalidRobot, InvalidOptions.
     """

@@ -64,7 +64,8 @@ def check(
         result = run(saved, self_collision=self_collision)
         if certify:
             certificate = prove(saved, self_collision=self_collision)
-        carried = {"motion": saved.motion.name, "robot": saved.motion.robot.name}
+        # "motion" is the earlier name of "task", for one more release.
+        carried = {"task": saved.task.name, "motion": saved.task.name, "robot": saved.task.robot.name}
     elif certify or self_collision:
         option = "--certify" if certify else "--self-collision"
         raise InvalidInput(option, "needs a whole-body plan, as mcplan sip makes them")

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from mcplan._core import PlanarTask
 
 
-MotionArgument = Annotated[str, typer.Argument(metavar="TASK", help="Planar task: built-in name or TOML file.")]
+TaskArgument = Annotated[str, typer.Argument(metavar="TASK", help="Planar task: built-in name or TOML file.")]
 ForcesOption = Annotated[
     str, typer.Option("--forces", metavar="F", help="Contact force law: uniform, per-body, per-point or parameters.")
 ]
@@ -106,7 +106,7 @@ QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print no progr
     time_limit_s="--time-limit",
 )
 def sip(
-    motion: MotionArgument,
+    task: TaskArgument,
     forces: ForcesOption = "per-point",
     minimise: MinimiseOption = None,
     contact: ContactOption = "tube",
@@ -152,7 +152,7 @@ def sip(
     given |= {"order": order, "neq": neq, "free_flyer": free_flyer, "free_durations": free_durations}
     given |= {"continuous": continuous, "dynamics": not kinematics, "self_collision": self_collision}
     given |= {"hessian": hessian, "max_iterations": max_iterations, "time_limit": time_limit}
-    model, options = _asked(motion, trackable, minimise, given)
+    model, options = _asked(task, trackable, minimise, given)
     if certify:
         planning.require_provable(options)
     silent = quiet or (json and not verbose)
@@ -166,12 +166,12 @@ def sip(
 
 
 def _asked(
-    motion: Any, trackable: bool, minimise: str | None, given: dict[str, Any]
+    task: Any, trackable: bool, minimise: str | None, given: dict[str, Any]
 ) -> tuple[PlanarTask, engine.Options]:
-    """The motion, and the planner's options; those of --trackable give way to what was typed."""
+    """The task, and the planner's options; those of --trackable give way to what was typed."""
     from mcplan.planar import planning
 
-    model = planning.motion_of(motion)
+    model = planning.task_of(task)
     if trackable:
         from mcplan.planar.tracking import trackable as ask_for
 
@@ -181,7 +181,7 @@ def _asked(
 
 
 def _search(
-    motion: PlanarTask, options: engine.Options, warm_start: Path | None, certify: bool, verbose: bool | None
+    task: PlanarTask, options: engine.Options, warm_start: Path | None, certify: bool, verbose: bool | None
 ) -> tuple[engine.Result, bool]:
     """What was found, and whether Ctrl-C ended the search; `verbose` None: no progress is printed."""
     from mcplan import sip as engine
@@ -189,10 +189,10 @@ def _search(
     from mcplan.cli.sip_text import Progress
     from mcplan.planar import planning
 
-    progress = None if verbose is None else Progress(motion.name, verbose)
+    progress = None if verbose is None else Progress(task.name, verbose)
     if progress is not None:
         options.logger = progress
-    planner = engine.Planner(motion, options)
+    planner = engine.Planner(task, options)
     found = as_far_as_it_came(
         lambda: planning.solve(planner, warm_start, certify=certify, self_collision=options.self_collision)
     )
@@ -208,8 +208,9 @@ def summary(result: engine.Result) -> dict[str, Any]:
     plan, report, certificate = result.plan, result.report, result.certificate
     worst = violation_dict(report.worst_violation)
     return {
-        "motion": plan.motion.name,
-        "robot": plan.motion.robot.name,
+        "task": plan.task.name,
+        "motion": plan.task.name,  # as the task was called until 0.1, for one more release
+        "robot": plan.task.robot.name,
         "status": str(report.status),
         "message": report.message,
         "iterations": report.iterations,

@@ -21,8 +21,8 @@ _TERMINAL_S, _FILE_S = 0.1, 2.0
 class Progress:
     """Logger of the planner on stderr: the search's state in one line, or with `verbose` its whole table."""
 
-    def __init__(self, motion: str, verbose: bool) -> None:
-        self.motion = motion
+    def __init__(self, task: str, verbose: bool) -> None:
+        self.task = task
         self.verbose = verbose
         self.terminal = sys.stderr.isatty()
         self.iterations = 0
@@ -44,7 +44,7 @@ class Progress:
             return
         self.shown_s = now_s
         _, violation, optimality = state
-        lead = f"{self.motion}: iteration {self.iterations}, {now_s - self.begin_s:.1f} s"
+        lead = f"{self.task}: iteration {self.iterations}, {now_s - self.begin_s:.1f} s"
         self._show(f"{lead}, constraints to {violation}, optimality to {optimality}")
 
     def end(self) -> None:
@@ -72,8 +72,8 @@ def iteration_state(line: str) -> tuple[int, str, str] | None:
 def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Path]) -> str:
     """How the search ended, the motion phase by phase, what is wrong with it, what is proved, what was saved."""
     plan, report = result.plan, result.report
-    motion = plan.motion
-    lead = f"{motion.name}  {motion.robot.name}  "
+    task = plan.task
+    lead = f"{task.name}  {task.robot.name}  "
     indent = " " * len(lead)
     solved = str(report.status) == "solved"
     took = f"{report.time_s:.2f} s ({report.iterations} iterations)"
@@ -93,7 +93,7 @@ def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Pat
     parts = ", ".join(f"{100.0 * used / max(report.time_s, 1e-9):.0f} % {part}" for used, part in times)
     size = f"{result.parameters} parameters, {result.constraints} constraints"
     lines.append(f"{indent}{size}; time: {parts.replace('_', ' ')}")
-    lines += phase_rows(motion, plan.durations)
+    lines += phase_rows(task, plan.durations)
     if result.certificate is not None:
         proofs = str(result.certificate).splitlines()
         lines += proofs[:1] if result.certificate.proved() else proofs
@@ -103,12 +103,12 @@ def summary_text(result: sip.Result, options: sip.Options, written: Sequence[Pat
     return "\n".join(printable(line) for line in lines)
 
 
-def phase_rows(motion: PlanarTask, durations: Sequence[float]) -> list[str]:
+def phase_rows(task: PlanarTask, durations: Sequence[float]) -> list[str]:
     """A row per phase: start, duration and contacts."""
-    robot, surfaces = motion.robot, motion.surfaces
+    robot, surfaces = task.robot, task.surfaces
     rows = ["  phase  start [s]  lasts [s]  contacts"]
     start = 0.0
-    for k, (phase, duration) in enumerate(zip(motion.phases, durations, strict=True)):
+    for k, (phase, duration) in enumerate(zip(task.phases, durations, strict=True)):
         pairs = [(robot.end_effectors[c.end_effector].name, surfaces[c.surface].name) for c in phase.contacts]
         contacts = ", ".join(f"{who} on {surface}" for who, surface in pairs)
         rows.append(f"  {k:5d}  {start:9.3f}  {duration:9.3f}  {contacts}")

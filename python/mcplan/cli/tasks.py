@@ -31,21 +31,21 @@ def tasks(
     """
     from mcplan.cli.table import print_table
     from mcplan.errors import InvalidInput
-    from mcplan.files.motions import list_motions, load_motion, save_motion
     from mcplan.files.outputs import TOML, require_target
+    from mcplan.files.planar_tasks import list_planar_tasks, load_planar_task, save_planar_task
 
     if name is None:
         if output is not None:
             raise InvalidInput("--output", "needs the NAME of a task")
-        built_in = [load_motion(entry) for entry in list_motions()]
+        built_in = [load_planar_task(entry) for entry in list_planar_tasks()]
         print_table([task.name, task.robot.name, task.description] for task in built_in)
         return
     require_target("--output", output, TOML)
-    task = load_motion(name)
+    task = load_planar_task(name)
     if output is None:
         _print_task(task)
     else:
-        save_motion(task, output, f"Made by: mcplan tasks {name} -o {output}")
+        save_planar_task(task, output, f"Made by: mcplan tasks {name} -o {output}")
         say(f"Wrote {output}")
 
 

@@ -106,8 +106,8 @@ def _planar(result: PlanarResult) -> dict[str, Any]:
 
     plan, measures = result.recording.plan, result.measures
     return {
-        "scene": plan.motion.name,
-        "robot": plan.motion.robot.name,
+        "scene": plan.task.name,
+        "robot": plan.task.robot.name,
         "duration_s": plan.duration(),
         "fell": not measures.completed,
         **dict.fromkeys(_NOT_PLANAR),

@@ -14,7 +14,7 @@ from mcplan.errors import InvalidInput, shown
 
 _KIB, _MIB = 1024, 1024 * 1024
 
-#: Bytes of a scene, robot or motion (TOML).
+#: Bytes of a scene, robot or planar task (TOML).
 MOST_TOML = 2 * _MIB
 #: Bytes of a JSON file with reach polytopes.
 MOST_POLYTOPES = 8 * _MIB

@@ -47,7 +47,7 @@ def _find(source: str | Path) -> Path:
         return builtin.find(source, "robots", UnknownRobot)
     except UnknownRobot as error:
         if str(source) in builtin.names("planar_robots"):
-            error.hint = f"{source} is a planar robot: it comes with its motions, for mcplan sip. "
+            error.hint = f"{source} is a planar robot: it comes with its planar tasks, for mcplan sip. "
         raise
 
 

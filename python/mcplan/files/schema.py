@@ -1,4 +1,4 @@
-"""JSON schemas of scene, robot and motion files, for editors and other programs.
+"""JSON schemas of scene, robot and planar task files, for editors and other programs.
 
 python -m mcplan.files.schema        # writes mcplan/data/schema/*.json from the tables of fields
 """
@@ -9,7 +9,7 @@ from mcplan._core import schema_text
 from mcplan.files.builtin import DATA
 
 #: Kinds of files that have a schema.
-KINDS = ("scene", "robot", "planar_robot", "motion")
+KINDS = ("scene", "robot", "planar_robot", "planar_task")
 
 
 def main() -> None:

@@ -2,7 +2,7 @@
 format 2.
 
 The header (bytes of UTF-8 JSON) holds the kind "whole_body", the format's version, the units, the version of mcplan, the
-planner, the force law, and the motion with its robot: all members under their names, infinite numbers as the texts "inf" and
+planner, the force law, and the task with its robot: all members under their names, infinite numbers as the texts "inf" and
 "-inf". F phases, I intervals and J joints give these
 arrays:
 
@@ -58,7 +58,7 @@ def save_whole_body_plan(plan: PlanarPlan, path: str | Path) -> None:
 
     Raises:
         InvalidInput: The name promises another kind of file.
-        InvalidPlan, InvalidMotion, InvalidRobot: Its sizes do not fit together or a number is out of range.
+        InvalidPlan, InvalidPlanarTask, InvalidRobot: Its sizes do not fit together or a number is out of range.
     """
     write_plan_file(plan, path, planar_plan_to_json, plan_to_bytes)
 
@@ -100,7 +100,7 @@ def plan_to_bytes(plan: PlanarPlan) -> bytes:
         "mcplan": __version__,
         "planner": plan.planner,
         "force_law": plan.force_law.name,
-        "motion": planar_task_to_plain(plan.motion),
+        "task": planar_task_to_plain(plan.task),
     }
     own = _ARRAY_OF_LAW[plan.force_law]
     weights = plan.weights if own == "weights" else ()
@@ -124,22 +124,22 @@ def plan_from_bytes(data: bytes) -> PlanarPlan:
     arrays = read_arrays(data)
     header = _checked_header(read_header(arrays))
     try:
-        motion = planar_task_from_plain(header["motion"])
-        motion.validate()
+        task = planar_task_from_plain(header["task"])
+        task.validate()
     except InvalidInput as found:
-        raise found.moved(InvalidPlan, prefix="header.motion") from None
+        raise found.moved(InvalidPlan, prefix="header.task") from None
     _check_arrays(arrays)
-    if motion.interval_count() > MOST_INTERVALS:
+    if task.interval_count() > MOST_INTERVALS:
         rule = f"may have {MOST_INTERVALS} intervals at most"
-        raise InvalidPlan("header.motion.phases", rule, str(motion.interval_count()))
+        raise InvalidPlan("header.task.phases", rule, str(task.interval_count()))
     law = _LAWS[header["force_law"]]
-    points = _point_counts(motion)
-    intervals = [count for phase, count in zip(motion.phases, points, strict=True) for _ in range(phase.intervals)]
+    points = _point_counts(task)
+    intervals = [count for phase, count in zip(task.phases, points, strict=True) for _ in range(phase.intervals)]
     own = _ARRAY_OF_LAW[law]
     weights = _cut(arrays, "weights", points if own == "weights" else [])
     columns = [2 * count for count in intervals] if own == "force_polynomials" else []
     plan = PlanarPlan(
-        motion=motion,
+        task=task,
         planner=header["planner"],
         durations=arrays["durations"].tolist(),
         control_points=arrays["control_points"],
@@ -152,10 +152,10 @@ def plan_from_bytes(data: bytes) -> PlanarPlan:
     return plan
 
 
-def _point_counts(motion: PlanarTask) -> list[int]:
+def _point_counts(task: PlanarTask) -> list[int]:
     """Points in contact, phase by phase."""
-    ends = motion.robot.end_effectors
-    return [sum(len(ends[contact.end_effector].points) for contact in phase.contacts) for phase in motion.phases]
+    ends = task.robot.end_effectors
+    return [sum(len(ends[contact.end_effector].points) for contact in phase.contacts) for phase in task.phases]
 
 
 def _checked_header(header: dict[str, Any]) -> dict[str, Any]:
@@ -164,7 +164,7 @@ def _checked_header(header: dict[str, Any]) -> dict[str, Any]:
     version = header.get("format")
     if type(version) is not int or version != FORMAT:
         raise InvalidPlan("header.format", f"must be {FORMAT} for this version of mcplan", written(version))
-    require_members(header, planner=str, force_law=str, motion=dict)
+    require_members(header, planner=str, force_law=str, task=dict)
     if header["force_law"] not in _LAWS:
         raise InvalidPlan("header.force_law", f"must be one of {', '.join(_LAWS)}", written(header["force_law"]))
     return header

@@ -1,4 +1,4 @@
-"""mp.whole_body: options by name or object, motion and warm start by name or object, then the semi-infinite planner."""
+"""mp.whole_body: options by name or object, task and warm start by name or object, then the semi-infinite planner."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _PROVED = ("dynamics", "torque_limits", "clearance")
 
 
 def whole_body(
-    motion: PlanarTask | str | Path,
+    task: PlanarTask | str | Path,
     warm_start: PlanarPlan | str | Path | None,
     certify: bool,
     minimise: str | None,
@@ -35,7 +35,7 @@ def whole_body(
     chosen = make_options(minimise, named, options)  # before files are read: what is said first is what was typed
     if certify:
         require_provable(chosen)
-    planner = sip.Planner(motion_of(motion), chosen)
+    planner = sip.Planner(task_of(task), chosen)
     return solve(planner, warm_start, certify=certify, self_collision=chosen.self_collision)
 
 
@@ -98,11 +98,11 @@ def require_provable(options: sip.Options) -> None:
             raise InvalidOptions("certify", f"needs {name}, since a certificate is about all constraints")
 
 
-def motion_of(motion: PlanarTask | str | Path) -> PlanarTask:
-    """The motion, or what load_motion makes of its name."""
-    if isinstance(motion, PlanarTask):
-        return motion
-    require_or_path("motion", motion, "a PlanarTask", "a name")
-    from mcplan.files.motions import load_motion
+def task_of(task: PlanarTask | str | Path) -> PlanarTask:
+    """The task, or what load_planar_task makes of its name."""
+    if isinstance(task, PlanarTask):
+        return task
+    require_or_path("task", task, "a PlanarTask", "a name")
+    from mcplan.files.planar_tasks import load_planar_task
 
-    return load_motion(motion)
+    return load_planar_task(task)

@@ -37,11 +37,11 @@ const mcplan::Violation& find(const CheckResult& result, const std::string& name
 
 /// Forces of the standing plan, given; those of one interval changed.
 void give_forces(P& plan, int interval, const Eigen::Matrix<double, 8, 1>& change) {
-  const double weight = plan.motion.robot.mass() * plan.motion.robot.gravity;
+  const double weight = plan.task.robot.mass() * plan.task.robot.gravity;
   Eigen::MatrixXd polynomial = Eigen::MatrixXd::Zero(4, 8);
   for (int v = 0; v < 4; ++v) polynomial(0, 2 * v + 1) = weight / 4.0;
   plan.force_law = mcplan::planar_laws::Polynomial();
-  plan.force_polynomials.assign(plan.motion.interval_count(), polynomial);
+  plan.force_polynomials.assign(plan.task.interval_count(), polynomial);
   plan.force_polynomials[interval].row(0) += change.transpose();
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("numbers that are none and phases that last no time end the check") {
 }
 
 TEST_CASE("each limit of a joint is named, with the joint") {
-  const CheckResult position = checked([](P& p) { p.motion.robot.bodies[planar::arm].position_max = -0.1; });
+  const CheckResult position = checked([](P& p) { p.task.robot.bodies[planar::arm].position_max = -0.1; });
   REQUIRE(position.violations().size() == 1);
   CHECK(position.worst().name == "position");
   CHECK(position.worst().end_effector == "arm");
@@ -95,13 +95,13 @@ TEST_CASE("each limit of a joint is named, with the joint") {
   CHECK(broken(wave) == Names{});
   const CheckResult velocity = checked([&wave](P& p) {
     wave(p);
-    p.motion.robot.bodies[planar::arm].velocity_max = 0.05;
+    p.task.robot.bodies[planar::arm].velocity_max = 0.05;
   });
   CHECK(velocity.worst().name == "velocity");
   CHECK(velocity.worst().end_effector == "arm");
   CHECK(velocity.violations().size() == 1);
 
-  const CheckResult torque = checked([](P& p) { p.motion.robot.bodies[planar::right_leg].torque_max = 1.0; });
+  const CheckResult torque = checked([](P& p) { p.task.robot.bodies[planar::right_leg].torque_max = 1.0; });
   CHECK(torque.worst().name == "torque");
   CHECK(torque.worst().end_effector == "right_leg");
   CHECK(torque.violations().size() == 1);
@@ -110,8 +110,8 @@ TEST_CASE("each limit of a joint is named, with the joint") {
 TEST_CASE("limits are relative: 1e-4 of them is tolerated, 2e-4 is not") {
   const auto stands = [](double beyond) {
     return checked([beyond](P& p) {
-             p.motion.robot.bodies[planar::arm].position_min = -1.0 - beyond;
-             p.motion.robot.bodies[planar::arm].position_max = -beyond;
+             p.task.robot.bodies[planar::arm].position_min = -1.0 - beyond;
+             p.task.robot.bodies[planar::arm].position_max = -beyond;
            })
         .ok();
   };
@@ -192,8 +192,8 @@ TEST_CASE("a swinging end-effector in a solid, or too low in the middle, is name
       surface.origin_W = {0.0, top};
       surface.from = from;
       surface.to = to;
-      p.motion.surfaces.push_back(surface);
-      p.motion.phases[1].clearances = {{planar::hand, 1, 2, 3}};
+      p.task.surfaces.push_back(surface);
+      p.task.phases[1].clearances = {{planar::hand, 1, 2, 3}};
     });
   };
   const double height = planar::hip_height() + 0.2;
@@ -208,14 +208,14 @@ TEST_CASE("a swinging end-effector in a solid, or too low in the middle, is name
   CHECK(block(height - 0.01, -1.0, 1.0).ok());                                                  // above it
   CHECK(find(block(height + 0.01, -0.002, 1.0), "clearance").value == doctest::Approx(0.002));  // at its edge
 
-  const CheckResult low = checked([height](P& p) { p.motion.phases[2].clearances[0].middle_height = height + 0.02; });
+  const CheckResult low = checked([height](P& p) { p.task.phases[2].clearances[0].middle_height = height + 0.02; });
   CHECK(low.violations().size() == 1);
   CHECK(low.worst().value == doctest::Approx(0.02));
   CHECK(low.worst().time_s == doctest::Approx(0.7 + 0.25));
 }
 
 TEST_CASE("capsules that touch are named where they are asked for") {
-  const auto thick = [](P& p) { p.motion.robot.bodies[planar::arm].capsules[0].radius = 0.16; };
+  const auto thick = [](P& p) { p.task.robot.bodies[planar::arm].capsules[0].radius = 0.16; };
   const CheckResult result = checked(thick);
   CHECK(result.violations().size() == 1);
   CHECK(result.worst().name == "collision");
@@ -223,13 +223,13 @@ TEST_CASE("capsules that touch are named where they are asked for") {
   CHECK(checked(thick, false).ok());
   // Segments that cross are at no distance, however far their ends are from each other.
   const CheckResult crossing = checked([](P& p) {
-    p.motion.robot.bodies[planar::arm].capsules[0] = {{-0.5, -0.6}, {0.5, -0.6}, 0.03};
+    p.task.robot.bodies[planar::arm].capsules[0] = {{-0.5, -0.6}, {0.5, -0.6}, 0.03};
   });
   CHECK(crossing.worst().value == doctest::Approx(0.08));
 }
 
 TEST_CASE("a pose that is missed is named, with the body and the instant") {
-  const CheckResult result = checked([](P& p) { p.motion.phases[1].poses[0].min.y() = planar::hip_height() + 5e-3; });
+  const CheckResult result = checked([](P& p) { p.task.phases[1].poses[0].min.y() = planar::hip_height() + 5e-3; });
   CHECK(result.violations().size() == 1);
   CHECK(result.worst().name == "pose");
   CHECK(result.worst().end_effector == "trunk");
@@ -238,11 +238,11 @@ TEST_CASE("a pose that is missed is named, with the body and the instant") {
   CHECK(result.worst().value == doctest::Approx(5e-3));
 }
 
-TEST_CASE("malformed plans, motions, robots and options are exceptions") {
+TEST_CASE("malformed plans, tasks, robots and options are exceptions") {
   CHECK_THROWS_AS(checked([](P& p) { p.durations.pop_back(); }), mcplan::InvalidPlan);
   CHECK_THROWS_AS(checked([](P& p) { p.weights[0][0] = 0.0; }), mcplan::InvalidPlan);
-  CHECK_THROWS_AS(checked([](P& p) { p.motion.phases[0].contacts[0].position_W.y() = 0.1; }), mcplan::InvalidMotion);
-  CHECK_THROWS_AS(checked([](P& p) { p.motion.robot.bodies[1].mass = 0.0; }), mcplan::InvalidRobot);
+  CHECK_THROWS_AS(checked([](P& p) { p.task.phases[0].contacts[0].position_W.y() = 0.1; }), mcplan::InvalidPlanarTask);
+  CHECK_THROWS_AS(checked([](P& p) { p.task.robot.bodies[1].mass = 0.0; }), mcplan::InvalidRobot);
   mcplan::PlanarTolerances tolerances;
   for (double bad : {0.0, -1.0, std::nan(""), 1e-9}) {
     tolerances.sample_s = bad;

@@ -19,7 +19,7 @@ using mcplan::PlanarState;
 /// formula minds.
 PlanarPlan moving_plan() {
   PlanarPlan plan = planar::standing_plan();
-  plan.motion.phases[1].contacts.pop_back();
+  plan.task.phases[1].contacts.pop_back();
   plan.weights = {Eigen::Vector4d(1.0, 2.0, 0.5, 3.0), Eigen::Vector2d(1.0, 2.0), Eigen::Vector4d(1.0, 0.2, 1.0, 4.0)};
   std::mt19937 random(5);
   std::uniform_real_distribution<double> draw(-0.2, 0.2);
@@ -44,10 +44,10 @@ PlanarPlan parameterised_plan() {
 /// The same state from forces that are given: cubic fits of nothing, the least-norm forces of one instant.
 PlanarPlan with_polynomials(PlanarPlan plan, int phase, double since_start) {
   const PlanarState state = plan.at_phase(phase, since_start);
-  for (int i = 0; i < plan.motion.interval_count(); ++i) {
-    const auto points = plan.weights[plan.motion.phase_of(i)].size();
+  for (int i = 0; i < plan.task.interval_count(); ++i) {
+    const auto points = plan.weights[plan.task.phase_of(i)].size();
     Eigen::MatrixXd polynomial = Eigen::MatrixXd::Zero(4, 2 * points);
-    if (plan.motion.phase_of(i) == phase)
+    if (plan.task.phase_of(i) == phase)
       for (Eigen::Index v = 0; v < points; ++v)
         polynomial.row(0).segment<2>(2 * v) << state.forces[v].tangential, state.forces[v].normal;
     plan.force_polynomials.push_back(polynomial);
@@ -72,7 +72,7 @@ std::string field(const std::function<void(PlanarPlan&)>& mutate, PlanarPlan pla
 TEST_CASE("a symmetric robot at rest carries a quarter of its weight at each of four points") {
   const PlanarPlan plan = planar::standing_plan();
   const PlanarState state = plan.at(0.5);
-  const double weight = plan.motion.robot.mass() * plan.motion.robot.gravity;
+  const double weight = plan.task.robot.mass() * plan.task.robot.gravity;
   REQUIRE(state.forces.size() == 4);
   for (const auto& force : state.forces) {
     CHECK(force.normal == doctest::Approx(weight / 4.0).epsilon(1e-12));
@@ -118,12 +118,12 @@ TEST_CASE("errors of the contacts sum to zero where the base is computed") {
 
 TEST_CASE("least-norm forces change the momentum as the motion does") {
   const PlanarPlan plan = moving_plan();
-  const double mass = plan.motion.robot.mass(), h = 1e-5;
+  const double mass = plan.task.robot.mass(), h = 1e-5;
   for (int phase : {0, 1, 2}) {
     const double t = 0.4 * plan.durations[phase];
     const PlanarState now = plan.at_phase(phase, t), before = plan.at_phase(phase, t - h),
                       after = plan.at_phase(phase, t + h);
-    Eigen::Vector2d sum(0.0, -mass * plan.motion.robot.gravity);
+    Eigen::Vector2d sum(0.0, -mass * plan.task.robot.gravity);
     for (const auto& force : now.forces) sum += force.force_W;
     CHECK((sum - mass * (after.com_velocity_W - before.com_velocity_W) / (2.0 * h)).norm() < 1e-4);
     CHECK((now.com_velocity_W - (after.com_W - before.com_W) / (2.0 * h)).norm() < 1e-8);
@@ -185,12 +185,12 @@ TEST_CASE("a phase of a whole-body plan that lasts next to nothing can be asked 
 }
 
 TEST_CASE("a least-norm gain needs two points apart") {
-  mcplan::PlanarTask motion = planar::standing();
-  motion.robot.end_effectors[0].points = {0.0};
-  motion.phases[1].contacts.pop_back();
-  CHECK_THROWS_AS(least_norm_gain(motion, 1, Eigen::VectorXd::Ones(1)), mcplan::InvalidPlan);
-  CHECK_THROWS_AS(least_norm_gain(motion, 0, Eigen::VectorXd::Ones(4)), mcplan::InvalidPlan);  // three points
-  CHECK(least_norm_gain(motion, 0, Eigen::VectorXd::Ones(3)).rows() == 6);
+  mcplan::PlanarTask task = planar::standing();
+  task.robot.end_effectors[0].points = {0.0};
+  task.phases[1].contacts.pop_back();
+  CHECK_THROWS_AS(least_norm_gain(task, 1, Eigen::VectorXd::Ones(1)), mcplan::InvalidPlan);
+  CHECK_THROWS_AS(least_norm_gain(task, 0, Eigen::VectorXd::Ones(4)), mcplan::InvalidPlan);  // three points
+  CHECK(least_norm_gain(task, 0, Eigen::VectorXd::Ones(3)).rows() == 6);
 }
 
 TEST_CASE("the field of a planar plan that does not fit is named") {
@@ -216,12 +216,12 @@ TEST_CASE("the field of a planar plan that does not fit is named") {
   CHECK(field([](P& p) { p.force_polynomials[3](0, 0) = NAN; }, given) == "force_polynomials[3]");
 }
 
-TEST_CASE("a motion whose indices lead nowhere is refused before anything is evaluated") {
+TEST_CASE("a task whose indices lead nowhere is refused before anything is evaluated") {
   PlanarPlan plan = planar::standing_plan();
-  plan.motion.phases[0].contacts[0].end_effector = 9;
-  CHECK_THROWS_AS(plan.at(0.1), mcplan::InvalidMotion);
+  plan.task.phases[0].contacts[0].end_effector = 9;
+  CHECK_THROWS_AS(plan.at(0.1), mcplan::InvalidPlanarTask);
   plan = planar::standing_plan();
-  plan.motion.robot.bodies[3].parent = 9;
+  plan.task.robot.bodies[3].parent = 9;
   CHECK_THROWS_AS(plan.at(0.1), mcplan::InvalidRobot);
   CHECK_THROWS_AS(PlanarPlan().at(0.0), mcplan::InvalidPlan);
 }

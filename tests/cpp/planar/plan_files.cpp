@@ -29,7 +29,7 @@ PlanarPlan noisy_plan() {
   for (Eigen::VectorXd& weights : plan.weights)
     for (double& weight : weights) weight += 0.1 * std::abs(noise(rng));
   for (double& duration : plan.durations) duration += 0.1 * std::abs(noise(rng));
-  plan.motion.phases[1].poses[0].max[2] = HUGE_VAL;
+  plan.task.phases[1].poses[0].max[2] = HUGE_VAL;
   return plan;
 }
 
@@ -42,8 +42,7 @@ PlanarPlan plan_under(planar_laws::Polynomial /*law*/) {
   plan.force_law = planar_laws::Polynomial();
   plan.weights.clear();
   plan.base_control_points = Eigen::MatrixXd::Random(3, plan.control_points.cols());
-  for (int i = 0; i < plan.motion.interval_count(); ++i)
-    plan.force_polynomials.push_back(Eigen::MatrixXd::Random(4, 8));
+  for (int i = 0; i < plan.task.interval_count(); ++i) plan.force_polynomials.push_back(Eigen::MatrixXd::Random(4, 8));
   return plan;
 }
 
@@ -86,18 +85,26 @@ TEST_CASE("planar plans of every force law survive a file to the last bit") {
   fs::remove(file);
 }
 
+TEST_CASE("the task of a plan may be called motion, as in files of 0.1") {
+  const PlanarPlan plan = noisy_plan();
+  const std::string text = planar_plan_to_json(plan), earlier = with(text, "\"task\": {", "\"motion\": {");
+  CHECK(text.find("\"motion\"") == std::string::npos);
+  CHECK(planar_plan_from_json(earlier) == plan);
+  CHECK(planar_field(with(earlier, "\"gravity\": 9.81", "\"gravity\": -1")) == "motion.robot.gravity");
+}
+
 TEST_CASE("a robot without joints has a plan, too") {
   PlanarPlan plan = planar::standing_plan();
-  PlanarRobot& robot = plan.motion.robot;
+  PlanarRobot& robot = plan.task.robot;
   robot.bodies.resize(1);
   robot.collision_pairs.clear();
   robot.end_effectors = {{"sole", 0, {0.0, 0.0}, 0.0, {-0.1, 0.1}}};
-  for (PlanarPhase& phase : plan.motion.phases) {
+  for (PlanarPhase& phase : plan.task.phases) {
     phase.contacts = {PlanarContact{}};
     phase.clearances.clear();
     phase.poses.clear();
   }
-  plan.control_points.resize(0, plan.motion.interval_count() + 3);
+  plan.control_points.resize(0, plan.task.interval_count() + 3);
   plan.weights.assign(3, Eigen::VectorXd::Ones(2));
   CHECK(planar_plan_from_json(planar_plan_to_json(plan)) == plan);
 }
@@ -120,9 +127,9 @@ TEST_CASE("what is wrong with a planar plan in JSON is named") {
   CHECK(planar_field(with(text, "\"kind\": \"planar_plan\"", "\"kind\": \"plan\"")) == "kind");
   CHECK(planar_field(with(text, "\"format\": 2", "\"format\": 9")) == "format");
   CHECK(planar_field(with(text, "\"durations\": [", "\"duration\": [")) == "duration");
-  CHECK(planar_field(with(text, "\"gravity\": 9.81", "\"gravity\": -1")) == "motion.robot.gravity");
-  CHECK(planar_field(with(text, "\"parent\": 1", "\"parent\": 2")) == "motion.robot.bodies[2].parent");
-  CHECK(planar_field(with(text, "\"surface\": 0", "\"surface\": 7")) == "motion.phases[0].contacts[0].surface");
+  CHECK(planar_field(with(text, "\"gravity\": 9.81", "\"gravity\": -1")) == "task.robot.gravity");
+  CHECK(planar_field(with(text, "\"parent\": 1", "\"parent\": 2")) == "task.robot.bodies[2].parent");
+  CHECK(planar_field(with(text, "\"surface\": 0", "\"surface\": 7")) == "task.phases[0].contacts[0].surface");
   CHECK(planar_field(with(text, "\"force_law\": \"least_norm\"", "\"force_law\": \"magic\"")) == "force_law");
   CHECK(planar_field(with(text, "\"weights\": [", "\"weights\": [[1.0], ")) == "weights");
   CHECK(planar_field(with(text, "\"control_points\": [", "\"control_points\": [[1.0], ")) == "control_points[1]");
@@ -136,11 +143,11 @@ TEST_CASE("what is wrong with a planar plan in JSON is named") {
 
 TEST_CASE("a planar plan of more intervals than a file may have is refused") {
   PlanarPlan plan = planar::standing_plan();
-  plan.motion.phases.assign(21, plan.motion.phases[0]);
-  for (PlanarPhase& phase : plan.motion.phases) phase.intervals = 1000;
+  plan.task.phases.assign(21, plan.task.phases[0]);
+  for (PlanarPhase& phase : plan.task.phases) phase.intervals = 1000;
   plan.durations.assign(21, 1.0);
   plan.weights.assign(21, Eigen::VectorXd::Ones(4));
-  plan.control_points = Eigen::MatrixXd::Zero(plan.motion.robot.joint_count(), 21'003);
+  plan.control_points = Eigen::MatrixXd::Zero(plan.task.robot.joint_count(), 21'003);
   CHECK_NOTHROW(plan.validate());
   CHECK_THROWS_AS(planar_plan_to_json(plan), InvalidPlan);
 }

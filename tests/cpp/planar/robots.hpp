@@ -59,13 +59,13 @@ inline mcplan::PlanarRobot stander() {
 
 /// Three phases with both feet on level ground, the hand to stay above it.
 inline mcplan::PlanarTask standing() {
-  mcplan::PlanarTask motion;
-  motion.name = "standing";
-  motion.robot = stander();
+  mcplan::PlanarTask task;
+  task.name = "standing";
+  task.robot = stander();
   mcplan::PlanarSurface ground;
   ground.name = "ground";
   ground.friction = 0.8;
-  motion.surfaces.push_back(ground);
+  task.surfaces.push_back(ground);
   mcplan::PlanarPhase phase;
   phase.intervals = 4;
   phase.contacts = {{left_foot, 0, {-foot_x(), 0.0}, 0.0}, {right_foot, 0, {foot_x(), 0.0}, 0.0}};
@@ -76,17 +76,17 @@ inline mcplan::PlanarTask standing() {
   pose.min = {-0.01, hip_height() - 0.01, -0.01};
   pose.max = {0.01, hip_height() + 0.01, 0.01};
   phase.poses = {pose};
-  motion.phases = {phase, phase, phase};
-  return motion;
+  task.phases = {phase, phase, phase};
+  return task;
 }
 
 /// At rest in the zero posture.
 inline mcplan::PlanarPlan standing_plan() {
   mcplan::PlanarPlan plan;
-  plan.motion = standing();
+  plan.task = standing();
   plan.planner = "by hand";
   plan.durations = {0.3, 0.4, 0.5};
-  plan.control_points = Eigen::MatrixXd::Zero(plan.motion.robot.joint_count(), plan.motion.interval_count() + 3);
+  plan.control_points = Eigen::MatrixXd::Zero(plan.task.robot.joint_count(), plan.task.interval_count() + 3);
   plan.weights.assign(3, Eigen::VectorXd::Ones(4));
   return plan;
 }

@@ -16,11 +16,11 @@ struct Error {
 };
 
 Error error(const std::function<void(M&)>& mutate) {
-  M motion = planar::standing();
-  mutate(motion);
+  M task = planar::standing();
+  mutate(task);
   try {
-    motion.validate();
-  } catch (const mcplan::InvalidMotion& found) {
+    task.validate();
+  } catch (const mcplan::InvalidPlanarTask& found) {
     return {found.field(), found.rule()};
   }
   return {"accepted", ""};
@@ -29,8 +29,8 @@ Error error(const std::function<void(M&)>& mutate) {
 std::string field(const std::function<void(M&)>& mutate) { return error(mutate).field; }
 
 /// The right foot further ahead by dx from phase k on.
-void step(M& motion, std::size_t k, double dx) {
-  for (std::size_t i = k; i < motion.phases.size(); ++i) motion.phases[i].contacts[1].position_W.x() += dx;
+void step(M& task, std::size_t k, double dx) {
+  for (std::size_t i = k; i < task.phases.size(); ++i) task.phases[i].contacts[1].position_W.x() += dx;
 }
 
 }  // namespace
@@ -43,19 +43,19 @@ TEST_CASE("a surface's normal is to the left of its tangent") {
 }
 
 TEST_CASE("intervals are counted phase by phase") {
-  M motion = planar::standing();
-  motion.phases[0].intervals = 3;
-  motion.phases[1].intervals = 5;
-  CHECK(motion.interval_count() == 12);
-  CHECK(motion.first_interval(0) == 0);
-  CHECK(motion.first_interval(2) == 8);
-  CHECK(motion.phase_of(2) == 0);
-  CHECK(motion.phase_of(3) == 1);
-  CHECK(motion.phase_of(7) == 1);
-  CHECK(motion.phase_of(11) == 2);
+  M task = planar::standing();
+  task.phases[0].intervals = 3;
+  task.phases[1].intervals = 5;
+  CHECK(task.interval_count() == 12);
+  CHECK(task.first_interval(0) == 0);
+  CHECK(task.first_interval(2) == 8);
+  CHECK(task.phase_of(2) == 0);
+  CHECK(task.phase_of(3) == 1);
+  CHECK(task.phase_of(7) == 1);
+  CHECK(task.phase_of(11) == 2);
 }
 
-TEST_CASE("a valid motion is accepted; whole turns of a contact count for the robot, not for the surface") {
+TEST_CASE("a valid task is accepted; whole turns of a contact count for the robot, not for the surface") {
   CHECK(field([](M&) {}) == "accepted");
   CHECK(field([](M& m) {
           for (auto& phase : m.phases) phase.contacts[0].angle = 2.0 * M_PI;
@@ -63,12 +63,12 @@ TEST_CASE("a valid motion is accepted; whole turns of a contact count for the ro
 }
 
 TEST_CASE("the robot's errors are those of the robot") {
-  M motion = planar::standing();
-  motion.robot.bodies[2].mass = 0.0;
-  CHECK_THROWS_AS(motion.validate(), mcplan::InvalidRobot);
+  M task = planar::standing();
+  task.robot.bodies[2].mass = 0.0;
+  CHECK_THROWS_AS(task.validate(), mcplan::InvalidRobot);
 }
 
-TEST_CASE("the field of a motion that is out of its range is named") {
+TEST_CASE("the field of a task that is out of its range is named") {
   CHECK(field([](M& m) { m.surfaces.clear(); }) == "surfaces");
   CHECK(field([](M& m) { m.surfaces[0].name = ""; }) == "surfaces[0].name");
   CHECK(field([](M& m) { m.surfaces.push_back(m.surfaces[0]); }) == "surfaces[1].name");

@@ -30,7 +30,7 @@ constexpr const char* standing_phase =
 
 TEST_CASE("every planar task survives a file to the last bit") {
   const fs::path file = fs::temp_directory_path() / ("mcplan_planar_task_" + std::to_string(getpid()) + ".toml");
-  const std::vector<std::string> names = built_in("motions");
+  const std::vector<std::string> names = built_in("planar_tasks");
   CHECK(names.size() >= 6);
   std::vector<PlanarTask> tasks = {planar::standing()};
   for (const std::string& name : names) {
@@ -57,10 +57,10 @@ TEST_CASE("an unknown planar task lists those that exist") {
   try {
     load_planar_task("cartwheels");
     FAIL("it was found");
-  } catch (const UnknownMotion& found) {
-    const std::string begin = "no motion 'cartwheels' and no file of that name. Did you mean 'cartwheel'? ";
+  } catch (const UnknownPlanarTask& found) {
+    const std::string begin = "no planar task 'cartwheels' and no file of that name. Did you mean 'cartwheel'? ";
     CHECK(std::string(found.what()).rfind(begin, 0) == 0);
-    CHECK(found.legal() == built_in("motions"));
+    CHECK(found.legal() == built_in("planar_tasks"));
   }
 }
 
@@ -81,7 +81,7 @@ TEST_CASE("a planar task finds its robot beside it, from any working directory")
   try {
     read_planar_task(folder / "sub" / "up.toml");
     FAIL("it was read");
-  } catch (const InvalidMotion& found) {
+  } catch (const InvalidPlanarTask& found) {
     CHECK(fields_of(found) == std::vector<std::string>{"robot"});
     CHECK(found.rule() == "must lie in the folder of the file that names it, or below");
   }
@@ -102,7 +102,7 @@ TEST_CASE("one reading says all that is wrong with a planar task") {
   try {
     read_planar_task(file);
     FAIL("it was read");
-  } catch (const InvalidMotion& found) {
+  } catch (const InvalidPlanarTask& found) {
     CHECK(fields_of(found) == std::vector<std::string>{
                                   "surfaces[1].friction", "phases[1].min_duration", "phases[2].lift[0]",
                                   "phases[2].intervals", "phases[3].contacts[0].surface", "phases[3].poses[0].fraction",

@@ -63,7 +63,7 @@ class UnknownScene : public UnknownName {
 class UnknownRobot : public UnknownName {
   using UnknownName::UnknownName;
 };
-class UnknownMotion : public UnknownName {
+class UnknownPlanarTask : public UnknownName {
   using UnknownName::UnknownName;
 };
 

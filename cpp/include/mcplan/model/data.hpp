@@ -6,12 +6,12 @@
 
 namespace mcplan {
 
-/// The folder of the built-in scenes, robots and motions: the environment's MCPLAN_DATA if it is set; else what lies
-/// beside the compiled code, as in a wheel, or in ../share/mcplan of it; else what CMake told the program when it was
-/// linked, for an installed tree or a build tree. An empty path where none of these exists.
+/// The folder of the built-in scenes, robots and planar tasks: the environment's MCPLAN_DATA if it is set; else what
+/// lies beside the compiled code, as in a wheel, or in ../share/mcplan of it; else what CMake told the program when it
+/// was linked, for an installed tree or a build tree. An empty path where none of these exists.
 std::filesystem::path data_folder();
 
-/// Sorted names of the built-in files of a kind: "scenes", "robots", "planar_robots" or "motions".
+/// Sorted names of the built-in files of a kind: "scenes", "robots", "planar_robots" or "planar_tasks".
 std::vector<std::string> built_in(const std::string& kind);
 
 /// Called before main() by whoever includes this header, with the folder that CMake hands on to those who link mcplan.

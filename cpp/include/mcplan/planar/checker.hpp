@@ -64,11 +64,11 @@ std::array<PlanarConstraintInfo, kPlanarConstraints> planar_constraints(const Pl
 ///     drift, drift_angle             contacts where they should be
 ///     balance, moment                forces carry the motion of the base
 ///     friction, pull                 every point force in its cone
-///     clearance                      swinging end-effectors outside the solids that the motion names
+///     clearance                      swinging end-effectors outside the solids that the task names
 ///     collision                      capsules of the robot's pairs (only where collision_pairs are given and asked)
 ///     pose                           poses at given instants
 ///
-/// Throws InvalidPlan, InvalidMotion, InvalidRobot or InvalidOptions as check() of a Plan does.
+/// Throws InvalidPlan, InvalidPlanarTask, InvalidRobot or InvalidOptions as check() of a Plan does.
 /// `stop` is polled at every interval between knots; null: never.
 CheckResult check(const PlanarPlan& plan, const PlanarTolerances& tolerances = {}, bool self_collision = false,
                   const StopRequest& stop = {});

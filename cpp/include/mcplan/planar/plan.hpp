@@ -52,7 +52,7 @@ struct PlanarState {
 /// which has a constant gain from the right-hand side to the forces in each phase.
 class PlanarPlan {
  public:
-  PlanarTask motion;
+  PlanarTask task;
   std::string planner;                             ///< e.g. "sip"
   std::vector<double> durations;                   ///< of the phases [s]
   Eigen::MatrixXd control_points;                  ///< joints x (intervals + 3) [rad]
@@ -78,16 +78,16 @@ class PlanarPlan {
   void validate() const;
 
   /// Writes a JSON file, which is complete or not there at all and which load_planar_plan() and Python read. Throws
-  /// InvalidPlan, InvalidMotion, InvalidRobot, InvalidInput where the name does not end in .json, and
+  /// InvalidPlan, InvalidPlanarTask, InvalidRobot, InvalidInput where the name does not end in .json, and
   /// std::filesystem::filesystem_error.
   void save(const std::string& path) const;
 };
 
 /// Gain from [m (a - g); moment about p] to the forces (tangential, normal) of all points of a phase: (2 points) x 3.
 /// weights: one for each point. Throws InvalidPlan where the points cannot balance a moment.
-Eigen::MatrixXd least_norm_gain(const PlanarTask& motion, int phase, const Eigen::VectorXd& weights);
+Eigen::MatrixXd least_norm_gain(const PlanarTask& task, int phase, const Eigen::VectorXd& weights);
 
 /// The mean p of the phase's expected points [m], about which its moments are taken.
-Eigen::Vector2d moment_point_W(const PlanarTask& motion, int phase);
+Eigen::Vector2d moment_point_W(const PlanarTask& task, int phase);
 
 }  // namespace mcplan

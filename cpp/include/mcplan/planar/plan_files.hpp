@@ -9,7 +9,7 @@ namespace mcplan {
 /// A planar plan that PlanarPlan::save() or Python wrote as JSON. Throws InvalidPlan with all that is wrong.
 PlanarPlan load_planar_plan(const std::string& path);
 
-/// A planar plan as JSON; numbers read back as the same doubles. Throws InvalidPlan, InvalidMotion and InvalidRobot
+/// A planar plan as JSON; numbers read back as the same doubles. Throws InvalidPlan, InvalidPlanarTask and InvalidRobot
 /// when it is not valid, and InvalidPlan where it is too large to be read again.
 std::string planar_plan_to_json(const PlanarPlan& plan);
 

@@ -10,7 +10,7 @@
 
 namespace mcplan {
 
-class InvalidMotion : public InvalidInput {
+class InvalidPlanarTask : public InvalidInput {
   using InvalidInput::InvalidInput;
 };
 
@@ -73,7 +73,7 @@ struct PlanarTask {
   int first_interval(int phase) const;
   int phase_of(int interval) const;
 
-  /// Throws InvalidMotion (InvalidRobot for the robot) naming the first field out of its range: no phases, a phase
+  /// Throws InvalidPlanarTask (InvalidRobot for the robot) naming the first field out of its range: no phases, a phase
   /// without intervals or contacts or with no room for its duration, a contact off its surface or turned against it, an
   /// end-effector in contact twice, two contacts further apart than the limbs between them are long, a clearance of an
   /// end-effector in contact, a pose outside its phase.

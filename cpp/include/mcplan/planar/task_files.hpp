@@ -3,22 +3,22 @@
 #include <filesystem>
 #include <string>
 
-#include "mcplan/model/data.hpp"  // which tells where the built-in motions lie
+#include "mcplan/model/data.hpp"  // which tells where the built-in tasks lie
 #include "mcplan/planar/task.hpp"
 
 namespace mcplan {
 
-/// The planar task of a built-in name ("cartwheel"; built_in("motions") lists them) or of a TOML file, which Python
-/// calls a motion; a built-in name means the built-in one. Throws UnknownMotion and UnknownRobot, which list the names
-/// that exist, InvalidMotion with all that is wrong, and InvalidRobot where its robot is.
+/// The planar task of a built-in name ("cartwheel"; built_in("planar_tasks") lists them) or of a TOML file; a
+/// built-in name means the built-in one. Throws UnknownPlanarTask and UnknownRobot, which list the names that exist,
+/// InvalidPlanarTask with all that is wrong, and InvalidRobot where its robot is.
 PlanarTask load_planar_task(const std::string& name_or_path);
 
 /// The planar task of a TOML file. The file of its robot, if it names one, lies beside it or below. Throws
-/// InvalidMotion, InvalidRobot, UnknownRobot.
+/// InvalidPlanarTask, InvalidRobot, UnknownRobot.
 PlanarTask read_planar_task(const std::filesystem::path& file);
 
 /// Writes a TOML file, which is complete or not there at all; the robot is inline, and each phase has all its contacts.
-/// Throws InvalidMotion, InvalidRobot, std::filesystem::filesystem_error.
+/// Throws InvalidPlanarTask, InvalidRobot, std::filesystem::filesystem_error.
 void save_planar_task(const PlanarTask& task, const std::filesystem::path& file);
 
 /// Whether two planar tasks are the same, number by number, their robots too.

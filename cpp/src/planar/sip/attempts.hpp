@@ -15,9 +15,9 @@ struct Attempt {
   int max_iterations;
 };
 
-/// All ways to try, in turn. Without a cost second derivatives say little: L-BFGS, the weak pull's own Hessian, and the exact one each solve what
-/// the others do not. With one the exact Hessian converges in some tens of iterations where Gauss-Newton, which leaves
-/// out the constraints' curvature, needs hundreds (docs/theory/sip.md).
+/// All ways to try, in turn. Without a cost second derivatives say little: L-BFGS, the weak pull's own Hessian, and the
+/// exact one each solve what the others do not. With one the exact Hessian converges in some tens of iterations where
+/// Gauss-Newton, which leaves out the constraints' curvature, needs hundreds (docs/theory/sip.md).
 inline std::vector<Attempt> attempts_for(const Options& options, bool cost) {
   const int most = options.max_iterations, some = std::min(most, 200);
   if (options.hessian != HessianChoice::automatic) return {{options.hessian, !cost, cost ? 0.01 : 0.1, most}};

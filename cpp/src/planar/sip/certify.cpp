@@ -155,11 +155,11 @@ Certificate certify(const PlanarPlan& plan, const CertifyOptions& options) {
   plan.validate();
 
   std::vector<PhaseConstants> constants;
-  for (std::size_t k = 0; k < plan.motion.phases.size(); ++k)
+  for (std::size_t k = 0; k < plan.task.phases.size(); ++k)
     constants.push_back(phase_constants(plan, static_cast<int>(k)));
   std::vector<IntervalRows> intervals;
-  for (int i = 0; i < plan.motion.interval_count(); ++i)
-    intervals.emplace_back(plan, constants[plan.motion.phase_of(i)], i, options.order, options.self_collision);
+  for (int i = 0; i < plan.task.interval_count(); ++i)
+    intervals.emplace_back(plan, constants[plan.task.phase_of(i)], i, options.order, options.self_collision);
 
   Ledger ledger(options.tolerances);
   for (const InstantRow& instant : instant_rows(plan, constants, intervals, options.order)) {

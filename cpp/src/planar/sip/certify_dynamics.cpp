@@ -14,7 +14,7 @@ Constant direction(double angle) { return {{std::cos(angle), std::sin(angle)}, k
 
 /// The gain of a phase under a force law, and how far its forces fall short of what they have to give.
 void set_gain(planar_laws::LeastNorm /*law*/, const PlanarPlan& plan, int phase, PhaseConstants& out) {
-  out.gain = least_norm_gain(plan.motion, phase, plan.weights[phase]);
+  out.gain = least_norm_gain(plan.task, phase, plan.weights[phase]);
   Eigen::MatrixXd g(3, 2 * out.points), g_error(3, 2 * out.points);
   for (const ContactFrame& contact : out.contacts)
     for (std::size_t k = 0; k < contact.points.size(); ++k) {
@@ -53,10 +53,10 @@ Vector& Vector::add_scaled(double factor, const Vector& other, double factor_err
 TaylorModel cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
 
 PhaseConstants phase_constants(const PlanarPlan& plan, int phase) {
-  const PlanarTask& motion = plan.motion;
+  const PlanarTask& task = plan.task;
   PhaseConstants out;
-  for (const PlanarContact& contact : motion.phases[phase].contacts) {
-    const PlanarEndEffector& end = motion.robot.end_effectors[contact.end_effector];
+  for (const PlanarContact& contact : task.phases[phase].contacts) {
+    const PlanarEndEffector& end = task.robot.end_effectors[contact.end_effector];
     ContactFrame frame;
     frame.end_effector = contact.end_effector;
     frame.surface = contact.surface;
@@ -73,7 +73,7 @@ PhaseConstants phase_constants(const PlanarPlan& plan, int phase) {
     out.points += static_cast<int>(end.points.size());
     out.contacts.push_back(frame);
   }
-  out.moment_point_W = moment_point_W(motion, phase);
+  out.moment_point_W = moment_point_W(task, phase);
   std::visit([&](auto law) { set_gain(law, plan, phase, out); }, plan.force_law);
   return out;
 }
@@ -81,7 +81,7 @@ PhaseConstants phase_constants(const PlanarPlan& plan, int phase) {
 PieceModels::PieceModels(const PlanarPlan& plan, const PhaseConstants& constants, const Trajectories& piece, int order,
                          std::vector<UncertainPolynomial> forces)
     : plan_(plan),
-      robot_(plan.motion.robot),
+      robot_(plan.task.robot),
       constants_(constants),
       piece_(piece),
       force_polynomials_(std::move(forces)),

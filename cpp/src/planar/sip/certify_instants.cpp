@@ -38,7 +38,7 @@ struct Named {
 
 /// Splines of an interval: the joints', then the base's where it has its own.
 std::vector<Named> splines_of(const PlanarPlan& plan, const Trajectories& interval) {
-  const auto& bodies = plan.motion.robot.bodies;
+  const auto& bodies = plan.task.robot.bodies;
   std::vector<Named> out;
   for (std::size_t j = 0; j < interval.joints.size(); ++j) out.push_back({&interval.joints[j], &bodies[j + 1].name});
   if (!interval.base_given) return out;
@@ -89,16 +89,16 @@ void add_rest(const PlanarPlan& plan, const std::vector<IntervalRows>& intervals
 /// Heights of swinging points at the begin of interval n / 2 of their phase.
 void add_middle_heights(const PlanarPlan& plan, const std::vector<PhaseConstants>& constants,
                         const std::vector<IntervalRows>& intervals, int order, std::vector<InstantRow>& out) {
-  const PlanarTask& motion = plan.motion;
-  for (std::size_t p = 0; p < motion.phases.size(); ++p) {
-    const PlanarPhase& phase = motion.phases[p];
-    const IntervalRows& rows = intervals[motion.first_interval(static_cast<int>(p)) + phase.intervals / 2];
+  const PlanarTask& task = plan.task;
+  for (std::size_t p = 0; p < task.phases.size(); ++p) {
+    const PlanarPhase& phase = task.phases[p];
+    const IntervalRows& rows = intervals[task.first_interval(static_cast<int>(p)) + phase.intervals / 2];
     for (const PlanarClearance& clearance : phase.clearances) {
       if (std::isinf(clearance.middle_height)) continue;
       const Trajectories instant = rows.piece(-1.0, 0.0);
       PieceModels models(plan, constants[p], instant, order);
       models.kinematics();
-      const PlanarEndEffector& end = motion.robot.end_effectors[clearance.end_effector];
+      const PlanarEndEffector& end = task.robot.end_effectors[clearance.end_effector];
       for (std::size_t k = 0; k < end.points.size(); ++k)
         add_row(out, Kind::clearance, end.name + " point " + std::to_string(k) + " at mid-swing", static_cast<int>(p),
                 rows.time_s(-1.0),
@@ -112,13 +112,13 @@ void add_middle_heights(const PlanarPlan& plan, const std::vector<PhaseConstants
 void add_poses(const PlanarPlan& plan, const std::vector<PhaseConstants>& constants,
                const std::vector<IntervalRows>& intervals, int order, std::vector<InstantRow>& out) {
   constexpr double kInstant = 1e-14;
-  const PlanarTask& motion = plan.motion;
-  for (std::size_t p = 0; p < motion.phases.size(); ++p) {
-    const PlanarPhase& phase = motion.phases[p];
+  const PlanarTask& task = plan.task;
+  for (std::size_t p = 0; p < task.phases.size(); ++p) {
+    const PlanarPhase& phase = task.phases[p];
     for (const PlanarPose& pose : phase.poses) {
       const double place = pose.fraction * phase.intervals;
       const int i = std::min(static_cast<int>(place), phase.intervals - 1);
-      const IntervalRows& rows = intervals[motion.first_interval(static_cast<int>(p)) + i];
+      const IntervalRows& rows = intervals[task.first_interval(static_cast<int>(p)) + i];
       const double s = std::clamp(2.0 * (place - i) - 1.0, -1.0 + kInstant, 1.0 - kInstant);
       const Trajectories instant = rows.piece(s, kInstant);
       PieceModels models(plan, constants[p], instant, order);
@@ -131,7 +131,7 @@ void add_poses(const PlanarPlan& plan, const std::vector<PhaseConstants>& consta
         if (!std::isinf(pose.max[c])) beyond = larger(beyond, scaled(values[c], 1.0, -pose.max[c]));
       }
       if (std::isinf(beyond.upper()) && beyond.upper() < 0.0) continue;
-      add_row(out, Kind::pose, motion.robot.bodies[pose.body].name, static_cast<int>(p), rows.time_s(s), beyond);
+      add_row(out, Kind::pose, task.robot.bodies[pose.body].name, static_cast<int>(p), rows.time_s(s), beyond);
     }
   }
 }

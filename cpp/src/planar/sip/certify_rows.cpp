@@ -66,7 +66,7 @@ void IntervalRows::visit(const Trajectories& piece, const PieceModels* models, c
 
 template <class Visit>
 void IntervalRows::visit_joints(const Trajectories& piece, const PieceModels* models, const Visit& see) const {
-  const PlanarRobot& robot = plan_.motion.robot;
+  const PlanarRobot& robot = plan_.task.robot;
   for (int j = 0; j < robot.joint_count(); ++j) {
     const PlanarBody& body = robot.bodies[j + 1];
     const auto name = [&] { return body.name; };
@@ -83,8 +83,8 @@ void IntervalRows::visit_joints(const Trajectories& piece, const PieceModels* mo
 
 template <class Visit>
 void IntervalRows::visit_contacts(const PieceModels* models, const Visit& see) const {
-  const PlanarTask& motion = plan_.motion;
-  const PlanarRobot& robot = motion.robot;
+  const PlanarTask& task = plan_.task;
+  const PlanarRobot& robot = task.robot;
   const double weight = robot.mass() * robot.gravity;
   for (std::size_t i = 0; i < constants_.contacts.size(); ++i) {
     const ContactFrame& contact = constants_.contacts[i];
@@ -101,7 +101,7 @@ void IntervalRows::visit_contacts(const PieceModels* models, const Visit& see) c
       const std::size_t v = contact.first_point + k;
       const auto point = [&, k] { return point_name(end, k); };
       see(Kind::friction, point, [&, v] {
-        return beyond_cone(models->tangential[v], models->normal[v], motion.surfaces[contact.surface].friction, weight);
+        return beyond_cone(models->tangential[v], models->normal[v], task.surfaces[contact.surface].friction, weight);
       });
       see(Kind::pull, point, [&, v] { return scaled(Amount::of(models->normal[v]), -1.0 / weight, 0.0); });
     }
@@ -117,7 +117,7 @@ void IntervalRows::visit_contacts(const PieceModels* models, const Visit& see) c
 template <class Visit>
 void IntervalRows::visit_collisions(const PieceModels* models, const Visit& see) const {
   if (!self_collision_) return;
-  const PlanarRobot& robot = plan_.motion.robot;
+  const PlanarRobot& robot = plan_.task.robot;
   for (const auto& [first, second] : robot.collision_pairs) {
     const PlanarBody &a = robot.bodies[first], &b = robot.bodies[second];
     for (const Capsule& one : a.capsules)
@@ -132,15 +132,15 @@ void IntervalRows::visit_collisions(const PieceModels* models, const Visit& see)
 
 template <class Visit>
 void IntervalRows::visit_clearances(const PieceModels* models, const Visit& see) const {
-  const PlanarTask& motion = plan_.motion;
-  const PlanarRobot& robot = motion.robot;
-  const PlanarPhase& phase = motion.phases[interval_.phase];
-  const int index = interval_.interval - motion.first_interval(interval_.phase);
+  const PlanarTask& task = plan_.task;
+  const PlanarRobot& robot = task.robot;
+  const PlanarPhase& phase = task.phases[interval_.phase];
+  const int index = interval_.interval - task.first_interval(interval_.phase);
   for (const PlanarClearance& clearance : phase.clearances) {
     const int end = clearance.end_interval < 0 ? phase.intervals : clearance.end_interval;
     if (index < clearance.first_interval || index >= end) continue;
     const PlanarEndEffector& end_effector = robot.end_effectors[clearance.end_effector];
-    const PlanarSurface& surface = motion.surfaces[clearance.surface];
+    const PlanarSurface& surface = task.surfaces[clearance.surface];
     for (std::size_t k = 0; k < end_effector.points.size(); ++k)
       see(
           Kind::clearance, [&, k] { return point_name(end_effector, k); },
@@ -190,8 +190,8 @@ std::vector<Amount> IntervalRows::evaluate(double middle, double half_width, con
 
 OverSurface over_surface(const PlanarPlan& plan, const PieceModels& models, const PlanarClearance& clearance,
                          int point) {
-  const PlanarEndEffector& end = plan.motion.robot.end_effectors[clearance.end_effector];
-  const PlanarSurface& surface = plan.motion.surfaces[clearance.surface];
+  const PlanarEndEffector& end = plan.task.robot.end_effectors[clearance.end_effector];
+  const PlanarSurface& surface = plan.task.surfaces[clearance.surface];
   Constant point_B;
   const Eigen::Vector2d along_B(std::cos(end.angle_B), std::sin(end.angle_B));
   point_B.value = end.position_B + end.points[point] * along_B;

@@ -23,8 +23,8 @@ UncertainPolynomial constant(double value) {
 std::array<Real, 5> spacings(const PlanarPlan& plan, int interval) {
   std::vector<Real> lengths;
   for (std::size_t k = 0; k < plan.durations.size(); ++k)
-    for (int i = 0; i < plan.motion.phases[k].intervals; ++i)
-      lengths.push_back(static_cast<Real>(plan.durations[k]) / plan.motion.phases[k].intervals);
+    for (int i = 0; i < plan.task.phases[k].intervals; ++i)
+      lengths.push_back(static_cast<Real>(plan.durations[k]) / plan.task.phases[k].intervals);
   const int last = static_cast<int>(lengths.size()) - 1;
   std::array<Real, 5> out{};
   for (int d = -2; d <= 2; ++d) out[d + 2] = lengths[std::min(std::max(interval + d, 0), last)];
@@ -62,7 +62,7 @@ Trajectory in_time(const UncertainPolynomial& position, double length_s) {
 /// Angle of the base: that of its spline, or the mean of what each contact asks for (eq. 11).
 UncertainPolynomial base_angle(const PlanarPlan& plan, const PlanarPhase& phase,
                                const std::vector<UncertainPolynomial>& joints) {
-  const PlanarRobot& robot = plan.motion.robot;
+  const PlanarRobot& robot = plan.task.robot;
   UncertainPolynomial sum = constant(0.0);
   for (const PlanarContact& contact : phase.contacts) {
     const PlanarEndEffector& end = robot.end_effectors[contact.end_effector];
@@ -92,14 +92,14 @@ Trajectories Trajectories::restricted(double middle, double half_width) const {
 }
 
 Trajectories trajectories(const PlanarPlan& plan, int interval) {
-  const PlanarRobot& robot = plan.motion.robot;
+  const PlanarRobot& robot = plan.task.robot;
   const std::array<Real, 5> spacing = spacings(plan, interval);
   const Eigen::Matrix<Real, 4, 4> basis = cubic_spline_basis<Real>(spacing);
   Trajectories out;
   out.interval = interval;
-  out.phase = plan.motion.phase_of(interval);
+  out.phase = plan.task.phase_of(interval);
   out.length_s = static_cast<double>(spacing[2]);
-  out.begin_s = plan.knot_times()[out.phase] + (interval - plan.motion.first_interval(out.phase)) * out.length_s;
+  out.begin_s = plan.knot_times()[out.phase] + (interval - plan.task.first_interval(out.phase)) * out.length_s;
   out.base_given = plan.base_control_points.size() > 0;
 
   std::vector<UncertainPolynomial> joints;
@@ -109,7 +109,7 @@ Trajectories trajectories(const PlanarPlan& plan, int interval) {
   }
   std::vector<UncertainPolynomial> bodies;
   bodies.push_back(out.base_given ? cubic(basis, plan.base_control_points.block<1, 4>(2, interval))
-                                  : base_angle(plan, plan.motion.phases[out.phase], joints));
+                                  : base_angle(plan, plan.task.phases[out.phase], joints));
   for (int b = 1; b <= robot.joint_count(); ++b)
     bodies.push_back(bodies[robot.bodies[b].parent] + constant(robot.bodies[b].offset) + joints[b - 1]);
   for (const UncertainPolynomial& angle : bodies) out.bodies.push_back(in_time(angle, out.length_s));

@@ -23,9 +23,9 @@ const Eigen::MatrixXd& square_integral(int degree) {
 
 }  // namespace
 
-IntervalModel::IntervalModel(const PlanarTask& motion, const Options& options, const Layout& layout, int interval,
+IntervalModel::IntervalModel(const PlanarTask& task, const Options& options, const Layout& layout, int interval,
                              std::shared_ptr<TaylorGraph::Workspace> work, const CloseDiscs* close)
-    : motion_(motion, options, layout, interval), work_(std::move(work)) {
+    : motion_(task, options, layout, interval), work_(std::move(work)) {
   std::vector<Limited> limited = constraints_of(motion_, close);
   if (options.dynamics)
     for (TaylorGraph::Node torque : motion_.torques) squared_.push_back({torque, options.torque_weight, false});

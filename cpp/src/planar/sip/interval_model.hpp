@@ -18,7 +18,7 @@ namespace mcplan::sip {
 /// point asked for are kept, because a solver asks for cost, gradient, rows and Jacobian one after the other.
 class IntervalModel {
  public:
-  IntervalModel(const PlanarTask& motion, const Options& options, const Layout& layout, int interval,
+  IntervalModel(const PlanarTask& task, const Options& options, const Layout& layout, int interval,
                 std::shared_ptr<TaylorGraph::Workspace> work, const CloseDiscs* close = nullptr);
   IntervalModel(const IntervalModel&) = delete;
   IntervalModel& operator=(const IntervalModel&) = delete;

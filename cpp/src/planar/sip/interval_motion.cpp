@@ -23,8 +23,8 @@ Eigen::Vector2d direction(double angle) { return {std::cos(angle), std::sin(angl
 }  // namespace
 
 IntervalMotion::IntervalMotion(const PlanarTask& of, const Options& with, const Layout& layout, int interval)
-    : motion(of), options(with), local(of, layout, interval), graph(local.count()) {
-  origin_W = moment_point_W(motion, local.phase);
+    : task(of), options(with), local(of, layout, interval), graph(local.count()) {
+  origin_W = moment_point_W(task, local.phase);
   add_inputs(layout);
   add_angles();
   add_base();
@@ -56,7 +56,7 @@ void IntervalMotion::add_inputs(const Layout& layout) {
   for (int k = 1; k <= 3; ++k) power(std::pow(2.0 / share, k), -k);
   half_length = powers_[0].node;
 
-  const int joint_count = motion.robot.joint_count();
+  const int joint_count = task.robot.joint_count();
   joints.assign(splines_.begin(), splines_.begin() + joint_count);
 }
 
@@ -72,8 +72,8 @@ IntervalMotion::Point IntervalMotion::point(int body, const Eigen::Vector2d& p) 
 
 /// Angles of all bodies in the world with their sines and cosines; that of the base by eq. 11 or from its own spline.
 void IntervalMotion::add_angles() {
-  const PlanarRobot& robot = motion.robot;
-  const PlanarPhase& phase = motion.phases[local.phase];
+  const PlanarRobot& robot = task.robot;
+  const PlanarPhase& phase = task.phases[local.phase];
   const int count = static_cast<int>(robot.bodies.size());
   const double share = 1.0 / static_cast<double>(phase.contacts.size());
 
@@ -117,8 +117,8 @@ void IntervalMotion::add_angles() {
 
 /// Where the base is, by eq. 12 or from its own splines, and with it joints and CoMs of all bodies.
 void IntervalMotion::add_base() {
-  const PlanarRobot& robot = motion.robot;
-  const PlanarPhase& phase = motion.phases[local.phase];
+  const PlanarRobot& robot = task.robot;
+  const PlanarPhase& phase = task.phases[local.phase];
   const int count = static_cast<int>(robot.bodies.size());
   const double share = 1.0 / static_cast<double>(phase.contacts.size());
 
@@ -162,9 +162,9 @@ void IntervalMotion::add_base() {
 }
 
 void IntervalMotion::add_contact_errors() {
-  const PlanarPhase& phase = motion.phases[local.phase];
+  const PlanarPhase& phase = task.phases[local.phase];
   for (const PlanarContact& expected : phase.contacts) {
-    const PlanarEndEffector& foot = motion.robot.end_effectors[expected.end_effector];
+    const PlanarEndEffector& foot = task.robot.end_effectors[expected.end_effector];
     const Point actual = point(foot.body, foot.position_B);
     Contact contact;
     const Eigen::Vector2d place = expected.position_W - origin_W;
@@ -176,12 +176,12 @@ void IntervalMotion::add_contact_errors() {
 }
 
 void IntervalMotion::add_forces(const std::array<Node, 3>& demand) {
-  const PlanarPhase& phase = motion.phases[local.phase];
+  const PlanarPhase& phase = task.phases[local.phase];
   std::vector<ContactGain::Point> points;
   for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
     const PlanarContact& contact = phase.contacts[i];
     const Eigen::Vector2d tangent = direction(contact.angle);
-    for (double along : motion.robot.end_effectors[contact.end_effector].points) {
+    for (double along : task.robot.end_effectors[contact.end_effector].points) {
       ContactGain::Point point;
       point.place = contact.position_W + along * tangent - origin_W;
       point.tangent = tangent;
@@ -246,7 +246,7 @@ struct IntervalMotion::Subtree {
 void IntervalMotion::add_dynamics() {
   std::vector<Subtree> tree = inertial_subtrees();
   for (int b = static_cast<int>(tree.size()) - 1; b > 0; --b) {
-    Subtree& parent = tree[motion.robot.bodies[b].parent];
+    Subtree& parent = tree[task.robot.bodies[b].parent];
     append(parent.force_x, {{1.0, graph.linear(tree[b].force_x)}}, 1.0);
     append(parent.force_y, {{1.0, graph.linear(tree[b].force_y)}}, 1.0);
     append(parent.moment, {{1.0, graph.linear(tree[b].moment)}}, 1.0);
@@ -260,7 +260,7 @@ void IntervalMotion::add_dynamics() {
 
 /// Of each body alone.
 std::vector<IntervalMotion::Subtree> IntervalMotion::inertial_subtrees() {
-  const PlanarRobot& robot = motion.robot;
+  const PlanarRobot& robot = task.robot;
   const int count = static_cast<int>(robot.bodies.size());
   std::vector<Subtree> tree(count);
   for (int b = 0; b < count; ++b) {
@@ -290,11 +290,11 @@ std::array<IntervalMotion::Node, 3> IntervalMotion::demand_of(const Subtree& sub
 
 /// What the contacts take, at their actual points x_i + d_v tau: moment x_i x sum_v f_v + tau x sum_v d_v f_v.
 void IntervalMotion::add_contact_wrenches(std::vector<Subtree>& tree) {
-  const PlanarPhase& phase = motion.phases[local.phase];
+  const PlanarPhase& phase = task.phases[local.phase];
   const int order = options.order;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const PlanarContact& expected = phase.contacts[i];
-    const PlanarEndEffector& foot = motion.robot.end_effectors[expected.end_effector];
+    const PlanarEndEffector& foot = task.robot.end_effectors[expected.end_effector];
     const Eigen::Vector2d t = direction(expected.angle), n(-t.y(), t.x());
     Terms x, y, lever_x, lever_y;
     for (std::size_t v = 0; v < contacts[i].forces.size(); ++v) {
@@ -334,7 +334,7 @@ void IntervalMotion::add_torques(std::vector<Subtree>& tree) {
     const Point force{graph.linear(x), graph.linear(y)};
     moment.push_back({-1.0, cross(graph, bodies[b].joint, force, options.order)});
     torques[b - 1] = graph.linear(moment);
-    Subtree& parent = tree[motion.robot.bodies[b].parent];
+    Subtree& parent = tree[task.robot.bodies[b].parent];
     append(parent.contact_x, t.contact_x, 1.0);
     append(parent.contact_y, t.contact_y, 1.0);
     append(parent.contact_moment, t.contact_moment, 1.0);

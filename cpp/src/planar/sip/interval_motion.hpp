@@ -40,7 +40,7 @@ struct IntervalMotion {
     Node tangential, normal;  ///< [N]
   };
 
-  IntervalMotion(const PlanarTask& motion, const Options& options, const Layout& layout, int interval);
+  IntervalMotion(const PlanarTask& task, const Options& options, const Layout& layout, int interval);
 
   /// Inputs of the graph at these parameters (local.count()); with derivatives their first and second ones too.
   void set_parameters(const Eigen::Ref<const Eigen::VectorXd>& x, bool derivatives);
@@ -51,7 +51,7 @@ struct IntervalMotion {
   /// A node times the k-th power of 2/h: the k-th derivative in time of one that is the k-th derivative in s.
   Node timed(Node node, int power);
 
-  const PlanarTask& motion;
+  const PlanarTask& task;
   const Options& options;
   LocalParameters local;
   TaylorGraph graph;

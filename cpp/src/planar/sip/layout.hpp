@@ -9,7 +9,7 @@
 
 namespace mcplan::sip {
 
-/// Where the parameters of a motion's program are. P consists of
+/// Where the parameters of a task's program are. P consists of
 ///
 ///     control points    of each joint's spline, intervals - 1: the first three of a spline are equal and so are the
 ///     last
@@ -19,7 +19,7 @@ namespace mcplan::sip {
 ///     log weights       of contacts (case 2) or of points (case 3), the first of each phase being 1
 ///     forces            cubic in each interval, two components at each point of a phase (sec. III-C)
 struct Layout {
-  Layout(const PlanarTask& motion, const Options& options);
+  Layout(const PlanarTask& task, const Options& options);
 
   int splines = 0, intervals = 0;
   int durations = 0;  ///< phases, or 1
@@ -40,7 +40,7 @@ struct Layout {
 /// The parameters that one interval touches, in the order of its local columns: control points spline by spline, the
 /// durations on which its knots depend, its phase's log weights, its forces.
 struct LocalParameters {
-  LocalParameters(const PlanarTask& motion, const Layout& layout, int interval);
+  LocalParameters(const PlanarTask& task, const Layout& layout, int interval);
 
   int interval = 0, phase = 0;
   int splines = 0;

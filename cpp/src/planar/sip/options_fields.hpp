@@ -71,7 +71,7 @@ struct Fields<sip::Options> {
             "A duration for each phase; else one for the motion, shared by intervals."),
       field("total_duration_s", &Options::total_duration_s, "s", "Where free_durations is off: min, max.").positive(),
       field("phase_duration_s", &Options::phase_duration_s, "s",
-            "Where free_durations is on: min, max; the motion's own limits hold as well.")
+            "Where free_durations is on: min, max; the task's own limits hold as well.")
           .positive(),
       field("contact", &Options::contact, "", "How an end-effector in contact is held where it should be."),
       field("tube_m", &Options::tube_m, "m", "Half width of the tube or of the band.").positive(),
@@ -85,7 +85,7 @@ struct Fields<sip::Options> {
       field("free_flyer", &Options::free_flyer, "", "The trajectory of the base."),
       field("dynamics", &Options::dynamics, "", "Contact forces in their cones; off: kinematics alone."),
       field("torque_limits", &Options::torque_limits, "", "Joint torques within their limits."),
-      field("clearance", &Options::clearance, "", "Swinging end-effectors outside solids, as the motion says."),
+      field("clearance", &Options::clearance, "", "Swinging end-effectors outside solids, as the task says."),
       field("self_collision", &Options::self_collision, "", "The robot's collision pairs keep clear of each other."),
       field("clearance_m", &Options::clearance_m, "m",
             "Least height of swinging points: at lift-off they are at zero to the tube."),

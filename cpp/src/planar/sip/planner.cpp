@@ -22,35 +22,34 @@ bool ends_all(nlp::Outcome outcome) {
          outcome == nlp::Outcome::interrupted;
 }
 
-/// What a valid motion may lack for this planner, by the first field that does.
-void require_plannable(const PlanarTask& motion, const Options& options) {
-  if (motion.robot.joint_count() < 1)
-    throw InvalidRobot("bodies", "needs at least one joint to plan", "the base alone");
-  if (motion.interval_count() < 2)
-    throw InvalidMotion("phases[0].intervals",
-                        "must be at least 2 in a motion of one phase, to be at rest at both ends",
-                        text(motion.interval_count()));
+/// What a valid task may lack for this planner, by the first field that does.
+void require_plannable(const PlanarTask& task, const Options& options) {
+  if (task.robot.joint_count() < 1) throw InvalidRobot("bodies", "needs at least one joint to plan", "the base alone");
+  if (task.interval_count() < 2)
+    throw InvalidPlanarTask("phases[0].intervals",
+                            "must be at least 2 in a task of one phase, to be at rest at both ends",
+                            text(task.interval_count()));
   if (options.dynamics && options.forces == Forces::parameters) return;
-  for (std::size_t k = 0; k < motion.phases.size(); ++k) {
+  for (std::size_t k = 0; k < task.phases.size(); ++k) {
     Eigen::Index points = 0;
-    for (const PlanarContact& contact : motion.phases[k].contacts)
-      points += static_cast<Eigen::Index>(motion.robot.end_effectors[contact.end_effector].points.size());
+    for (const PlanarContact& contact : task.phases[k].contacts)
+      points += static_cast<Eigen::Index>(task.robot.end_effectors[contact.end_effector].points.size());
     try {
-      least_norm_gain(motion, static_cast<int>(k), Eigen::VectorXd::Ones(points));
+      least_norm_gain(task, static_cast<int>(k), Eigen::VectorXd::Ones(points));
     } catch (const InvalidPlan& error) {
-      throw InvalidMotion("phases[" + std::to_string(k) + "].contacts", error.rule(), error.value());
+      throw InvalidPlanarTask("phases[" + std::to_string(k) + "].contacts", error.rule(), error.value());
     }
   }
 }
 
-/// The motion's and the options' bounds of durations must leave something between them.
-void require_durations(const PlanarTask& motion, const Options& options) {
-  const std::vector<Range> ranges = duration_ranges(motion, options);
+/// The task's and the options' bounds of durations must leave something between them.
+void require_durations(const PlanarTask& task, const Options& options) {
+  const std::vector<Range> ranges = duration_ranges(task, options);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const double lower = ranges[i].min, upper = ranges[i].max;
     if (lower > upper)
       throw InvalidOptions(options.free_durations ? "phase_duration_s" : "total_duration_s",
-                           "must overlap with what the motion allows" +
+                           "must overlap with what the task allows" +
                                (options.free_durations ? " phase " + std::to_string(i) : std::string()),
                            "at least " + text(lower) + " and at most " + text(upper) + " s");
   }
@@ -74,7 +73,7 @@ bool asked_for(const std::string& name, const Options& options) {
 }  // namespace
 
 struct Planner::Impl {
-  PlanarTask motion;
+  PlanarTask task;
   Options options;
   Layout layout;
   int rows = 0;  ///< of the program; 0 until there was one
@@ -86,23 +85,23 @@ struct Planner::Impl {
   } took;
   Report report;
 
-  Impl(const PlanarTask& of, const Options& with) : motion(of), options(with), layout(checked(of, with), with) {
-    require_durations(motion, options);
+  Impl(const PlanarTask& of, const Options& with) : task(of), options(with), layout(checked(of, with), with) {
+    require_durations(task, options);
   }
 
   int row_count() {
     if (rows == 0)
-      rows = Program(motion, options, Curvature::none, 0.0, Eigen::VectorXd::Zero(layout.parameters), &close_discs)
+      rows = Program(task, options, Curvature::none, 0.0, Eigen::VectorXd::Zero(layout.parameters), &close_discs)
                  .problem()
                  .row_count();
     return rows;
   }
 
-  static const PlanarTask& checked(const PlanarTask& motion, const Options& options) {
-    motion.validate();
+  static const PlanarTask& checked(const PlanarTask& task, const Options& options) {
+    task.validate();
     options.validate();
-    require_plannable(motion, options);
-    return motion;
+    require_plannable(task, options);
+    return task;
   }
 
   CloseDiscs close_discs;  ///< kept apart; found on the way
@@ -120,7 +119,7 @@ struct Planner::Impl {
 
   /// Parameters under other options.
   Eigen::VectorXd moved(const Eigen::VectorXd& x, const Options& from, const Options& to) const {
-    return parameters_of(plan_of(motion, from, Layout(motion, from), x), motion, to, Layout(motion, to));
+    return parameters_of(plan_of(task, from, Layout(task, from), x), task, to, Layout(task, to));
   }
 };
 
@@ -130,7 +129,7 @@ void Planner::Impl::measure_finishing(const nlp::Problem& values, const Eigen::V
   double begin_s = deadline.elapsed_s();
   values.worst_violation(x);
   took.values_s = deadline.elapsed_s() - begin_s;
-  const PlanarPlan plan = plan_of(motion, options, layout, x);
+  const PlanarPlan plan = plan_of(task, options, layout, x);
   PlanarTolerances coarse;
   coarse.sample_s *= kCoarser;
   begin_s = deadline.elapsed_s();
@@ -141,7 +140,7 @@ void Planner::Impl::measure_finishing(const nlp::Problem& values, const Eigen::V
 /// What remains to be done with x after the solver: its cost and violations in a few evaluations, and the last check.
 double Planner::Impl::finishing_s(const Options& with, const Eigen::VectorXd& x) const {
   constexpr double kEvaluations = 6.0;  // cost and violation of the solver's point and of its start, terms of the cost
-  const Layout of(motion, with);
+  const Layout of(task, with);
   const double duration_s = x.segment(of.first_duration, of.durations).sum();
   const double instants = instants_of(layout.intervals, duration_s, PlanarTolerances().sample_s);
   return kEvaluations * took.values_s + took.instant_s * instants;
@@ -166,8 +165,7 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
     const bool second = attempt.hessian != HessianChoice::limited_memory;
     StopRequest over;
     if (deadline.limited()) over = [until = deadline.reserving(finishing_s(with, x))] { return until.passed(); };
-    Program program(motion, with, exact ? Curvature::exact : Curvature::gauss_newton, cost_scale, x, &close_discs,
-                    over);
+    Program program(task, with, exact ? Curvature::exact : Curvature::gauss_newton, cost_scale, x, &close_discs, over);
     const double left = deadline.remaining_s();
     const nlp::Problem& made = program.problem();
     const double derivatives = made.jacobian_structure().size() + (second ? made.hessian_structure().size() : 0.0);
@@ -224,7 +222,7 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
 /// spaced, and motions found so are not driven to their shortest phases.
 nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {
   Options with = options;
-  const Range together = total_range(motion, options);
+  const Range together = total_range(task, options);
   const bool convert = options.free_durations && options.has_cost() && together.min <= together.max;
   if (convert) with.free_durations = false;
   Eigen::VectorXd start = convert ? moved(x, options, with) : x;
@@ -234,7 +232,7 @@ nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {
     kinematics.order = std::min(options.order, kKinematicOrder);
     kinematics.neq = std::min(options.neq, kinematics.order);
     nlp::Solution found = run(kinematics, 0.0, moved(start, with, kinematics));
-    const Layout layout_with(motion, with);
+    const Layout layout_with(task, with);
     const int splines_and_durations = layout_with.first_duration + layout_with.durations;  // weights stay as they are
     if (found.outcome == nlp::Outcome::converged || ends_all(found.outcome))
       start.head(splines_and_durations) = moved(found.x, kinematics, with).head(splines_and_durations);
@@ -258,7 +256,7 @@ void Planner::Impl::part(nlp::Solution& solution, double cost_scale, Eigen::Vect
   constexpr int kRounds = 20;
   for (int round = 0; round < kRounds && solution.outcome == nlp::Outcome::converged; ++round) {
     const std::size_t known = close_discs.size();
-    add_close_discs(plan_of(motion, options, layout, solution.x), close_discs);
+    add_close_discs(plan_of(task, options, layout, solution.x), close_discs);
     if (close_discs.size() == known) return;
     solution = run(options, 0.0, apart);
     apart = solution.x;
@@ -275,7 +273,7 @@ void Planner::Impl::tighten(nlp::Solution& solution, double cost_scale) {
   for (int round = 0; round < kRounds && solution.outcome == nlp::Outcome::converged; ++round) {
     if (deadline.limited() && deadline.remaining_s() <= 2.0 * finishing_s(options, solution.x)) return;
     double excess = 0.0;
-    for (const Violation& v : judged(plan_of(motion, options, layout, solution.x)).violations()) {
+    for (const Violation& v : judged(plan_of(task, options, layout, solution.x)).violations()) {
       if (v.name != "torque" && v.name != "friction" && v.name != "pull") return;
       excess = std::max(excess, v.value);
     }
@@ -295,7 +293,7 @@ Result Planner::Impl::solve(const Eigen::VectorXd& start) {
   nlp::Solution solution;
   solution.x = start;
   solution.outcome = nlp::Outcome::converged;
-  Program measure(motion, options, Curvature::none, 0.0, start, &close_discs);
+  Program measure(task, options, Curvature::none, 0.0, start, &close_discs);
   rows = measure.problem().row_count();
   took = {};
   if (deadline.limited()) measure_finishing(measure.problem(), start);
@@ -318,7 +316,7 @@ Result Planner::Impl::solve(const Eigen::VectorXd& start) {
   if (options.self_collision && cost_scale > 0.0) part(solution, cost_scale, apart);
   if (options.dynamics) tighten(solution, cost_scale);
   const Eigen::VectorXd& x = solution.x;
-  result.plan = plan_of(motion, options, layout, x);
+  result.plan = plan_of(task, options, layout, x);
   report.cost = measure.cost(x);
   report.cost_terms["duration"] = measure.duration(x);
   if (options.dynamics) report.cost_terms["torque"] = measure.torque_cost(x);
@@ -367,19 +365,19 @@ void Planner::Impl::judge(Result& result, const nlp::Solution& solution) {
   result.report = report;
 }
 
-Planner::Planner(const PlanarTask& motion, const Options& options) : impl_(std::make_unique<Impl>(motion, options)) {}
+Planner::Planner(const PlanarTask& task, const Options& options) : impl_(std::make_unique<Impl>(task, options)) {}
 Planner::~Planner() = default;
 Planner::Planner(Planner&&) noexcept = default;
 Planner& Planner::operator=(Planner&&) noexcept = default;
 
 Result Planner::solve() {
   impl_->deadline = Deadline(impl_->options.time_limit_s, impl_->options.clock);
-  return impl_->solve(zero_start(impl_->motion, impl_->options, impl_->layout));
+  return impl_->solve(zero_start(impl_->task, impl_->options, impl_->layout));
 }
 
 Result Planner::solve(const PlanarPlan& warm_start) {
   impl_->deadline = Deadline(impl_->options.time_limit_s, impl_->options.clock);
-  return impl_->solve(parameters_of(warm_start, impl_->motion, impl_->options, impl_->layout));
+  return impl_->solve(parameters_of(warm_start, impl_->task, impl_->options, impl_->layout));
 }
 
 int Planner::parameters() const { return impl_->layout.parameters; }

@@ -64,34 +64,34 @@ class Proximity : public nlp::Piece {
   double factor_;
 };
 
-Range duration_range(const PlanarTask& motion, const Options& options, int phase) {
-  const PlanarPhase& own = motion.phases[phase];
+Range duration_range(const PlanarTask& task, const Options& options, int phase) {
+  const PlanarPhase& own = task.phases[phase];
   return {std::max(options.phase_duration_s.min, own.min_duration),
           std::min(options.phase_duration_s.max, own.max_duration)};
 }
 
-void add_parameters(nlp::Problem& problem, const PlanarTask& motion, const Options& options, const Layout& layout) {
+void add_parameters(nlp::Problem& problem, const PlanarTask& task, const Options& options, const Layout& layout) {
   const int last = layout.intervals - 1;
   for (int i = 0; i < layout.control_points(); ++i)
     problem.add_variables("control_point", layout.splines, -nlp::kInfinity, nlp::kInfinity,
                           {std::max(i - 1, 0), std::min(i + 2, last)});
-  const int phases = static_cast<int>(motion.phases.size());
-  const std::vector<Range> durations = duration_ranges(motion, options);
+  const int phases = static_cast<int>(task.phases.size());
+  const std::vector<Range> durations = duration_ranges(task, options);
   if (!options.free_durations) {
     problem.add_variables("duration", 1, durations[0].min, durations[0].max, {0, last});
   } else {
     for (int p = 0; p < phases; ++p) {
       const Range& range = durations[p];
-      const int first = motion.first_interval(p);
+      const int first = task.first_interval(p);
       problem.add_variables("duration", 1, range.min, range.max,
-                            {std::max(first - 2, 0), std::min(first + motion.phases[p].intervals + 1, last)});
+                            {std::max(first - 2, 0), std::min(first + task.phases[p].intervals + 1, last)});
     }
   }
   for (int p = 0; p < phases; ++p) {
-    const int first = motion.first_interval(p);
+    const int first = task.first_interval(p);
     if (layout.weights[p] > 0)
       problem.add_variables("log_weight", layout.weights[p], -options.log_weight_max, options.log_weight_max,
-                            {first, first + motion.phases[p].intervals - 1});
+                            {first, first + task.phases[p].intervals - 1});
   }
   for (int k = 0; k < layout.intervals; ++k)
     if (layout.forces[k] > 0) problem.add_variables("force", layout.forces[k], -nlp::kInfinity, nlp::kInfinity, {k, k});
@@ -99,31 +99,31 @@ void add_parameters(nlp::Problem& problem, const PlanarTask& motion, const Optio
 
 }  // namespace
 
-Range total_range(const PlanarTask& motion, const Options& options) {
+Range total_range(const PlanarTask& task, const Options& options) {
   Range out = options.total_duration_s;
-  const double intervals = motion.interval_count();
-  for (const PlanarPhase& phase : motion.phases) {
+  const double intervals = task.interval_count();
+  for (const PlanarPhase& phase : task.phases) {
     out.min = std::max(out.min, phase.min_duration * intervals / phase.intervals);
     out.max = std::min(out.max, phase.max_duration * intervals / phase.intervals);
   }
   return out;
 }
 
-std::vector<Range> duration_ranges(const PlanarTask& motion, const Options& options) {
-  if (!options.free_durations) return {total_range(motion, options)};
+std::vector<Range> duration_ranges(const PlanarTask& task, const Options& options) {
+  if (!options.free_durations) return {total_range(task, options)};
   std::vector<Range> out;
-  for (int p = 0; p < static_cast<int>(motion.phases.size()); ++p) out.push_back(duration_range(motion, options, p));
+  for (int p = 0; p < static_cast<int>(task.phases.size()); ++p) out.push_back(duration_range(task, options, p));
   return out;
 }
 
-Program::Program(const PlanarTask& motion, const Options& options, Curvature curvature, double cost_scale,
+Program::Program(const PlanarTask& task, const Options& options, Curvature curvature, double cost_scale,
                  const Eigen::VectorXd& anchor, const CloseDiscs* close, const StopRequest& stop)
-    : motion_(motion), options_(options), layout_(motion_, options_) {
-  add_parameters(problem_, motion_, options_, layout_);
+    : task_(task), options_(options), layout_(task_, options_) {
+  add_parameters(problem_, task_, options_, layout_);
   const auto work = std::make_shared<TaylorGraph::Workspace>();
   for (int k = 0; k < layout_.intervals; ++k) {
     if (stop && stop()) return;
-    models_.push_back(std::make_unique<IntervalModel>(motion_, options_, layout_, k, work, close));
+    models_.push_back(std::make_unique<IntervalModel>(task_, options_, layout_, k, work, close));
   }
   const bool weighted = cost_scale > 0.0;
   for (const auto& model : models_) {
@@ -186,16 +186,16 @@ double Program::cost(const Eigen::VectorXd& x) {
   return sum;
 }
 
-Eigen::VectorXd zero_start(const PlanarTask& motion, const Options& options, const Layout& layout) {
+Eigen::VectorXd zero_start(const PlanarTask& task, const Options& options, const Layout& layout) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(layout.parameters);
   if (!options.free_durations) {
-    const Range range = total_range(motion, options);
+    const Range range = total_range(task, options);
     x[layout.first_duration] = std::clamp(1.0, range.min, range.max);
     return x;
   }
-  for (std::size_t p = 0; p < motion.phases.size(); ++p) {
-    const Range range = duration_range(motion, options, static_cast<int>(p));
-    const double share = motion.phases[p].intervals / static_cast<double>(layout.intervals);
+  for (std::size_t p = 0; p < task.phases.size(); ++p) {
+    const Range range = duration_range(task, options, static_cast<int>(p));
+    const double share = task.phases[p].intervals / static_cast<double>(layout.intervals);
     x[layout.first_duration + static_cast<int>(p)] = std::clamp(share, range.min, range.max);
   }
   return x;

@@ -18,7 +18,7 @@ enum class Curvature {
   gauss_newton,  ///< of the cost, without that of torques and constraints
 };
 
-/// The semi-infinite program of a motion, made finite: parameters P, rows interval by interval. A row's parameters are
+/// The semi-infinite program of a task, made finite: parameters P, rows interval by interval. A row's parameters are
 /// those of its interval (LocalParameters::variables): a band of four control points and an arrow of durations and log
 /// weights.
 class Program {
@@ -27,7 +27,7 @@ class Program {
   /// kProximity / 2 |P - anchor|^2, which makes the solution unique where constraints leave room. `close`: discs that
   /// self-collision is about; null: all. `stop` is polled at every interval; where it asks to stop, the program is not
   /// complete() and of no use.
-  Program(const PlanarTask& motion, const Options& options, Curvature curvature, double cost_scale,
+  Program(const PlanarTask& task, const Options& options, Curvature curvature, double cost_scale,
           const Eigen::VectorXd& anchor, const CloseDiscs* close = nullptr, const StopRequest& stop = {});
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -46,7 +46,7 @@ class Program {
   double duration(const Eigen::VectorXd& x) const;  ///< [s]
 
  private:
-  PlanarTask motion_;
+  PlanarTask task_;
   Options options_;
   Layout layout_;
   std::vector<std::unique_ptr<IntervalModel>> models_;
@@ -56,20 +56,20 @@ class Program {
 
 /// Bounds of a motion's duration where it has one, which intervals share equally; empty (max < min) where the phases'
 /// own limits leave none.
-Range total_range(const PlanarTask& motion, const Options& options);
+Range total_range(const PlanarTask& task, const Options& options);
 
 /// Bounds of each duration of the program: of every phase, or of the whole motion.
-std::vector<Range> duration_ranges(const PlanarTask& motion, const Options& options);
+std::vector<Range> duration_ranges(const PlanarTask& task, const Options& options);
 
 /// P = 0, durations that add to one second or to what their bounds allow.
-Eigen::VectorXd zero_start(const PlanarTask& motion, const Options& options, const Layout& layout);
+Eigen::VectorXd zero_start(const PlanarTask& task, const Options& options, const Layout& layout);
 
 /// P of a plan: its splines, durations, weights and forces, as far as the layout has them.
 /// Throws InvalidPlan where its phases, intervals or joints do not fit.
-Eigen::VectorXd parameters_of(const PlanarPlan& plan, const PlanarTask& motion, const Options& options,
+Eigen::VectorXd parameters_of(const PlanarPlan& plan, const PlanarTask& task, const Options& options,
                               const Layout& layout);
 
 /// The plan of P.
-PlanarPlan plan_of(const PlanarTask& motion, const Options& options, const Layout& layout, const Eigen::VectorXd& x);
+PlanarPlan plan_of(const PlanarTask& task, const Options& options, const Layout& layout, const Eigen::VectorXd& x);
 
 }  // namespace mcplan::sip

@@ -9,18 +9,18 @@
 namespace mcplan::sip {
 namespace {
 
-void require_same_task(const PlanarPlan& plan, const PlanarTask& motion) {
+void require_same_task(const PlanarPlan& plan, const PlanarTask& task) {
   const auto fail = [](const std::string& field, const std::string& rule, int got) {
     throw InvalidPlan("warm_start." + field, rule, text(got));
   };
-  const int joints = motion.robot.joint_count(), phases = static_cast<int>(motion.phases.size());
-  if (plan.motion.robot.joint_count() != joints)
-    fail("motion.robot", "needs " + std::to_string(joints) + " joints", plan.motion.robot.joint_count());
-  if (static_cast<int>(plan.motion.phases.size()) != phases)
-    fail("motion.phases", "needs " + std::to_string(phases) + " phases", static_cast<int>(plan.motion.phases.size()));
+  const int joints = task.robot.joint_count(), phases = static_cast<int>(task.phases.size());
+  if (plan.task.robot.joint_count() != joints)
+    fail("task.robot", "needs " + std::to_string(joints) + " joints", plan.task.robot.joint_count());
+  if (static_cast<int>(plan.task.phases.size()) != phases)
+    fail("task.phases", "needs " + std::to_string(phases) + " phases", static_cast<int>(plan.task.phases.size()));
   for (int p = 0; p < phases; ++p) {
-    const PlanarPhase &theirs = plan.motion.phases[p], &ours = motion.phases[p];
-    const std::string field = "motion.phases[" + std::to_string(p) + "]";
+    const PlanarPhase &theirs = plan.task.phases[p], &ours = task.phases[p];
+    const std::string field = "task.phases[" + std::to_string(p) + "]";
     if (theirs.intervals != ours.intervals)
       fail(field + ".intervals", "must be " + std::to_string(ours.intervals), theirs.intervals);
     if (theirs.contacts.size() != ours.contacts.size())
@@ -31,38 +31,38 @@ void require_same_task(const PlanarPlan& plan, const PlanarTask& motion) {
       const std::string contact = field + ".contacts[" + std::to_string(i) + "]";
       if (theirs.contacts[i].end_effector != end)
         fail(contact, "must be of end-effector " + std::to_string(end), theirs.contacts[i].end_effector);
-      const std::size_t points = motion.robot.end_effectors[end].points.size();
-      const std::size_t other = plan.motion.robot.end_effectors[end].points.size();
+      const std::size_t points = task.robot.end_effectors[end].points.size();
+      const std::size_t other = plan.task.robot.end_effectors[end].points.size();
       if (other != points) fail(contact, "needs " + std::to_string(points) + " points", static_cast<int>(other));
     }
   }
 }
 
 /// Numbers of the contact to which each point of a phase belongs.
-std::vector<int> contact_of_points(const PlanarTask& motion, int phase) {
+std::vector<int> contact_of_points(const PlanarTask& task, int phase) {
   std::vector<int> out;
-  const auto& contacts = motion.phases[phase].contacts;
+  const auto& contacts = task.phases[phase].contacts;
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    out.insert(out.end(), motion.robot.end_effectors[contacts[i].end_effector].points.size(), static_cast<int>(i));
+    out.insert(out.end(), task.robot.end_effectors[contacts[i].end_effector].points.size(), static_cast<int>(i));
   return out;
 }
 
 /// Log weights of a phase: all the same under a law that has no weights.
 template <class Law>
-Eigen::VectorXd log_weights_of(Law /*law*/, const PlanarPlan& /*plan*/, const PlanarTask& /*motion*/,
+Eigen::VectorXd log_weights_of(Law /*law*/, const PlanarPlan& /*plan*/, const PlanarTask& /*task*/,
                                const Options& /*options*/, int /*phase*/, int count) {
   return Eigen::VectorXd::Zero(count);
 }
 
 /// From the plan's weights of the points, relative to the first one.
-Eigen::VectorXd log_weights_of(planar_laws::LeastNorm /*law*/, const PlanarPlan& plan, const PlanarTask& motion,
+Eigen::VectorXd log_weights_of(planar_laws::LeastNorm /*law*/, const PlanarPlan& plan, const PlanarTask& task,
                                const Options& options, int phase, int count) {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(count);
   const Eigen::VectorXd logs = plan.weights[phase].array().log();
   if (options.forces == Forces::per_point) {
     out = logs.tail(count).array() - logs[0];
   } else {  // of each contact the mean over its points
-    const std::vector<int> contact = contact_of_points(motion, phase);
+    const std::vector<int> contact = contact_of_points(task, phase);
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(count + 1), points = Eigen::VectorXd::Zero(count + 1);
     for (std::size_t v = 0; v < contact.size(); ++v) {
       sum[contact[v]] += logs[static_cast<Eigen::Index>(v)];
@@ -77,9 +77,9 @@ Eigen::VectorXd log_weights_of(planar_laws::LeastNorm /*law*/, const PlanarPlan&
 /// Cubic through the plan's forces at four instants of an interval: (tangential, normal) point by point, 4 x 2 points.
 template <class Law>
 Eigen::MatrixXd forces_of(Law /*law*/, const PlanarPlan& plan, int interval) {
-  const int phase = plan.motion.phase_of(interval);
-  const double length = plan.durations[phase] / plan.motion.phases[phase].intervals;
-  const double begin = (interval - plan.motion.first_interval(phase)) * length;
+  const int phase = plan.task.phase_of(interval);
+  const double length = plan.durations[phase] / plan.task.phases[phase].intervals;
+  const double begin = (interval - plan.task.first_interval(phase)) * length;
   Eigen::Matrix4d at;
   Eigen::MatrixXd forces;
   for (int i = 0; i < 4; ++i) {
@@ -102,12 +102,12 @@ Eigen::MatrixXd forces_of(planar_laws::Polynomial /*law*/, const PlanarPlan& pla
 
 }  // namespace
 
-Eigen::VectorXd parameters_of(const PlanarPlan& plan, const PlanarTask& motion, const Options& options,
+Eigen::VectorXd parameters_of(const PlanarPlan& plan, const PlanarTask& task, const Options& options,
                               const Layout& layout) {
   plan.validate();
-  require_same_task(plan, motion);
+  require_same_task(plan, task);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(layout.parameters);
-  const int joints = motion.robot.joint_count();
+  const int joints = task.robot.joint_count();
   // Full control points 2 .. intervals are the free ones.
   for (int i = 0; i < layout.control_points(); ++i)
     x.segment(layout.control_point(0, i), joints) = plan.control_points.col(i + 2);
@@ -127,7 +127,7 @@ Eigen::VectorXd parameters_of(const PlanarPlan& plan, const PlanarTask& motion, 
   for (std::size_t p = 0; p < layout.weights.size(); ++p)
     if (layout.weights[p] > 0)
       x.segment(layout.first_weight[p], layout.weights[p]) = std::visit(
-          [&](auto law) { return log_weights_of(law, plan, motion, options, static_cast<int>(p), layout.weights[p]); },
+          [&](auto law) { return log_weights_of(law, plan, task, options, static_cast<int>(p), layout.weights[p]); },
           plan.force_law);
   for (int k = 0; k < layout.intervals; ++k) {
     if (layout.forces[k] == 0) continue;
@@ -137,14 +137,13 @@ Eigen::VectorXd parameters_of(const PlanarPlan& plan, const PlanarTask& motion, 
   return x;
 }
 
-PlanarPlan plan_of(const PlanarTask& motion, const Options& options, const Layout& layout, const Eigen::VectorXd& x) {
+PlanarPlan plan_of(const PlanarTask& task, const Options& options, const Layout& layout, const Eigen::VectorXd& x) {
   PlanarPlan plan;
-  plan.motion = motion;
+  plan.task = task;
   plan.planner = "sip";
-  const int joints = motion.robot.joint_count();
-  for (std::size_t p = 0; p < motion.phases.size(); ++p) {
-    const double share =
-        layout.durations == 1 ? motion.phases[p].intervals / static_cast<double>(layout.intervals) : 1.0;
+  const int joints = task.robot.joint_count();
+  for (std::size_t p = 0; p < task.phases.size(); ++p) {
+    const double share = layout.durations == 1 ? task.phases[p].intervals / static_cast<double>(layout.intervals) : 1.0;
     plan.durations.push_back(share * x[layout.duration_of_phase(static_cast<int>(p))]);
   }
   plan.control_points.resize(joints, layout.intervals + 3);
@@ -161,8 +160,8 @@ PlanarPlan plan_of(const PlanarTask& motion, const Options& options, const Layou
           Eigen::Map<const Eigen::MatrixXd>(x.data() + layout.first_force[k], 4, layout.forces[k] / 4));
     return plan;
   }
-  for (std::size_t p = 0; p < motion.phases.size(); ++p) {
-    const std::vector<int> contact = contact_of_points(motion, static_cast<int>(p));
+  for (std::size_t p = 0; p < task.phases.size(); ++p) {
+    const std::vector<int> contact = contact_of_points(task, static_cast<int>(p));
     Eigen::VectorXd weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(contact.size()));
     for (std::size_t v = 0; v < contact.size() && layout.weights[p] > 0; ++v) {
       const int parameter = (options.forces == Forces::per_body ? contact[v] : static_cast<int>(v)) - 1;

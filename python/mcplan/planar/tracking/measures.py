@@ -130,7 +130,7 @@ def _slip(r: PlanarRecording) -> float:
     for e in range(len(r.end_effectors)):
         on = r.surfaces_plan[:, e]
         for first, last in _stretches(on):
-            tangent = r.plan.motion.surfaces[int(on[first])].tangent_W
+            tangent = r.plan.task.surfaces[int(on[first])].tangent_W
             along = r.points_W[first:last, e] @ tangent
             longest = max(longest, _largest(np.abs(along - along[0])))
     return longest

@@ -41,15 +41,15 @@ class PlanarModel:
     """A planar robot in MuJoCo.
 
     Attributes:
-        motion: Robot and ground that it was made from.
+        task: Robot and ground that it was made from.
         mj: The model.
         stiffness, damping: Gains of its motors [N m/rad, N m s/rad].
         dofs: (3 + j,) indices of base x, y, angle and the joints in MuJoCo's qpos and qvel.
         point_geoms: For each end-effector the geoms of its points.
-        surface_geoms: The geom of each surface of the motion.
+        surface_geoms: The geom of each surface of the task.
     """
 
-    motion: PlanarTask
+    task: PlanarTask
     mj: mujoco.MjModel
     stiffness: float
     damping: float
@@ -59,7 +59,7 @@ class PlanarModel:
 
 
 def build(
-    motion: PlanarTask,
+    task: PlanarTask,
     *,
     step_s: float = 0.001,
     contacts: ContactSettings | None = None,
@@ -68,16 +68,16 @@ def build(
     friction_scale: float = 1.0,
     ground_shift_m: float = 0.0,
 ) -> PlanarModel:
-    """The robot of a motion on the motion's ground, in MuJoCo.
+    """The robot of a task on the task's ground, in MuJoCo.
 
     Args:
-        motion: Robot and surfaces; it must be valid.
+        task: Robot and surfaces; it must be valid.
         step_s: Time step of the simulation.
         contacts: Hardness of the contacts; default: ContactSettings().
         feedback: Feedback of the joints, as part of their motors; default: Feedback().
         mass_scale: Factor on masses and inertias.
         friction_scale: Factor on the friction of all surfaces.
-        ground_shift_m: Height of all surfaces above the motion's.
+        ground_shift_m: Height of all surfaces above the task's.
 
     Raises:
         InvalidOptions: Contacts or feedback out of their range.
@@ -90,22 +90,20 @@ def build(
     contacts.validate()
     feedback = feedback or Feedback()
     feedback.validate()
-    gains = feedback.gains(motion.robot)
-    spec = _empty(motion.robot, step_s, contacts)
-    _add_ground(spec, motion, contacts, friction_scale, ground_shift_m)
-    _add_bodies(spec, motion.robot, gains, mass_scale)
+    gains = feedback.gains(task.robot)
+    spec = _empty(task.robot, step_s, contacts)
+    _add_ground(spec, task, contacts, friction_scale, ground_shift_m)
+    _add_bodies(spec, task.robot, gains, mass_scale)
     model = spec.compile()
 
     def geom(name: str) -> int:
         return int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, name))
 
-    hinges = [
-        mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, f"joint {b}") for b in range(len(motion.robot.bodies))
-    ]
+    hinges = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, f"joint {b}") for b in range(len(task.robot.bodies))]
 
-    end_effectors = motion.robot.end_effectors
+    end_effectors = task.robot.end_effectors
     return PlanarModel(
-        motion=motion,
+        task=task,
         mj=model,
         stiffness=gains[0],
         damping=gains[1],
@@ -113,7 +111,7 @@ def build(
         point_geoms=tuple(
             tuple(geom(f"point {e} {i}") for i in range(len(end.points))) for e, end in enumerate(end_effectors)
         ),
-        surface_geoms=tuple(geom(f"surface {i}") for i in range(len(motion.surfaces))),
+        surface_geoms=tuple(geom(f"surface {i}") for i in range(len(task.surfaces))),
     )
 
 
@@ -141,11 +139,11 @@ def _empty(robot: PlanarRobot, step_s: float, contacts: ContactSettings) -> Any:
 
 
 def _add_ground(
-    spec: mujoco.MjSpec, motion: PlanarTask, contacts: ContactSettings, friction_scale: float, shift_m: float
+    spec: mujoco.MjSpec, task: PlanarTask, contacts: ContactSettings, friction_scale: float, shift_m: float
 ) -> None:
     import mujoco
 
-    for i, surface in enumerate(motion.surfaces):
+    for i, surface in enumerate(task.surfaces):
         endless = bool(np.isinf([surface.from_, surface.to]).all())
         middle, size = _half_space(surface) if endless else _slab(surface)
         spec.worldbody.add_geom(

@@ -1,10 +1,10 @@
-"""Plans that a simulated robot can follow: what has to be asked of the planner, and of a motion.
+"""Plans that a simulated robot can follow: what has to be asked of the planner, and of a task.
 
     import mcplan as mp
     from mcplan.planar.tracking import PLANNING, track_whole_body, with_clearances
 
-    motion = with_clearances(mp.load_motion("climbing"))
-    result = track_whole_body(mp.whole_body(motion, **PLANNING).plan)
+    task = with_clearances(mp.load_planar_task("climbing"))
+    result = track_whole_body(mp.whole_body(task, **PLANNING).plan)
 
 The default plans move their feet within a tube of 1 mm and 5 mrad while these carry weight, which a foot on the ground
 cannot, and their contacts may carry nothing at all. docs/tracking_planar.md has the numbers.
@@ -16,12 +16,12 @@ import copy
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from mcplan.errors import InvalidMotion, InvalidOptions
+from mcplan.errors import InvalidOptions, InvalidPlanarTask
 
 if TYPE_CHECKING:
     from mcplan._core import PlanarPhase, PlanarTask
 
-#: Options of mp.whole_body for plans that are to be tracked. For motions of many steps add phase_duration_s=(0.3, 5.0).
+#: Options of mp.whole_body for plans that are to be tracked. For tasks of many steps add phase_duration_s=(0.3, 5.0).
 PLANNING: MappingProxyType[str, Any] = MappingProxyType(
     {
         "tube_m": 2e-5,
@@ -32,48 +32,48 @@ PLANNING: MappingProxyType[str, Any] = MappingProxyType(
 )
 
 
-#: Longer motions than this take no phase shorter or longer than PHASES_S [s]: durations of many free phases run away.
-SHORT_MOTION, PHASES_S = 5, (0.3, 5.0)
+#: Longer tasks than this take no phase shorter or longer than PHASES_S [s]: durations of many free phases run away.
+SHORT_TASK, PHASES_S = 5, (0.3, 5.0)
 
 
-def trackable(motion: PlanarTask) -> tuple[PlanarTask, dict[str, Any]]:
-    """What ``mcplan sip --trackable`` plans: a motion with clearances, and options of mp.whole_body.
+def trackable(task: PlanarTask) -> tuple[PlanarTask, dict[str, Any]]:
+    """What ``mcplan sip --trackable`` plans: a task with clearances, and options of mp.whole_body.
 
-        motion, options = trackable(mp.load_motion("walking"))
-        plan = mp.whole_body(motion, **options).plan
+        task, options = trackable(mp.load_planar_task("walking"))
+        plan = mp.whole_body(task, **options).plan
 
     Args:
-        motion: Any planar task.
+        task: Any planar task.
 
     Returns:
-        The motion as of with_clearances, and PLANNING with limits of the phases of motions of many steps.
+        The task as of with_clearances, and PLANNING with limits of the phases of tasks of many steps.
 
     Raises:
-        InvalidMotion: As with_clearances.
+        InvalidPlanarTask: As with_clearances.
     """
-    more = {"phase_duration_s": PHASES_S} if len(motion.phases) > SHORT_MOTION else {}
-    return with_clearances(motion), {**PLANNING, **more}
+    more = {"phase_duration_s": PHASES_S} if len(task.phases) > SHORT_TASK else {}
+    return with_clearances(task), {**PLANNING, **more}
 
 
-def with_clearances(motion: PlanarTask, height_m: float = 0.02) -> PlanarTask:
-    """The motion with clearances that keep the points of every swing in front of the surface that it leaves and lands on.
+def with_clearances(task: PlanarTask, height_m: float = 0.02) -> PlanarTask:
+    """The task with clearances that keep the points of every swing in front of the surface that it leaves and lands on.
 
     Args:
-        motion: Swings that have a clearance keep it and get no other.
+        task: Swings that have a clearance keep it and get no other.
         height_m: Height of the points in the middle of a swing.
 
     Returns:
-        A new motion.
+        A new task.
 
     Raises:
-        InvalidMotion: A swing without clearances goes from one surface to another: what lies between is not known here.
+        InvalidPlanarTask: A swing without clearances goes from one surface to another: what lies between is not known here.
         InvalidOptions: The height is not above 0.
     """
     from mcplan._core import PlanarClearance
 
     if not height_m > 0:
         raise InvalidOptions("height_m", "must be above 0", str(height_m))
-    out = copy.deepcopy(motion)
+    out = copy.deepcopy(task)
     phases = list(out.phases)
     for k, phase in enumerate(phases):
         done = {contact.end_effector for contact in phase.contacts}
@@ -84,7 +84,7 @@ def with_clearances(motion: PlanarTask, height_m: float = 0.02) -> PlanarTask:
             if len(beside) > 1:
                 name = out.robot.end_effectors[e].name
                 rule = f"needs clearances for {name}, which swings from one surface to another"
-                raise InvalidMotion(f"phases[{k}].clearances", rule)
+                raise InvalidPlanarTask(f"phases[{k}].clearances", rule)
             added += [PlanarClearance(end_effector=e, surface=s, middle_height=height_m) for s in beside]
         phase.clearances = [*phase.clearances, *added]
     out.phases = phases

@@ -35,9 +35,9 @@ def report(result: Reported) -> str:
 
 
 def headline(result: Reported) -> str:
-    """Motion, robot, and how the run ended."""
-    motion, lasts = result.recording.plan.motion, result.recording.plan.duration()
-    return f"{motion.name}  {motion.robot.name}  {ending(result)} (plan of {lasts:.2f} s, unassisted)"
+    """Task, robot, and how the run ended."""
+    task, lasts = result.recording.plan.task, result.recording.plan.duration()
+    return f"{task.name}  {task.robot.name}  {ending(result)} (plan of {lasts:.2f} s, unassisted)"
 
 
 def ending(result: Reported) -> str:

@@ -55,14 +55,14 @@ def track_whole_body(
 
     Raises:
         InvalidOptions: Out of range, or asking for what planar robots have not: pushes, assistance, random disturbances.
-        InvalidPlan, InvalidMotion, InvalidRobot: The plan is malformed.
+        InvalidPlan, InvalidPlanarTask, InvalidRobot: The plan is malformed.
         MissingExtra: MuJoCo is not installed.
     """
     options = options or DEFAULT_OPTIONS
     _require_supported(options)
     plan.validate()
     model = build(
-        plan.motion,
+        plan.task,
         step_s=options.simulation_step_s,
         contacts=contacts,
         feedback=feedback,
@@ -146,16 +146,16 @@ def _control(simulation: PlanarSimulation, state: PlanarState) -> dict[str, Any]
 
 def _planned(simulation: PlanarSimulation, state: PlanarState, absent: Any) -> tuple[Array, Array, Any]:
     """Of the plan at an instant: forces (e, p, 2), points where contacts put them (e, p, 2), surfaces (e,)."""
-    motion = simulation.model.motion
+    task = simulation.model.task
     forces = np.where(absent, np.nan, 0.0)
     for force in state.forces:
         forces[force.end_effector, force.point] = force.force_W
     points = np.full(absent.shape, np.nan)
     surfaces = np.full(len(absent), -1)
-    for contact in motion.phases[state.phase].contacts:
+    for contact in task.phases[state.phase].contacts:
         e = contact.end_effector
         along = np.array([np.cos(contact.angle), np.sin(contact.angle)])
-        for i, point in enumerate(motion.robot.end_effectors[e].points):
+        for i, point in enumerate(task.robot.end_effectors[e].points):
             points[e, i] = contact.position_W + point * along
         surfaces[e] = contact.surface
     return forces, points, surfaces
@@ -169,7 +169,7 @@ def _has_left(row: dict[str, Any]) -> bool:
 
 
 def _recording(plan: PlanarPlan, rows: list[dict[str, Any]], left_plan_at_s: float) -> PlanarRecording:
-    robot = plan.motion.robot
+    robot = plan.task.robot
     return PlanarRecording(
         plan=plan,
         joints=tuple(body.name for body in robot.bodies[1:]),

@@ -73,14 +73,14 @@ def suitability(plan: PlanarPlan) -> Suitability:
 
 def _at(plan: PlanarPlan, state: PlanarState) -> tuple[float, float]:
     """Largest distance [m] of a point under load from its place, and the smallest normal force [N], at an instant."""
-    motion = plan.motion
-    contacts = {contact.end_effector: contact for contact in motion.phases[state.phase].contacts}
+    task = plan.task
+    contacts = {contact.end_effector: contact for contact in task.phases[state.phase].contacts}
     drift, lowest = 0.0, np.inf
     for force in state.forces:
         contact = contacts[force.end_effector]
         along = np.array([np.cos(contact.angle), np.sin(contact.angle)])
-        offset = float(motion.robot.end_effectors[force.end_effector].points[force.point])
-        angle = float(motion.surfaces[contact.surface].angle)
+        offset = float(task.robot.end_effectors[force.end_effector].points[force.point])
+        angle = float(task.surfaces[contact.surface].angle)
         drift = max(drift, float(np.linalg.norm(force.position_W - contact.position_W - offset * along)))
         lowest = min(lowest, float(force.force_W @ [-np.sin(angle), np.cos(angle)]))
     return drift, lowest

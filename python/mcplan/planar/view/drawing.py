@@ -99,11 +99,11 @@ def draw_paths(stage: Stage, samples: PlanarSamples, robot: PlanarRobot, colours
 
 def draw_cones(stage: Stage, plan: PlanarPlan, intervals: list[Interval], colours: list[str], size: float) -> None:
     """Put friction cones onto a page while they bind: a wedge at every point of a contact."""
-    robot, duration = plan.motion.robot, float(plan.duration())
+    robot, duration = plan.task.robot, float(plan.duration())
     lanes = lanes_of(robot, size)
     for number, interval in enumerate(intervals):
         end = robot.end_effectors[interval.end_effector]
-        surface = plan.motion.surfaces[interval.surface]
+        surface = plan.task.surfaces[interval.surface]
         middle = plan.at(0.5 * (interval.start_s + interval.end_s))
         lane = lanes[interval.end_effector] - 0.055 * size  # before the foot
         for force in middle.forces:
@@ -139,9 +139,9 @@ def contact_intervals(plan: PlanarPlan) -> list[Interval]:
     """Contacts of a plan by end-effector and time; phases in which one stays where it is are joined."""
     times = [float(t) for t in plan.knot_times()]
     intervals: list[Interval] = []
-    for end in range(len(plan.motion.robot.end_effectors)):
+    for end in range(len(plan.task.robot.end_effectors)):
         previous = None
-        for k, phase in enumerate(plan.motion.phases):
+        for k, phase in enumerate(plan.task.phases):
             contact = next((c for c in phase.contacts if c.end_effector == end), None)
             key = contact and (contact.surface, *np.round(contact.position_W, 9), round(float(contact.angle), 9))
             if contact is not None and key == previous:

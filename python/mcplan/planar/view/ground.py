@@ -1,4 +1,4 @@
-"""The ground of a planar motion as solids, cut to the part where the motion is."""
+"""The ground of a planar task as solids, cut to the part where the motion is."""
 
 from __future__ import annotations
 
@@ -30,19 +30,19 @@ class Slab:
     is_wall: bool
 
 
-def slabs_of(motion: PlanarTask, points_W: Array, margin: float, thickness: float) -> list[Slab]:
+def slabs_of(task: PlanarTask, points_W: Array, margin: float, thickness: float) -> list[Slab]:
     """Solids of the surfaces near points, the lower ones first.
 
     Args:
-        motion: Its surfaces.
+        task: Its surfaces.
         points_W: Points of the motion, (n, 2) [m].
         margin: How far surfaces are drawn beyond the points [m].
         thickness: Thickness of the solids [m]; level ones that end somewhere reach down to the lowest ground.
     """
-    fronts = [_front(motion, i, points_W, margin) for i in range(len(motion.surfaces))]
+    fronts = [_front(task, i, points_W, margin) for i in range(len(task.surfaces))]
     bottom = min((float(front[:, 1].min()) for front, _ in fronts if len(front)), default=0.0) - thickness
     slabs = []
-    for i, (surface, (front, cut)) in enumerate(zip(motion.surfaces, fronts, strict=True)):
+    for i, (surface, (front, cut)) in enumerate(zip(task.surfaces, fronts, strict=True)):
         if not len(front):
             continue
         normal = np.asarray(surface.normal_W, float)
@@ -54,14 +54,14 @@ def slabs_of(motion: PlanarTask, points_W: Array, margin: float, thickness: floa
             # In a corner the solids meet behind the surfaces: reach into each other, then be cut there.
             reach = front + thickness * np.outer([-1.0, 1.0] * cut, surface.tangent_W)
             outline = np.vstack([reach, (reach - thickness * normal)[::-1]])
-            for j in _before(motion, i):
-                other = motion.surfaces[j]
+            for j in _before(task, i):
+                other = task.surfaces[j]
                 height = (outline - np.asarray(other.origin_W)) @ np.asarray(other.normal_W)
                 outline = below(outline, -height - thickness)
         slabs.append(Slab(i, surface.name, front, outline[::-1], abs(normal[1]) < 0.3))
     return sorted(
         (_without_solid_in(slab, slabs) for slab in slabs),
-        key=lambda s: (not endless(motion.surfaces[s.surface]), float(s.front_W[:, 1].max())),
+        key=lambda s: (not endless(task.surfaces[s.surface]), float(s.front_W[:, 1].max())),
     )
 
 
@@ -77,15 +77,15 @@ def cone_outline(angle: float, friction: float, radius: float) -> Array:
     return np.vstack([np.zeros((1, 2)), radius * np.column_stack([np.cos(angles), np.sin(angles)])])
 
 
-def _front(motion: PlanarTask, i: int, points_W: Array, margin: float) -> tuple[Array, Array]:
+def _front(task: PlanarTask, i: int, points_W: Array, margin: float) -> tuple[Array, Array]:
     """Ends (2, 2) [m] of what is seen of a surface, (0, 2) when nothing is; whether others cut it off there, (2,)."""
-    surface = motion.surfaces[i]
+    surface = task.surfaces[i]
     origin, tangent = np.asarray(surface.origin_W, float), np.asarray(surface.tangent_W, float)
     along = (points_W - origin) @ tangent
     low, high = max(along.min() - margin, _from(surface)), min(along.max() + margin, float(surface.to))
     cut = np.zeros(2)
-    for j in _before(motion, i):
-        other = motion.surfaces[j]
+    for j in _before(task, i):
+        other = task.surfaces[j]
         normal = np.asarray(other.normal_W, float)
         slope = float(tangent @ normal)
         if abs(slope) < 1e-6:
@@ -115,11 +115,11 @@ def _within(slab: Slab, other: Slab) -> bool:
     return bool(np.all(edges[None, :, 0] * away[:, :, 1] - edges[None, :, 1] * away[:, :, 0] > -1e-9))
 
 
-def _before(motion: PlanarTask, i: int) -> list[int]:
+def _before(task: PlanarTask, i: int) -> list[int]:
     """Endless surfaces that cut surface i off: all of its contacts lie before them."""
-    places = [np.asarray(c.position_W) for phase in motion.phases for c in phase.contacts if c.surface == i]
+    places = [np.asarray(c.position_W) for phase in task.phases for c in phase.contacts if c.surface == i]
     cutting = []
-    for j, other in enumerate(motion.surfaces):
+    for j, other in enumerate(task.surfaces):
         if j == i or not endless(other):
             continue
         heights = [float((p - np.asarray(other.origin_W)) @ np.asarray(other.normal_W)) for p in places]

@@ -51,8 +51,8 @@ def show_whole_body(plan: PlanarPlan, report: Report | None = None) -> Page:
         InvalidPlan: The plan's arrays do not fit together.
     """
     plan.validate()
-    motion = plan.motion
-    robot = motion.robot
+    task = plan.task
+    robot = task.robot
     size = size_of(robot)
     stage = Stage(size)
     weight = float(robot.mass()) * float(robot.gravity)
@@ -61,7 +61,7 @@ def show_whole_body(plan: PlanarPlan, report: Report | None = None) -> Page:
     duration = float(plan.duration())
     samples = sample_whole_body(plan, frame_times(duration, FRAME_RATE))
     reached = reached_by(samples, shapes)
-    slabs = slabs_of(motion, reached, 0.12 * size, 0.09 * size)
+    slabs = slabs_of(task, reached, 0.12 * size, 0.09 * size)
     intervals = contact_intervals(plan)
     draw_ground(stage, slabs, size)
     draw_robot(stage, samples, robot, shapes, size)
@@ -69,7 +69,7 @@ def show_whole_body(plan: PlanarPlan, report: Report | None = None) -> Page:
     draw_cones(stage, plan, intervals, colours, size)
     draw_forces(stage, samples, robot, weight, size)
 
-    phases = len(motion.phases)
+    phases = len(task.phases)
     lines = [f"{robot.name}: {phases} phase{'' if phases == 1 else 's'}, {duration:.2f} s"]
     if report is not None:
         lines.append(f"{report.status}: {report.iterations} iterations, {report.time_s:.2f} s of planning")
@@ -77,8 +77,8 @@ def show_whole_body(plan: PlanarPlan, report: Report | None = None) -> Page:
     legend = [entry("com paths/com", "ball", COM, "centre of mass")]
     legend += common_legend(robot, colours, weight / (WEIGHT_ARROW * size))
     view = seen_on(stage, slabs, reached, size)
-    overlay = caption(motion.name, lines, legend) + timeline(motion, robot, intervals, colours, duration)
-    return planar_page(f"{motion.name}, {robot.name}", stage, overlay, view, plan, duration)
+    overlay = caption(task.name, lines, legend) + timeline(task, robot, intervals, colours, duration)
+    return planar_page(f"{task.name}, {robot.name}", stage, overlay, view, plan, duration)
 
 
 def reached_by(samples: PlanarSamples, shapes: list[Shape]) -> Array:

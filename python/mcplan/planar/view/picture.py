@@ -43,7 +43,7 @@ class Drawing:
 
 def drawing_of(plan: PlanarPlan) -> Drawing:
     """Robot, ground and window of a plan, sampled once for all frames."""
-    robot = plan.motion.robot
+    robot = plan.task.robot
     size = size_of(robot)
     shapes = shapes_of(robot)
     path = sample_whole_body(plan, frame_times(float(plan.duration()), RATE))
@@ -52,7 +52,7 @@ def drawing_of(plan: PlanarPlan) -> Drawing:
         [_moved(o, s.body, path, n) for o, s in zip(outlines, shapes, strict=True) for n in _some(path)]
     )
     thickness = 0.1 * size
-    slabs = slabs_of(plan.motion, reached, 0.08 * size, thickness)
+    slabs = slabs_of(plan.task, reached, 0.08 * size, thickness)
     ground = np.vstack([slab.outline_W for slab in slabs]) if slabs else reached
     seen = np.vstack([reached, ground, *_all_cones(plan, size)])
     low, high = seen.min(axis=0) - 0.02 * size, seen.max(axis=0) + 0.02 * size
@@ -63,11 +63,11 @@ def drawing_of(plan: PlanarPlan) -> Drawing:
 def _all_cones(plan: PlanarPlan, size: float) -> list[Array]:
     """Outlines (m, 2) [m] of the friction cones of all contacts, where they should be."""
     outlines = []
-    for contact in (c for phase in plan.motion.phases for c in phase.contacts):
-        surface = plan.motion.surfaces[contact.surface]
+    for contact in (c for phase in plan.task.phases for c in phase.contacts):
+        surface = plan.task.surfaces[contact.surface]
         wedge = cone_outline(float(surface.angle), float(surface.friction), CONE * size)
         along = np.array([np.cos(contact.angle), np.sin(contact.angle)])
-        points = plan.motion.robot.end_effectors[contact.end_effector].points
+        points = plan.task.robot.end_effectors[contact.end_effector].points
         outlines += [wedge + contact.position_W + float(p) * along for p in points]
     return outlines
 
@@ -114,7 +114,7 @@ def paint_cones(axes: Any, drawing: Drawing, samples: PlanarSamples, n: int, kno
         before = samples.points_W[:known, end, point]
         if known and np.any(np.linalg.norm(before - apex, axis=1) < 0.01 * drawing.size):
             continue
-        surface = drawing.plan.motion.surfaces[int(samples.surfaces[n, end])]
+        surface = drawing.plan.task.surfaces[int(samples.surfaces[n, end])]
         wedge = cone_outline(float(surface.angle), float(surface.friction), CONE * drawing.size)
         colour = drawing.colours[end]
         axes.add_patch(
@@ -174,7 +174,7 @@ def legend_entries(drawing: Drawing, forces: bool, cones: bool) -> list[Any]:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
-    robot = drawing.plan.motion.robot
+    robot = drawing.plan.task.robot
     limbs = {limb.colour: limb.name for limb in limbs_of(robot) if limb.colour in drawing.colours}
     entries: list[Any] = [Patch(color=colour, label=name.replace("_", " ")) for colour, name in limbs.items()]
     entries.append(Line2D([], [], color=COM, marker="o", markersize=4.5, linewidth=1.3, label="centre of mass"))

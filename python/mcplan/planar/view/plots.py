@@ -30,21 +30,21 @@ PHASE = "#F1F3F6"
 def plot_joints(plan: PlanarPlan) -> Figure:
     """Position of every joint; what lies beyond its limits is shaded."""
     samples = sample_phases(plan, RATE)
-    limits = {i: (float(b.position_min), float(b.position_max)) for i, b in enumerate(plan.motion.robot.bodies)}
+    limits = {i: (float(b.position_min), float(b.position_max)) for i, b in enumerate(plan.task.robot.bodies)}
     return _joint_panels(plan, samples, samples.q, limits, "position", "rad")
 
 
 def plot_joint_velocities(plan: PlanarPlan) -> Figure:
     """Velocity of every joint against its limits, with the ratio of the largest to them."""
     samples = sample_phases(plan, RATE)
-    limits = {i: (-float(b.velocity_max), float(b.velocity_max)) for i, b in enumerate(plan.motion.robot.bodies)}
+    limits = {i: (-float(b.velocity_max), float(b.velocity_max)) for i, b in enumerate(plan.task.robot.bodies)}
     return _joint_panels(plan, samples, samples.velocity, limits, "velocity", "rad/s")
 
 
 def plot_torques(plan: PlanarPlan) -> Figure:
     """Torque of every joint against its limits, with the ratio of the largest to them."""
     samples = sample_phases(plan, RATE)
-    limits = {i: (-float(b.torque_max), float(b.torque_max)) for i, b in enumerate(plan.motion.robot.bodies)}
+    limits = {i: (-float(b.torque_max), float(b.torque_max)) for i, b in enumerate(plan.task.robot.bodies)}
     return _joint_panels(plan, samples, samples.torque, limits, "torque", "N m")
 
 
@@ -59,7 +59,7 @@ def plot_base(plan: PlanarPlan) -> Figure:
         if i < 2:
             chart.plot(*curve(samples, samples.com_W[:, i]), color=COM, linewidth=1.8, label="centre of mass")
         label(chart, y=name)
-    label(axes[0, 0], title=f"base ({plan.motion.robot.bodies[0].name})")
+    label(axes[0, 0], title=f"base ({plan.task.robot.bodies[0].name})")
     label(axes[2, 0], x="time [s]")
     axes[0, 0].set_xlim(0.0, samples.times_s[-1])
     handles, texts = axes[0, 0].get_legend_handles_labels()
@@ -73,7 +73,7 @@ def plot_drift(plan: PlanarPlan) -> Figure:
 
     tolerances = PlanarTolerances()
     samples = sample_phases(plan, RATE)
-    ends, colours = plan.motion.robot.end_effectors, end_colours(plan.motion.robot)
+    ends, colours = plan.task.robot.end_effectors, end_colours(plan.task.robot)
     figure, axes = sheet(2, 1, size=(10.0, 5.0), sharex=True)
     distance = 1e3 * np.linalg.norm(samples.errors[:, :, :2], axis=2)
     angle = 1e3 * np.abs(samples.errors[:, :, 2])
@@ -120,7 +120,7 @@ def _joint_panels(
     unit: str,
 ) -> Figure:
     """A panel for each joint, in the rows of its limb; `limits` by body."""
-    robot = plan.motion.robot
+    robot = plan.task.robot
     columns = 3
     order, colour_of = _joint_order(plan)
     rows = max(-(-len(order) // columns), 1)
@@ -157,7 +157,7 @@ def _joint_panels(
 
 def _joint_order(plan: PlanarPlan) -> tuple[list[int], dict[int, str]]:
     """Bodies with joints, limb by limb, the longer limbs first, the trunk's last; and their colours."""
-    robot = plan.motion.robot
+    robot = plan.task.robot
     limbs = sorted(limbs_of(robot), key=lambda limb: -len(limb.bodies))
     order = [body for limb in limbs if len(limb.bodies) > 1 for body in limb.bodies]
     order += [i for i in range(1, len(robot.bodies)) if i not in order]

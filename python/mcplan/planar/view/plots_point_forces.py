@@ -23,7 +23,7 @@ def plot_point_forces(plan: PlanarPlan) -> Figure:
     """Normal and tangential force at every point of every end-effector; the tangential one stays in the band of plus and
     minus the coefficient of friction times the normal one."""
     samples = sample_phases(plan, RATE)
-    end_effectors, colours = plan.motion.robot.end_effectors, end_colours(plan.motion.robot)
+    end_effectors, colours = plan.task.robot.end_effectors, end_colours(plan.task.robot)
     columns = max((len(end.points) for end in end_effectors), default=1)
     figure, axes = sheet(
         max(len(end_effectors), 1),
@@ -77,7 +77,7 @@ def plot_point_forces(plan: PlanarPlan) -> Figure:
 def plot_cones(plan: PlanarPlan) -> Figure:
     """Normal over tangential force of every end-effector, a curve for each point, within the cone of its surface."""
     samples = sample_phases(plan, RATE)
-    end_effectors, colours = plan.motion.robot.end_effectors, end_colours(plan.motion.robot)
+    end_effectors, colours = plan.task.robot.end_effectors, end_colours(plan.task.robot)
     top = 1.06 * float(np.nanmax(samples.normal, initial=1.0))
     side = 1.15 * max(float(np.nanmax(np.abs(samples.tangential), initial=0.0)), 0.3 * top)
     count = max(len(end_effectors), 1)

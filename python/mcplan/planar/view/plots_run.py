@@ -51,7 +51,7 @@ def save_planar_run_plots(run: PlanarRun, folder: str | Path) -> list[Path]:
 
 def plot_planar_run_forces(recording: PlanarRecording) -> Figure:
     """Normal and tangential contact force of every end-effector, the sum over its points: planned and simulated."""
-    robot = recording.plan.motion.robot
+    robot = recording.plan.task.robot
     colours = end_colours(robot)
     used = [e for e in range(len(robot.end_effectors)) if _sums(recording)[1][:, e].any()]
     rows = max(len(used), 1)
@@ -165,7 +165,7 @@ def plot_planar_run_drift(recording: PlanarRecording) -> Figure:
     chart = axes[0, 0]
     shade_phases(chart, recording.plan)
     drift = 1e3 * point_drift(recording)
-    for end, colour in enumerate(end_colours(recording.plan.motion.robot)):
+    for end, colour in enumerate(end_colours(recording.plan.task.robot)):
         if np.isfinite(drift[:, end]).any():
             name = recording.end_effectors[end].replace("_", " ")
             chart.plot(recording.times_s, drift[:, end], color=colour, linewidth=1.6, label=name)
@@ -213,7 +213,7 @@ def _sums(recording: PlanarRecording) -> tuple[Array, Array]:
 
 def _joint_colours(recording: PlanarRecording) -> list[str]:
     colours = [mix(BODY, TEXT, 0.45)] * len(recording.joints)
-    for limb in limbs_of(recording.plan.motion.robot):
+    for limb in limbs_of(recording.plan.task.robot):
         for place, body in enumerate(limb.bodies):
             colours[body - 1] = mix(limb.colour, "#ffffff", 0.16 * place)
     return colours

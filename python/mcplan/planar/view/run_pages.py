@@ -57,8 +57,8 @@ def show_planar_run(run: PlanarRun) -> Page:
     """
     recording, shift_m = planar_recording_of(run), ground_shift_of(run)
     plan = recording.plan
-    motion = plan.motion
-    robot = motion.robot
+    task = plan.task
+    robot = task.robot
     size = size_of(robot)
     stage = Stage(size)
     weight = float(robot.mass()) * float(robot.gravity)
@@ -67,7 +67,7 @@ def show_planar_run(run: PlanarRun) -> Page:
     planned = sample_whole_body(plan, frame_times(float(plan.duration()), FRAME_RATE))
     duration = float(samples.times_s[-1])
     reached = np.vstack([reached_by(samples, shapes), reached_by(planned, shapes)])
-    slabs = slabs_of(motion, reached, 0.12 * size, 0.09 * size)
+    slabs = slabs_of(task, reached, 0.12 * size, 0.09 * size)
     slabs = [replace(slab, outline_W=slab.outline_W + [0.0, shift_m]) for slab in slabs]
     expected = contact_intervals(plan)
     draw_ground(stage, slabs, size)
@@ -85,10 +85,10 @@ def show_planar_run(run: PlanarRun) -> Page:
     view = seen_on(stage, slabs, reached, size)
     within = [replace(i, end_s=min(i.end_s, duration)) for i in expected if i.start_s < duration]
     bars = timeline(
-        motion, robot, _touching(recording), colours, duration, planned=within, marks=_marks(recording, duration)
+        task, robot, _touching(recording), colours, duration, planned=within, marks=_marks(recording, duration)
     )
-    overlay = caption(f"{motion.name}, simulated", _lines(recording), legend) + bars
-    return planar_page(f"{motion.name}, {robot.name}, simulated", stage, overlay, view, plan, duration)
+    overlay = caption(f"{task.name}, simulated", _lines(recording), legend) + bars
+    return planar_page(f"{task.name}, {robot.name}, simulated", stage, overlay, view, plan, duration)
 
 
 def _draw_planned(stage: Stage, planned: PlanarSamples, robot: PlanarRobot, size: float) -> None:
@@ -112,7 +112,7 @@ def _lines(recording: PlanarRecording) -> list[str]:
     force, ratio = force_error(recording)
     drift = 1e3 * float(np.nanmax(point_drift(recording), initial=0.0))
     return [
-        f"{plan.motion.robot.name}: {end}",
+        f"{plan.task.robot.name}: {end}",
         f"contact forces off by {force:.0f} N rms ({100.0 * ratio:.1f} %)",
         f"joints off by {np.sqrt(np.mean(joint_error_deg(recording) ** 2)):.2f}° rms",
         f"contact points off by {drift:.1f} mm at most",
@@ -121,7 +121,7 @@ def _lines(recording: PlanarRecording) -> list[str]:
 
 def _touching(recording: PlanarRecording) -> list[Interval]:
     """Contacts as the simulator had them."""
-    robot, times = recording.plan.motion.robot, recording.times_s
+    robot, times = recording.plan.task.robot, recording.times_s
     weight = float(robot.mass()) * float(robot.gravity)
     pressed = np.linalg.norm(np.nansum(recording.forces_W, axis=2), axis=2) > 0.005 * weight
     intervals = []

@@ -28,8 +28,8 @@ def sample_planar_run(recording: PlanarRecording, rate_hz: float) -> PlanarSampl
 
 def samples_at(recording: PlanarRecording, chosen: NDArray[np.int64]) -> PlanarSamples:
     """What the robot did at some of the recording's instants."""
-    motion = recording.plan.motion
-    robot = motion.robot
+    task = recording.plan.task
+    robot = task.robot
     base, q = recording.base[chosen], recording.q[chosen]
     positions, angles = body_frames(robot, base, q)
     end_effectors = robot.end_effectors
@@ -40,7 +40,7 @@ def samples_at(recording: PlanarRecording, chosen: NDArray[np.int64]) -> PlanarS
     points[free] = forces[free] = np.nan
     normals, tangents = axes_of(recording, chosen)
     surfaces = recording.surfaces_plan[chosen]
-    friction = np.array([float(s.friction) for s in motion.surfaces])
+    friction = np.array([float(s.friction) for s in task.surfaces])
     return PlanarSamples(
         times_s=recording.times_s[chosen],
         phases=recording.phases[chosen],
@@ -66,7 +66,7 @@ def samples_at(recording: PlanarRecording, chosen: NDArray[np.int64]) -> PlanarS
 def axes_of(recording: PlanarRecording, chosen: NDArray[np.int64]) -> tuple[Array, Array]:
     """Normals and tangents (n, e, 2) of the surface of an end-effector's contact, else of its next or its last one; up
     and forward if none."""
-    surfaces = recording.plan.motion.surfaces
+    surfaces = recording.plan.task.surfaces
     n, e = recording.surfaces_plan.shape
     normals = np.tile([0.0, 1.0], (n, e, 1))
     tangents = np.tile([1.0, 0.0], (n, e, 1))

@@ -32,8 +32,8 @@ def planar_scene_of(run: PlanarRun, rate_hz: float) -> RunScene:
         rate_hz: Frames in a second.
     """
     recording, shift_m = planar_recording_of(run), ground_shift_of(run)
-    motion = recording.plan.motion
-    robot = motion.robot
+    task = recording.plan.task
+    robot = task.robot
     size, shapes = size_of(robot), shapes_of(robot)
     weight = float(robot.mass()) * float(robot.gravity)
     samples = sample_planar_run(recording, rate_hz)
@@ -53,7 +53,7 @@ def planar_scene_of(run: PlanarRun, rate_hz: float) -> RunScene:
         for disc in s.discs
     ]
     reached = np.stack(middles, axis=1)
-    slabs = slabs_of(motion, reached.reshape(-1, 2), 0.5 * size, 0.09 * size)
+    slabs = slabs_of(task, reached.reshape(-1, 2), 0.5 * size, 0.09 * size)
     lanes = lanes_of(robot, size)
     arrows = [
         [

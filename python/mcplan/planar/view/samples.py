@@ -88,7 +88,7 @@ def rotated(angles: Array, vector: Array) -> Array:
 
 
 def _samples(plan: PlanarPlan, states: list[PlanarState]) -> PlanarSamples:
-    robot, motion = plan.motion.robot, plan.motion
+    robot, task = plan.task.robot, plan.task
     end_effectors, n = robot.end_effectors, len(states)
     base = np.array([s.configuration.base for s in states], float)
     q = np.array([s.configuration.q for s in states], float).reshape(n, -1)
@@ -103,9 +103,9 @@ def _samples(plan: PlanarPlan, states: list[PlanarState]) -> PlanarSamples:
     friction = np.full((n, len(end_effectors)), np.nan)
     errors = np.full((n, len(end_effectors), 3), np.nan)
     for i, state in enumerate(states):
-        for contact, error in zip(motion.phases[state.phase].contacts, state.contact_error, strict=True):
+        for contact, error in zip(task.phases[state.phase].contacts, state.contact_error, strict=True):
             surfaces[i, contact.end_effector] = contact.surface
-            friction[i, contact.end_effector] = motion.surfaces[contact.surface].friction
+            friction[i, contact.end_effector] = task.surfaces[contact.surface].friction
             errors[i, contact.end_effector] = error
         for force in state.forces:
             at = (i, force.end_effector, force.point)

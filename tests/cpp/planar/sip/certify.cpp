@@ -43,7 +43,7 @@ PlanarPlan random_plan(int seed) {
   for (double& c : plan.control_points.reshaped()) c += size * normal(random);
   for (Eigen::VectorXd& w : plan.weights)
     for (double& x : w) x = std::exp(normal(random));
-  plan.motion.phases[1].contacts.pop_back();
+  plan.task.phases[1].contacts.pop_back();
   plan.weights[1].conservativeResize(2);
   PlanarSurface wall;
   wall.name = "wall";
@@ -51,9 +51,9 @@ PlanarPlan random_plan(int seed) {
   wall.angle = 1.9;
   wall.from = -0.4;
   wall.to = 0.5;
-  plan.motion.surfaces.push_back(wall);
-  plan.motion.phases[0].clearances.push_back({planar::hand, 1, 0, -1, -std::numeric_limits<double>::infinity()});
-  const int intervals = plan.motion.interval_count();
+  plan.task.surfaces.push_back(wall);
+  plan.task.phases[0].clearances.push_back({planar::hand, 1, 0, -1, -std::numeric_limits<double>::infinity()});
+  const int intervals = plan.task.interval_count();
   if (seed % 3 == 0) {
     plan.base_control_points = Eigen::MatrixXd::Zero(3, intervals + 3);
     plan.base_control_points.row(1).setConstant(planar::hip_height());
@@ -62,7 +62,7 @@ PlanarPlan random_plan(int seed) {
   if (seed % 2 == 0) {
     plan.force_law = planar_laws::Polynomial();
     for (int i = 0; i < intervals; ++i) {
-      const int points = plan.motion.phase_of(i) == 1 ? 2 : 4;
+      const int points = plan.task.phase_of(i) == 1 ? 2 : 4;
       Eigen::MatrixXd forces(4, 2 * points);
       for (double& f : forces.reshaped()) f = 50.0 * normal(random);
       plan.force_polynomials.push_back(forces);
@@ -118,8 +118,8 @@ TEST_CASE("a violation is one: the exact state at its place is beyond the tolera
     CAPTURE(seed);
     if (torque.proof == Proof::violated) {
       ++violations;
-      const int body = plan.motion.robot.body_index(torque.where);
-      const double value = std::abs(at(torque).torque[body - 1]) / plan.motion.robot.bodies[body].torque_max - 1.0;
+      const int body = plan.task.robot.body_index(torque.where);
+      const double value = std::abs(at(torque).torque[body - 1]) / plan.task.robot.bodies[body].torque_max - 1.0;
       CHECK(value >= torque.reached - 1e-9);
       CHECK(value <= torque.bound);
     }
@@ -187,20 +187,20 @@ TEST_CASE("a hand in the solid is named, beyond the end of the surface it is fre
   ceiling.name = "ceiling";
   ceiling.origin_W = {0.0, 0.9};
   ceiling.angle = std::acos(-1.0);
-  plan.motion.surfaces.push_back(ceiling);
-  plan.motion.phases[1].clearances = {{planar::hand, 1, 0, -1, -std::numeric_limits<double>::infinity()}};
+  plan.task.surfaces.push_back(ceiling);
+  plan.task.phases[1].clearances = {{planar::hand, 1, 0, -1, -std::numeric_limits<double>::infinity()}};
   const ProvedConstraint inside = find(certify(plan), "clearance");
   CHECK(inside.proof == Proof::violated);
   CHECK(inside.phase == 1);
   CHECK(inside.where == "hand point 0");
   CHECK(inside.reached == doctest::Approx(planar::hip_height() + 0.2 - 0.9));
-  plan.motion.surfaces.back().from = 0.3;
+  plan.task.surfaces.back().from = 0.3;
   CHECK(find(certify(plan), "clearance").proof == Proof::proved);
 }
 
 TEST_CASE("limbs that pass through each other are named, limbs that pass each other are proved to") {
   PlanarPlan plan = planar::standing_plan();
-  PlanarRobot& robot = plan.motion.robot;
+  PlanarRobot& robot = plan.task.robot;
   // The arm hangs from 0.4 m above the hips and swings once about; leg and arm come within a few centimetres.
   robot.bodies[planar::arm].position_min = -7.0;
   robot.bodies[planar::arm].position_max = 7.0;

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "mcplan/planar/plan.hpp"
-#include "motions.hpp"
+#include "tasks.hpp"
 
 using mcplan::sip::ContactGain;
 
@@ -123,12 +123,12 @@ TEST_CASE("derivatives with respect to log weights agree with central difference
 }
 
 TEST_CASE("the gain is that of planar plans") {
-  const mcplan::PlanarTask motion = sip_motions::climbing();
+  const mcplan::PlanarTask task = planar_tasks::climbing();
   for (int phase : {0, 1, 3}) {
-    const Eigen::Vector2d about = mcplan::moment_point_W(motion, phase);
+    const Eigen::Vector2d about = mcplan::moment_point_W(task, phase);
     std::vector<ContactGain::Point> points;
-    for (const auto& contact : motion.phases[phase].contacts)
-      for (double along : motion.robot.end_effectors[contact.end_effector].points) {
+    for (const auto& contact : task.phases[phase].contacts)
+      for (double along : task.robot.end_effectors[contact.end_effector].points) {
         const Eigen::Vector2d t(std::cos(contact.angle), std::sin(contact.angle));
         points.push_back({contact.position_W + along * t - about, t, static_cast<int>(points.size()) - 1});
       }
@@ -136,7 +136,7 @@ TEST_CASE("the gain is that of planar plans") {
     ContactGain gain(points, static_cast<int>(points.size()) - 1);
     const Eigen::VectorXd logs = random_logs(random, static_cast<int>(points.size()) - 1);
     gain.update(logs);
-    const Eigen::MatrixXd expected = mcplan::least_norm_gain(motion, phase, weights_of(points, logs));
+    const Eigen::MatrixXd expected = mcplan::least_norm_gain(task, phase, weights_of(points, logs));
     CHECK((gain.value() - expected).cwiseAbs().maxCoeff() < 1e-11);
   }
 }

@@ -4,13 +4,13 @@
 
 #include "mcplan/planar/plan.hpp"
 #include "mcplan/planar/robot.hpp"
-#include "motions.hpp"
 #include "planar/sip/interval_motion.hpp"
 #include "planar/sip/polynomial.hpp"
 #include "planar/sip/program.hpp"
 #include "planar/sip/rows.hpp"
+#include "tasks.hpp"
 
-/// One interval of a motion at parameters P, as Taylor polynomials and as the exact plan says.
+/// One interval of a task at parameters P, as Taylor polynomials and as the exact plan says.
 struct IntervalAt {
   IntervalAt(const mcplan::PlanarTask& of, const mcplan::sip::Options& with, int k, const Eigen::VectorXd& P)
       : task(of),
@@ -58,9 +58,9 @@ struct IntervalAt {
 };
 
 /// The same at random parameters.
-inline Eigen::VectorXd random_parameters(const mcplan::PlanarTask& motion, const mcplan::sip::Options& options,
+inline Eigen::VectorXd random_parameters(const mcplan::PlanarTask& task, const mcplan::sip::Options& options,
                                          unsigned seed) {
-  return sip_motions::random_parameters(motion, mcplan::sip::Layout(motion, options), seed);
+  return planar_tasks::random_parameters(task, mcplan::sip::Layout(task, options), seed);
 }
 
 /// Places all over an interval.

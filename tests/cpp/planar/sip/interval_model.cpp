@@ -30,9 +30,9 @@ struct Model {
     for (int i = 0; i < x.size(); ++i) x[i] = at.x[model.local().variables[i]];
   }
 
-  static Eigen::VectorXd gentle(const PlanarTask& motion, const Options& options, unsigned seed) {
-    Eigen::VectorXd x = random_parameters(motion, options, seed);
-    x.head(Layout(motion, options).first_duration) *= 0.3;
+  static Eigen::VectorXd gentle(const PlanarTask& task, const Options& options, unsigned seed) {
+    Eigen::VectorXd x = random_parameters(task, options, seed);
+    x.head(Layout(task, options).first_duration) *= 0.3;
     return x;
   }
 
@@ -59,7 +59,7 @@ TEST_CASE("costs are integrals of exact torques and jerks") {
       Options options = with(Forces::per_point, free);
       options.order = 12;
       for (int k : {0, 4, 7}) {
-        Model m(sip_motions::paper_motion(number), options, k, 3);
+        Model m(planar_tasks::paper_task(number), options, k, 3);
         const double torque = integral(m.at, [&](double s) { return m.at.exact(s).torque.squaredNorm(); });
         CHECK(m.model.cost_term(m.x, false) == doctest::Approx(torque).epsilon(1e-5));
         // The jerk of a cubic is constant: the slope of its acceleration.
@@ -75,7 +75,7 @@ TEST_CASE("costs are integrals of exact torques and jerks") {
 
 TEST_CASE("the Gauss-Newton part is positive semidefinite and what is left of the Hessian where residuals are linear") {
   for (int number : {1, 2, 3}) {
-    Model m(sip_motions::paper_motion(number), with(Forces::per_point), 4, 5);
+    Model m(planar_tasks::paper_task(number), with(Forces::per_point), 4, 5);
     const int n = static_cast<int>(m.x.size());
     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
     m.model.add_cost_hessian(m.x, 1.0, false, H);
@@ -87,7 +87,7 @@ TEST_CASE("the Gauss-Newton part is positive semidefinite and what is left of th
   // Jerks alone are linear in the control points: there the two Hessians agree.
   Options jerk = with(Forces::uniform);
   jerk.torque_weight = 0.0;
-  Model m(sip_motions::cartwheel(), jerk, 4, 6);
+  Model m(planar_tasks::cartwheel(), jerk, 4, 6);
   const int n = static_cast<int>(m.x.size()), controls = m.model.local().duration_column(0);
   Eigen::MatrixXd exact = Eigen::MatrixXd::Zero(n, n), gauss_newton = exact;
   m.model.add_cost_hessian(m.x, 1.0, true, exact);
@@ -96,7 +96,7 @@ TEST_CASE("the Gauss-Newton part is positive semidefinite and what is left of th
 }
 
 TEST_CASE("Hessians are added to what is there") {
-  Model m(sip_motions::cartwheel(), with(Forces::per_body), 2, 7);
+  Model m(planar_tasks::cartwheel(), with(Forces::per_body), 2, 7);
   const int n = static_cast<int>(m.x.size());
   const Eigen::VectorXd weights = Eigen::VectorXd::LinSpaced(m.model.rows().count(), -1.0, 1.0);
   Eigen::MatrixXd once = Eigen::MatrixXd::Zero(n, n), on_top = Eigen::MatrixXd::Ones(n, n);
@@ -113,7 +113,7 @@ TEST_CASE("Hessians are added to what is there") {
 TEST_CASE("what is remembered of a point is that point's, in whatever order it is asked") {
   const Options options = with(Forces::per_point);
   const auto shared = std::make_shared<TaylorGraph::Workspace>();
-  Model m(sip_motions::cartwheel(), options, 5, 8);
+  Model m(planar_tasks::cartwheel(), options, 5, 8);
   IntervalModel other(m.at.task, m.at.options, m.at.layout, 1, shared),
       same(m.at.task, m.at.options, m.at.layout, 5, shared);
   const Eigen::VectorXd y = 1.1 * m.x, z = Eigen::VectorXd::Constant(other.local().count(), 0.3);

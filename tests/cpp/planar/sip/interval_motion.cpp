@@ -17,9 +17,9 @@ namespace {
 /// Order 12 and links that turn by some tenths of a radian: what is truncated is below these.
 constexpr double kMetres = 1e-9, kNewtons = 1e-4;
 
-Eigen::VectorXd gentle_parameters(const PlanarTask& motion, const Options& options, unsigned seed) {
-  Eigen::VectorXd x = random_parameters(motion, options, seed);
-  x.head(Layout(motion, options).first_duration) *= 0.3;
+Eigen::VectorXd gentle_parameters(const PlanarTask& task, const Options& options, unsigned seed) {
+  Eigen::VectorXd x = random_parameters(task, options, seed);
+  x.head(Layout(task, options).first_duration) *= 0.3;
   return x;
 }
 
@@ -77,14 +77,14 @@ void check_dynamics(IntervalAt& interval) {
 
 /// Largest difference of the torques from the exact ones for a smooth motion that is cut into this many intervals.
 double torque_error(int order, int intervals) {
-  PlanarTask motion = planar::standing();
-  motion.phases.resize(1);
-  motion.phases[0].intervals = intervals;
-  motion.phases[0].contacts.pop_back();
-  motion.phases[0].clearances.clear();
+  PlanarTask task = planar::standing();
+  task.phases.resize(1);
+  task.phases[0].intervals = intervals;
+  task.phases[0].contacts.pop_back();
+  task.phases[0].clearances.clear();
   Options options = with(Forces::uniform);
   options.order = order;
-  const Layout layout(motion, options);
+  const Layout layout(task, options);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(layout.parameters);
   for (int i = 0; i < layout.control_points(); ++i)
     for (int j = 0; j < layout.splines; ++j)
@@ -92,7 +92,7 @@ double torque_error(int order, int intervals) {
   x[layout.first_duration] = 1.0;
   double worst = 0.0;
   for (int k = intervals / 4; k < 3 * intervals / 4; ++k) {  // away from the rest at the ends
-    IntervalAt interval(motion, options, k, x);
+    IntervalAt interval(task, options, k, x);
     interval.evaluate();
     for (double s : kPlaces) {
       const PlanarState state = interval.exact(s);
@@ -109,16 +109,16 @@ TEST_CASE("polynomials of an interval agree with exact kinematics and dynamics")
   for (int number : {1, 2, 3})
     for (Forces forces : {Forces::uniform, Forces::per_body, Forces::per_point, Forces::parameters})
       for (bool free : {false, true}) {
-        const PlanarTask motion = sip_motions::paper_motion(number);
+        const PlanarTask task = planar_tasks::paper_task(number);
         const Options options = with(forces, free);
-        const Eigen::VectorXd x = gentle_parameters(motion, options, 10 * number + free);
-        const int last = motion.interval_count() - 1;
+        const Eigen::VectorXd x = gentle_parameters(task, options, 10 * number + free);
+        const int last = task.interval_count() - 1;
         for (int k : {0, 2, 3, 5, last - 2, last}) {
-          CAPTURE(motion.name);
+          CAPTURE(task.name);
           CAPTURE(static_cast<int>(forces));
           CAPTURE(free);
           CAPTURE(k);
-          IntervalAt interval(motion, options, k, x);
+          IntervalAt interval(task, options, k, x);
           interval.evaluate();
           check_kinematics(interval);
           check_dynamics(interval);
@@ -131,11 +131,11 @@ TEST_CASE("polynomials of an interval agree with exact kinematics and dynamics")
 TEST_CASE("polynomials of an interval agree with a base that has splines of its own") {
   for (int number : {1, 3})
     for (bool free : {false, true}) {
-      const PlanarTask motion = sip_motions::paper_motion(number);
+      const PlanarTask task = planar_tasks::paper_task(number);
       const Options options = with(Forces::per_point, free, FreeFlyer::parameterised);
       for (int k : {1, 4, 9}) {
-        IntervalAt interval(motion, options, k, gentle_parameters(motion, options, 7));
-        REQUIRE(interval.plan.base_control_points.cols() == motion.interval_count() + 3);
+        IntervalAt interval(task, options, k, gentle_parameters(task, options, 7));
+        REQUIRE(interval.plan.base_control_points.cols() == task.interval_count() + 3);
         interval.evaluate();
         check_kinematics(interval);
         check_dynamics(interval);
@@ -145,9 +145,9 @@ TEST_CASE("polynomials of an interval agree with a base that has splines of its 
 }
 
 TEST_CASE("a contact alone has no error, whatever the joints do") {
-  const PlanarTask motion = sip_motions::walking();
+  const PlanarTask task = planar_tasks::walking();
   const Options options = with(Forces::uniform);
-  IntervalAt interval(motion, options, 4, gentle_parameters(motion, options, 2));
+  IntervalAt interval(task, options, 4, gentle_parameters(task, options, 2));
   interval.evaluate();
   REQUIRE(interval.motion.contacts.size() == 1);
   const IntervalMotion::Contact& contact = interval.motion.contacts[0];
@@ -159,10 +159,10 @@ TEST_CASE("a contact alone has no error, whatever the joints do") {
 }
 
 TEST_CASE("given forces: what they leave of the balance is what nothing carries") {
-  const PlanarTask motion = sip_motions::cartwheel();
+  const PlanarTask task = planar_tasks::cartwheel();
   const Options options = with(Forces::parameters);
   for (int k : {0, 4, 9}) {
-    IntervalAt interval(motion, options, k, gentle_parameters(motion, options, 8));
+    IntervalAt interval(task, options, k, gentle_parameters(task, options, 8));
     interval.evaluate();
     for (double s : kPlaces) {
       const PlanarState state = interval.exact(s);
@@ -171,10 +171,10 @@ TEST_CASE("given forces: what they leave of the balance is what nothing carries"
       const Eigen::Vector2d to_base_W = state.configuration.base.head<2>() - interval.motion.origin_W;
       expected.z() += to_base_W.x() * expected.y() - to_base_W.y() * expected.x();
       for (const auto& force : state.forces) {
-        const auto& contact = motion.phases[interval.motion.local.phase].contacts[force.contact];
-        const double along = motion.robot.end_effectors[force.end_effector].points[force.point];
+        const auto& contact = task.phases[interval.motion.local.phase].contacts[force.contact];
+        const double along = task.robot.end_effectors[force.end_effector].points[force.point];
         const Eigen::Vector2d off_W =
-            force.position_W - contact.position_W - along * motion.surfaces[contact.surface].tangent_W();
+            force.position_W - contact.position_W - along * task.surfaces[contact.surface].tangent_W();
         expected.z() += off_W.x() * force.force_W.y() - off_W.y() * force.force_W.x();
       }
       for (int i = 0; i < 3; ++i) CHECK(std::abs(interval.at(interval.motion.balance[i], s) - expected[i]) < kNewtons);
@@ -194,20 +194,20 @@ TEST_CASE("what is left out of polynomials of order n falls as the (n + 1)th pow
 }
 
 TEST_CASE("a small robot whose sole is turned against its body") {
-  PlanarTask motion = planar::standing();
+  PlanarTask task = planar::standing();
   for (int foot : {planar::left_foot, planar::right_foot}) {
     // The same sole on a body whose axes are turned by 0.3 rad.
-    auto& end = motion.robot.end_effectors[foot];
-    auto& body = motion.robot.bodies[end.body];
+    auto& end = task.robot.end_effectors[foot];
+    auto& body = task.robot.bodies[end.body];
     body.offset += 0.3;
     end.angle_B = -0.3;
     end.position_B = Eigen::Rotation2Dd(-0.3) * end.position_B;
     body.com_B = Eigen::Rotation2Dd(-0.3) * body.com_B;
   }
-  motion.validate();
+  task.validate();
   const Options options = with(Forces::per_point);
   for (int k : {0, 5, 11}) {
-    IntervalAt interval(motion, options, k, gentle_parameters(motion, options, 3));
+    IntervalAt interval(task, options, k, gentle_parameters(task, options, 3));
     interval.evaluate();
     check_kinematics(interval);
     check_dynamics(interval);
@@ -217,8 +217,8 @@ TEST_CASE("a small robot whose sole is turned against its body") {
 TEST_CASE("kinematics alone has neither forces nor torques") {
   Options options = with(Forces::per_point);
   options.dynamics = false;
-  const PlanarTask motion = sip_motions::cartwheel();
-  IntervalAt interval(motion, options, 5, gentle_parameters(motion, options, 1));
+  const PlanarTask task = planar_tasks::cartwheel();
+  IntervalAt interval(task, options, 5, gentle_parameters(task, options, 1));
   interval.evaluate();
   check_kinematics(interval);
   CHECK(interval.motion.forces.empty());

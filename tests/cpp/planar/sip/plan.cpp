@@ -2,10 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include "motions.hpp"
+#include "tasks.hpp"
 
 TEST_CASE("a task is planned as by the planner behind it") {
-  const mcplan::PlanarTask task = sip_motions::cartwheel();
+  const mcplan::PlanarTask task = planar_tasks::cartwheel();
   mcplan::sip::Options options;
   options.max_iterations = 5;
   const mcplan::sip::Result result = mcplan::sip::plan(task, options);

@@ -10,8 +10,8 @@
 #include "in_threads.hpp"
 #include "interval.hpp"
 #include "mcplan/planar/sip/certificate.hpp"
-#include "motions.hpp"
 #include "planar/robots.hpp"
+#include "tasks.hpp"
 
 using namespace mcplan::sip;
 using mcplan::PlanarPlan;
@@ -29,33 +29,33 @@ Options without_cost(Forces forces = Forces::per_point) {
 
 /// The small robot on both feet, without clearances and poses.
 PlanarTask standing(int phases, int intervals) {
-  PlanarTask motion = planar::standing();
-  motion.phases.resize(phases);
-  for (auto& phase : motion.phases) {
+  PlanarTask task = planar::standing();
+  task.phases.resize(phases);
+  for (auto& phase : task.phases) {
     phase.intervals = intervals;
     phase.clearances.clear();
     phase.poses.clear();
   }
-  return motion;
+  return task;
 }
 
-PlanarTask moved(PlanarTask motion, const Eigen::Vector2d& by_W) {
-  for (auto& surface : motion.surfaces) surface.origin_W += by_W;
-  for (auto& phase : motion.phases)
+PlanarTask moved(PlanarTask task, const Eigen::Vector2d& by_W) {
+  for (auto& surface : task.surfaces) surface.origin_W += by_W;
+  for (auto& phase : task.phases)
     for (auto& contact : phase.contacts) contact.position_W += by_W;
-  return motion;
+  return task;
 }
 
 /// A feasible cartwheel, found once for all tests.
 const Result& feasible_cartwheel() {
-  static const Result result = Planner(sip_motions::cartwheel(), without_cost()).solve();
+  static const Result result = Planner(planar_tasks::cartwheel(), without_cost()).solve();
   return result;
 }
 
 /// The field that the planner refuses, before it solves anything.
-std::string field(const PlanarTask& motion, const Options& options = {}) {
+std::string field(const PlanarTask& task, const Options& options = {}) {
   try {
-    Planner planner(motion, options);
+    Planner planner(task, options);
   } catch (const mcplan::InvalidInput& error) {
     return error.field();
   }
@@ -64,10 +64,10 @@ std::string field(const PlanarTask& motion, const Options& options = {}) {
 
 /// One contact of one point: no force there balances a moment.
 PlanarTask on_a_point() {
-  PlanarTask motion = standing(2, 4);
-  motion.robot.end_effectors[planar::left_foot].points = {0.0};
-  motion.phases[1].contacts.pop_back();
-  return motion;
+  PlanarTask task = standing(2, 4);
+  task.robot.end_effectors[planar::left_foot].points = {0.0};
+  task.phases[1].contacts.pop_back();
+  return task;
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ TEST_CASE("a solved motion passes the checker, and the report says what was solv
   CHECK(check(result.plan).ok());
   CHECK(result.plan.planner == "sip");
   CHECK(result.parameters == 91);
-  Planner planner(sip_motions::cartwheel(), without_cost());
+  Planner planner(planar_tasks::cartwheel(), without_cost());
   CHECK(planner.parameters() == 91);
   CHECK(planner.constraints() == result.constraints);
   const mcplan::Drift drift = largest_drift(result.plan);
@@ -114,7 +114,7 @@ TEST_CASE("a cost that is warm-started stays feasible and does not rise, however
   options.hessian = HessianChoice::exact;
   for (int iterations : {1, 4, 15}) {
     options.max_iterations = iterations;
-    const Result result = Planner(sip_motions::cartwheel(), options).solve(start);
+    const Result result = Planner(planar_tasks::cartwheel(), options).solve(start);
     CAPTURE(iterations);
     CHECK(result.report.status == Status::iteration_limit);
     CHECK(result.report.iterations <= iterations);
@@ -127,7 +127,7 @@ TEST_CASE("a time limit ends a solve in time, with the best that was found") {
   Options options = without_cost();
   options.time_limit_s = 0.2;
   options.clock = CountingClock(0.01);  // some looks an iteration
-  const Result result = Planner(sip_motions::climbing(), options).solve();
+  const Result result = Planner(planar_tasks::climbing(), options).solve();
   CHECK(result.report.status == Status::time_limit);
   CHECK(result.report.message.find("time_limit_s") != std::string::npos);
   CHECK(result.plan.durations.size() == 9);
@@ -137,11 +137,11 @@ TEST_CASE("a time limit ends a solve in time, with the best that was found") {
 
 TEST_CASE("what a limit that is over at once costs does not grow with the motion") {
   double looks_s = 0.0;
-  for (const PlanarTask& motion : {standing(1, 4), sip_motions::cartwheel(), sip_motions::climbing()}) {
+  for (const PlanarTask& task : {standing(1, 4), planar_tasks::cartwheel(), planar_tasks::climbing()}) {
     Options options;
     options.time_limit_s = 1e-6;
     options.clock = CountingClock(1.0);
-    const Result result = Planner(motion, options).solve();
+    const Result result = Planner(task, options).solve();
     CHECK(result.report.status == Status::time_limit);
     CHECK(result.report.iterations == 0);
     CHECK_NOTHROW(result.plan.validate());
@@ -154,21 +154,21 @@ TEST_CASE("what a limit that is over at once costs does not grow with the motion
 TEST_CASE("the last check is kept from the limit, by what a check took") {
   // A check of the start at every 16th instant takes a look at the clock, and so do the values of all intervals: what
   // is kept are six of those, and as many looks as a check of all instants has more of them.
-  const PlanarTask motion = sip_motions::climbing();
+  const PlanarTask task = planar_tasks::climbing();
   const auto instants = [&](double duration_s, double sample_s) {
-    return duration_s / sample_s + 2.0 * motion.interval_count();
+    return duration_s / sample_s + 2.0 * task.interval_count();
   };
   Options options = without_cost();
   double shortest_s = 0.0;
-  for (const auto& phase : motion.phases) shortest_s += std::max(options.phase_duration_s.min, phase.min_duration);
+  for (const auto& phase : task.phases) shortest_s += std::max(options.phase_duration_s.min, phase.min_duration);
   constexpr double kTick_s = 0.01;
   options.clock = CountingClock(kTick_s);
   options.time_limit_s = 1e-6;
-  const double of_start = instants(Planner(motion, options).solve().plan.duration(), 0.016);
+  const double of_start = instants(Planner(task, options).solve().plan.duration(), 0.016);
   for (double limit_s : {2.0, 4.0, 8.0}) {
     CAPTURE(limit_s);
     options.time_limit_s = limit_s;
-    const Result result = Planner(motion, options).solve();
+    const Result result = Planner(task, options).solve();
     REQUIRE(result.report.status == Status::time_limit);
     // At least; how long the best motion is is asked once an iteration.
     const double kept_s = kTick_s * (6.0 + instants(shortest_s, 0.001) / of_start);
@@ -180,35 +180,35 @@ TEST_CASE("the last check is kept from the limit, by what a check took") {
 TEST_CASE("an iteration limit and a stop request have statuses of their own") {
   Options options = without_cost();
   options.max_iterations = 2;
-  CHECK(Planner(sip_motions::cartwheel(), options).solve().report.status == Status::iteration_limit);
+  CHECK(Planner(planar_tasks::cartwheel(), options).solve().report.status == Status::iteration_limit);
   options = Options();
   int polled = 0;
   options.stop = [&polled] { return ++polled > 3; };
-  const Result result = Planner(sip_motions::cartwheel(), options).solve();
+  const Result result = Planner(planar_tasks::cartwheel(), options).solve();
   CHECK(result.report.status == Status::interrupted);
   CHECK(polled < 20);  // no second attempt after a request to stop
 }
 
 TEST_CASE("a pose out of reach ends without a solution, and the pose is what is violated") {
-  PlanarTask motion = standing(1, 4);
+  PlanarTask task = standing(1, 4);
   mcplan::PlanarPose pose;
   pose.fraction = 0.5;
   pose.min.y() = 5.0;  // the trunk, five metres up, with both feet on the ground
-  motion.phases[0].poses = {pose};
+  task.phases[0].poses = {pose};
   Options options = without_cost();
   options.max_iterations = 100;
-  const Result result = Planner(motion, options).solve();
+  const Result result = Planner(task, options).solve();
   CHECK((result.report.status == Status::infeasible || result.report.status == Status::iteration_limit));
   CHECK(result.report.worst_violation.name == "pose");
   CHECK(result.report.message.find("pose") != std::string::npos);
 }
 
 TEST_CASE("torque limits that cannot carry the weight end without a solution") {
-  PlanarTask motion = sip_motions::cartwheel();
-  for (auto& body : motion.robot.bodies) body.torque_max *= 0.05;
+  PlanarTask task = planar_tasks::cartwheel();
+  for (auto& body : task.robot.bodies) body.torque_max *= 0.05;
   Options options = without_cost();
   options.max_iterations = 40;
-  const Result result = Planner(motion, options).solve();
+  const Result result = Planner(task, options).solve();
   CHECK((result.report.status == Status::infeasible || result.report.status == Status::iteration_limit));
   CHECK(!check(result.plan).ok());
 }
@@ -217,7 +217,7 @@ TEST_CASE("the same problem gives the same bytes, twice and with any number of t
   const int before = omp_get_max_threads();
   for (int threads : {1, 2}) {
     omp_set_num_threads(threads);
-    const Result again = Planner(sip_motions::cartwheel(), without_cost()).solve();
+    const Result again = Planner(planar_tasks::cartwheel(), without_cost()).solve();
     CHECK(again.plan.control_points == feasible_cartwheel().plan.control_points);
     CHECK(again.plan.durations == feasible_cartwheel().plan.durations);
     CHECK(again.plan.weights == feasible_cartwheel().plan.weights);
@@ -226,9 +226,9 @@ TEST_CASE("the same problem gives the same bytes, twice and with any number of t
 }
 
 TEST_CASE("planners and proofs in several threads give what one alone gives") {
-  const PlanarTask motion = standing(1, 4);  // shared, as a user's would be
+  const PlanarTask task = standing(1, 4);  // shared, as a user's would be
   const auto planned = [&](int t) {
-    const PlanarPlan plan = Planner(motion, without_cost(t % 2 ? Forces::per_point : Forces::parameters)).solve().plan;
+    const PlanarPlan plan = Planner(task, without_cost(t % 2 ? Forces::per_point : Forces::parameters)).solve().plan;
     CertifyOptions options;
     options.max_depth = 3;
     std::vector<double> out(plan.control_points.data(), plan.control_points.data() + plan.control_points.size());
@@ -246,9 +246,9 @@ TEST_CASE("a planner may be asked twice") {
   CHECK(first.report.iterations == second.report.iterations);
 }
 
-TEST_CASE("a motion that is moved as a whole has the same solution") {
-  const Result here = Planner(sip_motions::cartwheel()).solve();
-  const Result there = Planner(moved(sip_motions::cartwheel(), {100.0, 3.0})).solve();
+TEST_CASE("a task that is moved as a whole has the same solution") {
+  const Result here = Planner(planar_tasks::cartwheel()).solve();
+  const Result there = Planner(moved(planar_tasks::cartwheel(), {100.0, 3.0})).solve();
   REQUIRE(here.report.status == Status::solved);
   REQUIRE(there.report.status == Status::solved);
   CHECK(there.report.cost == doctest::Approx(here.report.cost).epsilon(1e-3));
@@ -257,9 +257,9 @@ TEST_CASE("a motion that is moved as a whole has the same solution") {
   CHECK((b.configuration.base - a.configuration.base - Eigen::Vector3d(100.0, 3.0, 0.0)).norm() < 1e-2);
 }
 
-TEST_CASE("small and odd motions are solved") {
-  const auto status = [](const PlanarTask& motion, const Options& options = {}) {
-    const Result result = Planner(motion, options).solve();
+TEST_CASE("small and odd tasks are solved") {
+  const auto status = [](const PlanarTask& task, const Options& options = {}) {
+    const Result result = Planner(task, options).solve();
     CHECK(result.plan.control_points.allFinite());
     return result.report.status;
   };
@@ -297,10 +297,10 @@ TEST_CASE("small and odd motions are solved") {
 
   Options kinematic = without_cost();
   kinematic.dynamics = false;
-  CHECK(status(sip_motions::walking(), kinematic) == Status::solved);
+  CHECK(status(planar_tasks::walking(), kinematic) == Status::solved);
 }
 
-TEST_CASE("motions that this planner cannot make finite are refused by the field") {
+TEST_CASE("tasks that this planner cannot make finite are refused by the field") {
   CHECK(field(standing(1, 4)) == "accepted");
   CHECK(field(standing(1, 1)) == "phases[0].intervals");
   CHECK(field(on_a_point()) == "phases[1].contacts");

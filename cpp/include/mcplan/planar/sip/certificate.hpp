@@ -48,8 +48,8 @@ struct CertifyOptions {
 /// reached. Amounts are measured as the checker measures them, and named as there; `finite` is missing, because plans
 /// with other numbers are malformed. Theory: docs/theory/sip_certificate.md.
 ///
-/// Throws InvalidPlan, InvalidMotion or InvalidRobot where the plan is malformed, InvalidOptions for an order out of
-/// 2..12 or a max_depth out of 0..40.
+/// Throws InvalidPlan, InvalidPlanarTask or InvalidRobot where the plan is malformed, InvalidOptions for an order out
+/// of 2..12 or a max_depth out of 0..40.
 Certificate certify(const PlanarPlan& plan, const CertifyOptions& options = {});
 
 }  // namespace mcplan::sip

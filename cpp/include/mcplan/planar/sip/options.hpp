@@ -54,7 +54,7 @@ struct Options {
   double jerk_weight = 0.0;           ///< cost: integral of the squared joint jerks [s^5]
   bool free_durations = true;         ///< a duration for each phase; else one for the motion, shared by intervals
   Range total_duration_s{1.0, 20.0};  ///< where free_durations is off
-  Range phase_duration_s{0.2, 5.0};   ///< where it is on; the motion's own limits hold as well
+  Range phase_duration_s{0.2, 5.0};   ///< where it is on; the task's own limits hold as well
 
   ContactMode contact = ContactMode::tube;
   double tube_m = 1e-3;    ///< half width of the tube or of the band [m]
@@ -68,7 +68,7 @@ struct Options {
 
   bool dynamics = true;           ///< contact forces in their cones; off: kinematics alone (Tables I and II)
   bool torque_limits = true;      ///< Table III has none
-  bool clearance = true;          ///< swinging end-effectors outside solids, as the motion says
+  bool clearance = true;          ///< swinging end-effectors outside solids, as the task says
   bool self_collision = false;    ///< of the robot's collision pairs
   double clearance_m = -1e-3;     ///< least height of swinging points: at lift-off they are at zero to the tube
   double min_normal_force = 0.0;  ///< at every point [N]

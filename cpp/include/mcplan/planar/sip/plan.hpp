@@ -8,7 +8,7 @@ namespace mcplan::sip {
 
 /// Joint splines, durations and contact forces of a planar robot through the stances of a task, by semi-infinite
 /// programming. The plan is solved if the result's report says so: the checker has then accepted it. Throws
-/// InvalidMotion, InvalidRobot or InvalidOptions. Planner is behind it, for warm starts.
+/// InvalidPlanarTask, InvalidRobot or InvalidOptions. Planner is behind it, for warm starts.
 Result plan(const PlanarTask& task, const Options& options = {});
 
 }  // namespace mcplan::sip

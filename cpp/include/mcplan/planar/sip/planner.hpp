@@ -20,14 +20,14 @@ struct Result {
 /// Whole-body planning of a planar robot through a sequence of contact stances by semi-infinite programming (Lengagne
 /// et al., "Generation of dynamic multi-contact motions: 2D case studies", 2010).
 ///
-///     auto planner = mcplan::sip::Planner(motion, options);
+///     auto planner = mcplan::sip::Planner(task, options);
 ///     mcplan::sip::Result result = planner.solve();
 ///
 /// Theory: docs/theory/sip.md. Not thread-safe.
 class Planner {
  public:
-  /// Throws InvalidMotion, InvalidRobot or InvalidOptions.
-  Planner(const PlanarTask& motion, const Options& options = {});
+  /// Throws InvalidPlanarTask, InvalidRobot or InvalidOptions.
+  Planner(const PlanarTask& task, const Options& options = {});
   ~Planner();
   Planner(Planner&&) noexcept;
   Planner& operator=(Planner&&) noexcept;

@@ -2,10 +2,10 @@
 
 namespace mcplan::sip {
 
-// n . (x - origin) >= clearance_m for the points x of a swinging end-effector, over the intervals that the motion
+// n . (x - origin) >= clearance_m for the points x of a swinging end-effector, over the intervals that the task
 // names, and >= middle_height at the begin of the middle interval.
 void keep_clear(IntervalMotion& motion, std::vector<Limited>& out) {
-  const PlanarTask& task = motion.motion;
+  const PlanarTask& task = motion.task;
   const PlanarPhase& phase = task.phases[motion.local.phase];
   const int interval = motion.local.interval - task.first_interval(motion.local.phase);
   for (const PlanarClearance& clearance : phase.clearances) {

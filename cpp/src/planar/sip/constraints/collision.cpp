@@ -38,11 +38,11 @@ std::vector<Disc> discs_of(const PlanarRobot& robot, int body) {
 void add_close_discs(const PlanarPlan& plan, CloseDiscs& close) {
   constexpr int kInstants = 9;
   constexpr double kMargin_m = 0.01;
-  const PlanarRobot& robot = plan.motion.robot;
-  for (int k = 0; k < plan.motion.interval_count(); ++k) {
-    const int phase = plan.motion.phase_of(k);
-    const double length = plan.durations[phase] / plan.motion.phases[phase].intervals;
-    const double begin = (k - plan.motion.first_interval(phase)) * length;
+  const PlanarRobot& robot = plan.task.robot;
+  for (int k = 0; k < plan.task.interval_count(); ++k) {
+    const int phase = plan.task.phase_of(k);
+    const double length = plan.durations[phase] / plan.task.phases[phase].intervals;
+    const double begin = (k - plan.task.first_interval(phase)) * length;
     for (int i = 0; i < kInstants; ++i) {
       const double since = std::min(begin + length * i / (kInstants - 1), plan.durations[phase]);
       const auto frames = planar_kinematics(robot, plan.at_phase(phase, since).configuration);
@@ -64,7 +64,7 @@ void add_close_discs(const PlanarPlan& plan, CloseDiscs& close) {
 // |x_a - x_b|^2 >= (r_a + r_b)^2 for discs that cover the capsules of two bodies. The distance of two segments is not
 // smooth; this is, at the price of discs up to 1.4 times as wide as the capsule.
 void keep_apart(IntervalMotion& motion, const CloseDiscs* close, std::vector<Limited>& out) {
-  const PlanarRobot& robot = motion.motion.robot;
+  const PlanarRobot& robot = motion.task.robot;
   TaylorGraph& graph = motion.graph;
   const int order = motion.options.order;
   for (std::size_t pair = 0; pair < robot.collision_pairs.size(); ++pair) {

@@ -15,13 +15,13 @@ constexpr double kWidth = 0.02;  // half width of a tube in rows: narrow ones ar
 // last one out, whose rows would depend on the others, and the tube keeps it, whose error would be the others' sum.
 void hold_contacts(IntervalMotion& motion, std::vector<Limited>& out) {
   const Options& options = motion.options;
-  const auto& contacts = motion.motion.phases[motion.local.phase].contacts;
+  const auto& contacts = motion.task.phases[motion.local.phase].contacts;
   std::size_t count = motion.contacts.size();
   if (options.contact == ContactMode::strict && options.free_flyer == FreeFlyer::computed) --count;
   for (std::size_t i = 0; i < count; ++i) {
     const IntervalMotion::Contact& contact = motion.contacts[i];
     if (!contact.free) continue;
-    const std::string& who = motion.motion.robot.end_effectors[contacts[i].end_effector].name;
+    const std::string& who = motion.task.robot.end_effectors[contacts[i].end_effector].name;
     const auto hold = [&](const std::string& name, TaylorGraph::Node node, double tube) {
       // The solver's tolerance comes off, so that what it calls kept is inside the tube.
       const double room = tube * (1.0 - std::min(0.1, options.constraint_tolerance / kWidth));

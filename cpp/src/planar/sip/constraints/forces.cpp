@@ -4,25 +4,25 @@ namespace mcplan::sip {
 namespace {
 
 std::string place(const IntervalMotion& motion, std::size_t force) {
-  const auto& contacts = motion.motion.phases[motion.local.phase].contacts;
+  const auto& contacts = motion.task.phases[motion.local.phase].contacts;
   const int contact = motion.forces[force].contact;
   int point = static_cast<int>(force);
   for (int i = 0; i < contact; ++i) point -= static_cast<int>(motion.contacts[i].forces.size());
-  return motion.motion.robot.end_effectors[contacts[contact].end_effector].name + " point " + std::to_string(point);
+  return motion.task.robot.end_effectors[contacts[contact].end_effector].name + " point " + std::to_string(point);
 }
 
-double weight(const IntervalMotion& motion) { return motion.motion.robot.mass() * motion.motion.robot.gravity; }
+double weight(const IntervalMotion& motion) { return motion.task.robot.mass() * motion.task.robot.gravity; }
 
 }  // namespace
 
 // mu f_n - f_t >= 0 and mu f_n + f_t >= 0: in the plane the cone is these two, which also say f_n >= 0. The paper's
 // squared form (eq. 14) has no gradient at zero force and lets pulling forces through.
 void keep_in_friction_cone(IntervalMotion& motion, std::vector<Limited>& out) {
-  const auto& contacts = motion.motion.phases[motion.local.phase].contacts;
+  const auto& contacts = motion.task.phases[motion.local.phase].contacts;
   const double unit = weight(motion);
   for (std::size_t v = 0; v < motion.forces.size(); ++v) {
     const IntervalMotion::Force& force = motion.forces[v];
-    const double mu = motion.motion.surfaces[contacts[force.contact].surface].friction;
+    const double mu = motion.task.surfaces[contacts[force.contact].surface].friction;
     for (double side : {1.0, -1.0}) {
       const TaylorGraph::Node room = motion.graph.linear({{mu, force.normal}, {side, force.tangential}});
       out.push_back({"friction of " + place(motion, v), room, motion.options.margin * unit, INFINITY, 1.0 / unit});

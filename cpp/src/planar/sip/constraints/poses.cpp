@@ -7,7 +7,7 @@ namespace mcplan::sip {
 
 // min <= (x, y, angle) of a body <= max at an instant of the phase (z_k of eq. 2)
 void pass_poses(IntervalMotion& motion, std::vector<Limited>& out) {
-  const PlanarTask& task = motion.motion;
+  const PlanarTask& task = motion.task;
   const PlanarPhase& phase = task.phases[motion.local.phase];
   const int interval = motion.local.interval - task.first_interval(motion.local.phase);
   for (const PlanarPose& pose : phase.poses) {

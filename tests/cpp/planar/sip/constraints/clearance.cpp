@@ -27,25 +27,25 @@ double height(const IntervalAt& interval, int end_effector, int point, int surfa
 
 /// The climber with limb B over the slope and over the wall, from the phase's interval 1 to the end of its interval 2.
 PlanarTask climbing() {
-  PlanarTask motion = sip_motions::climbing();
-  motion.robot.end_effectors[1].angle_B = 0.2;
-  motion.phases[1].clearances = {{1, 0, 1, 3, 0.05}, {1, 1, 0, -1, -INFINITY}};
-  return motion;
+  PlanarTask task = planar_tasks::climbing();
+  task.robot.end_effectors[1].angle_B = 0.2;
+  task.phases[1].clearances = {{1, 0, 1, 3, 0.05}, {1, 1, 0, -1, -INFINITY}};
+  return task;
 }
 
 }  // namespace
 
 TEST_CASE("heights of swinging points are those of the exact plan") {
-  const PlanarTask motion = climbing();
+  const PlanarTask task = climbing();
   Options options;
   options.order = 12;
   options.clearance_m = -2e-3;
-  Eigen::VectorXd x = random_parameters(motion, options, 7);
-  x.head(Layout(motion, options).first_duration) *= 0.3;
-  const int first = motion.first_interval(1);
+  Eigen::VectorXd x = random_parameters(task, options, 7);
+  x.head(Layout(task, options).first_duration) *= 0.3;
+  const int first = task.first_interval(1);
   for (int i = 0; i < 4; ++i) {
     CAPTURE(i);
-    IntervalAt interval(motion, options, first + i, x);
+    IntervalAt interval(task, options, first + i, x);
     std::vector<Limited> always, middle;
     for (const Limited& row : rows_of(interval)) {
       CHECK(row.name == "clearance of B");
@@ -70,7 +70,7 @@ TEST_CASE("heights of swinging points are those of the exact plan") {
 }
 
 TEST_CASE("phases without clearances have no rows") {
-  const PlanarTask motion = climbing();
-  IntervalAt interval(motion, {}, 0, random_parameters(motion, {}, 7));
+  const PlanarTask task = climbing();
+  IntervalAt interval(task, {}, 0, random_parameters(task, {}, 7));
   CHECK(rows_of(interval).empty());
 }

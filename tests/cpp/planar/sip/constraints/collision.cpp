@@ -42,23 +42,23 @@ double room(const IntervalAt& interval, const std::vector<Limited>& rows, double
 }  // namespace
 
 TEST_CASE("where the rows hold, the capsules are apart") {
-  const PlanarTask motion = sip_motions::cartwheel();
+  const PlanarTask task = planar_tasks::cartwheel();
   Options options;
   options.order = 12;
   int holding = 0, touching = 0;
   for (unsigned seed = 0; seed < 100; ++seed) {
-    Eigen::VectorXd x = random_parameters(motion, options, seed);
-    x.head(Layout(motion, options).first_duration) *= 6.0;  // limbs get into each other's way
-    IntervalAt interval(motion, options, 5, x);
+    Eigen::VectorXd x = random_parameters(task, options, seed);
+    x.head(Layout(task, options).first_duration) *= 6.0;  // limbs get into each other's way
+    IntervalAt interval(task, options, 5, x);
     std::vector<Limited> rows;
     keep_apart(interval.motion, nullptr, rows);
     interval.evaluate();
     const double s = 0.0;  // there the polynomials are exact
     const auto frames = interval.frames(s);
     double least = INFINITY;
-    for (const auto& [a, b] : motion.robot.collision_pairs)
-      least = std::min(
-          least, gap(frames[a], motion.robot.bodies[a].capsules[0], frames[b], motion.robot.bodies[b].capsules[0]));
+    for (const auto& [a, b] : task.robot.collision_pairs)
+      least = std::min(least,
+                       gap(frames[a], task.robot.bodies[a].capsules[0], frames[b], task.robot.bodies[b].capsules[0]));
     CAPTURE(seed);
     if (room(interval, rows, s) >= 0.0) {
       CHECK(least >= -1e-4);  // the gap is that of points a hundredth of a metre apart
@@ -77,14 +77,14 @@ TEST_CASE("where the rows hold, the capsules are apart") {
 
 TEST_CASE("rows are squared distances of the exact plan's discs") {
   // Two capsules of no length: one disc each, and the distance is theirs.
-  PlanarTask motion = planar::standing();
-  motion.robot.bodies[planar::left_leg].capsules = {{{0.0, -0.5}, {0.0, -0.5}, 0.05}};
-  motion.robot.bodies[planar::arm].capsules = {{{0.0, -0.2}, {0.0, -0.2}, 0.03}};
+  PlanarTask task = planar::standing();
+  task.robot.bodies[planar::left_leg].capsules = {{{0.0, -0.5}, {0.0, -0.5}, 0.05}};
+  task.robot.bodies[planar::arm].capsules = {{{0.0, -0.2}, {0.0, -0.2}, 0.03}};
   Options options;
   options.order = 12;
-  Eigen::VectorXd x = random_parameters(motion, options, 3);
-  x.head(Layout(motion, options).first_duration) *= 0.3;
-  IntervalAt interval(motion, options, 6, x);
+  Eigen::VectorXd x = random_parameters(task, options, 3);
+  x.head(Layout(task, options).first_duration) *= 0.3;
+  IntervalAt interval(task, options, 6, x);
   std::vector<Limited> rows;
   keep_apart(interval.motion, nullptr, rows);
   interval.evaluate();
@@ -101,17 +101,17 @@ TEST_CASE("rows are squared distances of the exact plan's discs") {
 }
 
 TEST_CASE("discs that come close are found, and rows are made for them alone") {
-  const PlanarTask motion = sip_motions::cartwheel();
+  const PlanarTask task = planar_tasks::cartwheel();
   const Options options;
-  const Layout layout(motion, options);
+  const Layout layout(task, options);
   int with_some = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
-    Eigen::VectorXd x = random_parameters(motion, options, seed);
+    Eigen::VectorXd x = random_parameters(task, options, seed);
     x.head(layout.first_duration) *= 6.0;
     CloseDiscs close;
-    add_close_discs(plan_of(motion, options, layout, x), close);
+    add_close_discs(plan_of(task, options, layout, x), close);
     constexpr int kInterval = 5;
-    IntervalAt interval(motion, options, kInterval, x);
+    IntervalAt interval(task, options, kInterval, x);
     std::vector<Limited> all, some;
     keep_apart(interval.motion, nullptr, all);
     keep_apart(interval.motion, &close, some);

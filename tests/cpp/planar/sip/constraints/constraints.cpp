@@ -13,14 +13,14 @@ namespace {
 
 /// First words of the rows' names.
 std::set<std::string> kinds(const Options& options) {
-  PlanarTask motion = sip_motions::cartwheel();
+  PlanarTask task = planar_tasks::cartwheel();
   mcplan::PlanarPose pose;
   pose.fraction = 0.5;
   pose.min.setConstant(-1.0);
-  motion.phases[1].poses = {pose};
+  task.phases[1].poses = {pose};
   std::set<std::string> out;
   for (int k : {0, 5}) {
-    IntervalAt interval(motion, options, k, random_parameters(motion, options, 1));
+    IntervalAt interval(task, options, k, random_parameters(task, options, 1));
     for (const Limited& row : constraints_of(interval.motion)) out.insert(row.name.substr(0, row.name.find(' ')));
   }
   return out;

@@ -17,9 +17,9 @@ Options with_margin(double margin) {
   return options;
 }
 
-Eigen::VectorXd gentle_parameters(const PlanarTask& motion, const Options& options) {
-  Eigen::VectorXd x = random_parameters(motion, options, 1);
-  x.head(Layout(motion, options).first_duration) *= 0.3;
+Eigen::VectorXd gentle_parameters(const PlanarTask& task, const Options& options) {
+  Eigen::VectorXd x = random_parameters(task, options, 1);
+  x.head(Layout(task, options).first_duration) *= 0.3;
   return x;
 }
 
@@ -27,9 +27,9 @@ Eigen::VectorXd gentle_parameters(const PlanarTask& motion, const Options& optio
 
 TEST_CASE("joint limits hold positions, velocities and torques of the exact plan") {
   for (int number : {1, 2, 3}) {
-    const PlanarTask motion = sip_motions::paper_motion(number);
+    const PlanarTask task = planar_tasks::paper_task(number);
     const Options options = with_margin(0.05);
-    IntervalAt interval(motion, options, 4, gentle_parameters(motion, options));
+    IntervalAt interval(task, options, 4, gentle_parameters(task, options));
     std::vector<Limited> positions, velocities, torques;
     limit_positions(interval.motion, positions);
     limit_velocities(interval.motion, velocities);
@@ -39,7 +39,7 @@ TEST_CASE("joint limits hold positions, velocities and torques of the exact plan
     REQUIRE(torques.size() == 9);
     interval.evaluate();
     for (int j = 0; j < 9; ++j) {
-      const auto& body = motion.robot.bodies[j + 1];
+      const auto& body = task.robot.bodies[j + 1];
       const double range = body.position_max - body.position_min;
       CHECK(positions[j].name == "position of " + body.name);
       CHECK(positions[j].lower == doctest::Approx(body.position_min + 0.05 * range));
@@ -65,15 +65,15 @@ TEST_CASE("joint limits hold positions, velocities and torques of the exact plan
 }
 
 TEST_CASE("a limit that is infinite has no rows; one finite side has its own") {
-  PlanarTask motion = sip_motions::cartwheel();
-  for (auto& body : motion.robot.bodies) {
+  PlanarTask task = planar_tasks::cartwheel();
+  for (auto& body : task.robot.bodies) {
     body.position_min = -INFINITY;
     body.position_max = INFINITY;
     body.velocity_max = body.torque_max = INFINITY;
   }
-  motion.robot.bodies[2].position_min = -0.5;
+  task.robot.bodies[2].position_min = -0.5;
   const Options options = with_margin(0.1);
-  IntervalAt interval(motion, options, 0, gentle_parameters(motion, options));
+  IntervalAt interval(task, options, 0, gentle_parameters(task, options));
   std::vector<Limited> out;
   limit_velocities(interval.motion, out);
   limit_torques(interval.motion, out);

@@ -11,8 +11,8 @@
 #include "mcplan/planar/task.hpp"
 #include "planar/sip/layout.hpp"
 
-/// The robots and motions of Lengagne et al., and random parameters for them. (A smaller robot: planar/robots.hpp.)
-namespace sip_motions {
+/// The robots and tasks of Lengagne et al., and random parameters for them. (A smaller robot: planar/robots.hpp.)
+namespace planar_tasks {
 
 using Eigen::Vector2d;
 using mcplan::PlanarBody;
@@ -98,87 +98,87 @@ inline mcplan::PlanarSurface surface(const std::string& name, const Vector2d& or
   return out;
 }
 
-/// A phase with these contacts: three intervals at the ends of a motion, four between.
-inline void add_phase(PlanarTask& motion, std::vector<PlanarContact> contacts, int intervals = 4) {
+/// A phase with these contacts: three intervals at the ends of a task, four between.
+inline void add_phase(PlanarTask& task, std::vector<PlanarContact> contacts, int intervals = 4) {
   PlanarPhase phase;
   phase.intervals = intervals;
   phase.contacts = std::move(contacts);
-  motion.phases.push_back(phase);
+  task.phases.push_back(phase);
 }
 
 /// Motion 1: limb A goes up, the robot wheels over limb B, limb C comes down.
 inline PlanarTask cartwheel() {
-  PlanarTask motion;
-  motion.name = "cartwheel";
-  motion.robot = climber();
-  motion.surfaces = {surface("ground", {0.0, 0.0}, 0.0)};
+  PlanarTask task;
+  task.name = "cartwheel";
+  task.robot = climber();
+  task.surfaces = {surface("ground", {0.0, 0.0}, 0.0)};
   const PlanarContact a{0, 0, {0.0, 0.0}, 0.0}, b{1, 0, {0.7, 0.0}, 0.0}, c{2, 0, {1.4, 0.0}, 0.0};
-  add_phase(motion, {a, b}, 3);
-  add_phase(motion, {b});
-  add_phase(motion, {b, c}, 3);
-  motion.phases[1].clearances = {{0, 0, 0, -1, 0.0}, {2, 0, 0, -1, 0.0}};
-  return motion;
+  add_phase(task, {a, b}, 3);
+  add_phase(task, {b});
+  add_phase(task, {b, c}, 3);
+  task.phases[1].clearances = {{0, 0, 0, -1, 0.0}, {2, 0, 0, -1, 0.0}};
+  return task;
 }
 
 /// Motion 2: up a slope of 30 degrees with a wall behind; nine phases.
 inline PlanarTask climbing() {
-  PlanarTask motion;
-  motion.name = "climbing";
-  motion.robot = climber();
-  motion.surfaces = {surface("slope", {0.0, 0.0}, M_PI / 6.0), surface("wall", {-0.45, 0.0}, -M_PI / 2.0)};
-  const Vector2d up = motion.surfaces[0].tangent_W();
+  PlanarTask task;
+  task.name = "climbing";
+  task.robot = climber();
+  task.surfaces = {surface("slope", {0.0, 0.0}, M_PI / 6.0), surface("wall", {-0.45, 0.0}, -M_PI / 2.0)};
+  const Vector2d up = task.surfaces[0].tangent_W();
   PlanarContact a{0, 0, {0.0, 0.0}, M_PI / 6.0}, b{1, 0, 0.6 * up, M_PI / 6.0};
   PlanarContact c{2, 1, {-0.45, 0.85}, 1.5 * M_PI};
-  add_phase(motion, {a, b, c}, 3);
-  add_phase(motion, {a, c});
+  add_phase(task, {a, b, c}, 3);
+  add_phase(task, {a, c});
   b.position_W = 0.85 * up;
-  add_phase(motion, {a, b, c});
-  add_phase(motion, {b, c});
+  add_phase(task, {a, b, c});
+  add_phase(task, {b, c});
   a.position_W = 0.3 * up;
-  add_phase(motion, {a, b, c});
-  add_phase(motion, {a, b});
+  add_phase(task, {a, b, c});
+  add_phase(task, {a, b});
   c.position_W.y() = 1.1;
-  add_phase(motion, {a, b, c});
-  add_phase(motion, {a, c});
+  add_phase(task, {a, b, c});
+  add_phase(task, {a, c});
   b.position_W = 1.1 * up;
-  add_phase(motion, {a, b, c}, 3);
-  return motion;
+  add_phase(task, {a, b, c}, 3);
+  return task;
 }
 
 /// Motion 3: four steps of 0.30 m on level ground; nine phases.
 inline PlanarTask walking() {
-  PlanarTask motion;
-  motion.name = "walking";
-  motion.robot = walker();
-  motion.surfaces = {surface("ground", {0.0, 0.0}, 0.0)};
+  PlanarTask task;
+  task.name = "walking";
+  task.robot = walker();
+  task.surfaces = {surface("ground", {0.0, 0.0}, 0.0)};
   PlanarContact feet[] = {{0, 0, {0.0, 0.0}, 0.0}, {1, 0, {0.0, 0.0}, 0.0}};
-  add_phase(motion, {feet[0], feet[1]}, 3);
+  add_phase(task, {feet[0], feet[1]}, 3);
   for (int step = 0; step < 4; ++step) {
     PlanarContact &stands = feet[step % 2], &swings = feet[1 - step % 2];
-    add_phase(motion, {stands});
-    motion.phases.back().clearances = {{swings.end_effector, 0, 0, -1, 0.03}};
+    add_phase(task, {stands});
+    task.phases.back().clearances = {{swings.end_effector, 0, 0, -1, 0.03}};
     swings.position_W.x() = 0.3 * (step + 1);
-    add_phase(motion, {feet[0], feet[1]}, step == 3 ? 3 : 4);
+    add_phase(task, {feet[0], feet[1]}, step == 3 ? 3 : 4);
   }
-  return motion;
+  return task;
 }
 
-inline PlanarTask paper_motion(int number) { return number == 1 ? cartwheel() : number == 2 ? climbing() : walking(); }
+inline PlanarTask paper_task(int number) { return number == 1 ? cartwheel() : number == 2 ? climbing() : walking(); }
 
 /// Parameters of no particular motion: postures about zero, intervals of 0.1 to 0.3 s, weights and forces of ordinary
 /// size.
-inline Eigen::VectorXd random_parameters(const PlanarTask& motion, const mcplan::sip::Layout& layout, unsigned seed) {
+inline Eigen::VectorXd random_parameters(const PlanarTask& task, const mcplan::sip::Layout& layout, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   Eigen::VectorXd x(layout.parameters);
   for (double& value : x) value = unit(random);
   x.head(layout.first_duration) *= 0.3;
   for (int p = 0; p < layout.durations; ++p) {
-    const int intervals = layout.durations == 1 ? layout.intervals : motion.phases[p].intervals;
+    const int intervals = layout.durations == 1 ? layout.intervals : task.phases[p].intervals;
     x[layout.first_duration + p] = intervals * (0.2 + 0.1 * unit(random));
   }
   for (int k = 0; k < layout.intervals; ++k) x.segment(layout.first_force[k], layout.forces[k]) *= 50.0;
   return x;
 }
 
-}  // namespace sip_motions
+}  // namespace planar_tasks
