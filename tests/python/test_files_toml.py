@@ -38,7 +38,12 @@ def test_headers_of_names_that_are_no_text_are_written():
     assert tomllib.loads(written.encode("utf-8").decode()) == {"a": 1}
 
 
-READERS = {"gravity": mp.load_scene, "mass": mp.load_robot, "bodies": mp.load_planar_robot, "phases": mp.load_planar_task}
+READERS = {
+    "gravity": mp.load_scene,
+    "mass": mp.load_robot,
+    "bodies": mp.load_planar_robot,
+    "phases": mp.load_planar_task,
+}
 LITERALS = ("true", '"x"', '"it\'s"', '{ a = [true, 1], "b c" = {} }', "2026-01-01", "07:32:00.500000000")
 
 

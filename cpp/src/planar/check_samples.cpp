@@ -13,8 +13,8 @@ double determinant(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() 
 double distance_to_segment(const Vector2d& point, const Vector2d& from, const Vector2d& to) {
   const Vector2d along = to - from;
   const double squared = along.squaredNorm();
-  const double share = squared > 0.0 ? std::clamp(along.dot(point - from) / squared, 0.0, 1.0) : 0.0;
-  return (point - from - share * along).norm();
+  const double ratio = squared > 0.0 ? std::clamp(along.dot(point - from) / squared, 0.0, 1.0) : 0.0;
+  return (point - from - ratio * along).norm();
 }
 
 const PlanarRobot& robot_of(const Sample& sample) { return sample.plan.task.robot; }

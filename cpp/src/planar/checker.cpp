@@ -57,9 +57,9 @@ namespace {
 void require_samples(const PlanarPlan& plan, double sample_s) {
   if (!(std::isfinite(sample_s) && sample_s > 0.0))
     throw InvalidOptions("tolerances.sample_s", "must be a positive number", text(sample_s));
-  constexpr double kMost = 2e6;
+  constexpr double kMax = 2e6;
   const double samples = plan.duration() / sample_s;
-  if (samples > kMost)
+  if (samples > kMax)
     throw InvalidOptions("tolerances.sample_s", "must cut the plan into at most 2e6 samples",
                          text(samples) + " samples");
 }

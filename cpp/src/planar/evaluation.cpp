@@ -80,22 +80,22 @@ void Evaluation::compute_base(const PlanarPhase& phase) {
   x.base_acceleration.setZero();
   frames = planar_kinematics(plan_.task.robot, x);
 
-  const double share = 1.0 / static_cast<double>(phase.contacts.size());
+  const double ratio = 1.0 / static_cast<double>(phase.contacts.size());
   soles.clear();
   for (const PlanarContact& contact : phase.contacts) {
     soles.push_back(sole_of(plan_.task.robot, frames, contact.end_effector));
-    x.base[2] += share * (contact.angle - soles.back().angle);
-    x.base_velocity[2] -= share * soles.back().rate;
-    x.base_acceleration[2] -= share * soles.back().angular_acceleration;
+    x.base[2] += ratio * (contact.angle - soles.back().angle);
+    x.base_velocity[2] -= ratio * soles.back().rate;
+    x.base_acceleration[2] -= ratio * soles.back().angular_acceleration;
   }
   Eigen::Matrix2d turn;
   turn << std::cos(x.base[2]), -std::sin(x.base[2]), std::sin(x.base[2]), std::cos(x.base[2]);
   const double w = x.base_velocity[2], w_dot = x.base_acceleration[2];
   for (std::size_t i = 0; i < soles.size(); ++i) {
     const Vector2d &r = soles[i].position_W, &v = soles[i].velocity_W, &a = soles[i].acceleration_W;
-    x.base.head<2>() += share * (phase.contacts[i].position_W - turn * r);
-    x.base_velocity.head<2>() -= share * turn * (v + w * left_of(r));
-    x.base_acceleration.head<2>() -= share * turn * (a + 2.0 * w * left_of(v) + w_dot * left_of(r) - w * w * r);
+    x.base.head<2>() += ratio * (phase.contacts[i].position_W - turn * r);
+    x.base_velocity.head<2>() -= ratio * turn * (v + w * left_of(r));
+    x.base_acceleration.head<2>() -= ratio * turn * (a + 2.0 * w * left_of(v) + w_dot * left_of(r) - w * w * r);
   }
 }
 

@@ -62,8 +62,8 @@ Eigen::MatrixXd least_norm_gain(const PlanarTask& task, int phase, const Eigen::
     gamma[2 * v] = 1.0 / (kTangential * weights[v]);
     gamma[2 * v + 1] = 1.0 / weights[v];
   }
-  constexpr double kLeast = 1e-6;  // [m]
-  if (!(spread > kLeast))
+  constexpr double kMin = 1e-6;  // [m]
+  if (!(spread > kMin))
     throw InvalidPlan("task.phases[" + std::to_string(phase) + "].contacts",
                       "must have two points apart from each other, to balance a moment", std::to_string(spread) + " m");
   const Eigen::MatrixXd weighted = gamma.asDiagonal() * g.transpose();

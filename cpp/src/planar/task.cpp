@@ -77,20 +77,20 @@ double longest_stretch(const PlanarRobot& robot, int first, int second) {
 
 void require_reachable(const PlanarTask& task, const PlanarContact& a, const PlanarContact& b,
                        const std::string& field) {
-  const auto& ends = task.robot.end_effectors;
+  const auto& end_effectors = task.robot.end_effectors;
   if (a.end_effector == b.end_effector) {
     if ((a.position_W - b.position_W).norm() > kPlace || std::abs(a.angle - b.angle) > kPlace)
-      throw InvalidPlanarTask(
-          field + ".position",
-          "must be where " + text(ends[a.end_effector].name) + " stands in the phase before, which it does not leave",
-          text(b.position_W) + " rad " + text(b.angle));
+      throw InvalidPlanarTask(field + ".position",
+                              "must be where " + text(end_effectors[a.end_effector].name) +
+                                  " stands in the phase before, which it does not leave",
+                              text(b.position_W) + " rad " + text(b.angle));
     return;
   }
   const double distance = (a.position_W - b.position_W).norm();
   const double stretch = longest_stretch(task.robot, a.end_effector, b.end_effector);
   if (distance > stretch + kPlace)
     throw InvalidPlanarTask(field + ".position",
-                            "must be within " + text(stretch) + " m of " + text(ends[a.end_effector].name) +
+                            "must be within " + text(stretch) + " m of " + text(end_effectors[a.end_effector].name) +
                                 ", all that the limbs between them can stretch",
                             text(distance) + " m");
 }

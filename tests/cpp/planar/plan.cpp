@@ -89,8 +89,8 @@ TEST_CASE("velocities and accelerations are those of the positions, the base's t
   for (const PlanarPlan& plan : {moving_plan(), parameterised_plan()}) {
     const double h = 1e-5;
     for (int phase : {0, 1, 2})
-      for (double share : {0.1, 0.4, 0.7}) {
-        const double t = share * plan.durations[phase];
+      for (double ratio : {0.1, 0.4, 0.7}) {
+        const double t = ratio * plan.durations[phase];
         const auto x = [&](double when) { return plan.at_phase(phase, when).configuration; };
         const auto before = x(t - h), now = x(t), after = x(t + h);
         CHECK((now.velocity - (after.q - before.q) / (2.0 * h)).norm() < 1e-7);

@@ -13,7 +13,7 @@ namespace {
 
 /// Halvings that are made even where they are not needed for a proof: they cost little, and bounds come close to what
 /// they bound.
-constexpr int kLeastDepth = 2;
+constexpr int kMinDepth = 2;
 
 struct Place {
   int phase = -1;
@@ -123,7 +123,7 @@ int prove(const IntervalRows& interval, int max_depth, const StopRequest& stop, 
     std::vector<int> open;
     for (std::size_t i = 0; i < amounts.size(); ++i) {
       const Row& row = interval.rows()[piece.rows[i]];
-      const bool settled = piece.depth >= kLeastDepth && ledger.settled(row.kind, amounts[i].upper());
+      const bool settled = piece.depth >= kMinDepth && ledger.settled(row.kind, amounts[i].upper());
       if (piece.depth >= max_depth || settled)
         ledger.close(row, phase, time_s(amounts[i]), amounts[i]);
       else

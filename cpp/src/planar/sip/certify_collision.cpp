@@ -33,12 +33,12 @@ struct Segments {
       return squared > 0.0 ? std::clamp(along.dot(point - from) / squared, 0.0, 1.0) : 0.0;
     };
     Shares best;
-    double least = std::numeric_limits<double>::infinity();
+    double min_distance = std::numeric_limits<double>::infinity();
     for (const Shares& ends : {Shares{0.0, share(a0, b0, along_b)}, Shares{1.0, share(a1, b0, along_b)},
                                Shares{share(b0, a0, along_a), 0.0}, Shares{share(b1, a0, along_a), 1.0}}) {
       const double distance = between(ends).norm();
-      if (distance < least) {
-        least = distance;
+      if (distance < min_distance) {
+        min_distance = distance;
         best = ends;
       }
     }

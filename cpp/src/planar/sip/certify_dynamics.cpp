@@ -120,14 +120,14 @@ void PieceModels::kinematics() {
     origin_.push_back(b == 0 ? zero_vector() : origin_[parent] + rotated(parent, {robot_.bodies[b].joint_P, 0.0}));
   }
 
-  const double share = 1.0 / static_cast<double>(constants_.contacts.size());
+  const double ratio = 1.0 / static_cast<double>(constants_.contacts.size());
   if (piece_.base_given) {
     base_W_ = {TaylorModel::of(order_, piece_.base[0].position), TaylorModel::of(order_, piece_.base[1].position)};
   } else {  // eq. 12
     Vector sum = zero_vector();
     for (const ContactFrame& contact : constants_.contacts)
       sum += constant(contact.position_W) + -from_base(contact.body, contact.position_B);
-    base_W_ = zero_vector().add_scaled(share, sum, kEpsilon * share);
+    base_W_ = zero_vector().add_scaled(ratio, sum, kEpsilon * ratio);
   }
 
   for (const ContactFrame& contact : constants_.contacts) {
@@ -165,10 +165,10 @@ void PieceModels::accelerations() {
   if (piece_.base_given) {
     base = {TaylorModel::of(order_, piece_.base[0].acceleration), TaylorModel::of(order_, piece_.base[1].acceleration)};
   } else {
-    const double share = 1.0 / static_cast<double>(constants_.contacts.size());
+    const double ratio = 1.0 / static_cast<double>(constants_.contacts.size());
     for (const ContactFrame& contact : constants_.contacts)
-      base.add_scaled(-share, origin[contact.body] + rotated_acceleration(contact.body, contact.position_B),
-                      kEpsilon * share);
+      base.add_scaled(-ratio, origin[contact.body] + rotated_acceleration(contact.body, contact.position_B),
+                      kEpsilon * ratio);
   }
   for (int b = 0; b < bodies; ++b)
     com_acceleration_.push_back(base + origin[b] + rotated_acceleration(b, {robot_.bodies[b].com_B, 0.0}));
@@ -194,8 +194,8 @@ void PieceModels::inertial_forces() {
     inertial_moment_[body.parent] += cross(rotated(body.parent, {body.joint_P, 0.0}), inertial_force_[b]);
   }
   const Vector from_moment_point = base_W_ + -constant({constants_.moment_point_W, 0.0});
-  wanted_ = {inertial_force_[0].x, inertial_force_[0].y,
-             inertial_moment_[0] + cross(from_moment_point, inertial_force_[0])};
+  desired_ = {inertial_force_[0].x, inertial_force_[0].y,
+              inertial_moment_[0] + cross(from_moment_point, inertial_force_[0])};
 }
 
 void PieceModels::contact_forces() {
@@ -209,7 +209,7 @@ void PieceModels::contact_forces() {
           along[d] = TaylorModel::of(order_, force_polynomials_[row]);
         } else {
           along[d] = zero();
-          for (int i = 0; i < 3; ++i) along[d].add_scaled(constants_.gain(row, i), wanted_[i]);
+          for (int i = 0; i < 3; ++i) along[d].add_scaled(constants_.gain(row, i), desired_[i]);
         }
       }
       Vector force = zero_vector();
@@ -249,7 +249,7 @@ void PieceModels::residuals() {
     const auto leaks = [&](int row) {
       double sum = 0.0;
       for (int i = 0; i < 3; ++i) {
-        const Range range = wanted_[i].range();
+        const Range range = desired_[i].range();
         sum += constants_.leak(row, i) * std::max(std::abs(range.min), std::abs(range.max));
       }
       return TaylorModel::constant(order_, 0.0, sum * (1.0 + 16.0 * kEpsilon));

@@ -101,7 +101,7 @@ class PieceModels {
   std::vector<Vector> point_forces_;          ///< in the world
   std::vector<Vector> contact_forces_;        ///< of a contact: sum, and sum of its points' places times theirs
   std::vector<Vector> contact_first_moments_;
-  std::array<TaylorModel, 3> wanted_;  ///< [m (a - g); moment about the moment point]
+  std::array<TaylorModel, 3> desired_;  ///< [m (a - g); moment about the moment point]
 };
 
 }  // namespace mcplan::sip::proof

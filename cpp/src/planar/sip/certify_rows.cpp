@@ -166,9 +166,9 @@ IntervalRows::IntervalRows(const PlanarPlan& plan, const PhaseConstants& constan
 
 std::vector<Amount> IntervalRows::evaluate(double middle, double half_width, const std::vector<int>& listed) const {
   bool kinematics = false, dynamics = false;
-  std::vector<char> wanted(rows_.size(), 0);
+  std::vector<char> chosen(rows_.size(), 0);
   for (int i : listed) {
-    wanted[i] = 1;
+    chosen[i] = 1;
     kinematics = kinematics || needs_kinematics(rows_[i].kind);
     dynamics = dynamics || needs_dynamics(rows_[i].kind);
   }
@@ -183,7 +183,7 @@ std::vector<Amount> IntervalRows::evaluate(double middle, double half_width, con
   std::vector<Amount> out;
   std::size_t index = 0;
   visit(piece, &models, [&](Kind, const auto&, const auto& amount) {
-    if (wanted[index++]) out.push_back(amount());
+    if (chosen[index++]) out.push_back(amount());
   });
   return out;
 }

@@ -71,8 +71,8 @@ UncertainPolynomial base_angle(const PlanarPlan& plan, const PlanarPhase& phase,
       relative = relative + constant(robot.bodies[b].offset) + joints[b - 1];
     sum = sum + constant(contact.angle) - relative;
   }
-  const double share = 1.0 / static_cast<double>(phase.contacts.size());
-  return sum.scaled(share, kEpsilon * share);
+  const double ratio = 1.0 / static_cast<double>(phase.contacts.size());
+  return sum.scaled(ratio, kEpsilon * ratio);
 }
 
 }  // namespace

@@ -45,15 +45,15 @@ void IntervalMotion::add_inputs(const Layout& layout) {
     splines_.push_back(graph.input(3, std::move(columns)));
     if (!fixed_basis) graph.input_of(splines_.back()).curvature.assign(4, Eigen::MatrixXd::Zero(count, count));
   }
-  const double share = local.knot_share[2];
+  const double ratio = local.knot_ratio[2];
   const int own = local.duration_column(local.own_duration);
   const auto power = [&](double factor, int exponent) {
     const Node node = graph.input(0, {own});
     graph.input_of(node).curvature.assign(1, Eigen::MatrixXd::Zero(1, 1));
     powers_.push_back({node, factor, exponent});
   };
-  power(0.5 * share, 1);
-  for (int k = 1; k <= 3; ++k) power(std::pow(2.0 / share, k), -k);
+  power(0.5 * ratio, 1);
+  for (int k = 1; k <= 3; ++k) power(std::pow(2.0 / ratio, k), -k);
   half_length = powers_[0].node;
 
   const int joint_count = task.robot.joint_count();
@@ -75,7 +75,7 @@ void IntervalMotion::add_angles() {
   const PlanarRobot& robot = task.robot;
   const PlanarPhase& phase = task.phases[local.phase];
   const int count = static_cast<int>(robot.bodies.size());
-  const double share = 1.0 / static_cast<double>(phase.contacts.size());
+  const double ratio = 1.0 / static_cast<double>(phase.contacts.size());
 
   // Angles relative to the base, as sums of joints.
   std::vector<Terms> relative(count);
@@ -91,8 +91,8 @@ void IntervalMotion::add_angles() {
   if (base_computed()) {
     for (const PlanarContact& contact : phase.contacts) {
       const PlanarEndEffector& foot = robot.end_effectors[contact.end_effector];
-      append(base_angle, relative[foot.body], -share);
-      base_offset += share * (contact.angle - offset[foot.body] - foot.angle_B);
+      append(base_angle, relative[foot.body], -ratio);
+      base_offset += ratio * (contact.angle - offset[foot.body] - foot.angle_B);
     }
   } else {
     base_angle = {{1.0, splines_[robot.joint_count() + 2]}};
@@ -120,7 +120,7 @@ void IntervalMotion::add_base() {
   const PlanarRobot& robot = task.robot;
   const PlanarPhase& phase = task.phases[local.phase];
   const int count = static_cast<int>(robot.bodies.size());
-  const double share = 1.0 / static_cast<double>(phase.contacts.size());
+  const double ratio = 1.0 / static_cast<double>(phase.contacts.size());
 
   // Joints relative to the base's origin: constant combinations of sines and cosines.
   struct Place {
@@ -142,11 +142,11 @@ void IntervalMotion::add_base() {
     for (const PlanarContact& contact : phase.contacts) {
       const PlanarEndEffector& foot = robot.end_effectors[contact.end_effector];
       const Place place = moved(joint[foot.body], foot.body, foot.position_B);
-      append(base_x, place.x, -share);
-      append(base_y, place.y, -share);
+      append(base_x, place.x, -ratio);
+      append(base_y, place.y, -ratio);
       // One rounding, whatever the compiler makes of this function: the last bits of plans depend on it.
       for (int i = 0; i < 2; ++i)
-        base_constant[i] = std::fma(share, contact.position_W[i] - origin_W[i], base_constant[i]);
+        base_constant[i] = std::fma(ratio, contact.position_W[i] - origin_W[i], base_constant[i]);
     }
   } else {
     base_x = {{1.0, splines_[robot.joint_count()]}};

@@ -14,7 +14,7 @@ void IntervalMotion::set_splines(const Eigen::Ref<const Eigen::VectorXd>& x, boo
   std::array<Jet, 5> spacing;
   for (int d = 0; d < 5; ++d)
     spacing[d] =
-        Jet::variable(x[local.duration_column(local.knot_duration[d])], local.knot_duration[d], local.knot_share[d]);
+        Jet::variable(x[local.duration_column(local.knot_duration[d])], local.knot_duration[d], local.knot_ratio[d]);
   Eigen::Matrix4d basis = Eigen::Matrix4d::Zero();  // by distinct control point
   std::array<Eigen::Matrix4d, Jet::kSize> first;
   std::array<std::array<Eigen::Matrix4d, Jet::kSize>, Jet::kSize> second;

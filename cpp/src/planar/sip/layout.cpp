@@ -59,7 +59,7 @@ LocalParameters::LocalParameters(const PlanarTask& task, const Layout& layout, i
   for (int d = -2; d <= 2; ++d) {
     const int at = std::clamp(k + d, 0, layout.intervals - 1), of = task.phase_of(at);
     durations.push_back(layout.duration_of_phase(of));
-    knot_share[d + 2] = 1.0 / (layout.durations == 1 ? layout.intervals : task.phases[of].intervals);
+    knot_ratio[d + 2] = 1.0 / (layout.durations == 1 ? layout.intervals : task.phases[of].intervals);
   }
   const std::vector<int> of_knot = durations;
   std::sort(durations.begin(), durations.end());

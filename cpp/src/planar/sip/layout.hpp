@@ -49,7 +49,7 @@ struct LocalParameters {
   std::vector<int> durations;          ///< variables, ascending
   int own_duration = 0;                ///< index into durations of the interval's phase
   std::array<int, 5> knot_duration{};  ///< of the five spacings about the interval: index into durations
-  std::array<double, 5> knot_share{};  ///< spacing = share * duration
+  std::array<double, 5> knot_ratio{};  ///< spacing = ratio * duration
   int weights = 0, forces = 0;
   std::vector<int> variables;  ///< in the program, column by column
 

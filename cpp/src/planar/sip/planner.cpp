@@ -268,7 +268,7 @@ void Planner::Impl::part(nlp::Solution& solution, double cost_scale, Eigen::Vect
 /// thousand where intervals are long: then again from here with twice that as a margin.
 void Planner::Impl::tighten(nlp::Solution& solution, double cost_scale) {
   constexpr int kRounds = 3;
-  constexpr double kMostMargin = 0.02;
+  constexpr double kMaxMargin = 0.02;
   Options with = options;
   for (int round = 0; round < kRounds && solution.outcome == nlp::Outcome::converged; ++round) {
     if (deadline.limited() && deadline.remaining_s() <= 2.0 * finishing_s(options, solution.x)) return;
@@ -278,7 +278,7 @@ void Planner::Impl::tighten(nlp::Solution& solution, double cost_scale) {
       excess = std::max(excess, v.value);
     }
     with.margin += 2.0 * excess;
-    if (excess == 0.0 || with.margin > kMostMargin) return;
+    if (excess == 0.0 || with.margin > kMaxMargin) return;
     nlp::Solution next = run(with, cost_scale, solution.x, true);
     if (next.outcome != nlp::Outcome::converged) return;
     solution = std::move(next);

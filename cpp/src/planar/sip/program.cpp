@@ -195,8 +195,8 @@ Eigen::VectorXd zero_start(const PlanarTask& task, const Options& options, const
   }
   for (std::size_t p = 0; p < task.phases.size(); ++p) {
     const Range range = duration_range(task, options, static_cast<int>(p));
-    const double share = task.phases[p].intervals / static_cast<double>(layout.intervals);
-    x[layout.first_duration + static_cast<int>(p)] = std::clamp(share, range.min, range.max);
+    const double ratio = task.phases[p].intervals / static_cast<double>(layout.intervals);
+    x[layout.first_duration + static_cast<int>(p)] = std::clamp(ratio, range.min, range.max);
   }
   return x;
 }

@@ -143,8 +143,8 @@ PlanarPlan plan_of(const PlanarTask& task, const Options& options, const Layout&
   plan.planner = "sip";
   const int joints = task.robot.joint_count();
   for (std::size_t p = 0; p < task.phases.size(); ++p) {
-    const double share = layout.durations == 1 ? task.phases[p].intervals / static_cast<double>(layout.intervals) : 1.0;
-    plan.durations.push_back(share * x[layout.duration_of_phase(static_cast<int>(p))]);
+    const double ratio = layout.durations == 1 ? task.phases[p].intervals / static_cast<double>(layout.intervals) : 1.0;
+    plan.durations.push_back(ratio * x[layout.duration_of_phase(static_cast<int>(p))]);
   }
   plan.control_points.resize(joints, layout.intervals + 3);
   if (layout.splines > joints) plan.base_control_points.resize(3, layout.intervals + 3);

@@ -54,16 +54,16 @@ struct Majorant {
   double head = 0.0, tail = 0.0;
 };
 Majorant majorant(const Coefficients& a, int degree) {
-  constexpr int most = 160;
+  constexpr int max_terms = 160;
   std::array<double, max_order + 1> weight{};
   double sum = 0.0;
   for (int m = 1; m <= degree; ++m) sum += weight[m] = m * std::abs(a[m]);
   const int n = static_cast<int>(a.size()) - 1;
   Majorant out;
   if (sum == 0.0) return {1.0, 0.0};
-  std::array<double, most + 1> term;
+  std::array<double, max_terms + 1> term;
   term[0] = out.head = 1.0;
-  for (int k = 1; k <= most; ++k) {
+  for (int k = 1; k <= max_terms; ++k) {
     double next = 0.0;
     for (int m = 1; m <= std::min(k, degree); ++m) next += weight[m] * term[k - m];
     term[k] = next / k;

@@ -115,7 +115,7 @@ TEST_CASE("an interval touches its control points, the durations about it, and i
           const int at = std::clamp(k + d - 2, 0, layout.intervals - 1), phase = task.phase_of(at);
           CHECK(local.variables[local.duration_column(local.knot_duration[d])] ==
                 layout.first_duration + (free ? phase : 0));
-          CHECK(local.knot_share[d] == doctest::Approx(1.0 / (free ? task.phases[phase].intervals : 34)));
+          CHECK(local.knot_ratio[d] == doctest::Approx(1.0 / (free ? task.phases[phase].intervals : 34)));
         }
         CHECK(local.own_duration == local.knot_duration[2]);
         if (local.weights > 0) CHECK(local.variables[local.weight_column(0)] == layout.first_weight[local.phase]);

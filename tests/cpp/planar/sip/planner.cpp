@@ -98,11 +98,11 @@ TEST_CASE("the reported torque integral is that of exact torques") {
   double sum = 0.0;
   for (int k = 0; k < 3; ++k)
     for (int i = 0; i <= 2 * kPieces; ++i) {
-      const double share = i == 0 || i == 2 * kPieces ? 1.0
+      const double ratio = i == 0 || i == 2 * kPieces ? 1.0
                            : i % 2 == 1               ? 4.0
                                                       : 2.0,
                    step = plan.durations[k] / kPieces;
-      sum += share * step / 6.0 * plan.at_phase(k, 0.5 * i * step).torque.squaredNorm();
+      sum += ratio * step / 6.0 * plan.at_phase(k, 0.5 * i * step).torque.squaredNorm();
     }
   CHECK(feasible_cartwheel().report.cost_terms.at("torque") == doctest::Approx(sum).epsilon(1e-3));
 }

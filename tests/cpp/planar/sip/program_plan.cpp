@@ -100,8 +100,8 @@ TEST_CASE("weights of another force law are taken over as far as there are param
   const Options point = with(Forces::per_point, true);
   const Layout other(task, point);
   const PlanarPlan by_point = plan_of(task, point, other, parameters_of(by_body, task, point, other));
-  for (double share : {0.1, 0.4, 0.8}) {
-    const auto a = by_body.at(share * by_body.duration()), b = by_point.at(share * by_body.duration());
+  for (double ratio : {0.1, 0.4, 0.8}) {
+    const auto a = by_body.at(ratio * by_body.duration()), b = by_point.at(ratio * by_body.duration());
     CHECK((a.torque - b.torque).cwiseAbs().maxCoeff() < 1e-8);
   }
   // Uniform weights are forgotten, splines and durations are not.

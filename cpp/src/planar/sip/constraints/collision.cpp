@@ -80,9 +80,9 @@ void keep_apart(IntervalMotion& motion, const CloseDiscs* close, std::vector<Lim
         const TaylorGraph::Node y = graph.linear({{1.0, p.y}, {-1.0, q.y}}, 0.0, order);
         const TaylorGraph::Node squared =
             graph.linear({{1.0, graph.product(x, x, order)}, {1.0, graph.product(y, y, order)}});
-        const double least = first[m].radius + second[n].radius;
-        out.push_back({"collision of " + robot.bodies[a].name + " and " + robot.bodies[b].name, squared, least * least,
-                       INFINITY, 1.0 / (least * least)});
+        const double min_distance = first[m].radius + second[n].radius;
+        out.push_back({"collision of " + robot.bodies[a].name + " and " + robot.bodies[b].name, squared,
+                       min_distance * min_distance, INFINITY, 1.0 / (min_distance * min_distance)});
       }
   }
 }

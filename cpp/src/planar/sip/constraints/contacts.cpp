@@ -24,8 +24,8 @@ void hold_contacts(IntervalMotion& motion, std::vector<Limited>& out) {
     const std::string& who = motion.task.robot.end_effectors[contacts[i].end_effector].name;
     const auto hold = [&](const std::string& name, TaylorGraph::Node node, double tube) {
       // The solver's tolerance comes off, so that what it calls kept is inside the tube.
-      const double room = tube * (1.0 - std::min(0.1, options.constraint_tolerance / kWidth));
-      Limited row{name + " of " + who, node, -room, room, kWidth / tube};
+      const double margin = tube * (1.0 - std::min(0.1, options.constraint_tolerance / kWidth));
+      Limited row{name + " of " + who, node, -margin, margin, kWidth / tube};
       if (options.contact == ContactMode::strict) {
         row.lower = row.upper = 0.0;
         row.scale = 1.0;

@@ -24,8 +24,8 @@ void keep_in_friction_cone(IntervalMotion& motion, std::vector<Limited>& out) {
     const IntervalMotion::Force& force = motion.forces[v];
     const double mu = motion.task.surfaces[contacts[force.contact].surface].friction;
     for (double side : {1.0, -1.0}) {
-      const TaylorGraph::Node room = motion.graph.linear({{mu, force.normal}, {side, force.tangential}});
-      out.push_back({"friction of " + place(motion, v), room, motion.options.margin * unit, INFINITY, 1.0 / unit});
+      const TaylorGraph::Node spare = motion.graph.linear({{mu, force.normal}, {side, force.tangential}});
+      out.push_back({"friction of " + place(motion, v), spare, motion.options.margin * unit, INFINITY, 1.0 / unit});
     }
   }
 }
