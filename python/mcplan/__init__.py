@@ -121,6 +121,7 @@ if not TYPE_CHECKING:
     _MOVED |= {"PlanResult": "ddp.Result", "Walk": "rhp.Walk", "load_motion": "load_planar_task"}
     _MOVED |= {"InvalidMotion": "errors.InvalidPlanarTask", "UnknownMotion": "errors.UnknownPlanarTask"}
     PlanarPlan.motion = moved.attribute("PlanarPlan", "motion", "task")
+    Robot.pressure_share = moved.attribute("Robot", "pressure_share", "pressure_ratio")
 
     def __getattr__(name: str) -> Any:
         if name not in _MOVED:

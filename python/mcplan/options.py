@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import warnings
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
@@ -10,6 +11,8 @@ from mcplan.arguments import require
 from mcplan.errors import InvalidOptions, did_you_mean, shown
 
 ALIASES = {"time_limit": "time_limit_s"}
+#: Names that options had until 0.1.
+EARLIER = {"sole_share": "sole_ratio", "friction_share": "friction_ratio"}
 _Options = TypeVar("_Options")
 
 
@@ -48,6 +51,10 @@ def fill(options: Any, values: Mapping[str, Any]) -> Any:
             raise InvalidOptions(short, f"may not stand beside {name}, which it is short for", shown(values[short]))
     for name, value in values.items():
         name = ALIASES.get(name, name)
+        if name in EARLIER and hasattr(options, EARLIER[name]):
+            rule = f"the option {name} is {EARLIER[name]} now; the earlier name goes with the next release"
+            warnings.warn(rule, DeprecationWarning, stacklevel=4)
+            name = EARLIER[name]
         if name == "weights" and isinstance(value, Mapping):
             for weight, amount in value.items():
                 _set(options.weights, weight, amount, prefix="weights.")

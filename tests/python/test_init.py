@@ -11,6 +11,8 @@ import pytest
 
 import mcplan as mp
 from mcplan import _core, errors, model
+from mcplan.files.robots import save_robot
+from mcplan.options import fill
 from standing import standing_plan, standing_scene
 from stepping import stepping_plan
 
@@ -65,6 +67,31 @@ def test_the_task_of_a_plan_can_be_read_and_written_by_its_earlier_name():
     with pytest.warns(DeprecationWarning) as told:
         plan.motion = mp.load_planar_task("chimney")
     assert len(told) == 1 and plan.task == mp.load_planar_task("chimney")
+
+
+def test_ratios_can_be_read_and_given_by_their_earlier_names():
+    robot = mp.load_robot("talos")
+    with pytest.warns(DeprecationWarning, match=r"^mcplan\.Robot\.pressure_share is mcplan\.Robot\.pressure_ratio now"):
+        assert robot.pressure_share == robot.pressure_ratio == 0.75
+    with pytest.warns(DeprecationWarning, match="^the option sole_share is sole_ratio now"):
+        chosen = fill(mp.rhp.Options(), {"sole_share": 0.5})
+    assert chosen.sole_ratio == 0.5
+    with pytest.warns(DeprecationWarning, match="^the option friction_share is friction_ratio now"):
+        mp.receding_horizon("rubbles", "talos_wang", friction_share=0.9)
+
+
+def test_files_with_the_earlier_key_of_a_ratio_are_read(tmp_path):
+    file = tmp_path / "talos.toml"
+    robot = mp.load_robot("talos")
+    robot.pressure_ratio = 0.5
+    save_robot(robot, file)
+    text = file.read_text()
+    assert text.count("pressure_ratio = 0.5") == 1
+    file.write_text(text.replace("pressure_ratio", "pressure_share"))
+    assert mp.load_robot(file) == robot
+    file.write_text(text.replace("pressure_ratio = 0.5", "pressure_ratio = 0.5\npressure_share = 0.5"))
+    with pytest.raises(errors.InvalidRobot, match="pressure_share: no such key"):
+        mp.load_robot(file)
 
 
 @pytest.mark.parametrize("module", [mp.ddp, errors, model, mp.rhp, mp.sip], ids=lambda module: module.__name__)
