@@ -34,8 +34,27 @@ def table_for(*names: str, scene: str = "flat") -> mp.Scene:
 
 @pytest.mark.parametrize("robot", list_robots())
 def test_built_in_scenes_serve_robots_with_other_limbs_without_a_word(robot):
-    said = {name for name in list_scenes() if warned(mp.load_scene(name), mp.load_robot(robot))}
-    assert said == ({"chimney"} if robot == "anymal" else set())  # each wall is for a limb that anymal has not
+    robot = mp.load_robot(robot)
+    hands = any(end.kind == "hand" for end in robot.end_effectors)
+    said = {name: warned(mp.load_scene(name), robot) for name in list_scenes()}
+    for name, messages in said.items():
+        if name == "chimney" and robot.name == "anymal":  # each wall is for a limb that anymal has not
+            assert len(messages) == 1 and "none that a surface permits" in messages[0]
+        elif mp.load_scene(name).rules and not hands:  # which ask for a hand where the feet leave the ground
+            assert len(messages) == 1 and "so one of when_free is never free" in messages[0]
+        else:
+            assert messages == []
+
+
+def test_a_rule_that_asks_for_limbs_that_the_robot_has_not_is_warned_of():
+    scene, robot = mp.load_scene("flat"), mp.load_robot("humanoid44")
+    scene.rules = [mp.model.ContactRule(when_free=["foot"], require=["left_arm", "right_arm"])]
+    rule = "rules[0].require: humanoid44 has no such end-effector, so one of when_free is never free; it has "
+    assert [message.startswith(f"flat: {rule}") for message in warned(scene, robot)] == [True]
+    scene.rules = [mp.model.ContactRule(when_free=["tail"], require=["left_arm"])]  # is never asked
+    assert warned(scene, robot) == []
+    scene.rules = [mp.model.ContactRule(when_free=["foot"], require=["left_arm", "left_hand"])]  # both have to be
+    assert warned(scene, robot)[0].endswith('got ["left_arm"]')
 
 
 @pytest.mark.parametrize(

@@ -85,7 +85,7 @@ def require(outputs: list[Path], plots: Path | None) -> None:
     from mcplan.files.outputs import require_target
 
     if not outputs and plots is None:
-        raise InvalidInput("--output", "or --plots must say what to draw", "neither")
+        raise InvalidInput("--output or --plots", "must say what to draw")
     require_outputs("show", None, None, plots)
     for path in outputs:
         require_target("--output", path, [suffix for suffixes in endings().values() for suffix in suffixes])

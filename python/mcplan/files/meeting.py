@@ -49,6 +49,13 @@ def warn_of_names(scene: Scene, robot: Robot) -> None:
         first, names = permitting[0]
         rule = f"{robot.name} has none that a surface permits; it has {', '.join(known)}"
         _warn(scene, f"surfaces[{first}].end_effectors", rule, written(list(names)))
+    for i, rule_of_scene in enumerate(scene.rules):
+        lacking = [name for name in rule_of_scene.require if not meant[name]]  # all of them would have to be in contact
+        if lacking and any(meant[name] for name in rule_of_scene.when_free):
+            rule = (
+                f"{robot.name} has no such end-effector, so one of when_free is never free; it has {', '.join(known)}"
+            )
+            _warn(scene, f"rules[{i}].require", rule, written(lacking))
 
 
 def _lists(scene: Scene) -> Iterator[tuple[str, Sequence[str], bool]]:

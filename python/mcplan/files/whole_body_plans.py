@@ -164,6 +164,8 @@ def _checked_header(header: dict[str, Any]) -> dict[str, Any]:
     version = header.get("format")
     if type(version) is not int or version != FORMAT:
         raise InvalidPlan("header.format", f"must be {FORMAT} for this version of mcplan", written(version))
+    if "task" not in header and "motion" in header:  # as until 0.1
+        header = {**header, "task": header["motion"]}
     require_members(header, planner=str, force_law=str, task=dict)
     if header["force_law"] not in _LAWS:
         raise InvalidPlan("header.force_law", f"must be one of {', '.join(_LAWS)}", written(header["force_law"]))
