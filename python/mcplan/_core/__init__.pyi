@@ -765,6 +765,13 @@ class Robot:
     @pressure_ratio.setter
     def pressure_ratio(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def pressure_share(self) -> typing.Any:
+        """
+        Earlier name of ``pressure_ratio``, for one release.
+        """
+    @pressure_share.setter
+    def pressure_share(self, value: typing.Any) -> None: ...
+    @property
     def sole_support(self) -> float:
         """
         [-] Ratio of a sole that a contact sequence keeps on its surface; 0: its centre.
