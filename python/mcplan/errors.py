@@ -28,8 +28,8 @@ __all__ = [
 ]
 
 #: Findings that a message lists before it says how many there are more.
-MOST_FINDINGS = 20
-_MOST_TEXT = 60  # characters of a value that a message shows
+MAX_FINDINGS = 20
+_MAX_TEXT = 60  # characters of a value that a message shows
 
 
 def printable(text: str) -> str:
@@ -39,7 +39,7 @@ def printable(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape", "surrogatepass").decode("ascii") for c in text)
 
 
-def shown(value: Any, most: int = _MOST_TEXT) -> str:
+def shown(value: Any, most: int = _MAX_TEXT) -> str:
     """A value as text for a message: short, printable, and never an error of its own.
 
     Args:
@@ -54,7 +54,7 @@ def shown(value: Any, most: int = _MOST_TEXT) -> str:
     return text if len(text) <= most else text[: most - 3] + "..."
 
 
-def written(value: Any, most: int = _MOST_TEXT) -> str:
+def written(value: Any, most: int = _MAX_TEXT) -> str:
     """A value from a file as text for a message, in the words of the file and not of Python: true, null, "x".
 
     Args:
@@ -96,9 +96,9 @@ class InvalidInput(ValueError):
 
     def __str__(self) -> str:
         findings = [self, *self.others]
-        lines = [printable(finding._line()) for finding in findings[:MOST_FINDINGS]]
-        if len(findings) > MOST_FINDINGS:
-            lines.append(f"and {len(findings) - MOST_FINDINGS} more")
+        lines = [printable(finding._line()) for finding in findings[:MAX_FINDINGS]]
+        if len(findings) > MAX_FINDINGS:
+            lines.append(f"and {len(findings) - MAX_FINDINGS} more")
         return "\n".join(lines)
 
     def _line(self) -> str:
@@ -261,9 +261,9 @@ def did_you_mean(name: str, legal: Iterable[str]) -> str:
 
 def nearest(name: str, legal: Iterable[str]) -> str:
     """The legal name that is most like a name, or "" if none is like it."""
-    if len(name) > _MOST_TEXT:  # comparing takes the square of the length
+    if len(name) > _MAX_TEXT:  # comparing takes the square of the length
         return ""
-    near = difflib.get_close_matches(name, [entry for entry in legal if len(entry) <= _MOST_TEXT], n=1)
+    near = difflib.get_close_matches(name, [entry for entry in legal if len(entry) <= _MAX_TEXT], n=1)
     return near[0] if near else ""
 
 

@@ -6,15 +6,16 @@ import warnings
 from typing import Any
 
 
-def tell(earlier: str, now: str) -> None:
+def tell(earlier: str, now: str, stacklevel: int = 3) -> None:
     """Warn whoever called the caller, in one line.
 
     Args:
         earlier: Name within mcplan, e.g. ``"load_motion"``.
         now: What it is called now, likewise.
+        stacklevel: Calls from here to who used the name.
     """
     rule = f"mcplan.{earlier} is mcplan.{now} now; the earlier name goes with the next release"
-    warnings.warn(rule, DeprecationWarning, stacklevel=3)
+    warnings.warn(rule, DeprecationWarning, stacklevel=stacklevel)
 
 
 def attribute(owner: str, earlier: str, now: str) -> property:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import copy
-import warnings
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
+from mcplan import moved
 from mcplan.arguments import require
 from mcplan.errors import InvalidOptions, did_you_mean, shown
 
 ALIASES = {"time_limit": "time_limit_s"}
-#: Names that options had until 0.1.
+#: Names that options of rhp had until 0.1.
 EARLIER = {"sole_share": "sole_ratio", "friction_share": "friction_ratio"}
 _Options = TypeVar("_Options")
 
@@ -44,17 +44,16 @@ def fill(options: Any, values: Mapping[str, Any]) -> Any:
 
     Raises:
         InvalidOptions: No such option (the message lists those that exist), a wrong type, out of range, or an option
-            under its name and its short name, which may differ.
+            under its name and its short or earlier name, which may differ.
     """
-    for short, name in ALIASES.items():
-        if values.get(short) is not None and values.get(name) is not None:
-            raise InvalidOptions(short, f"may not stand beside {name}, which it is short for", shown(values[short]))
+    for names, what in ((ALIASES, "which it is short for"), (EARLIER, "whose earlier name it is")):
+        for other, name in names.items():
+            if values.get(other) is not None and values.get(name) is not None:
+                raise InvalidOptions(other, f"may not stand beside {name}, {what}", shown(values[other]))
     for name, value in values.items():
-        name = ALIASES.get(name, name)
-        if name in EARLIER and hasattr(options, EARLIER[name]):
-            rule = f"the option {name} is {EARLIER[name]} now; the earlier name goes with the next release"
-            warnings.warn(rule, DeprecationWarning, stacklevel=4)
-            name = EARLIER[name]
+        if name in EARLIER and value is not None and hasattr(options, EARLIER[name]):
+            moved.tell(f"rhp.Options.{name}", f"rhp.Options.{EARLIER[name]}", stacklevel=5)
+        name = (ALIASES | EARLIER).get(name, name)
         if name == "weights" and isinstance(value, Mapping):
             for weight, amount in value.items():
                 _set(options.weights, weight, amount, prefix="weights.")

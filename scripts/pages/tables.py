@@ -183,12 +183,12 @@ def scenes() -> str:
 def file_limits() -> str:
     """Largest sizes of files that are read."""
     rows = [
-        ["scene, robot or planar task (TOML)", size_text(reading.MOST_TOML)],
-        ["reach polytopes (JSON)", size_text(reading.MOST_POLYTOPES)],
-        ["URDF or SRDF", size_text(reading.MOST_URDF)],
-        ["mesh", size_text(reading.MOST_MESH)],
-        ["plan, its arrays", f"{size_text(reading.MOST_PLAN)}, {size_text(reading.MOST_PLAN_INFLATED)}"],
-        ["run, its arrays", f"{size_text(reading.MOST_RUN)}, {size_text(reading.MOST_RUN_INFLATED)}"],
+        ["scene, robot or planar task (TOML)", size_text(reading.MAX_TOML)],
+        ["reach polytopes (JSON)", size_text(reading.MAX_POLYTOPES)],
+        ["URDF or SRDF", size_text(reading.MAX_URDF)],
+        ["mesh", size_text(reading.MAX_MESH)],
+        ["plan, its arrays", f"{size_text(reading.MAX_PLAN)}, {size_text(reading.MAX_PLAN_INFLATED)}"],
+        ["run, its arrays", f"{size_text(reading.MAX_RUN)}, {size_text(reading.MAX_RUN_INFLATED)}"],
     ]
     return table(["file", "at most"], rows)
 

@@ -32,7 +32,7 @@ OPTIONS |= {"receding_horizon": mp.rhp.Options, "whole_body": mp.sip.Options}
 NAMES = ["flat", "gap", "humanoid44", "talos_wang", "climber9", "chimney", "climbing", "no_such_name", *TEXTS]
 #: Keeps every call short; a large value is replaced by this one.
 LIMITS = {"time_limit": SOLVE_LIMIT_S, "time_limit_s": SOLVE_LIMIT_S, "max_iterations": 5, "cycles": 2, "restarts": 1}
-MOST_SHOWN_S = 20.0  # of plans that are drawn, frame by frame
+MAX_SHOWN_S = 20.0  # of plans that are drawn, frame by frame
 
 
 class VerbFuzzer(Fuzzer):
@@ -104,7 +104,7 @@ class VerbFuzzer(Fuzzer):
     def short(plan: Any) -> bool:
         """Whether a plan is drawn in a moment; what is no plan is refused in one."""
         try:
-            return not isinstance(plan, mp.Plan | mp.PlanarPlan) or plan.duration() < MOST_SHOWN_S
+            return not isinstance(plan, mp.Plan | mp.PlanarPlan) or plan.duration() < MAX_SHOWN_S
         except errors.InvalidInput:
             return True
 

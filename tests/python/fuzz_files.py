@@ -38,7 +38,7 @@ from mcplan.files.whole_body_plans import load_any_plan
 from plain_toml import tomllib
 
 #: Of one mutation [s of the processor], and what all of them may add to the memory in use [KiB].
-MOST_CPU_S, MOST_GROWTH_KIB = 10.0, 600 * 1024
+MAX_CPU_S, MAX_GROWTH_KIB = 10.0, 600 * 1024
 
 DEEP: Any = 0
 for _ in range(60):
@@ -446,7 +446,7 @@ def attempt(kind: str, file: Path, number: int) -> str:
 
 
 def _too_long(*_: Any) -> None:
-    raise TimeoutError(f"more than {MOST_CPU_S} s")
+    raise TimeoutError(f"more than {MAX_CPU_S} s")
 
 
 def run(kind: str, seed: int, first: int, count: int, folder: Path) -> list[str]:
@@ -459,12 +459,12 @@ def run(kind: str, seed: int, first: int, count: int, folder: Path) -> list[str]
     for number in range(first, first + count):
         progress.write_text(str(number))
         file.write_bytes(mutation(kind, seed, number))
-        signal.setitimer(signal.ITIMER_PROF, MOST_CPU_S)
+        signal.setitimer(signal.ITIMER_PROF, MAX_CPU_S)
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
         wrong = attempt(kind, file, number)
         signal.setitimer(signal.ITIMER_PROF, 0)
         grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
-        if grown > MOST_GROWTH_KIB:
+        if grown > MAX_GROWTH_KIB:
             wrong = f"{wrong} {grown} KiB"
         if wrong:
             failures.append(f"mutation({kind!r}, {seed}, {number}): {wrong[:300]}")

@@ -20,8 +20,8 @@ import mcplan as mp
 from mcplan.cli import main
 from mcplan.files.archives import read_arrays
 from mcplan.files.builtin import DATA
-from mcplan.files.plans import MOST_PHASES, load_plan, plan_to_bytes
-from mcplan.files.reading import MOST_TOML, read_file
+from mcplan.files.plans import MAX_PHASES, load_plan, plan_to_bytes
+from mcplan.files.reading import MAX_TOML, read_file
 from mcplan.files.robots import load_robot
 from mcplan.files.scenes import load_scene
 from mcplan.files.toml import toml_text
@@ -73,7 +73,7 @@ def test_what_is_no_regular_file_is_refused_without_waiting_for_it(load, kind, t
 
 def test_a_file_above_the_limit_is_refused_before_it_is_read(tmp_path):
     with (tmp_path / "large.toml").open("wb") as file:
-        file.truncate(200 * MOST_TOML)  # a hole: it takes no place on the disk
+        file.truncate(200 * MAX_TOML)  # a hole: it takes no place on the disk
     with pytest.raises(mp.errors.InvalidScene, match=r"large.toml: may have 2 MiB at most, got 419430400 bytes"):
         load_scene(tmp_path / "large.toml")
 
@@ -325,8 +325,8 @@ def test_a_small_file_takes_little_memory(tmp_path):
 
 def test_a_plan_that_could_not_be_read_again_is_not_written(tmp_path):
     plan = standing_plan()
-    plan.phases = [plan.phases[0]] * (MOST_PHASES + 1)
-    plan.knots = [plan.knots[0]] * (MOST_PHASES + 2)
+    plan.phases = [plan.phases[0]] * (MAX_PHASES + 1)
+    plan.knots = [plan.knots[0]] * (MAX_PHASES + 2)
     with pytest.raises(mp.errors.InvalidPlan, match="phases: may be 10000 at most, got 10001"):
         plan.save(tmp_path / "long.npz")
     assert not (tmp_path / "long.npz").exists()

@@ -11,7 +11,7 @@ import pytest
 
 import mcplan as mp
 from mcplan.cli import main
-from mcplan.files.urdf_reading import MOST_CHAIN, MOST_LINKS, read_urdf
+from mcplan.files.urdf_reading import MAX_CHAIN, MAX_LINKS, read_urdf
 from test_cli import LEG
 from two_link_arm import arm_robot
 
@@ -39,8 +39,8 @@ def robot(*parts: str) -> str:
 
 PAIR = [link("a"), link("b")]
 BAD = {
-    "many links": (robot(*(link(f"l{i}") for i in range(MOST_LINKS + 1))), "link: may be 1000 at most, got 1001"),
-    "a deep chain": (chain(MOST_CHAIN + 1), "link l200: may be at most the link number 200 of its chain, got 201"),
+    "many links": (robot(*(link(f"l{i}") for i in range(MAX_LINKS + 1))), "link: may be 1000 at most, got 1001"),
+    "a deep chain": (chain(MAX_CHAIN + 1), "link l200: may be at most the link number 200 of its chain, got 201"),
     "one name twice": (robot(link("a"), link("a")), "link a: must have a name of its own"),
     "no name": (robot("<link/>"), "link: must have a name of its own"),
     "two roots": (robot(*PAIR), r'link: must be one without a joint above it, the root, got 2: \["a", "b"\]'),
@@ -126,16 +126,16 @@ for read in (lambda: planar_robot_from_urdf(sys.argv[1], [PlanarEnd("e", sys.arg
 """
 
 
-@pytest.mark.parametrize("links", [MOST_CHAIN, 4000])
+@pytest.mark.parametrize("links", [MAX_CHAIN, 4000])
 def test_no_chain_is_so_deep_that_the_process_dies(links, tmp_path):
     pytest.importorskip("example_robot_data")
-    (tmp_path / "chain.urdf").write_text(chain(links, "revolute" if links == MOST_CHAIN else "fixed"))
+    (tmp_path / "chain.urdf").write_text(chain(links, "revolute" if links == MAX_CHAIN else "fixed"))
     command = [sys.executable, "-c", READ, str(tmp_path / "chain.urdf"), f"l{links - 1}"]
     found = subprocess.run(command, capture_output=True, text=True)
     assert found.returncode == 0, found.stderr
-    if links == MOST_CHAIN:
+    if links == MAX_CHAIN:
         planar, in_space = found.stdout.splitlines()
-        assert planar.endswith(f"bodies: may have 100 entries at most, got {MOST_CHAIN}") and in_space == "tuple"
+        assert planar.endswith(f"bodies: may have 100 entries at most, got {MAX_CHAIN}") and in_space == "tuple"
     else:
         assert found.stdout.count("at most, got") == 2
 

@@ -95,8 +95,13 @@ bool read_struct(const Value& value, T& out, const Place& at, Reading& reading) 
   std::vector<std::string> required, legal;
   for_each_key(out, [&](const auto& f, auto& member) {
     const char* const now = reading.exact ? f.name : f.key;
-    const bool is_earlier = f.earlier && !value.find(now) && value.find(f.earlier);
-    const char* const key = is_earlier ? f.earlier : now;
+    const Value* const earlier = f.earlier ? value.find(f.earlier) : nullptr;
+    if (earlier && value.find(now)) {
+      legal.push_back(f.earlier);
+      reading.found.add(Place(at, f.earlier), std::string("is the earlier name of ") + now + ", which is there too",
+                        shown(*earlier));
+    }
+    const char* const key = earlier && !value.find(now) ? f.earlier : now;
     legal.push_back(key);
     if (const Value* const entry = value.find(key))
       read_value(*entry, member, f.rules, Place(at, key), reading);

@@ -93,6 +93,12 @@ Value struct_schema(Value::Table& definitions) {
       } else if constexpr (!HasFields<M>::value && !IsOptional<M>::value && !IsNameOr<M>::value) {
         if (!f.rules.not_empty || !equal(member, M())) entry.set("default", written_value(member));
       }
+      if (f.earlier) {
+        Value earlier = value_schema<M>(f.rules, definitions);
+        earlier.set("description", std::string("Earlier name of ") + f.key + ".");
+        earlier.set("deprecated", true);
+        properties.set(f.earlier, std::move(earlier));
+      }
       properties.set(f.key, std::move(entry));
     });
     out.set("type", "object");

@@ -49,7 +49,7 @@ void check_pull(const Problem& problem, const Sample& sample, Findings& findings
 /// tangential force alone must be as small, and a pulling contact is left to `pull`. The law says by what a smaller
 /// force is measured.
 void check_friction(const Problem& problem, const Sample& sample, Findings& findings) {
-  const double unit = with_law(problem, sample.phase, [&](auto law) { return law.least_normal(problem); });
+  const double unit = with_law(problem, sample.phase, [&](auto law) { return law.min_normal(problem); });
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const int index = problem.surface(sample.phase, l);
     if (index < 0 || problem.scene.surfaces[index].grasp) continue;

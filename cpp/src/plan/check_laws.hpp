@@ -13,7 +13,7 @@ namespace mcplan::checks {
 ///     Replay start(problem, phase)                             its first knot
 ///     Replay advance(problem, phase, from, since_start, h)     a step of h [s]
 ///     void set_forces(problem, sample)                         and moments, from the replay
-///     double least_normal(problem)                             [N] by which friction of a smaller force is measured
+///     double min_normal(problem)                             [N] by which friction of a smaller force is measured
 ///     void check_numbers(problem, phase, findings)             what is constant over the phase
 ///     void check_state(problem, sample, findings)              what the plan says of the base and of pressure
 ///     void check_bounds(problem, sample, findings)             where forces act, and what soles can give
@@ -28,7 +28,7 @@ struct LawCheck<laws::Pendulum> {  // check_pendulum.cpp
   static Replay start(const Problem& problem, int phase);
   static Replay advance(const Problem& problem, int phase, const Replay& from, double since_start, double h);
   static void set_forces(const Problem& problem, Sample& sample);
-  static double least_normal(const Problem& problem) { return problem.tolerances.force; }
+  static double min_normal(const Problem& problem) { return problem.tolerances.force; }
   static void check_numbers(const Problem& problem, int phase, Findings& findings);
   static void check_state(const Problem& /*problem*/, const Sample& /*sample*/, Findings& /*findings*/) {}
   static void check_bounds(const Problem& problem, const Sample& sample, Findings& findings);
@@ -40,7 +40,7 @@ struct LawCheck<laws::Wrench> {  // check_wrench.cpp
   static Replay start(const Problem& problem, int phase);
   static Replay advance(const Problem& problem, int phase, const Replay& from, double since_start, double h);
   static void set_forces(const Problem& problem, Sample& sample);
-  static double least_normal(const Problem& problem) { return problem.tolerances.force; }
+  static double min_normal(const Problem& problem) { return problem.tolerances.force; }
   static void check_numbers(const Problem& problem, int phase, Findings& findings);
   static void check_state(const Problem& problem, const Sample& sample, Findings& findings);
   static void check_bounds(const Problem& problem, const Sample& sample, Findings& findings);
@@ -53,7 +53,7 @@ struct PointForceCheck {
   static Replay start(const Problem& problem, int phase);
   static Replay advance(const Problem& problem, int phase, const Replay& from, double since_start, double h);
   static void set_forces(const Problem& problem, Sample& sample);
-  static double least_normal(const Problem& problem);
+  static double min_normal(const Problem& problem);
   static void check_numbers(const Problem& problem, int phase, Findings& findings);
   static void check_state(const Problem& /*problem*/, const Sample& /*sample*/, Findings& /*findings*/) {}
   static void check_bounds(const Problem& problem, const Sample& sample, Findings& findings);
@@ -93,6 +93,10 @@ Replay rk4(const Replay& from, double h, const Slope& slope) {
 
 /// Into how many steps h [s] has to be cut under f_l = m mu_l (p - s_l); check_pendulum.cpp.
 double stiffness_steps(const Problem& problem, int phase, double h);
+
+/// f_l = m mu_l (p - s_l) and its moment about the end-effector's own point, of forces that act at the anchor or at the
+/// centre of pressure; check_pendulum.cpp.
+void set_forces_that_act_at(Eigen::Vector3d Contact::*place_W, const Problem& problem, Sample& sample);
 
 /// |tau_i| <= max_moment_i about each world axis; check_pendulum.cpp.
 void check_moment_cap(const Problem& problem, int phase, Findings& findings);

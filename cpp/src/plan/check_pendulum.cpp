@@ -66,6 +66,16 @@ double stiffness_steps(const Problem& problem, int phase, double h) {
   return std::ceil(std::sqrt(stiffness) * h / 0.004);
 }
 
+void set_forces_that_act_at(Vector3d Contact::*place_W, const Problem& problem, Sample& sample) {
+  for (int l = 0; l < problem.end_effector_count(); ++l) {
+    const Contact& contact = problem.plan.phases[sample.phase].contacts[l];
+    sample.forces_W[l] = problem.robot.mass * contact.stiffness * (sample.replay.com_W - contact.anchor_W);
+    sample.cone_forces_W[l] = {sample.forces_W[l]};
+    const Vector3d arm = contact.*place_W - sample.at.end_effectors[l].position_W;
+    sample.moments_W[l] = contact.moment_W + arm.cross(sample.forces_W[l]);
+  }
+}
+
 void check_moment_cap(const Problem& problem, int phase, Findings& findings) {
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const Contact& contact = problem.plan.phases[phase].contacts[l];
@@ -90,13 +100,7 @@ Replay LawCheck<laws::Pendulum>::advance(const Problem& problem, int phase, cons
 }
 
 void LawCheck<laws::Pendulum>::set_forces(const Problem& problem, Sample& sample) {
-  for (int l = 0; l < problem.end_effector_count(); ++l) {
-    const Contact& contact = problem.plan.phases[sample.phase].contacts[l];
-    sample.forces_W[l] = problem.robot.mass * contact.stiffness * (sample.replay.com_W - contact.anchor_W);
-    sample.cone_forces_W[l] = {sample.forces_W[l]};
-    const Vector3d arm = contact.anchor_W - sample.at.end_effectors[l].position_W;
-    sample.moments_W[l] = contact.moment_W + arm.cross(sample.forces_W[l]);
-  }
+  set_forces_that_act_at(&Contact::anchor_W, problem, sample);
 }
 
 void LawCheck<laws::Pendulum>::check_numbers(const Problem& problem, int phase, Findings& findings) {

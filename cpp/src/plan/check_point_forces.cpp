@@ -102,7 +102,7 @@ void PointForceCheck<Law>::set_forces(const Problem& problem, Sample& sample) {
 /// A corner that carries less than a thousandth of the weight is measured against that thousandth: its excess counts by
 /// what it does to the robot.
 template <class Law>
-double PointForceCheck<Law>::least_normal(const Problem& problem) {
+double PointForceCheck<Law>::min_normal(const Problem& problem) {
   return std::max(problem.tolerances.force, 1e-3 * problem.robot.mass * problem.scene.gravity);
 }
 

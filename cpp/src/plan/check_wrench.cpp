@@ -175,13 +175,7 @@ Replay LawCheck<laws::Wrench>::advance(const Problem& problem, int phase, const 
 }
 
 void LawCheck<laws::Wrench>::set_forces(const Problem& problem, Sample& sample) {
-  for (int l = 0; l < problem.end_effector_count(); ++l) {
-    const Contact& contact = problem.plan.phases[sample.phase].contacts[l];
-    sample.forces_W[l] = problem.robot.mass * contact.stiffness * (sample.replay.com_W - contact.anchor_W);
-    sample.cone_forces_W[l] = {sample.forces_W[l]};
-    const Vector3d arm = contact.center_of_pressure_W - sample.at.end_effectors[l].position_W;
-    sample.moments_W[l] = contact.moment_W + arm.cross(sample.forces_W[l]);
-  }
+  set_forces_that_act_at(&Contact::center_of_pressure_W, problem, sample);
 }
 
 void LawCheck<laws::Wrench>::check_numbers(const Problem& problem, int phase, Findings& findings) {

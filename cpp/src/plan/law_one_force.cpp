@@ -1,3 +1,5 @@
+#include "law_one_force.hpp"
+
 #include <Eigen/Geometry>
 #include <cstddef>
 
@@ -5,6 +7,32 @@
 #include "mcplan/plan/plan.hpp"
 
 namespace mcplan::laws {
+
+using Eigen::Vector3d;
+
+Pull::Pull(const PhaseInstant& at) : pull_W(0.0, 0.0, at.plan.scene.gravity) {
+  for (const Contact& contact : at.phase.contacts) {
+    stiffness += contact.stiffness;
+    pull_W += contact.stiffness * contact.anchor_W;
+  }
+}
+
+void set_com(const PhaseInstant& at, const Pull& pull, const EntireFunctions& f, PlanState& state) {
+  const double tau = at.since_start;
+  const Vector3d acceleration = pull.acceleration_W(at.from.com_W);
+  state.com_W = at.from.com_W + tau * f(1) * at.from.com_velocity_W + tau * tau * f(2) * acceleration;
+  state.com_velocity_W = f(0) * at.from.com_velocity_W + tau * f(1) * acceleration;
+  state.com_acceleration_W = pull.acceleration_W(state.com_W);
+}
+
+void set_forces(const PhaseInstant& at, Vector3d Contact::*acts_at_W, PlanState& state) {
+  for (std::size_t l = 0; l < at.phase.contacts.size(); ++l) {
+    const Contact& contact = at.phase.contacts[l];
+    EndEffectorState& end = state.end_effectors[l];
+    end.force_W = at.plan.robot.mass * contact.stiffness * (state.com_W - contact.anchor_W);
+    if (contact.surface >= 0) end.center_of_pressure_W = contact.*acts_at_W;
+  }
+}
 
 void OneForce::set_moments(const Phase& phase, PlanState& state) {
   for (std::size_t l = 0; l < phase.contacts.size(); ++l) {

@@ -156,7 +156,10 @@ PlanarTask planar_task_from(const Value& data, const std::string& source, const 
   planar::Stances stances(task, reading.found);
   take_phases(file.keys.phases, robot.is_read, stances, task, reading);
   relations(task, reading.found, [&](const InvalidPlanarTask& found) { return with_extent(stances.located(found)); });
-  if (robot.unknown && reading.found.empty()) throw *robot.unknown;
+  if (robot.unknown && reading.found.empty()) {
+    const std::string where = reading.source.empty() ? "" : model::printable(reading.source) + ": ";
+    throw UnknownRobot(where + "robot: " + robot.unknown->what(), robot.unknown->name(), robot.unknown->legal());
+  }
   if (robot.is_wrong) reading.found.raise<InvalidRobot>(source);
   reading.found.raise<InvalidPlanarTask>(source);
   return task;

@@ -12,7 +12,7 @@ from mcplan.errors import InvalidArgument, InvalidInput, InvalidOptions, apart, 
 def named_as_typed(*names: str, **options: str) -> Iterator[None]:
     """Errors of arguments name options instead. Stands above a verb as its decorator.
 
-    What is wrong inside of a file stays as it is, and so does what is malformed: a scene, a robot, a motion, a plan.
+    What is wrong inside of a file stays as it is, and so does what is malformed: a scene, a robot, a planar task, a plan.
 
     Args:
         names: Of arguments whose options are called the same: ``"time_limit"`` is ``--time-limit``.

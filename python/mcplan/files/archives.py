@@ -12,15 +12,15 @@ from typing import Any, cast
 import numpy as np
 
 from mcplan.errors import InvalidPlan, shown, written
-from mcplan.files.reading import MOST_PLAN_INFLATED, size_text
+from mcplan.files.reading import MAX_PLAN_INFLATED, size_text
 
 _RULE = "must be an .npz file written by mcplan"
-_MOST_MEMBERS = 64  # arrays of an archive
-_MOST_DIRECTORY = 256 * _MOST_MEMBERS  # bytes of the list of members
-_MOST_HEADER = 4 * 1024 * 1024  # bytes of JSON
-_MOST_NUMPY_HEADER = 1000  # bytes that describe an array
-_MOST_AXES = 4
-_MOST_NAME, _MOST_REASON = 60, 200  # characters of names and reasons in messages
+_MAX_MEMBERS = 64  # arrays of an archive
+_MAX_DIRECTORY = 256 * _MAX_MEMBERS  # bytes of the list of members
+_MAX_HEADER = 4 * 1024 * 1024  # bytes of JSON
+_MAX_NUMPY_HEADER = 1000  # bytes that describe an array
+_MAX_AXES = 4
+_MAX_NAME, _MAX_REASON = 60, 200  # characters of names and reasons in messages
 
 
 def archive_bytes(header: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> bytes:
@@ -31,7 +31,7 @@ def archive_bytes(header: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -
     return buffer.getvalue()
 
 
-def read_arrays(data: bytes, most: int = MOST_PLAN_INFLATED) -> dict[str, np.ndarray]:
+def read_arrays(data: bytes, most: int = MAX_PLAN_INFLATED) -> dict[str, np.ndarray]:
     """The arrays of an archive.
 
     What the archive says of its sizes is added up first, then each array is inflated no further than it says, and its
@@ -53,9 +53,9 @@ def read_arrays(data: bytes, most: int = MOST_PLAN_INFLATED) -> dict[str, np.nda
             for member in members:
                 name = member.filename.removesuffix(".npy")
                 if name in arrays:
-                    raise InvalidPlan(name[:_MOST_NAME], "must be there once")
+                    raise InvalidPlan(name[:_MAX_NAME], "must be there once")
                 with archive.open(member) as file:
-                    arrays[name] = _array(file.read(member.file_size + 1), name[:_MOST_NAME])
+                    arrays[name] = _array(file.read(member.file_size + 1), name[:_MAX_NAME])
             return arrays
     except InvalidPlan:
         raise
@@ -69,16 +69,16 @@ def _require_directory(data: bytes) -> None:
     if end < 0 or len(data) < end + 22 or not zipfile.is_zipfile(io.BytesIO(data)):
         raise InvalidPlan("", _RULE, "no zip archive, or an incomplete one")
     size = int.from_bytes(data[end + 12 : end + 16], "little")
-    if size > _MOST_DIRECTORY or data[max(0, end - 20) :].startswith(b"PK\x06\x07"):
-        raise InvalidPlan("", f"may have {_MOST_MEMBERS} arrays at most", f"a directory of {size} bytes")
+    if size > _MAX_DIRECTORY or data[max(0, end - 20) :].startswith(b"PK\x06\x07"):
+        raise InvalidPlan("", f"may have {_MAX_MEMBERS} arrays at most", f"a directory of {size} bytes")
 
 
 def _require_sizes(members: list[zipfile.ZipInfo], most: int) -> None:
-    if len(members) > _MOST_MEMBERS:
-        raise InvalidPlan("", f"may have {_MOST_MEMBERS} arrays at most", str(len(members)))
+    if len(members) > _MAX_MEMBERS:
+        raise InvalidPlan("", f"may have {_MAX_MEMBERS} arrays at most", str(len(members)))
     for member in members:
         if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-            raise InvalidPlan(member.filename[:_MOST_NAME], "must be stored or deflated", str(member.compress_type))
+            raise InvalidPlan(member.filename[:_MAX_NAME], "must be stored or deflated", str(member.compress_type))
     total = sum(member.file_size for member in members)
     if total > most:
         raise InvalidPlan("", f"may have {size_text(most)} at most when inflated", f"{total} bytes")
@@ -90,13 +90,13 @@ def _array(data: bytes, name: str) -> np.ndarray:
     try:
         version = np.lib.format.read_magic(file)
         read = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}[version]
-        shape, fortran, dtype = read(file, max_header_size=_MOST_NUMPY_HEADER)
+        shape, fortran, dtype = read(file, max_header_size=_MAX_NUMPY_HEADER)
     except Exception as found:  # NumPy evaluates the header as Python: all that a literal can be wrong with
         raise InvalidPlan(name, "must be an array of NumPy", _first_line(found)) from None
     if dtype.kind not in "biufUS" or dtype.shape:
         raise InvalidPlan("", _RULE, f"an array {shown(name)} of {shown(dtype)}")
-    if len(shape) > _MOST_AXES or (dtype.kind in "biuf" and dtype.itemsize > 8):
-        rule = f"must hold numbers of 64 bits at most along {_MOST_AXES} axes at most"
+    if len(shape) > _MAX_AXES or (dtype.kind in "biuf" and dtype.itemsize > 8):
+        rule = f"must hold numbers of 64 bits at most along {_MAX_AXES} axes at most"
         raise InvalidPlan(name, rule, f"{dtype}, {len(shape)} axes")
     if any(size < 0 for size in shape) or math.prod(shape) * dtype.itemsize != len(data) - file.tell():
         rule = f"must have the {len(data) - file.tell()} bytes that are there"
@@ -113,8 +113,8 @@ def read_header(arrays: Mapping[str, np.ndarray]) -> dict[str, Any]:
     """
     if "header" not in arrays:
         raise InvalidPlan("header", "is required")
-    if arrays["header"].nbytes > _MOST_HEADER:
-        raise InvalidPlan("header", f"may have {size_text(_MOST_HEADER)} at most", f"{arrays['header'].nbytes} bytes")
+    if arrays["header"].nbytes > _MAX_HEADER:
+        raise InvalidPlan("header", f"may have {size_text(_MAX_HEADER)} at most", f"{arrays['header'].nbytes} bytes")
     try:
         header = json.loads(arrays["header"].tobytes().decode("utf-8"))
     except (ValueError, RecursionError) as found:
@@ -157,4 +157,4 @@ def _require_text(where: str, value: Any) -> None:
 
 
 def _first_line(error: BaseException) -> str:
-    return (str(error).splitlines() or [type(error).__name__])[0][:_MOST_REASON]
+    return (str(error).splitlines() or [type(error).__name__])[0][:_MAX_REASON]

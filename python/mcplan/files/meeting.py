@@ -17,7 +17,7 @@ from mcplan.errors import InvalidInput, SuspiciousName, shown, written
 #: is "left_foot", which to a robot with "lf_foot" is a limb of other robots.
 _SIMILAR_SHORT, _SIMILAR, _SHORT = 0.75, 0.88, 5
 #: Names of a scene that are compared with those of a robot.
-_MOST_NAMES = 100
+_MAX_NAMES = 100
 
 
 def warn_of_names(scene: Scene, robot: Robot) -> None:
@@ -36,7 +36,7 @@ def warn_of_names(scene: Scene, robot: Robot) -> None:
     for field, names, is_permission in _lists(scene):
         for i, name in enumerate(names):
             if name not in meant:
-                meant[name] = name if name in known else _meant(name, known) if len(meant) < _MOST_NAMES else ""
+                meant[name] = name if name in known else _meant(name, known) if len(meant) < _MAX_NAMES else ""
             near = meant[name]
             if near in ("", name) or name in warned:
                 continue

@@ -12,7 +12,7 @@ from typing import TypeVar
 from mcplan.errors import InvalidInput, InvalidPlan
 from mcplan.files.builtin import exists
 from mcplan.files.outputs import ARCHIVE, JSON, require_suffix, write_whole
-from mcplan.files.reading import MOST_PLAN, read_file
+from mcplan.files.reading import MAX_PLAN, read_file
 
 _Plan = TypeVar("_Plan")
 
@@ -62,4 +62,4 @@ def read_plan_file(path: str | Path) -> bytes:
     """
     if not exists(path):
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path))
-    return read_file(path, MOST_PLAN, InvalidPlan)
+    return read_file(path, MAX_PLAN, InvalidPlan)

@@ -52,7 +52,7 @@ _INTEGERS = {"surfaces", "final_contacts", "swings", "laws", "intervals", "point
 _FORMAT_OF_LAW = {ForceLaw.pendulum: 1, ForceLaw.held: 2, ForceLaw.linear: 2, ForceLaw.wrench: 3}
 _LAWS = tuple(_FORMAT_OF_LAW)
 #: Of a plan in a file: each takes a hundred times the memory of its numbers once it is read.
-MOST_PHASES, MOST_SWINGS = 10_000, 40_000
+MAX_PHASES, MAX_SWINGS = 10_000, 40_000
 
 
 def save_plan(plan: Plan, path: str | Path) -> None:
@@ -84,8 +84,8 @@ def load_plan(path: str | Path) -> Plan:
 def plan_to_bytes(plan: Plan) -> bytes:
     """The content of a plan file."""
     plan.validate()
-    _require_few("phases", len(plan.phases), MOST_PHASES)
-    _require_few("swings", len(plan.swings), MOST_SWINGS)
+    _require_few("phases", len(plan.phases), MAX_PHASES)
+    _require_few("swings", len(plan.swings), MAX_SWINGS)
     version = _format(plan)
     count, ends = len(plan.phases), plan.end_effector_count()
     contacts = [contact for phase in plan.phases for contact in phase.contacts]
@@ -312,8 +312,8 @@ def _rows(arrays: dict[str, np.ndarray], name: str) -> int:
 def _check_shapes(arrays: dict[str, np.ndarray], ends: int, version: int) -> None:
     count = arrays["durations"].size if "durations" in arrays else 0
     swings = arrays["swing_heights"].size if "swing_heights" in arrays else 0
-    _require_few("durations", count, MOST_PHASES)
-    _require_few("swing_heights", swings, MOST_SWINGS)
+    _require_few("durations", count, MAX_PHASES)
+    _require_few("swing_heights", swings, MAX_SWINGS)
     expected = {
         "durations": (count,),
         "surfaces": (count, ends),

@@ -13,7 +13,7 @@ import numpy as np
 
 TOLERANCE_M = 1e-3
 HEADING_STEP = 0.05  # [rad]
-HEADING_MOST = 0.8  # [rad] legs that touch each other are not looked at
+HEADING_MAX = 0.8  # [rad] legs that touch each other are not looked at
 _TOLERANCE_RAD = 5e-3
 _ITERATIONS = 40
 _STEP_RAD = 0.4
@@ -189,7 +189,7 @@ def largest_box(grid: Grid) -> tuple[np.ndarray, np.ndarray]:
 
 
 def headings_reached(
-    limb: Limb, nominal: np.ndarray, low: np.ndarray, high: np.ndarray, most: float = HEADING_MOST
+    limb: Limb, nominal: np.ndarray, low: np.ndarray, high: np.ndarray, most: float = HEADING_MAX
 ) -> tuple[float, float]:
     """How far a sole may be turned about the vertical, to the right (<= 0) and to the left (>= 0) [rad].
 

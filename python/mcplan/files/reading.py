@@ -15,15 +15,15 @@ from mcplan.errors import InvalidInput, shown
 _KIB, _MIB = 1024, 1024 * 1024
 
 #: Bytes of a scene, robot or planar task (TOML).
-MOST_TOML = 2 * _MIB
+MAX_TOML = 2 * _MIB
 #: Bytes of a JSON file with reach polytopes.
-MOST_POLYTOPES = 8 * _MIB
+MAX_POLYTOPES = 8 * _MIB
 #: Bytes of a plan as it lies on the disk, and of all its arrays once they are inflated.
-MOST_PLAN, MOST_PLAN_INFLATED = 64 * _MIB, 128 * _MIB
-#: The same of a run, whose arrays may be larger than MOST_PLAN_INFLATED by so many times the size of the file.
-MOST_RUN, MOST_RUN_INFLATED, MOST_RUN_RATIO = 512 * _MIB, 1024 * _MIB, 100
+MAX_PLAN, MAX_PLAN_INFLATED = 64 * _MIB, 128 * _MIB
+#: The same of a run, whose arrays may be larger than MAX_PLAN_INFLATED by so many times the size of the file.
+MAX_RUN, MAX_RUN_INFLATED, MAX_RUN_RATIO = 512 * _MIB, 1024 * _MIB, 100
 #: Bytes of a URDF or SRDF, and of one of its meshes.
-MOST_URDF, MOST_MESH = 16 * _MIB, 256 * _MIB
+MAX_URDF, MAX_MESH = 16 * _MIB, 256 * _MIB
 
 _KINDS = {
     stat.S_IFIFO: "a pipe",

@@ -8,14 +8,14 @@ from typing import Any
 
 from mcplan import _core
 from mcplan.errors import InvalidInput
-from mcplan.files.reading import MOST_TOML, read_file
+from mcplan.files.reading import MAX_TOML, read_file
 
 
 def read_toml(path: Path, error: type[InvalidInput]) -> dict[str, Any]:
     """Parse a TOML file; `error` names the file when it cannot be read or is not TOML."""
     source = str(path)
     try:
-        return _core.toml_from(read_file(path, MOST_TOML, error))
+        return _core.toml_from(read_file(path, MAX_TOML, error))
     except InvalidInput as found:
         raise found.moved(error, source) from None
 

@@ -22,13 +22,13 @@ from mcplan._core import EndEffector, Robot
 from mcplan.errors import InvalidInput, did_you_mean, shown, written
 from mcplan.extras import require
 from mcplan.files.builtin import exists
-from mcplan.files.reach import HEADING_MOST, Limb, explore, headings_reached, largest_box
+from mcplan.files.reach import HEADING_MAX, Limb, explore, headings_reached, largest_box
 from mcplan.files.strength import POINTS, strengths_in_box
 from mcplan.files.urdf_reading import build_model, read_urdf, read_xml
 from mcplan.files.urdf_setups import HEADER, SETUPS, End, Setup
 
 GRAVITY = 9.81
-MOST_COM_HEIGHT = 50.0  # [m] beyond, lengths are not in metres
+MAX_COM_HEIGHT = 50.0  # [m] beyond, lengths are not in metres
 HAND_INSET_M = 0.03  # of a hand's nominal position in its box: an arm hanging down is at the edge of what it reaches
 SOLE_FRICTION = 0.7  # surfaces' default; half of it is left for forces along the ground
 PHASE_DURATION = (0.3, 0.6)  # [s] of robots with soles: legs of such a weight follow no shorter swing
@@ -41,7 +41,7 @@ _SOLED: dict[str, Any] = {
     "pressure_ratio": PRESSURE_RATIO,
     "tracked": True,
 }
-_LEAST_STEP = 0.01  # of the grid of reach boxes, in CoM heights, so that its points can be counted
+_MIN_STEP = 0.01  # of the grid of reach boxes, in CoM heights, so that its points can be counted
 _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
 
@@ -99,7 +99,7 @@ def robot_from_urdf(
     mass, inertia, com_height = _centroidal(model, nominal, ends, source)
     limbs = {end.name: limb_of(model, nominal, end, ends, source) for end in ends}
     boxes = {}
-    step = max(step, _LEAST_STEP * com_height)
+    step = max(step, _MIN_STEP * com_height)
     for end in ends:
         limb = limbs[end.name]
         position = limb.position(limb.nominal)
@@ -150,8 +150,8 @@ def _require_size(mass: float, com_height: float, inertia: np.ndarray, source: s
         raise InvalidInput("mass", "must be a positive number: links need their inertial", f"{mass:g} kg", source)
     if not (np.isfinite(inertia).all() and np.diag(inertia).min() > 0.0):
         raise InvalidInput("inertia", "must be positive about every axis", written(np.diag(inertia).tolist()), source)
-    if not 1e-3 < com_height < MOST_COM_HEIGHT:
-        rule = f"must lie between 0.001 and {MOST_COM_HEIGHT:g} m above the feet; lengths are in metres"
+    if not 1e-3 < com_height < MAX_COM_HEIGHT:
+        rule = f"must lie between 0.001 and {MAX_COM_HEIGHT:g} m above the feet; lengths are in metres"
         raise InvalidInput("com_height", rule, f"{com_height:g} m", source)
 
 
@@ -167,7 +167,7 @@ def header(command: str, step: float = 0.02, own_posture: bool = False) -> str:
         posture="the posture below" if own_posture else "the SRDF's posture",
         step=step,
         points=POINTS,
-        heading=HEADING_MOST,
+        heading=HEADING_MAX,
         inset=HAND_INSET_M,
         friction=0.5 * SOLE_FRICTION,
         full=SOLE_FRICTION,

@@ -17,13 +17,13 @@ from typing import Any
 from xml.parsers import expat
 
 from mcplan.errors import InvalidInput, shown, together, written
-from mcplan.files.reading import MOST_MESH, MOST_URDF, read_file, require_regular_file
+from mcplan.files.reading import MAX_MESH, MAX_URDF, read_file, require_regular_file
 
 #: Links of a robot, and of a chain of them from the root.
-MOST_LINKS, MOST_CHAIN = 1000, 200
-_MOST_ELEMENTS, _MOST_DEPTH, _MOST_FINDINGS = 200_000, 32, 1000
+MAX_LINKS, MAX_CHAIN = 1000, 200
+_MAX_ELEMENTS, _MAX_DEPTH, _MAX_FINDINGS = 200_000, 32, 1000
 #: Of a length, a mass or an inertia, in SI units.
-_MOST_NUMBER = 1e9
+_MAX_NUMBER = 1e9
 _MESH_TYPES = (".stl", ".dae", ".obj", ".msh", ".ply", ".glb", ".gltf", ".off", ".3ds", ".stlb")
 _FOLDERS_ABOVE = 5  # in which packages are looked for
 
@@ -76,7 +76,7 @@ def read_urdf(path: str | Path, error: type[InvalidInput], field: str = "", sour
         rule = f"{prefix}must be a URDF file, with the root element robot"
         raise error("", rule, written(xml.root.tag), source)
     found = chain(_tree_findings(xml.root), _number_findings(xml.root), _mesh_findings(xml.root, Path(path)))
-    findings = [error(f"{prefix}{where}", rule, value, source) for where, rule, value in islice(found, _MOST_FINDINGS)]
+    findings = [error(f"{prefix}{where}", rule, value, source) for where, rule, value in islice(found, _MAX_FINDINGS)]
     if findings:
         raise together(findings)
     return xml
@@ -89,7 +89,7 @@ def read_xml(path: str | Path, error: type[InvalidInput], field: str = "", sourc
         InvalidInput: Of the given class: it cannot be read, is no XML, is too large, or nested too deep.
     """
     source = str(path) if source is None else source
-    data = read_file(path, MOST_URDF, error, field, source)
+    data = read_file(path, MAX_URDF, error, field, source)
     try:
         _require_small(data)
         root = ElementTree.fromstring(data)
@@ -133,10 +133,10 @@ def _require_small(data: bytes) -> None:
     def start(tag: str, attributes: dict[str, str]) -> None:
         nonlocal depth, count
         depth, count = depth + 1, count + 1
-        if depth > _MOST_DEPTH:
-            raise ValueError(f"may be nested {_MOST_DEPTH} deep at most")
-        if count > _MOST_ELEMENTS:
-            raise ValueError(f"may have {_MOST_ELEMENTS} elements at most")
+        if depth > _MAX_DEPTH:
+            raise ValueError(f"may be nested {_MAX_DEPTH} deep at most")
+        if count > _MAX_ELEMENTS:
+            raise ValueError(f"may have {_MAX_ELEMENTS} elements at most")
 
     def end(tag: str) -> None:
         nonlocal depth
@@ -155,8 +155,8 @@ _Found = tuple[str, str, str]  # field, rule, value
 def _tree_findings(root: ElementTree.Element) -> Iterator[_Found]:
     """Joints that do not make a tree of few links."""
     links = [link.get("name", "") for link in root.findall("link")]
-    if len(links) > MOST_LINKS:
-        yield "link", f"may be {MOST_LINKS} at most", str(len(links))
+    if len(links) > MAX_LINKS:
+        yield "link", f"may be {MAX_LINKS} at most", str(len(links))
         return
     for name in sorted({name for name in links if not name or links.count(name) > 1}):
         yield f"link {name}".strip(), "must have a name of its own", written(name)
@@ -209,8 +209,8 @@ def _chain_findings(links: list[str], parents: dict[str, str]) -> Iterator[_Foun
         for below in reversed(upward[:-1]):
             depth[below] = depth[parents[below]] + 1
     deepest = max(depth, key=lambda name: depth[name])
-    if depth[deepest] > MOST_CHAIN:
-        yield f"link {deepest}", f"may be at most the link number {MOST_CHAIN} of its chain", str(depth[deepest])
+    if depth[deepest] > MAX_CHAIN:
+        yield f"link {deepest}", f"may be at most the link number {MAX_CHAIN} of its chain", str(depth[deepest])
 
 
 def _number_findings(root: ElementTree.Element) -> Iterator[_Found]:
@@ -250,7 +250,7 @@ def _are_numbers(text: str, count: int, any_size: bool) -> bool:
     except ValueError:
         return False
     return len(words) == len(values) == count and all(
-        math.isfinite(value) and (any_size or abs(value) <= _MOST_NUMBER) for value in values
+        math.isfinite(value) and (any_size or abs(value) <= _MAX_NUMBER) for value in values
     )
 
 
@@ -274,7 +274,7 @@ def _mesh_findings(root: ElementTree.Element, urdf: Path) -> Iterator[_Found]:
                     yield field, f"must end in {', '.join(_MESH_TYPES)}", written(name)
                 else:
                     try:
-                        require_regular_file(candidate, MOST_MESH, InvalidInput, field)
+                        require_regular_file(candidate, MAX_MESH, InvalidInput, field)
                     except InvalidInput as found:
                         yield found.field, found.rule, found.value
 

@@ -42,7 +42,7 @@ KIND = "whole_body"
 RUN_KINDS = ("run", "planar_run")
 FORMAT = 1
 #: Of a plan in a file, in all phases together.
-MOST_INTERVALS = 20_000
+MAX_INTERVALS = 20_000
 UNITS = "SI: m, kg, s, N, rad; _W: world frame, x forward, y up; _B: frame of a body; _P: frame of its parent"
 _LAWS = dict(PlanarForceLaw.__members__)
 #: The array that has a law's numbers; the other one is empty.
@@ -129,8 +129,8 @@ def plan_from_bytes(data: bytes) -> PlanarPlan:
     except InvalidInput as found:
         raise found.moved(InvalidPlan, prefix="header.task") from None
     _check_arrays(arrays)
-    if task.interval_count() > MOST_INTERVALS:
-        rule = f"may have {MOST_INTERVALS} intervals at most"
+    if task.interval_count() > MAX_INTERVALS:
+        rule = f"may have {MAX_INTERVALS} intervals at most"
         raise InvalidPlan("header.task.phases", rule, str(task.interval_count()))
     law = _LAWS[header["force_law"]]
     points = _point_counts(task)

@@ -28,7 +28,7 @@ from mcplan.files.archives import read_arrays, read_header
 from mcplan.files.builtin import exists
 from mcplan.files.outputs import ARCHIVE, require_suffix, write_whole
 from mcplan.files.plan_files import is_json
-from mcplan.files.reading import MOST_PLAN_INFLATED, MOST_RUN, MOST_RUN_INFLATED, MOST_RUN_RATIO, read_file
+from mcplan.files.reading import MAX_PLAN_INFLATED, MAX_RUN, MAX_RUN_INFLATED, MAX_RUN_RATIO, read_file
 
 from .options import Gains, Options, Push
 
@@ -111,11 +111,11 @@ def load_run(
     """
     if not exists(path):
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path))
-    data = read_file(path, MOST_RUN, InvalidInput)
+    data = read_file(path, MAX_RUN, InvalidInput)
     if otherwise is not None and is_json(data, path):
         return otherwise(path)
     try:
-        arrays = read_arrays(data, min(MOST_RUN_INFLATED, MOST_RUN_RATIO * len(data) + MOST_PLAN_INFLATED))
+        arrays = read_arrays(data, min(MAX_RUN_INFLATED, MAX_RUN_RATIO * len(data) + MAX_PLAN_INFLATED))
         header = read_header(arrays)
         kind = header.get("kind")
         if not isinstance(kind, str) or kind not in (RUN, PLANAR_RUN):

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 #: Solids are no thinner than this [m]: what hits them with some speed must not come out of the other side.
-LEAST_DEPTH_M = 0.02
+MIN_DEPTH_M = 0.02
 #: Surfaces no steeper than this (their normal's z) are extruded straight down, others against their normal.
 UPRIGHT = 0.5
 #: Friction of surfaces that may be grasped. MuJoCo's contacts only push: a hand on them does not slide, but cannot
@@ -43,7 +43,7 @@ def prism(surface: Surface) -> tuple[Array, NDArray[np.int64]]:
     normal = polygon_normal(top)
     down = np.array([0.0, 0.0, -1.0]) if normal[2] >= UPRIGHT else -normal
     k = len(top)
-    corners = np.vstack([top, top + max(surface.thickness, LEAST_DEPTH_M) * down])
+    corners = np.vstack([top, top + max(surface.thickness, MIN_DEPTH_M) * down])
     fan = np.array([(0, i, i + 1) for i in range(1, k - 1)])
     ahead = (np.arange(k) + 1) % k
     here, below, below_ahead = np.arange(k), np.arange(k) + k, ahead + k

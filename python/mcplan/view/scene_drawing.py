@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 #: [m] between the lines drawn on surfaces to walk on, for drawings of usual size; and how many there are at most
 #: across.
-GRID, MOST_LINES = 0.5, 60
+GRID, MAX_LINES = 0.5, 60
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ def is_pad(surface: Surface) -> bool:
 def grid_spacing(extent: Extent) -> float:
     """[m] between grid lines: half a metre, or for drawings that are far smaller or larger as round a number."""
     size = 2.0 * max(extent.half_length, extent.half_width)
-    if GRID <= size <= MOST_LINES * GRID:
+    if GRID <= size <= MAX_LINES * GRID:
         return GRID
     power = 10.0 ** np.floor(np.log10(size / 8.0) + 1e-9)
     return float(max(r * power for r in (1.0, 2.0, 5.0) if r == 1.0 or r * power <= size / 8.0))

@@ -69,7 +69,7 @@ struct Options {
   double proximal_weight = 30.0;        ///< first weight on the change of the inputs; adapts
   int interior_points = 4;              ///< instants inside each phase at which reach, force and friction are held
   double reach_margin_m = 0.003;        ///< the reach box is planned smaller by this
-  double sole_inside = -1.0;            ///< share of a sole that footholds keep on their surface; negative: the robot's
+  double sole_inside = -1.0;            ///< ratio of a sole that footholds keep on their surface; negative: the robot's
   bool friction = true;                 ///< hold the friction cones
   int friction_sides = 0;            ///< of the pyramid inside the cone that is held instead of it; 0: the cone itself
   bool whole_sequence_moves = true;  ///< dynamic programming over (step, contact state) where it pays

@@ -50,8 +50,8 @@ struct Robot {
   double com_height = 0.0;                            ///< [m] of the CoM above the ground in the nominal stance
   double swing_height = 0.10;                  ///< [m] clearance of a swinging end-effector; at its default by_size()
   Eigen::Vector2d phase_duration{0.15, 0.50};  ///< [s] shortest and longest phase of a contact sequence; likewise
-  double sole_support = 0.0;                   ///< share of a sole that a contact sequence keeps on its surface
-  double pressure_ratio = 1.0;  ///< share of a sole's half size within which a plan keeps the centre of pressure
+  double sole_support = 0.0;                   ///< ratio of a sole that a contact sequence keeps on its surface
+  double pressure_ratio = 1.0;  ///< ratio of a sole's half size within which a plan keeps the centre of pressure
   bool tracked = false;         ///< a controller follows the plans with limbs whose momentum they do not know of:
                                 ///< contact sequences keep the base upright and the centre of pressure near the middle
   std::vector<EndEffector> end_effectors;

@@ -19,15 +19,15 @@ struct Attempt {
 /// exact one each solve what the others do not. With one the exact Hessian converges in some tens of iterations where
 /// Gauss-Newton, which leaves out the constraints' curvature, needs hundreds (docs/theory/sip.md).
 inline std::vector<Attempt> attempts_for(const Options& options, bool cost) {
-  const int most = options.max_iterations, some = std::min(most, 200);
-  if (options.hessian != HessianChoice::automatic) return {{options.hessian, !cost, cost ? 0.01 : 0.1, most}};
+  const int max = options.max_iterations, some = std::min(max, 200);
+  if (options.hessian != HessianChoice::automatic) return {{options.hessian, !cost, cost ? 0.01 : 0.1, max}};
   if (cost)
-    return {{HessianChoice::exact, false, 0.01, std::min(most, 400)},
-            {HessianChoice::exact, true, 0.1, std::min(most, 400)},
-            {HessianChoice::gauss_newton, true, 0.1, most}};
+    return {{HessianChoice::exact, false, 0.01, std::min(max, 400)},
+            {HessianChoice::exact, true, 0.1, std::min(max, 400)},
+            {HessianChoice::gauss_newton, true, 0.1, max}};
   return {{HessianChoice::limited_memory, true, 0.1, some},
           {HessianChoice::gauss_newton, true, 0.1, some},
-          {HessianChoice::exact, true, 0.1, most}};
+          {HessianChoice::exact, true, 0.1, max}};
 }
 
 }  // namespace mcplan::sip

@@ -13,7 +13,7 @@ from mcplan.view.shapes import Mesh
 Array = NDArray[np.float64]
 
 #: Polygons of a layer that a picture in vectors has as such; more are an image in it.
-_MOST_IN_VECTORS = 20_000
+_MAX_IN_VECTORS = 20_000
 
 
 class Canvas:
@@ -137,7 +137,7 @@ class Canvas:
                 edgecolors=edges,
                 linewidths=0.35,
                 zorder=layer,
-                rasterized=len(polygons) > _MOST_IN_VECTORS,
+                rasterized=len(polygons) > _MAX_IN_VECTORS,
             )
             axes.add_collection(shown)
         axes.set_aspect("equal")

@@ -27,7 +27,7 @@ PACKAGES = "libegl1 libgl1-mesa-dri"
 #: Groups by which MuJoCo shows and hides.
 TERRAIN, ROBOT = 0, 1
 #: Geoms that a picture may have: postures, grid lines, arrows.
-MOST_GEOMS = 20000
+MAX_GEOMS = 20000
 #: [pixel]
 LINE_WIDTH = 1.5
 #: Half width of the square in which there are shadows, over the distance of the eye.
@@ -112,7 +112,7 @@ class Renderer:
         self._target_W = np.zeros(3)
         self.model = _model(mujoco, figure, drawings, size, sun_W)
         self.data = mujoco.MjData(self.model)
-        self.scene = mujoco.MjvScene(self.model, MOST_GEOMS)
+        self.scene = mujoco.MjvScene(self.model, MAX_GEOMS)
         self.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = shadows
         self.scene.flags[mujoco.mjtRndFlag.mjRND_REFLECTION] = False
         self._painter = mujoco.MjrContext(self.model, mujoco.mjtFontScale.mjFONTSCALE_100)

@@ -27,7 +27,7 @@ struct ProvedConstraint {
 struct Certificate {
   std::vector<ProvedConstraint> constraints;
   int subdivisions = 0;   ///< pieces of time looked at
-  double rounding = 0.0;  ///< largest allowance for floating-point arithmetic in a bound, in shares of its tolerance
+  double rounding = 0.0;  ///< largest allowance for floating-point arithmetic in a bound, as a ratio to its tolerance
   double time_s = 0.0;    ///< wall clock
 
   bool proved() const;  ///< every constraint
