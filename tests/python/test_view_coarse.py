@@ -10,7 +10,7 @@ import pytest
 import mcplan as mp
 from mcplan.errors import SimplerDrawing
 from mcplan.view.coarse import coarse
-from mcplan.view.pictures.picture import picture
+from mcplan.view.pictures.picture import _figure, picture
 from mcplan.view.shapes import ellipsoid
 
 
@@ -78,3 +78,22 @@ def test_without_the_urdf_a_picture_has_a_stick_robot_and_says_why(talos_plan, t
     plan.robot.urdf = str(tmp_path / "gone.urdf")
     with pytest.warns(SimplerDrawing, match="gone.urdf.*; drawing a stick robot instead"):
         assert orange(picture(plan, path=tmp_path / "p.png", poses=2)) == 0
+
+
+def test_meshes_do_not_hide_contact_forces(talos_plan, tmp_path, monkeypatch):
+    """Where a picture without links has arrows, one with links has the same, but for blurred edges."""
+    read = pytest.importorskip("matplotlib.image").imread
+    module, figure = "mcplan.view.pictures.picture", _figure
+
+    def pixels(links: bool, forces: bool = True) -> np.ndarray:
+        with monkeypatch.context() as change:
+            if not links:
+                change.setattr(f"{module}._figure", lambda *given: dataclasses.replace(figure(*given), parts=[]))
+            if not forces:
+                change.setattr(f"{module}._paint_forces", lambda *given, **named: None)
+            return read(picture(talos_plan, path=tmp_path / "p.png", poses=2))
+
+    alone = pixels(links=False)
+    arrows = np.abs(alone - pixels(links=False, forces=False)).max(axis=2) > 0.2
+    same = np.abs(alone - pixels(links=True)).max(axis=2) < 0.02
+    assert arrows.sum() > 1000 and (arrows & same).sum() > 0.9 * arrows.sum()

@@ -37,7 +37,7 @@ Array = NDArray[np.float64]
 #: Smallest details of meshes that are drawn, in CoM heights.
 CELL = 0.012
 #: Layers of the canvas, back to front.
-SOLIDS, LINES, MARKS, BODIES, COM_PATH = range(1, 6)
+SOLIDS, LINES, MARKS, BODIES, FORCES, COM_PATH = range(1, 7)
 
 
 def picture(
@@ -171,6 +171,15 @@ def _paint_robot(
         canvas.mesh(part.mesh.moved(part.poses[n]), part.colour, BODIES, fade=fade, whole=figure.kind == "stick")
     ball = ellipsoid((0.030 * scale,) * 3).moved(pose(np.eye(3), samples.com_W[n]))
     canvas.mesh(ball, COM, COM_PATH, whole=True, lift=0.1)
+    _paint_forces(canvas, samples, robot, n, fade, weight, over_links=figure.kind != "stick")
+
+
+def _paint_forces(
+    canvas: Canvas, samples: Samples, robot: Robot, n: int, fade: float, weight: float, *, over_links: bool
+) -> None:
+    """Arrows from the centres of pressure; `over_links`: with a light rim, so that links as dark do not hide them."""
+    scale = float(robot.com_height) / 0.7
+    layer = FORCES if over_links else BODIES
     for end in range(len(robot.end_effectors)):
         force = samples.forces_W[n, end]
         size = float(np.linalg.norm(force))
@@ -180,16 +189,13 @@ def _paint_robot(
         direction = force / size
         head = min(0.055 * scale, 0.5 * length)
         start = samples.pressure_W[n, end]
-        shade = mix(FORCE, "#ffffff", fade)
-        canvas.line(
-            np.linspace(start, start + (length - head) * direction, 6),
-            shade,
-            0.012 * scale,
-            BODIES,
-            lift=0.15,
-        )
-        tip = pose(with_axis_z(direction, np.array([1.0, 0.0, 0.0])), start + (length - head) * direction)
-        canvas.mesh(cone(0.022 * scale, head).moved(tip), FORCE, BODIES, fade=fade, lift=0.15)
+        shaft = np.linspace(start, start + (length - head) * direction, 6)
+        tip = pose(with_axis_z(direction, np.array([1.0, 0.0, 0.0])), shaft[-1])
+        if over_links:
+            canvas.line(shaft, "#ffffff", 0.026 * scale, layer, lift=0.15)
+            canvas.mesh(cone(0.034 * scale, 1.35 * head).moved(tip), FORCE, layer, fade=1.0, lift=0.15)
+        canvas.line(shaft, mix(FORCE, "#ffffff", fade), 0.012 * scale, layer, lift=0.2 if over_links else 0.15)
+        canvas.mesh(cone(0.022 * scale, head).moved(tip), FORCE, layer, fade=fade, lift=0.2 if over_links else 0.15)
 
 
 def _legend(sheet, scene: Scene, robot: Robot, colours: list[str]) -> None:  # type: ignore[no-untyped-def]
