@@ -38,9 +38,9 @@ void require_intervals(const Phase& phase, const std::string& field) {
 
 /// A force for each node and point.
 void require_forces(const Phase& phase, const Contact& contact, const std::string& field) {
-  const std::size_t wanted = static_cast<std::size_t>(phase.node_count()) * contact.points_W.size();
-  if (contact.point_forces_W.size() != wanted)
-    throw InvalidPlan(field + ".point_forces", "must be one per node and point (" + std::to_string(wanted) + ")",
+  const std::size_t expected = static_cast<std::size_t>(phase.node_count()) * contact.points_W.size();
+  if (contact.point_forces_W.size() != expected)
+    throw InvalidPlan(field + ".point_forces", "must be one per node and point (" + std::to_string(expected) + ")",
                       std::to_string(contact.point_forces_W.size()));
 }
 

@@ -4,16 +4,13 @@
 #include <variant>
 
 #include "base/cubic_spline.hpp"
+#include "plane.hpp"
 
 namespace mcplan::planar {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-Vector2d left_of(const Vector2d& v) { return {-v.y(), v.x()}; }
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 PlanarMotionOfFrame sole_of(const PlanarRobot& robot, const std::vector<PlanarMotionOfFrame>& bodies, int who) {
   const PlanarEndEffector& end = robot.end_effectors[who];

@@ -1,4 +1,5 @@
 #include "evaluation.hpp"
+#include "plane.hpp"
 #include "require.hpp"
 
 namespace mcplan::planar_laws {
@@ -12,10 +13,10 @@ Gain LeastNorm::gain(const PlanarPlan& plan, int phase) {
 
 /// What is left over at the base without any force is what all forces together have to give.
 void LeastNorm::set_components(const Instant& at, Eigen::VectorXd& components) {
-  const Eigen::Vector3d wanted = planar_inverse_dynamics(at.plan.task.robot, at.frames, {}).base_residual;
+  const Eigen::Vector3d desired = planar_inverse_dynamics(at.plan.task.robot, at.frames, {}).base_residual;
   const Eigen::Vector2d to_base_W = at.frames[0].position_W - at.gain.moment_point_W;
-  const double moment = wanted.z() + (to_base_W.x() * wanted.y() - to_base_W.y() * wanted.x());
-  components.noalias() = at.gain.gain * Eigen::Vector3d(wanted.x(), wanted.y(), moment);
+  const double moment = desired.z() + planar::cross(to_base_W, desired.head<2>());
+  components.noalias() = at.gain.gain * Eigen::Vector3d(desired.x(), desired.y(), moment);
 }
 
 void LeastNorm::require_shape(const PlanarPlan& plan) {

@@ -11,9 +11,9 @@
 namespace mcplan::planar {
 
 template <class Size>
-void require_size(const std::string& field, Size size, std::size_t wanted) {
-  if (static_cast<std::size_t>(size) != wanted)
-    throw InvalidPlan(field, "must have " + std::to_string(wanted) + " entries", std::to_string(size));
+void require_size(const std::string& field, Size size, std::size_t expected) {
+  if (static_cast<std::size_t>(size) != expected)
+    throw InvalidPlan(field, "must have " + std::to_string(expected) + " entries", std::to_string(size));
 }
 
 inline void require_matrix(const std::string& field, const Eigen::MatrixXd& matrix, Eigen::Index rows,

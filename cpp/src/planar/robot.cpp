@@ -6,10 +6,14 @@
 
 #include "mcplan/base/error.hpp"
 #include "model/read.hpp"
+#include "plane.hpp"
 #include "robot_fields.hpp"
 
 namespace mcplan {
 namespace {
+
+using planar::cross;
+using planar::left_of;
 
 using Eigen::Vector2d;
 
@@ -62,10 +66,6 @@ void require_unique_names(const Items& items, const std::string& list, model::Fi
     });
   }
 }
-
-Vector2d left_of(const Vector2d& v) { return {-v.y(), v.x()}; }
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
 

@@ -13,11 +13,10 @@ namespace {
 
 using model::digits;
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double long_over_com = 50.0;    // lengths over the CoM's height: above, taken to be millimetres
-constexpr double large_angle = 2.0 * pi;  // taken to be degrees
-constexpr double long_over_fall = 100.0;  // durations over sqrt(h / g), in which a pendulum falls: milliseconds
-constexpr double heavy_density = 16e3;    // [kg/m^3] of the cube of a robot's size, twice that of steel: grams
+constexpr double long_over_com = 50.0;      // lengths over the CoM's height: above, taken to be millimetres
+constexpr double large_angle = 2.0 * M_PI;  // taken to be degrees
+constexpr double long_over_fall = 100.0;    // durations over sqrt(h / g), in which a pendulum falls: milliseconds
+constexpr double heavy_density = 16e3;      // [kg/m^3] of the cube of a robot's size, twice that of steel: grams
 
 void suspect_lengths(const Robot& robot, std::vector<Suspicion>& out) {
   const auto look = [&](const std::string& field, double longest) {

@@ -2,13 +2,13 @@
 #include <limits>
 
 #include "certify_rows.hpp"
+#include "planar/plane.hpp"
 
 namespace mcplan::sip::proof {
 namespace {
 
 using Eigen::Vector2d;
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+using planar::cross;
 
 /// Places on two segments, as shares of their lengths.
 struct Shares {

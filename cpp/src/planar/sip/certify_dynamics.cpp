@@ -243,7 +243,7 @@ void PieceModels::contact_torques() {
 }
 
 /// Under the gain forces balance but for its rounding, and for the moment that they make at the actual points instead
-/// of the expected ones. Forces that are polynomials are compared with what is wanted.
+/// of the expected ones. Forces that are polynomials are compared with what is desired.
 void PieceModels::residuals() {
   if (constants_.gain.size() > 0) {
     const auto leaks = [&](int row) {

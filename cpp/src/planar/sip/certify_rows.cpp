@@ -55,7 +55,7 @@ std::vector<UncertainPolynomial> given_forces(planar_laws::Polynomial /*law*/, c
 }  // namespace
 
 /// Every row once, always in the same order: see(kind, name, amount), where `name` and `amount` are functions and
-/// `amount` is called for wanted rows only.
+/// `amount` is called for chosen rows only.
 template <class Visit>
 void IntervalRows::visit(const Trajectories& piece, const PieceModels* models, const Visit& see) const {
   visit_joints(piece, models, see);
