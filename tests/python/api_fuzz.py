@@ -153,7 +153,8 @@ class Fuzzer:
         def uninitialised() -> Any:
             blank = kind.__new__(kind)
             call = self.rng.choice(self.methods[name])
-            return call.target(blank, *[self.argument(a) for a in call.arguments])
+            given = [self.argument(a) for a in call.arguments]
+            self.guarded(f"uninitialised {call.text}", lambda: call.target(blank, *given), call.name in FILES)
 
         def forget() -> None:
             self.pool[name].remove(target) if len(self.pool[name]) > 1 else None
