@@ -120,6 +120,13 @@ def signatures_of(name: str, doc: str) -> list[str]:
     return [line.split(". ", 1)[1] for line in doc.splitlines() if re.match(rf"\d+\. {re.escape(name)}\(", line)]
 
 
+def written_in_python(name: str, owner: type, target: Callable[..., Any]) -> Call:
+    """A method that Python gave to a compiled class; its annotations are texts."""
+    parameters = [p for p in inspect.signature(target).parameters.values() if p.name != "self"]
+    arguments = [Argument(p.name, str(p.annotation), p.default is not p.empty) for p in parameters]
+    return Call(name, owner, target, arguments)
+
+
 def calls_of(name: str, owner: type | None, target: Callable[..., Any]) -> Iterator[Call]:
     for signature in signatures_of(name, target.__doc__ or ""):
         if "(" not in signature or signature.startswith(f"{name}(*args"):
@@ -143,6 +150,8 @@ def add_class(found: Interface, c: type) -> None:
             call = getattr(c, name)
             if name == "__init__":
                 found.constructors.extend(constructors_of(c))
+            elif inspect.isfunction(call):
+                found.methods.append(written_in_python(name, c, call))
             elif not name.startswith("_pybind11") and call.__doc__:
                 found.methods.extend(calls_of(name, c, call))
 

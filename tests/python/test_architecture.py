@@ -61,7 +61,7 @@ PYTHON_ROOMS = {
     "errors": {"moved"},
     "starting": set(),  # the command's first moments
     "extras": {"errors"},
-    "options": {"errors", "arguments"},
+    "options": {"errors", "arguments", "moved"},
     "option_types": {"_core"},  # generated
     "model": {"_core"},
     "arguments": {"_core", "errors"},
@@ -145,6 +145,12 @@ def test_each_parser_is_known_to_one_source() -> None:
     for parser, source in PARSERS.items():
         users = [path for _, path in cpp_files() if re.search(rf"#\s*include\s*<{re.escape(parser)}", path.read_text())]
         assert [str(path.relative_to(SOURCES)) for path in users] == [source]
+
+
+def test_the_compiled_module_calls_no_python_of_mcplan_but_the_types_of_errors() -> None:
+    for path in sorted((SOURCES / "bindings").glob("*.[ch]pp")):
+        named = re.findall(r'"(mcplan\.[\w.]+)"', path.read_text())
+        assert set(named) <= {"mcplan.errors"}, path.name
 
 
 def test_cpp_rooms_include_only_what_they_may() -> None:

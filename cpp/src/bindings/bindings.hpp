@@ -198,13 +198,4 @@ void def_value(py::class_<T, Extra...>& c, const std::string& name, const std::v
       "__deepcopy__", [](const T& self, const py::dict&) { return T(self); }, py::arg("memo"));
 }
 
-/// pickle through a pair of Python functions that turn the object into plain data and back.
-template <class T, class... Extra>
-void def_pickle(py::class_<T, Extra...>& c, const char* module, const char* to_plain, const char* from_plain) {
-  c.def("__reduce__", [module, to_plain, from_plain](py::object self) -> py::tuple {
-    const py::module_ files = py::module_::import(module);
-    return py::make_tuple(files.attr(from_plain), py::make_tuple(files.attr(to_plain)(self)));
-  });
-}
-
 }  // namespace mcplan::bindings

@@ -96,18 +96,7 @@ void bind_plan_class(py::module_& m) {
            "meant. Raises as at() does.");
   plan.def("validate", &Plan::validate,
            "Raise InvalidPlan when sizes or indices do not fit together or a number is not finite.");
-  plan.def(
-      "save",
-      [](py::object self, py::object path) { py::module_::import("mcplan.files.plans").attr("save_plan")(self, path); },
-      py::arg("path"), "Write the plan to an .npz or a .json file; C++ reads the latter.");
-  plan.def_static(
-      "load",
-      [](py::object path) -> Plan {
-        return py::module_::import("mcplan.files.plans").attr("load_plan")(path).cast<Plan>();
-      },
-      py::arg("path"), "Read a plan written by save(). Raises InvalidPlan.");
   plan.def("__repr__", py::overload_cast<const Plan&>(&describe), py::prepend());
-  def_pickle(plan, "mcplan.files.plans", "plan_to_bytes", "plan_from_bytes");
   m.def(
       "plan_to_json", [](const Plan& self) { return py::bytes(plan_to_json(self)); }, py::arg("plan"),
       "A plan as JSON; numbers read back as the same. Raises InvalidPlan.");

@@ -70,22 +70,7 @@ void bind_plan_class(py::module_& m) {
   plan.def("validate", &PlanarPlan::validate,
            "Raise InvalidPlan when sizes do not fit together, a duration or weight is not positive or a number is not "
            "finite; InvalidPlanarTask and InvalidRobot for the task.");
-  plan.def(
-      "save",
-      [](py::object self, py::object path) {
-        py::module_::import("mcplan.files.whole_body_plans").attr("save_whole_body_plan")(self, path);
-      },
-      py::arg("path"), "Write the plan to an .npz or a .json file; C++ reads the latter.");
-  plan.def_static(
-      "load",
-      [](py::object path) -> PlanarPlan {
-        return py::module_::import("mcplan.files.whole_body_plans")
-            .attr("load_whole_body_plan")(path)
-            .cast<PlanarPlan>();
-      },
-      py::arg("path"), "Read a plan written by save(). Raises InvalidPlan.");
   plan.def("__repr__", &describe, py::prepend());
-  def_pickle(plan, "mcplan.files.whole_body_plans", "plan_to_bytes", "plan_from_bytes");
 }
 
 void bind_functions(py::module_& m) {

@@ -6,6 +6,7 @@ from __future__ import annotations
 import collections.abc
 import numpy
 import numpy.typing
+import pathlib
 import typing
 from . import ddp
 from . import nlp
@@ -1278,9 +1279,13 @@ class Plan:
 
     __hash__: typing.ClassVar[None] = None
     @staticmethod
-    def load(path: typing.Any) -> Plan:
+    def load(path: str | pathlib.Path) -> Plan:
         """
-        Read a plan written by save(). Raises InvalidPlan.
+        Read a plan that was written by save(), or by Plan::save in C++.
+
+        Raises:
+            InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
+            FileNotFoundError: There is no such file.
         """
     def __copy__(self) -> Plan: ...
     def __deepcopy__(self, memo: dict) -> Plan: ...
@@ -1299,7 +1304,6 @@ class Plan:
         final_contacts: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [],
         swings: collections.abc.Sequence[Swing] = [],
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
     @typing.overload
     def __repr__(self) -> str: ...
     @typing.overload
@@ -1328,9 +1332,14 @@ class Plan:
         """
         [s], phases + 1 entries, from 0.
         """
-    def save(self, path: typing.Any) -> None:
+    def save(self, path: str | pathlib.Path) -> None:
         """
-        Write the plan to an .npz or a .json file; C++ reads the latter.
+        Write the plan to an .npz or a .json file, which is complete or not there at all; C++ reads the latter.
+
+        Raises:
+            InvalidInput: The name promises another kind of file.
+            OSError: The file cannot be written.
+            InvalidPlan: Its sizes do not fit together or a number is not finite.
         """
     def validate(self) -> None:
         """
@@ -2779,9 +2788,13 @@ class PlanarPlan:
 
     __hash__: typing.ClassVar[None] = None
     @staticmethod
-    def load(path: typing.Any) -> PlanarPlan:
+    def load(path: str | pathlib.Path) -> PlanarPlan:
         """
-        Read a plan written by save(). Raises InvalidPlan.
+        Read a plan that was written by save(), or by PlanarPlan::save in C++.
+
+        Raises:
+            InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
+            FileNotFoundError: There is no such file.
         """
     def __copy__(self) -> PlanarPlan: ...
     def __deepcopy__(self, memo: dict) -> PlanarPlan: ...
@@ -2801,7 +2814,6 @@ class PlanarPlan:
             typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]
         ] = [],
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
     @typing.overload
     def __repr__(self) -> str: ...
     @typing.overload
@@ -2829,9 +2841,14 @@ class PlanarPlan:
         """
         [s] phase boundaries, phases + 1 entries, from 0.
         """
-    def save(self, path: typing.Any) -> None:
+    def save(self, path: str | pathlib.Path) -> None:
         """
-        Write the plan to an .npz or a .json file; C++ reads the latter.
+        Write the plan to an .npz or a .json file, which is complete or not there at all; C++ reads the latter.
+
+        Raises:
+            InvalidInput: The name promises another kind of file.
+            OSError: The file cannot be written.
+            InvalidPlan: Its sizes do not fit together or a number is not finite.
         """
     def validate(self) -> None:
         """
