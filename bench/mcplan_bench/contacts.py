@@ -304,7 +304,7 @@ def settings_summary(rows: Sequence[Row]) -> dict[str, Any]:
         "runs": len(rows),
         "solved": sum(row.status == "solved" for row in rows),
         "hands_only": len(costs),
-        "least_cost": min_cost,
+        "min_cost": min_cost,
         "median_cost": float(np.median(costs)) if costs else None,
         "hold_contacts": sum(bool(row.holds) for row in rows),
         "holds": min_cost is not None and min_cost <= RAIL_COST and len(costs) >= RAIL_GOOD,

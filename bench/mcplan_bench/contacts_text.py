@@ -183,7 +183,7 @@ def _settings(found: dict[str, Any]) -> Section:
     ]
     notes = [
         f"{summary['hands_only']} of {summary['runs']} find a plan with a phase on hands alone, at least {RAIL_GOOD} are "
-        f"demanded; best J {number(summary['least_cost'], '.3g')}, at most {RAIL_COST:g}; median "
+        f"demanded; best J {number(summary['min_cost'], '.3g')}, at most {RAIL_COST:g}; median "
         f"{number(summary['median_cost'], '.3g')}. {summary['hold_contacts']} hold all that the plan of the default setting "
         f"is held to. Holds: {holds(summary['holds'])}."
     ]

@@ -34,7 +34,7 @@ class Iterations:
     ms: float  # per iteration
     parts_ms: dict[str, float]  # the same by part
     neighbours: float  # priced per iteration
-    pricing_share: float  # ratio of its time to the iteration's
+    pricing_ratio: float  # ratio of its time to the iteration's
 
     @property
     def pricing_us(self) -> float:
@@ -60,7 +60,7 @@ def iterations(scene: Scene, robot: Robot, repeats: int, options: dict[str, Any]
         ms=float(np.median([sum(each.values()) for each in parts])),
         parts_ms=medians,
         neighbours=sum(row.neighbours for row in report.history) / count,
-        pricing_share=float(np.median([each["pricing"] / max(sum(each.values()), 1e-12) for each in parts])),
+        pricing_ratio=float(np.median([each["pricing"] / max(sum(each.values()), 1e-12) for each in parts])),
     )
     return timing, results
 
@@ -120,15 +120,15 @@ def compare(
                 "searching_iterations": first,
                 "neighbours": search.neighbours,
                 "pricing_us": search.pricing_us,
-                "pricing_share": search.pricing_share,
-                "pricing_share_all": whole.pricing_share,
+                "pricing_ratio": search.pricing_ratio,
+                "pricing_ratio_all": whole.pricing_ratio,
                 "plan_ms": _whole_ms(plans),
                 "paper_status": str(paper_plans[0].report.status),
                 "paper_iteration_ms": paper.ms,
                 "paper_iterations": paper.count,
                 "paper_neighbours": paper.neighbours,
                 "paper_pricing_us": paper.pricing_us,
-                "paper_pricing_share": paper.pricing_share,
+                "paper_pricing_ratio": paper.pricing_ratio,
                 "paper_plan_ms": _whole_ms(paper_plans),
                 "ratio": paper.ms / search.ms,
                 "ratio_all": paper.ms / whole.ms,

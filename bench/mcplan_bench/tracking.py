@@ -55,7 +55,7 @@ class Row:
         fell: It fell; or, of a planar robot, left its plan.
         torque_joint: The joint with the largest torque over its limit.
         leg_torque_use, leg_torque_joint: The same among the joints that carry feet.
-        leg_limit_share: Fraction of the time in which the torque of one of these is at its limit.
+        leg_limit_ratio: Fraction of the time in which the torque of one of these is at its limit.
         holds: Whether the row meets its demands; None: it has none.
         why: Which demands it does not meet.
     """
@@ -85,7 +85,7 @@ class Row:
     torque_joint: str = ""
     leg_torque_use: float | None = None
     leg_torque_joint: str = ""
-    leg_limit_share: float | None = None
+    leg_limit_ratio: float | None = None
     assist_force_rms_N: float | None = None
     assist_moment_rms_Nm: float | None = None
     force_rms: float | None = None
@@ -280,7 +280,7 @@ def _torques(recording: Recording) -> dict[str, Any]:
         "torque_joint": recording.joints[int(max_use.argmax())],
         "leg_torque_use": float(max_of_legs.max()),
         "leg_torque_joint": recording.joints[int(max_of_legs.argmax())],
-        "leg_limit_share": float(np.mean(of_legs.max(axis=1) > AT_LIMIT)),
+        "leg_limit_ratio": float(np.mean(of_legs.max(axis=1) > AT_LIMIT)),
     }
 
 

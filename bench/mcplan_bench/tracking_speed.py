@@ -27,7 +27,7 @@ def measure(repeats: int = 3, case: str = CASE) -> dict[str, Any]:
 
     Returns:
         control_ms and its parts qp_ms (the solver), model_ms (kinematics and dynamics), rest_ms (building the program,
-        references, torques), p99_ms (of whole steps); qp_share, model_share, rest_share; simulation_ms (MuJoCo, in one
+        references, torques), p99_ms (of whole steps); qp_ratio, model_ratio, rest_ratio; simulation_ms (MuJoCo, in one
         control step), realtime_factor; holds.
     """
     row: dict[str, Any] = apart(_measure, repeats, case)
@@ -61,7 +61,7 @@ def _measure(repeats: int, name: str) -> dict[str, Any]:
             }
         )
     median = {key: float(np.median([row[key] for row in rows])) for key in rows[0]}
-    ratios = {f"{part}_share": median[f"{part}_ms"] / median["control_ms"] for part in ("qp", "model", "rest")}
+    ratios = {f"{part}_ratio": median[f"{part}_ms"] / median["control_ms"] for part in ("qp", "model", "rest")}
     holds = median["control_ms"] <= CONTROL_MS and median["realtime_factor"] >= REALTIME_FACTOR
     return {"case": name, "repeats": repeats, **median, **ratios, "holds": holds}
 

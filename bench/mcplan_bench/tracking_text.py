@@ -104,7 +104,7 @@ def _effort(rows: Sequence[Row]) -> Section:
     cells = [
         [
             row.case,
-            *(_number(row.leg_torque_use, ".2f"), row.leg_torque_joint, _number(row.leg_limit_share, ".1f", 1e2, " %")),
+            *(_number(row.leg_torque_use, ".2f"), row.leg_torque_joint, _number(row.leg_limit_ratio, ".1f", 1e2, " %")),
             *(_number(row.torque_use, ".2f"), row.torque_joint),
             *(_number(row.assist_force_rms_N, ".0f", unit=" N"), _number(row.assist_moment_rms_Nm, ".1f", unit=" N m")),
             *(_number(row.qp_failures, "d"), _number(row.simulator_warnings, "d")),
@@ -171,7 +171,7 @@ def _robustness(found: dict[str, Any]) -> Section:
 
 def _speed(row: dict[str, Any]) -> Section:
     head = ["plan", "control step", "99th percentile", "QP", "model", "rest", "MuJoCo", "x real time", "holds"]
-    parts = [f"{row[f'{part}_ms']:.2f} ms, {100 * row[f'{part}_share']:.0f} %" for part in ("qp", "model", "rest")]
+    parts = [f"{row[f'{part}_ms']:.2f} ms, {100 * row[f'{part}_ratio']:.0f} %" for part in ("qp", "model", "rest")]
     cells = [
         row["case"],
         f"{row['control_ms']:.2f} ms",

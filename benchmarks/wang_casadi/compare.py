@@ -117,7 +117,7 @@ def measured(
     }
     for name in names:
         out[name] = {key: mean(name, key) for key in ("time_s", "cpu_s", "iterations")}
-        out[name]["evaluation_share"] = mean(name, "evaluation_s") / out[name]["time_s"]
+        out[name]["evaluation_ratio"] = mean(name, "evaluation_s") / out[name]["time_s"]
         out[name]["ms_per_iteration"] = 1e3 * out[name]["time_s"] / out[name]["iterations"]
     for form in forms:
         out[form]["ratio"] = out[form]["time_s"] / out["mcplan"]["time_s"]
@@ -163,11 +163,11 @@ def markdown(rows: list[dict[str, Any]]) -> str:
                 row["transcription"],
                 f"{ours['time_s']:.3f}",
                 f"{ours['iterations']:.1f}",
-                f"{ours['evaluation_share']:.1%}",
+                f"{ours['evaluation_ratio']:.1%}",
                 form,
                 f"{peer['time_s']:.3f}",
                 f"{peer['iterations']:.1f}",
-                f"{peer['evaluation_share']:.1%}",
+                f"{peer['evaluation_ratio']:.1%}",
                 f"{peer['ratio']:.2f}",
                 f"{peer['ratio_cpu']:.2f}",
                 f"{np.median(apart):.1e}, {np.max(apart):.1e}",

@@ -130,7 +130,7 @@ def summary(loop: Loop, cycles: int) -> dict[str, Any]:
             "time_std_s": float(wall.std()),
             "time_max_s": float(wall.max()),
             "cpu_s": float(np.mean([outcome.cpu_s for outcome in warm])),
-            "evaluation_share": float(sum(outcome.evaluation_s for outcome in warm) / wall.sum()),
+            "evaluation_ratio": float(sum(outcome.evaluation_s for outcome in warm) / wall.sum()),
         }
     return out
 

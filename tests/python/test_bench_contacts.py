@@ -150,10 +150,10 @@ def test_settings_count_plans_on_hands_that_are_solved():
     rows += [replace(GOOD, status="infeasible", cost=0.1), replace(GOOD, hands_only=0, cost=0.1, holds=False)]
     found = bench.settings_summary(rows)
     assert (found["runs"], found["hands_only"], found["solved"], found["hold_contacts"]) == (16, 14, 15, 15)
-    assert found["least_cost"] == pytest.approx(0.2) and found["median_cost"] == pytest.approx(0.4) and found["holds"]
+    assert found["min_cost"] == pytest.approx(0.2) and found["median_cost"] == pytest.approx(0.4) and found["holds"]
     assert not bench.settings_summary(rows[1:])["holds"]  # 13 of them
     assert not bench.settings_summary([replace(row, cost=0.3) for row in rows])["holds"]
-    assert bench.settings_summary([])["least_cost"] is None
+    assert bench.settings_summary([])["min_cost"] is None
 
 
 def test_speed_is_a_ratio_of_two_runs():

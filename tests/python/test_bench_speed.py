@@ -18,7 +18,7 @@ def test_an_iteration_is_the_sum_of_its_parts(rows):
     for method in ("", "paper_"):
         parts = sum(row[f"{method}{part}_ms"] for part in speed.PARTS)
         assert row[f"{method}iteration_ms"] == pytest.approx(parts)
-        assert row[f"{method}pricing_share"] == pytest.approx(row[f"{method}pricing_ms"] / parts)
+        assert row[f"{method}pricing_ratio"] == pytest.approx(row[f"{method}pricing_ms"] / parts)
     assert row["ratio"] == pytest.approx(row["paper_iteration_ms"] / row["iteration_ms"])
 
 

@@ -148,10 +148,10 @@ def test_the_largest_torques_are_named_for_legs_and_for_all():
         "torque_joint": "arm_left_2_joint",
         "leg_torque_joint": "leg_right_4_joint",
         "leg_torque_use": pytest.approx(0.7),
-        "leg_limit_share": 0.0,
+        "leg_limit_ratio": 0.0,
     }
     torques[::4, knee] = limits[knee]
-    share = bench._torques(replace(run, torques=torques))["leg_limit_share"]
+    share = bench._torques(replace(run, torques=torques))["leg_limit_ratio"]
     assert share == pytest.approx(0.25, abs=1.0 / len(torques))
 
 

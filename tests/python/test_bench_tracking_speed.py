@@ -31,7 +31,7 @@ def test_calls_are_timed_and_nothing_else_about_them_changes():
 def test_parts_of_a_control_step_add_up():
     pytest.importorskip("proxsuite")
     row = bench.measure(repeats=1)
-    assert row["qp_share"] + row["model_share"] + row["rest_share"] == pytest.approx(1.0)
+    assert row["qp_ratio"] + row["model_ratio"] + row["rest_ratio"] == pytest.approx(1.0)
     assert min(row["qp_ms"], row["model_ms"], row["rest_ms"], row["simulation_ms"]) > 0.0
     # A control step of 2 ms, controller and simulation and little else.
     assert row["realtime_factor"] < 2.0 / (row["control_ms"] + row["simulation_ms"])

@@ -13,7 +13,7 @@ from mcplan_bench.tracking_text import BEGIN, END, markdown, sections
 WALK = Row("flat/talos", "ddp", "talos", 1.0, False, planned="solved", steps=12, fell=False, completed_s=11.5)
 WALK = replace(WALK, com_rms_m=0.0012, com_max_m=0.0034, final_base_error_m=0.0051, torque_use=1.0, leg_torque_use=0.61)
 WALK = replace(
-    WALK, leg_torque_joint="leg_left_4_joint", leg_limit_share=0.035, qp_failures=0, control_ms=0.72, holds=True
+    WALK, leg_torque_joint="leg_left_4_joint", leg_limit_ratio=0.035, qp_failures=0, control_ms=0.72, holds=True
 )
 FALL = replace(WALK, case="gap/talos", fell=True, completed_s=3.2, holds=False, why="fell at 3.20 s")
 COM = Row("rubbles/com", "rhp", "talos", 1.0, False, planned="infeasible", message="cycle 1: com_reach", holds=True)
@@ -23,7 +23,7 @@ SEED_3 = Outcome("flat/talos", 3, 1.05, 0.9, -0.004, 30.0, 2.5, 90.0, True, 3.0,
 ROBUSTNESS = {"case": "flat/talos", "runs": 20, "survived": 19, "holds": True, "fell": [3], "largest_com_rms_m": 0.0041}
 ROBUSTNESS |= {"qp_failures": 0, "simulator_warnings": 0}
 SPEED = {"repeats": 3, "control_ms": 0.8, "qp_ms": 0.2, "model_ms": 0.1, "rest_ms": 0.5, "p99_ms": 1.4, "holds": True}
-SPEED |= {"case": "flat/talos", "qp_share": 0.25, "model_share": 0.125, "rest_share": 0.625}
+SPEED |= {"case": "flat/talos", "qp_ratio": 0.25, "model_ratio": 0.125, "rest_ratio": 0.625}
 SPEED |= {"simulation_ms": 0.2, "realtime_factor": 1.9}
 RESULT = {
     "machine": {"cpu": "A processor", "cores": 2, "version": "0.1.0", "python": "3.11", "date": "2026-11-21"},

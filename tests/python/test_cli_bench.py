@@ -73,7 +73,7 @@ def test_contacts_writes_tables_and_fails_when_a_row_does(tmp_path, monkeypatch,
     assert "[2/2] flat/anymal: solved" in err and "16 of 16 find" in out
     content = strict((tmp_path / "contacts.json").read_text())
     assert [row["case"] for row in content["rows"]] == ["flat", "flat/anymal"] and content["holds"]
-    assert content["settings"]["summary"]["least_cost"] == 0.2 and "speed" not in content
+    assert content["settings"]["summary"]["min_cost"] == 0.2 and "speed" not in content
     assert (
         page.read_text().startswith("# Plans held to")
         and "`mcplan bench contacts --case 'flat*' --settings`" in page.read_text()

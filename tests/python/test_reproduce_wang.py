@@ -58,7 +58,7 @@ def test_the_cells_are_those_of_the_cycles(quick):
         ]
         assert len(mine) == int(row["cycles"]) == 2
         assert float(row["time_mean"]) == pytest.approx(np.mean([float(c["time_s"]) for c in mine]))
-        assert 0.0 < float(row["cpu_mean"]) and 0.0 < float(row["evaluation_share"]) < 1.0
+        assert 0.0 < float(row["cpu_mean"]) and 0.0 < float(row["evaluation_ratio"]) < 1.0
     for row in read(quick / "figure_4.csv"):
         mine = [c for c in cycles if (c["method"], c["predicted"]) == (row["method"], row["predicted"])]
         cost = sum(float(c["acceleration_cost"]) + float(c["momentum_cost"]) for c in mine)

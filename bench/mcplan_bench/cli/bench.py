@@ -152,7 +152,7 @@ def _print_speed(rows: list[dict[str, Any]]) -> None:
                 f"{row['iteration_all_ms']:.3f} ms",
                 f"{row['paper_iteration_ms']:.3f} ms",
                 f"{row['ratio']:.1f}",
-                f"{100 * row['pricing_share']:.0f} / {100 * row['pricing_share_all']:.0f} %",
+                f"{100 * row['pricing_ratio']:.0f} / {100 * row['pricing_ratio_all']:.0f} %",
                 f"{row['pricing_us']:.2f} us",
                 f"{row['paper_pricing_us']:.2f} us",
                 f"{row['plan_ms']:.0f} ms",

@@ -93,7 +93,7 @@ def table_2_row(name: str, robot: Any, repeats: int, threads: int) -> dict[str, 
             kind = "parallel" if count > 1 else "1"
             row[f"{method}_{kind}_ms"] = timing.ms
         row[f"{method}_neighbours"] = timing.neighbours
-        row[f"{method}_pricing_share"] = timing.pricing_share
+        row[f"{method}_pricing_ratio"] = timing.pricing_ratio
     whole, _ = iterations(scene, robot, repeats, {})
     row["standard_all_ms"] = whole.ms
     return row

@@ -151,7 +151,7 @@ def _head(about: dict[str, Any], seeds: list[int], table_3: list[dict[str, Any]]
 
 
 def _times(rows: list[dict[str, Any]]) -> list[str]:
-    ratio = max((row["evaluation_share"] for row in rows), default=0.0)
+    ratio = max((row["evaluation_ratio"] for row in rows), default=0.0)
     compared = "; ".join(
         f"{terrain} {published:.1f} there, {here:.1f} here" for terrain, published, here in wang_tables.faster(rows)
     )

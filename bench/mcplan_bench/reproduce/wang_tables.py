@@ -147,7 +147,7 @@ def table_3_rows(runs: list[Run]) -> list[dict[str, Any]]:
                 values = np.array([cycle[key] for cycle in cycles], dtype=float)
                 row |= {f"{name}_mean": values.mean(), f"{name}_std": values.std(), f"{name}_max": values.max()}
             total = sum(cycle["time_s"] for cycle in cycles)
-            row["evaluation_share"] = sum(cycle["evaluation_s"] for cycle in cycles) / total
+            row["evaluation_ratio"] = sum(cycle["evaluation_s"] for cycle in cycles) / total
             row["load"] = float(np.mean([run.load for run in here]))
             out.append(row)
     return out

@@ -61,7 +61,8 @@ void bind_plan_class(py::module_& m) {
   py::class_<PlanarPlan> plan = bind_fields<PlanarPlan>(m);  // its repr is not what could be pasted back
   plan.def("duration", &PlanarPlan::duration, "[s]");
   plan.def("knot_times", &PlanarPlan::knot_times, "[s] phase boundaries, phases + 1 entries, from 0.");
-  plan.def("interval_lengths", &PlanarPlan::interval_lengths, "[s]");
+  plan.def("interval_lengths", &PlanarPlan::interval_lengths,
+           "[s] Raises InvalidPlanarTask for phases of no or too many intervals.");
   plan.def("at", &PlanarPlan::at, py::arg("t"),
            "PlanarState at time t [s] in [0, duration], in closed form. At a boundary the phase that begins there "
            "is meant (the last one at the end). Raises InvalidInput outside.");

@@ -7,6 +7,7 @@
 #include "mcplan/base/error.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "model/read.hpp"
+#include "plan_shape.hpp"
 #include "tolerances_fields.hpp"
 
 namespace mcplan {
@@ -16,11 +17,6 @@ using namespace checks;
 
 /// Instants between two questions to the caller: a millisecond or so.
 constexpr int kSamplesPerPoll = 256;
-
-void require_size(const std::string& field, std::size_t size, std::size_t expected) {
-  if (size != expected)
-    throw InvalidPlan(field, "must have " + std::to_string(expected) + " entries", std::to_string(size));
-}
 
 void require_surface(const std::string& field, int surface, const Scene& scene) {
   const int count = static_cast<int>(scene.surfaces.size());

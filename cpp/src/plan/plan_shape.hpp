@@ -1,10 +1,19 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
+#include "mcplan/base/error.hpp"
 #include "mcplan/plan/plan.hpp"
 
 namespace mcplan {
+
+/// Throws InvalidPlan when an array of a plan of any kind has not as many entries as it must have.
+template <class Size>
+void require_size(const std::string& field, Size size, std::size_t expected) {
+  if (static_cast<std::size_t>(size) != expected)
+    throw InvalidPlan(field, "must have " + std::to_string(expected) + " entries", std::to_string(size));
+}
 
 /// Throws InvalidPlan when sizes or indices do not fit together. Says nothing of the numbers: a planner that ends with
 /// numbers that are not finite still gets an answer about its plan. `surfaces`: how many there are. Swings are left out

@@ -21,10 +21,10 @@ void LeastNorm::set_components(const Instant& at, Eigen::VectorXd& components) {
 
 void LeastNorm::require_shape(const PlanarPlan& plan) {
   const std::size_t phases = plan.task.phases.size();
-  planar::require_size("weights", plan.weights.size(), phases);
+  require_size("weights", plan.weights.size(), phases);
   for (std::size_t k = 0; k < phases; ++k)
-    planar::require_size("weights[" + std::to_string(k) + "]", plan.weights[k].size(),
-                         planar::point_count(plan.task, plan.task.phases[k]));
+    require_size("weights[" + std::to_string(k) + "]", plan.weights[k].size(),
+                 planar::point_count(plan.task, plan.task.phases[k]));
 }
 
 void LeastNorm::validate(const PlanarPlan& plan) {

@@ -14,7 +14,7 @@ void Polynomial::set_components(const Instant& at, Eigen::VectorXd& components) 
 void Polynomial::require_shape(const PlanarPlan& plan) {
   const PlanarTask& task = plan.task;
   const int intervals = task.interval_count();
-  planar::require_size("force_polynomials", plan.force_polynomials.size(), intervals);
+  require_size("force_polynomials", plan.force_polynomials.size(), intervals);
   for (int i = 0; i < intervals; ++i)
     planar::require_matrix("force_polynomials[" + std::to_string(i) + "]", plan.force_polynomials[i], 4,
                            2 * planar::point_count(task, task.phases[task.phase_of(i)]));

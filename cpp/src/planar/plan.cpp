@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "evaluation.hpp"
+#include "require.hpp"
 
 namespace mcplan {
 namespace {
@@ -84,6 +85,7 @@ std::vector<double> PlanarPlan::knot_times() const {
 }
 
 std::vector<double> PlanarPlan::interval_lengths() const {
+  planar::require_intervals(task);
   std::vector<double> lengths;
   const std::size_t phases = std::min(durations.size(), task.phases.size());
   for (std::size_t k = 0; k < phases; ++k)

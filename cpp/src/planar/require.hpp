@@ -6,15 +6,13 @@
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/planar/task.hpp"
+#include "plan/plan_shape.hpp"
 
 /// What validate.cpp and the force laws hold a plan's arrays to. All throw InvalidPlan.
 namespace mcplan::planar {
 
-template <class Size>
-void require_size(const std::string& field, Size size, std::size_t expected) {
-  if (static_cast<std::size_t>(size) != expected)
-    throw InvalidPlan(field, "must have " + std::to_string(expected) + " entries", std::to_string(size));
-}
+/// Throws InvalidPlanarTask when a phase has no piece of a spline, or more than can be meant.
+void require_intervals(const PlanarTask& task);
 
 inline void require_matrix(const std::string& field, const Eigen::MatrixXd& matrix, Eigen::Index rows,
                            Eigen::Index columns) {

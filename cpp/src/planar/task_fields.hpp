@@ -143,6 +143,8 @@ struct FileKeys<PlanarPose> {
   using Type = PlanarPoseKeys;
 };
 
+constexpr int max_phase_intervals = 1000;
+
 template <>
 struct Fields<PlanarPhase> {
   static constexpr const char* name = "PlanarPhase";
@@ -150,7 +152,7 @@ struct Fields<PlanarPhase> {
   static constexpr auto all = std::make_tuple(
       field("intervals", &PlanarPhase::intervals, "-", "Pieces of the joints' splines.")
           .at_least(1.0)
-          .at_most(1000.0)
+          .at_most(max_phase_intervals)
           .by_file_keys(),
       field("min_duration", &PlanarPhase::min_duration, "s", "Least duration.").not_negative(),
       field("max_duration", &PlanarPhase::max_duration, "s", "Largest duration; left out: no limit.")
@@ -183,7 +185,7 @@ struct Fields<PlanarPhaseKeys> {
       field("intervals", &PlanarPhaseKeys::intervals, "-",
             "Pieces of the joints' splines. Default: 3 for the first and last phase, else 4.")
           .at_least(1.0)
-          .at_most(1000.0),
+          .at_most(max_phase_intervals),
       field("poses", &PlanarPhaseKeys::poses, "", "Where a body has to be at an instant.").entries(0, 1000));
 };
 

@@ -2,6 +2,7 @@
 
 #include "evaluation.hpp"
 #include "require.hpp"
+#include "task_fields.hpp"
 
 namespace mcplan {
 namespace planar {
@@ -23,12 +24,10 @@ void require_indices(const PlanarTask& task) {
   for (const PlanarEndEffector& end : robot.end_effectors)
     require_index("end_effectors", end.body, robot.bodies.size());
   if (task.phases.empty()) throw InvalidPlanarTask("phases", "needs at least one phase", "none");
+  require_intervals(task);
   for (std::size_t k = 0; k < task.phases.size(); ++k) {
     const PlanarPhase& phase = task.phases[k];
     const std::string field = "phases[" + std::to_string(k) + "].contacts";
-    if (phase.intervals < 1)
-      throw InvalidPlanarTask("phases[" + std::to_string(k) + "].intervals", "must be at least 1",
-                              text(phase.intervals));
     if (phase.contacts.empty()) throw InvalidPlanarTask(field, "needs at least one contact", "none");
     for (const PlanarContact& contact : phase.contacts) {
       require_index(field, contact.end_effector, robot.end_effectors.size());
@@ -38,6 +37,15 @@ void require_indices(const PlanarTask& task) {
 }
 
 }  // namespace
+
+void require_intervals(const PlanarTask& task) {
+  for (std::size_t k = 0; k < task.phases.size(); ++k) {
+    const int intervals = task.phases[k].intervals;
+    if (intervals < 1 || intervals > model::max_phase_intervals)
+      throw InvalidPlanarTask("phases[" + std::to_string(k) + "].intervals",
+                              "must lie in [1, " + text(model::max_phase_intervals) + "]", text(intervals));
+  }
+}
 
 void require_shape(const PlanarPlan& plan) {
   const PlanarTask& task = plan.task;

@@ -2835,7 +2835,7 @@ class PlanarPlan:
         """
     def interval_lengths(self) -> list[float]:
         """
-        [s]
+        [s] Raises InvalidPlanarTask for phases of no or too many intervals.
         """
     def knot_times(self) -> list[float]:
         """

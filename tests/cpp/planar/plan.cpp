@@ -3,7 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <functional>
+#include <limits>
 #include <random>
+#include <string>
 
 #include "in_threads.hpp"
 #include "mcplan/planar/checker.hpp"
@@ -158,6 +160,17 @@ TEST_CASE("the coefficients of given forces are powers of s, tangential before n
   CHECK(state.forces[2].contact == 1);
   CHECK(state.forces[2].end_effector == planar::right_foot);
   CHECK(state.forces[2].point == 0);
+}
+
+TEST_CASE("a plan whose task was edited to have no or billions of intervals says so, and takes no memory for them") {
+  PlanarPlan plan = moving_plan();
+  for (int intervals : {0, -1, 1001, std::numeric_limits<int>::max()}) {
+    plan.task.phases[1].intervals = intervals;
+    CHECK_THROWS_WITH_AS(plan.interval_lengths(),
+                         ("phases[1].intervals: must lie in [1, 1000], got " + std::to_string(intervals)).c_str(),
+                         mcplan::InvalidPlanarTask);
+    CHECK_THROWS_AS(plan.at(0.1), mcplan::InvalidPlanarTask);
+  }
 }
 
 TEST_CASE("at() and at_phase() agree, and say which side of a boundary is meant") {

@@ -63,9 +63,10 @@ class PlanarPlan {
                                                    ///< coefficients of s^0..s^3, s = -1..1, of tangential and normal
                                                    ///< force [N], contact by contact, point by point
 
-  double duration() const;                       ///< [s]
-  std::vector<double> knot_times() const;        ///< [s] phase boundaries, phases + 1 entries, from 0
-  std::vector<double> interval_lengths() const;  ///< [s]
+  double duration() const;                 ///< [s]
+  std::vector<double> knot_times() const;  ///< [s] phase boundaries, phases + 1 entries, from 0
+  std::vector<double> interval_lengths()
+      const;  ///< [s]; throws InvalidPlanarTask for phases of no or too many intervals
 
   /// State at time t [s] in [0, duration]. At a boundary the phase that begins there is meant (the last one at the
   /// end). Throws InvalidInput outside.

@@ -1,0 +1,62 @@
+#include <doctest/doctest.h>
+
+#include "plan/checker_case.hpp"
+#include "plan/swings.hpp"
+
+using namespace checker_case;
+
+TEST_CASE("checker rejects a hand out of reach") {
+  CHECK(broken([](Case& c) { c.plan.knots[6].end_effectors_W[right_hand].y() -= 0.25; }) == Names{"reach"});
+}
+
+TEST_CASE("checker rejects a free hand out of reach at a knot, though the path bends into the reach box") {
+  for (const Vector3d& by : {Vector3d(0, -0.25, 0), Vector3d(-1e9, 5, 1e9), Vector3d(0, 0, 1.18e21)}) {
+    CAPTURE(by.transpose());
+    CHECK(broken([&](Case& c) {
+            mcplan::choose_swings(c.plan);
+            c.plan.knots[6].end_effectors_W[right_hand] += by;
+          }).count("reach") == 1);
+  }
+}
+
+TEST_CASE("checker rejects a swing that leaves the reach box between the knots") {
+  // Feet hang 0.70 m below the CoM at the knots and 0.62 m half way through a swing.
+  CHECK(broken([](Case& c) { c.robot.end_effectors[left_foot].reach_max_B.z() = -0.63; }) == Names{"reach"});
+}
+
+TEST_CASE("checker measures reach in the base's frame") {
+  // A quarter turn puts the feet before and behind the base, where they may not be.
+  CHECK(broken([](Case& c) {
+          for (auto& knot : c.plan.knots) knot.base_rpy.z() += M_PI / 2;
+        }).count("reach") == 1);
+}
+
+TEST_CASE("checker rejects a swing through a block") {
+  CHECK(broken([](Case& c) { c.plan.swings[0].height = 0.0; }) == Names{"clearance"});
+}
+
+TEST_CASE("solids that are set aside while they are out of reach are found again: a wall anywhere on the way is hit") {
+  const Case made;
+  int hit = 0;
+  for (int n = 0; n < 40; ++n) {
+    Case blocked = made;
+    // A thin plate across the way, as high as feet swing, whose prism reaches down to the ground.
+    const double x = -0.2 + 0.05 * n;
+    mcplan::Surface plate;
+    plate.name = "plate";
+    plate.vertices_W = {{x, -2.0, 0.5}, {x + 0.02, -2.0, 0.5}, {x + 0.02, 2.0, 0.5}, {x, 2.0, 0.5}};
+    plate.thickness = 0.499;
+    blocked.scene.surfaces.push_back(plate);
+    double deepest = 0.0;  // by looking everywhere
+    const auto solids = mcplan::solids_of(blocked.scene);
+    for (int l = 0; l < made.plan.end_effector_count(); ++l)
+      for (const auto& stretch : mcplan::free_stretches(made.plan, solids, l))
+        deepest = std::max(deepest, fixtures::deepest(made.plan, solids, l, stretch, 1e-3));
+    double checked = 0.0;
+    for (const auto& violation : blocked.check().constraints)
+      if (violation.name == "clearance") checked = violation.value;
+    CHECK(checked == doctest::Approx(deepest).epsilon(1e-6));
+    hit += deepest > 0.0;
+  }
+  CHECK(hit > 5);
+}
