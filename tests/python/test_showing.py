@@ -1,5 +1,6 @@
 """One way for plans and runs of both kinds: loaded, asked, drawn."""
 
+import copy
 import inspect
 
 import numpy as np
@@ -12,6 +13,8 @@ import recordings
 import tracked_cartwheel
 from mcplan import showing
 from mcplan.tracking import Options, TrackingResult
+from mcplan.view.pages.show import show_scene
+from mcplan.view.pictures.picture import picture
 from reference_solutions import reference_plan
 
 
@@ -60,3 +63,18 @@ def test_runs_are_shown_as_plans_are():
     assert "simulated" in mp.show(recording).title
     with pytest.raises(mp.InvalidInput, match="scene: a run is drawn with its own plan, got 'flat'"):
         mp.show(recording, mp.load_scene("flat"))
+
+
+def test_a_scene_or_robot_that_was_edited_out_of_its_ranges_is_refused_by_name(tmp_path):
+    plan = plans_by_hand.walk(plans_by_hand.flat(), plans_by_hand.humanoid())
+    scene, robot = copy.deepcopy(plan.scene), copy.deepcopy(plan.robot)
+    scene.surfaces[0].vertices_W = np.zeros((0, 3))
+    robot.mass = float("nan")
+    for draw in (mp.show, lambda *args: picture(*args, path=tmp_path / "a.png")):
+        with pytest.raises(mp.errors.InvalidScene, match=r"surfaces\[0\].vertices"):
+            draw(plan, scene, plan.robot)
+        with pytest.raises(mp.errors.InvalidRobot, match="mass"):
+            draw(plan, plan.scene, robot)
+    with pytest.raises(mp.errors.InvalidScene, match=r"surfaces\[0\].vertices"):
+        show_scene(scene)
+    assert not list(tmp_path.iterdir())

@@ -46,12 +46,15 @@ def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, rep
     Raises:
         MissingExtra: meshcat (or Pinocchio, for a robot with a URDF) is not installed.
         InvalidPlan: The plan's arrays do not fit together.
+        InvalidScene, InvalidRobot: A number of the scene or of the robot is out of its range.
     """
     if scene is not None or robot is not None:
         plan = copy.copy(plan)
         plan.scene = scene if scene is not None else plan.scene
         plan.robot = robot if robot is not None else plan.robot
     scene, robot = plan.scene, plan.robot
+    scene.validate()
+    robot.validate()
     plan.validate()  # with what it is drawn with: another robot may have other end-effectors
     colours = end_effector_colours(robot)
     samples = sample(plan, scene, robot, FRAME_RATE)
@@ -114,9 +117,13 @@ def show_scene(scene: Scene, robot: Robot | None = None) -> Page:
         robot: Stands at the start, and pale at the goal, with its footprints; None: flags at start and goal alone.
 
     Raises:
-        InvalidScene: The robot cannot take the scene's start or goal.
+        InvalidScene: The robot cannot take the scene's start or goal, or a number of the scene is out of its range.
+        InvalidRobot: A number of the robot is out of its range.
         MissingExtra: meshcat is not installed.
     """
+    scene.validate()
+    if robot is not None:
+        robot.validate()
     extent = extent_of(scene, robot, None, length=0.9, width=0.9)
     direction = camera_direction(extent)
     drawings = surface_drawings(scene, extent)

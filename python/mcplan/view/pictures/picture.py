@@ -62,10 +62,13 @@ def picture(
     Raises:
         MissingExtra: matplotlib is not installed.
         InvalidPlan: The plan's arrays do not fit together.
+        InvalidScene, InvalidRobot: A number of the scene or of the robot is out of its range.
     """
     require("mcplan.view.picture", "view", "matplotlib")
     scene = scene if scene is not None else plan.scene
     robot = robot if robot is not None else plan.robot
+    scene.validate()
+    robot.validate()
     plan.validate()
     colours = end_effector_colours(robot)
     samples = sample(plan, scene, robot, 60.0)
