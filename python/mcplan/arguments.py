@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import os
+from collections.abc import Iterator
 from typing import Any
 
 from mcplan._core import Plan, PlanarPlan
-from mcplan.errors import InvalidArgument, shown
+from mcplan.errors import InvalidArgument, InvalidPlan, InvalidRobot, InvalidScene, either, shown
 
 #: How messages speak of the types that a path may have.
 PATH = "a path"
@@ -61,6 +62,28 @@ def require_number(name: str, value: Any) -> float:
     raise InvalidArgument(name, "must be a number", found(value))
 
 
+@contextlib.contextmanager
+def named_by_file(scene: Any = None, robot: Any = None, plan: Any = None, plan_option: str = "") -> Iterator[None]:
+    """Errors of what was read from files say which: what does not go together has been read without one.
+
+    Args:
+        scene: What was given for the scene; a name or a path is said with an InvalidScene.
+        robot: The same of an InvalidRobot.
+        plan: The same of an InvalidPlan, such as that of a warm start.
+        plan_option: What precedes the file of the plan: the option of the command that it was given to.
+    """
+    try:
+        yield
+    except (InvalidScene, InvalidRobot, InvalidPlan) as error:
+        given = scene if isinstance(error, InvalidScene) else robot if isinstance(error, InvalidRobot) else plan
+        source = error.source or (str(given) if isinstance(given, str | os.PathLike) else "")
+        if plan_option and isinstance(error, InvalidPlan):
+            source = f"{plan_option} {source}"
+        if source == error.source:
+            raise
+        raise error.moved(source=source) from None
+
+
 def titled(kind: type) -> str:
     """A class with its article: "a Plan"."""
     return f"{'an' if kind.__name__[0] in 'AEIOUaeio' or kind.__name__ == 'ndarray' else 'a'} {kind.__name__}"
@@ -69,7 +92,7 @@ def titled(kind: type) -> str:
 def expected(kinds: list[str], optional: bool = False) -> str:
     """ "must be a Plan or a PlanarPlan"; the last of several after "or"."""
     kinds = [*kinds, "None"] if optional else kinds
-    return "must be " + " or ".join(part for part in (", ".join(kinds[:-1]), kinds[-1]) if part)
+    return "must be " + either(kinds)
 
 
 def found(value: Any) -> str:

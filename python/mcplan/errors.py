@@ -1,9 +1,14 @@
-"""Typed errors. Bad input names field, rule and value; the C++ library raises the same classes."""
+"""Typed errors. Bad input names field, rule and value; the C++ library raises the same classes.
+
+Texts that are values stand in double quotes, as files write them; names that a sentence speaks of in single ones.
+"""
 
 from __future__ import annotations
 
 import difflib
 import json
+import os
+import re
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -29,7 +34,7 @@ __all__ = [
 
 #: Findings that a message lists before it says how many there are more.
 MAX_FINDINGS = 20
-_MAX_TEXT = 60  # characters of a value that a message shows
+_MAX_TEXT, _MAX_PATH = 60, 400  # characters of a value, of a path that a message shows
 
 
 def printable(text: str) -> str:
@@ -40,18 +45,40 @@ def printable(text: str) -> str:
 
 
 def shown(value: Any, most: int = _MAX_TEXT) -> str:
-    """A value as text for a message: short, printable, and never an error of its own.
+    """A value as text for a message: short, printable, and never an error of its own. Texts are as files write them.
 
     Args:
         value: Whatever was found.
         most: Characters at most.
     """
     try:
-        text = repr(value)
+        text = _quoted(value)
     except Exception:  # whole numbers of more digits than Python writes, what is nested too deep, or is not ours
         text = f"a whole number of {value.bit_length()} bits" if isinstance(value, int) else f"a {type(value).__name__}"
     text = printable(text)
     return text if len(text) <= most else text[: most - 3] + "..."
+
+
+def shown_path(path: str | os.PathLike[str]) -> str:
+    """A path as text for a message, with its end even where it is long."""
+    return shown(os.fspath(path), _MAX_PATH)
+
+
+def either(words: Sequence[str]) -> str:
+    """ "a, b or c"."""
+    return " or ".join(part for part in (", ".join(words[:-1]), words[-1]) if part)
+
+
+def _quoted(value: Any) -> str:
+    """The repr, with texts in double quotes, in lists and dictionaries too."""
+    if type(value) is str:
+        return '"' + re.sub(r'(["\\])', r"\\\1", value) + '"'
+    if type(value) in (list, tuple):
+        inner = ", ".join(_quoted(item) for item in value)
+        return f"[{inner}]" if type(value) is list else f"({inner}{',' * (len(value) == 1)})"
+    if type(value) is dict:
+        return "{" + ", ".join(f"{_quoted(key)}: {_quoted(item)}" for key, item in value.items()) + "}"
+    return repr(value)
 
 
 def written(value: Any, most: int = _MAX_TEXT) -> str:
@@ -193,6 +220,8 @@ class UnknownName(ValueError):
         self.name, self.legal = name, list(legal)
 
     def __str__(self) -> str:
+        if not self.name:
+            return f"a {self.kind} must have a name or a path that is not empty. Built-in: {', '.join(self.legal)}"
         return (
             f"no {self.kind} {self.name!r} and no file of that name. "
             f"{self.hint or did_you_mean(self.name, self.legal)}Built-in: {', '.join(self.legal)}"
@@ -256,7 +285,7 @@ class MissingExtra(ImportError):
 def did_you_mean(name: str, legal: Iterable[str]) -> str:
     """``"Did you mean 'stairs'? "`` if one of the legal names is near, else ``""``."""
     near = nearest(name, legal)
-    return f"Did you mean {shown(near)}? " if near else ""
+    return f"Did you mean {printable(repr(near))}? " if near else ""
 
 
 def nearest(name: str, legal: Iterable[str]) -> str:

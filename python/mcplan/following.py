@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from mcplan._core import Plan, PlanarPlan, Robot
 from mcplan.arguments import require_or_path
-from mcplan.errors import InvalidInput
+from mcplan.errors import InvalidInput, shown
 from mcplan.tracking.choice import make_options
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def track_any(
         return track(plan, robot, make_options(values), progress)
     if robot is not None:
         name = robot if isinstance(robot, (str, Path)) else robot.name
-        raise InvalidInput("robot", "must not be given with a whole-body plan, which has its own", repr(str(name)))
+        raise InvalidInput("robot", "must not be given with a whole-body plan, which has its own", shown(str(name)))
     from mcplan.planar.tracking import DEFAULT_OPTIONS, track_whole_body
 
     return track_whole_body(plan, make_options(values, DEFAULT_OPTIONS), progress=progress)

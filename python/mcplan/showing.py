@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from mcplan._core import Plan, PlanarPlan, Report, Robot, Scene
 from mcplan.arguments import require
-from mcplan.errors import InvalidInput
+from mcplan.errors import InvalidInput, shown
 
 if TYPE_CHECKING:
     from typing_extensions import TypeIs
@@ -199,4 +199,4 @@ def _laid_out(run: Run) -> dict[str, Any]:
 def _require_own(rule: str, **given: Scene | Robot | None) -> None:
     for name, value in given.items():
         if value is not None:
-            raise InvalidInput(name, rule, repr(value.name))
+            raise InvalidInput(name, rule, shown(value.name))

@@ -8,7 +8,7 @@ from typing import Any
 
 from mcplan import _core
 from mcplan._core import Knot, Plan, PlanResult, Robot, Scene
-from mcplan.arguments import require, require_number, require_or_path
+from mcplan.arguments import named_by_file, require, require_number, require_or_path
 from mcplan.files.meeting import warn_of_names
 from mcplan.options import fill, start
 
@@ -23,9 +23,10 @@ def plan(
     """See mcplan.plan."""
     require("warm_start", warm_start, Plan, optional=True)
     world, body, chosen = scene_of(scene), robot_of(robot), make_options(named, options)
-    planner = _core.ddp.SwitchedDdp(world, body, chosen)
-    warn_of_names(world, body)
-    _core.require_standing(world, body)
+    with named_by_file(scene, robot):
+        planner = _core.ddp.SwitchedDdp(world, body, chosen)
+        warn_of_names(world, body)
+        _core.require_standing(world, body)
     return planner.solve() if warm_start is None else planner.solve(warm_start)
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mcplan._core import Plan, Robot, Scene, require_standing, rhp
-from mcplan.arguments import require_or_path
+from mcplan.arguments import named_by_file, require_or_path
 from mcplan.errors import Interrupted, InvalidInput
 from mcplan.files.meeting import warn_of_names
 from mcplan.options import fill, start
@@ -26,7 +26,9 @@ def receding_horizon(
 ) -> rhp.RecedingHorizon:
     """See mcplan.receding_horizon."""
     chosen = make_options(named, options)  # before files are read: what is said first is what was typed
-    return planner_of(*parts_of(scene, robot, sequence), chosen)
+    parts = parts_of(scene, robot, sequence)
+    with named_by_file(scene, robot, sequence):
+        return planner_of(*parts, chosen)
 
 
 def parts_of(

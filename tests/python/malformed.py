@@ -165,7 +165,7 @@ SCENE_BREAKS: list[Break] = [
     # Stances and rules
     (("steps", 0, "end_effector"), DELETE, "steps[0].end_effector", "is required"),
     (("steps", 0, "end_effector"), "", "steps[0].end_effector", "must not be empty"),
-    (("steps", 0, "surface"), "roof", "steps[0].surface", 'must name a surface (floor, pad), got "roof"'),
+    (("steps", 0, "surface"), "roof", "steps[0].surface", 'must name a surface. There are: floor, pad, got "roof"'),
     (("steps", 0), "floor", "steps[0]", "must be a table"),
     (("start",), DELETE, "start", "is required"),
     (("goal",), DELETE, "goal", "is required"),
@@ -183,7 +183,7 @@ SCENE_BREAKS: list[Break] = [
         ("start", "contacts"),
         {"foot": "flor"},
         "start.contacts.foot",
-        'must name a surface (floor, pad), got "flor"',
+        "must name a surface. Did you mean 'floor'? There are: floor, pad, got \"flor\"",
     ),
     (("start", "contacts"), {"foot": 0}, "start.contacts.foot", "must be a string"),
     (("start", "heading"), 0.0, "start.heading", "no such key. Keys: position, yaw, contacts"),

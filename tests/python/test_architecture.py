@@ -65,6 +65,7 @@ PYTHON_ROOMS = {
     "option_types": {"_core"},  # generated
     "model": {"_core"},
     "arguments": {"_core", "errors"},
+    "refusals": {"_core", "errors", "arguments"},
     "checking": {"_core", "errors", "arguments", "files"},
     "files": _GROUND,
     "loading": _GROUND | {"files"},

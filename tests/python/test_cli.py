@@ -112,6 +112,8 @@ def test_version(capsys):
 
 def test_the_version_is_an_option_too(capsys):
     assert run(capsys, "--version") == run(capsys, "version")
+    assert "--version" in run(capsys, "--help")[1]
+    assert "Multi-contact motion planning" in run(capsys)[1]
 
 
 def test_the_command_runs_as_a_process():
@@ -161,7 +163,7 @@ def test_random_patches_of_a_seed_are_written(capsys, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["flat", "--seed", 3], "--seed: is for random_patches alone, got 'flat'"),
+        (["flat", "--seed", 3], '--seed: is for random_patches alone, got "flat"'),
         (["--seed", 3], "--seed: needs the NAME of a scene"),
         (["-o", "x.toml"], "--output: needs the NAME of a scene"),
     ],
@@ -256,14 +258,14 @@ BAD_WORDS = [
     (("robots", "walker"), "no robot 'walker' and no file of that name. Did you mean 'walker9'? Built-in: anymal, "),
     (("tasks", "stare"), "no planar task 'stare' and no file of that name. Did you mean 'stairs'? Built-in: cartwheel"),
     (("tasks", "-o", "x.toml"), "--output: needs the NAME of a task"),
-    (("check",), "Missing argument 'PLAN'"),
+    (("check",), "PLAN: is required"),
     (("check", "none.npz"), "none.npz: No such file or directory"),
-    (("plan",), "Missing argument 'SCENE'"),
+    (("plan",), "SCENE: is required"),
     (
         ("plan", "flat", "--robot", "talus"),
         "no robot 'talus' and no file of that name. Did you mean 'talos'?",
     ),
-    (("plan", "flat", "--phases", "many"), "Invalid value for '--phases'"),
+    (("plan", "flat", "--phases", "many"), '--phases: must be a whole number, got "many"'),
     (("robots", "--from-urdf", "nobody"), "--from-urdf: must be a URDF file or a name of example-robot-data"),
     (
         ("robots", "--from-urdf", "talos", "--end", "foot"),
@@ -298,7 +300,7 @@ def test_a_broken_scene_file_is_named(verb, capsys, tmp_path):
 def test_a_broken_plan_file_is_named(capsys, tmp_path):
     (tmp_path / "bad.npz").write_bytes(b"PK")
     message = one_line_error(run(capsys, "check", tmp_path / "bad.npz"))
-    assert message.startswith(f"{tmp_path / 'bad.npz'}: must be an .npz file written by mcplan")
+    assert message.startswith(f"{tmp_path / 'bad.npz'}: must be an .npz or .json file written by mcplan")
 
 
 def solve_result(status: str = "solved") -> types.SimpleNamespace:

@@ -134,3 +134,14 @@ def test_loads_of_contact_wrenches_are_said_and_written(capsys, tmp_path):
 def test_a_pendulum_has_no_loads_to_be_said(capsys, file):
     _, out, _ = run(capsys, "check", file)
     assert "angular momentum" not in out and "weights" not in out and len(out.splitlines()) == 1
+
+
+def test_every_constraint_has_a_unit_and_ratios_are_printed_without(capsys, file, tmp_path):
+    whole_body = tmp_path / "chimney.npz"
+    mp.whole_body("chimney", forces="uniform", minimise="none", max_iterations=1).plan.save(str(whole_body))
+    for path, ratios in ((file, {"friction", "force_cap"}), (whole_body, {"position", "velocity", "torque"})):
+        found = strict(run(capsys, "check", path, "--json")[1])["constraints"]
+        assert all(constraint["unit"] for constraint in found)
+        assert {constraint["name"] for constraint in found if constraint["unit"] == "-"} == ratios
+    ratio = mp.model.Violation(name="friction", value=0.5, tolerance=0.001, unit="-")
+    assert str(ratio) == "friction: 0.5 over the limit (tolerance 0.001)"

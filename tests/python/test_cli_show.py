@@ -81,7 +81,7 @@ def test_a_run_is_rendered(folder, tmp_path, capsys):
         (["plan.npz", "-o", "plan.gif"], "--output: must be a page or a picture: a plan is filmed once mcplan track"),
         (["run.npz", "-o", "run.svg"], "--output: must end in .png: a run is rendered, got"),
         (["absent.npz", "-o", "plan.html"], "absent.npz: No such file or directory"),
-        (["other.npz", "-o", "plan.html"], "other.npz: must be an .npz file written by mcplan"),
+        (["other.npz", "-o", "plan.html"], "other.npz: must be an .npz or .json file written by mcplan"),
     ],
 )
 def test_what_cannot_be_drawn_is_one_line(words, message, folder, capsys, monkeypatch):

@@ -238,17 +238,17 @@ def test_switches_reach_the_planner(options_of):
 
 WRONG = [
     (("cartweel",), "no planar task 'cartweel' and no file of that name. Did you mean 'cartwheel'?"),
-    ((), "Missing argument 'TASK'"),
+    ((), "TASK: is required"),
     (
         ("cartwheel", "--forces", "most"),
-        "--forces: must be one of uniform, per_body, per_point, parameters, got 'most'",
+        '--forces: must be one of uniform, per_body, per_point, parameters, got "most"',
     ),
-    (("cartwheel", "--minimise", "energy"), "--minimise: must be one of torque, time, none, got 'energy'"),
-    (("cartwheel", "--contact", "glue"), "--contact: must be one of tube, band, strict, got 'glue'"),
+    (("cartwheel", "--minimise", "energy"), '--minimise: must be one of torque, time, none, got "energy"'),
+    (("cartwheel", "--contact", "glue"), '--contact: must be one of tube, band, strict, got "glue"'),
     (("cartwheel", "--order", 13), "--order: must lie in [3, 12], got 13"),
     (("cartwheel", "--neq", -1), "--neq: must lie in [0, order], got -1"),
-    (("cartwheel", "--free-flyer", "x"), "--free-flyer: must be one of computed, parameterised, got 'x'"),
-    (("cartwheel", "--continuous", "x"), "--continuous: must be one of hull, extremum, grid, got 'x'"),
+    (("cartwheel", "--free-flyer", "x"), '--free-flyer: must be one of computed, parameterised, got "x"'),
+    (("cartwheel", "--continuous", "x"), '--continuous: must be one of hull, extremum, grid, got "x"'),
     (("cartwheel", "--hessian", "x"), "--hessian: must be one of automatic, exact, gauss_newton, limited_memory, got"),
     (("cartwheel", "--max-iterations", 0), "--max-iterations: must lie in [1, 1000000], got 0"),
     (("cartwheel", "--time-limit", -1), "--time-limit: must be a positive number, got -1"),

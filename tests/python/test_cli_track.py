@@ -175,10 +175,10 @@ def test_ctrl_c_ends_the_run_and_reports_what_was_there(capsys, file, monkeypatc
 @pytest.mark.parametrize(
     ("push", "message"),
     [
-        ("nonsense", "--push: must be newtons,seconds,at,direction, such as 40,0.2,3,90, got 'nonsense'"),
-        ("40,0.2,3", "--push: must be newtons,seconds,at,direction, such as 40,0.2,3,90, got '40,0.2,3'"),
-        ("x,0.2,0.3,90", "--push: newtons: must be a number, got 'x'"),
-        ("40,0.2,later,90", "--push: at: must be a number, got 'later'"),
+        ("nonsense", '--push: must be newtons,seconds,at,direction, such as 40,0.2,3,90, got "nonsense"'),
+        ("40,0.2,3", '--push: must be newtons,seconds,at,direction, such as 40,0.2,3,90, got "40,0.2,3"'),
+        ("x,0.2,0.3,90", '--push: newtons: must be a number, got "x"'),
+        ("40,0.2,later,90", '--push: at: must be a number, got "later"'),
         ("40,0,0.3,90", "--push: seconds: must be above 0, got 0"),
         ("40,0.2,0.3,inf", "--push: direction: must be finite, got inf"),
         ("40,0.2,9,90", "--push: at: must lie in the run, from 0 to 1.6 s, got 9"),
@@ -230,7 +230,7 @@ def test_files_that_are_no_plans_are_one_line(capsys, file, tmp_path):
     assert one_line_error(run(capsys, tmp_path / "none.npz")) == f"{tmp_path / 'none.npz'}: No such file or directory"
     text = tmp_path / "text.npz"
     text.write_text("no plan")
-    assert one_line_error(run(capsys, text)).startswith(f"{text}: must be an .npz file written by mcplan")
+    assert one_line_error(run(capsys, text)).startswith(f"{text}: must be an .npz or .json file written by mcplan")
     saved = tmp_path / "run.npz"
     tracked_cartwheel.tracked().save(saved)
     assert one_line_error(run(capsys, saved)) == f"{saved}: must be a plan, got a run of one, which mcplan track saved"

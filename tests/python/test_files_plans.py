@@ -158,7 +158,7 @@ def test_every_truncation_is_rejected(plan, tmp_path):
     data = plan_to_bytes(plan)
     for length in [0, 1, 100, *range(0, len(data), len(data) // 40), len(data) - 1]:
         (tmp_path / "cut.npz").write_bytes(data[:length])
-        with pytest.raises(mp.errors.InvalidPlan, match=r"cut.npz: must be an .npz file written by mcplan"):
+        with pytest.raises(mp.errors.InvalidPlan, match=r"cut.npz: must be an .npz or .json file written by mcplan"):
             load_plan(tmp_path / "cut.npz")
 
 
@@ -193,7 +193,7 @@ def header(**changes):
 
 
 DAMAGE = {
-    "no header": (without("header"), "header: is required"),
+    "no header": (without("header"), "an archive without `header`"),
     "header no JSON": (put("header", lambda a: a[:-1]), "header: must be JSON"),
     "header a list": (
         put("header", lambda a: np.frombuffer(b"[]", np.uint8)),
@@ -220,7 +220,7 @@ DAMAGE = {
     ),
     "broken surfaces": (put("surfaces", lambda a: a + 0.5), "surfaces: must hold integers"),
     "text": (put("com_W", lambda a: a.astype(str)), "com_W: must hold floating-point numbers"),
-    "a pickle": (put("com_W", lambda a: a.astype(object)), "must be an .npz file written by mcplan"),
+    "a pickle": (put("com_W", lambda a: a.astype(object)), "must be an .npz or .json file written by mcplan"),
     "surface too large": (put("surfaces", lambda a: a + 99), r"surface"),
     "64 bit surface": (
         put("surfaces", lambda a: a.astype(np.int64) + 2**40),

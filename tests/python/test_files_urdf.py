@@ -206,7 +206,7 @@ def test_a_contact_point_off_the_link_and_a_posture_are_taken(tmp_path):
 @pytest.mark.parametrize(
     ("ends", "posture", "message"),
     [
-        ((End("foot", "ankle"),), {}, "ends.foot: must name a link of the URDF. Did you mean 'shank'?, got 'ankle'"),
+        ((End("foot", "ankle"),), {}, "ends.foot: must name a link of the URDF. Did you mean 'shank'?, got \"ankle\""),
         ((End("foot", "shank"),), {"toe": 0.1}, "posture.toe: must name a joint of the URDF"),
     ],
 )

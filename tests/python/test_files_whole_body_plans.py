@@ -138,7 +138,9 @@ def test_every_truncation_is_rejected(plan, tmp_path):
     for length in [0, 1, 100, *range(0, len(data), len(data) // 40), len(data) - 1]:
         (tmp_path / "cut.npz").write_bytes(data[:length])
         for load in (load_whole_body_plan, load_any_plan):
-            with pytest.raises(mp.errors.InvalidPlan, match=r"cut.npz: must be an .npz file written by mcplan"):
+            with pytest.raises(
+                mp.errors.InvalidPlan, match=r"cut.npz: must be an .npz or .json file written by mcplan"
+            ):
                 load(tmp_path / "cut.npz")
 
 
@@ -183,7 +185,7 @@ def in_task(change):
 
 
 DAMAGE = {
-    "no header": (without("header"), "header: is required"),
+    "no header": (without("header"), "an archive without `header`"),
     "header no JSON": (put("header", lambda a: a[:-1]), "header: must be JSON"),
     "no kind": (header(kind=None), 'header.kind: must be "whole_body", got null'),
     "another kind": (header(kind="half_body"), 'header.kind: must be "whole_body", got "half_body"'),
@@ -231,7 +233,7 @@ DAMAGE = {
     "flat joints": (put("control_points", lambda a: a.ravel()), "control_points: must have 2 axes, got 1"),
     "too few joints": (put("control_points", lambda a: a[1:]), "control_points: must be 9 x 13, got 8 x 13"),
     "half a base": (put("base_control_points", lambda a: np.zeros((2, 13))), "base_control_points: must be 3 x 13"),
-    "a pickle": (put("weights", lambda a: a.astype(object)), "must be an .npz file written by mcplan"),
+    "a pickle": (put("weights", lambda a: a.astype(object)), "must be an .npz or .json file written by mcplan"),
     "weight missing": (put("weights", lambda a: a[1:]), r"weights: must have shape \(10,\), got \(9,\)"),
     "weight 0": (put("weights", lambda a: 0 * a), r"weights\[0\]\[0\]: must be a positive number"),
     "NaN": (put("control_points", lambda a: a * np.nan), "control_points: must be finite numbers"),

@@ -13,5 +13,5 @@ def test_whole_body_plans_are_tracked_by_their_own_robot():
     result = mp.track(plan, hold_s=0.0, control_step_s=1e-3)
     assert result.recording.plan is plan and result.completed
     assert result.options.simulation_step_s == DEFAULT_OPTIONS.simulation_step_s
-    with pytest.raises(mp.InvalidInput, match="robot: must not be given with a whole-body plan, .* got 'talos'"):
+    with pytest.raises(mp.InvalidInput, match='robot: must not be given with a whole-body plan, .* got "talos"'):
         mp.track(plan, "talos")

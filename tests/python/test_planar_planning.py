@@ -189,7 +189,7 @@ WRONG = [
         "cartwheel",
         {"minimise": "energy"},
         mp.errors.InvalidOptions,
-        "minimise: must be one of torque, time, none, got 'energ",
+        'minimise: must be one of torque, time, none, got "energ',
     ),
     (
         "cartwheel",
@@ -207,7 +207,7 @@ WRONG = [
         "cartwheel",
         {"contact": "glue"},
         mp.errors.InvalidOptions,
-        "contact: must be one of tube, band, strict, got 'glue'",
+        'contact: must be one of tube, band, strict, got "glue"',
     ),
     ("cartwheel", {"free_flyer": "no"}, mp.errors.InvalidOptions, "free_flyer: must be one of computed, parameterised"),
     (

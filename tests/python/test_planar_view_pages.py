@@ -163,7 +163,7 @@ def test_names_cannot_break_out_of_the_page():
 
 
 def test_a_scene_for_a_whole_body_plan_is_refused(plan):
-    with pytest.raises(mp.InvalidInput, match="scene: a whole-body plan is drawn with its own task, got 'flat'"):
+    with pytest.raises(mp.InvalidInput, match='scene: a whole-body plan is drawn with its own task, got "flat"'):
         mp.show(plan, mp.load_scene("flat"))
 
 

@@ -51,7 +51,7 @@ def test_runs_of_both_kinds_come_back_as_they_are(tmp_path):
 @pytest.mark.parametrize("content", [b"", b"no archive", b"PK"])
 def test_another_file_is_told_from_plans_and_runs(content, tmp_path):
     (tmp_path / "other.npz").write_bytes(content)
-    with pytest.raises(mp.InvalidInput, match="other.npz: must be an .npz file written by mcplan"):
+    with pytest.raises(mp.InvalidInput, match="other.npz: must be an .npz or .json file written by mcplan"):
         showing.load(tmp_path / "other.npz")
     with pytest.raises(FileNotFoundError):
         showing.load(tmp_path / "absent.npz")
@@ -61,7 +61,7 @@ def test_runs_are_shown_as_plans_are():
     pytest.importorskip("meshcat")
     recording = planar_recordings.walking()
     assert "simulated" in mp.show(recording).title
-    with pytest.raises(mp.InvalidInput, match="scene: a run is drawn with its own plan, got 'flat'"):
+    with pytest.raises(mp.InvalidInput, match='scene: a run is drawn with its own plan, got "flat"'):
         mp.show(recording, mp.load_scene("flat"))
 
 

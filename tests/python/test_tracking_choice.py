@@ -28,9 +28,9 @@ def test_pushes_are_objects_or_four_numbers():
     [
         ({"asist": True}, "asist: no such option. Did you mean 'assist'? Options: simulation_step_s, "),
         ({"gains": {"com": 1.0}}, "gains.com: no such option. Did you mean 'com_kp'? Options: com_kp, "),
-        ({"gains": {"com_kp": "high"}}, "gains.com_kp: must be a number, got 'high'"),
+        ({"gains": {"com_kp": "high"}}, 'gains.com_kp: must be a number, got "high"'),
         ({"gains": 3.0}, "gains: must be of type Gains, got 3.0"),
-        ({"mass_scale": "heavy"}, "mass_scale: must be a number, got 'heavy'"),
+        ({"mass_scale": "heavy"}, 'mass_scale: must be a number, got "heavy"'),
         ({"mass_scale": True}, "mass_scale: must be a number, got True"),
         ({"mass_scale": 7.0}, "mass_scale: must lie in 0.2 to 5, got 7.0"),
         ({"seed": 1.5}, "seed: must be of type int, got 1.5"),
@@ -39,7 +39,7 @@ def test_pushes_are_objects_or_four_numbers():
         ({"pushes": 40.0}, "pushes: must be a list, got 40.0"),
         ({"pushes": [40.0, 0.2, 3.0, 90.0]}, "pushes[0]: must be a list, got 40.0"),
         ({"pushes": [(40.0, 0.2)]}, "pushes[0]: must be force_N, duration_s, at_s, direction_deg, got 2 values"),
-        ({"pushes": [(40.0, "x", 3.0, 0.0)]}, "pushes[0].duration_s: must be a number, got 'x'"),
+        ({"pushes": [(40.0, "x", 3.0, 0.0)]}, 'pushes[0].duration_s: must be a number, got "x"'),
         ({"pushes": [(40.0, -1.0, 3.0, 0.0)]}, "pushes[0].duration_s: must not be negative, got -1.0"),
     ],
 )

@@ -121,7 +121,7 @@ def changed(path, header=None, **arrays):
         ({"header": {"options": None}}, "header: must be as mcplan track --save writes it"),
         ({"torques": None}, "torques: is required"),
         ({"com_W": np.zeros((3, 3))}, "com_W: must have 301 rows, got 3"),
-        ({"plan": np.zeros(9, np.uint8)}, "must be an .npz file written by mcplan"),
+        ({"plan": np.zeros(9, np.uint8)}, "must be an .npz or .json file written by mcplan"),
     ],
 )
 def test_damaged_files_are_told_by_their_field(result, tmp_path, change, message):
@@ -132,5 +132,5 @@ def test_damaged_files_are_told_by_their_field(result, tmp_path, change, message
         TrackingResult.load(path)
     assert str(found.value).startswith(f"{path}: ") and message in str(found.value)
     path.write_bytes(path.read_bytes()[:1000])
-    with pytest.raises(mp.InvalidInput, match="must be an .npz file written by mcplan"):
+    with pytest.raises(mp.InvalidInput, match="must be an .npz or .json file written by mcplan"):
         TrackingResult.load(path)

@@ -141,7 +141,7 @@ def test_what_is_no_plan_is_named(plan):
         mp.show(SimpleNamespace(plan=plan), scene, robot)
     with pytest.raises(mp.errors.InvalidArgument, match="scene: must be a Scene or None, got a Robot"):
         mp.show(plan, robot, scene)
-    with pytest.raises(mp.errors.InvalidArgument, match="robot: must be a Robot or None, got 'humanoid44'"):
+    with pytest.raises(mp.errors.InvalidArgument, match='robot: must be a Robot or None, got "humanoid44"'):
         mp.show(plan, scene, "humanoid44")
 
 

@@ -105,7 +105,7 @@ def test_without_ffmpeg_it_is_told_what_to_install(tmp_path, monkeypatch, record
 @pytest.mark.parametrize(
     ("name", "options", "message"),
     [
-        ("run.avi", {}, "video: must end in .mp4, .webp or .gif, got '"),
+        ("run.avi", {}, 'video: must end in .mp4, .webp or .gif, got "'),
         ("run", {}, "video: must end in"),
         ("nowhere/run.gif", {}, "video: must lie in a folder that exists"),
         ("run.gif", {"size": (641, 360)}, "size: must be even, 16 to 8192 pixels, got 641x360"),

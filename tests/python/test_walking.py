@@ -124,7 +124,7 @@ WRONG = [
         "fidelity: must be one of single, com, rectangle, point",
     ),
     (("flat",), {"fidelty": "point"}, mp.errors.InvalidOptions, "fidelty: no such option. Did you mean 'fidelity'"),
-    (("flat",), {"transcription": "rk4"}, mp.errors.InvalidOptions, "must be one of trapezoidal, euler, got 'rk4'"),
+    (("flat",), {"transcription": "rk4"}, mp.errors.InvalidOptions, 'must be one of trapezoidal, euler, got "rk4"'),
     (("flat",), {"lookahead": 0}, mp.errors.InvalidOptions, r"lookahead: must lie in \[1, 10\], got 0"),
     (("flat",), {"lookahead": 11}, mp.errors.InvalidOptions, r"lookahead: must lie in \[1, 10\], got 11"),
     (("flat",), {"lookahead": 2.5}, mp.errors.InvalidOptions, "lookahead: must be of type int, got 2.5"),

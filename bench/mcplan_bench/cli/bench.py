@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+from mcplan.cli.given_options import at_least, named_as_typed, require_none_given
 from mcplan_bench.cli.output import say
 
 from .contacts import contacts
@@ -23,17 +24,24 @@ app.command()(deadlines)
 app.command()(tracking)
 
 _OUT = typer.Option("--out", metavar="DIR", help="Folder for JSON and CSV.")
+_JOBS = typer.Option("--jobs", metavar="N", callback=at_least(1), help="Number of processes.")
+_SCENES = typer.Option("--scenes", metavar="N", callback=at_least(0), help="Number of random scenes.")
+_SEED = typer.Option("--seed", metavar="K", callback=at_least(0), help="Seed of the first random scene.")
 _ROBOT = typer.Option("--robot", metavar="R", help="Robot: built-in name or TOML file.")
 
 
 @app.callback()
+@named_as_typed("repeats", "threads")
 def speed(
     context: typer.Context,
     repeats: Annotated[
-        int, typer.Option("--repeats", metavar="N", min=1, help="Number of solves of which a median is taken.")
+        int,
+        typer.Option(
+            "--repeats", metavar="N", callback=at_least(1), help="Number of solves of which a median is taken."
+        ),
     ] = 7,
     threads: Annotated[
-        int, typer.Option("--threads", metavar="N", min=1, help="Number of threads of this search.")
+        int, typer.Option("--threads", metavar="N", callback=at_least(1), help="Number of threads of this search.")
     ] = 1,
     quick: Annotated[bool, typer.Option("--quick", help="Measure the growth at few sizes only.")] = False,
     out: Annotated[Path, _OUT] = Path("out/bench"),
@@ -50,6 +58,7 @@ def speed(
     Example: mcplan bench robustness --scenes 40
     """
     if context.invoked_subcommand is not None:
+        require_none_given(context, f"must stand after {context.invoked_subcommand}, or be left out")
         return 0
     from mcplan.files.outputs import require_folder
     from mcplan_bench import growth, records
@@ -79,9 +88,10 @@ def speed(
 
 
 @app.command()
+@named_as_typed("scenes", "seed", "model", time_limit_s="--time-limit")
 def robustness(
-    scenes: Annotated[int, typer.Option("--scenes", metavar="N", min=0, help="Number of random scenes.")] = 300,
-    seed: Annotated[int, typer.Option("--seed", metavar="K", min=0, help="Seed of the first random scene.")] = 0,
+    scenes: Annotated[int, _SCENES] = 300,
+    seed: Annotated[int, _SEED] = 0,
     settings: Annotated[
         bool, typer.Option("--settings/--no-settings", help="Plan the 15 settings on the paper's four scenes.")
     ] = True,
@@ -93,7 +103,7 @@ def robustness(
     time_limit: Annotated[
         float | None, typer.Option("--time-limit", metavar="S", help="Maximum time of each solve [s]; default: none.")
     ] = None,
-    jobs: Annotated[int, typer.Option("--jobs", metavar="N", min=1, help="Number of processes.")] = 1,
+    jobs: Annotated[int, _JOBS] = 1,
     out: Annotated[Path, _OUT] = Path("out/robustness"),
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
 ) -> int:

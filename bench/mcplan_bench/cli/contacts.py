@@ -8,7 +8,11 @@ from typing import Annotated, Any
 
 import typer
 
+from mcplan.cli.given_options import at_least
 from mcplan_bench.cli.output import cases_named, print_sections, say, write_page
+
+#: Solves behind each time, unless --repeats says how many.
+REPEATS = 5
 
 CaseOption = Annotated[
     list[str] | None,
@@ -23,8 +27,11 @@ SpeedOption = Annotated[
     bool | None,
     typer.Option("--speed/--no-speed", help="Time iterations of both models; default: unless --case."),
 ]
-RepeatsOption = Annotated[int, typer.Option("--repeats", metavar="N", min=1, help="Number of solves behind each time.")]
-JobsOption = Annotated[int, typer.Option("--jobs", metavar="N", min=1, help="Number of processes.")]
+RepeatsOption = Annotated[
+    int | None,
+    typer.Option("--repeats", metavar="N", callback=at_least(1), help="Number of solves behind each time (5)."),
+]
+JobsOption = Annotated[int, typer.Option("--jobs", metavar="N", callback=at_least(1), help="Number of processes.")]
 ListCasesOption = Annotated[bool, typer.Option("--list", help="Print the names of the cases.")]
 MarkdownOption = Annotated[
     Path | None,
@@ -39,7 +46,7 @@ def contacts(
     table: TableOption = True,
     settings: SettingsOption = None,
     speed: SpeedOption = None,
-    repeats: RepeatsOption = 5,
+    repeats: RepeatsOption = None,
     jobs: JobsOption = 1,
     list_cases: ListCasesOption = False,
     markdown: MarkdownOption = None,
@@ -58,6 +65,7 @@ def contacts(
 
     Example: mcplan bench contacts --markdown contacts.md
     """
+    from mcplan.errors import InvalidInput
     from mcplan.files.outputs import require_folder
     from mcplan_bench import contacts as bench
     from mcplan_bench import records
@@ -68,6 +76,9 @@ def contacts(
     if list_cases:
         print("\n".join(entry.name for entry in chosen))
         return 0
+    timed = not case if speed is None else speed
+    if repeats is not None and not timed:
+        raise InvalidInput("--repeats", "needs --speed")
     words = [f"--case '{name}'" for name in case or []] + ["--no-table"] * (not table)
     words += ["--settings" if settings else "--no-settings"] * (settings is not None)
     words += ["--speed" if speed else "--no-speed"] * (speed is not None) + [f"--jobs {jobs}"] * (jobs > 1)
@@ -81,8 +92,8 @@ def contacts(
         rows = bench.run(setting_cases(), jobs, say)
         result["settings"] = {"rows": rows, "summary": bench.settings_summary(rows)}
         verdicts.append(result["settings"]["summary"]["holds"])
-    if speed if speed is not None else not case:
-        result["speed"] = bench.compare_speed(repeats, progress=say)
+    if timed:
+        result["speed"] = bench.compare_speed(repeats or REPEATS, progress=say)
         verdicts += [row["holds"] for row in result["speed"]]
     result["holds"] = False not in verdicts
     written = _write(result, out, markdown)

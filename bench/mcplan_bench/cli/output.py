@@ -26,11 +26,11 @@ def cases_named(cases: Sequence[_Case], names: Sequence[str]) -> list[_Case]:
     Raises:
         InvalidInput: A name addresses none.
     """
-    from mcplan.errors import InvalidInput
+    from mcplan.errors import InvalidInput, shown
 
     for name in names:
         if not any(fnmatchcase(case.name, name) for case in cases):
-            raise InvalidInput("--case", f"must name one of {', '.join(case.name for case in cases)}", repr(name))
+            raise InvalidInput("--case", f"must name one of {', '.join(case.name for case in cases)}", shown(name))
     return [case for case in cases if not names or any(fnmatchcase(case.name, name) for name in names)]
 
 

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
+from mcplan.cli.given_options import named_as_typed
 from mcplan_bench.cli.output import say
 
 PaperArgument = Annotated[str, typer.Argument(metavar="PAPER", help="Paper: lengagne, tazaki or wang.")]
@@ -41,6 +42,7 @@ ResumeOption = Annotated[
 ]
 
 
+@named_as_typed("cycles", "lookahead_max", "seeds", "tables", "motions", "repeats")
 def reproduce(
     paper: PaperArgument,
     out: OutOption = None,
@@ -63,12 +65,12 @@ def reproduce(
 
     Example: mcplan reproduce lengagne --tables 1,2 --motions cartwheel,walking
     """
-    from mcplan.errors import InvalidInput
+    from mcplan.errors import InvalidInput, shown
     from mcplan.files.outputs import require_folder
     from mcplan_bench.reproduce import PAPERS
 
     if paper not in PAPERS:
-        raise InvalidInput("PAPER", f"must be one of {', '.join(PAPERS)}", repr(paper))
+        raise InvalidInput("PAPER", f"must be one of {', '.join(PAPERS)}", shown(paper))
     folder = out or Path("out") / paper
     require_folder("--out", folder)
     given: dict[str, Any] = {"cycles": cycles, "lookahead_max": lookahead_max, "seeds": seeds}
@@ -78,7 +80,7 @@ def reproduce(
     for name in options:
         if name not in _OWN[paper]:
             owners = " and ".join(other for other in PAPERS if name in _OWN[other])
-            raise InvalidInput(f"--{name.replace('_', '-')}", f"must be left out: it is for {owners}", paper)
+            raise InvalidInput(f"--{name.replace('_', '-')}", f"must be left out: it is for {owners}", shown(paper))
     written: list[Path]
     if paper == "lengagne":
         from mcplan_bench.reproduce import lengagne
@@ -106,12 +108,12 @@ _OWN: dict[str, tuple[str, ...]] = {
 
 def _numbers(text: str) -> list[int]:
     """Whole numbers from "1,2,3"."""
-    from mcplan.errors import InvalidInput
+    from mcplan.errors import InvalidInput, shown
 
     try:
         return [int(part) for part in text.split(",")]
     except ValueError:
-        raise InvalidInput("--tables", "must be numbers with commas between them, such as 1,2", repr(text)) from None
+        raise InvalidInput("--tables", "must be numbers with commas between them, such as 1,2", shown(text)) from None
 
 
 def _say(text: str) -> None:

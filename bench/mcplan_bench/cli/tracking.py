@@ -10,12 +10,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mcplan.cli.given_options import at_least
 from mcplan_bench.cli.output import cases_named, print_sections, say, write_page
 
 if TYPE_CHECKING:
     from mcplan_bench.tracking import Keep
     from mcplan_bench.tracking_cases import Case
 
+#: Disturbed runs of each plan, unless --seeds says how many.
+SEEDS = 20
 PACKAGES = ("mujoco", "pin", "proxsuite", "numpy")
 
 
@@ -30,12 +33,23 @@ TableOption = Annotated[bool, typer.Option("--table/--no-table", help="Track the
 RobustnessOption = Annotated[
     bool, typer.Option("--robustness", help="Simulate disturbed runs of flat, stairs and rubbles, too.")
 ]
-SeedsOption = Annotated[int, typer.Option("--seeds", metavar="N", min=1, help="Number of disturbed runs of each plan.")]
+SeedsOption = Annotated[
+    int | None,
+    typer.Option(
+        "--seeds",
+        metavar="N",
+        callback=at_least(1),
+        help="With --robustness: number of disturbed runs of each plan (20).",
+    ),
+]
 SpeedOption = Annotated[
     bool | None, typer.Option("--speed/--no-speed", help="Time control steps on one core; default: unless --short.")
 ]
 JobsOption = Annotated[
-    int, typer.Option("--jobs", metavar="N", min=1, help="Number of processes; with several, times of runs are longer.")
+    int,
+    typer.Option(
+        "--jobs", metavar="N", callback=at_least(1), help="Number of processes; with several, times of runs are longer."
+    ),
 ]
 ListCasesOption = Annotated[bool, typer.Option("--list", help="Print the names of the cases.")]
 HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="DIR", help="Folder for a page of each run.")]
@@ -53,7 +67,7 @@ def tracking(
     case: CaseOption = None,
     table: TableOption = True,
     robustness: RobustnessOption = False,
-    seeds: SeedsOption = 20,
+    seeds: SeedsOption = None,
     speed: SpeedOption = None,
     jobs: JobsOption = 1,
     list_cases: ListCasesOption = False,
@@ -76,12 +90,16 @@ def tracking(
 
     Example: mcplan bench tracking --robustness --jobs 2 --markdown docs/tracking.md
     """
+    from mcplan.errors import InvalidInput
     from mcplan.extras import require
 
     require("mcplan bench tracking", "sim", "mujoco", "pinocchio", "proxsuite")
     from mcplan_bench import records, tracking_speed
     from mcplan_bench import tracking as bench
 
+    if seeds is not None and not robustness:
+        raise InvalidInput("--seeds", "needs --robustness")
+    seeds = SEEDS if seeds is None else seeds
     _require_folders({"--out": out, "--html": html, "--strips": strips})
     chosen = _chosen(short, case or [])
     if list_cases:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from mcplan.errors import InvalidInput
+from mcplan.errors import InvalidInput, shown
 
 from .lengagne_paper import CASES, MOTIONS
 
@@ -123,5 +123,5 @@ def chosen_motions(motions: Sequence[str] | None) -> list[str]:
     known = [*MOTIONS, STEEP]
     for name in motions or ():
         if name not in known:
-            raise InvalidInput("motions", f"must be among {', '.join(known)}", repr(name))
+            raise InvalidInput("motions", f"must be among {', '.join(known)}", shown(name))
     return [name for name in known if motions is None or name in motions]

@@ -76,6 +76,10 @@ void require_idle(const void* planner, const std::string& call, bool own_thread_
 /// Makes use of an object whose __init__ never ran a TypeError, for all classes of a module and its submodules.
 void refuse_uninitialised(py::handle module);
 
+/// Makes arguments that fit no signature, and numbers that an enum does not have, a typed error of one line, for all
+/// functions and classes of a module and its submodules.
+void refuse_in_a_line(py::handle module);
+
 /// Text that Python reads back as the same value: arrays as nested lists, infinity as float('inf').
 std::string paste(py::handle value);
 

@@ -3,6 +3,7 @@
 #include "mcplan/model/data.hpp"
 #include "mcplan/robot/robot_files.hpp"
 #include "mcplan/scene/scene_files.hpp"
+#include "model/file_kind.hpp"
 #include "model/json.hpp"
 #include "model/read.hpp"
 #include "model/reading.hpp"
@@ -175,6 +176,10 @@ void bind_model(py::module_& m) {
       },
       py::arg("data"), py::arg("header") = "",
       "A mapping as TOML: plain values first, then tables and lists of tables. `header`: a comment to put on top.");
+  m.def(
+      "file_kind", [](const py::bytes& content) { return model::file_kind_or_toml(static_cast<std::string>(content)); },
+      py::arg("content"),
+      "What a file is by its content, with its article, such as \"a PNG picture\"; \"\" where nothing tells.");
   m.def(
       "toml_from",
       [](const py::bytes& content) { return py::dict(plain(model::parse_toml(static_cast<std::string>(content)))); },

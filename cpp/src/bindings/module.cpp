@@ -168,4 +168,5 @@ PYBIND11_MODULE(_core, m) {
         std::pair("WholeBodyState", "PlanarState"), std::pair("WholeBodyTolerances", "PlanarTolerances")})
     m.attr(old) = m.attr(name);  // as they were called until 0.1
   refuse_uninitialised(m);
+  refuse_in_a_line(m);
 }

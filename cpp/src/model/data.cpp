@@ -75,9 +75,9 @@ fs::path find(const std::string& source, const std::string& kind, const std::str
     if (std::find(planar.begin(), planar.end(), source) != planar.end())
       hint = source + " is a planar robot: it comes with its planar tasks, for mcplan sip. ";
   }
-  unknown(
-      "no " + word + " " + model::quote(source) + " and no file of that name. " + hint + "Built-in: " + joined(legal),
-      source, legal);
+  const std::string what = source.empty() ? "a " + word + " must have a name or a path that is not empty. "
+                                          : "no " + word + " " + quote(source) + " and no file of that name. " + hint;
+  unknown(what + "Built-in: " + joined(legal), source, legal);
   return {};
 }
 

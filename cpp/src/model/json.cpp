@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "file_kind.hpp"
 #include "text.hpp"
 
 namespace mcplan::model {
@@ -157,7 +158,8 @@ Value parse_json(std::string_view text) {
   ValueBuilder builder;
   if (nlohmann::json::sax_parse(text.begin(), text.end(), &builder)) return std::move(builder.root);
   if (builder.too_many) throw std::length_error("may have " + std::to_string(max_json_values) + " values at most");
-  throw std::invalid_argument(builder.reason);
+  const std::string kind = file_kind_or_toml(text);
+  throw std::invalid_argument(kind.empty() || kind == "JSON" ? builder.reason : kind);
 }
 
 std::string json_text(const Value& value, int indent, int open_levels) {

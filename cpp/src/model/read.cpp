@@ -9,17 +9,8 @@ namespace mcplan::model {
 namespace {
 
 constexpr std::size_t max_keys = 1000;
-/// Of a list whose entries are named elsewhere, and of those that a message lists.
-constexpr std::size_t max_names = 1000, max_listed = 20;
-
-/// The names that there are, for a message.
-std::string listed(std::vector<std::string> names) {
-  if (names.empty()) return "none";
-  const bool are_more = names.size() > max_listed;
-  if (are_more) names.resize(max_listed);
-  for (std::string& name : names) name = printable(prefix(name, 60));
-  return joined(names) + (are_more ? ", ..." : "");
-}
+/// Of a list whose entries are named elsewhere.
+constexpr std::size_t max_names = 1000;
 
 std::string short_text(double value) {
   char out[32];
@@ -138,10 +129,7 @@ bool find_name(const std::string& name, const NameList& list, const char* what, 
   const auto found = std::find(list.names.begin(), list.names.end(), name);
   if (found != list.names.end() && !name.empty()) return out = static_cast<int>(found - list.names.begin()), true;
   if (list.is_complete && !reading.found.are_many())
-    reading.found.add(
-        at,
-        "must name " + std::string(what) + ". " + did_you_mean(name, list.names) + "There are: " + listed(list.names),
-        shown(name));
+    reading.found.add(at, name_rule(what, name, list.names), shown(name));
   else
     reading.found.lacks(at.text());
   return false;

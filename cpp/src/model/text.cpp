@@ -127,6 +127,16 @@ int in_common(std::string_view a, std::string_view b) {
          in_common(a.substr(at_a + best), b.substr(at_b + best));
 }
 
+/// The names that there are, for a message.
+std::string listed(std::vector<std::string> names) {
+  constexpr std::size_t max_listed = 20;
+  if (names.empty()) return "none";
+  const bool are_more = names.size() > max_listed;
+  if (are_more) names.resize(max_listed);
+  for (std::string& name : names) name = printable(prefix(name, 60));
+  return joined(names) + (are_more ? ", ..." : "");
+}
+
 }  // namespace
 
 std::string number_text(double value) {
@@ -232,6 +242,10 @@ std::string nearest(std::string_view name, const std::vector<std::string>& legal
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& legal) {
   const std::string near = nearest(name, legal);
   return near.empty() ? "" : "Did you mean " + quote(near) + "? ";
+}
+
+std::string name_rule(const std::string& what, std::string_view name, const std::vector<std::string>& legal) {
+  return "must name " + what + ". " + did_you_mean(name, legal) + "There are: " + listed(legal);
 }
 
 std::string joined(const std::vector<std::string>& names, const char* separator) {

@@ -43,6 +43,10 @@ std::string nearest(std::string_view name, const std::vector<std::string>& legal
 /// "Did you mean 'stairs'? " if one of the legal names is near, else "".
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& legal);
 
+/// "must name a body. Did you mean 'hip'? There are: hip, left, right": what a name breaks that is none of the legal
+/// ones.
+std::string name_rule(const std::string& what, std::string_view name, const std::vector<std::string>& legal);
+
 std::string joined(const std::vector<std::string>& names, const char* separator = ", ");
 
 }  // namespace mcplan::model

@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <tuple>
 
+#include "file_kind.hpp"
 #include "mcplan/base/error.hpp"
 #include "text.hpp"
 
@@ -215,10 +216,16 @@ std::string comment(const std::string& header) {
   return out;
 }
 
+/// Says of a text that is not TOML what it is instead, if that is known.
+void require_no_other_kind(std::string_view text) {
+  if (const std::string kind = file_kind(text); !kind.empty()) throw InvalidInput("", "must be TOML", kind);
+}
+
 }  // namespace
 
 Value parse_toml(std::string_view text) {
   if (const std::size_t bad = first_not_utf8(text); bad != text.npos) {
+    require_no_other_kind(text);
     char value[60];
     std::snprintf(value, sizeof value, "byte 0x%02x at offset %zu", static_cast<unsigned char>(text[bad]), bad);
     throw InvalidInput("", "must be UTF-8 text", value);
@@ -229,6 +236,7 @@ Value parse_toml(std::string_view text) {
                        "");
   const toml::parse_result parsed = toml::parse(text);
   if (parsed) return table_of(parsed.table(), 0);
+  require_no_other_kind(text);
   const toml::parse_error& error = parsed.error();
   std::string reason(error.description());
   if (reason.find("maximum nested") != reason.npos) throw InvalidInput("", "is not TOML: nested too deep", "");

@@ -61,7 +61,8 @@ std::string Violation::to_string() const {
   }
   const double amount = std::abs(value);
   const Prefix prefix = prefix_of(amount, unit);
-  out << amount / prefix.factor << (unit.empty() ? "" : " ") << prefix.letters << unit;
+  out << amount / prefix.factor;
+  if (!unit.empty() && unit != "-") out << " " << prefix.letters << unit;
   if (value < 0.0) {
     out << " below the limit";
     return out.str();

@@ -13,9 +13,9 @@ namespace mcplan {
 std::array<PlanarConstraintInfo, kPlanarConstraints> planar_constraints(const PlanarTolerances& t) {
   return {{{"finite", "numbers", 0.0},
            {"phase_duration", "s", 0.0},
-           {"position", "", t.limit},
-           {"velocity", "", t.limit},
-           {"torque", "", t.limit},
+           {"position", "-", t.limit},
+           {"velocity", "-", t.limit},
+           {"torque", "-", t.limit},
            {"continuity", "rad", t.continuity},
            {"rest", "rad", t.continuity},
            {"drift", "m", t.drift},

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "mcplan/base/error.hpp"
+#include "model/names.hpp"
+#include "model/text.hpp"
 #include "rhp/polytopes.hpp"
 
 namespace mcplan::rhp {
@@ -146,6 +148,16 @@ State Walker::start() const {
   return state;
 }
 
+namespace {
+
+std::vector<std::string> foot_names(const Walker& walker) {
+  std::vector<std::string> out;
+  for (const Foot& foot : walker.feet) out.push_back(walker.robot.end_effectors[foot.end_effector].name);
+  return out;
+}
+
+}  // namespace
+
 Footsteps footsteps_of(const Walker& walker) {
   const Scene& scene = walker.scene;
   if (scene.steps.empty())
@@ -157,9 +169,14 @@ Footsteps footsteps_of(const Walker& walker) {
     const Step& step = scene.steps[i];
     const int foot = walker.foot_of(walker.robot.end_effector_index(step.end_effector));
     if (foot < 0)
-      throw InvalidScene(field + ".end_effector", "must name a foot of " + walker.robot.name, text(step.end_effector));
+      throw InvalidScene(field + ".end_effector",
+                         model::name_rule("a foot of " + walker.robot.name, step.end_effector, foot_names(walker)),
+                         text(step.end_effector));
     const int surface = scene.surface_index(step.surface);
-    if (surface < 0) throw InvalidScene(field + ".surface", "must name a surface of the scene", text(step.surface));
+    if (surface < 0)
+      throw InvalidScene(field + ".surface",
+                         model::name_rule("a surface", step.surface, model::names_of(scene.surfaces).names),
+                         text(step.surface));
     if (!may_touch(scene.surfaces[surface], walker.robot.end_effectors[walker.feet[foot].end_effector]))
       throw InvalidScene(field + ".surface", "must admit " + step.end_effector, text(step.surface));
     out.push_back({foot, surface});

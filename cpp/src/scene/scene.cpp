@@ -6,7 +6,9 @@
 #include <set>
 
 #include "mcplan/base/error.hpp"
+#include "model/names.hpp"
 #include "model/read.hpp"
+#include "model/text.hpp"
 #include "scene_fields.hpp"
 
 namespace mcplan {
@@ -56,12 +58,6 @@ void validate_polygon(const std::string& field, const std::vector<Vector3d>& ver
     throw InvalidScene(field, "must run once around a convex polygon", text(turned / (2.0 * M_PI)) + " turns");
 }
 
-std::string surface_names(const Scene& scene) {
-  std::string names;
-  for (const auto& surface : scene.surfaces) names += (names.empty() ? "" : ", ") + surface.name;
-  return names;
-}
-
 /// Says that a surface does not exist, once the names of all are known.
 void require_surface(const Scene& scene, const std::string& surface, const std::string& field, model::Findings& found) {
   if (scene.surface_index(surface) >= 0) return;
@@ -69,7 +65,8 @@ void require_surface(const Scene& scene, const std::string& surface, const std::
     if (!found.sound(item("surfaces", i) + ".name")) return;
   if (!scene.surfaces.empty())
     found.check({field}, [&] {
-      throw InvalidScene(field, "must name a surface (" + surface_names(scene) + ")", text(surface));
+      throw InvalidScene(field, model::name_rule("a surface", surface, model::names_of(scene.surfaces).names),
+                         text(surface));
     });
 }
 

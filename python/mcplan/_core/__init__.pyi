@@ -73,6 +73,7 @@ __all__: list[str] = [
     "check",
     "data_folder",
     "ddp",
+    "file_kind",
     "largest_drift",
     "least_norm_gain",
     "load_planar_robot",
@@ -3079,6 +3080,11 @@ def check(plan: PlanarPlan, tolerances: PlanarTolerances = ..., self_collision: 
 def data_folder() -> typing.Any:
     """
     The folder of the built-in scenes, robots and planar tasks.
+    """
+
+def file_kind(content: bytes) -> str:
+    """
+    What a file is by its content, with its article, such as "a PNG picture"; "" where nothing tells.
     """
 
 def largest_drift(plan: PlanarPlan, sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> Drift:

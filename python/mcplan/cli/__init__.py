@@ -40,8 +40,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(words: list[str]) -> int:
     try:
         _require_no_empty(words)
-        if words == ["--version"]:
-            words = ["version"]
         from mcplan.cli.app import app, complete
 
         complete(words[0])
@@ -57,9 +55,11 @@ def _run(words: list[str]) -> int:
     except KeyboardInterrupt:
         return CODE
     except Exception as found:
-        # Usage errors: typer brings its own click or uses the installed one, so the class is known by what it does.
+        # Usage errors of typer, whose class is known by what it does.
         if hasattr(found, "format_message"):
-            return _fail(" ".join(found.format_message().split()))
+            from mcplan.cli.usage import usage_text
+
+            return _fail(usage_text(found, words))
         if type(found).__name__ == "Abort":
             return CODE
         raise

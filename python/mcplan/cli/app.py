@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from importlib import metadata
+from typing import Annotated
 
 import typer
 
@@ -31,6 +32,23 @@ verbs = (
 )
 for verb in verbs:
     app.command(verb.__name__)(verb)
+
+
+def _print_version(asked: bool) -> None:
+    if asked:
+        version.version()
+        raise typer.Exit
+
+
+@app.callback()
+def main(
+    version: Annotated[  # noqa: ARG001  read by its callback
+        bool, typer.Option("--version", is_eager=True, callback=_print_version, help="Print what mcplan version does.")
+    ] = False,
+) -> None:
+    """Multi-contact motion planning: which limb is in contact with what, when and where."""
+
+
 #: An earlier name of `tasks`, for one release.
 app.command("motions", hidden=True)(tasks.tasks)
 

@@ -97,4 +97,5 @@ def margin(violation: Violation) -> str:
         return "-"
     where = f" at {violation.end_effector}" if violation.end_effector else ""
     when = f", phase {violation.phase}" if violation.phase >= 0 else ""
-    return f"{violation.name}{where}{when}: {violation.value:.2g} of {violation.tolerance:g} {violation.unit}".rstrip()
+    unit = "" if violation.unit in ("", "-") else f" {violation.unit}"
+    return f"{violation.name}{where}{when}: {violation.value:.2g} of {violation.tolerance:g}{unit}"

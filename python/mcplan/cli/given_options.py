@@ -2,10 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
+import typer
+
+from mcplan.cli.usage import typed_name
 from mcplan.errors import InvalidArgument, InvalidInput, InvalidOptions, apart, together
+
+
+def at_least(low: int) -> Callable[[typer.CallbackParam, Any], Any]:
+    """The callback of an option whose number has a least value; it stands in the help in words.
+
+    Raises:
+        InvalidInput: "--faces: must be at least 6, got 3".
+    """
+
+    def checked(param: typer.CallbackParam, value: Any) -> Any:
+        if value is not None and value < low:
+            raise InvalidInput(typed_name(param), f"must be at least {low}", str(value))
+        return value
+
+    return checked
+
+
+def require_none_given(context: typer.Context, rule: str) -> None:
+    """Raises InvalidInput for an option of a group of verbs that was typed before one of them, which would not see it."""
+    for param in context.command.params:
+        source = context.get_parameter_source(param.name or "")
+        if source is not None and source.name == "COMMANDLINE":
+            raise InvalidInput(typed_name(param), rule)
 
 
 @contextmanager

@@ -100,7 +100,7 @@ def planar_robot_from_urdf(source: str, ends: list[str], output: Path | None) ->
 
 
 def _parse_end(text: str) -> PlanarEnd:
-    from mcplan.errors import InvalidInput
+    from mcplan.errors import InvalidInput, shown
     from mcplan.files.planar_urdf import PlanarEnd
 
     try:
@@ -108,7 +108,7 @@ def _parse_end(text: str) -> PlanarEnd:
         frame, _, points = rest.partition(":")
         return PlanarEnd(name, frame, tuple(float(point) for point in points.split(",")) if points else (0.0,))
     except ValueError:
-        raise InvalidInput("--end", "must read NAME=FRAME[:POINT,...] with --planar", repr(text)) from None
+        raise InvalidInput("--end", "must read NAME=FRAME[:POINT,...] with --planar", shown(text)) from None
 
 
 def _joint(body: PlanarBody) -> list[str]:

@@ -1,4 +1,4 @@
-"""--push N,seconds,at,direction"""
+"""--push newtons,seconds,at,direction"""
 
 from __future__ import annotations
 
@@ -32,18 +32,18 @@ def require_within(pushes: Sequence[Push], end_s: float) -> None:
 
 
 def _push(text: str) -> Push:
-    from mcplan.errors import InvalidOptions
+    from mcplan.errors import InvalidOptions, shown
     from mcplan.tracking.options import Push
 
     words = text.split(",")
     if len(words) != len(FIELDS):
-        raise InvalidOptions("--push", f"must be {','.join(FIELDS)}, such as 40,0.2,3,90", repr(text))
+        raise InvalidOptions("--push", f"must be {','.join(FIELDS)}, such as 40,0.2,3,90", shown(text))
     numbers = []
     for name, word in zip(FIELDS, words, strict=True):
         try:
             number = float(word)
         except ValueError:
-            raise InvalidOptions(f"--push: {name}", "must be a number", repr(word.strip())) from None
+            raise InvalidOptions(f"--push: {name}", "must be a number", shown(word.strip())) from None
         if not math.isfinite(number):
             raise InvalidOptions(f"--push: {name}", "must be finite", word.strip())
         if number <= 0.0 and name in FIELDS[:2]:

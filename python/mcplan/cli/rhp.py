@@ -84,6 +84,7 @@ def rhp(
     Example: mcplan rhp rubbles --fidelity point --lookahead 3 -o walk.npz --html walk.html
     """
     from mcplan import walking
+    from mcplan.arguments import named_by_file
     from mcplan.cli.interrupts import CODE
     from mcplan.cli.outputs import require_outputs, write_outputs
     from mcplan.cli.rhp_text import Progress, summary_text
@@ -92,9 +93,10 @@ def rhp(
     require_outputs("rhp", output, html, plots)
     given = {"fidelity": fidelity, "lookahead": lookahead, "cycles": cycles, "transcription": transcription}
     options = walking.make_options({**given, "paper": paper, "lifted_psi": lifted_psi, "time_limit": time_limit})
-    scene, model, steps = walking.parts_of(terrain, robot, sequence)
-    scene = scaled(scene, scale)
-    planner = _planner(terrain, scene, model, steps, options)
+    with named_by_file(terrain, robot, sequence, "--sequence"):
+        scene, model, steps = walking.parts_of(terrain, robot, sequence)
+        scene = scaled(scene, scale)
+        planner = _planner(terrain, scene, model, steps, options)
     progress = None if json or quiet else Progress(verbose)
     interrupted = False
     try:

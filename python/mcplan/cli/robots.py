@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from mcplan.cli.given_options import named_as_typed
+from mcplan.cli.given_options import at_least, named_as_typed
 from mcplan.cli.terminal import say
 
 if TYPE_CHECKING:
@@ -44,13 +44,24 @@ ReachPolytopesOption = Annotated[
     bool, typer.Option("--reach-polytopes", help="Add the reach of feet as polytopes, for rhp.")
 ]
 FacesOption = Annotated[
-    int | None, typer.Option("--faces", metavar="N", min=6, help="Maximum number of faces of a polytope (30).")
+    int | None,
+    typer.Option(
+        "--faces", metavar="N", callback=at_least(6), help="Maximum number of faces of a polytope, 6 at least (30)."
+    ),
 ]
 StrengthOption = Annotated[
     bool,
     typer.Option("--strength", help="Print the forces that the arms of robot NAME can exert, over random postures."),
 ]
-SeedOption = Annotated[int, typer.Option("--seed", metavar="SEED", min=0, help="Seed of the random postures.")]
+SeedOption = Annotated[
+    int | None,
+    typer.Option(
+        "--seed",
+        metavar="SEED",
+        callback=at_least(0),
+        help="With --strength or --from-urdf: seed of the random postures (0).",
+    ),
+]
 OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="TOML file for the robot.")]
 
 
@@ -65,7 +76,7 @@ def robots(
     reach_polytopes: ReachPolytopesOption = False,
     faces: FacesOption = None,
     strength: StrengthOption = False,
-    seed: SeedOption = 0,
+    seed: SeedOption = None,
     output: OutputOption = None,
 ) -> None:
     """List or print robots, or make one from a URDF.
@@ -73,7 +84,7 @@ def robots(
     Example: mcplan robots --from-urdf my.urdf --end left_foot=l_sole:foot:0.10x0.05 --end right_foot=r_sole -o my.toml
     """
     from mcplan.cli import planar_robots, robots_strength
-    from mcplan.errors import InvalidInput
+    from mcplan.errors import InvalidInput, shown
     from mcplan.files.planar_robots import load_planar_robot
     from mcplan.files.robots import load_robot
 
@@ -87,9 +98,11 @@ def robots(
     ):
         if given and from_urdf is None:
             raise InvalidInput(option, "needs --from-urdf")
-    count = _faces(reach_polytopes, faces)
+    if seed is not None and not strength and (from_urdf is None or planar):
+        raise InvalidInput("--seed", "needs --strength, or --from-urdf without --planar")
+    count, seed = _faces(reach_polytopes, faces), seed or 0
     if name is not None and from_urdf is not None:
-        raise InvalidInput("NAME", "may not stand beside --from-urdf", name)
+        raise InvalidInput("NAME", "may not stand beside --from-urdf", shown(name))
     for option, given in (
         ("--reach-polytopes", reach_polytopes),
         ("--srdf", srdf is not None),
@@ -195,7 +208,7 @@ def _from_urdf(
 
 
 def _parse_end(text: str) -> End:
-    from mcplan.errors import InvalidInput
+    from mcplan.errors import InvalidInput, shown
     from mcplan.files.urdf_setups import End
 
     try:
@@ -205,18 +218,18 @@ def _parse_end(text: str) -> End:
         length, width = (float(part) for part in size.split("x"))
         x, y, z = (float(part) for part in point.split(","))
     except ValueError:
-        raise InvalidInput("--end", "must read NAME=FRAME[:KIND[:LENGTHxWIDTH[:X,Y,Z]]]", repr(text)) from None
+        raise InvalidInput("--end", "must read NAME=FRAME[:KIND[:LENGTHxWIDTH[:X,Y,Z]]]", shown(text)) from None
     return End(name, frame, kind, (length, width), frame_offset=(x, y, z))
 
 
 def _parse_angle(text: str) -> tuple[str, float]:
-    from mcplan.errors import InvalidInput
+    from mcplan.errors import InvalidInput, shown
 
     try:
         joint, angle = text.split("=", 1)
         return joint, float(angle)
     except ValueError:
-        raise InvalidInput("--posture", "must read JOINT=ANGLE", repr(text)) from None
+        raise InvalidInput("--posture", "must read JOINT=ANGLE", shown(text)) from None
 
 
 def _print_robot(robot: Robot) -> None:

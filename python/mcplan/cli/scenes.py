@@ -90,11 +90,11 @@ def _page(scene: Scene, robot: str | None) -> Page:
 
 
 def _seeded(name: str, seed: int) -> Scene:
-    from mcplan.errors import InvalidInput
+    from mcplan.errors import InvalidInput, shown
     from mcplan.files.terrains import random_patches
 
     if name != "random_patches":
-        raise InvalidInput("--seed", "is for random_patches alone", repr(name))
+        raise InvalidInput("--seed", "is for random_patches alone", shown(name))
     return random_patches(seed)
 
 

@@ -101,7 +101,7 @@ def require_kind(outputs: list[Path], what: Shown) -> None:
         MissingExtra: What draws is not installed.
     """
     from mcplan.cli.outputs import require_rendering
-    from mcplan.errors import InvalidInput
+    from mcplan.errors import InvalidInput, shown_path
     from mcplan.extras import require as require_extra
     from mcplan.showing import is_run
     from mcplan.view.video.files import check_target
@@ -114,11 +114,11 @@ def require_kind(outputs: list[Path], what: Shown) -> None:
             if kind == "video":
                 check_target(path)
             elif path.suffix.lower() != ".png":
-                raise InvalidInput("--output", "must end in .png: a run is rendered", str(path))
+                raise InvalidInput("--output", "must end in .png: a run is rendered", shown_path(path))
             require_rendering(f"mcplan show -o {path}")
         elif kind == "video":
             rule = "must be a page or a picture: a plan is filmed once mcplan track has made a run of it"
-            raise InvalidInput("--output", rule, str(path))
+            raise InvalidInput("--output", rule, shown_path(path))
         else:
             require_extra(f"mcplan show -o {path}", "view", "matplotlib")
 

@@ -185,6 +185,7 @@ def _search(
 ) -> tuple[engine.Result, bool]:
     """What was found, and whether Ctrl-C ended the search; `verbose` None: no progress is printed."""
     from mcplan import sip as engine
+    from mcplan.arguments import named_by_file
     from mcplan.cli.interrupts import as_far_as_it_came
     from mcplan.cli.sip_text import Progress
     from mcplan.planar import planning
@@ -193,9 +194,10 @@ def _search(
     if progress is not None:
         options.logger = progress
     planner = engine.Planner(task, options)
-    found = as_far_as_it_came(
-        lambda: planning.solve(planner, warm_start, certify=certify, self_collision=options.self_collision)
-    )
+    with named_by_file(plan=warm_start, plan_option="--warm-start"):
+        found = as_far_as_it_came(
+            lambda: planning.solve(planner, warm_start, certify=certify, self_collision=options.self_collision)
+        )
     if progress is not None:
         progress.end()
     return found

@@ -29,7 +29,7 @@ PushOption = Annotated[
     list[str] | None,
     typer.Option(
         "--push",
-        metavar="N,seconds,at,direction",
+        metavar="newtons,seconds,at,direction",
         help="Push of the base: force [N], duration [s], instant [s], direction [deg] (0 forward, 90 left); may be repeated.",
     ),
 ]

@@ -11,10 +11,12 @@ from typing import Any, cast
 
 import numpy as np
 
+from mcplan._core import file_kind
 from mcplan.errors import InvalidPlan, shown, written
 from mcplan.files.reading import MAX_PLAN_INFLATED, size_text
 
-_RULE = "must be an .npz file written by mcplan"
+_RULE = "must be an .npz or .json file written by mcplan"
+_NO_ARCHIVE = "no zip archive, or an incomplete one"
 _MAX_MEMBERS = 64  # arrays of an archive
 _MAX_DIRECTORY = 256 * _MAX_MEMBERS  # bytes of the list of members
 _MAX_HEADER = 4 * 1024 * 1024  # bytes of JSON
@@ -67,7 +69,8 @@ def _require_directory(data: bytes) -> None:
     """A directory at the end of the file that is small enough to be read, before it is."""
     end = data.rfind(b"PK\x05\x06")
     if end < 0 or len(data) < end + 22 or not zipfile.is_zipfile(io.BytesIO(data)):
-        raise InvalidPlan("", _RULE, "no zip archive, or an incomplete one")
+        kind = file_kind(data)
+        raise InvalidPlan("", _RULE, kind if kind not in ("", "an .npz archive", "a zip archive") else _NO_ARCHIVE)
     size = int.from_bytes(data[end + 12 : end + 16], "little")
     if size > _MAX_DIRECTORY or data[max(0, end - 20) :].startswith(b"PK\x06\x07"):
         raise InvalidPlan("", f"may have {_MAX_MEMBERS} arrays at most", f"a directory of {size} bytes")
@@ -112,7 +115,7 @@ def read_header(arrays: Mapping[str, np.ndarray]) -> dict[str, Any]:
         InvalidPlan: There is none, or it is no JSON object.
     """
     if "header" not in arrays:
-        raise InvalidPlan("header", "is required")
+        raise InvalidPlan("", _RULE, "an archive without `header`")
     if arrays["header"].nbytes > _MAX_HEADER:
         raise InvalidPlan("header", f"may have {size_text(_MAX_HEADER)} at most", f"{arrays['header'].nbytes} bytes")
     try:
@@ -123,6 +126,11 @@ def read_header(arrays: Mapping[str, np.ndarray]) -> dict[str, Any]:
         raise InvalidPlan("header", "must be a JSON object", written(header))
     _require_text("header", header)
     return header
+
+
+def kind_text(header: Mapping[str, Any]) -> str:
+    """The kind that a header says, for a message; plans of contacts and CoM say none."""
+    return written(header["kind"]) if header.get("kind") is not None else "none, as plans of contacts and CoM have"
 
 
 def require_members(header: Mapping[str, Any], **kinds: type) -> None:

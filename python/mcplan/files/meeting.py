@@ -11,7 +11,7 @@ import warnings
 from collections.abc import Iterator, Sequence
 
 from mcplan._core import Robot, Scene
-from mcplan.errors import InvalidInput, SuspiciousName, shown, written
+from mcplan.errors import InvalidInput, SuspiciousName, did_you_mean, written
 
 #: Similarity from which a name is taken for another one misspelt, of names as short as "foot" and of longer ones: "left_fot"
 #: is "left_foot", which to a robot with "lf_foot" is a limb of other robots.
@@ -42,7 +42,7 @@ def warn_of_names(scene: Scene, robot: Robot) -> None:
                 continue
             if not (is_permission and (near in names or kinds.get(near) in names)):  # who is permitted anyway
                 warned.add(name)
-                rule = f"{robot.name} has no such end-effector. Did you mean {shown(near)}?"
+                rule = f"{robot.name} has no such end-effector. {did_you_mean(near, [near]).rstrip()}"
                 _warn(scene, f"{field}[{i}]", rule, written(name))
     permitting = [(i, surface.end_effectors) for i, surface in enumerate(scene.surfaces) if surface.end_effectors]
     if permitting and not any(meant[name] for _, names in permitting for name in names):

@@ -16,7 +16,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from mcplan.errors import InvalidInput
+from mcplan.errors import InvalidInput, either, shown_path
 
 #: Names of plans and runs.
 ARCHIVE = (".npz",)
@@ -47,7 +47,7 @@ def whole_file(path: str | Path) -> Iterator[Path]:
     Raises:
         OSError: The file cannot be written; ``filename`` is the path as given.
     """
-    _require_named(path)
+    require_named(path)
     target = Path(path)
     with _told_of(target):
         through = is_special(target)
@@ -85,14 +85,13 @@ def require_suffix(field: str, path: str | Path, suffixes: Sequence[str]) -> Non
     """Refuse a name that promises another kind of file.
 
     Raises:
-        InvalidInput: It ends in none of the suffixes, which the message lists, and is no device or pipe.
-        FileNotFoundError: It is empty.
+        InvalidInput: It ends in none of the suffixes, which the message lists, and is no device or pipe; or it is empty.
     """
-    _require_named(path)
+    require_named(path)
     target = Path(path)
     if target.suffix.lower() in suffixes or is_special(target):
         return
-    raise InvalidInput(field, f"must end in {', '.join(filter(None, suffixes))}", str(target))
+    raise InvalidInput(field, f"must end in {either([suffix for suffix in suffixes if suffix])}", shown_path(target))
 
 
 def require_target(field: str, path: Path | None, suffixes: Sequence[str] | None = None) -> None:
@@ -105,9 +104,9 @@ def require_target(field: str, path: Path | None, suffixes: Sequence[str] | None
     if path is None:
         return
     if not path.parent.is_dir():
-        raise InvalidInput(field, "must lie in a folder that exists", str(path))
+        raise InvalidInput(field, "must lie in a folder that exists", shown_path(path))
     if path.is_dir():
-        raise InvalidInput(field, "must be a file", str(path))
+        raise InvalidInput(field, "must be a file", shown_path(path))
     try:
         if suffixes is not None:
             require_suffix(field, path, suffixes)
@@ -115,7 +114,9 @@ def require_target(field: str, path: Path | None, suffixes: Sequence[str] | None
             return
         _require_replaceable(path)
     except OSError as found:
-        raise InvalidInput(field, "must be a file that can be written", f"{path} ({found.strerror})") from None
+        raise InvalidInput(
+            field, "must be a file that can be written", f"{shown_path(path)} ({found.strerror})"
+        ) from None
     require_writable(field, Path(os.path.realpath(path)).parent, path)
 
 
@@ -128,7 +129,7 @@ def require_folder(field: str, path: Path | None) -> None:
     if path is None:
         return
     if path.exists() and not path.is_dir():
-        raise InvalidInput(field, "must be a folder, or a name for a new one", str(path))
+        raise InvalidInput(field, "must be a folder, or a name for a new one", shown_path(path))
     folder = Path(os.path.realpath(path))
     while not folder.exists():
         folder = folder.parent
@@ -139,9 +140,10 @@ def made_folder(path: str | Path) -> Path:
     """A folder for several files, which is made if it does not exist.
 
     Raises:
-        OSError: The folder cannot be made; or the path is empty.
+        OSError: The folder cannot be made.
+        InvalidInput: The path is empty.
     """
-    _require_named(path)
+    require_named(path)
     folder = Path(path)
     folder.mkdir(parents=True, exist_ok=True)
     return folder
@@ -153,13 +155,13 @@ def require_writable(field: str, folder: Path, path: Path) -> None:
         tempfile.TemporaryFile(dir=folder).close()
     except OSError as found:
         rule = "must lie in a folder that can be written to"
-        raise InvalidInput(field, rule, f"{path} ({found.strerror})") from None
+        raise InvalidInput(field, rule, f"{shown_path(path)} ({found.strerror})") from None
 
 
-def _require_named(path: str | Path) -> None:
-    """An empty path is none: ``Path`` makes the working folder of it."""
+def require_named(path: str | Path) -> None:
+    """Raises InvalidInput for an empty path, of which ``Path`` makes the working folder."""
     if not os.fspath(path):
-        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), "")
+        raise InvalidInput("path", "must not be empty")
 
 
 def _require_replaceable(target: Path) -> None:

@@ -11,7 +11,7 @@ from typing import TypeVar
 
 from mcplan.errors import InvalidInput, InvalidPlan
 from mcplan.files.builtin import exists
-from mcplan.files.outputs import ARCHIVE, JSON, require_suffix, write_whole
+from mcplan.files.outputs import ARCHIVE, JSON, require_named, require_suffix, write_whole
 from mcplan.files.reading import MAX_PLAN, read_file
 
 _Plan = TypeVar("_Plan")
@@ -58,8 +58,10 @@ def read_plan_file(path: str | Path) -> bytes:
 
     Raises:
         InvalidPlan: It cannot be read, or is no regular file or too large.
+        InvalidInput: The path is empty.
         FileNotFoundError: There is no such file.
     """
+    require_named(path)
     if not exists(path):
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path))
     return read_file(path, MAX_PLAN, InvalidPlan)

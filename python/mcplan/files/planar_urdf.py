@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from mcplan._core import Capsule, PlanarBody, PlanarEndEffector, PlanarRobot
-from mcplan.errors import InvalidInput, InvalidRobot, did_you_mean
+from mcplan.errors import InvalidInput, InvalidRobot, did_you_mean, shown
 from mcplan.extras import require
 from mcplan.files.urdf_reading import build_model, read_urdf
 
@@ -190,13 +190,13 @@ def _end_effector(model: Any, data: Any, end: PlanarEnd, plane: _Plane) -> Plana
     links = [frame.name for frame in model.frames if model.existBodyName(frame.name)]
     if end.frame not in links:
         rule = f"must name a link of the URDF. {did_you_mean(end.frame, links)}There are: {', '.join(links)}"
-        raise InvalidInput(f"ends.{end.name}", rule, repr(end.frame))
+        raise InvalidInput(f"ends.{end.name}", rule, shown(end.frame))
     index = model.getBodyId(end.frame)
     joint, placement = model.frames[index].parentJoint, data.oMf[index]
     outward = placement.rotation[:, 1 if abs(plane.normal[2]) > 0.5 else 2]
     if abs(outward @ plane.normal) > _PARALLEL:
         rule = f"must name a link whose {'y' if abs(plane.normal[2]) > 0.5 else 'z'} axis lies in the plane"
-        raise InvalidInput(f"ends.{end.name}", rule, repr(end.frame))
+        raise InvalidInput(f"ends.{end.name}", rule, shown(end.frame))
     along, above = plane.project(outward)
     return PlanarEndEffector(
         name=end.name,

@@ -182,7 +182,7 @@ def ends_of(source: str, ends: tuple[End, ...] = ()) -> tuple[End, ...]:
         InvalidInput: None are given and there are none in SETUPS.
     """
     if not ends and source not in SETUPS:
-        raise InvalidInput("ends", f"must be given for a robot other than {', '.join(SETUPS)}", repr(source))
+        raise InvalidInput("ends", f"must be given for a robot other than {', '.join(SETUPS)}", shown(source))
     return ends or SETUPS[source].ends
 
 
@@ -255,7 +255,7 @@ def load_model(
         if not model.existBodyName(end.frame):
             links = [frame.name for frame in model.frames if model.existBodyName(frame.name)]
             rule = f"must name a link of the URDF. {did_you_mean(end.frame, links)}".rstrip(" .")
-            raise InvalidInput(f"ends.{end.name}", rule, repr(end.frame))
+            raise InvalidInput(f"ends.{end.name}", rule, shown(end.frame))
     if posture is None:
         posture = SETUPS[source].posture if source in SETUPS else {}
     for joint, angle in posture.items():
@@ -280,7 +280,7 @@ def _read(source: str, srdf: str | None) -> tuple[Any, np.ndarray, str]:
     try:
         loaded = example_robot_data.load(source)
     except Exception as found:  # its loaders raise what the file system or the parser happen to raise
-        raise InvalidInput("source", "must be a URDF file or a name of example-robot-data", repr(source)) from found
+        raise InvalidInput("source", "must be a URDF file or a name of example-robot-data", shown(source)) from found
     return loaded.model, loaded.q0.copy(), f"example-robot-data:{source}"
 
 

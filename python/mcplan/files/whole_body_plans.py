@@ -34,7 +34,7 @@ from mcplan._core import (
 )
 from mcplan.errors import InvalidInput, InvalidPlan, written
 from mcplan.files import plans
-from mcplan.files.archives import archive_bytes, read_arrays, read_header, require_kind, require_members
+from mcplan.files.archives import archive_bytes, kind_text, read_arrays, read_header, require_kind, require_members
 from mcplan.files.plan_files import load_plan_file, write_plan_file
 
 KIND = "whole_body"
@@ -160,7 +160,7 @@ def _point_counts(task: PlanarTask) -> list[int]:
 
 def _checked_header(header: dict[str, Any]) -> dict[str, Any]:
     if header.get("kind") != KIND:
-        raise InvalidPlan("header.kind", f"must be {written(KIND)}", written(header.get("kind")))
+        raise InvalidPlan("header.kind", f"must be {written(KIND)}: a plan of a planar robot", kind_text(header))
     version = header.get("format")
     if type(version) is not int or version != FORMAT:
         raise InvalidPlan("header.format", f"must be {FORMAT} for this version of mcplan", written(version))

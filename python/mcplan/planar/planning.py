@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mcplan._core import PlanarPlan, PlanarTask, sip
-from mcplan.arguments import require, require_or_path
+from mcplan.arguments import named_by_file, require, require_or_path
 from mcplan.errors import Interrupted, InvalidOptions, shown
 from mcplan.options import fill, start
 
@@ -50,18 +50,26 @@ def solve(
     Raises:
         Interrupted: Ctrl-C, also while it proves: the motion is there then, without a certificate.
     """
-    if warm_start is not None and not isinstance(warm_start, PlanarPlan):
-        require_or_path("warm_start", warm_start, "a PlanarPlan")
-        from mcplan.files.whole_body_plans import load_whole_body_plan
-
-        warm_start = load_whole_body_plan(warm_start)
-    result = planner.solve() if warm_start is None else planner.solve(warm_start)
+    if warm_start is None:
+        result = planner.solve()
+    else:
+        with named_by_file(plan=warm_start):
+            result = planner.solve(_plan_of(warm_start))
     if certify:
         try:
             result.certificate = sip.certify(result.plan, self_collision=self_collision)
         except KeyboardInterrupt:
             raise Interrupted(result) from None
     return result
+
+
+def _plan_of(warm_start: PlanarPlan | str | Path) -> PlanarPlan:
+    if isinstance(warm_start, PlanarPlan):
+        return warm_start
+    require_or_path("warm_start", warm_start, "a PlanarPlan")
+    from mcplan.files.whole_body_plans import load_whole_body_plan
+
+    return load_whole_body_plan(warm_start)
 
 
 def make_options(minimise: str | None, values: Mapping[str, Any], base: sip.Options | None = None) -> sip.Options:
@@ -87,7 +95,9 @@ def make_options(minimise: str | None, values: Mapping[str, Any], base: sip.Opti
         raise InvalidOptions("minimise", f"must be one of {', '.join(CRITERIA)}", shown(minimise))
     fill(options, {**CRITERIA[minimise], **given})
     if not options.dynamics and options.torque_weight > 0.0:
-        raise InvalidOptions("minimise", "must be time or none without dynamics: there are no torques then", minimise)
+        raise InvalidOptions(
+            "minimise", "must be time or none without dynamics: there are no torques then", shown(minimise)
+        )
     return options
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import fields, replace
 from typing import Any
 
-from mcplan.errors import InvalidOptions, did_you_mean
+from mcplan.errors import InvalidOptions, did_you_mean, shown
 
 from .options import Gains, Options, Push
 
@@ -32,7 +32,7 @@ def make_options(values: Mapping[str, Any], base: Options | None = None) -> Opti
         if kind is float:
             _require_number(name, value)
         elif not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
-            raise InvalidOptions(name, f"must be of type {kind.__name__}", repr(value))
+            raise InvalidOptions(name, f"must be of type {kind.__name__}", shown(value))
     options = replace(base, **given)
     options.validate()
     return options
@@ -48,12 +48,12 @@ def _require_known(values: Mapping[str, Any], kind: type, prefix: str) -> None:
 
 def _require_number(name: str, value: Any) -> None:
     if isinstance(value, bool) or not hasattr(value, "__float__"):
-        raise InvalidOptions(name, "must be a number", repr(value))
+        raise InvalidOptions(name, "must be a number", shown(value))
 
 
 def _listed(name: str, value: Any) -> list[Any]:
     if isinstance(value, Push) or not hasattr(value, "__iter__"):
-        raise InvalidOptions(name, "must be a list", repr(value))
+        raise InvalidOptions(name, "must be a list", shown(value))
     return list(value)
 
 

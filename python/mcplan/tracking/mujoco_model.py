@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan.errors import InvalidRobot
+from mcplan.errors import InvalidRobot, shown
 from mcplan.extras import require
 from mcplan.kinematics.urdf_model import UrdfModel, load_model
 
@@ -100,7 +100,9 @@ def build(robot: Robot, scene: Scene, options: Options | None = None, visual: bo
         _settings(spec, scene, options)
         mj = spec.compile()
     except ValueError as error:
-        raise InvalidRobot("urdf", "must be a URDF that MuJoCo can simulate", f"{robot.urdf!r} ({error})") from error
+        raise InvalidRobot(
+            "urdf", "must be a URDF that MuJoCo can simulate", f"{shown(robot.urdf)} ({error})"
+        ) from error
 
     dofs = np.array([mj.joint(name).dofadr[0] for name in joints], dtype=np.int64)
     _set_constants(mj, dofs, model.armature[6:], options.mass_scale)

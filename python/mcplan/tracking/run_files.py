@@ -24,9 +24,9 @@ import numpy as np
 from mcplan._core import __version__
 from mcplan.errors import InvalidInput, shown, written
 from mcplan.files import whole_body_plans
-from mcplan.files.archives import read_arrays, read_header
+from mcplan.files.archives import kind_text, read_arrays, read_header
 from mcplan.files.builtin import exists
-from mcplan.files.outputs import ARCHIVE, require_suffix, write_whole
+from mcplan.files.outputs import ARCHIVE, require_named, require_suffix, write_whole
 from mcplan.files.plan_files import is_json
 from mcplan.files.reading import MAX_PLAN_INFLATED, MAX_RUN, MAX_RUN_INFLATED, MAX_RUN_RATIO, read_file
 
@@ -109,6 +109,7 @@ def load_run(
         InvalidInput: Not such a file, or its content does not fit together; the message names file, field and rule.
         FileNotFoundError: There is no such file.
     """
+    require_named(path)
     if not exists(path):
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path))
     data = read_file(path, MAX_RUN, InvalidInput)
@@ -122,7 +123,7 @@ def load_run(
             if otherwise is not None:
                 return otherwise(path)
             raise InvalidInput(
-                "header.kind", f"must be {written(RUN)} or {written(PLANAR_RUN)}: no file of a run", written(kind)
+                "header.kind", f"must be {written(RUN)} or {written(PLANAR_RUN)}: no file of a run", kind_text(header)
             )
         if header.get("format") != FORMAT:
             raise InvalidInput(

@@ -19,15 +19,15 @@ const char* word(Proof proof) {
 
 std::string line(const ProvedConstraint& c) {
   char text[256];
-  const char* space = c.unit.empty() ? "" : " ";
+  const std::string unit = c.unit.empty() || c.unit == "-" ? "" : " " + c.unit;
   if (c.phase < 0) {
     std::snprintf(text, sizeof(text), "  %-10s  %-14s  nothing to prove\n", word(c.proof), c.name.c_str());
     return text;
   }
   const bool violated = c.proof == Proof::violated;
-  std::snprintf(text, sizeof(text), "  %-10s  %-14s  at %s %.4g%s%s, tolerance %.4g; %s%sphase %d, t = %.4f s\n",
-                word(c.proof), c.name.c_str(), violated ? "least" : "most", violated ? c.reached : c.bound, space,
-                c.unit.c_str(), c.tolerance, c.where.c_str(), c.where.empty() ? "" : ", ", c.phase, c.time_s);
+  std::snprintf(text, sizeof(text), "  %-10s  %-14s  at %s %.4g%s, tolerance %.4g; %s%sphase %d, t = %.4f s\n",
+                word(c.proof), c.name.c_str(), violated ? "least" : "most", violated ? c.reached : c.bound,
+                unit.c_str(), c.tolerance, c.where.c_str(), c.where.empty() ? "" : ", ", c.phase, c.time_s);
   return text;
 }
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan.errors import InvalidInput
+from mcplan.errors import InvalidInput, shown_path
 from mcplan.extras import require
 from mcplan.files.outputs import whole_file
 from mcplan.view.colours import COM
@@ -181,7 +181,7 @@ def fitted(points_W: Array, eye: Eye, size: tuple[int, int], margin: float) -> E
 
 def _png(path: str | Path) -> Path:
     if Path(path).suffix.lower() != ".png":
-        raise InvalidInput("path", "must end in .png", repr(str(path)))
+        raise InvalidInput("path", "must end in .png", shown_path(path))
     return Path(path)
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan.errors import InvalidInput, MissingExtra
+from mcplan.errors import InvalidInput, MissingExtra, either, shown_path
 from mcplan.extras import require
 from mcplan.files.outputs import whole_file
 
@@ -43,9 +43,9 @@ def check_target(path: Path) -> None:
     """
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
-        raise InvalidInput("video", f"must end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}", repr(str(path)))
+        raise InvalidInput("video", f"must end in {either(SUFFIXES)}", shown_path(path))
     if not path.resolve().parent.is_dir():
-        raise InvalidInput("video", "must lie in a folder that exists", repr(str(path)))
+        raise InvalidInput("video", "must lie in a folder that exists", shown_path(path))
     if suffix == ".mp4":
         if find_ffmpeg() is None:
             raise MissingExtra(
