@@ -103,6 +103,11 @@ void validate_clearance(const PlanarTask& task, const PlanarPhase& phase, const 
     if (contact.end_effector == clearance.end_effector)
       throw InvalidPlanarTask(field + ".end_effector", "must not be in contact in this phase",
                               text(task.robot.end_effectors[clearance.end_effector].name));
+  if (!task.keeps_clear(clearance.end_effector, clearance.surface))
+    throw InvalidPlanarTask(
+        field + ".surface",
+        "must not be in no_clearance together with " + text(task.robot.end_effectors[clearance.end_effector].name),
+        text(task.surfaces[clearance.surface].name));
   if (clearance.first_interval < 0 || clearance.first_interval >= phase.intervals)
     throw InvalidPlanarTask(field + ".first_interval",
                             "must be an interval of the phase (below " + text(phase.intervals) + ")",
@@ -115,6 +120,17 @@ void validate_clearance(const PlanarTask& task, const PlanarPhase& phase, const 
         text(clearance.end_interval));
   if (!(clearance.middle_height < std::numeric_limits<double>::infinity()))
     throw InvalidPlanarTask(field + ".middle_height", "must be a number below infinity", text(clearance.middle_height));
+}
+
+void validate_no_clearance(const PlanarTask& task, std::size_t i) {
+  const PlanarNoClearance& pair = task.no_clearance[i];
+  const std::string field = indexed("no_clearance", i);
+  require_index(field + ".end_effector", pair.end_effector, task.robot.end_effectors.size(), "an end-effector");
+  require_index(field + ".surface", pair.surface, task.surfaces.size(), "a surface");
+  for (std::size_t other = 0; other < i; ++other)
+    if (model::equal(task.no_clearance[other], pair))
+      throw InvalidPlanarTask(field + ".surface", "must not be there twice with the same end-effector",
+                              text(task.surfaces[pair.surface].name));
 }
 
 void validate_pose(const PlanarTask& task, const PlanarPose& pose, const std::string& field) {
@@ -174,6 +190,12 @@ int PlanarTask::phase_of(int interval) const {
   return phase;
 }
 
+bool PlanarTask::keeps_clear(int end_effector, int surface) const {
+  return std::none_of(no_clearance.begin(), no_clearance.end(), [&](const PlanarNoClearance& pair) {
+    return pair.end_effector == end_effector && pair.surface == surface;
+  });
+}
+
 void PlanarTask::validate() const {
   robot.validate();
   model::Findings found;
@@ -204,6 +226,8 @@ void model::relations(const PlanarTask& task, Findings& found, const InTheFile& 
       check([&] { require_extent(surface, field); });
   }
   if (!found.sound("surfaces") || !found.sound("robot")) return;  // contacts lie on surfaces
+  if (found.sound("no_clearance"))
+    for (std::size_t i = 0; i < task.no_clearance.size(); ++i) check([&] { validate_no_clearance(task, i); });
   bool before_sound = false;
   for (std::size_t k = 0; k < task.phases.size(); ++k) {
     const std::string field = indexed("phases", k);
