@@ -103,11 +103,6 @@ void validate_clearance(const PlanarTask& task, const PlanarPhase& phase, const 
     if (contact.end_effector == clearance.end_effector)
       throw InvalidPlanarTask(field + ".end_effector", "must not be in contact in this phase",
                               text(task.robot.end_effectors[clearance.end_effector].name));
-  if (!task.keeps_clear(clearance.end_effector, clearance.surface))
-    throw InvalidPlanarTask(
-        field + ".surface",
-        "must not be in no_clearance together with " + text(task.robot.end_effectors[clearance.end_effector].name),
-        text(task.surfaces[clearance.surface].name));
   if (clearance.first_interval < 0 || clearance.first_interval >= phase.intervals)
     throw InvalidPlanarTask(field + ".first_interval",
                             "must be an interval of the phase (below " + text(phase.intervals) + ")",
@@ -120,6 +115,14 @@ void validate_clearance(const PlanarTask& task, const PlanarPhase& phase, const 
         text(clearance.end_interval));
   if (!(clearance.middle_height < std::numeric_limits<double>::infinity()))
     throw InvalidPlanarTask(field + ".middle_height", "must be a number below infinity", text(clearance.middle_height));
+}
+
+void require_asked(const PlanarTask& task, const PlanarClearance& clearance, const std::string& field) {
+  if (task.keeps_clear(clearance.end_effector, clearance.surface)) return;
+  throw InvalidPlanarTask(
+      field + ".surface",
+      "must not be in no_clearance together with " + text(task.robot.end_effectors[clearance.end_effector].name),
+      text(task.surfaces[clearance.surface].name));
 }
 
 void validate_no_clearance(const PlanarTask& task, std::size_t i) {
@@ -238,7 +241,11 @@ void model::relations(const PlanarTask& task, Findings& found, const InTheFile& 
     }
     check([&] { require_duration(phase, field); });
     for (std::size_t i = 0; i < phase.clearances.size(); ++i)
-      check([&] { validate_clearance(task, phase, phase.clearances[i], indexed(field + ".clearances", i)); });
+      check([&] {
+        const std::string clearance = indexed(field + ".clearances", i);
+        validate_clearance(task, phase, phase.clearances[i], clearance);
+        if (found.sound("no_clearance")) require_asked(task, phase.clearances[i], clearance);
+      });
     for (std::size_t i = 0; i < phase.poses.size(); ++i)
       check([&] { validate_pose(task, phase.poses[i], indexed(field + ".poses", i)); });
     // What was said of a contact in the phase before need not be said again.
