@@ -10,7 +10,7 @@ import pytest
 
 import mcplan as mp
 from mcplan import sip
-from mcplan._core import planar_task_from_plain, planar_task_to_plain, solid_depths
+from mcplan._core import planar_task_from_plain, planar_task_to_plain
 from mcplan.files.planar_tasks import list_planar_tasks
 from mcplan.model import PlanarSurface
 from whole_body_peer import Peer
@@ -184,7 +184,7 @@ def test_what_the_paper_calls_solved_and_exact_formulas_do_not_is_acceptable(opt
 def deepest(plan: mp.PlanarPlan) -> dict[str, float]:
     """Of the swinging feet in each surface [m]."""
     out: dict[str, float] = {}
-    for found in solid_depths(plan):
+    for found in sip.solid_depths(plan):
         name = plan.task.surfaces[found.surface].name
         out[name] = max(found.depth_m, out.get(name, -np.inf))
     return out
