@@ -56,8 +56,8 @@ class Config:
 
     @property
     def clearance(self) -> bool:
-        """Whether swinging feet are kept out of solids: where everything is as mcplan does it, but not in the paper's."""
-        return self.hold == "tube" and self.continuous == "hull"
+        """Whether swinging feet are kept out of solids: with contacts as mcplan holds them, but not with the paper's."""
+        return self.hold == "tube"
 
     def options(self) -> dict[str, Any]:
         """Arguments of mcplan.whole_body."""

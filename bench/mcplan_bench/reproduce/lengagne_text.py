@@ -81,10 +81,11 @@ def largest(rows: list[Row], key: str) -> float:
 
 def kept_out(without: list[Row], with_clearance: list[Row]) -> str:
     """Where swinging feet go with clearance and without."""
+    deepest = largest(with_clearance, "depth_mm")
+    kept = f"up to {deepest:.2g} mm" if deepest > 0.0 else "not at all"
     return (
-        f"Without clearance swinging feet go up to {largest(without, 'depth_mm'):.0f} mm into ground, slope or wall, with it up "
-        f"to {largest(with_clearance, 'depth_mm'):.2g} mm, where the checker accepts 1.5 mm. The paper does not say what its "
-        "motions do there."
+        f"Without clearance swinging feet go up to {largest(without, 'depth_mm'):.0f} mm into ground, slope or wall, with it "
+        f"{kept}; the checker accepts 1.5 mm. The paper does not say what its motions do there."
     )
 
 
