@@ -230,7 +230,7 @@ class SipOptions(TypedDict, total=False):
     torque_limits: bool
     """Joint torques within their limits."""
     clearance: bool
-    """Swinging end-effectors outside solids, as the task says."""
+    """Swinging end-effectors outside of all solids."""
     self_collision: bool
     """The robot's collision pairs keep clear of each other."""
     clearance_m: float

@@ -6,7 +6,8 @@
     result = sip.plan("climbing", options)  # or sip.plan("climbing", forces="uniform", order=10)
     result.plan.save("climb.npz"), result.report.status
 
-``Planner`` is behind it, one object for several solves; ``certify`` proves what holds at every instant.
+``Planner`` is behind it, one object for several solves; ``certify`` proves what holds at every instant,
+``solid_depths`` tells how deep swinging end-effectors go into the ground.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mcplan._core import PlanarPlan, PlanarTask
+from mcplan._core import PlanarPlan, PlanarTask, solid_depths
 from mcplan._core.sip import (
     Certificate,
     ContactMode,
@@ -51,6 +52,7 @@ __all__ = [
     "TaylorModel",
     "certify",
     "plan",
+    "solid_depths",
     "whole_body",
 ]
 

@@ -10,6 +10,7 @@ import mcplan as mp
 from command_line import one_line_error, strict
 from mcplan.cli import main
 from mcplan.cli.sip_text import Progress, iteration_state
+from mcplan.model import PlanarNoClearance, PlanarSurface
 
 FIGURES = {"status", "iterations", "time_s", "evaluation_s", "parameters", "constraints", "cost", "durations_s"}
 FIGURES |= {"drift_m", "drift_rad", "worst_violation", "certified"}
@@ -175,6 +176,31 @@ def test_check_proves_a_plan_on_request(capsys, plan_file):
     proofs = {entry["name"]: entry for entry in report["certificate"]["constraints"]}
     assert proofs["torque"]["proof"] == "proved" and proofs["torque"]["bound"] <= proofs["torque"]["tolerance"]
     assert strict(run(capsys, plan_file, "--json", verb="check")[1])["certified"] is None
+
+
+def test_check_tells_the_depth_of_pairs_of_which_no_clearance_is_asked(capsys, plan_file, tmp_path):
+    pairs = {
+        (d["end_effector"], d["surface"]): d
+        for d in strict(run(capsys, plan_file, "--json", verb="check")[1])["solid_depths"]
+    }
+    assert pairs.keys() == {("A", "ground"), ("C", "ground")}
+    assert all(depth["asked"] and depth["depth_m"] <= 1.5e-3 for depth in pairs.values())
+    plan = mp.PlanarPlan.load(plan_file)
+    task = plan.task
+    step = PlanarSurface(name="step", origin_W=(0.0, 2.0))  # all of it is in there
+    task.surfaces = [*task.surfaces, step]
+    plan.task = task
+    plan.save(tmp_path / "in_step.npz")
+    code, out, _ = run(capsys, tmp_path / "in_step.npz", verb="check")
+    assert code == 1 and "clearance at A and step" in out and "not asked" not in out
+    task.no_clearance = [PlanarNoClearance(end_effector=e, surface=1) for e in range(3)]
+    plan.task = task
+    plan.save(tmp_path / "let_in.npz")
+    code, out, _ = run(capsys, tmp_path / "let_in.npz", verb="check")
+    assert code == 0
+    assert "not asked: clearance of A and step: depth 2e+03 mm" in out and "not asked: clearance of C and step" in out
+    depths = strict(run(capsys, tmp_path / "let_in.npz", "--json", verb="check")[1])["solid_depths"]
+    assert {(d["end_effector"], d["surface"]) for d in depths if not d["asked"]} == {("A", "step"), ("C", "step")}
 
 
 def test_check_refuses_a_plan_with_a_control_point_moved(capsys, plan_file, tmp_path):

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import mcplan
-from mcplan import PlanarTolerances, check, sip
+from mcplan import PlanarTolerances, _core, check, sip
+from mcplan.model import PlanarNoClearance
 from reference_solutions import reference_names, reference_plan
 
 # One solution leaves its 5 mrad tube by 1.1e-8 rad, within what its solver was asked for.
@@ -33,10 +34,33 @@ def moved(plan, joint: int, index: int, amount: float):
     return plan
 
 
+def without_clearance(plan):
+    """The plan, with nothing asked of its feet."""
+    task = plan.task
+    phases = list(task.phases)
+    for phase in phases:
+        phase.clearances = []
+    task.phases = phases
+    task.no_clearance = [
+        PlanarNoClearance(end_effector=e, surface=s)
+        for e in range(len(task.robot.end_effectors))
+        for s in range(len(task.surfaces))
+    ]
+    plan.task = task
+    return plan
+
+
 @pytest.mark.parametrize(("task", "name"), reference_names())
 def test_reference_solutions_are_certified(task, name):
-    certificate = sip.certify(reference_plan(task, name), TOLERANCES)
-    assert certificate.proved(), str(certificate)
+    """But for the feet of the climbs in slope and wall, which were found when nothing was asked of them there."""
+    plan = reference_plan(task, name)
+    certificate = sip.certify(plan, TOLERANCES)
+    open_ones = {c.name for c in certificate.constraints if c.proof != sip.Proof.proved}
+    deepest = max((found.depth_m for found in _core.solid_depths(plan)), default=0.0)
+    assert open_ones == ({"clearance"} if deepest > TOLERANCES.clearance else set()), str(certificate)
+    assert (deepest > TOLERANCES.clearance) == task.startswith("climbing")
+    if open_ones:  # what is violated by about as much elsewhere is not looked at more closely
+        assert by_name(certificate)["clearance"].reached == pytest.approx(deepest, rel=0.02)
     assert certificate.rounding < 1e-5
 
 
@@ -58,6 +82,8 @@ def test_a_control_point_moved_by_three_degrees_is_refused(task, name):
     refused = 0
     for _ in range(12):
         plan = reference_plan(task, name)
+        if task == "climbing":
+            without_clearance(plan)
         joint, index = (int(rng.integers(0, size)) for size in plan.control_points.shape)
         moved(plan, joint, index, 0.05)
         certificate = sip.certify(plan, TOLERANCES)

@@ -11,6 +11,8 @@ import pytest
 import mcplan as mp
 from mcplan import sip
 from mcplan._core import planar_task_from_plain, planar_task_to_plain
+from mcplan.files.planar_tasks import list_planar_tasks
+from mcplan.model import PlanarSurface
 from whole_body_peer import Peer
 
 CASES = ["uniform", "per_body", "per_point"]  # the paper's 1, 2 and 3
@@ -177,3 +179,42 @@ def test_what_the_paper_calls_solved_and_exact_formulas_do_not_is_acceptable(opt
     assert result.report.status == mp.Status.acceptable, result.report.message
     assert result.report.worst_violation.name == violated
     assert violated in result.report.message
+
+
+def deepest(plan: mp.PlanarPlan) -> dict[str, float]:
+    """Of the swinging feet in each surface [m]."""
+    out: dict[str, float] = {}
+    for found in sip.solid_depths(plan):
+        name = plan.task.surfaces[found.surface].name
+        out[name] = max(found.depth_m, out.get(name, -np.inf))
+    return out
+
+
+def test_a_foot_steps_over_a_rail_of_which_the_task_only_says_that_it_is_there():
+    task = mp.load_planar_task("walking")
+    phases = list(task.phases)[:3]
+    phases[1].clearances, phases[1].intervals, phases[2].intervals = [], 6, 3
+    task.phases = phases
+    rail = PlanarSurface(name="rail", origin_W=(0.19, 0.05), from_=-0.01, to=0.01)
+    task.surfaces = [*task.surfaces, rail]
+    over = mp.whole_body(task, minimise="none", certify=True)
+    assert over.report.status == mp.Status.solved and over.certificate.proved()
+    assert max(deepest(over.plan).values()) <= mp.PlanarTolerances().clearance
+    through = mp.whole_body(task, minimise="none", clearance=False).plan
+    assert deepest(through)["rail"] > 0.01
+    assert [found.name for found in mp.check(through).violations()] == ["clearance"]
+
+
+@SLOW
+@pytest.mark.parametrize("name", list_planar_tasks())
+def test_swinging_feet_of_built_in_tasks_are_proved_to_stay_out_of_all_solids(name):
+    """Without what the task says of clearances, too: steps are found by their surfaces alone."""
+    task = mp.load_planar_task(name)
+    phases = list(task.phases)
+    for phase in phases:
+        phase.clearances = []
+    task.phases = phases
+    result = mp.whole_body(task, minimise="none", certify=True)
+    assert result.report.status == mp.Status.solved, result.report.message
+    assert result.certificate.proved()
+    assert max(deepest(result.plan).values()) <= mp.PlanarTolerances().clearance

@@ -28,12 +28,19 @@ def _measured(kept: Run | None) -> Row:
     out["checker"] = "" if kept is None else kept.status
     out["drift_mm"] = "" if kept is None else 1e3 * kept.drift_m
     out["drift_mrad"] = "" if kept is None else 1e3 * kept.drift_rad
+    out["clearance"] = "" if kept is None else kept.config.clearance
+    out["depth_mm"] = "" if kept is None else max(1e3 * kept.beyond.get("clearance", 0.0), 0.0)
     return out
 
 
 def figure(value: float) -> str:
     """Two digits, without exponents of ten for large numbers."""
     return f"{value:.0f}" if value >= 100.0 else f"{value:.2g}"
+
+
+def deep(row: Row) -> str:
+    """Millimetres for which feet are inside solids, marked where they are not kept out."""
+    return figure(row["depth_mm"]) + ("" if row["clearance"] else " (not asked)")
 
 
 def kinematic_rows(runs: list[Run], table: int) -> list[Row]:
@@ -74,8 +81,8 @@ def kinematic_table(rows: list[Row]) -> list[str]:
     """Table I or II as Markdown."""
     lines = [
         "| motion | $N_{eq}$ | N: paper | here | rows: paper | here | iterations: paper | here | time [s]: paper | here "
-        "| processor | status: paper | here | drift [mm] | [mrad] | strict: equalities | status | iterations |",
-        "|---" * 18 + "|",
+        "| processor | status: paper | here | drift [mm] | [mrad] | depth [mm] | strict: equalities | status | iterations |",
+        "|---" * 19 + "|",
     ]
     for row in rows:
         lines.append(
@@ -83,7 +90,7 @@ def kinematic_table(rows: list[Row]) -> list[str]:
             f"| {row['paper_constraints']} | {row['constraints']} | {row['paper_iterations']} | {row['iterations']} "
             f"| {row['paper_time_s']} | {row['time_s']:.2f} | {row['cpu_s']:.2f} "
             f"| {row['paper_status']} | {row['status']} | {figure(row['drift_mm'])} | {figure(row['drift_mrad'])} "
-            f"| {row['strict_equalities']} | {row['strict_status']} | {row['strict_iterations']} |"
+            f"| {deep(row)} | {row['strict_equalities']} | {row['strict_status']} | {row['strict_iterations']} |"
         )
     return lines
 
@@ -153,7 +160,7 @@ def _held(runs: list[Run], motion: str, forces: str, case: int | str, published:
         if kept is not None:
             row = {"motion": motion, "case": case, "forces": forces, "contacts": hold, **published, **_measured(kept)}
             row |= {"duration_s": kept.duration_s, "balance_N": max(kept.beyond.get("balance", 0.0), 0.0)}
-            out.append(row | {"depth_mm": max(1e3 * kept.beyond.get("clearance", 0.0), 0.0)})
+            out.append(row)
     return out
 
 
@@ -161,8 +168,9 @@ def dynamic_table(rows: list[Row]) -> list[str]:
     """Table III as Markdown: band and tube side by side."""
     lines = [
         "| motion | case | N: paper | here | rows: paper | band | tube | iterations: paper | band | tube "
-        "| time [s]: paper | band | tube | processor: band | tube | status: paper | band | tube | drift [mm]: band | tube |",
-        "|---" * 20 + "|",
+        "| time [s]: paper | band | tube | processor: band | tube | status: paper | band | tube | drift [mm]: band | tube "
+        "| depth [mm]: band | tube |",
+        "|---" * 22 + "|",
     ]
     for band, tube in paired(rows):
         case = CASE_TITLES.get(band["forces"], f"`{band['forces']}`")
@@ -173,7 +181,7 @@ def dynamic_table(rows: list[Row]) -> list[str]:
             f"| {band['paper_time_s']} | {band['time_s']:.2f} | {tube['time_s']:.2f} "
             f"| {band['cpu_s']:.2f} | {tube['cpu_s']:.2f} "
             f"| {band['paper_status']} | {band['status']} | {tube['status']} "
-            f"| {figure(band['drift_mm'])} | {figure(tube['drift_mm'])} |"
+            f"| {figure(band['drift_mm'])} | {figure(tube['drift_mm'])} | {deep(band)} | {deep(tube)} |"
         )
     return lines
 
@@ -208,8 +216,9 @@ def full_table(rows: list[Row]) -> list[str]:
     """Table IV as Markdown."""
     lines = [
         "| motion | case | start | N | rows | iterations: paper | here | time [s]: paper | here | processor "
-        "| criterion: paper | here [N² m² s] | status: paper | here | checker | certified | drift [mm] | duration [s] |",
-        "|---" * 18 + "|",
+        "| criterion: paper | here [N² m² s] | status: paper | here | checker | certified | drift [mm] | depth [mm] "
+        "| duration [s] |",
+        "|---" * 19 + "|",
     ]
     for row in rows:
         cost = f"{row['cost']:.1f}" + ("" if row["kept"] else " (not kept)")
@@ -220,7 +229,7 @@ def full_table(rows: list[Row]) -> list[str]:
             f"| {row['constraints']} | {row['paper_iterations']} | {row['iterations']} | {row['paper_time_s']} "
             f"| {row['time_s']:.2f} | {row['cpu_s']:.2f} | {row['paper_criterion']} | {cost} "
             f"| {row['paper_status']} | {row['status']} | {row['checker']} | {proved} | {figure(row['drift_mm'])} "
-            f"| {row['duration_s']:.2f} |"
+            f"| {deep(row)} | {row['duration_s']:.2f} |"
         )
     return lines
 

@@ -116,6 +116,7 @@ void bind_task(py::module_& m) {
   surface.def_property_readonly("tangent_W", &PlanarSurface::tangent_W, "Unit vector.");
   surface.def_property_readonly("normal_W", &PlanarSurface::normal_W, "Unit vector, outward.");
   bind_fields<PlanarContact>(m);
+  bind_fields<PlanarNoClearance>(m);
   bind_fields<PlanarClearance>(m);
   bind_fields<PlanarPose>(m);
   bind_fields<PlanarPhase>(m);

@@ -117,6 +117,20 @@ void bind_checker(py::module_& m) {
   def_value(drift, "Drift", {"position_m", "angle_rad"});
   m.def("largest_drift", &largest_drift, py::arg("plan"), py::arg("sample_s") = 1e-3,
         "Drift of a planar plan, from samples in time and exact kinematics.");
+
+  py::class_<SolidDepth> depth(m, "SolidDepth",
+                               "How deep a swinging end-effector goes into the solid behind a surface at most.");
+  depth.def_readonly("end_effector", &SolidDepth::end_effector, "Index.");
+  depth.def_readonly("surface", &SolidDepth::surface, "Index.");
+  depth.def_readonly("depth_m", &SolidDepth::depth_m, "The shortest way out [m]; negative: how far it stays out.");
+  depth.def_readonly("phase", &SolidDepth::phase, "Where that is.");
+  depth.def_readonly("time_s", &SolidDepth::time_s, "When that is [s].");
+  depth.def_readonly("asked", &SolidDepth::asked, "False where the task's no_clearance has the pair.");
+  def_value(depth, "SolidDepth", {"end_effector", "surface", "depth_m", "phase", "time_s", "asked"});
+  m.def("solid_depths", &solid_depths, py::arg("plan"), py::arg("sample_s") = 1e-3,
+        "How deep every swinging end-effector of a planar plan goes into the solid of every surface, from samples in "
+        "time "
+        "and exact kinematics; also of the pairs in the task's no_clearance.");
 }
 
 }  // namespace

@@ -75,32 +75,6 @@ void check_forces(const Sample& sample, Findings& findings) {
   }
 }
 
-/// Depth of the end-effector's points in the solid behind the surface, which ends where the surface does; and their
-/// height at the begin of interval n / 2, wherever they are along the surface.
-void check_clearance(const Sample& sample, Findings& findings) {
-  const PlanarTask& task = sample.plan.task;
-  const PlanarPhase& phase = task.phases[sample.phase];
-  for (const PlanarClearance& clearance : phase.clearances) {
-    const int end = clearance.end_interval < 0 ? phase.intervals : clearance.end_interval;
-    const bool inside = sample.interval_of_phase >= clearance.first_interval && sample.interval_of_phase < end;
-    const bool middle =
-        sample.begin && sample.interval_of_phase == phase.intervals / 2 && !std::isinf(clearance.middle_height);
-    if (!inside && !middle) continue;
-    const PlanarSurface& surface = task.surfaces[clearance.surface];
-    const PlanarEndEffector& end_effector = task.robot.end_effectors[clearance.end_effector];
-    const PlanarMotionOfFrame sole =
-        planar_point(sample.at.frames[end_effector.body], end_effector.position_B, end_effector.angle_B);
-    const Place place{sample.phase, &end_effector.name, nullptr, sample.time_s};
-    for (double point : end_effector.points) {
-      const Vector2d from_origin_W = planar_point(sole, {point, 0.0}).position_W - surface.origin_W;
-      const double height = from_origin_W.dot(surface.normal_W()), along = from_origin_W.dot(surface.tangent_W());
-      if (inside)
-        findings.offer(Constraint::clearance, std::min({-height, along - surface.from, surface.to - along}), place);
-      if (middle) findings.offer(Constraint::clearance, clearance.middle_height - height, place);
-    }
-  }
-}
-
 /// Distance of the nearest of a's two ends from b and of b's two ends from a, unless they cross.
 double segment_distance(const Vector2d& a0, const Vector2d& a1, const Vector2d& b0, const Vector2d& b1) {
   const double from_a0 = determinant(b1 - b0, a0 - b0), from_a1 = determinant(b1 - b0, a1 - b0);

@@ -98,8 +98,8 @@ std::vector<IntervalSplines> all_splines(const PlanarPlan& plan) {
   return splines;
 }
 
-/// What check() and largest_drift() ask for before they evaluate anything. Task and robot are exceptions when
-/// malformed, as scene and robot of other plans are.
+/// What check(), largest_drift() and solid_depths() ask for before they evaluate anything. Task and robot are
+/// exceptions when malformed, as scene and robot of other plans are.
 void require_well_formed(const PlanarPlan& plan) {
   plan.task.validate();
   require_shape(plan);
@@ -126,15 +126,27 @@ CheckResult check(const PlanarPlan& plan, const PlanarTolerances& tolerances, bo
   check_continuity(splines, plan.task.robot, findings);
   check_rest(splines, plan.task.robot, findings);
   check_poses(plan, findings);
+  SolidDepths depths;
   const bool complete = for_each_sample(plan, splines, tolerances.sample_s, stop, [&](const Sample& sample) {
     check_joints(sample, findings);
     check_drift(sample, findings);
     check_balance(sample, findings);
     check_forces(sample, findings);
-    check_clearance(sample, findings);
+    check_middle_heights(sample, findings);
+    depths.look(sample);
     if (self_collision) check_collision(sample, findings);
   });
+  check_solids(plan.task, depths, findings);
   return {findings.violations(kPlanarConstraints), complete};
+}
+
+std::vector<SolidDepth> solid_depths(const PlanarPlan& plan, double sample_s) {
+  using namespace planar;
+  plan.validate();
+  require_samples(plan, sample_s);
+  SolidDepths depths;
+  for_each_sample(plan, all_splines(plan), sample_s, {}, [&](const Sample& sample) { depths.look(sample); });
+  return depths.all(plan.task);
 }
 
 Drift largest_drift(const PlanarPlan& plan, double sample_s) {

@@ -62,8 +62,19 @@ void check_joints(const Sample& sample, Findings& findings);
 void check_drift(const Sample& sample, Findings& findings);
 void check_balance(const Sample& sample, Findings& findings);
 void check_forces(const Sample& sample, Findings& findings);
-void check_clearance(const Sample& sample, Findings& findings);
+void check_middle_heights(const Sample& sample, Findings& findings);
 void check_collision(const Sample& sample, Findings& findings);
+
+/// How deep every swinging end-effector goes into the solid of every surface, over the instants that it looked at.
+class SolidDepths {
+ public:
+  void look(const Sample& sample);
+  std::vector<SolidDepth> all(const PlanarTask& task) const;
+
+ private:
+  std::vector<SolidDepth> worst_;
+};
+void check_solids(const PlanarTask& task, const SolidDepths& depths, Findings& findings);
 
 /// Distance of two segments [m], 0 where they cross.
 double segment_distance(const Eigen::Vector2d& a0, const Eigen::Vector2d& a1, const Eigen::Vector2d& b0,

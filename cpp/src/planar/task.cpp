@@ -117,6 +117,25 @@ void validate_clearance(const PlanarTask& task, const PlanarPhase& phase, const 
     throw InvalidPlanarTask(field + ".middle_height", "must be a number below infinity", text(clearance.middle_height));
 }
 
+void require_asked(const PlanarTask& task, const PlanarClearance& clearance, const std::string& field) {
+  if (task.keeps_clear(clearance.end_effector, clearance.surface)) return;
+  throw InvalidPlanarTask(
+      field + ".surface",
+      "must not be in no_clearance together with " + text(task.robot.end_effectors[clearance.end_effector].name),
+      text(task.surfaces[clearance.surface].name));
+}
+
+void validate_no_clearance(const PlanarTask& task, std::size_t i) {
+  const PlanarNoClearance& pair = task.no_clearance[i];
+  const std::string field = indexed("no_clearance", i);
+  require_index(field + ".end_effector", pair.end_effector, task.robot.end_effectors.size(), "an end-effector");
+  require_index(field + ".surface", pair.surface, task.surfaces.size(), "a surface");
+  for (std::size_t other = 0; other < i; ++other)
+    if (model::equal(task.no_clearance[other], pair))
+      throw InvalidPlanarTask(field + ".surface", "must not be there twice with the same end-effector",
+                              text(task.surfaces[pair.surface].name));
+}
+
 void validate_pose(const PlanarTask& task, const PlanarPose& pose, const std::string& field) {
   require_index(field + ".body", pose.body, task.robot.bodies.size(), "a body");
   const char* components[] = {"x", "y", "angle"};
@@ -174,6 +193,12 @@ int PlanarTask::phase_of(int interval) const {
   return phase;
 }
 
+bool PlanarTask::keeps_clear(int end_effector, int surface) const {
+  return std::none_of(no_clearance.begin(), no_clearance.end(), [&](const PlanarNoClearance& pair) {
+    return pair.end_effector == end_effector && pair.surface == surface;
+  });
+}
+
 void PlanarTask::validate() const {
   robot.validate();
   model::Findings found;
@@ -204,6 +229,8 @@ void model::relations(const PlanarTask& task, Findings& found, const InTheFile& 
       check([&] { require_extent(surface, field); });
   }
   if (!found.sound("surfaces") || !found.sound("robot")) return;  // contacts lie on surfaces
+  if (found.sound("no_clearance"))
+    for (std::size_t i = 0; i < task.no_clearance.size(); ++i) check([&] { validate_no_clearance(task, i); });
   bool before_sound = false;
   for (std::size_t k = 0; k < task.phases.size(); ++k) {
     const std::string field = indexed("phases", k);
@@ -214,7 +241,11 @@ void model::relations(const PlanarTask& task, Findings& found, const InTheFile& 
     }
     check([&] { require_duration(phase, field); });
     for (std::size_t i = 0; i < phase.clearances.size(); ++i)
-      check([&] { validate_clearance(task, phase, phase.clearances[i], indexed(field + ".clearances", i)); });
+      check([&] {
+        const std::string clearance = indexed(field + ".clearances", i);
+        validate_clearance(task, phase, phase.clearances[i], clearance);
+        if (found.sound("no_clearance")) require_asked(task, phase.clearances[i], clearance);
+      });
     for (std::size_t i = 0; i < phase.poses.size(); ++i)
       check([&] { validate_pose(task, phase.poses[i], indexed(field + ".poses", i)); });
     // What was said of a contact in the phase before need not be said again.

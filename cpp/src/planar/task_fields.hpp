@@ -91,9 +91,23 @@ struct FileKeys<PlanarContact> {
 };
 
 template <>
+struct Fields<PlanarNoClearance> {
+  static constexpr const char* name = "PlanarNoClearance";
+  static constexpr const char* meaning = "An end-effector that may be inside a surface's solid.";
+  static constexpr auto all =
+      std::make_tuple(field("end_effector", &PlanarNoClearance::end_effector, "", "End-effector.")
+                          .required()
+                          .index_of("end_effectors", "an end-effector of the robot"),
+                      field("surface", &PlanarNoClearance::surface, "", "Surface.")
+                          .required()
+                          .index_of("surfaces", "one of the surfaces"));
+};
+
+template <>
 struct Fields<PlanarClearance> {
   static constexpr const char* name = "PlanarClearance";
-  static constexpr const char* meaning = "Points of a swinging end-effector stay outside a surface's solid.";
+  static constexpr const char* meaning =
+      "Points of a swinging end-effector stay in front of a surface, which counts as endless.";
   static constexpr auto all = std::make_tuple(
       field("end_effector", &PlanarClearance::end_effector, "", "End-effector.")
           .required()
@@ -162,7 +176,9 @@ struct Fields<PlanarPhase> {
           .required()
           .entries(1, 100)
           .by_file_keys(),
-      field("clearances", &PlanarPhase::clearances, "", "Where swinging end-effectors may not be.").entries(0, 1000),
+      field("clearances", &PlanarPhase::clearances, "",
+            "In front of which surfaces swinging end-effectors stay, and when.")
+          .entries(0, 1000),
       field("poses", &PlanarPhase::poses, "", "Where a body has to be at an instant.").entries(0, 1000).by_file_keys());
 };
 
@@ -207,6 +223,9 @@ struct Fields<PlanarTask> {
           .required()
           .entries(1, 1000)
           .by_file_keys(),
+      field("no_clearance", &PlanarTask::no_clearance, "",
+            "Pairs of end-effector and surface that need not keep clear of each other; all others do.")
+          .entries(0, 1000),
       field("phases", &PlanarTask::phases, "", "Phases; assign a list to add or remove.")
           .required()
           .entries(1, 1000)

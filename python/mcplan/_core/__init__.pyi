@@ -42,6 +42,7 @@ __all__: list[str] = [
     "PlanarInverseDynamics",
     "PlanarMotion",
     "PlanarMotionOfFrame",
+    "PlanarNoClearance",
     "PlanarPhase",
     "PlanarPlan",
     "PlanarPointForce",
@@ -57,6 +58,7 @@ __all__: list[str] = [
     "ResolvedStance",
     "Robot",
     "Scene",
+    "SolidDepth",
     "Stance",
     "Status",
     "Step",
@@ -114,6 +116,7 @@ __all__: list[str] = [
     "scene_to_dict",
     "schema_text",
     "sip",
+    "solid_depths",
     "suspicious_geometry",
     "toml_from",
     "toml_text",
@@ -2395,9 +2398,42 @@ class PlanarContact:
     @surface.setter
     def surface(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
 
+class PlanarNoClearance:
+    """
+    An end-effector that may be inside a surface's solid.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __copy__(self) -> PlanarNoClearance: ...
+    def __deepcopy__(self, memo: dict) -> PlanarNoClearance: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        *,
+        end_effector: typing.SupportsInt | typing.SupportsIndex = 0,
+        surface: typing.SupportsInt | typing.SupportsIndex = 0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def end_effector(self) -> int:
+        """
+        End-effector.
+        """
+    @end_effector.setter
+    def end_effector(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def surface(self) -> int:
+        """
+        Surface.
+        """
+    @surface.setter
+    def surface(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+
 class PlanarClearance:
     """
-    Points of a swinging end-effector stay outside a surface's solid.
+    Points of a swinging end-effector stay in front of a surface, which counts as endless.
     """
 
     __hash__: typing.ClassVar[None] = None
@@ -2526,7 +2562,7 @@ class PlanarPhase:
     @property
     def clearances(self) -> tuple:
         """
-        Tuple: Where swinging end-effectors may not be.
+        Tuple: In front of which surfaces swinging end-effectors stay, and when.
         """
     @clearances.setter
     def clearances(self, arg1: collections.abc.Sequence[PlanarClearance]) -> None: ...
@@ -2583,6 +2619,7 @@ class PlanarTask:
         description: str = "",
         robot: PlanarRobot = ...,
         surfaces: collections.abc.Sequence[PlanarSurface] = [],
+        no_clearance: collections.abc.Sequence[PlanarNoClearance] = [],
         phases: collections.abc.Sequence[PlanarPhase] = [],
     ) -> None: ...
     def __repr__(self) -> str: ...
@@ -2617,6 +2654,13 @@ class PlanarTask:
         """
     @name.setter
     def name(self, arg0: str) -> None: ...
+    @property
+    def no_clearance(self) -> tuple:
+        """
+        Tuple: Pairs of end-effector and surface that need not keep clear of each other; all others do.
+        """
+    @no_clearance.setter
+    def no_clearance(self, arg1: collections.abc.Sequence[PlanarNoClearance]) -> None: ...
     @property
     def phases(self) -> tuple:
         """
@@ -3050,6 +3094,44 @@ class Drift:
         [m]
         """
 
+class SolidDepth:
+    """
+    How deep a swinging end-effector goes into the solid behind a surface at most.
+    """
+    def __copy__(self) -> SolidDepth: ...
+    def __deepcopy__(self, memo: dict) -> SolidDepth: ...
+    def __repr__(self) -> str: ...
+    @property
+    def asked(self) -> bool:
+        """
+        False where the task's no_clearance has the pair.
+        """
+    @property
+    def depth_m(self) -> float:
+        """
+        The shortest way out [m]; negative: how far it stays out.
+        """
+    @property
+    def end_effector(self) -> int:
+        """
+        Index.
+        """
+    @property
+    def phase(self) -> int:
+        """
+        Where that is.
+        """
+    @property
+    def surface(self) -> int:
+        """
+        Index.
+        """
+    @property
+    def time_s(self) -> float:
+        """
+        When that is [s].
+        """
+
 def addresses(who: str, end_effector: EndEffector) -> bool:
     """
     Whether a name or kind addresses this end-effector.
@@ -3288,6 +3370,11 @@ def scene_to_dict(scene: Scene) -> dict:
 def schema_text(name: str) -> str:
     """
     The JSON schema of the files of a kind: 'scene', 'robot', 'planar_robot' or 'planar_task'.
+    """
+
+def solid_depths(plan: PlanarPlan, sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> list[SolidDepth]:
+    """
+    How deep every swinging end-effector of a planar plan goes into the solid of every surface, from samples in time and exact kinematics; also of the pairs in the task's no_clearance.
     """
 
 @typing.overload

@@ -460,7 +460,7 @@ class Options:
     @property
     def clearance(self) -> bool:
         """
-        Swinging end-effectors outside solids, as the task says.
+        Swinging end-effectors outside of all solids.
         """
     @clearance.setter
     def clearance(self, arg0: bool) -> None: ...

@@ -56,6 +56,7 @@ def check(
 
     saved = load_any_plan(plan)
     certificate, feasibility = None, None
+    depths: list[dict[str, object]] = []
     if isinstance(saved, PlanarPlan):
         if robot is not None:
             raise InvalidInput(
@@ -66,6 +67,7 @@ def check(
             certificate = prove(saved, self_collision=self_collision)
         # "motion" is the earlier name of "task", for one more release.
         carried = {"task": saved.task.name, "motion": saved.task.name, "robot": saved.task.robot.name}
+        depths = _solid_depths(saved, result)
     elif certify or self_collision:
         option = "--certify" if certify else "--self-collision"
         raise InvalidInput(option, "needs a whole-body plan, as mcplan sip makes them")
@@ -84,10 +86,12 @@ def check(
             "certified": None if certificate is None else certificate.proved(),
             "certificate": None if certificate is None else certificate_dict(certificate),
             "feasibility": None if feasibility is None else feasibility_dict(feasibility),
+            "solid_depths": depths,
         }
         print(json_module.dumps(report))
     else:
         _print_result(plan, saved, result, certificate)
+        _print_not_asked(depths)
         if feasibility is not None:
             _print_feasibility(feasibility)
     proved, followed = certificate is None or certificate.proved(), feasibility is None or feasibility.ok()
@@ -118,6 +122,37 @@ def _print_result(path: Path, plan: Plan | PlanarPlan, result: CheckResult, cert
             print(printable(line))
     if certificate is not None:
         print("\n".join(printable(line) for line in str(certificate).rstrip().splitlines()))
+
+
+def _solid_depths(plan: PlanarPlan, result: CheckResult) -> list[dict[str, object]]:
+    """How deep every swinging end-effector goes into every solid, where the plan could be evaluated."""
+    from mcplan._core import solid_depths
+
+    if not any(found.name == "clearance" for found in result.constraints):
+        return []
+    task = plan.task
+    return [
+        {
+            "end_effector": task.robot.end_effectors[found.end_effector].name,
+            "surface": task.surfaces[found.surface].name,
+            "depth_m": finite(found.depth_m),
+            "phase": found.phase,
+            "time_s": found.time_s,
+            "asked": found.asked,
+        }
+        for found in solid_depths(plan)
+    ]
+
+
+def _print_not_asked(depths: list[dict[str, object]]) -> None:
+    """Pairs that the task lets into each other, and how deep they are."""
+    from mcplan.cli.terminal import printable
+
+    for found in depths:
+        if not found["asked"]:
+            depth = found["depth_m"]
+            where = f"depth {1e3 * depth:.3g} mm, phase {found['phase']}" if isinstance(depth, float) else "no number"
+            print(printable(f"not asked: clearance of {found['end_effector']} and {found['surface']}: {where}"))
 
 
 def _print_feasibility(feasibility: Feasibility) -> None:

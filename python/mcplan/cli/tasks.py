@@ -79,6 +79,12 @@ def _print_task(task: PlanarTask) -> None:
         for k, phase in enumerate(task.phases)
     ]
     print_table(rows, ["phase", "intervals", "duration [s]", "contacts", "besides"])
+    if task.no_clearance:
+        say()
+        pairs = [
+            (task.robot.end_effectors[p.end_effector].name, task.surfaces[p.surface].name) for p in task.no_clearance
+        ]
+        say("no clearance is asked for of " + ", ".join(f"{end} and {surface}" for end, surface in pairs))
 
 
 def _contact(contact: PlanarContact, task: PlanarTask) -> str:

@@ -94,11 +94,17 @@ TEST_CASE("the field of a task that is out of its range is named") {
   CHECK(field([](M& m) { m.phases[1].clearances[0].end_effector = 7; }) == "phases[1].clearances[0].end_effector");
   CHECK(field([](M& m) { m.phases[1].clearances[0].end_effector = planar::left_foot; }) ==
         "phases[1].clearances[0].end_effector");  // in contact
-  CHECK(field([](M& m) { m.phases[1].clearances[0].surface = 1; }) == "phases[1].clearances[0].surface");
   CHECK(field([](M& m) { m.phases[1].clearances[0].first_interval = 4; }) == "phases[1].clearances[0].first_interval");
   CHECK(field([](M& m) { m.phases[1].clearances[0].end_interval = 1; }) == "phases[1].clearances[0].end_interval");
   CHECK(field([](M& m) { m.phases[1].clearances[0].end_interval = 5; }) == "phases[1].clearances[0].end_interval");
   CHECK(field([](M& m) { m.phases[1].clearances[0].middle_height = NAN; }) == "phases[1].clearances[0].middle_height");
+  CHECK(field([](M& m) { m.phases[1].clearances[0].surface = 1; }) == "phases[1].clearances[0].surface");
+  CHECK(field([](M& m) { m.no_clearance = {{planar::hand, 0}}; }) == "phases[0].clearances[0].surface");
+  CHECK(field([](M& m) { m.no_clearance = {{3, 0}}; }) == "no_clearance[0].end_effector");
+  CHECK(field([](M& m) { m.no_clearance = {{planar::left_foot, 1}}; }) == "no_clearance[0].surface");
+  const mcplan::PlanarNoClearance pair{planar::left_foot, 0};
+  CHECK(field([&](M& m) { m.no_clearance = {pair}; }) == "accepted");
+  CHECK(field([&](M& m) { m.no_clearance = {pair, pair}; }) == "no_clearance[1].surface");
   CHECK(field([](M& m) { m.phases[1].poses[0].body = 6; }) == "phases[1].poses[0].body");
   CHECK(field([](M& m) { m.phases[1].poses[0].fraction = 1.01; }) == "phases[1].poses[0].fraction");
   CHECK(field([](M& m) { m.phases[1].poses[0].fraction = NAN; }) == "phases[1].poses[0].fraction");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "mcplan/plan/checker.hpp"
 #include "mcplan/planar/plan.hpp"
@@ -64,7 +65,9 @@ std::array<PlanarConstraintInfo, kPlanarConstraints> planar_constraints(const Pl
 ///     drift, drift_angle             contacts where they should be
 ///     balance, moment                forces carry the motion of the base
 ///     friction, pull                 every point force in its cone
-///     clearance                      swinging end-effectors outside the solids that the task names
+///     clearance                      swinging end-effectors outside of all solids but those of the task's
+///     no_clearance,
+///                                    and as high in the middle of a swing as it says
 ///     collision                      capsules of the robot's pairs (only where collision_pairs are given and asked)
 ///     pose                           poses at given instants
 ///
@@ -78,5 +81,19 @@ struct Drift {
   double position_m = 0.0, angle_rad = 0.0;
 };
 Drift largest_drift(const PlanarPlan& plan, double sample_s = 1e-3);
+
+/// How deep a swinging end-effector goes into the solid behind a surface at most, and where.
+struct SolidDepth {
+  int end_effector = 0, surface = 0;
+  double depth_m = 0.0;  ///< the shortest way out; negative: how far it stays out
+  int phase = -1;
+  double time_s = 0.0;
+  bool asked = true;  ///< false: the task's no_clearance has the pair
+};
+
+/// Of every end-effector that swings and every surface, also of the pairs in no_clearance. While it stands its drift
+/// counts instead. An end-effector is all that lies between its outermost points; a solid ends where its surface does.
+/// Throws as largest_drift().
+std::vector<SolidDepth> solid_depths(const PlanarPlan& plan, double sample_s = 1e-3);
 
 }  // namespace mcplan

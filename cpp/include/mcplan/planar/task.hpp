@@ -36,7 +36,14 @@ struct PlanarContact {
   double angle = 0.0;  ///< of its x axis [rad]: a real number, whole turns count (they say which way a limb goes round)
 };
 
-/// The points of a swinging end-effector stay outside a surface's solid.
+/// An end-effector that may be inside a surface's solid: no one asks how deep.
+struct PlanarNoClearance {
+  int end_effector = 0;
+  int surface = 0;
+};
+
+/// Where a swinging end-effector stays in front of a surface's endless line. All of them stay outside of all solids
+/// anyway; this says which way they go, and how high.
 struct PlanarClearance {
   int end_effector = 0;
   int surface = 0;
@@ -67,16 +74,20 @@ struct PlanarTask {
   std::string description;
   PlanarRobot robot;
   std::vector<PlanarSurface> surfaces;
+  std::vector<PlanarNoClearance> no_clearance;  ///< every other pair keeps clear of each other
   std::vector<PlanarPhase> phases;
 
   int interval_count() const;
   int first_interval(int phase) const;
   int phase_of(int interval) const;
 
+  /// Whether an end-effector has to stay outside of a surface's solid: unless no_clearance has the pair.
+  bool keeps_clear(int end_effector, int surface) const;
+
   /// Throws InvalidPlanarTask (InvalidRobot for the robot) naming the first field out of its range: no phases, a phase
   /// without intervals or contacts or with no room for its duration, a contact off its surface or turned against it, an
   /// end-effector in contact twice, two contacts further apart than the limbs between them are long, a clearance of an
-  /// end-effector in contact, a pose outside its phase.
+  /// end-effector in contact or of a pair in no_clearance, a pair that is there twice, a pose outside its phase.
   void validate() const;
 };
 

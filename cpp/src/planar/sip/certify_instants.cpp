@@ -100,10 +100,13 @@ void add_middle_heights(const PlanarPlan& plan, const std::vector<PhaseConstants
       models.kinematics();
       const PlanarEndEffector& end = task.robot.end_effectors[clearance.end_effector];
       for (std::size_t k = 0; k < end.points.size(); ++k)
-        add_row(out, Kind::clearance, end.name + " point " + std::to_string(k) + " at mid-swing", static_cast<int>(p),
-                rows.time_s(-1.0),
-                scaled(Amount::of(over_surface(plan, models, clearance, static_cast<int>(k)).height), -1.0,
-                       clearance.middle_height));
+        add_row(
+            out, Kind::clearance, end.name + " point " + std::to_string(k) + " at mid-swing", static_cast<int>(p),
+            rows.time_s(-1.0),
+            scaled(
+                Amount::of(
+                    over_surface(plan, models, clearance.end_effector, clearance.surface, static_cast<int>(k)).height),
+                -1.0, clearance.middle_height));
     }
   }
 }

@@ -1,5 +1,6 @@
 #include "certify_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -61,7 +62,7 @@ void IntervalRows::visit(const Trajectories& piece, const PieceModels* models, c
   visit_joints(piece, models, see);
   visit_contacts(models, see);
   visit_collisions(models, see);
-  visit_clearances(models, see);
+  visit_solids(models, see);
 }
 
 template <class Visit>
@@ -131,26 +132,17 @@ void IntervalRows::visit_collisions(const PieceModels* models, const Visit& see)
 }
 
 template <class Visit>
-void IntervalRows::visit_clearances(const PieceModels* models, const Visit& see) const {
+void IntervalRows::visit_solids(const PieceModels* models, const Visit& see) const {
   const PlanarTask& task = plan_.task;
-  const PlanarRobot& robot = task.robot;
-  const PlanarPhase& phase = task.phases[interval_.phase];
-  const int index = interval_.interval - task.first_interval(interval_.phase);
-  for (const PlanarClearance& clearance : phase.clearances) {
-    const int end = clearance.end_interval < 0 ? phase.intervals : clearance.end_interval;
-    if (index < clearance.first_interval || index >= end) continue;
-    const PlanarEndEffector& end_effector = robot.end_effectors[clearance.end_effector];
-    const PlanarSurface& surface = task.surfaces[clearance.surface];
-    for (std::size_t k = 0; k < end_effector.points.size(); ++k)
+  for (int e = 0; e < static_cast<int>(task.robot.end_effectors.size()); ++e) {
+    const auto stands = [&](const ContactFrame& contact) { return contact.end_effector == e; };
+    if (std::any_of(constants_.contacts.begin(), constants_.contacts.end(), stands)) continue;
+    for (int s = 0; s < static_cast<int>(task.surfaces.size()); ++s) {
+      if (!task.keeps_clear(e, s)) continue;
       see(
-          Kind::clearance, [&, k] { return point_name(end_effector, k); },
-          [&, k] {
-            const OverSurface place = over_surface(plan_, *models, clearance, static_cast<int>(k));
-            Amount depth = scaled(Amount::of(place.height), -1.0, 0.0);
-            if (!std::isinf(surface.from)) depth = smaller(depth, scaled(Amount::of(place.along), 1.0, -surface.from));
-            if (!std::isinf(surface.to)) depth = smaller(depth, scaled(Amount::of(place.along), -1.0, surface.to));
-            return depth;
-          });
+          Kind::clearance, [&] { return task.robot.end_effectors[e].name + " and " + task.surfaces[s].name; },
+          [&, e, s] { return depth_in_solid(plan_, *models, e, s); });
+    }
   }
 }
 
@@ -185,24 +177,6 @@ std::vector<Amount> IntervalRows::evaluate(double middle, double half_width, con
   visit(piece, &models, [&](Kind, const auto&, const auto& amount) {
     if (chosen[index++]) out.push_back(amount());
   });
-  return out;
-}
-
-OverSurface over_surface(const PlanarPlan& plan, const PieceModels& models, const PlanarClearance& clearance,
-                         int point) {
-  const PlanarEndEffector& end = plan.task.robot.end_effectors[clearance.end_effector];
-  const PlanarSurface& surface = plan.task.surfaces[clearance.surface];
-  Constant point_B;
-  const Eigen::Vector2d along_B(std::cos(end.angle_B), std::sin(end.angle_B));
-  point_B.value = end.position_B + end.points[point] * along_B;
-  point_B.error = 4.0 * kEpsilon * (end.position_B.lpNorm<1>() + std::abs(end.points[point]));
-  Vector off = models.point_W(end.body, point_B);
-  off.x -= TaylorModel::constant(off.x.order(), surface.origin_W.x());
-  off.y -= TaylorModel::constant(off.y.order(), surface.origin_W.y());
-  const Eigen::Vector2d tangent(std::cos(surface.angle), std::sin(surface.angle));
-  OverSurface out;
-  out.along = off.x.scaled(tangent.x(), kEpsilon).add_scaled(tangent.y(), off.y, kEpsilon);
-  out.height = off.y.scaled(tangent.x(), kEpsilon).add_scaled(-tangent.y(), off.x, kEpsilon);
   return out;
 }
 

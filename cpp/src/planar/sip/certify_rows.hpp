@@ -43,7 +43,7 @@ class IntervalRows {
   template <class Visit>
   void visit_collisions(const PieceModels* models, const Visit& see) const;
   template <class Visit>
-  void visit_clearances(const PieceModels* models, const Visit& see) const;
+  void visit_solids(const PieceModels* models, const Visit& see) const;
 
   const PlanarPlan& plan_;
   const PhaseConstants& constants_;
@@ -69,8 +69,10 @@ std::vector<InstantRow> instant_rows(const PlanarPlan& plan, const std::vector<P
 struct OverSurface {
   TaylorModel height, along;
 };
-OverSurface over_surface(const PlanarPlan& plan, const PieceModels& models, const PlanarClearance& clearance,
-                         int point);
+OverSurface over_surface(const PlanarPlan& plan, const PieceModels& models, int end_effector, int surface, int point);
+
+/// How deep an end-effector is in the solid behind a surface [m]; negative: outside.
+Amount depth_in_solid(const PlanarPlan& plan, const PieceModels& models, int end_effector, int surface);
 
 /// How deep two capsules are in each other [m]; negative: apart.
 Amount overlap(const PieceModels& models, int body_a, const Capsule& a, int body_b, const Capsule& b);

@@ -85,7 +85,7 @@ struct Fields<sip::Options> {
       field("free_flyer", &Options::free_flyer, "", "The trajectory of the base."),
       field("dynamics", &Options::dynamics, "", "Contact forces in their cones; off: kinematics alone."),
       field("torque_limits", &Options::torque_limits, "", "Joint torques within their limits."),
-      field("clearance", &Options::clearance, "", "Swinging end-effectors outside solids, as the task says."),
+      field("clearance", &Options::clearance, "", "Swinging end-effectors outside of all solids."),
       field("self_collision", &Options::self_collision, "", "The robot's collision pairs keep clear of each other."),
       field("clearance_m", &Options::clearance_m, "m",
             "Least height of swinging points: at lift-off they are at zero to the tube."),

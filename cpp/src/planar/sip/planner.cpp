@@ -217,7 +217,7 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
 
 /// A point within all constraints.
 ///
-/// Kinematics come first: a small program that brings the limbs to their contacts, after which forces need a third of
+/// Kinematics come first: a small program that brings the limbs to their contacts, after which forces need half of
 /// the iterations. Where phases have durations of their own, one duration for all is searched: the knots stay equally
 /// spaced, and motions found so are not driven to their shortest phases.
 nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {

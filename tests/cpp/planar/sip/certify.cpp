@@ -181,23 +181,6 @@ TEST_CASE("what cannot be decided in the halvings allowed is not proved") {
   CHECK(moment.bound > moment.tolerance);
 }
 
-TEST_CASE("a hand in the solid is named, beyond the end of the surface it is free") {
-  PlanarPlan plan = planar::standing_plan();
-  PlanarSurface ceiling;  // solid above the hand's place
-  ceiling.name = "ceiling";
-  ceiling.origin_W = {0.0, 0.9};
-  ceiling.angle = std::acos(-1.0);
-  plan.task.surfaces.push_back(ceiling);
-  plan.task.phases[1].clearances = {{planar::hand, 1, 0, -1, -std::numeric_limits<double>::infinity()}};
-  const ProvedConstraint inside = find(certify(plan), "clearance");
-  CHECK(inside.proof == Proof::violated);
-  CHECK(inside.phase == 1);
-  CHECK(inside.where == "hand point 0");
-  CHECK(inside.reached == doctest::Approx(planar::hip_height() + 0.2 - 0.9));
-  plan.task.surfaces.back().from = 0.3;
-  CHECK(find(certify(plan), "clearance").proof == Proof::proved);
-}
-
 TEST_CASE("limbs that pass through each other are named, limbs that pass each other are proved to") {
   PlanarPlan plan = planar::standing_plan();
   PlanarRobot& robot = plan.task.robot;

@@ -92,6 +92,37 @@ TEST_CASE("a solved motion passes the checker, and the report says what was solv
   CHECK(!result.report.version.empty());
 }
 
+TEST_CASE(
+    "a limb that climbs stays out of slope and wall, of which the task says nothing, unless it is let into them") {
+  PlanarTask task = planar_tasks::climbing();
+  task.phases = {task.phases[4], task.phases[5], task.phases[6]};  // limb C goes up the wall
+  task.phases[0].intervals = task.phases[2].intervals = 3;
+  const auto deepest = [](const PlanarPlan& plan) {
+    double out = -INFINITY;
+    for (const mcplan::SolidDepth& depth : solid_depths(plan)) out = std::max(out, depth.depth_m);
+    return out;
+  };
+  const Result outside = Planner(task, without_cost()).solve();
+  CHECK(outside.report.status == Status::solved);
+  CHECK(deepest(outside.plan) < mcplan::PlanarTolerances().clearance);
+  CHECK(certify(outside.plan).proved());
+
+  Options without = without_cost();
+  without.clearance = false;
+  const Result inside = Planner(task, without).solve();
+  CHECK(inside.report.status == Status::solved);  // nothing was asked of it
+  REQUIRE(deepest(inside.plan) > 0.01);
+  REQUIRE(check(inside.plan).violations().size() == 1);
+  CHECK(check(inside.plan).worst().name == "clearance");
+  CHECK_FALSE(certify(inside.plan).proved());
+
+  task.no_clearance = {{2, 0}, {2, 1}};
+  const Result let_in = Planner(task, without_cost()).solve();
+  CHECK(let_in.report.status == Status::solved);
+  CHECK(let_in.plan.control_points == inside.plan.control_points);
+  CHECK(certify(let_in.plan).proved());
+}
+
 TEST_CASE("the reported torque integral is that of exact torques") {
   const PlanarPlan& plan = feasible_cartwheel().plan;
   constexpr int kPieces = 500;  // of each phase

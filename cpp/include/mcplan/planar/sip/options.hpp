@@ -68,7 +68,7 @@ struct Options {
 
   bool dynamics = true;           ///< contact forces in their cones; off: kinematics alone (Tables I and II)
   bool torque_limits = true;      ///< Table III has none
-  bool clearance = true;          ///< swinging end-effectors outside solids, as the task says
+  bool clearance = true;          ///< swinging end-effectors outside of all solids
   bool self_collision = false;    ///< of the robot's collision pairs
   double clearance_m = -1e-3;     ///< least height of swinging points: at lift-off they are at zero to the tube
   double min_normal_force = 0.0;  ///< at every point [N]

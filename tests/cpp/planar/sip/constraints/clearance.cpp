@@ -30,6 +30,7 @@ PlanarTask climbing() {
   PlanarTask task = planar_tasks::climbing();
   task.robot.end_effectors[1].angle_B = 0.2;
   task.phases[1].clearances = {{1, 0, 1, 3, 0.05}, {1, 1, 0, -1, -INFINITY}};
+  task.no_clearance = {{0, 0}, {0, 1}, {2, 0}, {2, 1}};  // B alone
   return task;
 }
 
@@ -52,11 +53,11 @@ TEST_CASE("heights of swinging points are those of the exact plan") {
       CHECK(row.upper == INFINITY);
       (row.when == Limited::When::always ? always : middle).push_back(row);
     }
-    const bool over_slope = i == 1 || i == 2;
-    REQUIRE(always.size() == (over_slope ? 4 : 2));  // two points each
-    REQUIRE(middle.size() == (i == 2 ? 2 : 0));      // at the begin of interval 4 / 2
+    const bool over_slope = i == 1 || i == 2;    // named, so that these come first
+    REQUIRE(always.size() == 4);                 // two points each
+    REQUIRE(middle.size() == (i == 2 ? 2 : 0));  // at the begin of interval 4 / 2
     for (std::size_t r = 0; r < always.size(); ++r) {
-      const int surface = over_slope && r < 2 ? 0 : 1;
+      const int surface = over_slope == (r < 2) ? 0 : 1;
       CHECK(always[r].lower == -2e-3);
       for (double s : kPlaces)
         CHECK(std::abs(interval.at(always[r].node, s) - height(interval, 1, r % 2, surface, s)) < 1e-9);
@@ -69,8 +70,11 @@ TEST_CASE("heights of swinging points are those of the exact plan") {
   }
 }
 
-TEST_CASE("phases without clearances have no rows") {
+TEST_CASE("end-effectors that stand have no rows, swinging ones of which the task says nothing have them") {
   const PlanarTask task = climbing();
   IntervalAt interval(task, {}, 0, random_parameters(task, {}, 7));
   CHECK(rows_of(interval).empty());
+  const PlanarTask silent = planar_tasks::climbing();
+  IntervalAt swing(silent, {}, silent.first_interval(1), random_parameters(silent, {}, 7));
+  CHECK(rows_of(swing).size() == 4);  // two points of B, slope and wall
 }
