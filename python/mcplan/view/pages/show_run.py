@@ -13,7 +13,7 @@ from mcplan.kinematics.rotations import pose
 from mcplan.kinematics.samples import contact_intervals
 from mcplan.kinematics.urdf_model import load_model
 from mcplan.tracking import Recording, TrackingResult
-from mcplan.view.colours import ASSIST, COM, PLANNED, PUSH, TEXT, end_effector_colours
+from mcplan.view.colours import ASSIST, COM, PLANNED, PUSH, TEXT, TOUCH, end_effector_colours
 from mcplan.view.extent import extent_of, scale_of
 from mcplan.view.plan_drawing import WEIGHT_ARROW, contact_plate, draw_arrow, draw_contact, draw_figure, draw_forces
 from mcplan.view.robot_urdf import mesh_figure
@@ -147,13 +147,17 @@ def _draw_helpers(stage: Stage, frames: RunFrames, robot: Robot) -> list[str]:
 
 
 def _events(recording: Recording) -> list[tuple[float, float, str, str]]:
-    """Pushes and the fall, for the timeline."""
+    """Pushes, contacts that nobody planned, and the fall, for the timeline."""
     times = recording.times_s
     pushed = np.linalg.norm(recording.pushes_W, axis=1)
     events = []
     for start, stop in stretches_of(pushed > 0.0):
         until = float(times[min(stop, len(times) - 1)])
         events.append((float(times[start]), until, PUSH, f"push of {pushed[start:stop].max():.0f} N"))
+    shortest = 0.003 * float(times[-1])  # to be seen
+    for touch in recording.touches:
+        until = min(max(touch.end_s, touch.start_s + shortest), float(times[-1]))
+        events.append((touch.start_s, until, TOUCH, str(touch)))
     if recording.fell_at_s <= times[-1]:
         events.append((0.995 * float(times[-1]), float(times[-1]), TEXT, f"fell at {recording.fell_at_s:.2f} s"))
     return events
