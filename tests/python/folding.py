@@ -8,17 +8,20 @@ import numpy as np
 
 import mcplan as mp
 
-#: Joint angles at which the boom is upright; it lies on the block, or reaches the ground beside it, by turning about x or y.
+#: Height of the base above its sole [m].
 SOLE_M = 0.1
 
 URDF = """<robot name="folding">
-  <link name="base">{inertial}<collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>
-  <link name="mast">{inertial}<collision><origin xyz="0 0 0.15"/><geometry><box size="0.04 0.04 0.3"/></geometry></collision></link>
-  <link name="boom">{inertial}<collision><origin xyz="0 0 0.2"/><geometry><cylinder radius="0.02" length="0.4"/></geometry></collision></link>
-  <joint name="swivel" type="revolute"><parent link="base"/><child link="mast"/><origin xyz="-0.2 0 0.1"/><axis xyz="0 0 1"/>
-    <limit lower="-3.2" upper="3.2" effort="5" velocity="1"/></joint>
-  <joint name="hinge" type="revolute"><parent link="mast"/><child link="boom"/><origin xyz="0 0.05 0.1"/><axis xyz="0 1 0"/>
-    <limit lower="-3.2" upper="3.2" effort="5" velocity="2"/></joint>
+  <link name="base">{inertial}
+    <collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>
+  <link name="mast">{inertial}
+    <collision><origin xyz="0 0 0.15"/><geometry><box size="0.04 0.04 0.3"/></geometry></collision></link>
+  <link name="boom">{inertial}
+    <collision><origin xyz="0 0 0.2"/><geometry><cylinder radius="0.02" length="0.4"/></geometry></collision></link>
+  <joint name="swivel" type="revolute"><parent link="base"/><child link="mast"/>
+    <origin xyz="-0.2 0 0.1"/><axis xyz="0 0 1"/><limit lower="-3.2" upper="3.2" effort="5" velocity="1"/></joint>
+  <joint name="hinge" type="revolute"><parent link="mast"/><child link="boom"/>
+    <origin xyz="0 0.05 0.1"/><axis xyz="0 1 0"/><limit lower="-3.2" upper="3.2" effort="5" velocity="2"/></joint>
 </robot>"""
 INERTIAL = (
     """<inertial><mass value="{}"/><inertia ixx="0.02" iyy="0.02" izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial>"""

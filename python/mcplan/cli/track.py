@@ -125,17 +125,14 @@ def track(
 ) -> int:
     """Simulate a robot that follows a plan, and measure the errors.
 
-    Its joint torques alone drive the robot. What the options say of mass, friction, ground and pushes is not known to
-    the controller. Whole-body plans are followed by their planar robots, without pushes, assistance, lags, noise and
-    seed. The exit code is 0 if the robot came to the end of the plan, 1 if it fell, left the plan, or followed a
-    whole-body plan by contact forces that are over a quarter off; the run is drawn and saved either way. Ctrl-C ends the
-    run: what was simulated is saved (--save), nothing is drawn, and the exit code is 130.
+    Its joint torques alone drive it. The controller does not know of changed mass, friction and ground, pushes, lags and
+    noise. Whole-body plans are followed by their planar robots, without the latter three and seeds. The exit code is 0 if
+    the robot came to the end of the plan, 1 if it fell, left the plan, or followed a whole-body plan by contact forces that
+    are over a quarter off. Ctrl-C ends the run: what was simulated is saved (--save), nothing is drawn, the code is 130.
 
     Example: mcplan plan flat --robot talos --sole-inside 0.9 -o plan.npz
 
-    Example: mcplan track plan.npz --video run.mp4 --plots run
-
-    Example: mcplan track plan.npz --push 40,0.2,3,90 --mass-scale 1.1 --json
+    Example: mcplan track plan.npz --video run.mp4 --push 40,0.2,3,90 --mass-scale 1.1 --json
     """
     from mcplan.cli.interrupts import CODE, as_far_as_it_came
     from mcplan.cli.pushes import parse_pushes
@@ -148,9 +145,8 @@ def track(
     require("mcplan track", "sim", "mujoco", "pinocchio", "proxsuite")
     outputs = RunOutputs(video, html, strip, plots, save)
     outputs.require()
-    pushes = parse_pushes(push or [])
-    values: dict[str, Any] = {"assist": assist, "pushes": pushes, "seed": seed, "mass_scale": mass_scale}
-    values |= {"friction_scale": friction, "ground_shift_m": ground_shift}
+    values: dict[str, Any] = {"assist": assist, "pushes": parse_pushes(push or []), "seed": seed}
+    values |= {"mass_scale": mass_scale, "friction_scale": friction, "ground_shift_m": ground_shift}
     values |= {"speed_limits": speed_limits, "self_contacts": self_contacts, "sensor_noise": sensor_noise}
     values |= {"torque_bandwidth_hz": torque_bandwidth, "torque_delay_s": torque_delay}
     chosen, own_robot = _chosen(plan, robot, values)

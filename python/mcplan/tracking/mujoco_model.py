@@ -92,34 +92,18 @@ def build(robot: Robot, scene: Scene, options: Options | None = None, visual: bo
         InvalidOptions: An option is out of its range.
     """
     require(f"the simulation of {robot.name}", "sim", "mujoco", "pinocchio")
-    import mujoco
-
     options = options or Options()
     options.validate()
     urdf_model = load_model(robot)
     model = urdf_model.model
     model.gravity.linear = np.array([0.0, 0.0, -scene.gravity])
-    text, root = rewrite(urdf_model, visual)
-    joints = tuple(list(model.names)[2:])
-    limits = np.asarray(model.effortLimit[6:], float)
+    shapes = link_shapes(urdf_model) if options.self_contacts else []
     try:
-        spec = mujoco.MjSpec.from_string(text)
-        _only_look(spec)
-        base = spec.body(root)
-        base.add_freejoint()
-        _add_end_effectors(spec, urdf_model, base)
-        add_terrain(spec, scene, options.friction_scale, options.ground_shift_m)
-        for name, limit in zip(joints, limits, strict=True):
-            _add_motor(spec, name, limit)
-        spec.compiler.fusestatic = True
-        _settings(spec, scene, options)
-        shapes = link_shapes(urdf_model) if options.self_contacts else []
-        _add_links(spec, urdf_model, base, shapes)
-        pairs = _add_exclusions(spec, urdf_model, base, shapes)
-        mj = spec.compile()
+        mj, pairs, root = _compiled(urdf_model, scene, options, shapes, visual)
     except ValueError as error:
         raise InvalidRobot("urdf", "must be a URDF that MuJoCo can simulate", f"{robot.urdf!r} ({error})") from error
 
+    joints, limits = tuple(list(model.names)[2:]), np.asarray(model.effortLimit[6:], float)
     dofs = np.array([mj.joint(name).dofadr[0] for name in joints], dtype=np.int64)
     _set_constants(mj, dofs, model.armature[6:], options.mass_scale)
     return SimulationModel(
@@ -141,6 +125,33 @@ def build(robot: Robot, scene: Scene, options: Options | None = None, visual: bo
         },
         link_pairs=pairs,
     )
+
+
+def _compiled(
+    urdf_model: UrdfModel, scene: Scene, options: Options, shapes: list[LinkShape], visual: bool
+) -> tuple[Any, int, str]:
+    """MuJoCo's model, the number of pairs of bodies that make contact with each other, and the name of the base's body.
+
+    Raises:
+        ValueError: MuJoCo refuses it.
+    """
+    import mujoco
+
+    text, root = rewrite(urdf_model, visual)
+    spec = mujoco.MjSpec.from_string(text)
+    _only_look(spec)
+    base = spec.body(root)
+    base.add_freejoint()
+    _add_end_effectors(spec, urdf_model, base)
+    add_terrain(spec, scene, options.friction_scale, options.ground_shift_m)
+    model = urdf_model.model
+    for name, limit in zip(list(model.names)[2:], np.asarray(model.effortLimit[6:], float), strict=True):
+        _add_motor(spec, name, limit)
+    spec.compiler.fusestatic = True
+    _settings(spec, scene, options)
+    _add_links(spec, urdf_model, base, shapes)
+    pairs = _add_exclusions(spec, urdf_model, base, shapes)
+    return spec.compile(), pairs, root
 
 
 def _set_constants(mj: Any, dofs: NDArray[np.int64], armature: Array, mass_scale: float) -> None:

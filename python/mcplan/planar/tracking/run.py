@@ -68,15 +68,7 @@ def track_whole_body(
     _require_supported(options)
     options = replace(options, speed_limits=False, self_contacts=False)  # planar robots have neither
     plan.validate()
-    model = build(
-        plan.task,
-        step_s=options.simulation_step_s,
-        contacts=contacts,
-        feedback=feedback,
-        mass_scale=options.mass_scale,
-        friction_scale=options.friction_scale,
-        ground_shift_m=options.ground_shift_m,
-    )
+    model = build(plan.task, options, contacts, feedback)
     simulation = PlanarSimulation(model)
     simulation.reset(plan.at(0.0).configuration)
     start = time.perf_counter()
