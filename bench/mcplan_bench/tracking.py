@@ -54,6 +54,7 @@ class Row:
         mass_planned_kg, mass_kg: Mass of the robot in the plan, and of the simulated one.
         fell: It fell; or, of a planar robot, left its plan.
         torque_joint: The joint with the largest torque over its limit.
+        velocity_joint: The joint with the largest speed over its limit.
         leg_torque_use, leg_torque_joint: The same among the joints that carry feet.
         leg_limit_ratio: Fraction of the time in which the torque of one of these is at its limit.
         holds: Whether the row meets its demands; None: it has none.
@@ -83,6 +84,14 @@ class Row:
     slip_m: float | None = None
     torque_use: float | None = None
     torque_joint: str = ""
+    velocity_use: float | None = None
+    velocity_joint: str = ""
+    torque_step_use: float | None = None
+    self_contacts: int | None = None
+    self_contact_N: float | None = None
+    self_contact_m: float | None = None
+    terrain_contacts: int | None = None
+    terrain_contact_N: float | None = None
     leg_torque_use: float | None = None
     leg_torque_joint: str = ""
     leg_limit_ratio: float | None = None
@@ -251,7 +260,9 @@ def track_plan(case: Case, plan: Any, options: Options | None = None) -> Trackin
 
 def measured(run: TrackingResult | PlanarResult) -> dict[str, Any]:
     """Fields of a row that a run determines."""
+    from mcplan.planar.tracking import measures as planar_measures
     from mcplan.tracking import TrackingResult
+    from mcplan.tracking.report import nearest_to_velocity_limit
 
     own = {item.name for item in fields(Row)}
     measures: Any = run.measures
@@ -259,7 +270,9 @@ def measured(run: TrackingResult | PlanarResult) -> dict[str, Any]:
     if not isinstance(run, TrackingResult):
         use = np.abs(run.recording.torques).max(axis=0) / run.recording.torque_limits
         values["torque_joint"] = run.recording.joints[int(use.argmax())]
+        values["velocity_joint"] = planar_measures.nearest_to_velocity_limit(run.recording)[0]
         return values | {"fell": not run.measures.completed, "mass_kg": run.recording.plan.task.robot.mass()}
+    values["velocity_joint"] = nearest_to_velocity_limit(run.recording)[0]
     return values | _torques(run.recording) | {"mass_kg": float(run.recording.simulated_robot.mass)}
 
 

@@ -1,4 +1,4 @@
-"""Which disturbed runs stay upright: mass, friction, height of the ground and a push drawn from seeds."""
+"""Which disturbed runs stay upright: mass, friction, height of the ground, a push, motors and sensors drawn from seeds."""
 
 from __future__ import annotations
 
@@ -35,6 +35,9 @@ class Outcome:
     push_N: float
     push_at_s: float
     push_direction_deg: float
+    torque_delay_s: float
+    torque_bandwidth_hz: float
+    sensor_noise: float
     fell: bool
     completed_s: float
     com_rms_m: float
@@ -91,6 +94,9 @@ def solve(task: Task) -> Outcome:
         push_N=push.force_N,
         push_at_s=push.at_s,
         push_direction_deg=push.direction_deg,
+        torque_delay_s=drawn.torque_delay_s,
+        torque_bandwidth_hz=drawn.torque_bandwidth_hz,
+        sensor_noise=drawn.sensor_noise,
         fell=measures.fell,
         completed_s=measures.completed_s,
         com_rms_m=measures.com_rms_m,
@@ -129,7 +135,8 @@ def line(outcome: Outcome) -> str:
     drawn = (
         f"mass x {outcome.mass_scale:.3f}, friction x {outcome.friction_scale:.3f}, "
         f"ground {1e3 * outcome.ground_shift_m:+.1f} mm, push {outcome.push_N:.0f} N at {outcome.push_at_s:.2f} s "
-        f"towards {outcome.push_direction_deg:.0f} deg"
+        f"towards {outcome.push_direction_deg:.0f} deg, torques {1e3 * outcome.torque_delay_s:.1f} ms late and of "
+        f"{outcome.torque_bandwidth_hz:.0f} Hz, sensor noise x {outcome.sensor_noise:.2f}"
     )
     end = f"FELL at {outcome.completed_s:.2f} s" if outcome.fell else f"CoM {1e3 * outcome.com_rms_m:.1f} mm rms"
     return f"{outcome.case} seed {outcome.seed}: {end} ({drawn})"

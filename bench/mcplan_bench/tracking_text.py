@@ -26,7 +26,7 @@ def sections(result: dict[str, Any]) -> list[Section]:
     humanoids = [row for row in rows if row.planner != "sip"]
     planar = [row for row in rows if row.planner == "sip"]
     if humanoids:
-        out += [_errors(humanoids), _effort(humanoids)]
+        out += [_errors(humanoids), _effort(humanoids), _limits(humanoids)]
     if planar:
         out.append(_planar(planar))
     if "robustness" in result:
@@ -116,6 +116,27 @@ def _effort(rows: Sequence[Row]) -> Section:
     return Section("Humanoids: torques over their limits, assistance, solver and time", head, cells)
 
 
+def _limits(rows: Sequence[Row]) -> Section:
+    head = ["plan", "speed", "", "torque in 2 ms", "links meet", "", "depth", "links on terrain", ""]
+    cells = [
+        [
+            row.case,
+            *(_number(row.velocity_use, ".2f"), row.velocity_joint),
+            _number(row.torque_step_use, ".2f"),
+            *(_number(row.self_contacts, "d"), _number(row.self_contact_N, ".0f", unit=" N")),
+            _number(row.self_contact_m, ".1f", 1e3, " mm"),
+            *(_number(row.terrain_contacts, "d"), _number(row.terrain_contact_N, ".0f", unit=" N")),
+        ]
+        for row in rows
+        if row.fell is not None
+    ]
+    note = (
+        "largest speed over its limit, and the joint; largest change of a torque within 2 ms over its limit; contacts of "
+        "links with each other, and of links other than end-effectors with the terrain, and the largest force of each"
+    )
+    return Section("Humanoids: speeds over their limits, and what links hit", head, cells, [note])
+
+
 def _planar(rows: Sequence[Row]) -> Section:
     head = [
         "plan",
@@ -126,6 +147,7 @@ def _planar(rows: Sequence[Row]) -> Section:
         "forces' error",
         "drift",
         "torque",
+        "speed",
         "warnings",
         "x real time",
         "holds",
@@ -140,6 +162,7 @@ def _planar(rows: Sequence[Row]) -> Section:
             _number(row.force_rms, ".1f", 1e2, " %"),
             _number(row.drift_m, ".1f", 1e3, " mm"),
             _number(row.torque_use, ".2f"),
+            _number(row.velocity_use, ".2f"),
             _number(row.simulator_warnings, "d"),
             _number(row.realtime_factor, ".2f"),
             _holds(row.holds),

@@ -83,6 +83,7 @@ def recorded(plan: mp.Plan, rate_hz: float = 100.0, until_s: float = np.inf) -> 
         assist=np.zeros((n, 6)),
         pushes_W=pushes_W,
         fell_at_s=np.inf,
+        velocity_limits=model.velocityLimit[6:].copy(),
     )
 
 

@@ -474,3 +474,44 @@ def test_importing_loads_nothing_heavy(module: str) -> None:
     assert not loaded & HEAVY
     if module == "mcplan":
         assert not loaded & {"typer", "rich"}
+
+
+def parameters(node: ast.FunctionDef) -> int:
+    """Number of parameters of a function, `self` and `cls` apart."""
+    arguments = node.args
+    names = [item.arg for item in (*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs)]
+    names += [item.arg for item in (arguments.vararg, arguments.kwarg) if item is not None]
+    return len([name for name in names if name not in ("self", "cls")])
+
+
+def exported(sources: dict[str, str], packages: set[str]) -> set[str]:
+    """Names in __all__ of packages: what users call, with options by keyword."""
+    found: set[str] = set()
+    for package in packages:
+        for node in ast.parse(sources[package]).body:
+            if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__":
+                found |= {str(name) for name in ast.literal_eval(node.value)}
+    return found
+
+
+def is_command(node: ast.FunctionDef) -> bool:
+    """Whether the parameters of a function are options and arguments of a command, each of a type of its own."""
+    own = [item.annotation for item in (*node.args.args, *node.args.kwonlyargs)]
+    return all(kind is not None and ast.unparse(kind).endswith(("Option", "Argument")) for kind in own)
+
+
+def test_functions_take_six_parameters_at_most() -> None:
+    """Excepted are those whose parameters are the options of who calls them: verbs that a package exports, and commands."""
+    sources, packages = modules_of(PACKAGE)
+    public = exported(sources, packages)
+    counted = 0
+    for module, text in sources.items():
+        for node in ast.walk(ast.parse(text)):
+            if isinstance(node, ast.FunctionDef):
+                counted += 1
+                if node.name in public and not node.name.startswith("_"):
+                    continue
+                if module.startswith("mcplan.cli.") and is_command(node):
+                    continue
+                assert parameters(node) <= 6, f"{module}.{node.name} takes {parameters(node)} parameters"
+    assert counted > 1000

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mcplan as mp
-from mcplan.files.reach_polytopes import add_reach_polytopes, inner_polytope, volume
+from mcplan.files.reach_polytopes import Origin, add_reach_polytopes, inner_polytope, volume
 from mcplan.files.robots import robot_to_dict
 from mcplan.files.urdf import limb_of
 from mcplan.files.urdf_setups import SETUPS
@@ -51,14 +51,14 @@ def talos():
     pytest.importorskip("pinocchio")
     pytest.importorskip("example_robot_data")
     robot = mp.load_robot("talos")
-    add_reach_polytopes(robot, "talos", samples=4000)
+    add_reach_polytopes(robot, Origin("talos"), samples=4000)
     return robot
 
 
 def test_the_same_seed_gives_the_same_polytopes(talos):
     again = mp.load_robot("talos")
     lines: list[str] = []
-    add_reach_polytopes(again, "talos", samples=4000, progress=lines.append)
+    add_reach_polytopes(again, Origin("talos"), samples=4000, progress=lines.append)
     assert robot_to_dict(again) == robot_to_dict(talos)
     assert len(lines) == 4 and "faces -> " in lines[0]
 
@@ -112,5 +112,5 @@ def test_feet_stay_apart_and_on_their_sides(talos):
 def test_numbers_out_of_range_are_named(options, message):
     pytest.importorskip("pinocchio")
     with pytest.raises(mp.InvalidInput) as found:
-        add_reach_polytopes(mp.load_robot("talos"), "talos", **options)
+        add_reach_polytopes(mp.load_robot("talos"), Origin("talos"), **options)
     assert str(found.value) == message

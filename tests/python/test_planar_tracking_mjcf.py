@@ -11,6 +11,7 @@ from test_planar_dynamics import random_configuration, random_robot
 mujoco = pytest.importorskip("mujoco")
 from mcplan.planar.tracking.mjcf import POINT_RADIUS_M, PlanarModel, build, set_state  # noqa: E402
 from mcplan.planar.tracking.settings import Feedback  # noqa: E402
+from mcplan.tracking import Options  # noqa: E402
 
 PASSIVE = Feedback(stiffness=0.0, damping_s=0.0)
 
@@ -93,7 +94,7 @@ def test_motors_push_their_own_joints_up_to_their_limits(seed):
 @pytest.mark.parametrize("shift_m", [0.0, 0.03])
 def test_a_ray_against_a_surface_ends_on_it(name, shift_m):
     task = load_planar_task(name)
-    model = build(task, ground_shift_m=shift_m)
+    model = build(task, Options(ground_shift_m=shift_m))
     data = mujoco.MjData(model.mj)
     mujoco.mj_kinematics(model.mj, data)
     for i, surface in enumerate(task.surfaces):
@@ -119,6 +120,6 @@ def test_a_ray_against_a_surface_ends_on_it(name, shift_m):
 
 def test_scales_reach_masses_and_friction():
     task = load_planar_task("cartwheel")
-    model = build(task, mass_scale=1.1, friction_scale=0.5)
+    model = build(task, Options(mass_scale=1.1, friction_scale=0.5))
     assert model.mj.body_subtreemass[0] == pytest.approx(1.1 * task.robot.mass(), rel=1e-12)
     assert model.mj.geom_friction[model.surface_geoms[0], 0] == pytest.approx(0.5 * task.surfaces[0].friction)

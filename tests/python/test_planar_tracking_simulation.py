@@ -10,6 +10,7 @@ from mcplan import _core
 mujoco = pytest.importorskip("mujoco")
 from mcplan.planar.tracking.mjcf import build  # noqa: E402
 from mcplan.planar.tracking.simulation import PlanarSimulation  # noqa: E402
+from mcplan.tracking import Options  # noqa: E402
 from tracked_cartwheel import cartwheel  # noqa: E402
 
 
@@ -25,7 +26,7 @@ def configuration(simulation: PlanarSimulation) -> _core.PlanarConfiguration:
 def test_torques_and_contact_forces_explain_the_accelerations():
     plan = cartwheel()
     robot = plan.task.robot
-    simulation = PlanarSimulation(build(plan.task, step_s=2e-4))
+    simulation = PlanarSimulation(build(plan.task, Options(simulation_step_s=2e-4)))
     simulation.reset(plan.at(0.0).configuration)
     touched = set()
     for t in np.arange(0.0, plan.duration(), 0.01):
@@ -59,7 +60,7 @@ def test_feedback_is_what_motors_add_to_the_torques():
 
 
 def test_time_and_warnings_begin_anew():
-    simulation = PlanarSimulation(build(cartwheel().task, step_s=1e-3))
+    simulation = PlanarSimulation(build(cartwheel().task, Options(simulation_step_s=1e-3)))
     simulation.reset(cartwheel().at(0.0).configuration)
     simulation.advance(30)
     assert simulation.time_s == pytest.approx(0.03)

@@ -17,10 +17,12 @@ pytest.importorskip("example_robot_data")
 from mcplan.kinematics.inverse_kinematics import follow  # noqa: E402
 from mcplan.kinematics.samples import sample_at  # noqa: E402
 from mcplan.tracking import Gains, Options  # noqa: E402
+from mcplan.tracking.actuators import TorqueSpeed  # noqa: E402
 from mcplan.tracking.contacts import Mode  # noqa: E402
-from mcplan.tracking.controller import Controller  # noqa: E402
+from mcplan.tracking.controller import SPEED_HORIZON_S, Controller, Restraints  # noqa: E402
 from mcplan.tracking.mujoco_model import build  # noqa: E402
 from mcplan.tracking.references import references  # noqa: E402
+from mcplan.tracking.separation import Separation  # noqa: E402
 from mcplan.tracking.simulation import Simulation  # noqa: E402
 
 #: Of ProxQP's residuals, in newtons, newton metres and [rad/s^2] together.
@@ -318,3 +320,56 @@ def test_the_ground_that_a_sole_overhangs_is_no_ground(yaw):
     controller = Controller(urdf_model, scene, desired, start, Gains())
     points = desired.end_effectors_W[0, foot] + controller.points[foot].offsets @ turn.T
     assert points[:, 0].max() == pytest.approx(edge, abs=1e-9) and points[:, 0].min() < edge - 0.05
+
+
+def test_accelerations_keep_joints_within_their_speeds():
+    """Joints that are fast towards their velocity limit are not accelerated beyond it; without limits they are."""
+    plan, desired = tracked.still()
+    urdf_model = tracked.urdf_model("talos")
+    limits = urdf_model.model.velocityLimit[6:]
+    nj = len(limits)
+    found = {}
+    for limited in (True, False):
+        motors = TorqueSpeed.of(urdf_model.model.effortLimit[6:], limits, limited)
+        start = follow(urdf_model, sample_at(plan, plan.scene, plan.robot, np.zeros(1))).configurations[0]
+        away = start.copy()
+        elbow = list(urdf_model.model.names)[2:].index("arm_left_4_joint")
+        away[7 + elbow] -= 1.2  # the posture pulls it back
+        controller = Controller(urdf_model, plan.scene, desired, start, Gains(), Restraints(motors))
+        controller.qp = tracked.Watched()
+        velocity = np.zeros(controller.nv)
+        velocity[6 + elbow] = 0.97 * limits[elbow]
+        controller.gains = replace(controller.gains, posture_kp=400.0, posture_weight=10.0)
+        assert controller.step(0, away, velocity, contacts_at(controller)).solved
+        found[limited] = velocity[6:] + SPEED_HORIZON_S * controller.qp.solution[6 : 6 + nj]
+        if limited:
+            slack = controller.qp.solution[-1]
+            assert (np.abs(found[limited]) <= limits + SPEED_HORIZON_S * abs(slack) + LOOSE).all()
+    assert found[False][elbow] > found[True][elbow] + 0.1
+
+
+def test_torques_are_those_that_motors_have_at_the_measured_speed():
+    controller, start = controller_of()
+    rng = np.random.default_rng(2)
+    for _ in range(10):
+        velocity = np.zeros(controller.nv)
+        velocity[6:] = rng.uniform(-1.3, 1.3, controller.nv - 6) * controller.motors.velocity_limits
+        command = controller.step(0, start, velocity, contacts_at(controller))
+        low, high = controller.motors.bounds(velocity[6:])
+        assert command.solved and (low <= command.torques).all() and (command.torques <= high).all()
+
+
+def test_a_program_with_links_too_near_to_each_other_is_solved():
+    """Postures drawn at random, in which arms and legs are in each other: rows of distance have a slack, too."""
+    model = build(mp.load_robot("talos"), simulated.level())
+    plan, desired = tracked.still()
+    start = follow(model.urdf_model, sample_at(plan, plan.scene, plan.robot, np.zeros(1))).configurations[0]
+    restraints = Restraints(model.motors, Separation(model))
+    controller = Controller(model.urdf_model, plan.scene, desired, start, Gains(), restraints)
+    rng, near = np.random.default_rng(12), 0
+    for _ in range(30):
+        configuration = pin.integrate(model.urdf_model.model, start, 0.6 * rng.normal(size=controller.nv))
+        velocity = rng.normal(size=controller.nv)
+        assert controller.step(0, configuration, velocity, contacts_at(controller)).solved
+        near += int(np.isfinite(restraints.separation.rows(controller.dynamics)[1]).sum())
+    assert near > 30

@@ -8,7 +8,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from mcplan.tracking import Measures, Recording
-from mcplan.tracking.measures import SETTLE_S, measure, swinging
+from mcplan.tracking.measures import SETTLE_S, measure, swinging, with_touches
+from mcplan.tracking.touches import Touch
 from standing import standing_plan
 
 N, DT, JOINTS = 400, 0.002, 3
@@ -49,6 +50,7 @@ def perfect(plan):
         assist=np.zeros((N, 6)),
         pushes_W=np.zeros((N, 3)),
         fell_at_s=np.inf,
+        velocity_limits=np.array([1.0, 2.0, 0.0]),
     )
 
 
@@ -61,7 +63,9 @@ def test_a_perfect_run_has_no_errors(perfect):
     found = of(perfect)
     assert not found.fell and found.completed_s == pytest.approx((N - 1) * DT)
     for name, value in found.as_dict().items():
-        if name not in ("fell", "completed_s"):
+        if value is None:
+            assert name.startswith(("self_contact", "terrain_contact"))  # links make no contact in a run made by hand
+        elif name not in ("fell", "completed_s"):
             assert value == pytest.approx(0.0, abs=1e-9), name
 
 
@@ -173,3 +177,29 @@ def test_a_run_that_fell_at_once_has_measures(perfect):
     }
     found = of(perfect, **first, fell_at_s=0.0)
     assert found.fell and found.completed_s == 0.0 and found.slip_m == 0.0
+
+
+def test_speeds_are_taken_over_the_limits_that_there_are(perfect):
+    velocities = perfect.velocities.copy()
+    velocities[3, 6:] = [-0.5, 1.6, 30.0]  # the third joint has no limit
+    assert of(perfect, velocities=velocities).velocity_use == pytest.approx(0.8)
+    assert np.isnan(of(perfect, velocity_limits=np.zeros(3)).velocity_use)
+    assert np.isnan(of(perfect, velocity_limits=np.zeros(0)).velocity_use)
+
+
+def test_a_torque_that_steps_is_measured_within_two_milliseconds_whatever_the_control_step(perfect):
+    torques = perfect.torques.copy()
+    torques[40:, 1] = np.minimum(np.arange(N - 40), 3) * 10.0  # 10, 20 and 30 N m in three steps, of 20
+    steps = round(0.002 / DT) if DT <= 0.002 else 1
+    assert of(perfect, torques=torques).torque_step_use == pytest.approx(min(3, steps) * 0.5)
+
+
+def test_touches_are_counted_by_what_is_touched(perfect):
+    touches = (
+        Touch(("hand", "thigh"), False, 0.1, 0.2, 0.002, 40.0),
+        Touch(("hand", "thigh"), False, 0.5, 0.5, 0.003, 10.0),
+        Touch(("shin", "tread"), True, 0.3, 0.4, 0.001, 200.0),
+    )
+    found = with_touches(of(perfect), touches)
+    assert (found.self_contacts, found.self_contact_N, found.self_contact_m) == (2, 40.0, 0.003)
+    assert (found.terrain_contacts, found.terrain_contact_N) == (1, 200.0)

@@ -8,7 +8,7 @@ import tracked
 pin = pytest.importorskip("pinocchio")
 pytest.importorskip("example_robot_data")
 
-from mcplan.tracking.recorder import Recorder  # noqa: E402
+from mcplan.tracking.recorder import Acting, Recorder  # noqa: E402
 from mcplan.tracking.robot_dynamics import RobotDynamics  # noqa: E402
 
 
@@ -28,7 +28,7 @@ def filled():
         dynamics.update(*state)
         more = rng.normal(size=len(joints)), rng.normal(size=(ends, 3)), rng.uniform(size=ends) < 0.5
         wrench, push = rng.normal(size=6), rng.normal(size=3)
-        recorder.add(dynamics, *more, wrench, push)
+        recorder.add(dynamics, Acting(*more, wrench, push))
         given.append((*(part.copy() for part in (*state, *more, wrench, push)), dynamics.com_W.copy()))
         for part in (*more, wrench, push):
             part[...] = 0  # what is recorded is a copy
@@ -53,11 +53,12 @@ def test_only_the_steps_taken_are_kept(filled):
     plan, desired, urdf_model, run, _ = filled
     for name in run.__dataclass_fields__:
         value = getattr(run, name)
-        if isinstance(value, np.ndarray) and name != "torque_limits":
+        if isinstance(value, np.ndarray) and not name.endswith("_limits"):
             assert len(value) == 5, name
     np.testing.assert_allclose(run.times_s, desired.dt_s * np.arange(5))
     assert run.fell_at_s == 1.25 and run.plan is plan and run.simulated_robot is urdf_model.robot
     np.testing.assert_array_equal(run.torque_limits, urdf_model.model.effortLimit[6:])
+    np.testing.assert_array_equal(run.velocity_limits, urdf_model.model.velocityLimit[6:])
 
 
 def test_the_plan_stands_beside_it(filled):

@@ -16,6 +16,7 @@ from mcplan.files.whole_body_plans import plan_to_bytes as planar_bytes
 from mcplan.planar.tracking import PlanarMeasures, PlanarResult
 from mcplan.tracking import Options, Push, Recording, TrackingResult
 from mcplan.tracking.options import Gains
+from mcplan.tracking.touches import Touch
 
 pytest.importorskip("pinocchio")
 pytest.importorskip("example_robot_data")
@@ -40,7 +41,7 @@ def same_columns(a, b) -> int:
 def test_a_run_comes_back_as_it_was(result, tmp_path):
     result.save(tmp_path / "run.npz")
     back = TrackingResult.load(tmp_path / "run.npz")
-    assert same_columns(result.recording, back.recording) == 18
+    assert same_columns(result.recording, back.recording) == 19
     assert (back.recording.joints, back.recording.fell_at_s) == (result.recording.joints, 2.5)
     assert plan_to_bytes(back.recording.plan) == plan_to_bytes(result.recording.plan)
     assert repr(back.recording.robot) == repr(result.recording.robot)
@@ -134,3 +135,37 @@ def test_damaged_files_are_told_by_their_field(result, tmp_path, change, message
     path.write_bytes(path.read_bytes()[:1000])
     with pytest.raises(mp.InvalidInput, match="must be an .npz or .json file written by mcplan"):
         TrackingResult.load(path)
+
+
+def test_touches_come_back_and_files_of_earlier_versions_have_none(result, tmp_path):
+    touches = (
+        Touch(("hand", "thigh"), False, 0.1, 0.2, 0.002, 40.0),
+        Touch(("shin", "tread"), True, 0.3, 0.3, 0.0, 1.0),
+    )
+    changed = dataclasses.replace(result, recording=dataclasses.replace(result.recording, touches=touches))
+    changed.save(tmp_path / "run.npz")
+    assert TrackingResult.load(tmp_path / "run.npz").recording.touches == touches
+    with np.load(tmp_path / "run.npz") as file:
+        arrays = dict(file)
+    header = json.loads(arrays.pop("header").tobytes())
+    arrays.pop("velocity_limits")
+    header.pop("touches")
+    for name in (
+        "speed_limits",
+        "self_contacts",
+        "torque_delay_s",
+        "torque_bandwidth_hz",
+        "sensor_noise",
+        "noise_seed",
+    ):
+        header["options"].pop(name)
+    for name in ("velocity_use", "self_contacts", "terrain_contacts"):
+        header["measures"].pop(name)
+    arrays["header"] = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
+    np.savez(tmp_path / "earlier.npz", **arrays)
+    back = TrackingResult.load(tmp_path / "earlier.npz")
+    assert back.recording.touches == () and back.recording.velocity_limits.size == 0
+    # Such a run had full torque at every speed, and links passed through each other.
+    assert not back.options.speed_limits and not back.options.self_contacts
+    assert np.isnan(back.measures.velocity_use) and back.measures.self_contacts is None
+    assert "no limits are known" in str(back)

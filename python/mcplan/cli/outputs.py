@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -37,15 +38,17 @@ def require_outputs(
             require(f"mcplan {verb} {option}", "view", "matplotlib")
 
 
-def write_outputs(
-    plan: Plan | PlanarPlan,
-    report: Report,
-    output: Path | None,
-    html: Path | None,
-    plots: Path | None,
-    strip: Path | None = None,
-    drawn: bool = True,
-) -> list[Path]:
+@dataclass(frozen=True)
+class Outputs:
+    """Files that a plan is written to, and the folder of its plots; None: not asked for."""
+
+    output: Path | None = None
+    html: Path | None = None
+    plots: Path | None = None
+    strip: Path | None = None
+
+
+def write_outputs(plan: Plan | PlanarPlan, report: Report, files: Outputs, drawn: bool = True) -> list[Path]:
     """Save and draw a plan as far as files are named; a film strip is one of a whole-body plan.
 
     Args:
@@ -57,7 +60,8 @@ def write_outputs(
     import mcplan
 
     if not drawn:
-        html = plots = strip = None
+        files = Outputs(files.output)
+    output, html, plots, strip = files.output, files.html, files.plots, files.strip
     if isinstance(plan, mcplan.Plan) and not plan.phases:
         return []
     if output is not None:

@@ -93,7 +93,7 @@ def plan(
     """
     from mcplan.arguments import named_by_file
     from mcplan.cli.interrupts import CODE, as_far_as_it_came
-    from mcplan.cli.outputs import require_outputs, write_outputs
+    from mcplan.cli.outputs import Outputs, require_outputs, write_outputs
     from mcplan.cli.terminal import printable, say
 
     require_outputs("plan", output, html, plots)
@@ -111,7 +111,7 @@ def plan(
     ground = scene if scale == 1.0 else scaled(mcplan.load_scene(scene), scale)
     with named_by_file(scene, robot):
         result, interrupted = as_far_as_it_came(lambda: mcplan.plan(ground, robot, **options))
-    written = write_outputs(result.plan, result.report, output, html, plots, drawn=not interrupted)
+    written = write_outputs(result.plan, result.report, Outputs(output, html, plots), drawn=not interrupted)
     print(json_module.dumps(summary(result)) if json else report_text(result, written))
     asked = [path for path in (output, html, plots) if path is not None]
     if asked and not written and not (json or interrupted):

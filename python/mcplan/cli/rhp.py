@@ -86,7 +86,7 @@ def rhp(
     from mcplan import walking
     from mcplan.arguments import named_by_file
     from mcplan.cli.interrupts import CODE
-    from mcplan.cli.outputs import require_outputs, write_outputs
+    from mcplan.cli.outputs import Outputs, require_outputs, write_outputs
     from mcplan.cli.rhp_text import Progress, summary_text
     from mcplan.files.scenes import scaled
 
@@ -106,7 +106,7 @@ def rhp(
     except KeyboardInterrupt:  # also between two cycles: what was walked until then is there
         interrupted = True
     walk = planner.result()
-    written = write_outputs(walk.plan, walk.report, output, html, plots, drawn=not interrupted)
+    written = write_outputs(walk.plan, walk.report, Outputs(output, html, plots), drawn=not interrupted)
     if json:
         print(json_module.dumps(summary(walk, scene, model, options), allow_nan=False))
     else:

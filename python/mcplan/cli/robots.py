@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -115,7 +117,7 @@ def robots(
     if from_urdf is not None and planar:
         planar_robots.planar_robot_from_urdf(from_urdf, end or [], output)
     elif from_urdf is not None:
-        _from_urdf(from_urdf, end or [], srdf, posture or [], output, count, seed)
+        _from_urdf(_Given(from_urdf, end or [], srdf, posture or []), output, count, seed)
     elif name is None:
         _print_list()
     elif planar_robots.is_planar(name):
@@ -148,15 +150,17 @@ def _print_list() -> None:
     print_table(rows)
 
 
-def _from_urdf(
-    source: str,
-    ends: list[str],
-    srdf: Path | None,
-    posture: list[str],
-    output: Path | None,
-    faces: int | None,
-    seed: int,
-) -> None:
+@dataclass(frozen=True)
+class _Given:
+    """What a robot is worked out from, as it was typed."""
+
+    source: str
+    ends: list[str]
+    srdf: Path | None
+    posture: list[str]
+
+
+def _from_urdf(given: _Given, output: Path | None, faces: int | None, seed: int) -> None:
     """faces: of the reach polytopes; None: without them."""
     from mcplan.files import reach_polytopes
     from mcplan.files.outputs import TOML, require_target
@@ -166,6 +170,7 @@ def _from_urdf(
     from mcplan.files.urdf_setups import SETUPS
 
     require_target("--output", output, TOML)
+    source, ends, srdf, posture = given.source, given.ends, given.srdf, given.posture
     parsed, srdf_path = tuple(_parse_end(text) for text in ends), str(srdf) if srdf else None
     angles = dict(_parse_angle(text) for text in posture) if posture else None
     robot = robot_from_urdf(source, parsed, srdf=srdf_path, posture=angles, seed=seed)
@@ -181,16 +186,9 @@ def _from_urdf(
     )
     comment = header(" ".join(words), own_posture=own_posture)
     if faces is not None:
-        reach_polytopes.add_reach_polytopes(
-            robot,
-            source,
-            parsed,
-            srdf_path,
-            angles,
-            faces,
-            seed=seed,
-            progress=lambda line: print(line, file=sys.stderr),
-        )
+        origin = reach_polytopes.Origin(source, parsed, srdf_path, angles)
+        progress = functools.partial(print, file=sys.stderr)
+        reach_polytopes.add_reach_polytopes(robot, origin, faces, seed=seed, progress=progress)
         comment += "\n" + reach_polytopes.header(faces, seed)
     if output is None:
         robot.validate()

@@ -143,7 +143,7 @@ def sip(
     Example: mcplan sip cartwheel --trackable -o wheel.npz && mcplan track wheel.npz
     """
     from mcplan.cli.interrupts import CODE
-    from mcplan.cli.outputs import require_outputs, write_outputs
+    from mcplan.cli.outputs import Outputs, require_outputs, write_outputs
     from mcplan.cli.sip_text import summary_text
     from mcplan.planar import planning
 
@@ -157,7 +157,7 @@ def sip(
         planning.require_provable(options)
     silent = quiet or (json and not verbose)
     result, interrupted = _search(model, options, warm_start, certify, None if silent else verbose)
-    written = write_outputs(result.plan, result.report, output, html, plots, strip, drawn=not interrupted)
+    written = write_outputs(result.plan, result.report, Outputs(output, html, plots, strip), drawn=not interrupted)
     print(json_module.dumps(summary(result), allow_nan=False) if json else summary_text(result, options, written))
     if interrupted:
         return CODE

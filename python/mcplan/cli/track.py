@@ -41,8 +41,33 @@ GroundShiftOption = Annotated[
 SeedOption = Annotated[
     int,
     typer.Option(
-        "--seed", metavar="K", help="Seed of random changes of mass, friction and ground and of a random push; 0: none."
+        "--seed",
+        metavar="K",
+        help="Seed of random changes of mass, friction, ground, motors and sensors and of a random push; 0: none.",
     ),
+]
+SpeedLimitsOption = Annotated[
+    bool,
+    typer.Option(
+        "--speed-limits/--no-speed-limits",
+        help="Motors lose torque towards the URDF's velocity limits; off: full torque at every speed.",
+    ),
+]
+SelfContactsOption = Annotated[
+    bool,
+    typer.Option(
+        "--self-contacts/--no-self-contacts",
+        help="Links make contact with each other and the terrain; off: only end-effectors do, with the terrain.",
+    ),
+]
+BandwidthOption = Annotated[
+    float, typer.Option("--torque-bandwidth", metavar="HZ", help="Bandwidth of the motors' torques [Hz]; 0: no limit.")
+]
+DelayOption = Annotated[
+    float, typer.Option("--torque-delay", metavar="S", help="Time from the measured state to its torques [s].")
+]
+NoiseOption = Annotated[
+    float, typer.Option("--sensor-noise", metavar="X", help="Noise of the measured state, over that of usual sensors.")
 ]
 CheckOption = Annotated[
     bool,
@@ -67,10 +92,13 @@ QuietOption = Annotated[
     "robot",
     "assist",
     "mass_scale",
+    "sensor_noise",
     "seed",
     pushes="--push",
     friction_scale="--friction",
     ground_shift_m="--ground-shift",
+    torque_bandwidth_hz="--torque-bandwidth",
+    torque_delay_s="--torque-delay",
 )
 def track(
     plan: PlanArgument,
@@ -80,6 +108,11 @@ def track(
     mass_scale: MassScaleOption = 1.0,
     friction: FrictionOption = 1.0,
     ground_shift: GroundShiftOption = 0.0,
+    speed_limits: SpeedLimitsOption = True,
+    self_contacts: SelfContactsOption = True,
+    torque_bandwidth: BandwidthOption = 0.0,
+    torque_delay: DelayOption = 0.0,
+    sensor_noise: NoiseOption = 0.0,
     seed: SeedOption = 0,
     check: CheckOption = True,
     video: VideoOption = None,
@@ -92,17 +125,14 @@ def track(
 ) -> int:
     """Simulate a robot that follows a plan, and measure the errors.
 
-    Its joint torques alone drive the robot. What the options say of mass, friction, ground and pushes is not known to
-    the controller. Whole-body plans are followed by their planar robots, without pushes, assistance and seed. The exit
-    code is 0 if the robot came to the end of the plan, 1 if it fell, left the plan, or followed a whole-body plan by
-    contact forces that are over a quarter off; the run is drawn and saved either way. Ctrl-C ends the run: what was
-    simulated is saved (--save), nothing is drawn, and the exit code is 130.
+    Its joint torques alone drive it. The controller does not know of changed mass, friction and ground, pushes, lags and
+    noise. Whole-body plans are followed by their planar robots, without the latter three and seeds. The exit code is 0 if
+    the robot came to the end of the plan, 1 if it fell, left the plan, or followed a whole-body plan by contact forces that
+    are over a quarter off. Ctrl-C ends the run: what was simulated is saved (--save), nothing is drawn, the code is 130.
 
     Example: mcplan plan flat --robot talos --sole-inside 0.9 -o plan.npz
 
-    Example: mcplan track plan.npz --video run.mp4 --plots run
-
-    Example: mcplan track plan.npz --push 40,0.2,3,90 --mass-scale 1.1 --json
+    Example: mcplan track plan.npz --video run.mp4 --push 40,0.2,3,90 --mass-scale 1.1 --json
     """
     from mcplan.cli.interrupts import CODE, as_far_as_it_came
     from mcplan.cli.pushes import parse_pushes
@@ -115,9 +145,10 @@ def track(
     require("mcplan track", "sim", "mujoco", "pinocchio", "proxsuite")
     outputs = RunOutputs(video, html, strip, plots, save)
     outputs.require()
-    pushes = parse_pushes(push or [])
-    values: dict[str, Any] = {"assist": assist, "pushes": pushes, "seed": seed, "mass_scale": mass_scale}
-    values |= {"friction_scale": friction, "ground_shift_m": ground_shift}
+    values: dict[str, Any] = {"assist": assist, "pushes": parse_pushes(push or []), "seed": seed}
+    values |= {"mass_scale": mass_scale, "friction_scale": friction, "ground_shift_m": ground_shift}
+    values |= {"speed_limits": speed_limits, "self_contacts": self_contacts, "sensor_noise": sensor_noise}
+    values |= {"torque_bandwidth_hz": torque_bandwidth, "torque_delay_s": torque_delay}
     chosen, own_robot = _chosen(plan, robot, values)
     feasibility = _feasibility(chosen, own_robot, quiet or json) if check else None
     progress = Progress(quiet or json)
@@ -146,7 +177,7 @@ def _chosen(plan: Path, robot: str | None, values: dict[str, Any]) -> tuple[Plan
     chosen = load_any_plan(plan)
     require_within(values["pushes"], chosen.duration() + options.hold_s)
     if isinstance(chosen, PlanarPlan):
-        _require_planar(robot, values["assist"], values["pushes"], values["seed"])
+        _require_planar(robot, values)
     return chosen, None if robot is None else load_robot(robot)
 
 
@@ -164,11 +195,13 @@ def _feasibility(plan: Plan | PlanarPlan, robot: Robot | None, silent: bool) -> 
     return found
 
 
-def _require_planar(robot: str | None, assist: bool, pushes: list[Any], seed: int) -> None:
+def _require_planar(robot: str | None, values: dict[str, Any]) -> None:
     """Raises InvalidInput for what planar robots have not."""
     from mcplan.errors import InvalidInput
 
-    given = {"--robot": robot is not None, "--assist": assist, "--push": bool(pushes), "--seed": seed != 0}
+    given = {"--robot": robot is not None, "--assist": values["assist"], "--push": bool(values["pushes"])}
+    given |= {"--torque-bandwidth": values["torque_bandwidth_hz"] != 0, "--torque-delay": values["torque_delay_s"] != 0}
+    given |= {"--sensor-noise": values["sensor_noise"] != 0, "--seed": values["seed"] != 0}
     for option, present in given.items():
         if present:
             raise InvalidInput(

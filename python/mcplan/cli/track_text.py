@@ -18,7 +18,11 @@ if TYPE_CHECKING:
 #: [s] between two states of the line: in a terminal, where it is written over, and in a file.
 _TERMINAL_S, _FILE_S = 0.1, 5.0
 #: What of a run in space has no counterpart in the plane: no such quantity is controlled, or it is measured otherwise.
-_NOT_PLANAR = ("com_rms_m", "com_max_m", "orientation_rms_deg", "swing_rms_m", "final_base_error_m", "control_ms")
+_NOT_PLANAR = (
+    *("com_rms_m", "com_max_m", "orientation_rms_deg", "swing_rms_m", "final_base_error_m", "control_ms"),
+    *("torque_step_use", "self_contacts", "self_contact_N", "self_contact_m"),
+    *("terrain_contacts", "terrain_contact_N", "touches"),
+)
 
 
 class Progress:
@@ -86,7 +90,7 @@ def summary(
         "version": __version__,
     }
     if isinstance(result, TrackingResult):
-        from mcplan.tracking.report import nearest_to_torque_limit
+        from mcplan.tracking.report import nearest_to_torque_limit, nearest_to_velocity_limit
 
         recording = result.recording
         return {
@@ -96,12 +100,15 @@ def summary(
             "duration_s": recording.plan.duration(),
             **_finite(result.measures.as_dict()),
             "torque_joint": nearest_to_torque_limit(recording)[0],
+            **_fastest(*nearest_to_velocity_limit(recording)),
+            "touches": [asdict(touch) for touch in recording.touches] if result.options.self_contacts else None,
             **common,
         }
     return {"plan": str(plan), **_planar(result), **common}
 
 
 def _planar(result: PlanarResult) -> dict[str, Any]:
+    from mcplan.planar.tracking.measures import nearest_to_velocity_limit
     from mcplan.tracking.report import nearest_to_torque_limit
 
     plan, measures = result.recording.plan, result.measures
@@ -116,7 +123,14 @@ def _planar(result: PlanarResult) -> dict[str, Any]:
         "qp_failures": 0,
         **_finite(measures.as_dict()),
         "torque_joint": nearest_to_torque_limit(result.recording)[0],
+        **_fastest(*nearest_to_velocity_limit(result.recording)),
     }
+
+
+def _fastest(joint: str, time_s: float) -> dict[str, Any]:
+    from mcplan.cli.check import finite
+
+    return {"velocity_joint": joint or None, "velocity_at_s": finite(time_s)}
 
 
 def _finite(data: dict[str, Any]) -> dict[str, Any]:

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -51,12 +52,25 @@ HEADER = (
 )
 
 
+@dataclass(frozen=True)
+class Origin:
+    """What a robot was worked out from: the arguments of robot_from_urdf.
+
+    Attributes:
+        source: A name of example-robot-data, or the path of a URDF file.
+        ends: End-effectors; may be empty for the names in SETUPS.
+        srdf, posture: As given to robot_from_urdf.
+    """
+
+    source: str
+    ends: Sequence[End] = ()
+    srdf: str | None = None
+    posture: Mapping[str, float] | None = None
+
+
 def add_reach_polytopes(
     robot: Robot,
-    source: str,
-    ends: Sequence[End] = (),
-    srdf: str | None = None,
-    posture: Mapping[str, float] | None = None,
+    origin: Origin,
     faces: int = FACES,
     samples: int = SAMPLES,
     seed: int = 0,
@@ -65,10 +79,8 @@ def add_reach_polytopes(
     """Set com_reach and partner_reach of the feet of a robot.
 
     Args:
-        robot: As worked out by robot_from_urdf from the same source.
-        source: A name of example-robot-data, or the path of a URDF file.
-        ends: End-effectors; may be empty for the names in SETUPS.
-        srdf, posture: As given to robot_from_urdf.
+        robot: As worked out by robot_from_urdf.
+        origin: What it was worked out from.
         faces: Largest number of faces of a polytope, 6 at least.
         samples: Postures drawn for each leg, 1000 at least.
         seed: Of the draws; the same seed gives the same polytopes.
@@ -84,8 +96,9 @@ def add_reach_polytopes(
         raise InvalidInput("faces", "must be at least 6", str(faces))
     if samples < 1000:
         raise InvalidInput("samples", "must be at least 1000", str(samples))
-    model, nominal, _ = load_model(source, tuple(ends), srdf, posture)
-    ends = ends_of(source, tuple(ends))
+    source, given = origin.source, tuple(origin.ends)
+    model, nominal, _ = load_model(source, given, origin.srdf, origin.posture)
+    ends = ends_of(source, given)
     feet = [end for end in ends if end.kind == "foot"]
     made = {end.name: end for end in robot.end_effectors}
     clouds = {}

@@ -29,6 +29,7 @@ from mcplan.files.urdf_setups import HEADER, SETUPS, End, Setup
 
 GRAVITY = 9.81
 MAX_COM_HEIGHT = 50.0  # [m] beyond, lengths are not in metres
+SWING_HEIGHT_M = 0.10  # of robots without a setup
 HAND_INSET_M = 0.03  # of a hand's nominal position in its box: an arm hanging down is at the edge of what it reaches
 SOLE_FRICTION = 0.7  # surfaces' default; half of it is left for forces along the ground
 PHASE_DURATION = (0.3, 0.6)  # [s] of robots with soles: legs of such a weight follow no shorter swing
@@ -70,7 +71,6 @@ def robot_from_urdf(
     ends: tuple[End, ...] = (),
     srdf: str | None = None,
     posture: Mapping[str, float] | None = None,
-    swing_height: float = 0.10,
     step: float = 0.02,
     seed: int = 0,
 ) -> Robot:
@@ -81,7 +81,6 @@ def robot_from_urdf(
         ends: End-effectors; may be empty for the names in SETUPS.
         srdf: SRDF file with the nominal posture (its first one), for a URDF file; None: the neutral one.
         posture: Angles [rad] by joint, set on top of that.
-        swing_height: For a URDF file [m].
         step: Grid of the reach boxes [m].
         seed: Of the random starts of inverse kinematics.
 
@@ -114,7 +113,7 @@ def robot_from_urdf(
         mass=round(mass, 3),
         inertia=np.diag(inertia).round(3),
         com_height=round(com_height, 3),
-        swing_height=setup.swing_height if setup else swing_height,
+        swing_height=setup.swing_height if setup else SWING_HEIGHT_M,
         end_effectors=[_end_effector(end, _same_strength(able, end), weight) for end in ends],
         urdf=urdf,
         posture=_posture_of(model, nominal),

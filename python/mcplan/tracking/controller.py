@@ -2,7 +2,8 @@
 
     min   sum_tasks w |J qdd + drift - a|^2  +  w_f |f - f_plan|^2  +  w_s s^2
     s.t.  the six rows of  M qdd + h = S' tau + sum J_c' f  that no joint drives
-          |tau| <= limit,  f in friction pyramids,  joint positions within their limits but for a slack s
+          tau within what motors have at this speed,  f in friction pyramids,
+          joint positions and speeds within their limits but for a slack s
 
 Without forces and slack the program has a solution at any state: some acceleration of the base balances any torques.
 Contacts are tasks of great weight and not equations for the same reason.
@@ -19,12 +20,14 @@ from numpy.typing import NDArray
 from mcplan.kinematics.rotations import minimal_rotation, polygon_normal, rotation_vector
 from mcplan.kinematics.urdf_model import UrdfModel
 
+from .actuators import TorqueSpeed
 from .contact_forces import SIDES, ForcePoints, pyramid
 from .contacts import Contact, Mode
 from .options import Gains
 from .quadratic_program import Problem, QuadraticProgram
 from .references import References
 from .robot_dynamics import EndEffectorMotion, RobotDynamics
+from .separation import Separation
 
 if TYPE_CHECKING:
     from mcplan._core import Scene
@@ -33,6 +36,8 @@ Array = NDArray[np.float64]
 
 #: Joints are kept from their limits by bounds of acceleration: -kp (q - limit) - kd v, at least this much [rad/s^2].
 LIMIT_KP, LIMIT_KD, LIMIT_MARGIN = 900.0, 60.0, 50.0
+#: Joints are kept from their largest speed so that none is beyond it after this time [s]: |v + a t| <= v_max.
+SPEED_HORIZON_S = 0.02
 SLACK_WEIGHT = 10.0
 #: Damping in the program's Hessian, for accelerations that no task asks for.
 DAMPING = 1e-4
@@ -43,7 +48,7 @@ class Command:
     """What the controller decided.
 
     Attributes:
-        torques: (nj,) [N m], within their limits.
+        torques: (nj,) [N m], within what motors have at the measured speeds.
         solved: Whether the program was solved; if not, the torques are those of the last one that was.
     """
 
@@ -51,11 +56,30 @@ class Command:
     solved: bool
 
 
+@dataclass(frozen=True)
+class Restraints:
+    """What accelerations and torques are kept within.
+
+    Attributes:
+        motors: Torques that the motors have at a speed, and the largest speeds.
+        separation: Links that are to be kept apart; None: none are.
+    """
+
+    motors: TorqueSpeed
+    separation: Separation | None = None
+
+
 class Controller:
     """Tracks references with a robot. Call once a control step."""
 
     def __init__(
-        self, urdf_model: UrdfModel, scene: Scene, references: References, posture: Array, gains: Gains
+        self,
+        urdf_model: UrdfModel,
+        scene: Scene,
+        references: References,
+        posture: Array,
+        gains: Gains,
+        restraints: Restraints | None = None,
     ) -> None:
         """
         Args:
@@ -64,11 +88,14 @@ class Controller:
             references: Desired motion and forces at each control step.
             posture: (nq,) or (n, nq) configurations near to which the joints stay.
             gains: Weights and gains.
+            restraints: What motors have, and links to be kept apart; None: the URDF's limits of torque and speed alone.
         """
         self.urdf_model, self.references, self.gains = urdf_model, references, gains
         self.dynamics = RobotDynamics(urdf_model)
         model = urdf_model.model
         self.nv, self.limits = model.nv, np.asarray(model.effortLimit[6:], float)
+        restraints = restraints or Restraints(TorqueSpeed.of(self.limits, model.velocityLimit[6:]))
+        self.motors, self.separation = restraints.motors, restraints.separation
         self.lower, self.upper = model.lowerPositionLimit[7:].copy(), model.upperPositionLimit[7:].copy()
         self.posture = np.atleast_2d(posture)[:, 7:]
         self.normals = [polygon_normal(np.asarray(s.vertices_W)) for s in scene.surfaces]
@@ -105,7 +132,7 @@ class Controller:
         if found is not None:
             acceleration, forces = found[: self.nv], found[self.nv : self.nv + force_map.shape[1]]
             tau = self.dynamics.inertia[6:] @ acceleration + self.dynamics.bias[6:] - force_map[6:] @ forces
-            self.torques = np.clip(tau, -self.limits, self.limits)
+            self.torques = np.clip(tau, *self.motors.bounds(velocity[6:]))
         return Command(self.torques, found is not None)
 
     def _set_contact(self, n: int, end: int, position_W: Array, rotation_W: Array) -> None:
@@ -161,26 +188,42 @@ class Controller:
                 friction[row : row + SIDES, nv + at + 3 * p : nv + at + 3 * p + 3] = cone
                 row += SIDES
             at += width
-        inertia, bias, nj = self.dynamics.inertia, self.dynamics.bias, nv - 6
+        inertia, bias = self.dynamics.inertia, self.dynamics.bias
         equality = np.zeros((6, size))
         equality[:, :nv], equality[:, nv:-1] = inertia[:6], -force_map[:6]
-        torque = np.zeros((nj, size))
+        torque = np.zeros((nv - 6, size))
         torque[:, :nv], torque[:, nv:-1] = inertia[6:], -force_map[6:]
-        low, high = self._joint_bounds()
-        limits = np.zeros((2 * nj, size))
-        limits[:nj, 6:nv] = limits[nj:, 6:nv] = np.eye(nj)
-        limits[:nj, -1], limits[nj:, -1] = 1.0, -1.0
-        far = np.full(nj, np.inf)
+        weakest, strongest = self.motors.bounds(self.dynamics.velocity[6:])
+        limits, low, high = self._limits(size)
         problem = Problem(
             hessian,
             gradient,
             equality,
             -bias[:6],
             np.vstack([torque, friction, limits]),
-            np.concatenate([-self.limits - bias[6:], np.zeros(len(friction)), low, -far]),
-            np.concatenate([self.limits - bias[6:], np.full(len(friction), np.inf), far, high]),
+            np.concatenate([weakest - bias[6:], np.zeros(len(friction)), low]),
+            np.concatenate([strongest - bias[6:], np.full(len(friction), np.inf), high]),
         )
         return problem, supporting, force_map
+
+    def _limits(self, size: int) -> tuple[Array, Array, Array]:
+        """Rows of what holds but for the slack, and their bounds: positions and speeds of joints, links kept apart."""
+        nj, nv = self.nv - 6, self.nv
+        low, high = self._joint_bounds()
+        limits = np.zeros((2 * nj, size))
+        limits[:nj, 6:nv] = limits[nj:, 6:nv] = np.eye(nj)
+        limits[:nj, -1], limits[nj:, -1] = 1.0, -1.0
+        far = np.full(nj, np.inf)
+        if self.separation is None:
+            return limits, np.concatenate([low, -far]), np.concatenate([far, high])
+        rows, least = self.separation.rows(self.dynamics)
+        apart = np.zeros((len(rows), size))
+        apart[:, :nv], apart[:, -1] = rows, 1.0
+        return (
+            np.vstack([limits, apart]),
+            np.concatenate([low, -far, least]),
+            np.concatenate([far, high, np.full(len(rows), np.inf)]),
+        )
 
     def _tasks(self, n: int, motions: list[EndEffectorMotion]) -> tuple[Array, Array]:
         """Rows sqrt(w) J and values sqrt(w) (a - drift), all tasks stacked; joints' posture apart."""
@@ -254,9 +297,13 @@ class Controller:
         return _follow(self.gains.posture_kp, error, -self.dynamics.velocity[6:], 0.0)
 
     def _joint_bounds(self) -> tuple[Array, Array]:
+        """Least and largest acceleration (nj,) that keep positions and speeds within their limits."""
         position, velocity = self.dynamics.configuration[7:], self.dynamics.velocity[6:]
         low = LIMIT_KP * (self.lower - position) - LIMIT_KD * velocity
         high = LIMIT_KP * (self.upper - position) - LIMIT_KD * velocity
+        fastest = self.motors.velocity_limits
+        low = np.maximum(low, (-fastest - velocity) / SPEED_HORIZON_S)
+        high = np.minimum(high, (fastest - velocity) / SPEED_HORIZON_S)
         return np.minimum(low, LIMIT_MARGIN), np.maximum(high, -LIMIT_MARGIN)
 
 

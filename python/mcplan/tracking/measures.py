@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from mcplan.kinematics.rotations import polygon_normal
 
 from .recording import Recording
+from .touches import Touch
 
 Array = NDArray[np.float64]
 
@@ -33,6 +35,12 @@ class Measures:
         simulator_warnings: Number of warnings of MuJoCo, all kinds together.
         realtime_factor: Simulated time over wall clock, control included.
         control_ms: Mean wall clock of a control step.
+        velocity_use: Largest speed of a joint over its limit; NaN: the URDF has no such limits, or the file has none.
+        torque_step_use: Largest change of a torque within 2 ms over its limit.
+        self_contacts: Number of contacts of links with each other; None: they pass through each other.
+        self_contact_N, self_contact_m: Largest force between them, and largest depth to which their shapes overlapped.
+        terrain_contacts: Number of contacts of links other than end-effectors with the terrain; None as above.
+        terrain_contact_N: Largest force there.
     """
 
     fell: bool
@@ -50,6 +58,13 @@ class Measures:
     simulator_warnings: int
     realtime_factor: float
     control_ms: float
+    velocity_use: float = float("nan")
+    torque_step_use: float = float("nan")
+    self_contacts: int | None = None
+    self_contact_N: float | None = None
+    self_contact_m: float | None = None
+    terrain_contacts: int | None = None
+    terrain_contact_N: float | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """By name, for JSON."""
@@ -58,6 +73,8 @@ class Measures:
 
 #: After touch-down a foot settles for this long [s] before slip is measured.
 SETTLE_S = 0.02
+#: Time within which a torque changes by less than its limit [s], or the change is reported.
+TORQUE_STEP_S = 0.002
 
 
 def measure(recording: Recording, final_configuration: Array) -> Measures:
@@ -88,7 +105,38 @@ def measure(recording: Recording, final_configuration: Array) -> Measures:
         simulator_warnings=0,
         realtime_factor=0.0,
         control_ms=0.0,
+        velocity_use=float(velocity_uses(r).max(initial=np.nan if not r.velocity_limits.any() else 0.0)),
+        torque_step_use=float(torque_step_uses(r).max(initial=0.0)),
     )
+
+
+def with_touches(measures: Measures, touches: Sequence[Touch]) -> Measures:
+    """The measures with those of contacts that were not planned, for robots whose links make contact."""
+    own, on_terrain = ([touch for touch in touches if touch.terrain == terrain] for terrain in (False, True))
+    return replace(
+        measures,
+        self_contacts=len(own),
+        self_contact_N=max((touch.force_N for touch in own), default=0.0),
+        self_contact_m=max((touch.depth_m for touch in own), default=0.0),
+        terrain_contacts=len(on_terrain),
+        terrain_contact_N=max((touch.force_N for touch in on_terrain), default=0.0),
+    )
+
+
+def velocity_uses(r: Recording) -> Array:
+    """(n, nj) speeds of joints over their limits; 0 where the URDF has none."""
+    if not len(r.velocity_limits):
+        return np.zeros(r.torques.shape)
+    return np.abs(r.velocities[:, 6:]) / np.where(r.velocity_limits > 0.0, r.velocity_limits, np.inf)
+
+
+def torque_step_uses(r: Recording) -> Array:
+    """(n, nj) changes of torques within TORQUE_STEP_S before an instant, over their limits."""
+    changes = np.zeros(r.torques.shape)
+    if len(r.times_s) > 1:
+        back = max(1, round(TORQUE_STEP_S / (r.times_s[1] - r.times_s[0])))
+        changes[back:] = np.abs(r.torques[back:] - r.torques[:-back])
+    return changes / np.where(r.torque_limits > 0.0, r.torque_limits, np.inf)
 
 
 def swinging(contacts_plan: NDArray[np.int64]) -> NDArray[np.bool_]:

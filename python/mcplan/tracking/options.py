@@ -67,9 +67,18 @@ class Options:
         mass_scale: Factor on the masses of the simulated robot that the controller does not know of.
         friction_scale: Factor on the friction of the simulated surfaces that the controller does not know of.
         ground_shift_m: Height by which the simulated surfaces lie above the planned ones.
-        seed: Seed of disturbances of mass, friction, ground and a push, drawn on top (see ``disturbances``); 0: none.
-            Options of a result are those drawn: they repeat the run with a seed of 0.
+        seed: Seed of disturbances of mass, friction, ground, a push, motors and sensors, drawn on top (see
+            ``disturbances``); 0: none. Options of a result are those drawn: they repeat the run with a seed of 0.
         hold_s: Time for which the last state of the plan is kept at the end.
+        speed_limits: Motors have the less torque the nearer a joint is to the URDF's velocity limit (see ``actuators``),
+            and the controller keeps the speeds of joints within these limits; False: full torque at every speed.
+        self_contacts: Links make contact with each other and, besides the end-effectors, with the terrain; False: they
+            pass through each other and through the terrain.
+        torque_bandwidth_hz: Bandwidth of the motors' torques, a first order lag; 0: they follow at once.
+        torque_delay_s: Time from the state that the controller reads to its torques, rounded to simulation steps.
+        sensor_noise: Standard deviation of what the controller reads, in units of the noise of usual sensors (see
+            ``sensors``); 0: it reads the simulator's state.
+        noise_seed: Seed of that noise; a seed other than 0 sets it, too.
         gains: Gains of the controller.
     """
 
@@ -82,6 +91,12 @@ class Options:
     ground_shift_m: float = 0.0
     seed: int = 0
     hold_s: float = 1.0
+    speed_limits: bool = True
+    self_contacts: bool = True
+    torque_bandwidth_hz: float = 0.0
+    torque_delay_s: float = 0.0
+    sensor_noise: float = 0.0
+    noise_seed: int = 0
     gains: Gains = field(default_factory=Gains)
 
     def validate(self) -> None:
@@ -105,7 +120,16 @@ class Options:
         )
         _require("ground_shift_m", "must lie in -0.2 to 0.2", self.ground_shift_m, abs(self.ground_shift_m) <= 0.2)
         _require("hold_s", "must lie in 0 to 60", self.hold_s, 0 <= self.hold_s <= 60)
+        _require(
+            "torque_bandwidth_hz",
+            "must lie in 1 to 1000, or be 0",
+            self.torque_bandwidth_hz,
+            self.torque_bandwidth_hz == 0 or 1 <= self.torque_bandwidth_hz <= 1000,
+        )
+        _require("torque_delay_s", "must lie in 0 to 0.05", self.torque_delay_s, 0 <= self.torque_delay_s <= 0.05)
+        _require("sensor_noise", "must lie in 0 to 100", self.sensor_noise, 0 <= self.sensor_noise <= 100)
         _require("seed", "must not be negative", self.seed, self.seed >= 0)
+        _require("noise_seed", "must not be negative", self.noise_seed, self.noise_seed >= 0)
         for i, push in enumerate(self.pushes):
             for item in fields(push):
                 value = getattr(push, item.name)

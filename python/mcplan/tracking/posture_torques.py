@@ -45,6 +45,17 @@ class PostureTorques:
     forces_W: Array
 
 
+@dataclass(frozen=True)
+class _Case:
+    """The robot's model and its data, on what it stands, the plan, and the model's mass over the plan's."""
+
+    urdf_model: UrdfModel
+    data: Any
+    scene: Scene
+    samples: Samples
+    force_scale: float
+
+
 def posture_torques(
     urdf_model: UrdfModel,
     scene: Scene,
@@ -79,17 +90,20 @@ def posture_torques(
         residuals=np.zeros((count, 6)),
         forces_W=np.zeros((count, len(urdf_model.frames), 3)),
     )
+    case = _Case(urdf_model, data, scene, samples, force_scale)
     height = float(np.ptp(np.append(samples.positions_W[0, :, 2], samples.com_W[0, 2]))) or 1.0
     for n, q in enumerate(postures.configurations):
         v, a = motion(pin, model, samples.times_s, postures.configurations, n)
-        a[:3] += _base_correction(pin, model, data, q, v, a, com_acceleration_W[n])
+        # What the base's acceleration lacks, in its axes, for the CoM to accelerate as the plan's does.
+        pin.centerOfMass(model, data, q, v, a)
+        a[:3] += data.oMi[1].rotation.T @ (com_acceleration_W[n] - data.acom[0])
         needed = pin.rnea(model, data, q, v, a)
         planned = result.planned[n] = _planned(urdf_model, samples, n)
         at_rest = np.zeros(model.nv)
         at_rest[:3] = data.oMi[1].rotation.T @ com_acceleration_W[n]
         needed[6:][~planned] = pin.rnea(model, data, q, np.zeros(model.nv), at_rest)[6:][~planned]
         in_contact = [end for end in range(len(urdf_model.frames)) if samples.surfaces[n, end] >= 0]
-        contacts = [_contact(pin, urdf_model, data, scene, samples, n, end, force_scale, q) for end in in_contact]
+        contacts = [_contact(case, n, end, q) for end in in_contact]
         wrenches, residual = balanced_wrenches(contacts, needed[:6], height)
         torques = needed[6:].copy()
         for end, contact, wrench in zip(in_contact, contacts, wrenches, strict=True):
@@ -124,20 +138,16 @@ def _planned(urdf_model: UrdfModel, samples: Samples, n: int) -> NDArray[np.bool
     return result
 
 
-def _base_correction(pin: Any, model: Any, data: Any, q: Array, v: Array, a: Array, desired_W: Array) -> Array:
-    """What to add to the base's linear acceleration, in its axes, for the CoM to accelerate as desired."""
-    pin.centerOfMass(model, data, q, v, a)
-    return np.asarray(data.oMi[1].rotation.T @ (desired_W - data.acom[0]))
+def _contact(case: _Case, n: int, end: int, q: Array) -> Contact:
+    """The contact of an end-effector at a sample, in a posture (nq,)."""
+    import pinocchio as pin
 
-
-def _contact(
-    pin: Any, urdf_model: UrdfModel, data: Any, scene: Scene, samples: Samples, n: int, end: int, scale: float, q: Array
-) -> Contact:
+    urdf_model, data, samples, scale = case.urdf_model, case.data, case.samples, case.force_scale
     pin.computeJointJacobians(urdf_model.model, data, q)
     pin.updateFramePlacements(urdf_model.model, data)
     frame = urdf_model.frames[end]
     jacobian = pin.getFrameJacobian(urdf_model.model, data, frame, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED)
-    surface = scene.surfaces[samples.surfaces[n, end]]
+    surface = case.scene.surfaces[samples.surfaces[n, end]]
     position = data.oMf[frame].translation.copy()
     half = np.asarray(urdf_model.robot.end_effectors[end].half_size, float)
     corners = np.array([[x, y, 0.0] for x in {-half[0], half[0]} for y in {-half[1], half[1]}])

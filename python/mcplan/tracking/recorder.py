@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,11 +15,33 @@ from mcplan.kinematics.urdf_model import UrdfModel
 from .recording import Recording
 from .references import References
 from .robot_dynamics import RobotDynamics
+from .touches import Touch, TouchLog
 
 if TYPE_CHECKING:
     from mcplan._core import Plan
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Acting:
+    """What acts on a robot in a control step: e end-effectors, nj joints.
+
+    Attributes:
+        torques: (nj,) of the motors [N m].
+        forces_W: (e, 3) of the terrain on each end-effector [N].
+        in_contact: (e,) whether they are taken as contacts.
+        assist: (6,) wrench of the assistance.
+        push_W: (3,) [N].
+        touches: Contacts that are not planned.
+    """
+
+    torques: Array
+    forces_W: Array
+    in_contact: NDArray[np.bool_]
+    assist: Array
+    push_W: Array
+    touches: Sequence[Touch] = ()
 
 
 class Recorder:
@@ -32,24 +56,18 @@ class Recorder:
         self.end_effectors_W, self.forces_W = np.zeros((n, e, 3)), np.zeros((n, e, 3))
         self.contacts = np.zeros((n, e), dtype=bool)
         self.assist, self.pushes_W = np.zeros((n, 6)), np.zeros((n, 3))
+        self.touches = TouchLog()
 
-    def add(
-        self,
-        dynamics: RobotDynamics,
-        torques: Array,
-        forces_W: Array,
-        in_contact: NDArray[np.bool_],
-        assist: Array,
-        push: Array,
-    ) -> None:
-        """Append a step: state of the robot, torques, what acts on it."""
+    def add(self, dynamics: RobotDynamics, acting: Acting) -> None:
+        """Append a step: state of the robot, and what acts on it."""
         n = self.count
         self.configurations[n], self.velocities[n] = dynamics.configuration, dynamics.velocity
-        self.torques[n], self.com_W[n], self.momentum_W[n] = torques, dynamics.com_W, dynamics.momentum_W
+        self.torques[n], self.com_W[n], self.momentum_W[n] = acting.torques, dynamics.com_W, dynamics.momentum_W
         for end in range(self.end_effectors_W.shape[1]):
             self.end_effectors_W[n, end] = dynamics.end_effector_position_W(end)
-        self.forces_W[n], self.contacts[n] = forces_W, in_contact
-        self.assist[n], self.pushes_W[n] = assist, push
+        self.forces_W[n], self.contacts[n] = acting.forces_W, acting.in_contact
+        self.assist[n], self.pushes_W[n] = acting.assist, acting.push_W
+        self.touches.add(n * self.desired.dt_s, acting.touches)
         self.count = n + 1
 
     def finish(self, fell_at_s: float) -> Recording:
@@ -78,4 +96,6 @@ class Recorder:
             pushes_W=self.pushes_W[:n],
             fell_at_s=fell_at_s,
             robot=self.urdf_model.robot,
+            velocity_limits=np.asarray(self.urdf_model.model.velocityLimit[6:], float),
+            touches=self.touches.touches(),
         )

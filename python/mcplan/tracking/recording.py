@@ -13,6 +13,7 @@ from mcplan.files.plans import plan_from_bytes
 from mcplan.files.robots import robot_from_dict
 
 from .run_files import RUN, Arrays, Header, columns_of, load_run
+from .touches import Touch
 
 if TYPE_CHECKING:
     from mcplan._core import Plan, Robot
@@ -45,6 +46,8 @@ class Recording:
         pushes_W: (n, 3) [N].
         fell_at_s: Time at which the robot fell; infinite: it did not.
         robot: What was simulated, with the plan's end-effectors in the plan's order; None: the plan's own.
+        velocity_limits: (nj,) [rad/s]; 0: the URDF knows none. Empty in files of earlier versions.
+        touches: Contacts of links with each other, and of links other than end-effectors with the terrain.
     """
 
     plan: Plan
@@ -69,6 +72,8 @@ class Recording:
     pushes_W: Array
     fell_at_s: float
     robot: Robot | None = None
+    velocity_limits: Array = field(default_factory=lambda: np.zeros(0))
+    touches: tuple[Touch, ...] = ()
 
     @property
     def simulated_robot(self) -> Robot:
@@ -106,6 +111,12 @@ def recording_from(header: Header, arrays: Arrays) -> Recording:
     plan = plan_from_bytes(arrays["plan"].tobytes())
     robot = None if header["robot"] is None else robot_from_dict(header["robot"])
     columns = columns_of(Recording, arrays)
+    touches = tuple(Touch(**{**item, "links": tuple(item["links"])}) for item in header.get("touches", ()))
     return Recording(
-        plan=plan, joints=tuple(header["joints"]), fell_at_s=float(header["ended_at_s"]), robot=robot, **columns
+        plan=plan,
+        joints=tuple(header["joints"]),
+        fell_at_s=float(header["ended_at_s"]),
+        robot=robot,
+        touches=touches,
+        **columns,
     )

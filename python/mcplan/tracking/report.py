@@ -6,9 +6,10 @@ from typing import Protocol
 
 import numpy as np
 
-from .measures import Measures
+from .measures import Measures, torque_step_uses, velocity_uses
 from .options import Options, Push
 from .recording import Array, Recording
+from .touches import hardest
 
 
 class Reported(Protocol):
@@ -70,6 +71,9 @@ def rows_of(result: Reported) -> list[tuple[str, str]]:
             else []
         ),
         ("largest torque", f"{100.0 * m.torque_use:.0f} % of the limit of {joint}, at {time_s:.2f} s"),
+        ("fastest joint", speed_text(result.recording)),
+        *torque_steps(result),
+        ("contacts of links", touches_text(result)),
         ("assistance", assistance_text(result)),
     ]
     disturbed = disturbances_text(options)
@@ -98,6 +102,45 @@ def nearest_to_torque_limit(recording: Torques) -> tuple[str, float]:
     return recording.joints[joint], float(recording.times_s[n])
 
 
+def nearest_to_velocity_limit(recording: Recording) -> tuple[str, float]:
+    """The joint whose speed came nearest to its limit, or went farthest beyond it, and when [s]; "" and NaN: no limits."""
+    use = velocity_uses(recording)
+    if not use.any():
+        return "", float("nan")
+    n, joint = np.unravel_index(int(np.argmax(use)), use.shape)
+    return recording.joints[joint], float(recording.times_s[n])
+
+
+def speed_text(recording: Recording) -> str:
+    joint, time_s = nearest_to_velocity_limit(recording)
+    if not joint:
+        return "no limits are known"
+    return f"{100.0 * velocity_uses(recording).max():.0f} % of the speed limit of {joint}, at {time_s:.2f} s"
+
+
+def torque_steps(result: Reported) -> list[tuple[str, str]]:
+    """A row if a torque changed by more than its limit within 2 ms: no motor does so."""
+    use = torque_step_uses(result.recording)
+    if not use.max(initial=0.0) > 1.0:
+        return []
+    n, joint = np.unravel_index(int(np.argmax(use)), use.shape)
+    count, name = int((use.max(axis=1) > 1.0).sum()), result.recording.joints[joint]
+    largest = f"the largest by {100.0 * use[n, joint]:.0f} % in {name}, at {result.recording.times_s[n]:.2f} s"
+    return [("torques that jump", f"{count} by more than their limit in 2 ms, {largest}")]
+
+
+def touches_text(result: Reported) -> str:
+    """What links hit, the hardest of each kind."""
+    m, parts = result.measures, []
+    if m.self_contacts is None:
+        return "not simulated"
+    for terrain, count in ((False, m.self_contacts), (True, m.terrain_contacts)):
+        touch = hardest(result.recording.touches, terrain)
+        if touch is not None:
+            parts.append(f"{count} {'with the terrain' if terrain else 'with each other'}, hardest {touch}")
+    return "; ".join(parts) or "none, but for end-effectors"
+
+
 def assistance_text(result: Reported) -> str:
     if not result.options.assist:
         return "none"
@@ -116,6 +159,12 @@ def disturbances_text(options: Options) -> str:
     if options.ground_shift_m:
         parts.append(f"ground {1e3 * options.ground_shift_m:+.1f} mm")
     parts += [push_text(push) for push in options.pushes]
+    if options.torque_delay_s:
+        parts.append(f"torques {1e3 * options.torque_delay_s:.2g} ms late")
+    if options.torque_bandwidth_hz:
+        parts.append(f"torques of {options.torque_bandwidth_hz:.0f} Hz")
+    if options.sensor_noise:
+        parts.append(f"sensor noise x {options.sensor_noise:.2g}")
     return ", ".join(parts) + (f" (seed {options.seed})" if options.seed else "")
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from mcplan.files.plans import plan_to_bytes
@@ -52,7 +52,11 @@ class TrackingResult:
             self.options,
             self.interrupted,
             run.fell_at_s,
-            {"joints": list(run.joints), "robot": None if run.robot is None else robot_to_dict(run.robot)},
+            {
+                "joints": list(run.joints),
+                "robot": None if run.robot is None else robot_to_dict(run.robot),
+                "touches": [asdict(touch) for touch in run.touches],
+            },
         )
         save_run(parts, path)
 

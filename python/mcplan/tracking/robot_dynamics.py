@@ -61,6 +61,13 @@ class RobotDynamics:
         """(3,) contact point of an end-effector [m]."""
         return np.asarray(self._data.oMf[self.urdf_model.frames[index]].translation)
 
+    def point_jacobian(self, joint: int, point_W: Array) -> Array:
+        """(3, nv) velocity, world's axes, of a point [m] that is fixed to the link of a joint."""
+        pin, axes = self._pin, self._pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+        jacobian = pin.getJointJacobian(self.model, self._data, joint, axes)
+        x, y, z = point_W - self._data.oMi[joint].translation
+        return np.asarray(jacobian[:3] + np.array([[0, z, -y], [-z, 0, x], [y, -x, 0]]) @ jacobian[3:])
+
     def end_effector(self, index: int) -> EndEffectorMotion:
         """Motion of an end-effector's contact frame."""
         pin, data, frame = self._pin, self._data, self.urdf_model.frames[index]

@@ -35,7 +35,9 @@ from .options import Gains, Options, Push
 FORMAT = 1
 RUN, PLANAR_RUN = whole_body_plans.RUN_KINDS
 #: Fields of recordings that are no arrays: those of the header, and what the plan's file contains.
-_OTHERS = {"plan", "robot", "joints", "end_effectors", "fell_at_s", "left_plan_at_s"}
+_OTHERS = {"plan", "robot", "joints", "end_effectors", "fell_at_s", "left_plan_at_s", "touches"}
+#: Arrays without a row for each instant, and those that files of earlier versions lack.
+_WITHOUT_ROWS, _LATER = {"torque_limits", "velocity_limits"}, {"velocity_limits"}
 
 T = TypeVar("T")
 Header = Mapping[str, Any]
@@ -153,17 +155,20 @@ def columns_of(recording: type, arrays: Arrays) -> dict[str, Any]:
     """
     names = _array_names(recording)
     for name in names.values():
+        if name in _LATER and name not in arrays:
+            continue
         if name not in arrays:
             raise InvalidInput(name, "is required")
         rows = len(arrays["times_s"]) if "times_s" in arrays else 0
-        if name != "torque_limits" and len(arrays[name]) != rows:
+        if name not in _WITHOUT_ROWS and len(arrays[name]) != rows:
             raise InvalidInput(name, f"must have {rows} rows", str(len(arrays[name])))
-    return {name: arrays[in_file] for name, in_file in names.items()}
+    return {name: arrays[in_file] for name, in_file in names.items() if in_file in arrays}
 
 
 def options_of(header: Header) -> Options:
     """The options of the run."""
-    data = header["options"]
+    # Runs of earlier versions had full torque at every speed, and links passed through each other.
+    data = {"speed_limits": False, "self_contacts": False, **header["options"]}
     pushes = tuple(Push(**push) for push in data["pushes"])
     return Options(**{**data, "pushes": pushes, "gains": Gains(**data["gains"])})
 

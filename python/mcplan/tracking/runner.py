@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,12 +22,15 @@ from mcplan.kinematics.urdf_model import UrdfModel
 from .assist import assistance
 from .disturbances import disturbed
 from .interruption import Interruption
-from .measures import measure
+from .measures import measure, with_touches
 from .options import Options
 from .postures import postures_along
-from .recorder import Recorder
+from .recorder import Acting, Recorder
 from .references import References, references
 from .result import TrackingResult
+from .robot_dynamics import RobotDynamics
+from .sensors import Sensors
+from .separation import Separation
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -40,6 +43,18 @@ CONTACT_RATIO = 0.01
 FALLEN_RATIO, FALLEN_RAD = 0.35, 1.0
 #: [m] by which the first posture may miss the plan.
 START_MISS = 0.03
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """What is tracked by what: the plan, its references, the posture near to which joints stay, and where it ends."""
+
+    plan: Plan
+    urdf_model: UrdfModel
+    desired: References
+    posture: Array
+    end: Array
+    options: Options
 
 
 def track(
@@ -79,7 +94,7 @@ def track(
 
     model = mujoco_model.build(tracked_robot, plan.scene, options)
     urdf_model = model.urdf_model
-    simulation = Simulation(model)
+    simulation = Simulation(model, options.torque_delay_s, options.torque_bandwidth_hz)
     desired = references(plan, tracked_robot, options.control_step_s, options.hold_s)
     start, end = _posture_at(urdf_model, plan, 0.0), _posture_at(urdf_model, plan, desired.duration_s)
     on_ground = start.copy()
@@ -91,8 +106,9 @@ def track(
         posture = postures_along(urdf_model, plan, desired.count, options.control_step_s)
         desired = desired.with_base(posture[:, 3:7])
         end = posture[-1]
+    trial = _Trial(plan, urdf_model, desired, posture, end, options)
     with Interruption() as stop:
-        result = _run(plan, urdf_model, simulation, desired, posture, end, options, stop, progress)
+        result = _run(trial, simulation, stop, progress)
     stop.raise_with(result)
     return result
 
@@ -145,40 +161,38 @@ def _posture_at(urdf_model: UrdfModel, plan: Plan, time_s: float) -> Array:
 
 
 def _run(
-    plan: Plan,
-    urdf_model: UrdfModel,
-    simulation: Simulation,
-    desired: References,
-    posture: Array,
-    end: Array,
-    options: Options,
-    stop: Interruption,
-    progress: Callable[[float, float], None] | None,
+    trial: _Trial, simulation: Simulation, stop: Interruption, progress: Callable[[float, float], None] | None
 ) -> TrackingResult:
-    from .controller import Controller
+    from .controller import Controller, Restraints
 
-    controller = Controller(urdf_model, plan.scene, desired, posture, options.gains)
-    recorder = Recorder(plan, urdf_model, simulation.model.joints, desired)
-    contact_N = CONTACT_RATIO * controller.dynamics.mass * plan.scene.gravity
+    urdf_model, desired, options = trial.urdf_model, trial.desired, trial.options
+    separation = Separation(simulation.model) if options.self_contacts else None
+    restraints = Restraints(simulation.model.motors, separation)
+    controller = Controller(urdf_model, trial.plan.scene, desired, trial.posture, options.gains, restraints)
+    recorder = Recorder(trial.plan, urdf_model, simulation.model.joints, desired)
+    sensors, actual = Sensors(options.sensor_noise, options.noise_seed), RobotDynamics(urdf_model)
+    contact_N = CONTACT_RATIO * actual.mass * trial.plan.scene.gravity
     steps = round(options.control_step_s / options.simulation_step_s)
     fell_at, failures, control_s, began = np.inf, 0, 0.0, time.perf_counter()
     n = 0
     for n in range(desired.count):
         now = n * desired.dt_s
-        configuration, velocity = simulation.state()
-        forces = simulation.contact_forces_W()
+        state = simulation.state()
+        forces, touches = simulation.contact_forces_W(), simulation.touches()
         tick = time.perf_counter()
         in_contact = np.linalg.norm(forces, axis=1) > contact_N
-        command = controller.step(n, configuration, velocity, in_contact)
+        command = controller.step(n, *sensors.read(*state), in_contact)
         control_s += time.perf_counter() - tick
         failures += not command.solved
+        dynamics = controller.dynamics
+        if options.sensor_noise > 0.0:  # what is recorded is what the robot does, not what the controller reads
+            dynamics = actual
+            dynamics.update(*state)
         push = sum((p.force_W(now) for p in options.pushes), np.zeros(3))
-        assist_W = assistance(controller.dynamics, desired, n) if options.assist else np.zeros(6)
-        recorder.add(controller.dynamics, command.torques, forces, in_contact, assist_W, push)
-        simulation.advance(command.torques, assist_W + np.concatenate([push, np.zeros(3)]), steps)
-        if simulation.broke or _fallen(
-            controller.dynamics.com_W, controller.dynamics.base_WB, desired, n, urdf_model.robot
-        ):
+        assist_W = assistance(dynamics, desired, n) if options.assist else np.zeros(6)
+        given = simulation.advance(command.torques, assist_W + np.concatenate([push, np.zeros(3)]), steps)
+        recorder.add(dynamics, Acting(given, forces, in_contact, assist_W, push, touches))
+        if simulation.broke or _fallen(dynamics.com_W, dynamics.base_WB, desired, n, urdf_model.robot):
             fell_at = now
             break
         if stop.asked:
@@ -187,7 +201,9 @@ def _run(
             progress(now, desired.count * desired.dt_s)
     wall = time.perf_counter() - began
     recording = recorder.finish(fell_at)
-    measures = measure(recording, end)
+    measures = measure(recording, trial.end)
+    if simulation.model.link_pairs:
+        measures = with_touches(measures, recording.touches)
     measures = replace(
         measures,
         qp_failures=failures,

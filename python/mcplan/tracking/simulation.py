@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from .actuators import Lag
 from .states import to_mujoco, to_pinocchio
+from .touches import Touch
 
 if TYPE_CHECKING:
     from .mujoco_model import SimulationModel
@@ -24,13 +26,17 @@ class Simulation:
     e end-effectors, nj joints in Pinocchio's order. Contact forces are those of the last step taken; zero before the
     first.
 
+    Args:
+        model: What is simulated.
+        delay_s, bandwidth_hz: Of the motors, see ``actuators.Lag``.
+
     Attributes:
         model: What is simulated.
         data: mujoco.MjData.
         broke: The state is not finite or beyond reason; the run is worth nothing from there on.
     """
 
-    def __init__(self, model: SimulationModel) -> None:
+    def __init__(self, model: SimulationModel, delay_s: float = 0.0, bandwidth_hz: float = 0.0) -> None:
         import mujoco
 
         if mujoco.get_mju_user_warning() is None:
@@ -43,6 +49,11 @@ class Simulation:
         self._end_of_geom = np.full(model.mj.ngeom, -1)
         for number, geoms in enumerate(model.end_geoms):
             self._end_of_geom[list(geoms)] = number
+        self._is_surface = np.zeros(model.mj.ngeom, dtype=bool)
+        self._is_surface[list(model.surface_geoms)] = True
+        self._lag_of = lambda: Lag(float(model.mj.opt.timestep), delay_s, bandwidth_hz)
+        self._lag = self._lag_of()
+        self._limited = np.flatnonzero(np.isfinite(model.motors.velocity_limits))
 
     @property
     def time_s(self) -> float:
@@ -67,6 +78,7 @@ class Simulation:
         mujoco.mj_resetData(self._mj, self.data)
         self.data.qpos[:], self.data.qvel[:] = to_mujoco(self.model, configuration, velocity)
         self.broke = False
+        self._lag = self._lag_of()
         mujoco.mj_forward(self._mj, self.data)
         self.data.efc_force[:] = 0.0
 
@@ -74,21 +86,48 @@ class Simulation:
         """Configuration (7 + nj,) and velocity (6 + nj,) as Pinocchio has them."""
         return to_pinocchio(self.model, self.data.qpos, self.data.qvel)
 
-    def advance(self, torques: Array, base_wrench_W: Array | None = None, steps: int = 1) -> None:
-        """Apply constant torques and a wrench on the base for some steps.
+    def advance(self, torques: Array, base_wrench_W: Array | None = None, steps: int = 1) -> Array:
+        """Tell the motors constant torques, and apply a wrench on the base, for some steps.
 
         Args:
-            torques: (nj,) [N m]; MuJoCo clips them to the limits.
+            torques: (nj,) [N m]; what the motors have at a joint's speed cuts them off.
             base_wrench_W: (6,) force [N] through the base link's centre of mass, and moment [N m]; None: none.
             steps: Number of MuJoCo's steps.
+
+        Returns:
+            (nj,) mean torque that the motors gave [N m].
         """
+        given = np.zeros(len(self.model.actuator_index))
         if self.broke:
-            return
-        self.data.ctrl[self.model.actuator_index] = torques
+            return given
         self.data.xfrc_applied[self.model.base_body] = 0.0 if base_wrench_W is None else base_wrench_W
-        self._step(self._mj, self.data, steps)
+        if not (self._lag.acts or len(self._limited)):
+            self.data.ctrl[self.model.actuator_index] = torques
+            self._step(self._mj, self.data, steps)
+            given = self.data.actuator_force[self.model.actuator_index]
+        else:
+            for _ in range(steps):
+                self._drive(self._lag.after(torques))
+                self._step(self._mj, self.data)
+                given = given + self.data.actuator_force[self.model.actuator_index] / steps
         fastest = np.abs(self.data.qvel).max()
         self.broke = not fastest < FASTEST  # also of NaN
+        return np.array(given)
+
+    def _drive(self, torques: Array) -> None:
+        """Set the motors to torques (nj,), those that would be beyond what they have at this speed to full voltage.
+
+        At full voltage the torque is that at rest less its slope times the speed. MuJoCo integrates the slope implicitly:
+        worked out once a step, it would make light joints swing between both signs.
+        """
+        model, motors, index = self.model, self.model.motors, self.model.actuator_index
+        low, high = motors.bounds(self.data.qvel[model.dof_index])
+        full = np.where(torques > high, 1.0, np.where(torques < low, -1.0, 0.0))
+        full[np.isinf(motors.velocity_limits)] = 0.0
+        self.data.ctrl[index] = np.where(full == 0.0, torques, 0.0)
+        stall = np.where(full == 0.0, 0.0, motors.stall_torques)
+        self._mj.actuator_biasprm[index, 0] = full * stall
+        self._mj.actuator_biasprm[index, 2] = np.where(full == 0.0, 0.0, -motors.slopes)
 
     def contact_forces_W(self) -> Array:
         """(e, 3) force [N] of the terrain on each end-effector."""
@@ -113,17 +152,34 @@ class Simulation:
         with np.errstate(invalid="ignore"):
             return out / np.where(total > 0.0, total, np.nan)[:, None]
 
+    def touches(self) -> list[Touch]:
+        """Contacts of links with each other and, but for those of end-effectors, with the terrain; at this instant."""
+        contact, model = self.data.contact, self.model
+        found: dict[tuple[tuple[str, str], bool], Touch] = {}
+        unplanned = ~(self._is_surface[contact.geom].any(axis=1) & (self._end_of_geom[contact.geom] >= 0).any(axis=1))
+        for i in np.flatnonzero(unplanned & (contact.efc_address >= 0) & (contact.dist < 0.0)):
+            geoms = sorted(int(geom) for geom in contact.geom[i])
+            on_terrain = [geom for geom in geoms if self._is_surface[geom]]
+            first, second = [geom for geom in geoms if geom not in on_terrain] + on_terrain
+            depth_m, force_N = -float(contact.dist[i]), float(self.data.efc_force[contact.efc_address[i]])
+            links = (model.geom_names[first], model.geom_names[second])
+            key, now = (links, bool(on_terrain)), self.time_s
+            if key in found:  # shapes meet in several points
+                depth_m, force_N = max(depth_m, found[key].depth_m), force_N + found[key].force_N
+            found[key] = Touch(links, bool(on_terrain), now, now, depth_m, force_N)
+        return list(found.values())
+
     def _contacts(self) -> tuple[NDArray[np.int64], Array, Array, Array]:
-        """Of every contact: end-effector, force on it (n, 3), normal force (n,), point (n, 3), world frame."""
+        """Of end-effectors' contacts with the terrain: end-effector, force on it (n, 3), normal force (n,), point (n, 3),
+        world frame."""
         contact = self.data.contact
-        address = contact.efc_address
-        used = address >= 0
-        address = address[used]
+        address, end_effectors = contact.efc_address, self._end_of_geom[contact.geom]
+        used = (address >= 0) & (end_effectors >= 0).any(axis=1) & self._is_surface[contact.geom].any(axis=1)
+        address, end_effectors = address[used], end_effectors[used]
         # With elliptic cones the constraint forces are the components along normal and tangents.
         local = self.data.efc_force[address[:, None] + np.arange(3)]
         axes = contact.frame[used].reshape(-1, 3, 3)  # rows; the normal points from the first geom to the second
         forces = np.einsum("ni,nij->nj", local, axes)
-        end_effectors = self._end_of_geom[contact.geom[used]]
         first = end_effectors[:, 0] >= 0
         forces[first] *= -1.0
         return np.where(first, end_effectors[:, 0], end_effectors[:, 1]), forces, local[:, 0], contact.pos[used]

@@ -22,8 +22,8 @@ UPRIGHT = 0.5
 #: pull.
 GRASP_FRICTION = 5.0
 
-#: Bits of contype and conaffinity: robot and terrain make contact with each other, neither with its own kind.
-ROBOT_BIT, TERRAIN_BIT = 1, 2
+#: Bits of contype and conaffinity: end-effectors and terrain make contact with each other, links with each other.
+ROBOT_BIT, TERRAIN_BIT, LINK_BIT = 1, 2, 4
 
 
 def prism(surface: Surface) -> tuple[Array, NDArray[np.int64]]:

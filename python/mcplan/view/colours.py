@@ -35,6 +35,8 @@ TEXT = "#22262B"
 #: What the plan asks for, beside what a run did; a push; the assistance's wrench.
 PLANNED = "#8A919C"
 PUSH = "#C8102E"
+#: A contact that nobody planned.
+TOUCH = "#B8860B"
 #: Contact forces over a rendered robot, whose legs may be black.
 FORCE_BRIGHT = "#17A55B"
 ASSIST = "#6E40C9"

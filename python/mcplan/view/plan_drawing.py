@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -41,6 +42,7 @@ def draw_plan(stage: Stage, samples: Samples, scene: Scene, robot: Robot, figure
         name = robot.end_effectors[end].name
         stage.mesh(f"paths/{node(name)}", tube(samples.positions_W[:, end], 0.005 * scale, sides=6), colour, glow=0.25)
     for number, interval in enumerate(samples.intervals):
+        draw_footprint(stage, number, interval, robot, colours[interval.end_effector])
         draw_contact(stage, number, interval, samples, robot, colours[interval.end_effector])
     draw_forces(stage, samples, scene, robot)
 
@@ -50,7 +52,7 @@ def draw_forces(stage: Stage, samples: Samples, scene: Scene, robot: Robot, on_t
     weight, height = float(robot.mass) * float(scene.gravity), float(robot.com_height)
     for number, end in enumerate(robot.end_effectors):
         at, force = samples.pressure_W[:, number], samples.forces_W[:, number]
-        draw_arrow(stage, f"forces/{node(end.name)}", samples.times_s, at, force, weight, height, on_top=on_top)
+        draw_arrow(stage, f"forces/{node(end.name)}", ForceArrow(samples.times_s, at, force, weight, height), on_top)
 
 
 def draw_figure(stage: Stage, samples: Samples, figure: Figure) -> None:
@@ -76,22 +78,18 @@ def contact_plate(robot: Robot, end: int, margin: float = 0.0) -> Mesh:
     return disc(0.035 * scale + margin, thickness)
 
 
-def draw_contact(
-    stage: Stage,
-    number: int,
-    interval: Interval,
-    samples: Samples,
-    robot: Robot,
-    colour: str,
-    footprint: bool = True,
-) -> None:
-    """Put a contact onto a page: a plate that lights up while it lasts, and a footprint that stays."""
+def draw_footprint(stage: Stage, number: int, interval: Interval, robot: Robot, colour: str) -> None:
+    """Put a plate that stays where a contact is onto a page."""
+    path = f"contacts/{node(robot.end_effectors[interval.end_effector].name)}/{number}/print"
+    stage.mesh(path, contact_plate(robot, interval.end_effector), colour, 0.45)
+    stage.place(path, pose(interval.rotation_W, interval.position_W))
+
+
+def draw_contact(stage: Stage, number: int, interval: Interval, samples: Samples, robot: Robot, colour: str) -> None:
+    """Put a plate that lights up while a contact lasts onto a page."""
     end = interval.end_effector
     at = pose(interval.rotation_W, interval.position_W)
     path = f"contacts/{node(robot.end_effectors[end].name)}/{number}"
-    if footprint:
-        stage.mesh(f"{path}/print", contact_plate(robot, end), colour, 0.45)
-        stage.place(f"{path}/print", at)
     stage.mesh(f"{path}/active", contact_plate(robot, end, margin=0.02), colour, 0.85, glow=0.6)
     stage.place(f"{path}/active", at)
     # Flash from one and a half times its size; the first contacts of a plan are there from the start.
@@ -110,30 +108,38 @@ def draw_contact(
     stage.move(f"{path}/active", switches, visible=on)
 
 
-def draw_arrow(
-    stage: Stage,
-    path: str,
-    times_s: Array,
-    start_W: Array,
-    force_W: Array,
-    weight: float,
-    height: float,
-    colour: str = FORCE,
-    on_top: bool = False,
-) -> None:
+@dataclass(frozen=True)
+class ForceArrow:
+    """A force over time.
+
+    Attributes:
+        times_s: (n,) [s].
+        start_W: (n, 3) where it acts [m].
+        force_W: (n, 3) [N].
+        weight: Weight of the robot [N]; an arrow of this size is WEIGHT_ARROW times the height long.
+        height: Height of the robot [m].
+        colour: "#rrggbb".
+    """
+
+    times_s: Array
+    start_W: Array
+    force_W: Array
+    weight: float
+    height: float
+    colour: str = FORCE
+
+
+def draw_arrow(stage: Stage, path: str, arrow: ForceArrow, on_top: bool = False) -> None:
     """Put a force arrow onto a page, unless it is never seen.
 
     Args:
         stage: The page's.
         path: Node; "shaft" and "head" hang below it.
-        times_s: Times [s], (n,).
-        start_W: Where the force acts, (n, 3) [m].
-        force_W: The force, (n, 3) [N].
-        weight: Weight of the robot [N]; an arrow of this size is WEIGHT_ARROW times the height long.
-        height: Height of the robot [m].
-        colour: "#rrggbb".
+        arrow: The force.
         on_top: Seen through whatever lies in front.
     """
+    times_s, start_W, force_W = arrow.times_s, arrow.start_W, arrow.force_W
+    weight, height, colour = arrow.weight, arrow.height, arrow.colour
     size = np.linalg.norm(force_W, axis=1)
     if size.max() < 1e-3 * weight:
         return

@@ -34,6 +34,7 @@ class PlanarMeasures:
         early_contact_N_s: Impulse of contact forces at end-effectors that the plan has in the air.
         simulator_warnings: Number of warnings of MuJoCo, all kinds together.
         realtime_factor: Simulated time over wall clock.
+        velocity_use: Largest speed of a joint over the robot's limit; NaN in files of earlier versions.
     """
 
     completed: bool
@@ -50,6 +51,7 @@ class PlanarMeasures:
     early_contact_N_s: float
     simulator_warnings: int
     realtime_factor: float
+    velocity_use: float = float("nan")
 
     def as_dict(self) -> dict[str, Any]:
         """By name, for JSON; those with an earlier name under both."""
@@ -110,7 +112,21 @@ def measure(recording: PlanarRecording, simulator_warnings: int, wall_clock_s: f
         early_contact_N_s=float((air * step[:, None]).sum()),
         simulator_warnings=simulator_warnings,
         realtime_factor=float(r.times_s[-1] / wall_clock_s),
+        velocity_use=float(velocity_uses(r)[n].max()),
     )
+
+
+def velocity_uses(r: PlanarRecording) -> Array:
+    """(n, j) speeds of joints over their limits."""
+    limits = np.array([body.velocity_max for body in r.plan.task.robot.bodies[1:]])
+    return np.asarray(np.abs(r.velocity) / limits)
+
+
+def nearest_to_velocity_limit(r: PlanarRecording) -> tuple[str, float]:
+    """The joint whose speed came nearest to its limit, or went farthest beyond it, within the plan, and when [s]."""
+    use = velocity_uses(r)[r.within_plan]
+    n, joint = np.unravel_index(int(np.argmax(use)), use.shape)
+    return r.joints[joint], float(r.times_s[n])
 
 
 def _relative(error: Array, reference: Array) -> float:

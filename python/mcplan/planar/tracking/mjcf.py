@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan.extras import require
+from mcplan.tracking.options import Options
 
 from .settings import ContactSettings, Feedback
 
@@ -60,24 +61,17 @@ class PlanarModel:
 
 def build(
     task: PlanarTask,
-    *,
-    step_s: float = 0.001,
+    options: Options | None = None,
     contacts: ContactSettings | None = None,
     feedback: Feedback | None = None,
-    mass_scale: float = 1.0,
-    friction_scale: float = 1.0,
-    ground_shift_m: float = 0.0,
 ) -> PlanarModel:
     """The robot of a task on the task's ground, in MuJoCo.
 
     Args:
         task: Robot and surfaces; it must be valid.
-        step_s: Time step of the simulation.
+        options: Time step of the simulation, factors on masses and friction, and height of the ground; default: Options().
         contacts: Hardness of the contacts; default: ContactSettings().
         feedback: Feedback of the joints, as part of their motors; default: Feedback().
-        mass_scale: Factor on masses and inertias.
-        friction_scale: Factor on the friction of all surfaces.
-        ground_shift_m: Height of all surfaces above the task's.
 
     Raises:
         InvalidOptions: Contacts or feedback out of their range.
@@ -86,14 +80,15 @@ def build(
     require("tracking of planar robots", "sim", "mujoco")
     import mujoco
 
+    options = options or Options()
     contacts = contacts or ContactSettings()
     contacts.validate()
     feedback = feedback or Feedback()
     feedback.validate()
     gains = feedback.gains(task.robot)
-    spec = _empty(task.robot, step_s, contacts)
-    _add_ground(spec, task, contacts, friction_scale, ground_shift_m)
-    _add_bodies(spec, task.robot, gains, mass_scale)
+    spec = _empty(task.robot, options.simulation_step_s, contacts)
+    _add_ground(spec, task, contacts, options.friction_scale, options.ground_shift_m)
+    _add_bodies(spec, task.robot, gains, options.mass_scale)
     model = spec.compile()
 
     def geom(name: str) -> int:

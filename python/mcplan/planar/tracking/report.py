@@ -9,7 +9,7 @@ import numpy as np
 from mcplan.tracking.options import Options
 from mcplan.tracking.report import as_text, disturbances_text, length, nearest_to_torque_limit
 
-from .measures import PlanarMeasures
+from .measures import PlanarMeasures, nearest_to_velocity_limit
 from .recording import PlanarRecording
 from .suitability import suitability
 
@@ -56,6 +56,7 @@ def rows_of(result: Reported) -> list[tuple[str, str]]:
     """What was measured, and its value."""
     m = result.measures
     joint, time_s = nearest_to_torque_limit(result.recording)
+    fastest, fast_s = nearest_to_velocity_limit(result.recording)
     each = ", ".join(f"{name} {100.0 * ratio:.1f} %" for name, ratio in m.force_rms_end_effectors.items())
     rows = [
         ("contact forces off the plan", f"{100.0 * m.force_rms:.1f} % rms ({each})"),
@@ -65,6 +66,7 @@ def rows_of(result: Reported) -> list[tuple[str, str]]:
         ("joints off the plan", f"{np.degrees(m.joint_rms_rad):.2g} deg rms"),
         ("torque by feedback", f"{100.0 * m.torque_feedback_ratio:.1f} % of the plan's, rms"),
         ("largest torque", f"{100.0 * m.torque_use:.0f} % of the limit of {joint}, at {time_s:.2f} s"),
+        ("fastest joint", f"{100.0 * m.velocity_use:.0f} % of the speed limit of {fastest}, at {fast_s:.2f} s"),
     ]
     disturbed = disturbances_text(result.options)
     if disturbed:

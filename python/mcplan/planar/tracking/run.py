@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,7 +28,12 @@ LEFT_PLAN_M = 0.1
 LEFT_PLAN_RAD = 0.3
 
 #: Half the simulation step changes force_rms by at most 0.011 (docs/tracking_planar.md); 1 ms doubles or triples it.
-DEFAULT_OPTIONS = Options(simulation_step_s=2e-4, control_step_s=4e-4)
+DEFAULT_OPTIONS = Options(simulation_step_s=2e-4, control_step_s=4e-4, speed_limits=False, self_contacts=False)
+
+
+#: Options that planar robots have not, and the values by which they are off.
+_ABSENT: dict[str, object] = {"pushes": (), "assist": False, "seed": 0}
+_ABSENT |= dict.fromkeys(("torque_bandwidth_hz", "torque_delay_s", "sensor_noise"), 0.0)
 
 
 def track_whole_body(
@@ -60,16 +66,9 @@ def track_whole_body(
     """
     options = options or DEFAULT_OPTIONS
     _require_supported(options)
+    options = replace(options, speed_limits=False, self_contacts=False)  # planar robots have neither
     plan.validate()
-    model = build(
-        plan.task,
-        step_s=options.simulation_step_s,
-        contacts=contacts,
-        feedback=feedback,
-        mass_scale=options.mass_scale,
-        friction_scale=options.friction_scale,
-        ground_shift_m=options.ground_shift_m,
-    )
+    model = build(plan.task, options, contacts, feedback)
     simulation = PlanarSimulation(model)
     simulation.reset(plan.at(0.0).configuration)
     start = time.perf_counter()
@@ -85,7 +84,7 @@ def track_whole_body(
 
 def _require_supported(options: Options) -> None:
     options.validate()
-    for name, empty in (("pushes", ()), ("assist", False), ("seed", 0)):
+    for name, empty in _ABSENT.items():
         value = getattr(options, name)
         if value != empty:
             raise InvalidOptions(name, f"must be {empty} for planar robots", str(value))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mcplan.kinematics.rotations import pose
 from mcplan.kinematics.samples import Interval
 from mcplan.view.colours import COM, GROUND, OUTLINE, WALL
-from mcplan.view.plan_drawing import draw_arrow
+from mcplan.view.plan_drawing import ForceArrow, draw_arrow
 from mcplan.view.shapes import Mesh, capsule, ellipsoid, prism, tube
 from mcplan.view.stage import node
 
@@ -130,9 +130,8 @@ def draw_forces(stage: Stage, samples: PlanarSamples, robot: PlanarRobot, weight
             nearest = finite[np.argmin(np.abs(np.arange(samples.count)[:, None] - finite), axis=1)]
             lane = lanes[end] - 0.06 * size
             start = into_space(at[nearest], lane)
-            draw_arrow(
-                stage, f"forces/{node(effector.name)}/{point}", samples.times_s, start, into_space(force), weight, size
-            )
+            arrow = ForceArrow(samples.times_s, start, into_space(force), weight, size)
+            draw_arrow(stage, f"forces/{node(effector.name)}/{point}", arrow)
 
 
 def contact_intervals(plan: PlanarPlan) -> list[Interval]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan.view.colours import COM
-from mcplan.view.pages.overlay import caption, entry, force_text, timeline
+from mcplan.view.pages.overlay import Bars, caption, entry, force_text, timeline
 from mcplan.view.pages.page import Page
 from mcplan.view.plan_drawing import WEIGHT_ARROW
 from mcplan.view.stage import Stage, node
@@ -77,7 +77,7 @@ def show_whole_body(plan: PlanarPlan, report: Report | None = None) -> Page:
     legend = [entry("com paths/com", "ball", COM, "centre of mass")]
     legend += common_legend(robot, colours, weight / (WEIGHT_ARROW * size))
     view = seen_on(stage, slabs, reached, size)
-    overlay = caption(task.name, lines, legend) + timeline(task, robot, intervals, colours, duration)
+    overlay = caption(task.name, lines, legend) + timeline(task, robot, Bars(intervals), colours, duration)
     return planar_page(f"{task.name}, {robot.name}", stage, overlay, view, plan, duration)
 
 

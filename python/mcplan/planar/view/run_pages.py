@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mcplan.kinematics.samples import Interval
 from mcplan.view.colours import COM, PLANNED, TEXT
-from mcplan.view.pages.overlay import caption, entry, timeline
+from mcplan.view.pages.overlay import Bars, caption, entry, timeline
 from mcplan.view.pages.page import Page
 from mcplan.view.plan_drawing import WEIGHT_ARROW
 from mcplan.view.run_samples import joined_stretches
@@ -84,9 +84,8 @@ def show_planar_run(run: PlanarRun) -> Page:
     legend += common_legend(robot, colours, weight / (WEIGHT_ARROW * size))
     view = seen_on(stage, slabs, reached, size)
     within = [replace(i, end_s=min(i.end_s, duration)) for i in expected if i.start_s < duration]
-    bars = timeline(
-        task, robot, _touching(recording), colours, duration, planned=within, marks=_marks(recording, duration)
-    )
+    shown = Bars(_touching(recording), within, _marks(recording, duration))
+    bars = timeline(task, robot, shown, colours, duration)
     overlay = caption(f"{task.name}, simulated", _lines(recording), legend) + bars
     return planar_page(f"{task.name}, {robot.name}, simulated", stage, overlay, view, plan, duration)
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 from html import escape
 from typing import TYPE_CHECKING
 
@@ -89,50 +91,57 @@ def force_text(what: str, newton_per_metre: float, size_m: float | None = None) 
     return f"{what} ({newton_per_metre * length:.3g} N: {length_text(length)})"
 
 
+@dataclass(frozen=True)
+class Bars:
+    """What a timeline shows.
+
+    Attributes:
+        intervals: The contacts.
+        planned: Contacts as they were planned: thin lines below the others.
+        marks: Events across all rows: start [s], end [s], colour, text.
+    """
+
+    intervals: Sequence[Interval]
+    planned: Sequence[Interval] = ()
+    marks: Sequence[tuple[float, float, str, str]] = ()
+
+
 def timeline(
-    scene: Scene | PlanarTask,
-    robot: Robot | PlanarRobot,
-    intervals: list[Interval],
-    colours: list[str],
-    duration_s: float,
-    planned: list[Interval] | None = None,
-    marks: list[tuple[float, float, str, str]] | None = None,
+    scene: Scene | PlanarTask, robot: Robot | PlanarRobot, bars: Bars, colours: list[str], duration_s: float
 ) -> str:
     """Panel at the bottom: contacts of every end-effector over time, and a cursor.
 
     Args:
         scene: Names the surfaces.
         robot: Names the end-effectors.
-        intervals: The contacts.
+        bars: Contacts and events.
         colours: Colours of the end-effectors.
         duration_s: Length of the axis.
-        planned: Contacts as they were planned: thin lines below the others.
-        marks: Events across all rows: start [s], end [s], colour, text.
     """
     names, tracks = [], []
     for end, colour in zip(range(len(colours)), colours, strict=True):
         names.append(f'<div style="color: {colour}">{as_shown(robot.end_effectors[end].name.replace("_", " "))}</div>')
-        bars = []
-        for interval in intervals:
+        own = []
+        for interval in bars.intervals:
             if interval.end_effector != end:
                 continue
             left = 100.0 * interval.start_s / duration_s
             width = 100.0 * (interval.end_s - interval.start_s) / duration_s
             name = as_shown(scene.surfaces[interval.surface].name)
-            bars.append(
+            own.append(
                 f'<div class="bar" style="left: {left:.3f}%; width: {width:.3f}%; background: {colour}" '
                 f'title="{name}, {interval.start_s:.2f} to {interval.end_s:.2f} s">{name}</div>'
             )
-        for interval in planned or []:
+        for interval in bars.planned:
             if interval.end_effector == end:
                 left = 100.0 * interval.start_s / duration_s
                 width = 100.0 * (interval.end_s - interval.start_s) / duration_s
-                bars.append(f'<div class="planned" style="left: {left:.3f}%; width: {width:.3f}%"></div>')
-        tracks.append(f'<div class="track">{"".join(bars)}</div>')
+                own.append(f'<div class="planned" style="left: {left:.3f}%; width: {width:.3f}%"></div>')
+        tracks.append(f'<div class="track">{"".join(own)}</div>')
     events = "".join(
         f'<div class="event" style="left: {100.0 * start / duration_s:.3f}%; '
         f'width: {100.0 * (end_s - start) / duration_s:.3f}%; background: {colour}" title="{as_shown(text)}"></div>'
-        for start, end_s, colour, text in marks or []
+        for start, end_s, colour, text in bars.marks
     )
     return (
         f'<div class="panel" id="timeline"><div id="bars"><div id="names">{"".join(names)}</div><div id="tracks">'

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mcplan.tracking import Measures, Recording
+from mcplan.tracking.touches import hardest
 
 
 def run_lines(recording: Recording, measures: Measures | None) -> list[str]:
@@ -22,9 +23,16 @@ def run_lines(recording: Recording, measures: Measures | None) -> list[str]:
         m = measures
         lines.append(f"base off by {m.orientation_rms_deg:.1f}°, swings by {1e3 * m.swing_rms_m:.1f} mm rms")
         lines.append(f"slip {1e3 * m.slip_m:.1f} mm; torques up to {100.0 * m.torque_use:.0f} % of limits")
+        if np.isfinite(m.velocity_use):
+            lines.append(f"joints up to {100.0 * m.velocity_use:.0f} % of their speed limits")
     else:
         use = float((np.abs(recording.torques) / recording.torque_limits).max())
         lines.append(f"torques up to {100.0 * use:.0f} % of limits")
+    for terrain, what in ((False, "links touch each other"), (True, "links touch the terrain")):
+        touch = hardest(recording.touches, terrain)
+        if touch is not None:
+            count = sum(item.terrain == terrain for item in recording.touches)
+            lines.append(f"{what} {count} times, hardest: {touch}")
     lines.append(_assistance(recording))
     return lines
 

@@ -19,7 +19,7 @@ from mcplan.view.stage import Stage
 from mcplan.view.viewpoint import camera_direction, sun_direction, view_points
 
 from .annotations import Label, draw_axes, draw_normals, draw_scale, surface_labels
-from .overlay import caption, entry, plan_legend, scene_legend, space_legend, timeline
+from .overlay import Bars, caption, entry, plan_legend, scene_legend, space_legend, timeline
 from .page import Page
 from .stances import draw_stances
 
@@ -75,7 +75,7 @@ def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, rep
     newton_per_metre = float(robot.mass) * float(scene.gravity) / (WEIGHT_ARROW * float(robot.com_height))
     legend = plan_legend(scene, robot, colours, newton_per_metre)
     overlay = caption(scene.name, lines, legend) + timeline(
-        scene, robot, samples.intervals, colours, float(samples.times_s[-1])
+        scene, robot, Bars(samples.intervals), colours, float(samples.times_s[-1])
     )
     points, labels = annotated(stage, drawings, view_points(drawings, samples, robot), camera_direction(extent))
     return Page(

@@ -13,9 +13,17 @@ from mcplan.kinematics.rotations import pose
 from mcplan.kinematics.samples import contact_intervals
 from mcplan.kinematics.urdf_model import load_model
 from mcplan.tracking import Recording, TrackingResult
-from mcplan.view.colours import ASSIST, COM, PLANNED, PUSH, TEXT, end_effector_colours
+from mcplan.view.colours import ASSIST, COM, PLANNED, PUSH, TEXT, TOUCH, end_effector_colours
 from mcplan.view.extent import extent_of, scale_of
-from mcplan.view.plan_drawing import WEIGHT_ARROW, contact_plate, draw_arrow, draw_contact, draw_figure, draw_forces
+from mcplan.view.plan_drawing import (
+    WEIGHT_ARROW,
+    ForceArrow,
+    contact_plate,
+    draw_arrow,
+    draw_contact,
+    draw_figure,
+    draw_forces,
+)
 from mcplan.view.robot_urdf import mesh_figure
 from mcplan.view.run_samples import RunFrames, frames_of, stretches_of
 from mcplan.view.runs import Run, ground_shift_of, recording_of
@@ -24,7 +32,7 @@ from mcplan.view.shapes import ellipsoid, tube
 from mcplan.view.stage import Stage, node
 from mcplan.view.viewpoint import camera_direction, sun_direction, view_points
 
-from .overlay import caption, entry, plan_legend, timeline
+from .overlay import Bars, caption, entry, plan_legend, timeline
 from .page import Page
 from .run_text import run_lines
 from .show import annotated
@@ -77,7 +85,7 @@ def show_run(run: Run) -> Page:
     duration = float(samples.times_s[-1])
     expected = contact_intervals(plan, scene, robot)
     within = [replace(i, end_s=min(i.end_s, duration)) for i in expected if i.start_s < duration]
-    bars = timeline(scene, robot, samples.intervals, colours, duration, planned=within, marks=_events(recording))
+    bars = timeline(scene, robot, Bars(samples.intervals, within, _events(recording)), colours, duration)
     direction = camera_direction(extent)
     points, labels = annotated(stage, drawings, view_points(drawings, samples, robot), direction)
     return Page(
@@ -123,7 +131,7 @@ def _draw_ends(
         stage.mesh(path, contact_plate(robot, interval.end_effector), PLANNED, 0.6)
         stage.place(path, pose(interval.rotation_W, interval.position_W + np.array([0.0, 0.0, shift])))
     for number, interval in enumerate(samples.intervals):
-        draw_contact(stage, number, interval, samples, robot, colours[interval.end_effector], footprint=False)
+        draw_contact(stage, number, interval, samples, robot, colours[interval.end_effector])
 
 
 def _draw_helpers(stage: Stage, frames: RunFrames, robot: Robot) -> list[str]:
@@ -141,19 +149,24 @@ def _draw_helpers(stage: Stage, frames: RunFrames, robot: Robot) -> list[str]:
         # Far smaller than the weight: an arrow of the largest is as long as one of the weight.
         away = force_W * (WEIGHT_ARROW * height + 0.1 * height * (path == "pushes")) / largest
         at = frames.base_W - away if path == "pushes" else frames.base_W
-        draw_arrow(stage, path, frames.samples.times_s, at, force_W, largest, height, colour, on_top=True)
+        arrow = ForceArrow(frames.samples.times_s, at, force_W, largest, height, colour)
+        draw_arrow(stage, path, arrow, on_top=True)
         legend.append(entry(path, "line", colour, f"{text} (up to {largest:.0f} N)"))
     return legend
 
 
 def _events(recording: Recording) -> list[tuple[float, float, str, str]]:
-    """Pushes and the fall, for the timeline."""
+    """Pushes, contacts that nobody planned, and the fall, for the timeline."""
     times = recording.times_s
     pushed = np.linalg.norm(recording.pushes_W, axis=1)
     events = []
     for start, stop in stretches_of(pushed > 0.0):
         until = float(times[min(stop, len(times) - 1)])
         events.append((float(times[start]), until, PUSH, f"push of {pushed[start:stop].max():.0f} N"))
+    shortest = 0.003 * float(times[-1])  # to be seen
+    for touch in recording.touches:
+        until = min(max(touch.end_s, touch.start_s + shortest), float(times[-1]))
+        events.append((touch.start_s, until, TOUCH, str(touch)))
     if recording.fell_at_s <= times[-1]:
         events.append((0.995 * float(times[-1]), float(times[-1]), TEXT, f"fell at {recording.fell_at_s:.2f} s"))
     return events

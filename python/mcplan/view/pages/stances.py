@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -42,7 +43,7 @@ def draw_stances(stage: Stage, scene: Scene, robot: Robot | None, size_m: float)
             radius = 0.15 if 2.0 <= size_m <= 15.0 else 0.03 * size_m
             seen = _flag(stage, name, stance, colour, radius)
         else:
-            seen = _standing(stage, scene, robot, name, stance, colour, opacity)
+            seen = _standing(stage, scene, robot, _Mark(name, stance, colour, opacity))
         points.append(seen)
         low, high = seen.min(axis=0), seen.max(axis=0)
         middle, lift = 0.5 * (low + high), 0.05 * float(np.linalg.norm(high - low))
@@ -62,16 +63,22 @@ def _flag(stage: Stage, name: str, stance: Stance, colour: str, radius: float) -
     return at[:3, 3] + radius * np.array([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 1.0, 0.4]])
 
 
-def _standing(
-    stage: Stage, scene: Scene, robot: Robot, name: str, stance: Stance, colour: str, opacity: float
-) -> Array:
+@dataclass(frozen=True)
+class _Mark:
+    name: str
+    stance: Stance
+    colour: str
+    opacity: float
+
+
+def _standing(stage: Stage, scene: Scene, robot: Robot, mark: _Mark) -> Array:
     from mcplan._core import resolve_stance
 
-    standing = stance_samples(scene, robot, resolve_stance(scene, robot, stance, name))
-    draw_standing(stage, name, standing, figure_of(standing, robot, end_effector_colours(robot)), opacity)
+    standing = stance_samples(scene, robot, resolve_stance(scene, robot, mark.stance, mark.name))
+    draw_standing(stage, mark.name, standing, figure_of(standing, robot, end_effector_colours(robot)), mark.opacity)
     for end in np.flatnonzero(standing.surfaces[0] >= 0):
-        path = f"marks/{name}/{end}"
-        stage.mesh(path, contact_plate(robot, int(end), margin=0.03), colour, 0.9, glow=0.5)
+        path = f"marks/{mark.name}/{end}"
+        stage.mesh(path, contact_plate(robot, int(end), margin=0.03), mark.colour, 0.9, glow=0.5)
         stage.place(path, pose(standing.rotations_W[0, end], standing.positions_W[0, end]))
     head = standing.com_W[0] + np.array([0.0, 0.0, 0.95 * float(robot.com_height)])
     margin = 0.1 * scale_of(robot) * np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,21 @@ Array = NDArray[np.float64]
 
 #: Polygons of a layer that a picture in vectors has as such; more are an image in it.
 _MAX_IN_VECTORS = 20_000
+
+
+@dataclass(frozen=True)
+class Paint:
+    """How a mesh is painted.
+
+    Attributes:
+        colour: "#rrggbb".
+        opacity: 1 is solid.
+        fade: Share of white mixed into the shaded colour.
+    """
+
+    colour: str
+    opacity: float = 1.0
+    fade: float = 0.0
 
 
 class Canvas:
@@ -46,10 +62,8 @@ class Canvas:
     def mesh(
         self,
         mesh: Mesh,
-        colour: str,
+        paint: Paint,
         layer: int = 0,
-        opacity: float = 1.0,
-        fade: float = 0.0,
         lift: float = 0.0,
         whole: bool = False,
     ) -> None:
@@ -57,10 +71,8 @@ class Canvas:
 
         Args:
             mesh: Solid in the world frame.
-            colour: "#rrggbb".
+            paint: Colour, opacity and paleness.
             layer: Higher ones cover lower ones.
-            opacity: 1 is solid.
-            fade: Share of white mixed into the shaded colour.
             lift: [m] by which it counts as nearer, to settle who covers whom.
             whole: A convex solid, put before or behind others as one piece.
         """
@@ -71,14 +83,14 @@ class Canvas:
         front = (size > 1e-12) & (np.sum(normals * towards, axis=1) > 0.0)
         corners, normals = corners[front], normals[front] / size[front, None]
         bright = 0.66 + 0.36 * np.clip(normals @ self.sun, 0.0, 1.0) + 0.06 * normals[:, 2]
-        shaded = np.clip(np.outer(bright, rgb(colour)), 0.0, 1.0)
-        shaded = (1.0 - fade) * shaded + fade
+        shaded = np.clip(np.outer(bright, rgb(paint.colour)), 0.0, 1.0)
+        shaded = (1.0 - paint.fade) * shaded + paint.fade
         flat, depth = self.project(corners)
         middle = depth.mean(axis=1)
         if whole:
             _, one = self.project(0.5 * (mesh.vertices.min(axis=0) + mesh.vertices.max(axis=0)))
             middle = np.full(len(flat), float(one))
-        self._add(layer, flat, middle - lift, shaded, opacity)
+        self._add(layer, flat, middle - lift, shaded, paint.opacity)
 
     def line(
         self,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -27,7 +27,7 @@ from mcplan.view.sheets import save_figure
 from mcplan.view.viewpoint import camera_direction, sun_direction, view_points
 from mcplan.view.winding import both_sides
 
-from .canvas import Canvas
+from .canvas import Canvas, Paint
 
 if TYPE_CHECKING:
     from mcplan._core import Plan, Robot, Scene
@@ -80,11 +80,11 @@ def picture(
     _paint_plan(canvas, samples, robot, colours)
     chosen = pose_indices(samples, robot, poses)
     figure = _figure(samples, robot, colours) if meshes else stick_robot(samples, robot, colours)
-    weight = float(robot.mass) * float(scene.gravity)
+    shown = _Shown(canvas, figure, samples, robot, float(robot.mass) * float(scene.gravity))
     for rank, n in enumerate(chosen):
         # The past is pale; the last posture has full colour.
         fade = 0.62 * (1.0 - rank / max(len(chosen) - 1, 1)) ** 0.8
-        _paint_robot(canvas, figure, samples, robot, n, fade, weight)
+        _paint_robot(shown, n, fade)
     sheet = _sheet(canvas, points, [drawing.mesh.vertices for drawing in drawings])
     _legend(sheet, scene, robot, colours)
     return save_figure(sheet, path)
@@ -144,7 +144,8 @@ def _paint_surfaces(canvas: Canvas, drawings: list[SurfaceDrawing]) -> None:
         # Ground lies below a robot; pads and walls may be before or behind a limb.
         floor = drawing.normal[2] > 0.3 and drawing.colour not in (GRASP, PAD)
         layer = SOLIDS if floor else BODIES
-        canvas.mesh(drawing.mesh, drawing.colour, layer, opacity=1.0 if floor else max(drawing.opacity, 0.3))
+        opacity = 1.0 if floor else max(drawing.opacity, 0.3)
+        canvas.mesh(drawing.mesh, Paint(drawing.colour, opacity), layer)
         rim = edges(drawing)[: len(drawing.outline)]
         canvas.segments(rim, mix(OUTLINE, "#ffffff", 0.3), 0.004, LINES if floor else BODIES)
         canvas.segments(drawing.grid, mix(drawing.colour, "#ffffff", 0.6), 0.004, LINES)
@@ -157,7 +158,7 @@ def _paint_plan(canvas: Canvas, samples: Samples, robot: Robot, colours: list[st
         up = interval.rotation_W[2, 2] > 0.3
         canvas.mesh(
             mark,
-            mix(colours[interval.end_effector], "#ffffff", 0.25),
+            Paint(mix(colours[interval.end_effector], "#ffffff", 0.25)),
             MARKS if up else BODIES,
             lift=0.0 if up else 0.05,
         )
@@ -166,27 +167,38 @@ def _paint_plan(canvas: Canvas, samples: Samples, robot: Robot, colours: list[st
     canvas.line(samples.com_W, COM, 0.024 * scale, COM_PATH)
 
 
-def _paint_robot(
-    canvas: Canvas, figure: Figure, samples: Samples, robot: Robot, n: int, fade: float, weight: float
-) -> None:
+@dataclass(frozen=True)
+class _Shown:
+    """What is painted along a plan, and the robot's weight [N]."""
+
+    canvas: Canvas
+    figure: Figure
+    samples: Samples
+    robot: Robot
+    weight: float
+
+
+def _paint_robot(shown: _Shown, n: int, fade: float) -> None:
+    canvas, figure, samples, robot = shown.canvas, shown.figure, shown.samples, shown.robot
     scale = float(robot.com_height) / 0.7
     for part in figure.parts:
-        canvas.mesh(part.mesh.moved(part.poses[n]), part.colour, BODIES, fade=fade, whole=figure.kind == "stick")
+        paint = Paint(part.colour, fade=fade)
+        canvas.mesh(part.mesh.moved(part.poses[n]), paint, BODIES, whole=figure.kind == "stick")
     ball = ellipsoid((0.030 * scale,) * 3).moved(pose(np.eye(3), samples.com_W[n]))
-    canvas.mesh(ball, COM, COM_PATH, whole=True, lift=0.1)
-    _paint_forces(canvas, samples, robot, n, fade, weight, over_links=figure.kind != "stick")
+    canvas.mesh(ball, Paint(COM), COM_PATH, whole=True, lift=0.1)
+    _paint_forces(shown, n, fade)
 
 
-def _paint_forces(
-    canvas: Canvas, samples: Samples, robot: Robot, n: int, fade: float, weight: float, *, over_links: bool
-) -> None:
-    """Arrows from the centres of pressure; `over_links`: with a light rim, so that links as dark do not hide them."""
+def _paint_forces(shown: _Shown, n: int, fade: float) -> None:
+    """Arrows from the centres of pressure; over links they have a light rim, so that links as dark do not hide them."""
+    canvas, samples, robot = shown.canvas, shown.samples, shown.robot
+    over_links = shown.figure.kind != "stick"
     scale = float(robot.com_height) / 0.7
     layer = FORCES if over_links else BODIES
     for end in range(len(robot.end_effectors)):
         force = samples.forces_W[n, end]
         size = float(np.linalg.norm(force))
-        length = WEIGHT_ARROW * float(robot.com_height) * size / weight
+        length = WEIGHT_ARROW * float(robot.com_height) * size / shown.weight
         if length < 0.05 * scale:
             continue
         direction = force / size
@@ -196,9 +208,11 @@ def _paint_forces(
         tip = pose(with_axis_z(direction, np.array([1.0, 0.0, 0.0])), shaft[-1])
         if over_links:
             canvas.line(shaft, "#ffffff", 0.026 * scale, layer, lift=0.15)
-            canvas.mesh(cone(0.034 * scale, 1.35 * head).moved(tip), FORCE, layer, fade=1.0, lift=0.15)
+            canvas.mesh(cone(0.034 * scale, 1.35 * head).moved(tip), Paint(FORCE, fade=1.0), layer, lift=0.15)
         canvas.line(shaft, mix(FORCE, "#ffffff", fade), 0.012 * scale, layer, lift=0.2 if over_links else 0.15)
-        canvas.mesh(cone(0.022 * scale, head).moved(tip), FORCE, layer, fade=fade, lift=0.2 if over_links else 0.15)
+        canvas.mesh(
+            cone(0.022 * scale, head).moved(tip), Paint(FORCE, fade=fade), layer, lift=0.2 if over_links else 0.15
+        )
 
 
 def _legend(sheet, scene: Scene, robot: Robot, colours: list[str]) -> None:  # type: ignore[no-untyped-def]

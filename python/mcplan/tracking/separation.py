@@ -1,0 +1,112 @@
+"""Distances between the links of a robot, and rows that keep the controller's accelerations from closing them."""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .states import to_mujoco
+
+if TYPE_CHECKING:
+    from .mujoco_model import SimulationModel
+    from .robot_dynamics import RobotDynamics
+
+Array = NDArray[np.float64]
+
+#: Links are kept this far apart [m]; pairs nearer than NEAR_M are looked at, at most ROWS of them, the nearest.
+APART_M, NEAR_M, ROWS = 0.01, 0.05, 8
+#: Gains [1/s^2, 1/s] by which a distance may approach APART_M, and the largest acceleration that it is opened with [m/s^2].
+KP, KD, LARGEST = 900.0, 60.0, 50.0
+
+
+class Separation:
+    """Pairs of links that may touch each other.
+
+    The distance of a pair is worked out only when it may have come below NEAR_M since the last time, by how far its shapes
+    have moved.
+
+    Args:
+        model: The robot with shapes of its links; what is simulated is not looked at.
+    """
+
+    def __init__(self, model: SimulationModel) -> None:
+        import mujoco
+
+        self._model, self._mj, self._mujoco = model, model.mj, mujoco
+        self._data: Any = mujoco.MjData(model.mj)
+        self._pairs = np.array(_pairs(model), dtype=np.int64).reshape(-1, 2)
+        self._geoms = np.unique(self._pairs)
+        names = list(model.urdf_model.model.names)
+        joint_of = {model.mj.joint(name).bodyid[0]: names.index(name) for name in model.joints}
+        self._joint_of = {geom: joint_of.get(int(model.mj.geom_bodyid[geom]), 1) for geom in self._geoms}
+        self._distance = np.full(
+            len(self._pairs), -np.inf
+        )  # exact where last worked out, less what shapes have moved since
+        self._places: tuple[Array, Array] | None = None
+        self._moved = np.zeros(model.mj.ngeom)
+
+    def rows(self, dynamics: RobotDynamics) -> tuple[Array, Array]:
+        """Rows (ROWS, nv) and least values (ROWS,) of accelerations; rows that are not used are 0 and -inf.
+
+        For a pair at distance d, of which n points from the first shape's nearest point to the second one's:
+        n (J_2 - J_1) qdd >= -KP (d - APART_M) - KD n (J_2 - J_1) v, at most LARGEST.
+        """
+        rows, least = np.zeros((ROWS, len(dynamics.velocity))), np.full(ROWS, -np.inf)
+        for row, (pair, distance, points) in enumerate(self._nearest(dynamics)):
+            apart = points[1] - points[0]
+            size = float(np.linalg.norm(apart))
+            if size < 1e-9:
+                continue
+            normal = np.sign(distance) * apart / size
+            first, second = (self._joint_of[geom] for geom in pair)
+            rows[row] = normal @ (
+                dynamics.point_jacobian(second, points[1]) - dynamics.point_jacobian(first, points[0])
+            )
+            rate = float(rows[row] @ dynamics.velocity)
+            least[row] = min(-KP * (distance - APART_M) - KD * rate, LARGEST)
+        return rows, least
+
+    def _nearest(self, dynamics: RobotDynamics) -> list[tuple[Array, float, Array]]:
+        """Geoms, distance and nearest points (2, 3) of the nearest pairs."""
+        mj, data = self._mj, self._data
+        data.qpos[:], _ = to_mujoco(self._model, dynamics.configuration, dynamics.velocity)
+        self._mujoco.mj_kinematics(mj, data)
+        self._shrink()
+        found = []
+        points = np.zeros(6)
+        for i in np.flatnonzero(self._distance < NEAR_M):
+            first, second = self._pairs[i]
+            # Beyond some distance its value is of no interest, but how long it need not be looked at is.
+            distance = self._mujoco.mj_geomDistance(mj, data, first, second, 10.0 * NEAR_M, points)
+            self._distance[i] = distance
+            if distance < NEAR_M:
+                found.append((self._pairs[i], distance, points.reshape(2, 3).copy()))
+        return sorted(found, key=lambda item: item[1])[:ROWS]
+
+    def _shrink(self) -> None:
+        """Take from each distance what its two shapes may have come nearer since the last time."""
+        places = self._data.geom_xpos[self._geoms].copy(), self._data.geom_xmat[self._geoms].copy()
+        if self._places is not None:
+            shift = np.linalg.norm(places[0] - self._places[0], axis=1)
+            turn = np.linalg.norm(places[1] - self._places[1], axis=1) * self._mj.geom_rbound[self._geoms]
+            self._moved[self._geoms] = shift + turn
+            self._distance -= self._moved[self._pairs].sum(axis=1)
+        self._places = places
+
+
+def _pairs(model: SimulationModel) -> list[tuple[int, int]]:
+    """Pairs of the robot's geoms between which the simulation makes contacts."""
+    mj = model.mj
+    excluded = {int(signature) for signature in mj.exclude_signature}
+    geoms = [geom for geom in sorted(model.geom_names) if geom not in model.surface_geoms]
+    pairs = []
+    for first, second in itertools.combinations(geoms, 2):
+        a, b = sorted((int(mj.geom_bodyid[first]), int(mj.geom_bodyid[second])))
+        own = a == b or mj.body_parentid[b] == a
+        touches = mj.geom_contype[first] & mj.geom_conaffinity[second]
+        if touches and not own and (a << 16) + b not in excluded:
+            pairs.append((first, second))
+    return pairs

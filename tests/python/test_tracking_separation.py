@@ -1,0 +1,91 @@
+"""Distances between links: none that matters is overlooked, and rows are how fast they change."""
+
+import numpy as np
+import pytest
+
+import folding
+import mcplan as mp
+import simulated
+
+mujoco = pytest.importorskip("mujoco")
+pin = pytest.importorskip("pinocchio")
+pytest.importorskip("example_robot_data")
+
+from mcplan.tracking.mujoco_model import build  # noqa: E402
+from mcplan.tracking.robot_dynamics import RobotDynamics  # noqa: E402
+from mcplan.tracking.separation import APART_M, KD, KP, LARGEST, NEAR_M, ROWS, Separation, _pairs  # noqa: E402
+from mcplan.tracking.states import to_mujoco  # noqa: E402
+
+
+def distances(model, dynamics):
+    """Of every pair, worked out anew."""
+    data = mujoco.MjData(model.mj)
+    data.qpos[:], _ = to_mujoco(model, dynamics.configuration, dynamics.velocity)
+    mujoco.mj_kinematics(model.mj, data)
+    return np.array([mujoco.mj_geomDistance(model.mj, data, a, b, 1.0, None) for a, b in _pairs(model)])
+
+
+@pytest.mark.parametrize("name", ["talos", "g1"])
+def test_no_near_pair_is_overlooked_on_the_way(name):
+    model = build(mp.load_robot(name), simulated.level())
+    dynamics, separation = RobotDynamics(model.urdf_model), Separation(model)
+    rng, pin_model = np.random.default_rng(8), model.urdf_model.model
+    velocity, configuration, met = np.zeros(pin_model.nv), model.urdf_model.neutral.copy(), 0
+    for _ in range(60):
+        velocity = 0.8 * velocity + 4.0 * rng.normal(size=pin_model.nv)
+        configuration = pin.integrate(pin_model, configuration, 0.01 * velocity)
+        configuration[7:] = np.clip(
+            configuration[7:], pin_model.lowerPositionLimit[7:], pin_model.upperPositionLimit[7:]
+        )
+        dynamics.update(configuration, velocity)
+        near = np.sort([distance for _, distance, _ in separation._nearest(dynamics)])
+        exact = np.sort(distances(model, dynamics))
+        expected = exact[exact < NEAR_M][:ROWS]
+        assert len(near) == len(expected)
+        np.testing.assert_allclose(near, expected, atol=2e-3)  # of MuJoCo's, which depend on where its search begins
+        met += len(near)
+    assert met > 20
+
+
+@pytest.fixture
+def lowered(tmp_path):
+    """A boom a little above the block below it, and what the controller knows of it."""
+    model = build(folding.robot(tmp_path), simulated.level())
+    configuration = folding.standing(model.urdf_model.neutral)
+    index = 7 + list(model.joints).index("hinge")
+    configuration[index] = 1.55
+    dynamics = RobotDynamics(model.urdf_model)
+    dynamics.update(configuration, np.zeros(8))
+    while distances(model, dynamics).min() > 0.03:
+        configuration[index] += 0.005
+        dynamics.update(configuration, np.zeros(8))
+    return model, configuration, dynamics
+
+
+def test_rows_are_how_fast_the_distance_changes(lowered):
+    model, configuration, dynamics = lowered
+    rows, least = Separation(model).rows(dynamics)
+    assert np.isfinite(least).tolist() == [True] + [False] * (ROWS - 1) and not rows[1:].any()
+    h, moved = 1e-5, RobotDynamics(model.urdf_model)
+    rates = []
+    for unit in np.eye(8):
+        there = []
+        for side in (-h, h):
+            moved.update(pin.integrate(model.urdf_model.model, configuration, side * unit), np.zeros(8))
+            there.append(distances(model, moved).min())
+        rates.append((there[1] - there[0]) / (2 * h))
+    np.testing.assert_allclose(rows[0], rates, atol=2e-3)
+    assert least[0] == pytest.approx(-KP * (distances(model, dynamics).min() - APART_M))
+
+
+def test_links_that_close_are_braked_and_no_more_than_so_much(lowered):
+    model, configuration, dynamics = lowered
+    hinge = 6 + list(model.joints).index("hinge")
+    for speed in (0.5, 20.0):
+        velocity = np.zeros(8)
+        velocity[hinge] = speed
+        dynamics.update(configuration, velocity)
+        rows, least = Separation(model).rows(dynamics)
+        closing = rows[0] @ velocity
+        expected = -KP * (distances(model, dynamics).min() - APART_M) - KD * closing
+        assert closing < 0.0 and least[0] == pytest.approx(min(expected, LARGEST))
