@@ -105,6 +105,8 @@ class DdpOptions(TypedDict, total=False):
     """Sides of the pyramid inside the cone that is held instead of it; 0: the cone itself."""
     whole_sequence_moves: bool
     """Look for better contact sequences as a whole, by dynamic programming, where it pays."""
+    stepping_guesses: bool
+    """Begin with end-effectors that step in turn, too, beside what the search finds."""
     one_switch_per_step: bool
     """At most one contact is made or broken between two phases (Tazaki, eq. 32)."""
     restarts: int

@@ -42,6 +42,7 @@ def similar_robot(robot: mp.Robot, by: Factors, durations: bool = True) -> mp.Ro
     out.mass = robot.mass * by.mass
     out.inertia = robot.inertia * (by.mass * by.length**2)
     out.com_height = robot.com_height * by.length
+    out.max_com_speed = robot.max_com_speed * by.velocity
     if durations:
         out.swing_height = robot.swing_height * by.length
         out.phase_duration = robot.phase_duration * by.time

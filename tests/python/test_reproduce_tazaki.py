@@ -98,3 +98,18 @@ def test_the_table_of_the_paper_is_typed_in_right():
 def test_an_unknown_paper_is_an_error_that_lists_the_known(capsys):
     assert main(["reproduce", "tazki"]) == 2
     assert "must be one of lengagne, tazaki, wang" in capsys.readouterr().err
+
+
+def row_with(paper_loops: int, standard_loops: int) -> dict[str, float]:
+    times = {"paper_parallel_ms": 3.0, "paper_1_ms": 2.0, "standard_parallel_ms": 0.5, "standard_1_ms": 0.4}
+    return {**times, "paper_parallel_loops": paper_loops, "standard_parallel_loops": standard_loops}
+
+
+def test_an_effect_of_threads_is_told_only_where_threads_ran():
+    none = "\n".join(tazaki._threads([row_with(0, 0)], 2))
+    assert "times as long" not in none and none.count("started no thread") == 2
+    published = "\n".join(tazaki._threads([row_with(120, 0)], 2))
+    assert "shared out 120 loops" in published and "1.50 times as long" in published
+    assert "Ours started no thread: it shares out loops of 400 neighbours or more" in published
+    cells = [tazaki._cell(row_with(120, 0), f"{method}_parallel_ms") for method in ("paper", "standard")]
+    assert cells == ["3.00", "–"]

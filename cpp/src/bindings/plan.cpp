@@ -116,13 +116,14 @@ std::string describe(const Report& report) {
 
 void bind_violation(py::module_& m) {
   py::class_<Violation> violation(m, "Violation", "A constraint and the place where a plan breaks it most.");
-  violation.def(
-      py::init([](std::string name, int phase, std::string end_effector, double time_s, double value, double tolerance,
-                  std::string unit) {
-        return Violation{std::move(name), phase, std::move(end_effector), time_s, value, tolerance, std::move(unit)};
-      }),
-      py::kw_only(), py::arg("name") = "", py::arg("phase") = -1, py::arg("end_effector") = "", py::arg("time_s") = 0.0,
-      py::arg("value") = 0.0, py::arg("tolerance") = 0.0, py::arg("unit") = "");
+  violation.def(py::init([](std::string name, int phase, std::string end_effector, double time_s, double value,
+                            double tolerance, std::string unit, std::string surface) {
+                  return Violation{std::move(name), phase,     std::move(end_effector), time_s,
+                                   value,           tolerance, std::move(unit),         std::move(surface)};
+                }),
+                py::kw_only(), py::arg("name") = "", py::arg("phase") = -1, py::arg("end_effector") = "",
+                py::arg("time_s") = 0.0, py::arg("value") = 0.0, py::arg("tolerance") = 0.0, py::arg("unit") = "",
+                py::arg("surface") = "");
   violation.def_readwrite("name", &Violation::name, "E.g. 'friction'.");
   violation.def_readwrite("phase", &Violation::phase, "-1: not tied to a phase.");
   violation.def_readwrite("end_effector", &Violation::end_effector, "Empty: not tied to one.");
@@ -130,8 +131,10 @@ void bind_violation(py::module_& m) {
   violation.def_readwrite("value", &Violation::value, "Amount beyond the limit, in `unit`; negative: margin left.");
   violation.def_readwrite("tolerance", &Violation::tolerance, "Largest value that is still accepted.");
   violation.def_readwrite("unit", &Violation::unit);
+  violation.def_readwrite("surface", &Violation::surface, "Whose solid a warning is about; empty: not tied to one.");
   violation.def("__str__", [](const Violation& self) { return shown(self.to_string()); });
-  def_value(violation, "Violation", {"name", "phase", "end_effector", "time_s", "value", "tolerance", "unit"});
+  def_value(violation, "Violation",
+            {"name", "phase", "end_effector", "time_s", "value", "tolerance", "unit", "surface"});
 }
 
 void bind_report(py::module_& m) {
@@ -164,8 +167,15 @@ void bind_report(py::module_& m) {
   report.def_readonly("friction_use", &Report::friction_use,
                       "Largest tangential over normal force by end-effector, grasps included.");
   report.def_readonly("worst_violation", &Report::worst_violation, "Largest value / tolerance over all constraints.");
+  def_items(report, "warnings", &Report::warnings, "Tuple of Violation: warnings of the checker about the plan.");
   report.def_readonly("seed", &Report::seed);
   report.def_readonly("threads", &Report::threads);
+  report.def_readonly("parallel_loops", &Report::parallel_loops,
+                      "Loops over neighbours that were shared out over threads.");
+  report.def_readonly("paper_verdict", &Report::paper_verdict,
+                      "Of the paper's method: how it ended by its own measures; else empty.");
+  report.def_readonly("paper_cost", &Report::paper_cost,
+                      "Of the paper's method: its objective at its last iterate, before contacts are made exact.");
   report.def_readonly("version", &Report::version);
   def_items(report, "history", &Report::history, "One Iteration a row.");
   def_value(report, "Report",
@@ -185,6 +195,7 @@ void bind_checker(py::module_& m) {
   py::class_<CheckResult> result(m, "CheckResult", "The worst place of every constraint, violated or not.");
   def_items(result, "constraints", &CheckResult::constraints, "Tuple of Violation, violated or not.");
   result.def_readonly("complete", &CheckResult::complete, "False: interrupted; what was found by then is listed.");
+  def_items(result, "warnings", &CheckResult::warnings, "Tuple of Violation that ok() does not ask for.");
   result.def("ok", &CheckResult::ok);
   result.def("violations", &CheckResult::violations, "Those beyond their tolerance, worst first.");
   result.def(

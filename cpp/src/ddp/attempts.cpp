@@ -130,7 +130,7 @@ std::vector<Attempts::Guess> Attempts::guesses(const Incumbent& start, const Inc
   // Shorter and longer steps lead to other sequences; the better one goes on.
   std::vector<Guess> out{{start, options.proximal_weight}, {start, kSecondDiscovery * options.proximal_weight}};
   for (int mover : {0, 1}) {
-    const ContactSequence stepping = stepping_sequence(problem_, mover);
+    const ContactSequence stepping = options.stepping_guesses ? stepping_sequence(problem_, mover) : ContactSequence();
     if (!stepping.empty()) out.push_back({first_guess(stepping, first_)});
   }
   return out;
@@ -180,7 +180,8 @@ Ending Attempts::run(const Incumbent* warm) {
   if (deadline_->limited()) keep(warm ? *warm : at_once(sequence), first_);
   const Options& options = problem_.options;
   if (options.method == Method::paper) {
-    ending = search_.run_paper(start, std::min(kPaperIterations, options.max_iterations), first_);
+    const bool unset = options.max_iterations == Options().max_iterations;
+    ending = search_.run_paper(start, unset ? kPaperIterations : options.max_iterations, first_);
     if (ending != Ending::broke_down && (ending != Ending::time_limit || !best_->best())) finish(start, first_);
     return late(ending);
   }

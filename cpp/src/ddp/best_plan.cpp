@@ -49,6 +49,7 @@ bool BestPlan::judge(Finished& finished, const Problem& problem, Look look, cons
   finished.ok = result.ok() && look == Look::full;
   finished.sampled = look != Look::full;
   finished.worst = result.worst();
+  finished.warnings = result.warnings;
   return result.ok();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "ddp/search.hpp"
 #include "mcplan/base/deadline.hpp"
@@ -24,6 +25,7 @@ class BestPlan {
   struct Finished {
     Plan plan;
     Violation worst;
+    std::vector<Violation> warnings;
     bool ok = false;
     bool sampled = false;   ///< checked at few instants only: never called ok
     double sample_s = 0.0;  ///< every so often, as Tolerances::sample_s

@@ -113,7 +113,12 @@ const Rows* LocalModel::state_block(int k, const ContactState& state) {
   return &stage.flight;
 }
 
-void LocalModel::add_contacts(int k, const ContactState& state, Quadratic& q) {
+void LocalModel::make_blocks(int k, const ContactState& state) {
+  for (int l = 0; l < problem_->layout.end_effector_count(); ++l) block(k, l, state[l]);
+  state_block(k, state);
+}
+
+void LocalModel::add_contacts(int k, const ContactState& state, Quadratic& q, Eigen::MatrixXd& scratch) {
   if (schedule_.fixed_inputs) return;
   if (k == steps()) {
     // Rows at the last knot touch x alone but are stored over z.
@@ -130,9 +135,9 @@ void LocalModel::add_contacts(int k, const ContactState& state, Quadratic& q) {
     return;
   }
   q.c += state_cost(*problem_, state);
-  if (const Rows* rows = state_block(k, state)) rows->accumulate(q.c, q.g, q.h, scratch_);
+  if (const Rows* rows = state_block(k, state)) rows->accumulate(q.c, q.g, q.h, scratch);
   for (int l = 0; l < problem_->layout.end_effector_count(); ++l)
-    block(k, l, state[l]).accumulate(q.c, q.g, q.h, scratch_);
+    block(k, l, state[l]).accumulate(q.c, q.g, q.h, scratch);
 }
 
 Evaluator::Evaluator(const Problem& problem)

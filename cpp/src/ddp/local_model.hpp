@@ -51,7 +51,13 @@ class LocalModel {
   const Rows* state_block(int k, const ContactState& state);
 
   /// Add the rows of a contact state to a quadratic over z (over x at k = N).
-  void add_contacts(int k, const ContactState& state, Quadratic& q);
+  void add_contacts(int k, const ContactState& state, Quadratic& q) { add_contacts(k, state, q, scratch_); }
+
+  /// The same from several threads, each with a scratch of its own. Blocks have to be made before: make_blocks().
+  void add_contacts(int k, const ContactState& state, Quadratic& q, Eigen::MatrixXd& scratch);
+
+  /// Make the blocks of a contact state of step k, before threads read them.
+  void make_blocks(int k, const ContactState& state);
 
  private:
   StepView view(int k) const;

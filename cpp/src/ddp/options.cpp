@@ -18,6 +18,33 @@ void require_own_weight(const std::string& name) {
   throw InvalidOptions("weights." + name, "must be the weight of one term: " + names, name);
 }
 
+/// Options that the published algorithm does not have: at their default, or at the value that says so. Its model is
+/// lipm, with the three base axes and all end-effectors, whatever Options::model says.
+void require_of_paper(const Options& options, model::Findings& found) {
+  const Options usual;
+  const auto require = [&](const char* name, bool fits, const std::string& shown) {
+    if (!fits) found.add(name, "must be left at its default: Method::paper does not have it", shown);
+  };
+  const auto number = [&](const char* name, auto value, auto unset, auto off) {
+    require(name, value == unset || value == off, text(value));
+  };
+  number("restarts", options.restarts, usual.restarts, 0);
+  number("interior_points", options.interior_points, usual.interior_points, 0);
+  number("friction_sides", options.friction_sides, usual.friction_sides, 0);
+  number("reach_margin_m", options.reach_margin_m, usual.reach_margin_m, 0.0);
+  number("sole_inside", options.sole_inside, usual.sole_inside, 0.0);
+  const Weights &weights = options.weights, standard;
+  const auto weight = [&](const char* name, double Weights::*member) {
+    number(name, weights.*member, standard.*member, standard.*member);
+  };
+  weight("weights.angle", &Weights::angle);
+  weight("weights.momentum", &Weights::momentum);
+  weight("weights.center_of_pressure", &Weights::center_of_pressure);
+  weight("weights.force_line", &Weights::force_line);
+  number("weights.overshoot_factor", weights.overshoot_factor, standard.overshoot_factor, 1.0);
+  for (const auto& [name, value] : weights.own) number(("weights." + name).c_str(), value, 0.0, 0.0);
+}
+
 /// What is wrong beyond the ranges of the fields.
 void relations(const Options& options, model::Findings& found) {
   const auto& [min, max] = std::pair(options.duration_min_s, options.duration_max_s);
@@ -32,6 +59,7 @@ void relations(const Options& options, model::Findings& found) {
               text(weights.contact_max));
   for (const auto& [name, weight] : weights.own)
     found.check({"weights." + name}, [&, &own = name] { require_own_weight(own); });
+  if (options.method == Method::paper) require_of_paper(options, found);
 }
 
 }  // namespace

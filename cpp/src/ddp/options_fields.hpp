@@ -121,6 +121,8 @@ struct Fields<ddp::Options> {
             "Sides of the pyramid inside the cone that is held instead of it; 0: the cone itself."),
       field("whole_sequence_moves", &Options::whole_sequence_moves, "",
             "Look for better contact sequences as a whole, by dynamic programming, where it pays."),
+      field("stepping_guesses", &Options::stepping_guesses, "",
+            "Begin with end-effectors that step in turn, too, beside what the search finds."),
       field("one_switch_per_step", &Options::one_switch_per_step, "",
             "At most one contact is made or broken between two phases (Tazaki, eq. 32)."),
       field("restarts", &Options::restarts, "", "Further attempts while the checker rejects the plan.").at_least(0),

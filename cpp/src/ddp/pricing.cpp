@@ -2,15 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <limits>
 
-#include "base/fork.hpp"
 #include "ddp/constants.hpp"
-
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include "ddp/over_steps.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -129,48 +124,27 @@ const std::vector<Neighbour>& Pricing::all(LocalModel& model, const ValueFunctio
     range[k] = {neighbours_.size(), neighbours_.size() + candidates[k].size()};
     for (const ContactState& state : candidates[k]) {
       neighbours_.push_back({k, state, std::numeric_limits<double>::infinity()});
-      // Blocks are made on demand; make them all before threads read them.
-      for (int l = 0; l < model.problem().layout.end_effector_count(); ++l) model.block(k, l, state[l]);
-      model.state_block(k, state);
+      model.make_blocks(k, state);
     }
   }
-  double prepare_s = 0.0, price_s = 0.0;
-  // The times are arguments, so that each thread adds to its own.
-  const auto one_step = [&](int k, StepPricing& pricing, double& preparing_s, double& pricing_s) {
+  // Times of each thread.
+  std::vector<double> preparing_s(steps_.size(), 0.0), pricing_s(steps_.size(), 0.0);
+  const auto one_step = [&](int k, int thread) {
     if (candidates[k].empty()) return;
+    StepPricing& pricing = steps_[thread];
     const auto start = std::chrono::steady_clock::now();
     const bool ok = pricing.prepare(model, values, k, candidates[k]);
     const double prepared = seconds_since(start);
     if (ok)
       for (std::size_t i = range[k].first; i < range[k].second; ++i)
         neighbours_[i].cost = pricing.price(neighbours_[i].state);
-    preparing_s += prepared;
-    pricing_s += seconds_since(start) - prepared;
+    preparing_s[thread] += prepared;
+    pricing_s[thread] += seconds_since(start) - prepared;
   };
-#ifdef _OPENMP
-  // More threads than processors gain nothing, and OpenMP ends the process where the system denies it a thread.
-  const int team = std::min(static_cast<int>(steps_.size()), omp_get_num_procs());
-  if (team > 1 && neighbours_.size() >= kWorthThreads && !forked()) {
-    std::exception_ptr failure;  // out of memory; an exception that left the loop would end the process
-    // Steps are independent and each writes its own prices: the same numbers for any number of threads.
-#pragma omp parallel for num_threads(team) schedule(static) reduction(+ : prepare_s, price_s)
-    for (int k = 1; k < n; ++k) {
-      try {
-        one_step(k, steps_[omp_get_thread_num()], prepare_s, price_s);
-      } catch (...) {
-#pragma omp critical(pricing_failure)
-        failure = std::current_exception();
-      }
-    }
-    if (failure) std::rethrow_exception(failure);
-    time_prepare_s += prepare_s;
-    time_price_s += price_s;
-    return neighbours_;
-  }
-#endif
-  for (int k = 1; k < n; ++k) one_step(k, steps_[0], prepare_s, price_s);
-  time_prepare_s += prepare_s;
-  time_price_s += price_s;
+  const bool worth = neighbours_.size() >= kWorthThreads;
+  parallel_loops += over_steps(n, static_cast<int>(steps_.size()), worth, one_step);
+  for (double each_s : preparing_s) time_prepare_s += each_s;
+  for (double each_s : pricing_s) time_price_s += each_s;
   return neighbours_;
 }
 

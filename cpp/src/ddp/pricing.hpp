@@ -66,6 +66,7 @@ class Pricing {
   const std::vector<Neighbour>& all(LocalModel& model, const ValueFunctions& values, const ContactSequence& sequence);
 
   double time_prepare_s = 0.0, time_price_s = 0.0;  ///< summed over threads, for reports
+  int parallel_loops = 0;                           ///< calls of all() that were shared out over threads
 
  private:
   std::vector<StepPricing> steps_;  ///< one a thread

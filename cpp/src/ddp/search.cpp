@@ -102,6 +102,7 @@ int Search::switch_contacts(ContactSequence& sequence, Iteration& row) {
     {
       const Stopwatch watch(report_->timing_s, "pricing");
       const auto& all = pricing_.all(model_, values_, sequence);
+      report_->parallel_loops += std::exchange(pricing_.parallel_loops, 0);
       row.neighbours += static_cast<int>(all.size());
       best = cheapest(all);
     }
@@ -221,7 +222,9 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now, const 
   if (!values_.backward(now.sequence, problem_->steps) || !values_.forward(now.sequence, 0)) return {};
   {
     const Stopwatch watch(report_->timing_s, "pricing");
-    for (const Neighbour& n : pricing_.all(model_, values_, now.sequence)) {
+    const std::vector<Neighbour>& neighbours = pricing_.all(model_, values_, now.sequence);
+    report_->parallel_loops += std::exchange(pricing_.parallel_loops, 0);
+    for (const Neighbour& n : neighbours) {
       changes.push_back({n.cost, now.sequence});
       changes.back().sequence[n.step] = n.state;
       changes.back().cost += change_cost(*problem_, changes.back().sequence);

@@ -10,11 +10,13 @@
 #include "ddp/best_plan.hpp"
 #include "ddp/constants.hpp"
 #include "ddp/cost_terms.hpp"
+#include "ddp/impossible.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/friction_use.hpp"
 #include "mcplan/version.hpp"
+#include "model/text.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -60,10 +62,17 @@ struct SwitchedDdp::Impl {
     double remaining_s = 0.0;        ///< of the first phase, when measured
   };
 
+  void require_warm_starts() const {
+    if (options.method == Method::paper)
+      throw InvalidOptions("method", "must be standard to start from a plan: the published algorithm does not",
+                           "paper");
+  }
   std::vector<int> surfaces_of(const Request& request, const Outlook& outlook) const;
   Problem pose(const Request& request, const std::vector<int>& surfaces) const;
   PlanResult solve(const Request& request);
   PlanResult conclude(Ending ending, int steps, const BestPlan& best, Report&& report, double time_s) const;
+  std::string message_of(Status status, int steps, const BestPlan& kept, const Report& report) const;
+  PlanResult without_plan(Report&& report) const;
 };
 
 /// Surfaces that the search looks at: those near the way, and those that are named.
@@ -115,6 +124,13 @@ PlanResult SwitchedDdp::Impl::solve(const Request& request) {
   report.seed = options.seed;
   report.threads = options.threads;
   report.version = MCPLAN_VERSION;
+  if (std::optional<Impossible> impossible = why_impossible(scene, robot, request.measured != nullptr)) {
+    report.status = Status::infeasible;
+    report.message = impossible->message;
+    report.worst_violation = impossible->violation;
+    report.time_s = deadline.elapsed_s();
+    return without_plan(std::move(report));
+  }
   Ending ending = Ending::no_sequence;
   int steps = 0;
   std::size_t rows = 0;  // of the history, named by the scene's surfaces
@@ -148,31 +164,45 @@ PlanResult SwitchedDdp::Impl::solve(const Request& request) {
   return conclude(ending, steps, best, std::move(report), deadline.elapsed_s());
 }
 
+PlanResult SwitchedDdp::Impl::without_plan(Report&& report) const {
+  PlanResult out;
+  out.plan.scene = scene;
+  out.plan.robot = robot;
+  out.report = std::move(report);
+  return out;
+}
+
 PlanResult SwitchedDdp::Impl::conclude(Ending ending, int steps, const BestPlan& kept, Report&& report,
                                        double time_s) const {
-  PlanResult out;
   const auto& best = kept.best();
-  const Status status = status_of(ending, best);
+  report.status = status_of(ending, best);
+  report.time_s = time_s;
   if (best) {
-    out.plan = best->plan;
     // Of a plan that was looked at in few instants, in as few.
-    report.friction_use = best->sampled ? friction_use(out.plan, best->sample_s) : friction_use(out.plan);
+    report.friction_use = best->sampled ? friction_use(best->plan, best->sample_s) : friction_use(best->plan);
     report.worst_violation = best->worst;
+    report.warnings = best->warnings;
     report.cost = best->evaluation.cost;
     const CostTerms& terms = best->evaluation.terms;
     for (std::size_t i = 0; i < cost_terms().size(); ++i)
       if (terms[i] > 0.0) report.cost_terms[cost_terms()[i]->name()] = terms[i];
   } else {
-    out.plan.scene = scene;
-    out.plan.robot = robot;
-    const bool no_sequence = status == Status::no_sequence;
+    const bool no_sequence = report.status == Status::no_sequence;
     report.worst_violation.name = no_sequence ? "contact_sequence" : "finite";
     report.worst_violation.value = 1.0;
     report.worst_violation.unit = no_sequence ? "missing" : "numbers";
   }
-  report.status = status;
-  report.time_s = time_s;
+  report.message = message_of(report.status, steps, kept, report);
+  if (!best) return without_plan(std::move(report));
+  return {best->plan, std::move(report)};
+}
+
+std::string SwitchedDdp::Impl::message_of(Status status, int steps, const BestPlan& kept, const Report& report) const {
+  const auto& best = kept.best();
   std::ostringstream message;
+  if (!report.paper_verdict.empty())
+    message << "the published algorithm: " << report.paper_verdict << ", cost "
+            << model::digits(report.paper_cost, "%.3g") << "; ";
   if (status == Status::solved)
     message << "the checker accepts the plan";
   else if (status == Status::no_sequence)
@@ -185,9 +215,7 @@ PlanResult SwitchedDdp::Impl::conclude(Ending ending, int steps, const BestPlan&
     message << "stopped before the checker had seen the best plan in full; it accepts what it saw of it";
   else
     message << "the best plan violates " << report.worst_violation.to_string();
-  report.message = message.str();
-  out.report = std::move(report);
-  return out;
+  return message.str();
 }
 
 namespace {
@@ -230,6 +258,7 @@ SwitchedDdp& SwitchedDdp::operator=(SwitchedDdp&&) noexcept = default;
 PlanResult SwitchedDdp::solve() { return impl_->solve({}); }
 
 PlanResult SwitchedDdp::solve(const Plan& warm_start) {
+  impl_->require_warm_starts();
   warm_start.validate();
   Impl::Request request;
   request.earlier = &warm_start;
@@ -237,6 +266,7 @@ PlanResult SwitchedDdp::solve(const Plan& warm_start) {
 }
 
 PlanResult SwitchedDdp::replan(const Plan& previous, double t, const Knot& measured) {
+  impl_->require_warm_starts();
   previous.validate();
   require_fit(previous, measured, impl_->robot);
   const PlanState now = previous.at(t);

@@ -10,7 +10,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 ValueFunctions::ValueFunctions(LocalModel& model)
-    : model_(&model), V_(model.steps() + 1), U_(model.steps() + 1), feedback_(model.steps()) {
+    : model_(&model),
+      pendulum_(model.pendulum()),
+      V_(model.steps() + 1),
+      U_(model.steps() + 1),
+      feedback_(model.steps()) {
   const int nx = model.problem().layout.nx();
   U_[0] = {0.0, VectorXd::Zero(nx), MatrixXd::Zero(nx, nx)};
 }
@@ -44,21 +48,20 @@ bool ValueFunctions::solve(Quadratic& z, Quadratic& value, Feedback* feedback) {
 
 bool ValueFunctions::backward_step(int k, const ContactState& state, const Quadratic& next, Quadratic& value,
                                    Feedback* feedback) {
-  const Pendulum& pendulum = model_->pendulum();
   const PendulumStep& dynamics = model_->dynamics(k);
   const VectorXd& defect = model_->defect(k);
   // V'(A dx + B du + defect), with J = [A B]: H = J'V'J by two one-sided products.
   q_ = model_->base(k);
-  pendulum.times_jacobian(dynamics, next.h, m_);
+  pendulum_.times_jacobian(dynamics, next.h, m_);
   mt_ = m_.transpose();
-  pendulum.times_jacobian(dynamics, mt_, pushed_);
+  pendulum_.times_jacobian(dynamics, mt_, pushed_);
   q_.h += pushed_;
   w_ = next.g;
   w_.noalias() += next.h * defect;
   q_.c += next.c + 0.5 * defect.dot(next.g + w_);
-  pendulum.add_transposed(dynamics, w_, q_.g);
+  pendulum_.add_transposed(dynamics, w_, q_.g);
   if (feedback) feedback->without_contacts = q_;
-  model_->add_contacts(k, state, q_);
+  model_->add_contacts(k, state, q_, contact_scratch_);
   return solve(q_, value, feedback);
 }
 
@@ -77,7 +80,6 @@ bool ValueFunctions::backward(const ContactSequence& sequence, int last) {
 bool ValueFunctions::forward(const ContactSequence& sequence, int first) {
   const Layout& at = model_->problem().layout;
   const int nx = at.nx();
-  const Pendulum& pendulum = model_->pendulum();
   for (int k = first; k < model_->steps(); ++k) {
     const PendulumStep& dynamics = model_->dynamics(k);
     q_ = model_->base(k);
@@ -86,15 +88,15 @@ bool ValueFunctions::forward(const ContactSequence& sequence, int first) {
     q_.g.head(nx) += U_[k].g;
     q_.h.topLeftCorner(nx, nx) += U_[k].h;
     // x = A^-1 (x' - B u - defect): shift by -A^-1 defect, then substitute on both sides.
-    pendulum.apply_inverse(dynamics, model_->defect(k), w_);
+    pendulum_.apply_inverse(dynamics, model_->defect(k), w_);
     q_.c += -q_.g.head(nx).dot(w_) + 0.5 * w_.dot(q_.h.topLeftCorner(nx, nx) * w_);
     q_.g.noalias() -= q_.h.leftCols(nx) * w_;
-    pendulum.substitute_inverse(dynamics, q_.h);
+    pendulum_.substitute_inverse(dynamics, q_.h);
     mt_ = q_.h.transpose();
-    pendulum.substitute_inverse(dynamics, mt_);
+    pendulum_.substitute_inverse(dynamics, mt_);
     q_.h = mt_;
     m_ = q_.g.transpose();
-    pendulum.substitute_inverse(dynamics, m_);
+    pendulum_.substitute_inverse(dynamics, m_);
     q_.g = m_.row(0).transpose();
     if (!solve(q_, U_[k + 1], nullptr)) return false;
   }

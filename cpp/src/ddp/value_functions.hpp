@@ -30,7 +30,8 @@ class ValueFunctions {
     Quadratic without_contacts;
   };
 
-  /// One step of the backward recursion for any contact state: V_k from V_{k+1}.
+  /// One step of the backward recursion for any contact state: V_k from V_{k+1}. Threads that make the blocks of their
+  /// states before (LocalModel::make_blocks) may step at once, each with value functions of its own.
   bool backward_step(int k, const ContactState& state, const Quadratic& next, Quadratic& value,
                      Feedback* feedback = nullptr);
 
@@ -55,11 +56,12 @@ class ValueFunctions {
   bool solve(Quadratic& z, Quadratic& value, Feedback* feedback);
 
   LocalModel* model_;
+  Pendulum pendulum_;  ///< the model's, with scratch of its own: threads have value functions each
   std::vector<Quadratic> V_, U_;
   std::vector<Feedback> feedback_;
   // Scratch.
   Quadratic q_, from_, to_;
-  Eigen::MatrixXd m_, mt_, pushed_, k_;
+  Eigen::MatrixXd m_, mt_, pushed_, k_, contact_scratch_;
   Eigen::VectorXd w_, o_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };

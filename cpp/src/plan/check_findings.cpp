@@ -31,6 +31,7 @@ std::array<Row, kConstraints> rows(const Tolerances& t, const Similarity& s) {
            {"pull", "N", t.force},
            {"friction", "-", t.friction},
            {"force_cap", "-", t.force_cap},
+           {"com_speed", "m/s", t.boundary * s.velocity()},
            {"moment", "N m", t.moment},
            {"reach", "m", t.reach},
            {"clearance", "m", t.clearance},

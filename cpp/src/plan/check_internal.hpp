@@ -31,6 +31,7 @@ enum class Constraint {
   pull,
   friction,
   force_cap,
+  com_speed,
   moment,
   reach,
   clearance,
@@ -198,6 +199,7 @@ void check_force_cap(const Problem& problem, const Sample& sample, Findings& fin
 /// check_space.cpp
 void check_reach(const Problem& problem, const Sample& sample, Findings& findings);
 void check_reach_at_knots(const Problem& problem, Findings& findings);
+void check_com_speed(const Problem& problem, const Sample& sample, Findings& findings);
 void check_yaw_range(const Problem& problem, const Sample& sample, Findings& findings);
 
 /// The solids around swinging end-effectors: those out of an end-effector's reach until it has moved on are not looked
@@ -218,6 +220,31 @@ class Surroundings {
 
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< of the problem's solids
   std::vector<Near> near_;                  ///< per end-effector
+};
+
+/// check_limbs.cpp: straight limbs in solids, a warning each.
+class Limbs {
+ public:
+  void look(const Problem& problem, const Sample& sample);
+
+  /// The worst place of each surface, longest first.
+  std::vector<Violation> warnings(const Problem& problem) const;
+
+ private:
+  struct Worst {
+    double length = 0.0;  ///< [m]
+    Place place;
+  };
+  static constexpr double kMove = 0.25;     ///< [m] of the CoM, before surfaces are looked for again
+  static constexpr double kEvery_s = 0.01;  ///< instants that are looked at, for a robot of human size
+
+  void look_around(const Problem& problem, const Eigen::Vector3d& com_W);
+
+  std::vector<Eigen::AlignedBox3d> boxes_;  ///< of the problem's solids
+  std::vector<int> near_;                   ///< surfaces whose solids limbs can be in
+  std::vector<Worst> worst_;                ///< per surface
+  Eigen::Vector3d looked_at_W_;             ///< where the CoM was
+  double next_s_ = 0.0;
 };
 
 /// check_sequence.cpp

@@ -104,6 +104,13 @@ void check_reach_at_knots(const Problem& problem, Findings& findings) {
     }
 }
 
+/// |p'| <= max_com_speed.
+void check_com_speed(const Problem& problem, const Sample& sample, Findings& findings) {
+  const double max = problem.robot.max_com_speed;
+  if (!std::isfinite(max)) return;
+  findings.offer(Constraint::com_speed, sample.replay.com_velocity_W.norm() - max, {sample.phase, -1, sample.time_s});
+}
+
 /// yaw_range: min <= yaw of the sole - yaw of the base <= max while in contact, modulo a turn.
 void check_yaw_range(const Problem& problem, const Sample& sample, Findings& findings) {
   for (int l = 0; l < problem.end_effector_count(); ++l) {

@@ -75,25 +75,31 @@ void require_samples(const Plan& plan, const Tolerances& tolerances) {
                          text(samples) + " samples");
 }
 
-void check_sample(const Problem& problem, const Sample& sample, Travel& travel, Surroundings& surroundings,
-                  Findings& findings) {
+/// What remembers instants that were looked at.
+struct Memory {
+  Travel travel;
+  Surroundings surroundings;
+  Limbs limbs;
+};
+
+void check_sample(const Problem& problem, const Sample& sample, Memory& memory, Findings& findings) {
   check_at_consistency(problem, sample, findings);
   check_contact_place(problem, sample, findings);
-  travel.check(problem, sample, findings);
+  memory.travel.check(problem, sample, findings);
   check_pull(problem, sample, findings);
   check_friction(problem, sample, findings);
   check_force_cap(problem, sample, findings);
   with_law(problem, sample.phase, [&](auto law) { law.check_bounds(problem, sample, findings); });
   check_reach(problem, sample, findings);
   check_yaw_range(problem, sample, findings);
-  surroundings.check_clearance(problem, sample, findings);
+  check_com_speed(problem, sample, findings);
+  memory.surroundings.check_clearance(problem, sample, findings);
+  memory.limbs.look(problem, sample);
 }
 
 /// Each phase is integrated from its own knot, in equal steps no longer than sample_s, and looked at after each.
 /// Returns false where it was asked to stop.
-bool check_motion(const Problem& problem, const StopRequest& stop, Findings& findings) {
-  Travel travel;
-  Surroundings surroundings;
+bool check_motion(const Problem& problem, const StopRequest& stop, Memory& memory, Findings& findings) {
   Sample sample;
   int samples = 0;
   for (int k = 0; k < problem.phase_count(); ++k) {
@@ -112,7 +118,7 @@ bool check_motion(const Problem& problem, const StopRequest& stop, Findings& fin
       sample.at = state_in_phase(problem.plan, view.frame, sample.since_start_s);
       sample.r_at_WB = rotation_from_rpy(sample.at.base_rpy);
       contact_forces(problem, sample);
-      check_sample(problem, sample, travel, surroundings, findings);
+      check_sample(problem, sample, memory, findings);
     }
     check_dynamics(problem, sample, findings);
   }
@@ -154,8 +160,9 @@ CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, cons
   check_reach_at_knots(problem, findings);
   check_start(problem, findings);
   check_goal(problem, findings);
-  const bool complete = check_motion(problem, stop, findings);
-  return {findings.violations(kConstraints, robot), complete};
+  Memory memory;
+  const bool complete = check_motion(problem, stop, memory, findings);
+  return {findings.violations(kConstraints, robot), complete, memory.limbs.warnings(problem)};
 }
 
 bool CheckResult::ok() const {
@@ -185,7 +192,9 @@ std::string CheckResult::to_string() const {
   std::string out;
   for (const Violation& v : violations()) out += (out.empty() ? "" : "\n") + v.to_string();
   if (!complete) out += (out.empty() ? "" : "\n") + std::string("stopped before the end: the rest is not checked");
-  return out.empty() ? "ok" : out;
+  if (out.empty()) out = "ok";
+  for (const Violation& v : warnings) out += "\nwarning: " + v.to_string();
+  return out;
 }
 
 }  // namespace mcplan

@@ -54,6 +54,7 @@ std::string Violation::to_string() const {
   out << name;
   if (!end_effector.empty()) out << " at " << end_effector;
   if (phase >= 0) out << " in phase " << phase << " (t = " << time_s << " s)";
+  if (!surface.empty()) out << " in the solid of '" << surface << "'";
   out << ": ";
   if (value == 0.0) {
     out << "at the limit";

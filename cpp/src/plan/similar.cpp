@@ -51,6 +51,7 @@ Robot scaled(const Robot& robot, const Similarity& by) {
   out.mass *= by.mass;
   out.inertia *= by.mass * by.length * by.length;
   out.com_height *= by.length;
+  out.max_com_speed *= by.velocity();
   if (out.swing_height != unset.swing_height) out.swing_height *= by.length;
   if (out.phase_duration != unset.phase_duration) out.phase_duration *= by.time;
   for (EndEffector& end : out.end_effectors) scale(end, by);

@@ -91,6 +91,10 @@ struct Fields<Robot> {
       field("com_height", &Robot::com_height, "m", "Of the CoM above the ground in the nominal stance.")
           .positive()
           .required(),
+      field("max_com_speed", &Robot::max_com_speed, "m/s",
+            "Largest speed of the CoM: with it a gap can be too wide for any jump.")
+          .positive()
+          .or_infinite(),
       field("swing_height", &Robot::swing_height, "m",
             "Clearance of a swinging end-effector. The default goes with the robot's size.")
           .positive()

@@ -687,6 +687,7 @@ class Robot:
         mass: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         com_height: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        max_com_speed: typing.SupportsFloat | typing.SupportsIndex = ...,
         swing_height: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         phase_duration: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
         sole_support: typing.SupportsFloat | typing.SupportsIndex = 0.0,
@@ -741,6 +742,13 @@ class Robot:
         """
     @mass.setter
     def mass(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def max_com_speed(self) -> float:
+        """
+        [m/s] Largest speed of the CoM: with it a gap can be too wide for any jump.
+        """
+    @max_com_speed.setter
+    def max_com_speed(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def name(self) -> str:
         """
@@ -1431,6 +1439,7 @@ class Violation:
         value: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         unit: str = "",
+        surface: str = "",
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __str__(self) -> str: ...
@@ -1455,6 +1464,13 @@ class Violation:
         """
     @phase.setter
     def phase(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def surface(self) -> str:
+        """
+        Whose solid a warning is about; empty: not tied to one.
+        """
+    @surface.setter
+    def surface(self, arg0: str) -> None: ...
     @property
     def time_s(self) -> float: ...
     @time_s.setter
@@ -1552,6 +1568,21 @@ class Report:
     @property
     def message(self) -> str: ...
     @property
+    def paper_cost(self) -> float:
+        """
+        Of the paper's method: its objective at its last iterate, before contacts are made exact.
+        """
+    @property
+    def paper_verdict(self) -> str:
+        """
+        Of the paper's method: how it ended by its own measures; else empty.
+        """
+    @property
+    def parallel_loops(self) -> int:
+        """
+        Loops over neighbours that were shared out over threads.
+        """
+    @property
     def seed(self) -> int: ...
     @property
     def status(self) -> Status: ...
@@ -1571,6 +1602,13 @@ class Report:
         """
     @property
     def version(self) -> str: ...
+    @property
+    def warnings(self) -> tuple:
+        """
+        Tuple of Violation: warnings of the checker about the plan.
+        """
+    @warnings.setter
+    def warnings(self, arg1: collections.abc.Sequence[Violation]) -> None: ...
     @property
     def worst_violation(self) -> Violation:
         """
@@ -1777,6 +1815,13 @@ class CheckResult:
         """
     @constraints.setter
     def constraints(self, arg1: collections.abc.Sequence[Violation]) -> None: ...
+    @property
+    def warnings(self) -> tuple:
+        """
+        Tuple of Violation that ok() does not ask for.
+        """
+    @warnings.setter
+    def warnings(self, arg1: collections.abc.Sequence[Violation]) -> None: ...
 
 class ContactLoad:
     """

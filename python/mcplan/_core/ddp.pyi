@@ -360,6 +360,7 @@ class Options:
         friction: bool = True,
         friction_sides: typing.SupportsInt | typing.SupportsIndex = 0,
         whole_sequence_moves: bool = True,
+        stepping_guesses: bool = True,
         one_switch_per_step: bool = True,
         restarts: typing.SupportsInt | typing.SupportsIndex = 3,
         max_iterations: typing.SupportsInt | typing.SupportsIndex = 5000,
@@ -520,6 +521,13 @@ class Options:
         """
     @sole_inside.setter
     def sole_inside(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def stepping_guesses(self) -> bool:
+        """
+        Begin with end-effectors that step in turn, too, beside what the search finds.
+        """
+    @stepping_guesses.setter
+    def stepping_guesses(self, arg0: bool) -> None: ...
     @property
     def stiffness_input(self) -> StiffnessInput:
         """

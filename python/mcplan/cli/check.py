@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json as json_module
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
-    from mcplan._core import CheckResult, Plan, PlanarPlan
+    from mcplan._core import CheckResult, Plan, PlanarPlan, Violation
     from mcplan._core.sip import Certificate
     from mcplan.tracking.findings import Feasibility, Finding
 
@@ -83,6 +84,7 @@ def check(
             "ok": result.ok(),
             "violations": [violation_dict(v) for v in result.violations()],
             "constraints": [violation_dict(v) for v in result.constraints],
+            "warnings": [warning_dict(v) for v in result.warnings],
             "certified": None if certificate is None else certificate.proved(),
             "certificate": None if certificate is None else certificate_dict(certificate),
             "feasibility": None if feasibility is None else feasibility_dict(feasibility),
@@ -117,6 +119,8 @@ def _print_result(path: Path, plan: Plan | PlanarPlan, result: CheckResult, cert
     else:
         print(printable(f"{path}: {len(result.violations())} constraints violated"))
         print_table([[str(violation)] for violation in result.violations()])
+    for line in warning_lines(result.warnings):
+        print(printable(line))
     if isinstance(plan, Plan):
         for line in all_lines(plan):
             print(printable(line))
@@ -202,6 +206,16 @@ def certificate_dict(certificate: Certificate) -> dict[str, Any]:
         "rounding": certificate.rounding,
         "time_s": certificate.time_s,
     }
+
+
+def warning_lines(warnings: Sequence[Violation]) -> list[str]:
+    """A line for each warning of the checker."""
+    return [f"warning: {warning}: limbs are not planned around solids" for warning in warnings]
+
+
+def warning_dict(warning: Violation) -> dict[str, object]:
+    """A warning of the checker as plain data."""
+    return {**violation_dict(warning), "surface": warning.surface}
 
 
 def violation_dict(violation: object) -> dict[str, object]:

@@ -123,7 +123,7 @@ def plan(
 
 def summary(result: PlanResult) -> dict[str, Any]:
     """What ``--json`` prints."""
-    from mcplan.cli.check import finite, violation_dict
+    from mcplan.cli.check import finite, violation_dict, warning_dict
     from mcplan.cli.loads_text import load_dict
 
     plan, report = result.plan, result.report
@@ -152,8 +152,12 @@ def summary(result: PlanResult) -> dict[str, Any]:
         "worst_violation": {
             key: worst[key] for key in ("name", "phase", "end_effector", "time_s", "value", "tolerance", "unit")
         },
+        "warnings": [warning_dict(warning) for warning in report.warnings],
+        "paper_cost": finite(report.paper_cost) if report.paper_verdict else None,
+        "paper_verdict": report.paper_verdict or None,
         "seed": report.seed,
         "threads": report.threads,
+        "parallel_loops": report.parallel_loops,
         "version": report.version,
     }
 
@@ -165,6 +169,7 @@ def flight_phases(sequence: list[list[int]]) -> int:
 
 def report_text(result: PlanResult, written: list[Path]) -> str:
     """What is printed without ``--json``: how it ended, the steps, what was saved."""
+    from mcplan.cli.check import warning_lines
     from mcplan.cli.loads_text import friction_lines, load_lines
     from mcplan.cli.terminal import printable
 
@@ -183,6 +188,9 @@ def report_text(result: PlanResult, written: list[Path]) -> str:
     if plan.phases and report.worst_violation.name and worst not in report.message:
         label = "closest to its limit" if solved else "worst"
         lines.append(f"{' ' * len(lead)}{label}: {worst}")
+    if report.paper_verdict and solved:  # else the message tells it
+        lines.append(f"{' ' * len(lead)}the published algorithm: {report.paper_verdict}; cost {report.paper_cost:.3g}")
+    lines += warning_lines(report.warnings)
     lines += contact_rows(plan)
     if report.friction_use:
         lines += friction_lines(report.friction_use)

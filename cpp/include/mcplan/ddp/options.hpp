@@ -73,6 +73,7 @@ struct Options {
   bool friction = true;                 ///< hold the friction cones
   int friction_sides = 0;            ///< of the pyramid inside the cone that is held instead of it; 0: the cone itself
   bool whole_sequence_moves = true;  ///< dynamic programming over (step, contact state) where it pays
+  bool stepping_guesses = true;      ///< first guesses with end-effectors that step in turn, beside those of the search
   bool one_switch_per_step = true;   ///< Tazaki's eq. (32)
   int restarts = 3;                  ///< further attempts from other settings while the checker rejects the plan
 

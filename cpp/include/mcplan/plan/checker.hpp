@@ -59,6 +59,7 @@ struct Tolerances {
 ///     friction           |tangential force| / (n . f) <= friction coefficient, at every point (grasp surfaces
 ///                        excepted)
 ///     force_cap          |f_l| <= max_force, f_l the sum over its points
+///     com_speed          |v| of the CoM beyond max_com_speed
 ///     moment             contact moment within max_moment and within what the sole can give (not of forces at points,
 ///                        which `anchor`, `pull` and `friction` hold); of contact wrenches: none along the surface
 ///     reach              every end-effector, swinging or not, in its reach box about the CoM, and where knots put
@@ -72,14 +73,22 @@ struct Tolerances {
 ///
 /// A constraint that nothing in the plan touches stands there with value 0 and phase -1. When `finite` or
 /// `phase_duration` is violated nothing else can be evaluated, and the list ends there.
+///
+/// Warnings are no violations: ok() does not ask for them. There is one:
+///
+///     limb               length of the straight line from the CoM to an end-effector inside the solid of a surface
+///     that
+///                        this end-effector does not touch; the worst place of each surface, where it is more than the
+///                        tolerance of clearance
 struct CheckResult {
   std::vector<Violation> constraints;
   bool complete = true;  ///< false: stopped by the caller; what was looked at by then is listed, and ok() is false
+  std::vector<Violation> warnings = {};  ///< longest first
 
   bool ok() const;
   std::vector<Violation> violations() const;  ///< those beyond their tolerance, worst first
   const Violation& worst() const;             ///< largest value / tolerance, violated or not
-  std::string to_string() const;              ///< one line a violation, or "ok"
+  std::string to_string() const;              ///< one line a violation, or "ok"; then one line a warning
 };
 
 /// Check a plan against a scene and a robot, from its positions, forces and polygons alone.

@@ -19,6 +19,7 @@ struct Violation {
   double value = 0.0;      ///< amount beyond the limit, in `unit`; negative: margin left
   double tolerance = 0.0;  ///< largest value that is still accepted
   std::string unit;
+  std::string surface = {};  ///< whose solid a warning is about; empty: not tied to one
 
   /// "friction at left_foot in phase 7 (t = 2.61 s): 0.08 over the limit (tolerance 0.001)"
   std::string to_string() const;
@@ -48,11 +49,15 @@ struct Report {
   std::map<std::string, double> timing_s;  ///< wall clock by part
   double cost = 0.0;
   std::map<std::string, double> cost_terms;
-  Violation worst_violation;  ///< largest value / tolerance over all constraints
+  Violation worst_violation;        ///< largest value / tolerance over all constraints
+  std::vector<Violation> warnings;  ///< of the checker about the plan: CheckResult::warnings
   std::map<std::string, double>
       friction_use;  ///< largest tangential over normal force by end-effector, grasps included
   std::uint64_t seed = 0;
   int threads = 1;
+  int parallel_loops = 0;     ///< loops over neighbours that were shared out over threads
+  std::string paper_verdict;  ///< Method::paper: how the published algorithm ended by its own measures; else empty
+  double paper_cost = 0.0;    ///< Method::paper: its objective at its last iterate, before contacts are made exact
   std::string version;
   std::vector<Iteration> history;  ///< one row an iteration
 };

@@ -48,6 +48,7 @@ struct Robot {
   double mass = 0.0;                                  ///< [kg]
   Eigen::Vector3d inertia = Eigen::Vector3d::Ones();  ///< [kg m^2] diagonal, about the CoM, nominal posture
   double com_height = 0.0;                            ///< [m] of the CoM above the ground in the nominal stance
+  double max_com_speed = std::numeric_limits<double>::infinity();  ///< [m/s] largest speed of the CoM
   double swing_height = 0.10;                  ///< [m] clearance of a swinging end-effector; at its default by_size()
   Eigen::Vector2d phase_duration{0.15, 0.50};  ///< [s] shortest and longest phase of a contact sequence; likewise
   double sole_support = 0.0;                   ///< ratio of a sole that a contact sequence keeps on its surface

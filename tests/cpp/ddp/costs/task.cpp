@@ -53,6 +53,12 @@ TEST_CASE("in the paper's model the task cost is Table I's weights on the distan
   ddp::Options options = distinct(ddp::Model::lipm);
   for (ddp::Method method : {ddp::Method::standard, ddp::Method::paper}) {
     options.method = method;
+    if (method == ddp::Method::paper) {  // which refuses the weights of the other model
+      const ddp::Weights usual;
+      ddp::Weights& w = options.weights;
+      w.angle = usual.angle, w.momentum = usual.momentum;
+      w.center_of_pressure = usual.center_of_pressure, w.force_line = usual.force_line;
+    }
     const ddp::Problem problem = workshop(options);
     const ddp::Layout& at = problem.layout;
     for (int k : {0, 3, 6})

@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "ddp/impossible.hpp"
+#include "mcplan/base/error.hpp"
+#include "mcplan/base/rotation.hpp"
+#include "mcplan/plan/checker.hpp"
+#include "mcplan/robot/similarity.hpp"
+#include "model/text.hpp"
+
+namespace mcplan::ddp {
+namespace {
+
+using Eigen::Vector3d;
+
+/// What is left of a planar polygon in the half-space x_axis <= limit, or >= limit for a sign of -1 (Sutherland and
+/// Hodgman). Points count as polygons.
+std::vector<Vector3d> cut(const std::vector<Vector3d>& polygon, int axis, double sign, double limit) {
+  std::vector<Vector3d> left;
+  for (std::size_t i = 0, n = polygon.size(); i < n; ++i) {
+    const Vector3d &a = polygon[i], &b = polygon[(i + 1) % n];
+    const double beyond_a = sign * (a[axis] - limit), beyond_b = sign * (b[axis] - limit);
+    if (beyond_a <= 0.0) left.push_back(a);
+    if ((beyond_a <= 0.0) != (beyond_b <= 0.0)) left.push_back(a + beyond_a / (beyond_a - beyond_b) * (b - a));
+  }
+  return left;
+}
+
+/// By how much the box has to grow on all sides to touch the polygon, both in frame B: their distance in the maximum
+/// norm. By bisection, never more than it is by rounding.
+double growth_to_touch(const std::vector<Vector3d>& polygon, const Vector3d& box_min, const Vector3d& box_max) {
+  const auto touches = [&](double growth) {
+    std::vector<Vector3d> left = polygon;
+    for (int axis = 0; axis < 3; ++axis) {
+      left = cut(left, axis, 1.0, box_max[axis] + growth);
+      left = cut(left, axis, -1.0, box_min[axis] - growth);
+    }
+    return !left.empty();
+  };
+  if (touches(0.0)) return 0.0;
+  double low = 0.0, high = (box_max - box_min).norm();
+  while (!touches(high)) {
+    low = high;
+    high *= 2.0;
+  }
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (touches(middle) ? high : low) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+/// At its stance a plan has (`start`, `goal`) a CoM p within b of the stance's p*, roll, pitch and the difference of
+/// yaw within b_r each, and the stance's contacts. The foothold x of one of them lies within c of its surface's plane
+/// and within c of its polygon, so within sqrt(2) c of a point y of it (`contact_distance`, `contact_polygon`), and R^T
+/// (x - p) in the reach box grown by rho (`reach`), with an R that differs from the knot's by o at most
+/// (`orientation`). The angle between R and R_z(yaw*) is at most 3 b_r + o, and |x - p| at most r + sqrt(3) rho with r
+/// the farthest corner of the box. So R_z(yaw*)^T (y - p*) lies in the box grown by
+///
+///     rho + sqrt(2) c + b + (3 b_r + o) (r + sqrt(3) rho)
+///
+/// and where no point y of the polygon does, there is no plan. At the start the foothold is within s of where the
+/// stance puts it (`start`), and s takes the place of sqrt(2) c with that point for y. Of end-effectors whose contacts
+/// are held to com_reach instead of the box nothing is said.
+std::optional<Impossible> stance_out_of_reach(const Scene& scene, const Robot& robot, bool at_goal) {
+  const Stance& stance = at_goal ? scene.goal : scene.start;
+  const char* name = at_goal ? "goal" : "start";
+  const ResolvedStance at = resolve_stance(scene, robot, stance, name);
+  const Tolerances tolerances;
+  const double length = similarity_of(robot, scene.gravity).length;
+  const double turned = 3.0 * tolerances.boundary + tolerances.orientation;
+  const Eigen::Matrix3d to_base = rotation_from_rpy({0.0, 0.0, at.yaw}).transpose();
+  for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {
+    const EndEffector& end = robot.end_effectors[l];
+    if (at.contacts[l] < 0 || end.com_reach.given()) continue;
+    const Surface& surface = scene.surfaces[at.contacts[l]];
+    std::vector<Vector3d> polygon_B;
+    for (const Vector3d& v : at_goal ? surface.vertices_W : std::vector<Vector3d>{at.end_effectors_W[l]})
+      polygon_B.push_back(to_base * (v - at.com_W));
+    const double beyond_m = growth_to_touch(polygon_B, end.reach_min_B, end.reach_max_B);
+    const double reach_m = tolerances.reach * length;
+    const double foothold_m = (at_goal ? std::sqrt(2.0) * tolerances.contact_distance : tolerances.stance) * length;
+    const double allowed_m =
+        reach_m + foothold_m + tolerances.boundary * length + turned * (farthest_reach(end) + std::sqrt(3.0) * reach_m);
+    if (!(beyond_m > allowed_m)) continue;
+    return Impossible{std::string(name) + ": " + end.name + " would stand on " + text(surface.name) + ", " +
+                          model::digits(beyond_m, "%.3g") + " m out of its reach from the CoM at " +
+                          model::digits(at.com_W, "%.4g"),
+                      {"reach", -1, end.name, 0.0, beyond_m, allowed_m, "m", surface.name}};
+  }
+  return std::nullopt;
+}
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mcplan/plan/report.hpp"
+#include "mcplan/robot/robot.hpp"
+#include "mcplan/scene/scene.hpp"
+
+/// Necessary conditions of a plan, from scene and robot alone, in microseconds: where one fails there is no plan that
+/// the checker accepts, whatever the options, and the search need not begin. Each is a function of its own with its
+/// proof beside it. The proofs take the checker's constraints with its published tolerances, at every instant and not
+/// only at those that it looks at, and the force laws of this search. Theory: docs/theory/ddp.md, "Impossible scenes".
+namespace mcplan::ddp {
+
+/// A condition that fails, in words, and by how much.
+struct Impossible {
+  std::string message;
+  Violation violation;
+};
+
+/// Of a contact of the goal, or of the start: it is out of the end-effector's reach. bound_stance.cpp
+std::optional<Impossible> stance_out_of_reach(const Scene& scene, const Robot& robot, bool at_goal);
+
+/// The friction cones of all surfaces together hold nothing up. bound_friction.cpp
+std::optional<Impossible> slips_everywhere(const Scene& scene, const Robot& robot);
+
+/// No step and no jump leads from the surfaces of the start to those of the goal. bound_gap.cpp
+std::optional<Impossible> gap_too_wide(const Scene& scene, const Robot& robot);
+
+/// The first condition that fails. From a `measured` start only what holds of the goal is asked for.
+std::optional<Impossible> why_impossible(const Scene& scene, const Robot& robot, bool measured);
+
+/// Largest distance [m] of an end-effector's reach box from the CoM.
+double farthest_reach(const EndEffector& end);
+
+}  // namespace mcplan::ddp

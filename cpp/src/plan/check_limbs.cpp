@@ -1,0 +1,85 @@
+#include <algorithm>
+#include <cmath>
+
+#include "check_internal.hpp"
+#include "solid_box.hpp"
+
+namespace mcplan::checks {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Length [m] of the segment inside the prism of a solid, a convex set of half-spaces n . x <= c: each of them cuts the
+/// part s_0 <= s <= s_1 of x(s) = from + s (to - from) that is left of it.
+double length_inside(const Solid& solid, const Vector3d& from, const Vector3d& to) {
+  double first = 0.0, last = 1.0;
+  const auto cut = [&](double beyond_from, double beyond_to) {
+    if (beyond_from > 0.0 && beyond_to > 0.0) last = first - 1.0;
+    if ((beyond_from > 0.0) == (beyond_to > 0.0)) return;
+    const double crossing = beyond_from / (beyond_from - beyond_to);
+    if (beyond_from > 0.0)
+      first = std::max(first, crossing);
+    else
+      last = std::min(last, crossing);
+  };
+  const Polygon& polygon = solid.polygon;
+  cut(polygon.height(from), polygon.height(to));
+  cut(-solid.thickness - polygon.height(from), -solid.thickness - polygon.height(to));
+  for (int i = 0; i < polygon.edge_count() && last > first; ++i)
+    cut(polygon.overshoot(i, from), polygon.overshoot(i, to));
+  return last > first ? (last - first) * (to - from).norm() : 0.0;
+}
+
+}  // namespace
+
+/// Surfaces whose solid lies no farther from the CoM than a limb reaches, until the CoM has moved on.
+void Limbs::look_around(const Problem& problem, const Vector3d& com_W) {
+  if (boxes_.size() != problem.solids.size()) {
+    for (const Solid& solid : problem.solids) boxes_.push_back(box_of(solid));
+    worst_.resize(boxes_.size());
+  } else if ((com_W - looked_at_W_).norm() <= kMove * problem.similarity.length) {
+    return;
+  }
+  double reach = 0.0;
+  for (const EndEffector& end : problem.robot.end_effectors)
+    reach = std::max(reach, end.reach_min_B.cwiseAbs().cwiseMax(end.reach_max_B.cwiseAbs()).norm());
+  reach += kMove * problem.similarity.length;
+  looked_at_W_ = com_W;
+  near_.clear();
+  for (std::size_t i = 0; i < boxes_.size(); ++i)
+    if (!(boxes_[i].squaredExteriorDistance(com_W) > reach * reach)) near_.push_back(static_cast<int>(i));
+}
+
+/// A limb is taken as straight from the CoM to its end-effector. What an end-effector touches is left out: knees and
+/// elbows bend around that.
+void Limbs::look(const Problem& problem, const Sample& sample) {
+  if (sample.time_s < next_s_) return;
+  next_s_ = sample.time_s + kEvery_s * problem.similarity.time;
+  const Vector3d& com = sample.replay.com_W;
+  look_around(problem, com);
+  for (int l = 0; l < problem.end_effector_count(); ++l) {
+    const Vector3d& end = sample.at.end_effectors[l].position_W;
+    Eigen::AlignedBox3d around(com);
+    around.extend(end);
+    for (int surface : near_) {
+      if (surface == problem.surface(sample.phase, l) || !boxes_[surface].intersects(around)) continue;
+      const double length = length_inside(problem.solids[surface], com, end);
+      if (length > worst_[surface].length) worst_[surface] = {length, {sample.phase, l, sample.time_s}};
+    }
+  }
+}
+
+std::vector<Violation> Limbs::warnings(const Problem& problem) const {
+  std::vector<Violation> out;
+  for (std::size_t i = 0; i < worst_.size(); ++i) {
+    const Worst& worst = worst_[i];
+    if (!(worst.length > problem.tolerances.clearance)) continue;
+    out.push_back({"limb", worst.place.phase, problem.robot.end_effectors[worst.place.end_effector].name,
+                   worst.place.time_s, worst.length, problem.tolerances.clearance, "m",
+                   problem.scene.surfaces[i].name});
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Violation& a, const Violation& b) { return a.value > b.value; });
+  return out;
+}
+
+}  // namespace mcplan::checks
