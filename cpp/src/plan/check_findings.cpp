@@ -32,6 +32,7 @@ std::array<Row, kConstraints> rows(const Tolerances& t, const Similarity& s) {
            {"friction", "", t.friction},
            {"force_cap", "", t.force_cap},
            {"moment", "N m", t.moment},
+           {"angular_momentum", "", t.force_cap},
            {"reach", "m", t.reach},
            {"clearance", "m", t.clearance},
            {"sequence_switch", "switches", 0.0},

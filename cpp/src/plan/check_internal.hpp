@@ -32,6 +32,7 @@ enum class Constraint {
   friction,
   force_cap,
   moment,
+  angular_momentum,
   reach,
   clearance,
   sequence_switch,
@@ -194,6 +195,7 @@ void check_stiffness_sign(const Problem& problem, Findings& findings);
 void check_pull(const Problem& problem, const Sample& sample, Findings& findings);
 void check_friction(const Problem& problem, const Sample& sample, Findings& findings);
 void check_force_cap(const Problem& problem, const Sample& sample, Findings& findings);
+void check_momentum(const Problem& problem, const Sample& sample, Findings& findings);
 
 /// check_space.cpp
 void check_reach(const Problem& problem, const Sample& sample, Findings& findings);
