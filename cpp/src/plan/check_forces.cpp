@@ -74,4 +74,25 @@ void check_force_cap(const Problem& problem, const Sample& sample, Findings& fin
   }
 }
 
+/// |L_j| / momentum_max - 1 <= 0 and |L'_j| / momentum_rate_max - 1 <= 0, j the axes of the start's heading, where the
+/// plan claims to keep such limits:  L' = sum_l ((p_l - p) x f_l + tau_l).
+void check_momentum(const Problem& problem, const Sample& sample, Findings& findings) {
+  const double max = problem.plan.momentum_max, rate_max = problem.plan.momentum_rate_max;
+  if (std::isinf(max) && std::isinf(rate_max)) return;
+  Vector3d rate = Vector3d::Zero();
+  for (int l = 0; l < problem.end_effector_count(); ++l) {
+    if (problem.surface(sample.phase, l) < 0) continue;
+    const Vector3d arm = sample.at.end_effectors[l].position_W - sample.replay.com_W;
+    rate += arm.cross(sample.forces_W[l]) + sample.moments_W[l];
+  }
+  const Eigen::Matrix3d to_heading = Eigen::AngleAxisd(-problem.scene.start.yaw, Vector3d::UnitZ()).toRotationMatrix();
+  const auto offer = [&](const Vector3d& value_W, double limit) {
+    if (std::isinf(limit)) return;
+    findings.offer(Constraint::angular_momentum, largest((to_heading * value_W).cwiseAbs()) / limit - 1.0,
+                   {sample.phase, -1, sample.time_s});
+  };
+  offer(sample.at.angular_momentum_W, max);
+  offer(rate, rate_max);
+}
+
 }  // namespace mcplan::checks

@@ -33,6 +33,7 @@ enum class Constraint {
   force_cap,
   com_speed,
   moment,
+  angular_momentum,
   reach,
   clearance,
   sequence_switch,
@@ -195,6 +196,7 @@ void check_stiffness_sign(const Problem& problem, Findings& findings);
 void check_pull(const Problem& problem, const Sample& sample, Findings& findings);
 void check_friction(const Problem& problem, const Sample& sample, Findings& findings);
 void check_force_cap(const Problem& problem, const Sample& sample, Findings& findings);
+void check_momentum(const Problem& problem, const Sample& sample, Findings& findings);
 
 /// check_space.cpp
 void check_reach(const Problem& problem, const Sample& sample, Findings& findings);

@@ -89,6 +89,7 @@ void check_sample(const Problem& problem, const Sample& sample, Memory& memory, 
   check_pull(problem, sample, findings);
   check_friction(problem, sample, findings);
   check_force_cap(problem, sample, findings);
+  check_momentum(problem, sample, findings);
   with_law(problem, sample.phase, [&](auto law) { law.check_bounds(problem, sample, findings); });
   check_reach(problem, sample, findings);
   check_yaw_range(problem, sample, findings);

@@ -90,6 +90,13 @@ struct Fields<Plan> {
       field("planner", &Plan::planner, "", "Which planner made it, e.g. ddp.").always_written(),
       field("measured_start", &Plan::measured_start, "", "Starts from a measured state, not from the scene's start."),
       field("open_end", &Plan::open_end, "", "Ends on the way, not at the scene's goal."),
+      field(
+          "momentum_max", &Plan::momentum_max, "kg m^2/s",
+          "Largest component of the angular momentum about the CoM that it claims to keep, in the axes of the start's "
+          "heading; left out: no claim.")
+          .positive()
+          .or_infinite(),
+      field("momentum_rate_max", &Plan::momentum_rate_max, "N m", "The same of its rate.").positive().or_infinite(),
       field("scene", &Plan::scene, "", "The scene it was made for.").required(),
       field("robot", &Plan::robot, "", "The robot it was made for.").required(),
       field("knots", &Plan::knots, "", "Knots, one more than phases.").required().entries(0, max_phases + 1),

@@ -77,6 +77,8 @@ Plan scaled_motion(const Plan& plan, const Similarity& by) {
     for (Contact& contact : phase.contacts) scale(contact, by);
   }
   for (Swing& swing : out.swings) swing.height *= by.length;
+  out.momentum_max *= by.angular_momentum();
+  out.momentum_rate_max *= by.moment();
   return out;
 }
 

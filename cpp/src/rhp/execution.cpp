@@ -5,6 +5,7 @@
 
 #include "plan/point_forces.hpp"
 #include "plan/swings.hpp"
+#include "rhp/pieces/momentum_within.hpp"
 
 namespace mcplan::rhp {
 namespace {
@@ -19,6 +20,12 @@ CentroidalState node_state(const Horizon& horizon, const VectorXd& x, int node) 
   out.com_velocity_W = x.segment<3>(at.velocity);
   if (at.momentum >= 0) out.angular_momentum_W = x.segment<3>(at.momentum);
   return out;
+}
+
+double value(const nlp::Piece& cost, const VectorXd& x) {
+  VectorXd f(1);
+  cost.values(x(cost.variables()), f);
+  return f[0];
 }
 
 CentroidalState centroidal(const State& state) { return {state.com_W, state.com_velocity_W, state.angular_momentum_W}; }
@@ -73,6 +80,12 @@ Plan executed_plan(const Walker& walker, const State& state, const Horizon& hori
   plan.planner = "rhp";
   plan.measured_start = true;
   plan.open_end = true;
+  bool keeps_momentum = walker.options.transcription != Transcription::euler;
+  for (int q = 0; q < 3 * steps; ++q) keeps_momentum = keeps_momentum && horizon.phases[q].centroidal;
+  if (keeps_momentum) {
+    plan.momentum_max = walker.options.momentum_max;
+    plan.momentum_rate_max = walker.options.momentum_rate_max;
+  }
   std::array<Vector3d, 2> feet_W{state.feet_W[0], state.feet_W[1]};
   CentroidalState at = centroidal(state);
   plan.knots.push_back(make_knot(walker, at, feet_W));
@@ -127,18 +140,17 @@ Measures measure(const Walker& walker, const State& state, const Horizon& horizo
     const Horizon::Phase& phase = horizon.phases[q];
     const double h = x[phase.duration] / n;
     const bool euler = walker.options.transcription == Transcription::euler;
-    for (int k = 0; k < phase.control_count; ++k) {
+    for (int k = 0; k < n; ++k) {
       const Vector3d a = x.segment<3>(horizon.controls[phase.first_control + k].acceleration);
-      const Vector3d L = x.segment<3>(horizon.nodes[phase.first_node + k].momentum);
       if (euler) {
         out.acceleration_cost += h * a.squaredNorm();
-        out.momentum_cost += h * L.squaredNorm();
+        out.momentum_cost += h * x.segment<3>(horizon.nodes[phase.first_node + k].momentum).squaredNorm();
         continue;
       }
-      out.momentum_cost += h * (k == 0 || k == n ? 0.5 : 1.0) * L.squaredNorm();
-      if (k == n) continue;
-      const Vector3d b = x.segment<3>(horizon.controls[phase.first_control + k + 1].acceleration);
+      const LinearForceInterval interval = horizon.interval(phase, k, n);
+      const Vector3d b = x.segment<3>(interval.acceleration1);
       out.acceleration_cost += h / 3.0 * (a.squaredNorm() + a.dot(b) + b.squaredNorm());
+      out.momentum_cost += value(MomentumSquareOverTime(interval, walker.robot.mass, walker.scene.gravity), x);
     }
     replayed = integrate_phase(executed.phases[q], replayed, executed.phases[q].duration, walker.robot.mass,
                                walker.scene.gravity);

@@ -11,6 +11,7 @@
 #include "rhp/pieces/euler_step.hpp"
 #include "rhp/pieces/linear_force_step.hpp"
 #include "rhp/pieces/momentum_rate.hpp"
+#include "rhp/pieces/momentum_within.hpp"
 #include "rhp/pieces/reach_rows.hpp"
 #include "rhp/pieces/torque_bound.hpp"
 
@@ -243,34 +244,38 @@ class Builder {
         if (phase.centroidal) step("momentum_step", a.momentum, b.momentum, u.rate);
         continue;
       }
-      const Horizon::Control& w = out_.controls[phase.first_control + k + 1];
-      const LinearForceInterval interval{a.com,      b.com,      a.velocity, b.velocity, u.acceleration, w.acceleration,
-                                         a.momentum, b.momentum, u.rate,     w.rate,     phase.duration, n};
+      const LinearForceInterval interval = out_.interval(phase, k, n);
       problem().add_equality(std::make_unique<LinearForcePosition>(interval));
       problem().add_equality(std::make_unique<LinearForceVelocity>(interval));
-      if (phase.centroidal)
-        problem().add_equality(
-            std::make_unique<LinearForceMomentum>(interval, walker_.robot.mass, walker_.scene.gravity));
+      if (phase.centroidal) add_momentum(interval);
     }
+  }
+
+  void add_momentum(const LinearForceInterval& interval) {
+    const double mass = walker_.robot.mass, gravity = walker_.scene.gravity, R = options_.momentum_rate_max;
+    problem().add_equality(std::make_unique<LinearForceMomentum>(interval, mass, gravity));
+    problem().add_constraint(std::make_unique<MomentumRateWithin>(interval, walker_.r_WH, mass, gravity), -R, R);
   }
 
   void add_running_cost(const Horizon::Phase& phase) {
     const int n = options_.intervals;
-    const auto square = [&](const char* name, int y, double weight) {
-      problem().add_cost(std::make_unique<SquareOverTime>(name, y, phase.duration, weight / n));
+    const auto square = [&](const char* name, int y) {
+      problem().add_cost(std::make_unique<SquareOverTime>(name, y, phase.duration, 1.0 / n));
     };
     for (int k = 0; k < n; ++k) {
-      const Horizon::Control& u = out_.controls[phase.first_control + k];
+      const int a = out_.controls[phase.first_control + k].acceleration;
       if (euler_)
-        square("acceleration_cost", u.acceleration, 1.0);
+        square("acceleration_cost", a);
       else
         problem().add_cost(std::make_unique<LinearSquareOverTime>(
-            "acceleration_cost", u.acceleration, out_.controls[phase.first_control + k + 1].acceleration,
-            phase.duration, n));
+            "acceleration_cost", a, out_.controls[phase.first_control + k + 1].acceleration, phase.duration, n));
     }
-    if (phase.centroidal)
-      for (int k = 0; k < phase.control_count; ++k)
-        square("momentum_cost", out_.nodes[phase.first_node + k].momentum, ratio(k));
+    for (int k = 0; k < n && phase.centroidal; ++k)
+      if (euler_)
+        square("momentum_cost", out_.nodes[phase.first_node + k].momentum);
+      else
+        problem().add_cost(std::make_unique<MomentumSquareOverTime>(out_.interval(phase, k, n), walker_.robot.mass,
+                                                                    walker_.scene.gravity));
   }
 
   Polytope needed_faces(int node, int placement) {
@@ -335,6 +340,13 @@ class Builder {
 Vector3d Horizon::position_W(const Eigen::VectorXd& x, int placement) const {
   const Placement& foot = placements[placement];
   return shift_W + foot.position_W(x.segment<2>(foot.variable));
+}
+
+LinearForceInterval Horizon::interval(const Phase& phase, int k, int intervals) const {
+  const Node &a = nodes[phase.first_node + k], &b = nodes[phase.first_node + k + 1];
+  const Control &u = controls[phase.first_control + k], &w = controls[phase.first_control + k + 1];
+  return {a.com,      b.com,      a.velocity, b.velocity, u.acceleration, w.acceleration,
+          a.momentum, b.momentum, u.rate,     w.rate,     phase.duration, intervals};
 }
 
 Horizon build_horizon(const Walker& walker, const Footsteps& footsteps, const HorizonRequest& request) {

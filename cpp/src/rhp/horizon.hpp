@@ -9,6 +9,7 @@
 
 #include "mcplan/nlp/problem.hpp"
 #include "rhp/pieces/contact_point.hpp"
+#include "rhp/pieces/linear_force_step.hpp"
 #include "rhp/walker.hpp"
 
 namespace mcplan::rhp {
@@ -57,6 +58,9 @@ struct Horizon {
   std::vector<ReachRow> left_out;
 
   Eigen::Vector3d position_W(const Eigen::VectorXd& x, int placement) const;  ///< of a foot's centre
+
+  /// Interval k of a phase, under linear forces; a phase has `intervals`.
+  LinearForceInterval interval(const Phase& phase, int k, int intervals) const;
 };
 
 /// What a horizon is built from.

@@ -13,6 +13,7 @@
 #include "mcplan/plan/friction_use.hpp"
 #include "mcplan/version.hpp"
 #include "rhp/execution.hpp"
+#include "rhp/foothold_margins.hpp"
 #include "rhp/guess.hpp"
 #include "rhp/horizon.hpp"
 #include "rhp/human_size.hpp"
@@ -65,6 +66,14 @@ struct RecedingHorizon::Impl {
   Impl(const Scene& scene, const Robot& robot, const Options& options)
       : size(scene, robot, options), walker(size.walker()) {}
 
+  /// Margins of the footholds that the whole sequence leaves room for.
+  void keep_in_reach() {
+    const FootholdMargins margins(walker, state, footsteps);
+    walker.margin_ratios = margins.ratios;
+    out_of_reach = margins.out_of_reach;
+    yielded = margins.yielded;
+  }
+
   void start_at(const State& own) {
     own_state = own;
     state = size.to_human(own);
@@ -73,6 +82,8 @@ struct RecedingHorizon::Impl {
   HumanSize size;
   Walker walker;  ///< of human size, as is all here whose name does not say "own"
   Footsteps footsteps;
+  std::string out_of_reach;  ///< the step that no foothold makes possible, if there is one
+  std::string yielded;       ///< which margins are smaller than the option says, if any
   State state, own_state;
   bool moved = false;           ///< the next cycle starts where no cycle has ended
   bool measured = false;        ///< the walk did not start where the scene says
@@ -127,6 +138,7 @@ Cycle RecedingHorizon::Impl::run() {
     accept(cycle, horizon_now, solution);
   else if (cycle.status == Status::solved)
     cycle.status = Status::acceptable;
+  if (!cycle.executed && !out_of_reach.empty()) cycle.message += (cycle.message.empty() ? "" : "; ") + out_of_reach;
   cycle.time_s = deadline.elapsed_s();
   cycles.push_back(cycle);
   if (options.logger)
@@ -221,12 +233,14 @@ RecedingHorizon::RecedingHorizon(const Scene& scene, const Robot& robot, const O
     : impl_(std::make_unique<Impl>(scene, robot, options)) {
   impl_->footsteps = footsteps_of(impl_->walker);
   impl_->start_at(impl_->size.to_own(impl_->walker.start()));
+  impl_->keep_in_reach();
 }
 
 RecedingHorizon::RecedingHorizon(const Scene& scene, const Robot& robot, const Plan& sequence, const Options& options)
     : impl_(std::make_unique<Impl>(scene, robot, options)) {
   impl_->footsteps = footsteps_of(impl_->walker, sequence);
   impl_->start_at(start_of(impl_->walker, sequence));
+  impl_->keep_in_reach();
   impl_->measured = sequence.measured_start;
 }
 
@@ -286,6 +300,7 @@ Walk RecedingHorizon::result() const {
     report.message = "cycle " + std::to_string(cycle.index) + ": " + cycle.message;
     if (!cycle.executed && cycle.index > 0) report.message += "; the steps before it stand";
   }
+  if (report.message.empty()) report.message = impl_->yielded;
   if (out.plan.phases.empty()) return out;
 
   // The whole walk is what the user gets: it is solved only if the checker accepts it as one piece.

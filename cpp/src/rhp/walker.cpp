@@ -113,13 +113,22 @@ Vector3d moved_inside(const Polygon& polygon, const Eigen::Matrix3d& frame, cons
 Vector2d Walker::taken_size(int foot, int surface) const {
   const Polygon& polygon = surfaces[surface];
   const Eigen::Matrix3d frame = frame_W(surface);
+  const auto limit = margin_ratios.find({foot, surface});
+  const double max_ratio = limit == margin_ratios.end() ? 1.0 : limit->second;
   for (double ratio : {1.0, 0.5, 0.25}) {
     if (options.paper) break;
+    if (ratio > max_ratio) continue;
     const Vector2d half = feet[foot].half_size.array() + ratio * options.foothold_margin_m;
     if (sticks_out(polygon, frame, half, moved_inside(polygon, frame, half, polygon.centroid_W())).first <= 1e-9)
       return half;
   }
   return feet[foot].half_size;
+}
+
+void Walker::limit_margin(int foot, int surface, double ratio) {
+  if (ratio >= 1.0) return;
+  const auto [at, fresh] = margin_ratios.try_emplace({foot, surface}, ratio);
+  if (!fresh) at->second = std::min(at->second, ratio);
 }
 
 Vector3d Walker::nearest_foothold_W(int foot, int surface, const Vector3d& desired_W) const {

@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mcplan/plan/plan.hpp"
@@ -68,8 +70,13 @@ struct Walker {
   Eigen::Vector3d nearest_foothold_W(int foot, int surface, const Eigen::Vector3d& desired_W) const;
 
   /// Half size of the sole with foothold_margin_m around it, or with a half, a quarter or nothing of that where a
-  /// surface is too small.
+  /// surface is too small, or margin_ratios say so.
   Eigen::Vector2d taken_size(int foot, int surface) const;
+
+  /// Ratio of foothold_margin_m that is kept, by foot and surface, where it is below 1.
+  using MarginRatios = std::map<std::pair<int, int>, double>;
+  MarginRatios margin_ratios;
+  void limit_margin(int foot, int surface, double ratio);  ///< to this ratio, if it is larger now
 
   int foot_of(int end_effector) const;  ///< 0, 1, or -1
   State start() const;                  ///< at the scene's start

@@ -51,6 +51,8 @@ _INTEGERS = {"surfaces", "final_contacts", "swings", "laws", "intervals", "point
 #: The first format that has a law; a law's number in files is its place here, so that new ones stand at the end.
 _FORMAT_OF_LAW = {ForceLaw.pendulum: 1, ForceLaw.held: 2, ForceLaw.linear: 2, ForceLaw.wrench: 3}
 _LAWS = tuple(_FORMAT_OF_LAW)
+#: Limits that a plan claims to keep; a file says those that are finite.
+_CLAIMS = ("momentum_max", "momentum_rate_max")
 #: Of a plan in a file: each takes a hundred times the memory of its numbers once it is read.
 MAX_PHASES, MAX_SWINGS = 10_000, 40_000
 
@@ -96,6 +98,7 @@ def plan_to_bytes(plan: Plan) -> bytes:
         "planner": plan.planner,
         "measured_start": plan.measured_start,
         "open_end": plan.open_end,
+        **{name: getattr(plan, name) for name in _CLAIMS if np.isfinite(getattr(plan, name))},
         "scene": scene_to_dict(plan.scene),
         "robot": robot_to_dict(plan.robot),
     }
@@ -143,6 +146,7 @@ def plan_from_bytes(data: bytes) -> Plan:
     plan = Plan(
         measured_start=header.get("measured_start", False) is True,
         open_end=header.get("open_end", False) is True,
+        **{name: _claim(name, header[name]) for name in _CLAIMS if name in header},
         scene=scene,
         robot=robot,
         planner=header["planner"],
@@ -153,6 +157,12 @@ def plan_from_bytes(data: bytes) -> Plan:
     )
     plan.validate()
     return plan
+
+
+def _claim(name: str, value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not value > 0.0:
+        raise InvalidPlan(f"header.{name}", "must be a positive number", written(value))
+    return float(value)
 
 
 def _knots(arrays: dict[str, np.ndarray]) -> list[Knot]:

@@ -54,3 +54,22 @@ TEST_CASE("checker rejects a moment that a narrow sole cannot give") {
   tilt(3.0)(little);
   CHECK(little.check().ok());
 }
+
+TEST_CASE("checker holds a plan to the angular momentum, and its rate, that it claims to keep") {
+  // The walk made by hand turns its base by 0.5 N m; of linear momentum there is none about the CoM.
+  const auto claims = [](double momentum, double rate) {
+    return [=](Case& c) {
+      c.plan.momentum_max = momentum;
+      c.plan.momentum_rate_max = rate;
+    };
+  };
+  Case kept;
+  claims(10.0, 0.6)(kept);
+  CHECK(kept.check().ok());
+  const mcplan::Violation& margin = find(kept.check(), "angular_momentum");
+  CHECK(margin.value == doctest::Approx(0.5 / 0.6 - 1.0));
+  CHECK(broken(claims(10.0, 0.4)) == Names{"angular_momentum"});
+  CHECK(broken(claims(1e-3, 10.0)) == Names{"angular_momentum"});
+  Case silent;
+  CHECK(find(silent.check(), "angular_momentum").value == 0.0);
+}

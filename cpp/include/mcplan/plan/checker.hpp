@@ -20,7 +20,7 @@ struct Tolerances {
   double slip = 1e-3;                         ///< [m] travel of an end-effector while in contact
   double friction = 1e-3;                     ///< [-] tangential over normal force, beyond the coefficient
   double force = 1e-6;                        ///< [N] pull of a contact, or force of a free end-effector
-  double force_cap = 1e-3;                    ///< [-] relative excess over max_force
+  double force_cap = 1e-3;                    ///< [-] relative excess over max_force, or over momentum_max
   double moment = 1e-6;                       ///< [N m] excess over max_moment or the torsion the contact can give
   double reach = 1e-3;                        ///< [m] outside the reach box
   double yaw = 1e-2;                          ///< [rad] heading of a sole outside its range
@@ -62,6 +62,7 @@ struct Tolerances {
 ///     com_speed          |v| of the CoM beyond max_com_speed
 ///     moment             contact moment within max_moment and within what the sole can give (not of forces at points,
 ///                        which `anchor`, `pull` and `friction` hold); of contact wrenches: none along the surface
+///     angular_momentum   where the plan claims limits of the angular momentum or of its rate, it keeps them at all times
 ///     reach              every end-effector, swinging or not, in its reach box about the CoM, and where knots put
 ///                        free ones; in contact in com_reach and partner_reach, where the robot has them, and its
 ///                        heading in yaw_range

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -118,6 +119,11 @@ class Plan {
   std::vector<Swing> swings;
   bool measured_start = false;  ///< starts from a measured state, not from the scene's start
   bool open_end = false;        ///< ends on the way, not at the scene's goal: a piece of a receding horizon
+
+  /// Largest component of the angular momentum about the CoM [kg m^2/s], in the axes of the start's heading, and of its
+  /// rate [N m], that the plan claims to keep at all times; infinite: it claims nothing.
+  double momentum_max = std::numeric_limits<double>::infinity();
+  double momentum_rate_max = std::numeric_limits<double>::infinity();
 
   double duration() const;                 ///< [s]
   std::vector<double> knot_times() const;  ///< [s], phases + 1 entries, from 0

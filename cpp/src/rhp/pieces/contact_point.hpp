@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <initializer_list>
 #include <vector>
 
 namespace mcplan::rhp {
@@ -46,6 +47,14 @@ inline int append(std::vector<int>& variables, int first, int count) {
   const int at = static_cast<int>(variables.size());
   for (int i = 0; i < count; ++i) variables.push_back(first + i);
   return at;
+}
+
+/// Indices of three variables from each of `triples` on, then of the duration.
+inline std::vector<int> triples_and_duration(std::initializer_list<int> triples, int duration) {
+  std::vector<int> variables;
+  for (int first : triples) append(variables, first, 3);
+  append(variables, duration, 1);
+  return variables;
 }
 
 /// a x b = skew(a) b.

@@ -1,28 +1,18 @@
 #include "rhp/pieces/linear_force_step.hpp"
 
 #include <Eigen/Geometry>
-#include <initializer_list>
 
 #include "rhp/pieces/contact_point.hpp"
 
 namespace mcplan::rhp {
-namespace {
 
 using Eigen::Vector3d;
-
-std::vector<int> gather(std::initializer_list<int> triples, int duration) {
-  std::vector<int> variables;
-  for (int first : triples) append(variables, first, 3);
-  append(variables, duration, 1);
-  return variables;
-}
-
-}  // namespace
 
 // x = (v0, v1, a0, a1, T)
 
 LinearForceVelocity::LinearForceVelocity(const LinearForceInterval& i)
-    : Piece("velocity_step", gather({i.velocity0, i.velocity1, i.acceleration0, i.acceleration1}, i.duration), 3),
+    : Piece("velocity_step",
+            triples_and_duration({i.velocity0, i.velocity1, i.acceleration0, i.acceleration1}, i.duration), 3),
       ratio_(1.0 / i.intervals) {}
 
 void LinearForceVelocity::values(const nlp::ConstVector& x, nlp::Vector f) const {
@@ -43,7 +33,8 @@ void LinearForceVelocity::hessian(const nlp::ConstVector&, const nlp::ConstVecto
 // x = (c0, c1, v0, a0, a1, T)
 
 LinearForcePosition::LinearForcePosition(const LinearForceInterval& i)
-    : Piece("position_step", gather({i.com0, i.com1, i.velocity0, i.acceleration0, i.acceleration1}, i.duration), 3),
+    : Piece("position_step",
+            triples_and_duration({i.com0, i.com1, i.velocity0, i.acceleration0, i.acceleration1}, i.duration), 3),
       ratio_(1.0 / i.intervals) {}
 
 void LinearForcePosition::values(const nlp::ConstVector& x, nlp::Vector f) const {
@@ -77,10 +68,11 @@ constexpr int kL0 = 0, kL1 = 3, kR0 = 6, kR1 = 9, kV0 = 12, kA0 = 15, kA1 = 18, 
 }
 
 LinearForceMomentum::LinearForceMomentum(const LinearForceInterval& i, double mass, double gravity)
-    : Piece("momentum_step",
-            gather({i.momentum0, i.momentum1, i.rate0, i.rate1, i.velocity0, i.acceleration0, i.acceleration1},
-                   i.duration),
-            3),
+    : Piece(
+          "momentum_step",
+          triples_and_duration(
+              {i.momentum0, i.momentum1, i.rate0, i.rate1, i.velocity0, i.acceleration0, i.acceleration1}, i.duration),
+          3),
       ratio_(1.0 / i.intervals),
       mass_(mass),
       gravity_(gravity) {}
