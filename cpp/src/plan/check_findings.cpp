@@ -33,7 +33,7 @@ std::array<Row, kConstraints> rows(const Tolerances& t, const Similarity& s) {
            {"force_cap", "-", t.force_cap},
            {"com_speed", "m/s", t.boundary * s.velocity()},
            {"moment", "N m", t.moment},
-           {"angular_momentum", "", t.force_cap},
+           {"angular_momentum", "-", t.force_cap},
            {"reach", "m", t.reach},
            {"clearance", "m", t.clearance},
            {"sequence_switch", "switches", 0.0},

@@ -62,7 +62,7 @@ struct Tolerances {
 ///     com_speed          |v| of the CoM beyond max_com_speed
 ///     moment             contact moment within max_moment and within what the sole can give (not of forces at points,
 ///                        which `anchor`, `pull` and `friction` hold); of contact wrenches: none along the surface
-///     angular_momentum   where the plan claims limits of the angular momentum or of its rate, it keeps them at all times
+///     angular_momentum   limits of the angular momentum and of its rate that the plan claims to keep
 ///     reach              every end-effector, swinging or not, in its reach box about the CoM, and where knots put
 ///                        free ones; in contact in com_reach and partner_reach, where the robot has them, and its
 ///                        heading in yaw_range
