@@ -61,7 +61,7 @@ PYTHON_ROOMS = {
     "errors": {"moved"},
     "starting": set(),  # the command's first moments
     "extras": {"errors"},
-    "options": {"errors", "arguments"},
+    "options": {"errors", "arguments", "moved"},
     "option_types": {"_core"},  # generated
     "model": {"_core"},
     "arguments": {"_core", "errors"},
