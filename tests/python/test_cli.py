@@ -369,7 +369,7 @@ def test_only_a_solved_plan_gives_exit_code_0(status, expected, capsys, monkeypa
 def test_a_folder_that_does_not_exist_is_said_before_planning(option, capsys, monkeypatch):
     monkeypatch.setattr(mp, "plan", lambda *args, **options: pytest.fail("planned"))
     message = one_line_error(run(capsys, "plan", "flat", option, "/nowhere/at/all"))
-    assert "must lie in a folder that exists, got /nowhere/at/all" in message
+    assert 'must lie in a folder that exists, got "/nowhere/at/all' in message
 
 
 def test_a_missing_extra_says_what_to_install(capsys, tmp_path, monkeypatch):
@@ -451,4 +451,4 @@ def test_robots_ignore_no_option(capsys, tmp_path, monkeypatch, name, words):
 
 def test_robots_takes_a_name_or_a_urdf(capsys):
     code, _, err = run(capsys, "robots", "talos", "--from-urdf", "g1")
-    assert (code, err) == (2, "error: NAME: may not stand beside --from-urdf, got talos\n")
+    assert (code, err) == (2, 'error: NAME: may not stand beside --from-urdf, got "talos"\n')

@@ -113,9 +113,12 @@ WRONG = [
     (("rubbles", "--robot", "talis"), "no robot 'talis' and no file of that name. Did you mean 'talos'?"),
     (
         ("gap",),
-        "steps: scene gap has none; take them from a plan: mcplan plan gap -o plan.npz, then mcplan rhp gap --sequence",
+        "gap: steps: must be in the scene, or taken from a plan: mcplan plan gap -o plan.npz, then mcplan rhp gap --sequence",
     ),
-    (("flat", "--robot", "anymal"), 'end_effectors: must have exactly two of kind "foot" to walk with rhp, got 4'),
+    (
+        ("flat", "--robot", "anymal"),
+        'anymal: end_effectors: must have exactly two of kind "foot" to walk with rhp, got 4',
+    ),
     (("flat", "--lookahead", 0), "--lookahead: must lie in [1, 10], got 0"),
     (("flat", "--lookahead", 11), "--lookahead: must lie in [1, 10], got 11"),
     (("flat", "--cycles", 0), "--cycles: must lie in"),
@@ -123,10 +126,10 @@ WRONG = [
     (("flat", "--fidelity", "best"), '--fidelity: must be one of single, com, rectangle, point, got "best"'),
     (("flat", "--transcription", "rk4"), '--transcription: must be one of trapezoidal, euler, got "rk4"'),
     (("flat", "--sequence", "none.npz"), "none.npz: No such file or directory"),
-    (("flat", "-o", "/nowhere/at/all.npz"), "--output: must lie in a folder that exists, got /nowhere/at/all.npz"),
-    (("flat", "-o", "/"), "--output: must be a file, got /"),
-    (("flat", "--html", "/nowhere/x.html"), "--html: must lie in a folder that exists, got /nowhere/x.html"),
-    (("flat", "--plots", "/dev/null"), "--plots: must be a folder, or a name for a new one, got /dev/null"),
+    (("flat", "-o", "/nowhere/at/all.npz"), '--output: must lie in a folder that exists, got "/nowhere/at/all.npz"'),
+    (("flat", "-o", "/"), '--output: must be a file, got "/"'),
+    (("flat", "--html", "/nowhere/x.html"), '--html: must lie in a folder that exists, got "/nowhere/x.html"'),
+    (("flat", "--plots", "/dev/null"), '--plots: must be a folder, or a name for a new one, got "/dev/null"'),
 ]
 
 

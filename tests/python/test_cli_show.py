@@ -75,7 +75,10 @@ def test_a_run_is_rendered(folder, tmp_path, capsys):
     ("words", "message"),
     [
         (["plan.npz"], "--output or --plots: must say what to draw"),
-        (["plan.npz", "-o", "plan.jpg"], "--output: must end in .html, .htm, .png, .pdf, .svg, .mp4, .webp, .gif, got"),
+        (
+            ["plan.npz", "-o", "plan.jpg"],
+            "--output: must end in .html, .htm, .png, .pdf, .svg, .mp4, .webp or .gif, got",
+        ),
         (["plan.npz", "-o", "no/plan.html"], "--output: must lie in a folder that exists, got"),
         (["plan.npz", "--plots", "plan.npz"], "--plots: must be a folder, or a name for a new one, got"),
         (["plan.npz", "-o", "plan.gif"], "--output: must be a page or a picture: a plan is filmed once mcplan track"),

@@ -281,11 +281,14 @@ WRONG = [
     (("cartwheel", "--kinematics", "--minimise", "torque"), "--minimise: must be time or none without dynamics"),
     (("cartwheel", "--kinematics", "--certify"), "--certify: needs dynamics"),
     (("cartwheel", "--warm-start", "none.npz"), "none.npz: No such file or directory"),
-    (("cartwheel", "-o", "/nowhere/at/all.npz"), "--output: must lie in a folder that exists, got /nowhere/at/all.npz"),
-    (("cartwheel", "--html", "/nowhere/x.html"), "--html: must lie in a folder that exists, got /nowhere/x.html"),
-    (("cartwheel", "--plots", "/dev/null"), "--plots: must be a folder, or a name for a new one, got /dev/null"),
-    (("cartwheel", "--strip", "/nowhere/x.png"), "--strip: must lie in a folder that exists, got /nowhere/x.png"),
-    (("cartwheel", "--strip", "strip.txt"), "--strip: must end in .png, .pdf, .svg, got strip.txt"),
+    (
+        ("cartwheel", "-o", "/nowhere/at/all.npz"),
+        '--output: must lie in a folder that exists, got "/nowhere/at/all.npz"',
+    ),
+    (("cartwheel", "--html", "/nowhere/x.html"), '--html: must lie in a folder that exists, got "/nowhere/x.html"'),
+    (("cartwheel", "--plots", "/dev/null"), '--plots: must be a folder, or a name for a new one, got "/dev/null"'),
+    (("cartwheel", "--strip", "/nowhere/x.png"), '--strip: must lie in a folder that exists, got "/nowhere/x.png"'),
+    (("cartwheel", "--strip", "strip.txt"), '--strip: must end in .png, .pdf or .svg, got "strip.txt"'),
 ]
 
 

@@ -140,9 +140,9 @@ def test_closed_streams_are_no_failure(stream):
 @pytest.mark.parametrize(
     ("words", "option", "legal"),
     [
-        (["plan", "flat", "-o", "plan.csv"], "--output", ".npz, .json"),
-        (["plan", "flat", "--html", "page.png"], "--html", ".html, .htm"),
-        (["sip", "cartwheel", "--strip", "a.mp4"], "--strip", ".png, .pdf, .svg"),
+        (["plan", "flat", "-o", "plan.csv"], "--output", ".npz or .json"),
+        (["plan", "flat", "--html", "page.png"], "--html", ".html or .htm"),
+        (["sip", "cartwheel", "--strip", "a.mp4"], "--strip", ".png, .pdf or .svg"),
         (["scenes", "flat", "-o", "scene.npz"], "--output", ".toml"),
         (["tasks", "walking", "-o", "task.json"], "--output", ".toml"),
     ],
@@ -150,5 +150,5 @@ def test_closed_streams_are_no_failure(stream):
 def test_a_name_of_another_kind_is_refused_before_the_work(words, option, legal, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert main(words) == 2
-    assert capsys.readouterr().err == f"error: {option}: must end in {legal}, got {words[-1]}\n"
+    assert capsys.readouterr().err == f'error: {option}: must end in {legal}, got "{words[-1]}"\n'
     assert os.listdir(tmp_path) == []

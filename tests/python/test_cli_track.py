@@ -11,6 +11,7 @@ import mcplan as mp
 import tracked_cartwheel
 from command_line import one_line_error, strict
 from mcplan.cli import main
+from mcplan.cli.pushes import FIELDS
 from mcplan.cli.track_text import Progress
 from mcplan.planar.tracking import PlanarMeasures
 from mcplan.planar.tracking.measures import EARLIER
@@ -205,13 +206,13 @@ def test_malformed_pushes_are_one_line_that_names_the_field(capsys, file, push, 
         (("--friction", "0"), "--friction: must lie above 0 and at most 10, got 0.0"),
         (("--ground-shift", "1"), "--ground-shift: must lie in -0.2 to 0.2, got 1.0"),
         (("--seed", "-1"), "--seed: must not be negative, got -1"),
-        (("--save", "nowhere/run.npz"), "--save: must lie in a folder that exists, got nowhere/run.npz"),
-        (("--html", "nowhere/run.html"), "--html: must lie in a folder that exists, got nowhere/run.html"),
-        (("--video", "nowhere/run.webp"), "--video: must lie in a folder that exists, got nowhere/run.webp"),
-        (("--video", "run.avi"), "--video: must end in .mp4, .webp, .gif, got run.avi"),
-        (("--strip", "run.pdf"), "--strip: must end in .png, got run.pdf"),
-        (("--save", "."), "--save: must be a file, got ."),
-        (("--plots", "/proc/plots"), "--plots: must lie in a folder that can be written to, got /proc/plots ("),
+        (("--save", "nowhere/run.npz"), '--save: must lie in a folder that exists, got "nowhere/run.npz"'),
+        (("--html", "nowhere/run.html"), '--html: must lie in a folder that exists, got "nowhere/run.html"'),
+        (("--video", "nowhere/run.webp"), '--video: must lie in a folder that exists, got "nowhere/run.webp"'),
+        (("--video", "run.avi"), '--video: must end in .mp4, .webp or .gif, got "run.avi"'),
+        (("--strip", "run.pdf"), '--strip: must end in .png, got "run.pdf"'),
+        (("--save", "."), '--save: must be a file, got "."'),
+        (("--plots", "/proc/plots"), '--plots: must lie in a folder that can be written to, got "/proc/plots" ('),
     ],
 )
 def test_what_cannot_be_done_is_said_before_simulating(capsys, file, monkeypatch, words, message):
@@ -285,3 +286,8 @@ def test_the_line_of_a_video_says_how_long_it_still_takes(capsys, monkeypatch):
     progress.drawn(1, 101)
     progress.drawn(11, 101)  # 3 s a picture, and 90 are left
     assert capsys.readouterr().err == "video: picture 1 of 101\nvideo: picture 11 of 101, 270 s left\n"
+
+
+def test_help_and_errors_show_a_push_in_one_form(capsys):
+    form = ",".join(FIELDS)
+    assert form in run(capsys, "--help")[1] and form in one_line_error(run(capsys, "none.npz", "--push", "3"))

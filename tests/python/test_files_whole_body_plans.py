@@ -187,8 +187,11 @@ def in_task(change):
 DAMAGE = {
     "no header": (without("header"), "an archive without `header`"),
     "header no JSON": (put("header", lambda a: a[:-1]), "header: must be JSON"),
-    "no kind": (header(kind=None), 'header.kind: must be "whole_body", got null'),
-    "another kind": (header(kind="half_body"), 'header.kind: must be "whole_body", got "half_body"'),
+    "no kind": (header(kind=None), 'header.kind: must be "whole_body": a plan of a planar robot, got none, as'),
+    "another kind": (
+        header(kind="half_body"),
+        'header.kind: must be "whole_body": a plan of a planar robot, got "half_body"',
+    ),
     "future format": (header(format=2), "header.format: must be 1 for this version of mcplan, got 2"),
     "format true": (header(format=True), "header.format: must be 1"),
     "planner a number": (header(planner=1), "header.planner: must be a string, got 1"),
@@ -263,7 +266,9 @@ def test_files_of_the_two_kinds_are_told_apart(plan, tmp_path):
     standing_plan().save(tmp_path / "centroidal.npz")
     assert isinstance(load_any_plan(tmp_path / "whole.npz"), mp.PlanarPlan)
     assert isinstance(load_any_plan(tmp_path / "centroidal.npz"), mp.Plan)
-    with pytest.raises(mp.errors.InvalidPlan, match='header.kind: must be "whole_body", got null'):
+    with pytest.raises(
+        mp.errors.InvalidPlan, match='header.kind: must be "whole_body": a plan of a planar robot, got none'
+    ):
         mp.PlanarPlan.load(tmp_path / "centroidal.npz")
     with pytest.raises(
         mp.errors.InvalidPlan, match='header.kind: must be none: a plan of contacts and CoM, got "whole_body"'

@@ -111,12 +111,12 @@ def test_a_misspelt_name_in_a_walk_is_named_with_its_file_and_what_is_meant(fiel
     start = text.index(
         f'{field} = "{right}"', text.index("[[steps]]") if "[[steps]]" in text else text.index("steps = ")
     )
-    path.write_text(text[:start] + f'{field} = "{right[:-1]}_x"' + text[start + len(f'{field} = "{right}"') :])
+    path.write_text(text[:start] + f'{field} = "{right}x"' + text[start + len(f'{field} = "{right}"') :])
     with pytest.raises(mp.errors.InvalidScene) as found:
         mp.walk(path, cycles=1)
     said = str(found.value)
     assert said.startswith(f"{path}: steps[{index}].{field}: must name a ")
-    assert f"Did you mean '{right}'? There are: " in said and said.endswith(f'got "{right[:-1]}_x"')
+    assert f"Did you mean '{right}'? There are: " in said and said.endswith(f'got "{right}x"')
     assert one_line_error((main(["rhp", str(path)]), *capsys.readouterr())) == said
 
 

@@ -65,7 +65,6 @@ def contacts(
 
     Example: mcplan bench contacts --markdown contacts.md
     """
-    from mcplan.errors import InvalidInput
     from mcplan.files.outputs import require_folder
     from mcplan_bench import contacts as bench
     from mcplan_bench import records
@@ -77,8 +76,7 @@ def contacts(
         print("\n".join(entry.name for entry in chosen))
         return 0
     timed = not case if speed is None else speed
-    if repeats is not None and not timed:
-        raise InvalidInput("--repeats", "needs --speed")
+    _require_timed(timed, repeats)
     words = [f"--case '{name}'" for name in case or []] + ["--no-table"] * (not table)
     words += ["--settings" if settings else "--no-settings"] * (settings is not None)
     words += ["--speed" if speed else "--no-speed"] * (speed is not None) + [f"--jobs {jobs}"] * (jobs > 1)
@@ -103,6 +101,13 @@ def contacts(
         _print(result)
         print(f"Wrote {', '.join(str(path) for path in written)}")
     return 0 if result["holds"] else 1
+
+
+def _require_timed(timed: bool, repeats: int | None) -> None:
+    from mcplan.errors import InvalidInput
+
+    if repeats is not None and not timed:
+        raise InvalidInput("--repeats", "needs --speed")
 
 
 def _write(result: dict[str, Any], out: Path, markdown: Path | None) -> list[Path]:

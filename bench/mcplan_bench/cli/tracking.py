@@ -90,21 +90,17 @@ def tracking(
 
     Example: mcplan bench tracking --robustness --jobs 2 --markdown docs/tracking.md
     """
-    from mcplan.errors import InvalidInput
     from mcplan.extras import require
 
     require("mcplan bench tracking", "sim", "mujoco", "pinocchio", "proxsuite")
     from mcplan_bench import records, tracking_speed
     from mcplan_bench import tracking as bench
 
-    if seeds is not None and not robustness:
-        raise InvalidInput("--seeds", "needs --robustness")
-    seeds = SEEDS if seeds is None else seeds
+    seeds = _seeds(robustness, seeds)
     _require_folders({"--out": out, "--html": html, "--strips": strips})
     chosen = _chosen(short, case or [])
     if list_cases:
-        print("\n".join(entry.name for entry in chosen))
-        return 0
+        return _list(chosen)
     _require_drawing(html, strips)
     result: dict[str, Any] = {"machine": records.machine(), "packages": records.versions(*PACKAGES), "jobs": jobs}
     result["command"] = _command(short, case or [], table, seeds if robustness else None, jobs)
@@ -126,6 +122,19 @@ def tracking(
     else:
         _print(result, written)
     return 0 if result["holds"] else 1
+
+
+def _list(chosen: list[Case]) -> int:
+    print("\n".join(entry.name for entry in chosen))
+    return 0
+
+
+def _seeds(robustness: bool, seeds: int | None) -> int:
+    from mcplan.errors import InvalidInput
+
+    if seeds is not None and not robustness:
+        raise InvalidInput("--seeds", "needs --robustness")
+    return SEEDS if seeds is None else seeds
 
 
 def _robustness(seeds: int, jobs: int, case: list[str] | None) -> dict[str, Any]:

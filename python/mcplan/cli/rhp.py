@@ -166,4 +166,4 @@ def _planner(
         if error.field != "steps":
             raise
         instead = f"mcplan plan {terrain} -o plan.npz, then mcplan rhp {terrain} --sequence plan.npz"
-        raise InvalidScene("steps", f"scene {scene.name} has none; take them from a plan: {instead}") from None
+        raise InvalidScene("steps", f"must be in the scene, or taken from a plan: {instead}") from None
