@@ -57,7 +57,6 @@ def check(
 
     saved = load_any_plan(plan)
     certificate, feasibility = None, None
-    depths: list[dict[str, object]] = []
     if isinstance(saved, PlanarPlan):
         if robot is not None:
             raise InvalidInput(
@@ -68,7 +67,6 @@ def check(
             certificate = prove(saved, self_collision=self_collision)
         # "motion" is the earlier name of "task", for one more release.
         carried = {"task": saved.task.name, "motion": saved.task.name, "robot": saved.task.robot.name}
-        depths = _solid_depths(saved, result)
     elif certify or self_collision:
         option = "--certify" if certify else "--self-collision"
         raise InvalidInput(option, "needs a whole-body plan, as mcplan sip makes them")
@@ -88,12 +86,11 @@ def check(
             "certified": None if certificate is None else certificate.proved(),
             "certificate": None if certificate is None else certificate_dict(certificate),
             "feasibility": None if feasibility is None else feasibility_dict(feasibility),
-            "solid_depths": depths,
+            "solid_depths": _solid_depths(saved, result),
         }
         print(json_module.dumps(report))
     else:
         _print_result(plan, saved, result, certificate)
-        _print_not_asked(depths)
         if feasibility is not None:
             _print_feasibility(feasibility)
     proved, followed = certificate is None or certificate.proved(), feasibility is None or feasibility.ok()
@@ -124,15 +121,16 @@ def _print_result(path: Path, plan: Plan | PlanarPlan, result: CheckResult, cert
     if isinstance(plan, Plan):
         for line in all_lines(plan):
             print(printable(line))
+    _print_not_asked(_solid_depths(plan, result))
     if certificate is not None:
         print("\n".join(printable(line) for line in str(certificate).rstrip().splitlines()))
 
 
-def _solid_depths(plan: PlanarPlan, result: CheckResult) -> list[dict[str, object]]:
-    """How deep every swinging end-effector goes into every solid, where the plan could be evaluated."""
-    from mcplan._core import solid_depths
+def _solid_depths(plan: Plan | PlanarPlan, result: CheckResult) -> list[dict[str, object]]:
+    """How deep every swinging end-effector of a whole-body plan goes into every solid, if it could be evaluated."""
+    from mcplan._core import PlanarPlan, solid_depths
 
-    if not any(found.name == "clearance" for found in result.constraints):
+    if not isinstance(plan, PlanarPlan) or not any(found.name == "clearance" for found in result.constraints):
         return []
     task = plan.task
     return [
