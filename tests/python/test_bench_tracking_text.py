@@ -19,7 +19,7 @@ FALL = replace(WALK, case="gap/talos", fell=True, completed_s=3.2, holds=False, 
 COM = Row("rubbles/com", "rhp", "talos", 1.0, False, planned="infeasible", message="cycle 1: com_reach", holds=True)
 PLANAR = Row("walking", "sip", "walker9", 1.0, False, planned="solved", planning_s=31.0, fell=False, completed_s=6.5)
 PLANAR = replace(PLANAR, force_rms=0.062, drift_m=0.0006, holds=True)
-SEED_3 = Outcome("flat/talos", 3, 1.05, 0.9, -0.004, 30.0, 2.5, 90.0, True, 3.0, 0.1, 0.2, 0, 0)
+SEED_3 = Outcome("flat/talos", 3, 1.05, 0.9, -0.004, 30.0, 2.5, 90.0, 0.001, 120.0, 0.5, True, 3.0, 0.1, 0.2, 0, 0)
 ROBUSTNESS = {"case": "flat/talos", "runs": 20, "survived": 19, "holds": True, "fell": [3], "largest_com_rms_m": 0.0041}
 ROBUSTNESS |= {"qp_failures": 0, "simulator_warnings": 0}
 SPEED = {"repeats": 3, "control_ms": 0.8, "qp_ms": 0.2, "model_ms": 0.1, "rest_ms": 0.5, "p99_ms": 1.4, "holds": True}
