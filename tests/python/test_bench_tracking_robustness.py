@@ -16,7 +16,9 @@ pytest.importorskip("mujoco")
 pytest.importorskip("proxsuite")
 
 FLAT, STAIRS = named("flat/talos"), named("stairs_broad/talos")
-STAYED = bench.Outcome("flat/talos", 1, 1.05, 0.9, -0.004, 30.0, 2.5, 90.0, False, 9.0, 0.004, 0.01, 0, 0)
+STAYED = bench.Outcome(
+    "flat/talos", 1, 1.05, 0.9, -0.004, 30.0, 2.5, 90.0, 0.001, 120.0, 0.5, False, 9.0, 0.004, 0.01, 0, 0
+)
 
 
 def outcomes(case, runs, fallen):
@@ -41,7 +43,8 @@ def test_a_case_without_a_plan_does_not_hold(monkeypatch):
 
 def test_a_fall_is_told_with_what_was_drawn():
     text = bench.line(replace(STAYED, fell=True, completed_s=3.21))
-    drawn = "mass x 1.050, friction x 0.900, ground -4.0 mm, push 30 N at 2.50 s towards 90 deg"
+    drawn = "mass x 1.050, friction x 0.900, ground -4.0 mm, push 30 N at 2.50 s towards 90 deg, "
+    drawn += "torques 1.0 ms late and of 120 Hz, sensor noise x 0.50"
     assert text == f"flat/talos seed 1: FELL at 3.21 s ({drawn})"
 
 

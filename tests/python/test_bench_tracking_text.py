@@ -15,11 +15,15 @@ WALK = replace(WALK, com_rms_m=0.0012, com_max_m=0.0034, final_base_error_m=0.00
 WALK = replace(
     WALK, leg_torque_joint="leg_left_4_joint", leg_limit_ratio=0.035, qp_failures=0, control_ms=0.72, holds=True
 )
+WALK = replace(
+    WALK, velocity_use=0.93, velocity_joint="knee", torque_step_use=1.25, self_contacts=2, self_contact_N=40.0
+)
+WALK = replace(WALK, self_contact_m=0.0015, terrain_contacts=0, terrain_contact_N=0.0)
 FALL = replace(WALK, case="gap/talos", fell=True, completed_s=3.2, holds=False, why="fell at 3.20 s")
 COM = Row("rubbles/com", "rhp", "talos", 1.0, False, planned="infeasible", message="cycle 1: com_reach", holds=True)
 PLANAR = Row("walking", "sip", "walker9", 1.0, False, planned="solved", planning_s=31.0, fell=False, completed_s=6.5)
 PLANAR = replace(PLANAR, force_rms=0.062, drift_m=0.0006, holds=True)
-SEED_3 = Outcome("flat/talos", 3, 1.05, 0.9, -0.004, 30.0, 2.5, 90.0, True, 3.0, 0.1, 0.2, 0, 0)
+SEED_3 = Outcome("flat/talos", 3, 1.05, 0.9, -0.004, 30.0, 2.5, 90.0, 0.001, 120.0, 0.5, True, 3.0, 0.1, 0.2, 0, 0)
 ROBUSTNESS = {"case": "flat/talos", "runs": 20, "survived": 19, "holds": True, "fell": [3], "largest_com_rms_m": 0.0041}
 ROBUSTNESS |= {"qp_failures": 0, "simulator_warnings": 0}
 SPEED = {"repeats": 3, "control_ms": 0.8, "qp_ms": 0.2, "model_ms": 0.1, "rest_ms": 0.5, "p99_ms": 1.4, "holds": True}
@@ -37,11 +41,13 @@ RESULT = {
 
 
 def test_tables_are_in_readable_units():
-    errors, effort, planar, disturbed, speed = sections(RESULT)
+    errors, effort, limits, planar, disturbed, speed = sections(RESULT)
     row = dict(zip(errors.head, errors.rows[0], strict=True))
     assert (row["CoM rms"], row["max"], row["base"], row["swing"], row["holds"]) == ("1.2", "3.4", "5.1", "-", "yes")
     row = dict(zip(effort.head, effort.rows[0], strict=True))
     assert (row["torque, legs"], row["at limit"], row["control step"]) == ("0.61", "3.5 %", "0.72 ms")
+    assert [row[0] for row in limits.rows] == [row[0] for row in effort.rows]
+    assert limits.rows[0][1:] == ["0.93", "knee", "1.25", "2", "40 N", "1.5 mm", "0", "0 N"]
     row = dict(zip(planar.head, planar.rows[0], strict=True))
     assert (row["in"], row["forces' error"], row["drift"]) == ("31.0 s", "6.2 %", "0.6 mm")
     assert disturbed.rows[0][:4] == ["flat/talos", "19 of 20", "3", "4.1 mm"]

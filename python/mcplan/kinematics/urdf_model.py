@@ -14,6 +14,8 @@ from mcplan.extras import require
 from mcplan.files.robots import PACKAGE, list_robots_with
 from mcplan.files.urdf_reading import build_model, package_folders, read_urdf
 
+from .srdf import srdf_beside
+
 if TYPE_CHECKING:
     from mcplan._core import Robot
 
@@ -82,6 +84,9 @@ def load_model(robot: Robot) -> UrdfModel:
             model = build_model(xml, InvalidRobot, str(path))
             kind, folders = pin.GeometryType.VISUAL, package_folders(path)
             visual = pin.buildGeomFromUrdfString(model, xml.text, kind, None, folders)
+            srdf = srdf_beside(path)
+            if srdf is not None:
+                pin.loadRotorParameters(model, str(srdf), False)
             neutral = pin.neutral(model)
     except Exception as error:  # loaders of robots raise what the file system or the parser happen to raise
         reason = (str(error).splitlines() or [type(error).__name__])[0]
