@@ -308,6 +308,7 @@ def solve_result(status: str = "solved") -> types.SimpleNamespace:
     report = types.SimpleNamespace(
         status=status, message="", cost=1.5, cost_terms={"com": 1.0, "limit": float("nan")}, iterations=20, time_s=0.1,
         switches=4, seed=7, threads=2, version="0.1.0", friction_use={"left_foot": 0.4},
+        warnings=(), paper_verdict="", paper_cost=0.0, parallel_loops=0,
         worst_violation=mp.model.Violation(name="reach", phase=1, end_effector="left_foot", time_s=0.5, value=-0.01, unit="m"),
     )  # fmt: skip
     return types.SimpleNamespace(plan=standing_plan(), report=report)

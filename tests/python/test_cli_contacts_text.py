@@ -89,7 +89,14 @@ def result_of(
 ) -> types.SimpleNamespace:
     """What mcplan.plan returns, made up."""
     report = types.SimpleNamespace(
-        status=status, message=message, iterations=20, time_s=0.1, worst_violation=worst, friction_use={}
+        status=status,
+        message=message,
+        iterations=20,
+        time_s=0.1,
+        worst_violation=worst,
+        friction_use={},
+        warnings=(),
+        paper_verdict="",
     )
     return types.SimpleNamespace(plan=plan if plan is not None else standing_plan(), report=report)
 

@@ -97,7 +97,8 @@ std::vector<Cone> cones_of(const Scene& scene, const Robot& robot, double tolera
 ///     b_v T + A T^2 / 4.
 ///
 /// Where the CoM of the goal is farther than that from the start's, with b for each of the two (`start`, `goal`), there
-/// is no plan. Without force caps nothing is said.
+/// is no plan. A hundredth more of b and b_v is for what states may differ by at each of 2000 knots (`dynamics`).
+/// Without force caps nothing is said.
 std::optional<Impossible> slips_everywhere(const Scene& scene, const Robot& robot) {
   const Tolerances tolerances;
   const std::vector<Cone> cones = cones_of(scene, robot, tolerances.friction);
@@ -111,10 +112,10 @@ std::optional<Impossible> slips_everywhere(const Scene& scene, const Robot& robo
   // d is on the edge of some cone's polar, within rounding.
   const double falling = scene.gravity * d->z() - (leak + 1e-9 * force) / robot.mass;
   if (!std::isfinite(force) || !(falling > 0.0)) return std::nullopt;
-  const double rest = tolerances.boundary * size.velocity(), duration = 2.0 * rest / falling;
+  const double boundary = 1.01 * tolerances.boundary, rest = boundary * size.velocity(),
+               duration = 2.0 * rest / falling;
   const double acceleration = force / robot.mass + scene.gravity;
-  const double allowed_m =
-      2.0 * tolerances.boundary * size.length + rest * duration + 0.25 * acceleration * duration * duration;
+  const double allowed_m = 2.0 * boundary * size.length + rest * duration + 0.25 * acceleration * duration * duration;
   const double way_m = (scene.goal.position_W - scene.start.position_W).norm();
   if (!(way_m > allowed_m)) return std::nullopt;
 

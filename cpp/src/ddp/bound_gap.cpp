@@ -70,7 +70,7 @@ bool forbids_flight(const Scene& scene, const Robot& robot) {
 /// Which surfaces can follow upon which others; `reached` grows from those of the start.
 class Ways {
  public:
-  Ways(const Scene& scene, const Robot& robot) : robot_(&robot), flights_(!forbids_flight(scene, robot)) {
+  Ways(const Scene& scene, const Robot& robot, bool flights) : robot_(&robot), flights_(flights) {
     const Tolerances tolerances;
     const Similarity size = similarity_of(robot, scene.gravity);
     reach_ = tolerances.reach * size.length;
@@ -209,7 +209,7 @@ std::vector<int> surfaces_of(const ResolvedStance& stance) {
 /// no chain of such pairs joins with the start's surfaces cannot be touched. Of end-effectors whose contacts are held
 /// to com_reach instead of the box nothing is said, nor of stances without contacts.
 std::optional<Impossible> gap_too_wide(const Scene& scene, const Robot& robot) {
-  const Ways ways(scene, robot);
+  const Ways ways(scene, robot, !forbids_flight(scene, robot));
   if (ways.unlimited()) return std::nullopt;
   const std::vector<int> start = surfaces_of(resolve_stance(scene, robot, scene.start, "start"));
   const std::vector<int> goal = surfaces_of(resolve_stance(scene, robot, scene.goal, "goal"));
@@ -231,6 +231,20 @@ std::optional<Impossible> gap_too_wide(const Scene& scene, const Robot& robot) {
                         " than any " + (ways.flights() ? "jump" : "step") + " of " + robot.name + ": at most " +
                         metres(largest) + why,
                     {"contact_sequence", -1, "", 0.0, (high ? rise : gap.width) - largest, 0.0, "m"}};
+}
+
+/// A way without jumps does not exist: gap_too_wide() without them. Every way out of what steps reach then has a
+/// flight, over no less than the narrowest gap around it.
+std::string flight_needed(const Scene& scene, const Robot& robot) {
+  const Ways ways(scene, robot, false);
+  const std::vector<int> start = surfaces_of(resolve_stance(scene, robot, scene.start, "start"));
+  const std::vector<int> goal = surfaces_of(resolve_stance(scene, robot, scene.goal, "goal"));
+  if (start.empty() || goal.empty()) return "";
+  const std::vector<bool> reached = reached_from(ways, start, goal);
+  if (std::all_of(goal.begin(), goal.end(), [&](int g) { return reached[g]; })) return "";
+  const Gap gap = narrowest(ways, reached);
+  return "no steps lead to the goal: it takes a flight over " + model::digits(gap.width, "%.3g") +
+         " m at least, as between " + text(scene.surfaces[gap.from].name) + " and " + text(scene.surfaces[gap.to].name);
 }
 
 }  // namespace mcplan::ddp

@@ -57,8 +57,9 @@ double growth_to_touch(const std::vector<Vector3d>& polygon, const Vector3d& box
 /// yaw within b_r each, and the stance's contacts. The foothold x of one of them lies within c of its surface's plane
 /// and within c of its polygon, so within sqrt(2) c of a point y of it (`contact_distance`, `contact_polygon`), and R^T
 /// (x - p) in the reach box grown by rho (`reach`), with an R that differs from the knot's by o at most
-/// (`orientation`). The angle between R and R_z(yaw*) is at most 3 b_r + o, and |x - p| at most r + sqrt(3) rho with r
-/// the farthest corner of the box. So R_z(yaw*)^T (y - p*) lies in the box grown by
+/// (`orientation`), about a CoM that differs from the knot's by at most the tolerance of `dynamics`. The angle between
+/// R and R_z(yaw*) is at most 3 b_r + o, and |x - p| at most r + sqrt(3) rho with r the farthest corner of the box. So
+/// R_z(yaw*)^T (y - p*) lies in the box grown by
 ///
 ///     rho + sqrt(2) c + b + (3 b_r + o) (r + sqrt(3) rho)
 ///
@@ -81,7 +82,7 @@ std::optional<Impossible> stance_out_of_reach(const Scene& scene, const Robot& r
     for (const Vector3d& v : at_goal ? surface.vertices_W : std::vector<Vector3d>{at.end_effectors_W[l]})
       polygon_B.push_back(to_base * (v - at.com_W));
     const double beyond_m = growth_to_touch(polygon_B, end.reach_min_B, end.reach_max_B);
-    const double reach_m = tolerances.reach * length;
+    const double reach_m = (tolerances.reach + 2.0 * tolerances.dynamics) * length;
     const double foothold_m = (at_goal ? std::sqrt(2.0) * tolerances.contact_distance : tolerances.stance) * length;
     const double allowed_m =
         reach_m + foothold_m + tolerances.boundary * length + turned * (farthest_reach(end) + std::sqrt(3.0) * reach_m);

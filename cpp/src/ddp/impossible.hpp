@@ -28,6 +28,9 @@ std::optional<Impossible> slips_everywhere(const Scene& scene, const Robot& robo
 /// No step and no jump leads from the surfaces of the start to those of the goal. bound_gap.cpp
 std::optional<Impossible> gap_too_wide(const Scene& scene, const Robot& robot);
 
+/// Where no steps lead from the start to the goal, what flight it takes, in words; else empty. bound_gap.cpp
+std::string flight_needed(const Scene& scene, const Robot& robot);
+
 /// The first condition that fails. From a `measured` start only what holds of the goal is asked for.
 std::optional<Impossible> why_impossible(const Scene& scene, const Robot& robot, bool measured);
 

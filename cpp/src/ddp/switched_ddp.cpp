@@ -215,6 +215,8 @@ std::string SwitchedDdp::Impl::message_of(Status status, int steps, const BestPl
     message << "stopped before the checker had seen the best plan in full; it accepts what it saw of it";
   else
     message << "the best plan violates " << report.worst_violation.to_string();
+  if (best && status != Status::solved && !best->plan.measured_start)
+    if (const std::string flight = flight_needed(scene, robot); !flight.empty()) message << "; " << flight;
   return message.str();
 }
 

@@ -332,3 +332,19 @@ TEST_CASE("an impossible scene is infeasible before the first iteration, and has
     CHECK(result.report.message == why_impossible(scene, running(5.0), false)->message);
   }
 }
+
+TEST_CASE("a search that fails says of the scene what is certain: the flight that it takes") {
+  CHECK(flight_needed(two(0.6), scenes::humanoid44()).empty());
+  CHECK(flight_needed(two(2.5), scenes::humanoid44()) ==
+        "no steps lead to the goal: it takes a flight over 2.5 m at least, as between \"before\" and \"after\"");
+  Scene stone = two(2.5);
+  stone.surfaces.push_back(scenes::rectangle("stone", 1.6, 1.8, 0, 0.2, 0.0));
+  CHECK(flight_needed(stone, scenes::humanoid44()) ==
+        "no steps lead to the goal: it takes a flight over 1.1 m at least, as between \"before\" and \"stone\"");
+  Options options;
+  options.max_iterations = 5;
+  const mcplan::PlanResult result = SwitchedDdp(two(2.5), scenes::humanoid44(), options).solve();
+  CHECK(result.report.status == Status::iteration_limit);
+  CHECK(result.report.message.rfind("the best plan violates ", 0) == 0);
+  CHECK(result.report.message.find("; no steps lead to the goal: it takes a flight over 2.5 m") != std::string::npos);
+}
