@@ -23,6 +23,7 @@ for name in ("mujoco", "pinocchio", "proxsuite", "example_robot_data"):
     pytest.importorskip(name)
 
 BESIDES = {"plan", "scene", "robot", "duration_s", "torque_joint", "interrupted", "feasible", "verdict"}
+BESIDES |= {"velocity_joint", "velocity_at_s", "touches"}
 BESIDES |= {"options", "version", "followed"}
 
 
@@ -61,18 +62,23 @@ def test_standing_is_told_in_words_and_code_0(capsys, file):
     assert (code, err) == (0, "")
     assert lines[0] == "flat  talos  followed to the end: 1.60 s without a fall (plan of 0.60 s, unassisted)"
     names = [line[2:27].strip() for line in lines[1:]]
-    assert names == [
+    assert [name for name in names if name != "torques that jump"] == [
         "CoM off the plan",
         "orientation off the plan",
         "swinging end-effectors",
         "slip in contact",
         "base at the end",
         "largest torque",
+        "fastest joint",
+        "contacts of links",
         "assistance",
         "controller",
         "simulator",
     ]
-    assert lines[7].endswith("none") and "every step solved" in lines[8] and "no warnings" in lines[9]
+    told = dict(zip(names, lines[1:], strict=True))
+    assert told["assistance"].endswith("none") and told["contacts of links"].endswith("none, but for end-effectors")
+    assert "every step solved" in told["controller"] and "no warnings" in told["simulator"]
+    assert " % of the speed limit of " in told["fastest joint"]
 
 
 def test_json_holds_every_measure_and_what_was_drawn_from_the_seed(capsys, file):
@@ -83,9 +89,11 @@ def test_json_holds_every_measure_and_what_was_drawn_from_the_seed(capsys, file)
     assert (data["plan"], data["scene"], data["robot"], data["fell"]) == (str(file), "flat", "talos", False)
     assert (data["feasible"], data["interrupted"], data["version"]) == (True, False, mp.__version__)
     assert data["assist_force_rms_N"] == data["assist_moment_rms_Nm"] == 0.0
+    assert 0.0 < data["velocity_use"] < 1.0 and data["velocity_joint"] and data["touches"] == []
     used = data["options"]
     assert used["seed"] == 4 and len(used["pushes"]) == 1
     assert 0.9 <= used["mass_scale"] <= 1.1 and used["mass_scale"] != 1.0
+    assert used["torque_delay_s"] > 0.0 and used["torque_bandwidth_hz"] >= 50.0 and used["sensor_noise"] > 0.0
     assert 0.8 <= used["friction_scale"] <= 1.2 and 0.0 < abs(used["ground_shift_m"]) <= 0.01
 
 
@@ -205,6 +213,9 @@ def test_malformed_pushes_are_one_line_that_names_the_field(capsys, file, push, 
         (("--mass-scale", "9"), "--mass-scale: must lie in 0.2 to 5, got 9.0"),
         (("--friction", "0"), "--friction: must lie above 0 and at most 10, got 0.0"),
         (("--ground-shift", "1"), "--ground-shift: must lie in -0.2 to 0.2, got 1.0"),
+        (("--torque-delay", "1"), "--torque-delay: must lie in 0 to 0.05, got 1.0"),
+        (("--torque-bandwidth", "0.5"), "--torque-bandwidth: must lie in 1 to 1000, or be 0, got 0.5"),
+        (("--sensor-noise", "-1"), "--sensor-noise: must lie in 0 to 100, got -1.0"),
         (("--seed", "-1"), "--seed: must not be negative, got -1"),
         (("--save", "nowhere/run.npz"), '--save: must lie in a folder that exists, got "nowhere/run.npz"'),
         (("--html", "nowhere/run.html"), '--html: must lie in a folder that exists, got "nowhere/run.html"'),

@@ -4,7 +4,18 @@ import numpy as np
 import pytest
 
 from mcplan.tracking import Options, Push
-from mcplan.tracking.disturbances import FRICTION, GROUND_M, MASS, PUSH_N, PUSH_S, PUSHED_MASS, disturbed
+from mcplan.tracking.disturbances import (
+    BANDWIDTH_HZ,
+    DELAY_S,
+    FRICTION,
+    GROUND_M,
+    MASS,
+    NOISE,
+    PUSH_N,
+    PUSH_S,
+    PUSHED_MASS,
+    disturbed,
+)
 
 
 def test_a_seed_means_always_the_same():
@@ -29,6 +40,10 @@ def test_draws_stay_in_their_ranges_and_reach_most_of_them():
     spread((p.force_N for p in pushes), 0.0, PUSH_N)
     spread((p.at_s for p in pushes), 0.0, 4.0)
     spread((p.direction_deg for p in pushes), 0.0, 360.0)
+    spread((o.torque_delay_s for o in drawn), 0.0, DELAY_S)
+    spread((o.torque_bandwidth_hz for o in drawn), *BANDWIDTH_HZ)
+    spread((o.sensor_noise for o in drawn), 0.0, NOISE)
+    assert [o.noise_seed for o in drawn] == list(range(300))
     assert {p.duration_s for p in pushes} == {PUSH_S}
     for options in drawn:
         options.validate()
@@ -53,4 +68,7 @@ def test_disturbances_come_on_top_of_what_is_asked_for():
     assert found.friction_scale == pytest.approx(0.5 * plain.friction_scale)
     assert found.ground_shift_m == pytest.approx(0.03 + plain.ground_shift_m)
     assert found.pushes == (own, *plain.pushes)
+    lagging = disturbed(Options(torque_delay_s=0.004, torque_bandwidth_hz=10.0, sensor_noise=2.0), 9, 4.0)
+    assert lagging.torque_delay_s == pytest.approx(0.004 + plain.torque_delay_s)
+    assert lagging.torque_bandwidth_hz == 10.0 and lagging.sensor_noise == pytest.approx(2.0 + plain.sensor_noise)
     assert (found.hold_s, found.assist, found.gains) == (0.7, True, start.gains)

@@ -16,6 +16,10 @@ WRONG = [
     ("ground_shift_m", [0.21, -0.21, NAN, INF]),
     ("hold_s", [-0.1, 60.1, NAN, INF]),
     ("seed", [-1]),
+    ("noise_seed", [-1]),
+    ("torque_bandwidth_hz", [0.5, -1.0, 1001.0, NAN, INF]),
+    ("torque_delay_s", [-0.001, 0.051, NAN, INF]),
+    ("sensor_noise", [-0.1, 101.0, NAN, INF]),
 ]
 
 

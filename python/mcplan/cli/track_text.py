@@ -130,7 +130,10 @@ def _planar(result: PlanarResult) -> dict[str, Any]:
 def _fastest(joint: str, time_s: float) -> dict[str, Any]:
     from mcplan.cli.check import finite
 
-    return {"velocity_joint": joint or None, "velocity_at_s": finite(time_s)}
+    return {
+        "velocity_joint": joint or None,
+        "velocity_at_s": finite(time_s),
+    }
 
 
 def _finite(data: dict[str, Any]) -> dict[str, Any]:
