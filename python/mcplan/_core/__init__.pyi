@@ -1309,6 +1309,8 @@ class Plan:
         planner: str = "",
         measured_start: bool = False,
         open_end: bool = False,
+        momentum_max: typing.SupportsFloat | typing.SupportsIndex = ...,
+        momentum_rate_max: typing.SupportsFloat | typing.SupportsIndex = ...,
         scene: Scene = ...,
         robot: Robot = ...,
         knots: collections.abc.Sequence[Knot] = [],
@@ -1378,6 +1380,20 @@ class Plan:
         """
     @measured_start.setter
     def measured_start(self, arg0: bool) -> None: ...
+    @property
+    def momentum_max(self) -> float:
+        """
+        [kg m^2/s] Largest component of the angular momentum about the CoM that it claims to keep, in the axes of the start's heading; left out: no claim.
+        """
+    @momentum_max.setter
+    def momentum_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def momentum_rate_max(self) -> float:
+        """
+        [N m] The same of its rate.
+        """
+    @momentum_rate_max.setter
+    def momentum_rate_max(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def open_end(self) -> bool:
         """
@@ -1709,7 +1725,7 @@ class Tolerances:
     @property
     def force_cap(self) -> float:
         """
-        [-] Relative excess over max_force.
+        [-] Relative excess over max_force, or over a claimed momentum_max.
         """
     @force_cap.setter
     def force_cap(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
