@@ -139,7 +139,10 @@ def test_a_pendulum_has_no_loads_to_be_said(capsys, file):
 def test_every_constraint_has_a_unit_and_ratios_are_printed_without(capsys, file, tmp_path):
     whole_body = tmp_path / "chimney.npz"
     mp.whole_body("chimney", forces="uniform", minimise="none", max_iterations=1).plan.save(str(whole_body))
-    for path, ratios in ((file, {"friction", "force_cap"}), (whole_body, {"position", "velocity", "torque"})):
+    for path, ratios in (
+        (file, {"friction", "force_cap", "angular_momentum"}),
+        (whole_body, {"position", "velocity", "torque"}),
+    ):
         found = strict(run(capsys, "check", path, "--json")[1])["constraints"]
         assert all(constraint["unit"] for constraint in found)
         assert {constraint["name"] for constraint in found if constraint["unit"] == "-"} == ratios
