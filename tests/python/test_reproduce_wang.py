@@ -137,6 +137,20 @@ def test_the_tables_of_the_paper_are_typed_in_right():
     assert set(wang_tables.PUBLISHED_2) == set(wang_runs.METHODS) == set(wang_size.PUBLISHED)
 
 
+def test_candidate_2_is_compared_with_the_baseline_by_iterations_and_by_time_of_one():
+    rows = [
+        {"method": method, "predicted": predicted, "terrain": "rubbles", "published_mean_s": 2.0, **means}
+        for method, predicted, means in (
+            ("single", 1, {"cpu_mean": 0.2, "iterations_mean": 50.0}),
+            ("rectangle", 2, {"cpu_mean": 0.3, "iterations_mean": 40.0}),
+        )
+    ]
+    (compared,) = wang_tables.faster(rows, "rectangle")
+    assert compared == ("rubbles", 1.0, pytest.approx(2.0 / 3.0))
+    assert wang_tables.why_slower(rows, "rectangle") == pytest.approx((0.8, 1.875))
+    assert wang_tables.why_slower(rows, "point") is None and wang_tables.faster(rows) == []
+
+
 def test_table_2_tells_convergence_from_a_quiet_walk():
     runs = [
         made_up("rubbles", "single", 1, acc=0.3),

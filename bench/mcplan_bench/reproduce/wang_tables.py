@@ -170,16 +170,33 @@ def table_3(rows: list[dict[str, Any]]) -> list[str]:
     return lines
 
 
-def faster(rows: list[dict[str, Any]]) -> list[tuple[str, float, float]]:
-    """For each terrain the time of the 1-step baseline over that of `point` with two steps: published and here."""
+def faster(rows: list[dict[str, Any]], method: str = "point") -> list[tuple[str, float, float]]:
+    """For each terrain the time of the 1-step baseline over that of a method with two steps: published and here."""
+    return [
+        (baseline["terrain"], baseline["published_mean_s"] / other["published_mean_s"], _ratio(baseline, other, "cpu"))
+        for baseline, other in _beside_baseline(rows, method)
+    ]
+
+
+def why_slower(rows: list[dict[str, Any]], method: str) -> tuple[float, float] | None:
+    """Iterations, and processor time of one, of a method with two steps over those of the 1-step baseline: means over
+    terrains. None without such runs."""
+    pairs = _beside_baseline(rows, method)
+    if not pairs:
+        return None
+    iterations = float(np.mean([1.0 / _ratio(baseline, other, "iterations") for baseline, other in pairs]))
+    time = float(np.mean([1.0 / _ratio(baseline, other, "cpu") for baseline, other in pairs]))
+    return iterations, time / iterations
+
+
+def _beside_baseline(rows: list[dict[str, Any]], method: str) -> list[tuple[dict[str, Any], dict[str, Any]]]:
     cells = {(row["method"], row["predicted"], row["terrain"]): row for row in rows}
-    out = []
-    for terrain in TERRAINS:
-        baseline, point = cells.get(("single", 1, terrain)), cells.get(("point", 2, terrain))
-        if baseline and point:
-            here = baseline["cpu_mean"] / point["cpu_mean"]
-            out.append((terrain, baseline["published_mean_s"] / point["published_mean_s"], here))
-    return out
+    both = [(cells.get(("single", 1, terrain)), cells.get((method, 2, terrain))) for terrain in TERRAINS]
+    return [(baseline, other) for baseline, other in both if baseline and other]
+
+
+def _ratio(baseline: dict[str, Any], other: dict[str, Any], what: str) -> float:
+    return float(baseline[f"{what}_mean"] / other[f"{what}_mean"])
 
 
 def cost_rows(runs: list[Run]) -> list[dict[str, Any]]:
