@@ -56,10 +56,10 @@ const Eigen::MatrixXd& Rows::matrix(int i, const TaylorGraph::Workspace& work) c
   const Limited& it = limited_[i];
   const int degree = graph_.order(it.node);
   const Extrema found = extrema(graph_.coefficients(work, it.node));
-  moving_.resize(first_row_[i + 1] - first_row_[i], degree + 1);
-  int r = 0;
-  if (std::isfinite(it.lower)) moving_.row(r++) = it.scale * powers(found.at_min, degree);
-  if (std::isfinite(it.upper)) moving_.row(r) = it.scale * powers(found.at_max, degree);
+  const int first = first_row_[i], count = first_row_[i + 1] - first;
+  moving_.resize(count, degree + 1);
+  for (int r = 0; r < count; ++r)
+    moving_.row(r) = it.scale * powers(std::isfinite(lower_[first + r]) ? found.at_min : found.at_max, degree);
   return moving_;
 }
 

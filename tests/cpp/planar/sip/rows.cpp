@@ -186,6 +186,17 @@ TEST_CASE("a scale turns rows and finite limits alike, and leaves infinite ones 
   }
 }
 
+TEST_CASE("a limit that its scale makes infinite is no row, under extrema as well") {
+  One one(3);
+  one.set(Eigen::Vector4d(0.0, 1.0, 0.0, 0.0));
+  Limited limited = between(one.node, -1e300, 1e-10);
+  limited.scale = 1e10;
+  const Rows rows(one.graph, {limited}, with(Continuous::extremum));
+  REQUIRE(rows.count() == 1);
+  CHECK(rows.upper()[0] == doctest::Approx(1.0));
+  CHECK(values_of(rows, one.work)[0] == doctest::Approx(1e10));  // of the largest value, at s = 1
+}
+
 TEST_CASE("adjoints are the transposed rows") {
   One one(6);
   std::mt19937 random(5);
