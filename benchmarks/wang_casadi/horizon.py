@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import casadi as ca
+import numpy as np
 from faces import COM_HEIGHT, FOOT_HEIGHT, force_axes, pruned
 from program import Program
 from walker import Walker
@@ -179,7 +180,10 @@ class Horizon:
             if centroidal and self.euler:
                 parts[f"momentum_{when}"] += h * ca.sumsqr(self.L[g])
             elif centroidal:
-                parts[f"momentum_{when}"] += h / 2 * (ca.sumsqr(self.L[g]) + ca.sumsqr(self.L[g + 1]))
+                rate = self._rate_between(g, h, here, there)
+                parts[f"momentum_{when}"] += self._square_of_momentum(g, h, rate)
+                for inner in (rate[0] + rate[1] / 3, rate[0] + (2 * rate[1] + rate[2]) / 3):  # Bernstein's
+                    self.program.add(inner, -MOMENTUM_RATE, MOMENTUM_RATE)
 
     def _control(self, s: int, q: int, k: int, g: int) -> dict[str, ca.SX]:
         """Forces of control node k, with acceleration a, momentum rate R and sum of psi^2, and all their rows."""
@@ -242,6 +246,36 @@ class Horizon:
         self.program.equal(self.v[g + 1], self.v[g] + h * here["a"])
         if centroidal:
             self.program.equal(self.L[g + 1], self.L[g] + h * here["R"])
+
+    def _rate_between(self, g: int, h: ca.SX, here: dict, there: dict) -> list[ca.SX]:
+        """Coefficients of s^0..s^3, s = 0..1, of the momentum's rate between two nodes with linear forces: a cubic, through
+        what moments about the first node's CoM and the way of the CoM from there give at four places."""
+        a0, a1, v0 = here["a"], there["a"], self.v[g]
+        weight = ca.SX([0, 0, self.walker.gravity])
+
+        def way(s: float) -> ca.SX:
+            return h * s * v0 + h**2 * (s**2 / 2 * a0 + s**3 / 6 * (a1 - a0))
+
+        def force(s: float) -> ca.SX:
+            return self.walker.mass * ((1 - s) * a0 + s * a1 + weight)
+
+        def rate(s: float) -> ca.SX:
+            moment = (1 - s) * here["R"] + s * (there["R"] + ca.cross(way(1.0), force(1.0)))
+            return moment - ca.cross(way(s), force(s))
+
+        places = np.linspace(0.0, 1.0, 4)
+        inverse = np.linalg.inv(np.vander(places, increasing=True))
+        values = [rate(s) for s in places]
+        return [sum(float(inverse[k, i]) * values[i] for i in range(4)) for k in range(4)]
+
+    def _square_of_momentum(self, g: int, h: ca.SX, rate: list[ca.SX]) -> ca.SX:
+        """The integral of |L|^2 between two nodes; a polynomial of degree 8, so five points are enough."""
+        total = ca.SX(0)
+        for place, share in zip(*np.polynomial.legendre.leggauss(5), strict=True):
+            s = 0.5 * (1.0 + place)
+            momentum = self.L[g] + h * sum(s ** (k + 1) / (k + 1) * rate[k] for k in range(4))
+            total += 0.5 * share * h * ca.sumsqr(momentum)
+        return total
 
     def _linear_force_step(self, g: int, h: ca.SX, here: dict, there: dict, centroidal: bool) -> None:
         a0, a1, v0 = here["a"], there["a"], self.v[g]

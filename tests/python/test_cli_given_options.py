@@ -54,6 +54,9 @@ BAD = {
         "--ground-shift": ("1e9",),
         "--seed": ("-1",),
         "--push": ("40",),
+        "--torque-bandwidth": ("-1",),
+        "--torque-delay": ("-1",),
+        "--sensor-noise": ("-1",),
     },
     "robots --from-urdf g1": {
         "--end": ("foot=nowhere", "foot"),

@@ -211,7 +211,7 @@ def test_noise_stays_within_its_share_and_repeats_with_its_seed():
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["wang", "--lookahead-max", "11"], "lookahead_max"),
+        (["wang", "--lookahead-max", "11"], "--lookahead-max"),
         (["wang", "--cycles", "0"], "cycles"),
         (["wang", "--seeds", "-1"], "seeds"),
         (["tazaki", "--cycles", "3"], "--cycles"),

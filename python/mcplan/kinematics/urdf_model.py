@@ -85,7 +85,7 @@ def load_model(robot: Robot) -> UrdfModel:
             kind, folders = pin.GeometryType.VISUAL, package_folders(path)
             visual = pin.buildGeomFromUrdfString(model, xml.text, kind, None, folders)
             srdf = srdf_beside(path)
-            if srdf is not None:
+            if srdf is not None and "rotor_params" in srdf.read_text(errors="replace"):
                 pin.loadRotorParameters(model, str(srdf), False)
             neutral = pin.neutral(model)
     except Exception as error:  # loaders of robots raise what the file system or the parser happen to raise

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.errors import InvalidScene
+
 if TYPE_CHECKING:
     from mcplan._core import Robot, Scene
     from mcplan.kinematics.samples import Samples
@@ -62,6 +64,20 @@ class Extent:
                 if len(polygon) < 3:
                     return np.zeros((0, 3))
         return polygon
+
+
+def require_drawable(scene: Scene) -> None:
+    """Raises InvalidScene where a picture has nothing to go by. A scene that is wrong otherwise is drawn, so that one can see
+    what is wrong with it."""
+    for i, surface in enumerate(scene.surfaces):
+        vertices = np.asarray(surface.vertices_W, float)
+        if len(vertices) < 3:
+            raise InvalidScene(f"surfaces[{i}].vertices", "must have at least 3 points", str(len(vertices)))
+        if not np.isfinite(vertices).all():
+            raise InvalidScene(f"surfaces[{i}].vertices", "must be finite numbers", "nan or inf")
+    for name, stance in (("start", scene.start), ("goal", scene.goal)):
+        if not np.isfinite(stance.position_W).all():
+            raise InvalidScene(f"{name}.position", "must be finite numbers", "nan or inf")
 
 
 def extent_of(scene: Scene, robot: Robot | None, samples: Samples | None, length: float, width: float) -> Extent:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mcplan.kinematics.loads import loads_of
 from mcplan.kinematics.samples import sample
 from mcplan.view.colours import GOAL, NORMAL, START, end_effector_colours
-from mcplan.view.extent import extent_of, scale_of, scale_of_scene
+from mcplan.view.extent import extent_of, require_drawable, scale_of, scale_of_scene
 from mcplan.view.figure_choice import figure_of
 from mcplan.view.plan_drawing import WEIGHT_ARROW, draw_plan
 from mcplan.view.scene_drawing import SurfaceDrawing, draw_surfaces, surface_drawings
@@ -46,14 +46,15 @@ def show(plan: Plan, scene: Scene | None = None, robot: Robot | None = None, rep
     Raises:
         MissingExtra: meshcat (or Pinocchio, for a robot with a URDF) is not installed.
         InvalidPlan: The plan's arrays do not fit together.
-        InvalidScene, InvalidRobot: A number of the scene or of the robot is out of its range.
+        InvalidScene: A surface has no vertices, or a position is no number.
+        InvalidRobot: A number of the robot is out of its range.
     """
     if scene is not None or robot is not None:
         plan = copy.copy(plan)
         plan.scene = scene if scene is not None else plan.scene
         plan.robot = robot if robot is not None else plan.robot
     scene, robot = plan.scene, plan.robot
-    scene.validate()
+    require_drawable(scene)
     robot.validate()
     plan.validate()  # with what it is drawn with: another robot may have other end-effectors
     colours = end_effector_colours(robot)
@@ -117,11 +118,11 @@ def show_scene(scene: Scene, robot: Robot | None = None) -> Page:
         robot: Stands at the start, and pale at the goal, with its footprints; None: flags at start and goal alone.
 
     Raises:
-        InvalidScene: The robot cannot take the scene's start or goal, or a number of the scene is out of its range.
+        InvalidScene: The robot cannot take the scene's start or goal; a surface has no vertices, or a position is no number.
         InvalidRobot: A number of the robot is out of its range.
         MissingExtra: meshcat is not installed.
     """
-    scene.validate()
+    require_drawable(scene)
     if robot is not None:
         robot.validate()
     extent = extent_of(scene, robot, None, length=0.9, width=0.9)

@@ -16,7 +16,7 @@ from mcplan.kinematics.rotations import pose, with_axis_z
 from mcplan.kinematics.samples import Samples, sample
 from mcplan.view.coarse import coarse
 from mcplan.view.colours import COM, FORCE, GRASP, OUTLINE, PAD, TEXT, end_effector_colours, mix, plain
-from mcplan.view.extent import extent_of
+from mcplan.view.extent import extent_of, require_drawable
 from mcplan.view.figure import Figure
 from mcplan.view.figure_choice import figure_of
 from mcplan.view.plan_drawing import WEIGHT_ARROW, contact_plate
@@ -62,12 +62,13 @@ def picture(
     Raises:
         MissingExtra: matplotlib is not installed.
         InvalidPlan: The plan's arrays do not fit together.
-        InvalidScene, InvalidRobot: A number of the scene or of the robot is out of its range.
+        InvalidScene: A surface has no vertices, or a position is no number.
+        InvalidRobot: A number of the robot is out of its range.
     """
     require("mcplan.view.picture", "view", "matplotlib")
     scene = scene if scene is not None else plan.scene
     robot = robot if robot is not None else plan.robot
-    scene.validate()
+    require_drawable(scene)
     robot.validate()
     plan.validate()
     colours = end_effector_colours(robot)
