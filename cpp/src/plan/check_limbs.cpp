@@ -73,7 +73,8 @@ std::vector<Violation> Limbs::warnings(const Problem& problem) const {
   std::vector<Violation> out;
   for (std::size_t i = 0; i < worst_.size(); ++i) {
     const Worst& worst = worst_[i];
-    if (!(worst.length > problem.tolerances.clearance)) continue;
+    // A negative tolerance asks for a distance to spare, which nothing here measures.
+    if (!(worst.length > std::max(problem.tolerances.clearance, 0.0))) continue;
     out.push_back({"limb", worst.place.phase, problem.robot.end_effectors[worst.place.end_effector].name,
                    worst.place.time_s, worst.length, problem.tolerances.clearance, "m",
                    problem.scene.surfaces[i].name});

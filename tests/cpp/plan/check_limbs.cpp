@@ -76,3 +76,10 @@ TEST_CASE("solids beside the way, and what an end-effector touches, warn of noth
   for (const mcplan::Violation& warning : mcplan::check(held, held.scene, held.robot).warnings)
     CHECK(held.robot.end_effectors[held.robot.end_effector_index(warning.end_effector)].kind == "foot");
 }
+
+TEST_CASE("a tolerance that asks for a distance to spare warns of no limb that is in no solid") {
+  const Plan plan = walk();
+  mcplan::Tolerances tolerances;
+  tolerances.clearance = -1.0;
+  CHECK(mcplan::check(plan, plan.scene, plan.robot, tolerances).warnings.empty());
+}
