@@ -71,7 +71,7 @@ def reproduce(
         wang_figures.figure_5(out, figure_5),
     ]
     page = out / "wang.md"
-    lines = _page(about, runs, sizes, table_2, table_3, figure_4, figure_5)
+    lines = _page(about, runs, sizes, (table_2, table_3), (figure_4, figure_5))
     write_whole("\n".join(lines) + "\n", page)
     if about["interrupted"]:
         raise KeyboardInterrupt
@@ -90,12 +90,11 @@ def _page(
     about: dict[str, Any],
     runs: list[Run],
     sizes: list[dict[str, Any]],
-    table_2: list[dict[str, Any]],
-    table_3: list[dict[str, Any]],
-    figure_4: list[dict[str, Any]],
-    figure_5: list[dict[str, Any]],
+    tables: tuple[list[dict[str, Any]], list[dict[str, Any]]],
+    figures: tuple[list[dict[str, Any]], list[dict[str, Any]]],
 ) -> list[str]:
-    """Lines of wang.md."""
+    """Lines of wang.md; tables II and III, figures 4 and 5."""
+    (table_2, table_3), (figure_4, figure_5) = tables, figures
     return [
         *_head(about, wang_tables.seeds(runs), table_3),
         "## Table I: variables and constraints of an instant",

@@ -3,11 +3,11 @@
 namespace mcplan::ddp {
 namespace {
 
-/// Turn of the sole against the base within the end-effector's yaw_range at every instant: yaw_min <= yaw_l - yaw <=
+/// Heading of the sole against the base within the end-effector's yaw_range at every instant: yaw_min <= yaw_l - yaw <=
 /// yaw_max. Not in the paper.
-class SoleTurn final : public CostTerm {
+class YawRange final : public CostTerm {
  public:
-  SoleTurn() : CostTerm("sole_turn", Scope::contact, 40) {}
+  YawRange() : CostTerm("yaw_range", Scope::contact, 40) {}
 
   bool applies(const StepView& step) const override { return step.between_knots(); }
 
@@ -15,10 +15,8 @@ class SoleTurn final : public CostTerm {
     const EndLimits& limit = step.problem.limits[step.l];
     const double weight = step.schedule.interior_weight;
     for (const Instant& instant : step.instants) {
-      const double turn = step.sole_yaw - instant.rpy.z();
-      const double beyond = turn < limit.yaw_min   ? turn - limit.yaw_min
-                            : turn > limit.yaw_max ? turn - limit.yaw_max
-                                                   : 0;
+      const double yaw = step.sole_yaw - instant.rpy.z();
+      const double beyond = yaw < limit.yaw_min ? yaw - limit.yaw_min : yaw > limit.yaw_max ? yaw - limit.yaw_max : 0;
       if (beyond == 0.0) continue;
       if (!rows.with_gradient())
         rows.add_value(weight, beyond);
@@ -31,8 +29,8 @@ class SoleTurn final : public CostTerm {
 }  // namespace
 
 namespace cost {
-const CostTerm& sole_turn() {
-  static const SoleTurn term;
+const CostTerm& yaw_range() {
+  static const YawRange term;
   return term;
 }
 }  // namespace cost

@@ -4,21 +4,21 @@ namespace {
 
 using namespace support;
 
-Writer sole_turn_of(const ddp::Problem& problem, double sole_yaw) {
-  return term(problem, "sole_turn", {2, 1, 0, 3.0, 7.0, sole_yaw});
+Writer yaw_range_of(const ddp::Problem& problem, double sole_yaw) {
+  return term(problem, "yaw_range", {2, 1, 0, 3.0, 7.0, sole_yaw});
 }
 
 }  // namespace
 
-TEST_CASE("turn of the sole: gradients; the paper's model knows no headings of soles") {
+TEST_CASE("heading of the sole: gradients; the paper's model knows no headings of soles") {
   for (ddp::Model model : kModels) {
     const ddp::Problem problem = workshop(phases(6, model));
     for (double yaw : {-0.4, 1.2}) {
-      const Writer sole_turn = sole_turn_of(problem, yaw);
+      const Writer yaw_range = yaw_range_of(problem, yaw);
       if (model == ddp::Model::wrench)
-        check_rows(problem, sole_turn, 60, 0.1, 40);
+        check_rows(problem, yaw_range, 60, 0.1, 40);
       else
-        CHECK(values(problem, sole_turn, VectorXd::Zero(problem.layout.nz())).size() == 0);
+        CHECK(values(problem, yaw_range, VectorXd::Zero(problem.layout.nz())).size() == 0);
     }
   }
 }
@@ -31,7 +31,7 @@ TEST_CASE("the sole may be turned against the base by its range, at every instan
   VectorXd x = VectorXd::Zero(at.nx()), u = VectorXd::Zero(at.nu());
   u[at.duration()] = 0.4;
   x[at.angle(2)] = 0.2;
-  const auto price = [&](double yaw) { return cost(problem, sole_turn_of(problem, yaw), x, u) / (0.5 * 49.0); };
+  const auto price = [&](double yaw) { return cost(problem, yaw_range_of(problem, yaw), x, u) / (0.5 * 49.0); };
   CHECK(price(-0.09) == 0.0);
   CHECK(price(0.69) == 0.0);
   CHECK(price(-0.2) == doctest::Approx(3 * 0.01));  // three instants
