@@ -49,7 +49,9 @@ bool Search::paper_switches(Incumbent& now, Iteration& row) {
     Eigen::LLT<Eigen::MatrixXd> factor;
   };
   const int n = problem_->steps;
-  std::vector<Worker> workers(problem_->options.threads, Worker(model_));
+  std::vector<Worker> workers;  // made in their place: a factorisation that was not computed is not to be copied
+  workers.reserve(problem_->options.threads);
+  for (int i = 0; i < problem_->options.threads; ++i) workers.emplace_back(model_);
   std::vector<std::vector<Neighbour>> neighbours(n);
   const auto price = [&](int k, int thread) {
     Worker& w = workers[thread];

@@ -66,7 +66,8 @@ TEST_CASE("checker holds a plan to the angular momentum, and its rate, that it c
   Case kept;
   claims(10.0, 0.6)(kept);
   CHECK(kept.check().ok());
-  const mcplan::Violation& margin = find(kept.check(), "angular_momentum");
+  const CheckResult result = kept.check();
+  const mcplan::Violation& margin = find(result, "angular_momentum");
   CHECK(margin.value == doctest::Approx(0.5 / 0.6 - 1.0));
   CHECK(broken(claims(10.0, 0.4)) == Names{"angular_momentum"});
   CHECK(broken(claims(1e-3, 10.0)) == Names{"angular_momentum"});
