@@ -1,4 +1,5 @@
 #include <map>
+#include <utility>
 
 #include "bindings.hpp"
 
@@ -22,12 +23,15 @@ py::object in_refusals(const char* name) { return py::module_::import("mcplan.re
 
 void raise(const py::object& error) { PyErr_SetObject(py::type::handle_of(error).ptr(), error.ptr()); }
 
-/// Replaces the error that is set by a line, where it is one of pybind11 about arguments.
-void refuse(PyObject* record, const py::tuple& given, const py::dict& named) {
+/// Replaces the error that is set by a line, where it is one of pybind11 about arguments; `arguments` makes a tuple and
+/// a dict of them.
+template <class Arguments>
+void refuse(PyObject* record, const Arguments& arguments) {
   if (!PyErr_ExceptionMatches(PyExc_TypeError)) return;
   py::error_already_set before;
   const auto place = assigned().find(record);
   try {
+    const auto [given, named] = arguments();
     const py::object error =
         in_refusals("refusal")(py::str(before.value()), given, named, place == assigned().end() ? "" : place->second);
     if (!error.is_none()) return raise(error);
@@ -56,12 +60,14 @@ PyObject* call_fast(PyObject* record, PyObject* const* values, Py_ssize_t count,
   PyObject* const out = reinterpret_cast<Fast>(reinterpret_cast<void (*)()>(dispatcher))(record, values, count, keys);
   if (out && (!makes_enum || is_member(values[0]))) return out;
   Py_XDECREF(out);
-  py::tuple given(count);
-  for (Py_ssize_t i = 0; i < count; ++i) given[i] = py::handle(values[i]);
-  py::dict named;
-  for (Py_ssize_t i = 0; keys && i < PyTuple_GET_SIZE(keys); ++i)
-    named[py::handle(PyTuple_GET_ITEM(keys, i))] = py::handle(values[count + i]);
-  refuse(record, given, named);
+  refuse(record, [&] {
+    py::tuple given(count);
+    for (Py_ssize_t i = 0; i < count; ++i) given[i] = py::handle(values[i]);
+    py::dict named;
+    for (Py_ssize_t i = 0; keys && i < PyTuple_GET_SIZE(keys); ++i)
+      named[py::handle(PyTuple_GET_ITEM(keys, i))] = py::handle(values[count + i]);
+    return std::pair(given, named);
+  });
   return nullptr;
 }
 
@@ -72,7 +78,10 @@ PyObject* call(PyObject* record, PyObject* values, PyObject* keys) {
       reinterpret_cast<PyCFunctionWithKeywords>(reinterpret_cast<void (*)()>(dispatcher))(record, values, keys);
   if (out && (!makes_enum || is_member(PyTuple_GET_ITEM(values, 0)))) return out;
   Py_XDECREF(out);
-  refuse(record, py::reinterpret_borrow<py::tuple>(values), keys ? py::reinterpret_borrow<py::dict>(keys) : py::dict());
+  refuse(record, [&] {
+    return std::pair(py::reinterpret_borrow<py::tuple>(values),
+                     keys ? py::reinterpret_borrow<py::dict>(keys) : py::dict());
+  });
   return nullptr;
 }
 

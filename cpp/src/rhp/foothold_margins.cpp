@@ -14,8 +14,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr std::array<double, 4> kRatios{1.0, 0.5, 0.25, 0.0};
-
 /// Where a foot is on both feet's ground: anywhere on its surface, or where it stands.
 struct Stand {
   int foot = 0, surface = -1;
@@ -59,12 +57,12 @@ FootholdMargins::FootholdMargins(const Walker& walker, const State& state, const
     const Stand& other = stands[1 - step.foot];
     stands[step.foot] = {step.foot, step.surface, std::nullopt};
     if (step.surface == other.surface) continue;
-    const auto ratio = std::find_if(kRatios.begin(), kRatios.end(), [&](double r) {
+    const auto ratio = std::find_if(Walker::kMarginRatios.begin(), Walker::kMarginRatios.end(), [&](double r) {
       for (const Stand& stand : stands)
         if (!stand.at_W) now.limit_margin(stand.foot, stand.surface, r);
       return in_reach(now, stands[step.foot], other);
     });
-    if (ratio != kRatios.end() || !out_of_reach.empty()) continue;
+    if (ratio != Walker::kMarginRatios.end() || !out_of_reach.empty()) continue;
     out_of_reach = "no foothold of " + walker.robot.end_effectors[walker.feet[step.foot].end_effector].name + " on " +
                    shown_surface(walker, step.surface) + " is in reach of the other foot on " +
                    shown_surface(walker, other.surface) + ", with no margin either";

@@ -115,7 +115,7 @@ Vector2d Walker::taken_size(int foot, int surface) const {
   const Eigen::Matrix3d frame = frame_W(surface);
   const auto limit = margin_ratios.find({foot, surface});
   const double max_ratio = limit == margin_ratios.end() ? 1.0 : limit->second;
-  for (double ratio : {1.0, 0.5, 0.25}) {
+  for (double ratio : kMarginRatios) {
     if (options.paper) break;
     if (ratio > max_ratio) continue;
     const Vector2d half = feet[foot].half_size.array() + ratio * options.foothold_margin_m;

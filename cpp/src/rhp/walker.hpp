@@ -73,7 +73,10 @@ struct Walker {
   /// surface is too small, or margin_ratios say so.
   Eigen::Vector2d taken_size(int foot, int surface) const;
 
-  /// Ratio of foothold_margin_m that is kept, by foot and surface, where it is below 1.
+  /// Ratios of foothold_margin_m that are tried one after another.
+  static constexpr std::array<double, 4> kMarginRatios{1.0, 0.5, 0.25, 0.0};
+
+  /// Ratio that is kept, by foot and surface, where it is below 1.
   using MarginRatios = std::map<std::pair<int, int>, double>;
   MarginRatios margin_ratios;
   void limit_margin(int foot, int surface, double ratio);  ///< to this ratio, if it is larger now

@@ -1293,7 +1293,7 @@ class Plan:
     @staticmethod
     def load(path: str | pathlib.Path) -> Plan:
         """
-        Read a plan that was written by save(), or by Plan::save in C++.
+        Read a plan that was written by save(), or by save in C++.
 
         Raises:
             InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
@@ -1351,7 +1351,7 @@ class Plan:
         Write the plan to an .npz or a .json file, which is complete or not there at all; C++ reads the latter.
 
         Raises:
-            InvalidInput: The name promises another kind of file.
+            InvalidInput: The name promises another kind of file, or is empty.
             OSError: The file cannot be written.
             InvalidPlan: Its sizes do not fit together or a number is not finite.
         """
@@ -2896,7 +2896,7 @@ class PlanarPlan:
     @staticmethod
     def load(path: str | pathlib.Path) -> PlanarPlan:
         """
-        Read a plan that was written by save(), or by PlanarPlan::save in C++.
+        Read a plan that was written by save(), or by save in C++.
 
         Raises:
             InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
@@ -2952,7 +2952,7 @@ class PlanarPlan:
         Write the plan to an .npz or a .json file, which is complete or not there at all; C++ reads the latter.
 
         Raises:
-            InvalidInput: The name promises another kind of file.
+            InvalidInput: The name promises another kind of file, or is empty.
             OSError: The file cannot be written.
             InvalidPlan: Its sizes do not fit together or a number is not finite.
         """

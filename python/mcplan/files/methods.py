@@ -4,69 +4,55 @@ The front imports this, so that they are there whenever ``mcplan`` is; what read
 Annotations are types here, not texts, because those who ask the classes for signatures would look for their names in ``_core``.
 """
 
+from collections.abc import Callable
 from inspect import cleandoc
 from pathlib import Path
+from typing import Any
 
 from mcplan._core import Plan, PlanarPlan
 
-
-def _save(self: Plan, path: str | Path) -> None:
-    """Write the plan to an .npz or a .json file, which is complete or not there at all; C++ reads the latter.
-
-    Raises:
-        InvalidInput: The name promises another kind of file.
-        OSError: The file cannot be written.
-        InvalidPlan: Its sizes do not fit together or a number is not finite.
-    """
-    from mcplan.files.plans import save_plan
-
-    save_plan(self, path)
+_Files = tuple[Callable[[Any, str | Path], None], Callable[[str | Path], Any]]
 
 
-def _load(path: str | Path) -> Plan:
-    """Read a plan that was written by save(), or by Plan::save in C++.
+def _of_plans() -> _Files:
+    from mcplan.files.plans import load_plan, save_plan
 
-    Raises:
-        InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
-        FileNotFoundError: There is no such file.
-    """
-    from mcplan.files.plans import load_plan
-
-    return load_plan(path)
+    return save_plan, load_plan
 
 
-def _save_planar(self: PlanarPlan, path: str | Path) -> None:
-    """Write the plan to an .npz or a .json file, which is complete or not there at all; C++ reads the latter.
+def _of_planar_plans() -> _Files:
+    from mcplan.files.whole_body_plans import load_whole_body_plan, save_whole_body_plan
 
-    Raises:
-        InvalidInput: The name promises another kind of file.
-        OSError: The file cannot be written.
-        InvalidPlan: Its sizes do not fit together or a number is not finite.
-    """
-    from mcplan.files.whole_body_plans import save_whole_body_plan
-
-    save_whole_body_plan(self, path)
+    return save_whole_body_plan, load_whole_body_plan
 
 
-def _load_planar(path: str | Path) -> PlanarPlan:
-    """Read a plan that was written by save(), or by PlanarPlan::save in C++.
+def _give(owner: Any, files: Callable[[], _Files]) -> None:
+    """Make methods of a class that write and read its objects as `files` does."""
 
-    Raises:
-        InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
-        FileNotFoundError: There is no such file.
-    """
-    from mcplan.files.whole_body_plans import load_whole_body_plan
+    def save(self: Any, path: str | Path) -> None:
+        """Write the plan to an .npz or a .json file, which is complete or not there at all; C++ reads the latter.
 
-    return load_whole_body_plan(path)
+        Raises:
+            InvalidInput: The name promises another kind of file, or is empty.
+            OSError: The file cannot be written.
+            InvalidPlan: Its sizes do not fit together or a number is not finite.
+        """
+        files()[0](self, path)
+
+    def load(path: str | Path) -> Any:
+        """Read a plan that was written by save(), or by save in C++.
+
+        Raises:
+            InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
+            FileNotFoundError: There is no such file.
+        """
+        return files()[1](path)
+
+    save.__annotations__["self"] = load.__annotations__["return"] = owner
+    for method in (save, load):
+        method.__qualname__, method.__doc__ = f"{owner.__name__}.{method.__name__}", cleandoc(method.__doc__ or "")
+    owner.save, owner.load = save, staticmethod(load)
 
 
-def _give(owner: type, save: object, load: object) -> None:
-    """Make the two functions methods of a class, under their names."""
-    for name, function in (("save", save), ("load", load)):
-        function.__name__, function.__qualname__ = name, f"{owner.__name__}.{name}"  # type: ignore[attr-defined]
-        function.__doc__ = cleandoc(function.__doc__ or "")
-    owner.save, owner.load = save, staticmethod(load)  # type: ignore[attr-defined, arg-type]
-
-
-_give(Plan, _save, _load)
-_give(PlanarPlan, _save_planar, _load_planar)
+_give(Plan, _of_plans)
+_give(PlanarPlan, _of_planar_plans)

@@ -42,9 +42,8 @@ class Separation:
         names = list(model.urdf_model.model.names)
         joint_of = {model.mj.joint(name).bodyid[0]: names.index(name) for name in model.joints}
         self._joint_of = {geom: joint_of.get(int(model.mj.geom_bodyid[geom]), 1) for geom in self._geoms}
-        self._distance = np.full(
-            len(self._pairs), -np.inf
-        )  # exact where last worked out, less what shapes have moved since
+        # Exact where it was last worked out, less what shapes have moved since.
+        self._distance = np.full(len(self._pairs), -np.inf)
         self._places: tuple[Array, Array] | None = None
         self._moved = np.zeros(model.mj.ngeom)
 

@@ -65,8 +65,9 @@ class PlanarPlan {
 
   double duration() const;                 ///< [s]
   std::vector<double> knot_times() const;  ///< [s] phase boundaries, phases + 1 entries, from 0
-  std::vector<double> interval_lengths()
-      const;  ///< [s]; throws InvalidPlanarTask for phases of no or too many intervals
+
+  /// [s] Throws InvalidPlanarTask where a phase has no interval, or too many.
+  std::vector<double> interval_lengths() const;
 
   /// State at time t [s] in [0, duration]. At a boundary the phase that begins there is meant (the last one at the
   /// end). Throws InvalidInput outside.
