@@ -24,7 +24,8 @@ CPP_ROOMS = {
     "plan": {"base", "model", "scene", "robot"},  # the checker with it: it sees no planner
     "ddp": {"base", "model", "scene", "robot", "plan"},
     "nlp": {"base"},
-    "rhp": {"base", "model", "scene", "robot", "plan", "nlp"},
+    "ipm": {"base", "model", "nlp"},
+    "rhp": {"base", "model", "scene", "robot", "plan", "nlp", "ipm"},
     "planar": {"base", "model", "plan"},  # robot, task, plan and checker, which sees no planner either
     "planar/sip": {"base", "model", "plan", "nlp", "planar"},
 }
@@ -39,6 +40,7 @@ PUBLIC = {
     "plan": "checker force_laws friction_use loads plan plan_files report",
     "ddp": "options plan switched_ddp",
     "nlp": "derivative_check piece problem solver",
+    "ipm": "solver",
     "rhp": "options receding_horizon walk",
     "planar": "checker force_laws plan plan_files robot robot_files task task_files",
     "planar/sip": "certificate options plan planner",

@@ -45,6 +45,7 @@ void bind_results(py::module_& m) {
   c.def_readonly("status", &Cycle::status, "solved: converged, and the checker accepts the executed step.");
   c.def_readonly("message", &Cycle::message);
   c.def_readonly("executed", &Cycle::executed, "Its first step keeps the constraints and was taken into the walk.");
+  c.def_readonly("solver", &Cycle::solver, "That found the step: ipopt or ipm.");
   c.def_readonly("iterations", &Cycle::iterations);
   c.def_readonly("time_s", &Cycle::time_s, "Wall clock, set-up and check included [s].");
   c.def_readonly("evaluation_s", &Cycle::evaluation_s, "Of which in functions and derivatives [s].");

@@ -13,6 +13,7 @@
 #include "nlp/ipopt_adapter.hpp"
 #include "nlp/ipopt_ending.hpp"
 #include "nlp/ipopt_version.hpp"
+#include "nlp/start.hpp"
 
 namespace mcplan::nlp {
 namespace {
@@ -83,28 +84,6 @@ class Turn {
   std::unique_lock<std::timed_mutex> lock_;
 };
 
-VectorXd projected(const Problem& problem, VectorXd x) {
-  for (int i = 0; i < problem.variable_count(); ++i)
-    x[i] = std::max(problem.variable_lower()[i], std::min(problem.variable_upper()[i], x[i]));
-  return x;
-}
-
-void require_start(const Problem& problem, const VectorXd& x0) {
-  const int n = problem.variable_count();
-  if (x0.size() != n) throw InvalidInput("x0", "must have " + text(n) + " values", text(static_cast<int>(x0.size())));
-  for (int i = 0; i < n; ++i)
-    if (!std::isfinite(x0[i])) throw InvalidInput("x0, " + problem.variable_name(i), "must be finite", text(x0[i]));
-}
-
-/// Name of a variable or row whose lower bound lies above its upper bound, or "".
-std::string crossed(const Problem& problem) {
-  for (int i = 0; i < problem.variable_count(); ++i)
-    if (problem.variable_lower()[i] > problem.variable_upper()[i]) return problem.variable_name(i);
-  for (int i = 0; i < problem.row_count(); ++i)
-    if (problem.row_lower()[i] > problem.row_upper()[i]) return problem.row_name(i);
-  return "";
-}
-
 /// Without a free variable there is nothing to optimise, and Ipopt's versions disagree on how to say so.
 Ending judge_fixed(const Problem& problem, const VectorXd& x, double constraint_tolerance) {
   if (problem.worst_violation(x).value <= constraint_tolerance)
@@ -114,9 +93,8 @@ Ending judge_fixed(const Problem& problem, const VectorXd& x, double constraint_
 
 Ending run(const Problem& problem, const VectorXd& x0, IpoptAdapter& adapter, const SolverOptions& options,
            const Deadline& deadline) {
-  const std::string impossible = crossed(problem);
-  if (!impossible.empty())
-    return {Outcome::infeasible, "the lower bound of " + impossible + " lies above its upper bound", false};
+  const std::string impossible = contradiction(problem);
+  if (!impossible.empty()) return {Outcome::infeasible, impossible, false};
   if (problem.variable_lower() == problem.variable_upper())
     return judge_fixed(problem, x0, options.constraint_tolerance);
   const Turn turn(deadline);
@@ -138,8 +116,7 @@ Ending run(const Problem& problem, const VectorXd& x0, IpoptAdapter& adapter, co
 Solution solve(const Problem& problem, const VectorXd& x0, const SolverOptions& options) {
   const Deadline deadline(options.time_limit_s, options.clock);
   options.validate();
-  require_start(problem, x0);
-  const VectorXd x = projected(problem, x0);
+  const VectorXd x = start_of(problem, x0);
   Ipopt::SmartPtr<IpoptAdapter> adapter = new IpoptAdapter(problem, x, options, deadline);
   const Ending ending = run(problem, x, *adapter, options, deadline);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ipm/names.hpp"
 #include "mcplan/rhp/options.hpp"
 #include "model/fields.hpp"
 
@@ -81,7 +82,8 @@ struct Fields<rhp::Options> {
           .positive(),
       field("max_iterations", &Options::max_iterations, "", "Most iterations of a cycle.").at_least(1),
       field("time_limit_s", &Options::time_limit_s, "s", "Wall clock of a cycle.").positive().or_infinite(),
-      field("automatic_ordering", &Options::automatic_ordering, "", "The linear solver's own pivot order."),
+      field("solver", &Options::solver, "", "Solver of the nonlinear programs."),
+      field("automatic_ordering", &Options::automatic_ordering, "", "Pivot order of Ipopt's linear solver is its own."),
       field("logger", &Options::logger, "", "Called with (LogLevel, line), a line a cycle; None: silent."));
 };
 

@@ -8,6 +8,7 @@
 
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/base/error.hpp"
+#include "mcplan/ipm/solver.hpp"
 #include "mcplan/nlp/solver.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "mcplan/plan/friction_use.hpp"
@@ -158,7 +159,8 @@ nlp::Solution RecedingHorizon::Impl::solve(Cycle& cycle, Horizon& horizon_now, H
     nlp::SolverOptions how = solver_options(options, deadline.remaining_s());
     if (attempt > 0) how.initial_barrier = 1e-4;  // close to the solution already
     how.max_iterations = std::max(1, options.max_iterations - cycle.iterations);
-    solution = nlp::solve(horizon_now.problem, horizon_now.guess, how);
+    solution = ipm::solve(options.solver, horizon_now.problem, horizon_now.guess, how);
+    cycle.solver = solution.solver;
     cycle.iterations += solution.iterations;
     cycle.evaluation_s += solution.evaluation_s;
     cycle.linear_solver_s += solution.linear_solver_s;

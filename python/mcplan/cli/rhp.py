@@ -32,6 +32,7 @@ CyclesOption = Annotated[int, typer.Option("--cycles", metavar="N", help="Number
 TranscriptionOption = Annotated[
     str, typer.Option("--transcription", metavar="T", help="Integration rule: trapezoidal or euler.")
 ]
+SolverOption = Annotated[str, typer.Option("--solver", metavar="S", help="Solver of the programs: ipopt, ipm or auto.")]
 PaperOption = Annotated[bool, typer.Option("--paper", help="Use the CoM box and the friction pyramid as published.")]
 LiftedPsiOption = Annotated[bool, typer.Option("--lifted-psi", help="Keep the relaxation's bounds as variables.")]
 SequenceOption = Annotated[
@@ -54,7 +55,7 @@ QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print no line 
 
 
 @named_as_typed(
-    "scale", "fidelity", "lookahead", "cycles", "transcription", "paper", "lifted_psi", time_limit_s="--time-limit"
+    "scale", "fidelity", "lookahead", "cycles", "transcription", "solver", "paper", "lifted_psi", time_limit_s="--time-limit"
 )
 def rhp(
     terrain: TerrainArgument,
@@ -64,6 +65,7 @@ def rhp(
     scale: ScaleOption = 1.0,
     cycles: CyclesOption = 14,
     transcription: TranscriptionOption = "trapezoidal",
+    solver: SolverOption = "ipopt",
     paper: PaperOption = False,
     lifted_psi: LiftedPsiOption = False,
     sequence: SequenceOption = None,
@@ -92,7 +94,7 @@ def rhp(
 
     require_outputs("rhp", output, html, plots)
     given = {"fidelity": fidelity, "lookahead": lookahead, "cycles": cycles, "transcription": transcription}
-    options = walking.make_options({**given, "paper": paper, "lifted_psi": lifted_psi, "time_limit": time_limit})
+    options = walking.make_options({**given, "solver": solver, "paper": paper, "lifted_psi": lifted_psi, "time_limit": time_limit})
     with named_by_file(terrain, robot, sequence, "--sequence"):
         scene, model, steps = walking.parts_of(terrain, robot, sequence)
         scene = scaled(scene, scale)
@@ -150,7 +152,7 @@ def cycle_dict(cycle: engine.Cycle) -> dict[str, Any]:
     step = ("duration_s", "distance_m", "acceleration_cost", "momentum_cost", "drift_com_m", "drift_momentum")
     data = {name: finite(getattr(cycle, name)) for name in (*solve, *sizes)}
     done = {name: finite(getattr(cycle, name)) if cycle.executed else None for name in step}
-    return {"index": cycle.index, "status": str(cycle.status), **data, **done}
+    return {"index": cycle.index, "status": str(cycle.status), "solver": cycle.solver.name, **data, **done}
 
 
 def _planner(

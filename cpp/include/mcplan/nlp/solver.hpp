@@ -12,6 +12,13 @@
 
 namespace mcplan::nlp {
 
+/// Which solver a planner hands its programs to.
+enum class Solver {
+  ipopt,      ///< Ipopt with MUMPS: the reference
+  ipm,        ///< the interior-point kernel of the room ipm, which goes stage by stage
+  automatic,  ///< the kernel; where it does not converge, Ipopt with what is left of the time
+};
+
 /// How pivots are ordered before the factorisation; which is faster depends on the problem, by up to a factor of two.
 enum class Ordering { automatic, amd };
 
@@ -55,9 +62,10 @@ Status status_of(Outcome outcome);
 
 struct Solution {
   Outcome outcome = Outcome::numerical_failure;
-  std::string message;          ///< why it ended, in one sentence
-  Eigen::VectorXd x;            ///< the solution, or the best iterate: feasible and cheap, or least violated
-  Eigen::VectorXd multipliers;  ///< of the rows, at the last iterate: <= 0 at a lower limit, >= 0 at an upper one
+  Solver solver = Solver::ipopt;  ///< that found it: ipopt or ipm
+  std::string message;            ///< why it ended, in one sentence
+  Eigen::VectorXd x;              ///< the solution, or the best iterate: feasible and cheap, or least violated
+  Eigen::VectorXd multipliers;    ///< of the rows, at the last iterate: <= 0 at a lower limit, >= 0 at an upper one
   double cost = 0.0;
   Problem::Worst worst;  ///< largest violation at x
   int iterations = 0;

@@ -6,6 +6,7 @@
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/base/logging.hpp"
 #include "mcplan/base/range.hpp"
+#include "mcplan/nlp/solver.hpp"
 
 namespace mcplan::rhp {
 
@@ -61,7 +62,8 @@ struct Options {
   double tolerance = 1e-5, constraint_tolerance = 1e-6;           ///< of the solver
   int max_iterations = 400;                                       ///< of a cycle
   double time_limit_s = std::numeric_limits<double>::infinity();  ///< of a cycle, wall clock
-  bool automatic_ordering = false;  ///< the linear solver's own choice of pivot order, slower here than AMD
+  nlp::Solver solver = nlp::Solver::ipopt;
+  bool automatic_ordering = false;  ///< Ipopt's linear solver's own choice of pivot order, slower here than AMD
 
   Logger logger;     ///< a line a cycle; null: silent
   StopRequest stop;  ///< polled every iteration; null: never

@@ -29,6 +29,7 @@ struct Cycle {
   Status status = Status::numerical_failure;  ///< solved: converged, and the checker accepts the executed step
   std::string message;
   bool executed = false;  ///< its first step keeps the program's constraints and was taken into the walk
+  nlp::Solver solver = nlp::Solver::ipopt;  ///< that found it: ipopt or ipm
   int iterations = 0;
   double time_s = 0.0;           ///< wall clock, problem set up and checked included
   double evaluation_s = 0.0;     ///< of which in functions and derivatives

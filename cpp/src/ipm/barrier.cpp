@@ -1,0 +1,275 @@
+#include "ipm/barrier.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace mcplan::ipm {
+namespace {
+
+using Eigen::VectorXd;
+
+// Names and values of the constants as in Wächter, Biegler 2006, where they have one.
+constexpr double kBoundPush = 1e-2;                                  // kappa_1, kappa_2: of the start, off its bounds
+constexpr double kMultiplierScale = 100.0;                           // s_max
+constexpr double kBarrierTolerance = 10.0;                           // kappa_epsilon
+constexpr double kLinearDecrease = 0.2, kSuperlinearDecrease = 1.5;  // kappa_mu, theta_mu
+constexpr double kFirstDelta = 1e-4, kMaxDelta = 1e20, kGrowDelta = 8.0, kFirstGrowDelta = 100.0, kShrinkDelta = 3.0;
+constexpr double kMinDelta = 1e-20, kDualDelta = 1e-8;
+constexpr double kMaxMultiplier = 1e3;  // of the estimate at the start
+constexpr double kProgress = 0.9999;    // of the optimality error over the last iterations
+constexpr int kHistory = 4;
+
+}  // namespace
+
+double Barrier::Errors::largest() const { return std::max({dual, primal, complementarity}); }
+
+Barrier::Barrier(const Unknowns& unknowns, const nlp::SolverOptions& options, Functions& functions, Kkt& kkt)
+    : unknowns_(unknowns), options_(options), functions_(functions), kkt_(kkt) {
+  const int free = unknowns.free_count(), all = static_cast<int>(unknowns.lower.size());
+  gradient_ = dual_ = right_a_ = VectorXd::Zero(free);
+  lambda_ = right_b_ = VectorXd::Zero(unknowns.equality_count());
+  lower_dual_ = upper_dual_ = gap_lower_ = gap_upper_ = weights_ = barrier_gradient_ = VectorXd::Zero(all);
+  slack_error_ = slack_work_ = VectorXd::Zero(unknowns.slack_count());
+}
+
+VectorXd Barrier::multipliers_of_slacks() const {
+  return upper_dual_.tail(unknowns_.slack_count()) - lower_dual_.tail(unknowns_.slack_count());
+}
+
+void Barrier::start(Point& point) {
+  const auto inside = [&](int i, double value) {
+    const double low = unknowns_.lower[i], high = unknowns_.upper[i];
+    const double room = kBoundPush * (high - low);
+    if (low > -nlp::kInfinity) value = std::max(value, low + std::min(kBoundPush * std::max(1.0, std::abs(low)), room));
+    if (high < nlp::kInfinity)
+      value = std::min(value, high - std::min(kBoundPush * std::max(1.0, std::abs(high)), room));
+    return value;
+  };
+  for (int i = 0; i < n(); ++i) point.t[i] = inside(i, point.t[i]);
+  functions_.evaluate(point);
+  for (int i = 0; i < unknowns_.slack_count(); ++i) point.t[n() + i] = inside(n() + i, point.inequalities[i]);
+  functions_.derivatives(point, gradient_, kkt_);
+  gap_lower_ = point.t - unknowns_.lower;
+  gap_upper_ = unknowns_.upper - point.t;
+  mu_ = options_.initial_barrier;
+  lower_dual_ = mu_ / gap_lower_.array();
+  upper_dual_ = mu_ / gap_upper_.array();
+  least_squares_multipliers(point);
+  fixed_mu_ = !options_.adaptive_barrier;
+  history_.clear();
+  filter_ = Filter(1e4 * std::max(1.0, theta(point)));
+  theta_min_ = 1e-4 * std::max(1.0, theta(point));
+  last_delta_ = 0.0;
+}
+
+/// Multipliers of the equalities that leave the smallest gradient of the Lagrangian; zero where they are large.
+void Barrier::least_squares_multipliers(const Point& point) {
+  lambda_.setZero();
+  if (lambda_.size() == 0) return;
+  VectorXd no_multipliers = VectorXd::Zero(unknowns_.slack_count());
+  functions_.hessian(point, 0.0, lambda_, no_multipliers, kkt_);
+  kkt_.set_weights(no_multipliers, VectorXd::Ones(n()));
+  if (kkt_.factor(0.0, kDualDelta) == Kkt::Factor::singular) return;
+  dual_ = gradient_ - lower_dual_.head(n()) + upper_dual_.head(n());
+  kkt_.add_inequalities_transposed(multipliers_of_slacks(), dual_);
+  right_a_ = -dual_;
+  right_b_.setZero();
+  VectorXd dx(n());
+  kkt_.solve(right_a_, right_b_, dx, lambda_);
+  if (!(lambda_.cwiseAbs().maxCoeff() <= kMaxMultiplier)) lambda_.setZero();
+}
+
+Barrier::Errors Barrier::errors(const Point& point, double mu) {
+  dual_ = gradient_ - lower_dual_.head(n()) + upper_dual_.head(n());
+  slack_work_ = multipliers_of_slacks();
+  kkt_.add_equalities_transposed(lambda_, dual_);
+  kkt_.add_inequalities_transposed(slack_work_, dual_);
+  const double bounds = lower_dual_.sum() + upper_dual_.sum();
+  const double count = static_cast<double>(lower_dual_.size() * 2);
+  const double dual_scale =
+      std::max(kMultiplierScale, (lambda_.cwiseAbs().sum() + bounds) / std::max(1.0, count + lambda_.size())) /
+      kMultiplierScale;
+  const double bound_scale = std::max(kMultiplierScale, bounds / std::max(1.0, count)) / kMultiplierScale;
+  Errors out;
+  out.dual = n() > 0 ? dual_.cwiseAbs().maxCoeff() / dual_scale : 0.0;
+  for (int i = 0; i < point.equalities.size(); ++i) out.primal = std::max(out.primal, std::abs(point.equalities[i]));
+  for (int i = 0; i < unknowns_.slack_count(); ++i) out.primal = std::max(out.primal, std::abs(point.slack_error(i)));
+  for (int i = 0; i < lower_dual_.size(); ++i) {
+    if (gap_lower_[i] < nlp::kInfinity)
+      out.complementarity = std::max(out.complementarity, std::abs(gap_lower_[i] * lower_dual_[i] - mu) / bound_scale);
+    if (gap_upper_[i] < nlp::kInfinity)
+      out.complementarity = std::max(out.complementarity, std::abs(gap_upper_[i] * upper_dual_[i] - mu) / bound_scale);
+  }
+  return out;
+}
+
+/// With the smallest of a ladder of multiples of the identity that leaves as many negative pivots as equalities.
+bool Barrier::factor(const Point& point) {
+  functions_.hessian(point, 1.0, lambda_, multipliers_of_slacks(), kkt_);
+  weights_ = lower_dual_.array() / gap_lower_.array() + upper_dual_.array() / gap_upper_.array();
+  kkt_.set_weights(weights_.tail(unknowns_.slack_count()), weights_.head(n()));
+  const double start_s = functions_.deadline().now_s();
+  delta_ = 0.0;
+  double dual_delta = 0.0;
+  bool good = false;
+  for (;;) {
+    ++factorisations_;
+    const Kkt::Factor result = kkt_.factor(delta_, dual_delta);
+    if (result == Kkt::Factor::good) {
+      good = true;
+      break;
+    }
+    if (result == Kkt::Factor::singular && dual_delta == 0.0 && lambda_.size() > 0) {
+      dual_delta = kDualDelta;
+      continue;
+    }
+    if (delta_ == 0.0)
+      delta_ = last_delta_ == 0.0 ? kFirstDelta : std::max(kMinDelta, last_delta_ / kShrinkDelta);
+    else
+      delta_ *= last_delta_ == 0.0 ? kFirstGrowDelta : kGrowDelta;
+    if (delta_ > kMaxDelta) break;
+  }
+  if (good && delta_ > 0.0) last_delta_ = delta_;
+  linear_solver_s_ += functions_.deadline().now_s() - start_s;
+  return good;
+}
+
+void Barrier::direction(const Point& point, double mu, const VectorXd& c, const VectorXd& slack_error, Step& step) {
+  const double start_s = functions_.deadline().now_s();
+  const int slacks = unknowns_.slack_count();
+  barrier_gradient_ = mu / gap_upper_.array() - mu / gap_lower_.array();
+  slack_work_ = weights_.tail(slacks).array() * slack_error.array() + barrier_gradient_.tail(slacks).array();
+  right_a_ = gradient_ + barrier_gradient_.head(n());
+  kkt_.add_inequalities_transposed(slack_work_, right_a_);
+  right_a_ = -right_a_;
+  right_b_ = -c;
+  step.t.resize(point.t.size());
+  VectorXd dx(n());
+  kkt_.solve(right_a_, right_b_, dx, step.lambda);
+  kkt_.multiply_inequalities(dx, slack_work_);
+  step.t << dx, slack_work_ + slack_error;
+  step.lower = (mu - lower_dual_.array() * step.t.array()) / gap_lower_.array() - lower_dual_.array();
+  step.upper = (mu + upper_dual_.array() * step.t.array()) / gap_upper_.array() - upper_dual_.array();
+  linear_solver_s_ += functions_.deadline().now_s() - start_s;
+}
+
+/// Longest step that leaves 1 - tau of every distance to a bound.
+double Barrier::max_step(const VectorXd&, const VectorXd& d, double tau) const {
+  double alpha = 1.0;
+  for (int i = 0; i < d.size(); ++i) {
+    if (d[i] < 0.0 && -alpha * d[i] > tau * gap_lower_[i]) alpha = -tau * gap_lower_[i] / d[i];
+    if (d[i] > 0.0 && alpha * d[i] > tau * gap_upper_[i]) alpha = tau * gap_upper_[i] / d[i];
+  }
+  return alpha;
+}
+
+double Barrier::max_dual_step(const Step& step, double tau) const {
+  double alpha = 1.0;
+  for (int i = 0; i < step.lower.size(); ++i) {
+    if (step.lower[i] < 0.0 && -alpha * step.lower[i] > tau * lower_dual_[i])
+      alpha = -tau * lower_dual_[i] / step.lower[i];
+    if (step.upper[i] < 0.0 && -alpha * step.upper[i] > tau * upper_dual_[i])
+      alpha = -tau * upper_dual_[i] / step.upper[i];
+  }
+  return alpha;
+}
+
+double Barrier::average_complementarity() const {
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 0; i < lower_dual_.size(); ++i) {
+    if (gap_lower_[i] < nlp::kInfinity) sum += gap_lower_[i] * lower_dual_[i], ++count;
+    if (gap_upper_[i] < nlp::kInfinity) sum += gap_upper_[i] * upper_dual_[i], ++count;
+  }
+  return count > 0 ? sum / count : 0.0;
+}
+
+/// Mehrotra's: how far complementarity falls along the step to mu = 0 says how far it should be asked to fall.
+double Barrier::probed_mu(const Point& point) {
+  Step affine;
+  direction(point, 0.0, point.equalities, slack_error_, affine);
+  const double primal = max_step(point.t, affine.t, 1.0), dual = max_dual_step(affine, 1.0);
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 0; i < lower_dual_.size(); ++i) {
+    if (gap_lower_[i] < nlp::kInfinity)
+      sum += (gap_lower_[i] + primal * affine.t[i]) * (lower_dual_[i] + dual * affine.lower[i]), ++count;
+    if (gap_upper_[i] < nlp::kInfinity)
+      sum += (gap_upper_[i] - primal * affine.t[i]) * (upper_dual_[i] + dual * affine.upper[i]), ++count;
+  }
+  const double now = average_complementarity();
+  if (count == 0 || now <= 0.0) return 0.0;
+  const double ratio = std::max(0.0, sum / count) / now;
+  return std::min(ratio * ratio * ratio, 1.0) * now;
+}
+
+void Barrier::choose_mu(const Point& point, const Errors& now) {
+  const double least = options_.tolerance / 10.0;
+  const auto set = [&](double mu) {
+    if (mu == mu_) return;
+    mu_ = mu;
+    filter_.clear();
+  };
+  if (options_.adaptive_barrier) {
+    const double error = now.largest();
+    const double bar = history_.empty() ? nlp::kInfinity : *std::max_element(history_.begin(), history_.end());
+    const bool progress = static_cast<int>(history_.size()) < kHistory || error <= kProgress * bar;
+    if (progress) {
+      history_.push_back(error);
+      if (static_cast<int>(history_.size()) > kHistory) history_.erase(history_.begin());
+      fixed_mu_ = false;
+      set(std::max(probed_mu(point), least));
+      return;
+    }
+    if (!fixed_mu_) {
+      fixed_mu_ = true;
+      set(std::max(0.8 * average_complementarity(), least));
+    }
+  }
+  while (mu_ > least && errors(point, mu_).largest() <= kBarrierTolerance * mu_)
+    set(std::max(least, std::min(kLinearDecrease * mu_, std::pow(mu_, kSuperlinearDecrease))));
+}
+
+Barrier::Ending Barrier::run(Point& point, int max_iterations) {
+  trial_ = point;
+  start(point);
+  Step step;
+  step.lambda.resize(lambda_.size());
+  for (int i = 0;; ++i) {
+    for (int k = 0; k < slack_error_.size(); ++k) slack_error_[k] = point.slack_error(k);
+    const Errors now = errors(point, 0.0);
+    log(point, now, step);
+    functions_.begin_iteration();
+    if (now.largest() <= options_.tolerance && functions_.violation(point) <= options_.constraint_tolerance)
+      return {nlp::Outcome::converged, "converged"};
+    if (i == max_iterations) return {nlp::Outcome::iteration_limit, "reached max_iterations"};
+    if (!factor(point)) return {nlp::Outcome::numerical_failure, "the linear system of a step could not be solved"};
+    choose_mu(point, now);
+    direction(point, mu_, point.equalities, slack_error_, step);
+    ++iterations_;
+    if (!step.t.allFinite())
+      return {nlp::Outcome::numerical_failure, "the linear system of a step could not be solved"};
+    if (!search(point, step)) {
+      if (now.largest() <= 100.0 * options_.tolerance && functions_.violation(point) <= options_.constraint_tolerance)
+        return {nlp::Outcome::nearly_converged,
+                "no further progress; the optimality error is within 100 times the tolerance"};
+      return {nlp::Outcome::numerical_failure, "the steps became too small"};
+    }
+  }
+}
+
+void Barrier::log(const Point& point, const Errors& now, const Step& step) {
+  if (!options_.logger) return;
+  if (iterations_ == 0)
+    options_.logger(LogLevel::info,
+                    "iter      cost      inf_pr   inf_du   compl lg(mu)  ||d||  lg(rg) alpha_du alpha_pr  ls");
+  char line[160], regularization[8] = "    -";
+  if (delta_ > 0.0) std::snprintf(regularization, sizeof regularization, "%5.1f", std::log10(delta_));
+  std::snprintf(line, sizeof line, "%4d%c %12.6e %8.2e %8.2e %8.2e %5.1f %8.2e %s %8.2e %8.2e %3d", iterations_,
+                fixed_mu_ ? ' ' : 'a', point.cost, now.primal, now.dual, now.complementarity, std::log10(mu_),
+                step.t.size() > 0 ? step.t.cwiseAbs().maxCoeff() : 0.0, regularization, alpha_dual_, alpha_, trials_);
+  options_.logger(LogLevel::info, line);
+}
+
+}  // namespace mcplan::ipm

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "ipm/filter.hpp"
+#include "ipm/functions.hpp"
+#include "ipm/kkt.hpp"
+
+namespace mcplan::ipm {
+
+/// The primal-dual barrier method: Newton steps on the optimality conditions of
+///
+///     min f(x) - mu sum ln(t - lower) - mu sum ln(upper - t)   s.t.  c(x) = 0,  g(x) = s,   t = (x, s)
+///
+/// with a filter line search and second-order corrections (Wächter, Biegler 2006), while the barrier parameter mu goes
+/// to zero.
+class Barrier {
+ public:
+  Barrier(const Unknowns& unknowns, const nlp::SolverOptions& options, Functions& functions, Kkt& kkt);
+
+  struct Ending {
+    nlp::Outcome outcome = nlp::Outcome::numerical_failure;
+    std::string message;
+  };
+
+  /// From point.t, moved off its bounds. At most max_iterations more; throws Halt.
+  Ending run(Point& point, int max_iterations);
+
+  int iterations() const { return iterations_; }
+  const Eigen::VectorXd& equality_multipliers() const { return lambda_; }
+  Eigen::VectorXd inequality_multipliers() const { return multipliers_of_slacks(); }
+  double linear_solver_s() const { return linear_solver_s_; }
+  int factorisations() const { return factorisations_; }
+
+ private:
+  struct Step {
+    Eigen::VectorXd t, lambda, lower, upper;  ///< lambda: the new multipliers, not a difference
+  };
+  struct Errors {
+    double dual = 0.0, primal = 0.0, complementarity = 0.0;
+    double largest() const;
+  };
+
+  int n() const { return unknowns_.free_count(); }
+  Eigen::VectorXd multipliers_of_slacks() const;
+  void start(Point& point);
+  void least_squares_multipliers(const Point& point);
+  Errors errors(const Point& point, double mu);
+  bool factor(const Point& point);
+  void direction(const Point& point, double mu, const Eigen::VectorXd& c, const Eigen::VectorXd& slack_error,
+                 Step& step);
+  double max_step(const Eigen::VectorXd& t, const Eigen::VectorXd& d, double tau) const;
+  double max_dual_step(const Step& step, double tau) const;
+  void choose_mu(const Point& point, const Errors& now);
+  double probed_mu(const Point& point);
+  double average_complementarity() const;
+
+  double theta(const Point& point) const;
+  double barrier_cost(const Point& point, double mu) const;
+  bool search(Point& point, Step& step);
+  bool acceptable(double theta_trial, double phi_trial, double alpha, bool& armijo);
+  bool correct(const Point& point, const Point& trial, double max_alpha, Step& step);
+  void take(Point& point, const Step& step, double alpha, double alpha_dual);
+  void log(const Point& point, const Errors& now, const Step& step);
+
+  const Unknowns& unknowns_;
+  const nlp::SolverOptions& options_;
+  Functions& functions_;
+  Kkt& kkt_;
+  Filter filter_{nlp::kInfinity};
+  Eigen::VectorXd gradient_, lambda_, lower_dual_, upper_dual_;
+  Eigen::VectorXd gap_lower_, gap_upper_;  ///< distances to the bounds, infinite where there is none
+  Eigen::VectorXd right_a_, right_b_, weights_, barrier_gradient_, slack_error_, slack_work_, dual_;
+  Point trial_;
+  double mu_ = 0.1, delta_ = 0.0, last_delta_ = 0.0;
+  double theta_now_ = 0.0, phi_now_ = 0.0, slope_ = 0.0, theta_min_ = 0.0;
+  bool fixed_mu_ = false;  ///< monotone: the barrier falls when its problem is solved
+  std::vector<double> history_;
+  int iterations_ = 0, factorisations_ = 0, trials_ = 0;
+  double alpha_ = 0.0, alpha_dual_ = 0.0, linear_solver_s_ = 0.0;
+};
+
+}  // namespace mcplan::ipm

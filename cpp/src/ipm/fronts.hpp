@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+namespace mcplan::ipm {
+
+/// Factorisation P' L D L' P of a sparse symmetric matrix, unknowns group by group in a given order.
+///
+/// Each group has a front: the dense matrix of its own unknowns and of those that come later and share an entry with
+/// them, directly or through groups before. Its own are eliminated with pivots of size one and two (Bunch, Kaufman),
+/// chosen among them; what is left of the front is added to that of the next group that has part in it. Groups that are
+/// the stages of a horizon from its end to its begin make it a Riccati recursion, where what is handed on is the
+/// cost-to-go; groups of a band whose arrow comes last make it the Cholesky factorisation of a band with an arrow.
+class Fronts {
+ public:
+  using Pair = std::pair<int, int>;
+
+  /// order: the unknowns 0 ... count-1, group by group; pairs: entries that may be other than zero, in any order and
+  /// triangle, repetitions allowed. What is on the diagonal need not be named.
+  Fronts(int count, std::vector<std::vector<int>> order, const std::vector<Pair>& pairs);
+
+  /// Where an entry of the matrix lies in values(); pairs as given, in the same order.
+  const std::vector<int>& places() const { return places_; }
+  const std::vector<int>& diagonal_places() const { return diagonal_; }
+
+  void set_zero() { values_.setZero(); }
+  double* values() { return values_.data(); }
+
+  /// Inertia of the matrix; zero: pivots too small to divide by.
+  struct Inertia {
+    int positive = 0, negative = 0, zero = 0;
+  };
+
+  /// Factorise what is in values(), which is overwritten.
+  Inertia factor();
+
+  /// Replace b by the solution.
+  void solve(Eigen::VectorXd& b) const;
+
+  int largest_front() const;
+  long entries() const { return values_.size(); }
+
+ private:
+  struct Front {
+    int own = 0, parent = -1;
+    int first_column = 0;        ///< of this front's own unknowns, among all
+    long offset = 0;             ///< of its matrix in values_
+    std::vector<int> unknowns;   ///< own ones first
+    std::vector<int> in_parent;  ///< where those that are not its own stand in the parent's front
+    int size() const { return static_cast<int>(unknowns.size()); }
+  };
+
+  void add_to_parent(const Front& front);
+
+  std::vector<Front> fronts_;
+  std::vector<int> places_, diagonal_;
+  Eigen::VectorXd values_;
+  std::vector<int> pivots_;           ///< of every own unknown: its place within the front before pivoting
+  std::vector<double> off_diagonal_;  ///< of D; other than zero at the first of two
+  Eigen::MatrixXd scaled_;            ///< L D of one front
+  mutable Eigen::VectorXd own_;
+};
+
+}  // namespace mcplan::ipm

@@ -1,0 +1,102 @@
+#include "ipm/functions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mcplan::ipm {
+namespace {
+
+using Eigen::VectorXd;
+
+double outside(double value, double lower, double upper) { return std::max({lower - value, value - upper, 0.0}); }
+
+}  // namespace
+
+Functions::Functions(const nlp::Problem& problem, const Unknowns& unknowns, const nlp::SolverOptions& options,
+                     const Deadline& deadline)
+    : problem_(problem), unknowns_(unknowns), options_(options), deadline_(deadline) {
+  rows_.resize(problem.row_count());
+  gradient_.resize(problem.variable_count());
+  jacobian_.resize(static_cast<int>(problem.jacobian_structure().size()));
+  hessian_.resize(static_cast<int>(problem.hessian_structure().size()));
+  multipliers_ = VectorXd::Zero(problem.row_count());
+  left_s_ = deadline.remaining_s();
+}
+
+void Functions::begin_iteration() {
+  if (options_.stop && options_.stop()) throw Halt{nlp::Outcome::interrupted, "stopped by the caller"};
+  if (!deadline_.limited()) return;
+  if (options_.finishing_s && best_x_.size() > 0)
+    reserved_s_ = std::min(options_.finishing_s(best_x_), 0.5 * options_.time_limit_s);
+  const double left_s = deadline_.remaining_s();
+  const double took_s = left_s_ - left_s;
+  longest_s_ = std::max(took_s, 0.5 * longest_s_);
+  left_s_ = left_s;
+  if (left_s <= reserved_s_ + longest_s_) throw Halt{nlp::Outcome::time_limit, "reached time_limit_s"};
+}
+
+template <class Function>
+void Functions::clocked(const VectorXd& x, const Function& function) {
+  if (deadline_.limited() && deadline_.remaining_s() <= reserved_s_)
+    throw Halt{nlp::Outcome::time_limit, "reached time_limit_s"};
+  const double start_s = deadline_.now_s();
+  const bool finite = function();
+  evaluation_s_ += deadline_.now_s() - start_s;
+  if (finite) return;
+  const std::string name = problem_.first_not_finite(x);
+  throw Halt{nlp::Outcome::numerical_failure, "not finite: " + (name.empty() ? "a sum of pieces" : name)};
+}
+
+void Functions::evaluate(Point& point) {
+  const int n = unknowns_.free_count();
+  for (int i = 0; i < n; ++i) point.x[unknowns_.free[i]] = point.t[i];
+  clocked(point.x, [&] {
+    ++evaluations_;
+    point.cost = problem_.cost(point.x);
+    problem_.rows(point.x, rows_);
+    return std::isfinite(point.cost) && rows_.allFinite();
+  });
+  for (int i = 0; i < unknowns_.equality_count(); ++i)
+    point.equalities[i] = rows_[unknowns_.equalities[i]] - unknowns_.right_side[i];
+  for (int i = 0; i < unknowns_.slack_count(); ++i) point.inequalities[i] = rows_[unknowns_.inequalities[i]];
+  const double violated = violation(point), enough = options_.constraint_tolerance;
+  const bool better =
+      violated <= enough ? best_violation_ > enough || point.cost < best_cost_ : violated < best_violation_;
+  if (!better) return;
+  best_x_ = point.x;
+  best_violation_ = violated;
+  best_cost_ = point.cost;
+}
+
+double Functions::violation(const Point& point) const {
+  const int n = unknowns_.free_count();
+  double worst = 0.0;
+  for (int i = 0; i < n; ++i) worst = std::max(worst, outside(point.t[i], unknowns_.lower[i], unknowns_.upper[i]));
+  for (int i = 0; i < unknowns_.equality_count(); ++i) worst = std::max(worst, std::abs(point.equalities[i]));
+  for (int i = 0; i < unknowns_.slack_count(); ++i)
+    worst = std::max(worst, outside(point.inequalities[i], unknowns_.lower[n + i], unknowns_.upper[n + i]));
+  return worst;
+}
+
+void Functions::derivatives(const Point& point, VectorXd& gradient, Kkt& kkt) {
+  clocked(point.x, [&] {
+    problem_.gradient(point.x, gradient_);
+    problem_.jacobian(point.x, jacobian_);
+    return gradient_.allFinite() && jacobian_.allFinite();
+  });
+  for (int i = 0; i < unknowns_.free_count(); ++i) gradient[i] = gradient_[unknowns_.free[i]];
+  kkt.set_jacobian(jacobian_);
+}
+
+void Functions::hessian(const Point& point, double cost_factor, const VectorXd& equalities,
+                        const VectorXd& inequalities, Kkt& kkt) {
+  for (int i = 0; i < unknowns_.equality_count(); ++i) multipliers_[unknowns_.equalities[i]] = equalities[i];
+  for (int i = 0; i < unknowns_.slack_count(); ++i) multipliers_[unknowns_.inequalities[i]] = inequalities[i];
+  clocked(point.x, [&] {
+    problem_.hessian(point.x, cost_factor, multipliers_, hessian_);
+    return hessian_.allFinite();
+  });
+  kkt.set_hessian(hessian_);
+}
+
+}  // namespace mcplan::ipm

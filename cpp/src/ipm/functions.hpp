@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "ipm/kkt.hpp"
+#include "ipm/unknowns.hpp"
+#include "mcplan/base/deadline.hpp"
+#include "mcplan/nlp/problem.hpp"
+#include "mcplan/nlp/solver.hpp"
+
+namespace mcplan::ipm {
+
+/// A point and the values of the problem's functions there.
+struct Point {
+  Eigen::VectorXd x;  ///< all variables of the problem
+  Eigen::VectorXd t;  ///< free variables, then slacks
+  double cost = 0.0;
+  Eigen::VectorXd equalities;    ///< minus their right side: zero where they hold
+  Eigen::VectorXd inequalities;  ///< of which the slacks are to be the values
+
+  double slack_error(int i) const { return inequalities[i] - t[x_count + i]; }
+  int x_count = 0;  ///< free variables
+};
+
+/// Why a solve has to end now.
+struct Halt {
+  nlp::Outcome outcome = nlp::Outcome::converged;
+  std::string message;
+};
+
+/// The problem's functions in terms of the unknowns, with the clock, and the best point of all that were evaluated.
+/// Throws Halt at the time limit, and where a number is not finite.
+class Functions {
+ public:
+  Functions(const nlp::Problem& problem, const Unknowns& unknowns, const nlp::SolverOptions& options,
+            const Deadline& deadline);
+
+  /// Cost and rows at point.t, whose slacks are taken as they are.
+  void evaluate(Point& point);
+
+  /// Gradient of the cost, in the free variables; the Jacobian goes to the system.
+  void derivatives(const Point& point, Eigen::VectorXd& gradient, Kkt& kkt);
+
+  /// Hessian of cost_factor * cost + equalities' + inequalities' multipliers, to the system.
+  void hessian(const Point& point, double cost_factor, const Eigen::VectorXd& equalities,
+               const Eigen::VectorXd& inequalities, Kkt& kkt);
+
+  /// Largest violation of rows and bounds, slacks aside.
+  double violation(const Point& point) const;
+
+  const Eigen::VectorXd& best_x() const { return best_x_; }
+  bool best_is_feasible() const { return best_violation_ <= options_.constraint_tolerance; }
+  double evaluation_s() const { return evaluation_s_; }
+  int evaluations() const { return evaluations_; }
+  const Deadline& deadline() const { return deadline_; }
+
+  /// Once an iteration: the time that the caller needs afterwards, and whether to stop.
+  void begin_iteration();
+
+ private:
+  template <class Function>
+  void clocked(const Eigen::VectorXd& x, const Function& function);
+
+  const nlp::Problem& problem_;
+  const Unknowns& unknowns_;
+  const nlp::SolverOptions& options_;
+  const Deadline& deadline_;
+  Eigen::VectorXd rows_, gradient_, jacobian_, hessian_, multipliers_;
+  Eigen::VectorXd best_x_;
+  double best_violation_ = nlp::kInfinity, best_cost_ = nlp::kInfinity;
+  double evaluation_s_ = 0.0, reserved_s_ = 0.0, left_s_ = 0.0, longest_s_ = 0.0;
+  int evaluations_ = 0;
+};
+
+}  // namespace mcplan::ipm

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "ipm/fronts.hpp"
+#include "ipm/unknowns.hpp"
+#include "mcplan/nlp/problem.hpp"
+
+namespace mcplan::ipm {
+
+/// The linear system of a step,
+///
+///     [ H + J_I' D J_I + diag(S) + delta I    J_E'       ] [ dx     ]   [ a ]
+///     [ J_E                                   -delta_c I ] [ lambda ] = [ b ]
+///
+/// with the Hessian H of the Lagrangian, the Jacobians J_E of the equalities and J_I of the inequalities, whose slacks
+/// are eliminated (D), and the weights S of the variables' own bounds.
+class Kkt {
+ public:
+  Kkt(const nlp::Problem& problem, const Unknowns& unknowns);
+
+  /// Jacobian in the order of problem.jacobian_structure(), Hessian in that of hessian_structure().
+  void set_jacobian(const Eigen::VectorXd& values) { jacobian_ = values; }
+  void set_hessian(const Eigen::VectorXd& values) { hessian_ = values; }
+  void set_weights(const Eigen::VectorXd& slacks, const Eigen::VectorXd& bounds);
+
+  enum class Factor { good, wrong_inertia, singular };
+  Factor factor(double delta, double delta_c);
+
+  /// dx and lambda, refined until the residual is small against the right side or falls no further.
+  void solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& dx, Eigen::VectorXd& lambda);
+
+  /// out = J_I x, out += J_I' y, out = J_E x, out += J_E' y.
+  void multiply_inequalities(const Eigen::VectorXd& x, Eigen::VectorXd& out) const;
+  void add_inequalities_transposed(const Eigen::VectorXd& y, Eigen::VectorXd& out) const;
+  void multiply_equalities(const Eigen::VectorXd& x, Eigen::VectorXd& out) const;
+  void add_equalities_transposed(const Eigen::VectorXd& y, Eigen::VectorXd& out) const;
+
+  int largest_front() const { return fronts_.largest_front(); }
+  double residual() const { return residual_; }  ///< of the last solve, over the right side's largest entry
+
+ private:
+  /// An entry of the Jacobian or the Hessian between unknowns.
+  struct Term {
+    int from = 0;             ///< place among the values
+    int row = 0, column = 0;  ///< slack or equality, or the other variable; free variable
+    int place = 0;            ///< in the factorisation
+  };
+  /// The inequalities of a piece: a dense matrix of the variables that they see.
+  struct Dense {
+    int rows = 0, columns = 0;
+    std::vector<int> slacks;
+    struct Entry {
+      int from = 0, row = 0, column = 0;
+    };
+    std::vector<Entry> entries;
+    int first_place = 0;  ///< of the lower triangle, column by column
+  };
+
+  static std::vector<Fronts::Pair> structure(const nlp::Problem& problem, const Unknowns& unknowns, Kkt& out);
+  void assemble(double delta, double delta_c);
+  void residual(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& dx,
+                const Eigen::VectorXd& lambda);
+
+  int n_, m_;
+  std::vector<Term> hessian_terms_, equality_terms_, inequality_terms_;
+  std::vector<Dense> dense_;
+  Fronts fronts_;
+  Eigen::VectorXd jacobian_, hessian_, slack_weights_, bound_weights_;
+  double delta_ = 0.0, delta_c_ = 0.0, residual_ = 0.0;
+  Eigen::MatrixXd block_, product_;
+  Eigen::VectorXd right_, left_a_, left_b_, slacks_;
+};
+
+}  // namespace mcplan::ipm

@@ -1,0 +1,115 @@
+#include "mcplan/ipm/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ipm/barrier.hpp"
+#include "ipm/functions.hpp"
+#include "ipm/kkt.hpp"
+#include "ipm/unknowns.hpp"
+#include "nlp/start.hpp"
+
+namespace mcplan::ipm {
+namespace {
+
+using Eigen::VectorXd;
+using nlp::Outcome;
+
+Point point_at(const Unknowns& unknowns, const VectorXd& x) {
+  Point out;
+  out.x = x;
+  out.x_count = unknowns.free_count();
+  out.t = VectorXd::Zero(unknowns.lower.size());
+  for (int i = 0; i < unknowns.free_count(); ++i) out.t[i] = x[unknowns.free[i]];
+  out.equalities = VectorXd::Zero(unknowns.equality_count());
+  out.inequalities = VectorXd::Zero(unknowns.slack_count());
+  return out;
+}
+
+/// Of the problem's rows.
+VectorXd multipliers_of(const nlp::Problem& problem, const Unknowns& unknowns, const Barrier& barrier) {
+  VectorXd out = VectorXd::Zero(problem.row_count());
+  const VectorXd slacks = barrier.inequality_multipliers();
+  for (int i = 0; i < unknowns.equality_count(); ++i) out[unknowns.equalities[i]] = barrier.equality_multipliers()[i];
+  for (int i = 0; i < unknowns.slack_count(); ++i) out[unknowns.inequalities[i]] = slacks[i];
+  return out;
+}
+
+/// A problem that leaves nothing to solve for: bounds that contradict each other, or every variable fixed.
+bool decided(const nlp::Problem& problem, const VectorXd& x, double constraint_tolerance, nlp::Solution& out) {
+  const std::string impossible = nlp::contradiction(problem);
+  const bool fixed = problem.variable_lower() == problem.variable_upper();
+  if (impossible.empty() && !fixed) return false;
+  const bool holds = impossible.empty() && problem.worst_violation(x).value <= constraint_tolerance;
+  out.outcome = holds ? Outcome::converged : Outcome::infeasible;
+  out.message = !impossible.empty() ? impossible
+                : holds             ? "every variable is fixed, and the constraints hold"
+                                    : "every variable is fixed, and a constraint does not hold";
+  out.x = x;
+  out.multipliers = VectorXd::Zero(problem.row_count());
+  return true;
+}
+
+void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOptions& options, const Deadline& deadline,
+         nlp::Solution& out) {
+  const Unknowns unknowns(problem);
+  Functions functions(problem, unknowns, options, deadline);
+  Kkt kkt(problem, unknowns);
+  Barrier barrier(unknowns, options, functions, kkt);
+  Point point = point_at(unknowns, x);
+  out.start_s = deadline.elapsed_s();
+  try {
+    const Barrier::Ending ending = barrier.run(point, options.max_iterations);
+    out.outcome = ending.outcome;
+    out.message = ending.message;
+  } catch (const Halt& halt) {
+    out.outcome = halt.outcome;
+    out.message = halt.message;
+  }
+  out.x = out.outcome == Outcome::converged ? point.x : functions.best_x();
+  if (out.x.size() == 0) out.x = x;
+  out.multipliers = multipliers_of(problem, unknowns, barrier);
+  out.iterations = barrier.iterations();
+  out.evaluation_s = functions.evaluation_s();
+  out.linear_solver_s = barrier.linear_solver_s();
+}
+
+}  // namespace
+
+nlp::Solution solve(const nlp::Problem& problem, const VectorXd& x0, const nlp::SolverOptions& options) {
+  const Deadline deadline(options.time_limit_s, options.clock);
+  options.validate();
+  const VectorXd x = nlp::start_of(problem, x0);
+  nlp::Solution out;
+  out.solver = nlp::Solver::ipm;
+  if (!decided(problem, x, options.constraint_tolerance, out)) run(problem, x, options, deadline, out);
+  out.cost = problem.cost(out.x);
+  out.worst = problem.worst_violation(out.x);
+  out.time_s = deadline.elapsed_s();
+  return out;
+}
+
+nlp::Solution solve(nlp::Solver solver, const nlp::Problem& problem, const VectorXd& x0,
+                    const nlp::SolverOptions& options) {
+  if (solver == nlp::Solver::ipopt) return nlp::solve(problem, x0, options);
+  nlp::Solution first = ipm::solve(problem, x0, options);
+  const double left_s = options.time_limit_s - first.time_s;
+  const int iterations = options.max_iterations - first.iterations;
+  const bool ended = first.outcome == Outcome::converged || first.outcome == Outcome::time_limit ||
+                     first.outcome == Outcome::interrupted;
+  if (solver == nlp::Solver::ipm || ended || !(left_s > 0.0) || iterations <= 0) return first;
+  nlp::SolverOptions rest = options;
+  rest.time_limit_s = left_s;
+  rest.max_iterations = iterations;
+  nlp::Solution second = nlp::solve(problem, x0, rest);
+  const bool better = second.outcome == Outcome::converged || second.worst.value <= first.worst.value;
+  nlp::Solution& kept = better ? second : first;
+  nlp::Solution& other = better ? first : second;
+  kept.iterations += other.iterations;
+  kept.time_s += other.time_s;
+  kept.evaluation_s += other.evaluation_s;
+  kept.linear_solver_s += other.linear_solver_s;
+  return kept;
+}
+
+}  // namespace mcplan::ipm

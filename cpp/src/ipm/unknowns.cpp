@@ -1,0 +1,41 @@
+#include "ipm/unknowns.hpp"
+
+#include <cmath>
+
+namespace mcplan::ipm {
+
+Unknowns::Unknowns(const nlp::Problem& problem) {
+  const int variables = problem.variable_count(), rows = problem.row_count();
+  index_of.assign(variables, -1);
+  equality_of.assign(rows, -1);
+  slack_of.assign(rows, -1);
+  for (int i = 0; i < variables; ++i) {
+    if (problem.variable_lower()[i] == problem.variable_upper()[i]) continue;
+    index_of[i] = free_count();
+    free.push_back(i);
+  }
+  for (int i = 0; i < rows; ++i) {
+    const double low = problem.row_lower()[i], high = problem.row_upper()[i];
+    if (low == high) {
+      equality_of[i] = equality_count();
+      equalities.push_back(i);
+    } else if (std::isfinite(low) || std::isfinite(high)) {
+      slack_of[i] = slack_count();
+      inequalities.push_back(i);
+    }
+  }
+  right_side.resize(equality_count());
+  for (int i = 0; i < equality_count(); ++i) right_side[i] = problem.row_lower()[equalities[i]];
+  lower.resize(free_count() + slack_count());
+  upper.resize(lower.size());
+  for (int i = 0; i < free_count(); ++i) {
+    lower[i] = problem.variable_lower()[free[i]];
+    upper[i] = problem.variable_upper()[free[i]];
+  }
+  for (int i = 0; i < slack_count(); ++i) {
+    lower[free_count() + i] = problem.row_lower()[inequalities[i]];
+    upper[free_count() + i] = problem.row_upper()[inequalities[i]];
+  }
+}
+
+}  // namespace mcplan::ipm
