@@ -233,6 +233,7 @@ void Barrier::choose_mu(const Point& point, const Errors& now) {
 
 Barrier::Ending Barrier::run(Point& point, int max_iterations) {
   trial_ = point;
+  iterations_ = 0;
   start(point);
   Step step;
   step.lambda.resize(lambda_.size());
@@ -243,7 +244,7 @@ Barrier::Ending Barrier::run(Point& point, int max_iterations) {
     functions_.begin_iteration();
     if (now.largest() <= options_.tolerance && functions_.violation(point) <= options_.constraint_tolerance)
       return {nlp::Outcome::converged, "converged"};
-    if (i == max_iterations) return {nlp::Outcome::iteration_limit, "reached max_iterations"};
+    if (i >= max_iterations) return {nlp::Outcome::iteration_limit, "reached max_iterations"};
     if (!factor(point)) return {nlp::Outcome::numerical_failure, "the linear system of a step could not be solved"};
     choose_mu(point, now);
     direction(point, mu_, point.equalities, slack_error_, step);

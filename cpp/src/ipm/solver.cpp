@@ -6,6 +6,7 @@
 #include "ipm/barrier.hpp"
 #include "ipm/functions.hpp"
 #include "ipm/kkt.hpp"
+#include "ipm/phase_one.hpp"
 #include "ipm/unknowns.hpp"
 #include "nlp/start.hpp"
 
@@ -50,26 +51,36 @@ bool decided(const nlp::Problem& problem, const VectorXd& x, double constraint_t
   return true;
 }
 
+/// Where the barrier method fails from a start, it begins again from the same start after a phase one: what a failed
+/// attempt leaves behind is no better a place to go on from.
+constexpr PhaseOne kAttempts[] = {{10.0, 0, 0.0}, {10.0, 8, 0.1}, {1.0, 50, 0.1}};
+
 void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOptions& options, const Deadline& deadline,
          nlp::Solution& out) {
   const Unknowns unknowns(problem);
   Functions functions(problem, unknowns, options, deadline);
   Kkt kkt(problem, unknowns);
   Barrier barrier(unknowns, options, functions, kkt);
-  Point point = point_at(unknowns, x);
+  Point point;
   out.start_s = deadline.elapsed_s();
   try {
-    const Barrier::Ending ending = barrier.run(point, options.max_iterations);
-    out.outcome = ending.outcome;
-    out.message = ending.message;
+    for (const PhaseOne& phase_one : kAttempts) {
+      point = point_at(unknowns, x);
+      const int done = out.iterations + phase_one.run(unknowns, functions, kkt, point);
+      const Barrier::Ending ending = barrier.run(point, options.max_iterations - done);
+      out.iterations = done + barrier.iterations();
+      out.outcome = ending.outcome;
+      out.message = ending.message;
+      if (ending.outcome != Outcome::numerical_failure) break;
+    }
   } catch (const Halt& halt) {
+    out.iterations += barrier.iterations();
     out.outcome = halt.outcome;
     out.message = halt.message;
   }
   out.x = out.outcome == Outcome::converged ? point.x : functions.best_x();
   if (out.x.size() == 0) out.x = x;
   out.multipliers = multipliers_of(problem, unknowns, barrier);
-  out.iterations = barrier.iterations();
   out.evaluation_s = functions.evaluation_s();
   out.linear_solver_s = barrier.linear_solver_s();
 }

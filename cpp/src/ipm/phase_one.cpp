@@ -1,0 +1,87 @@
+#include "ipm/phase_one.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mcplan::ipm {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kDrawnIn = 0.05;
+
+/// How far outside: negative below the lower limit, positive above the upper one.
+double beyond(double value, double lower, double upper) {
+  const double room = std::min(kDrawnIn, kDrawnIn * (upper - lower));
+  if (value < lower + room) return value - (lower + room);
+  if (value > upper - room) return value - (upper - room);
+  return 0.0;
+}
+
+/// Residuals at a point: of equalities, of inequalities, of bounds.
+struct Residuals {
+  VectorXd equalities, rows, bounds;
+
+  Residuals(const Unknowns& unknowns, const Point& point)
+      : equalities(point.equalities), rows(unknowns.slack_count()), bounds(unknowns.free_count()) {
+    const int n = unknowns.free_count();
+    for (int i = 0; i < n; ++i) bounds[i] = beyond(point.t[i], unknowns.lower[i], unknowns.upper[i]);
+    for (int i = 0; i < unknowns.slack_count(); ++i)
+      rows[i] = beyond(point.inequalities[i], unknowns.lower[n + i], unknowns.upper[n + i]);
+  }
+  double half_square() const { return 0.5 * (equalities.squaredNorm() + rows.squaredNorm() + bounds.squaredNorm()); }
+  double largest() const {
+    const auto max = [](const VectorXd& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0; };
+    return std::max({max(equalities), max(rows), max(bounds)});
+  }
+};
+
+VectorXd ones_where_not_zero(const VectorXd& v) { return (v.array() != 0.0).cast<double>(); }
+
+}  // namespace
+
+int PhaseOne::run(const Unknowns& unknowns, Functions& functions, Kkt& kkt, Point& point) const {
+  const int n = unknowns.free_count();
+  VectorXd gradient(n), step(n), multipliers(unknowns.equality_count());
+  const VectorXd no_equalities = VectorXd::Zero(unknowns.equality_count());
+  const VectorXd no_rows = VectorXd::Zero(unknowns.slack_count());
+  if (max_iterations == 0) return 0;
+  functions.evaluate(point);
+  Point trial = point;
+  double lambda = damping, growth = 2.0;
+  bool moved = true;
+  int iterations = 0;
+  while (iterations < max_iterations) {
+    const Residuals now(unknowns, point);
+    if (now.largest() <= enough) break;
+    functions.begin_iteration();
+    if (moved) {
+      functions.derivatives(point, gradient, kkt);
+      functions.hessian(point, 0.0, no_equalities, no_rows, kkt);
+    }
+    ++iterations;
+    kkt.set_weights(ones_where_not_zero(now.rows), ones_where_not_zero(now.bounds));
+    if (kkt.factor(lambda, 1.0) == Kkt::Factor::singular) break;
+    gradient = now.bounds;
+    kkt.add_inequalities_transposed(now.rows, gradient);
+    kkt.solve(-gradient, -now.equalities, step, multipliers);
+    kkt.add_equalities_transposed(now.equalities, gradient);
+    if (!step.allFinite()) break;
+    trial.t.head(n) = point.t.head(n) + step;
+    functions.evaluate(trial);
+    const double fallen = now.half_square() - Residuals(unknowns, trial).half_square();
+    const double expected = 0.5 * step.dot(lambda * step - gradient);
+    moved = fallen > 0.0;
+    if (moved) {
+      std::swap(point, trial);
+      lambda *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * fallen / expected - 1.0, 3));
+      growth = 2.0;
+    } else {
+      lambda *= growth;
+      growth *= 2.0;
+    }
+  }
+  return iterations;
+}
+
+}  // namespace mcplan::ipm
