@@ -188,8 +188,10 @@ class RhpOptions(TypedDict, total=False):
     """[s] Wall clock of a cycle."""
     time_limit: float | None
     """Short for time_limit_s; None: the default."""
+    solver: Literal["ipopt", "ipm", "auto"] | _core.nlp.Solver
+    """Solver of the nonlinear programs."""
     automatic_ordering: bool
-    """The linear solver's own pivot order."""
+    """Pivot order of Ipopt's linear solver is its own."""
     logger: collections.abc.Callable[[_core.LogLevel, str], None] | None
     """Called with (LogLevel, line), a line a cycle; None: silent."""
 

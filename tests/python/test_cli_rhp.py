@@ -8,7 +8,17 @@ import mcplan as mp
 from command_line import one_line_error, strict
 from mcplan.cli import main
 
-PER_CYCLE = {"status", "iterations", "time_s", "evaluation_s", "linear_solver_s", "variables", "constraints", "cost"}
+PER_CYCLE = {
+    "solver",
+    "status",
+    "iterations",
+    "time_s",
+    "evaluation_s",
+    "linear_solver_s",
+    "variables",
+    "constraints",
+    "cost",
+}
 PER_CYCLE |= {"index", "message", "executed", "duration_s", "distance_m", "acceleration_cost", "momentum_cost"}
 PER_CYCLE |= {"drift_com_m", "drift_momentum"}
 IN_TOTAL = {"success", "status", "message", "cycles_done", "distance_m", "acc_per_m", "momentum_per_m", "drift_com_m"}

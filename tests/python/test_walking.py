@@ -184,3 +184,28 @@ def test_every_option_can_be_set_by_its_name():
     options = make_options({name: getattr(defaults, name) for name in names})
     assert all(getattr(options, name) == getattr(defaults, name) for name in names)
     assert make_options({"time_limit": None}).time_limit_s == np.inf
+
+
+@pytest.mark.parametrize("fidelity", ["point", "single"])
+def test_the_kernel_finds_the_walk_that_ipopt_finds(fidelity):
+    walks = {
+        solver: mp.walk("v_shape", "talos_wang", fidelity=fidelity, lookahead=2, cycles=2, solver=solver)
+        for solver in ("ipopt", "ipm", "auto")
+    }
+    reference = walks["ipopt"]
+    for solver, found in walks.items():
+        assert found.report.status == mp.Status.solved, (solver, found.report)
+        assert mp.check(found.plan).ok()
+        for ours, its in zip(found.cycles, reference.cycles, strict=True):
+            assert ours.cost == pytest.approx(its.cost, rel=1e-5)
+        assert {cycle.solver.name for cycle in found.cycles} == {"ipopt" if solver == "ipopt" else "ipm"}
+
+
+def test_a_walk_by_the_kernel_has_the_same_bytes_twice():
+    first, second = (mp.walk("rubbles", cycles=1, solver="ipm") for _ in range(2))
+    assert first.plan == second.plan and first.cycles[0].iterations == second.cycles[0].iterations
+
+
+def test_an_unknown_solver_is_refused():
+    with pytest.raises(mp.errors.InvalidOptions, match=r'solver: must be one of ipopt, ipm, auto, got "fatrop"'):
+        mp.walk("flat", solver="fatrop")

@@ -10,6 +10,7 @@
 #include "mcplan/ddp/options.hpp"
 #include "mcplan/ddp/plan.hpp"
 #include "mcplan/ddp/switched_ddp.hpp"
+#include "mcplan/ipm/solver.hpp"
 #include "mcplan/model/data.hpp"
 #include "mcplan/nlp/derivative_check.hpp"
 #include "mcplan/nlp/piece.hpp"

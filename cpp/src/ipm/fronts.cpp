@@ -13,36 +13,50 @@ using Eigen::VectorXd;
 using Block = Eigen::Map<MatrixXd>;
 using ConstBlock = Eigen::Map<const MatrixXd>;
 
-/// Below this ratio to the largest entry of its column a pivot counts as zero.
+/// Up to this size a pivot counts as zero.
 constexpr double kLeastPivot = 1e-300;
 
 }  // namespace
 
 Fronts::Fronts(int count, std::vector<std::vector<int>> order, const std::vector<Pair>& pairs) {
-  const int groups = static_cast<int>(order.size());
-  std::vector<int> group_of(count, -1), position(count, -1);
+  std::vector<int> group_of(count, -1);
+  for (std::size_t g = 0; g < order.size(); ++g)
+    for (int unknown : order[g]) group_of[unknown] = static_cast<int>(g);
+  find_fronts(std::move(order), group_of, pairs);
+  find_places(group_of, pairs);
+  long size = 0;
+  int largest = 0;
+  for (Front& front : fronts_) {
+    size += static_cast<long>(front.size()) * front.size();
+    largest = std::max(largest, front.size());
+  }
+  values_ = VectorXd::Zero(size);
+  pivots_.resize(count);
+  off_diagonal_.assign(count, 0.0);
+  scaled_.resize(largest, largest);
+  own_.resize(largest);
+}
+
+void Fronts::find_fronts(std::vector<std::vector<int>> order, const std::vector<int>& group_of,
+                         const std::vector<Pair>& pairs) {
+  std::vector<int> position(group_of.size(), -1);
   int next = 0;
-  for (int g = 0; g < groups; ++g)
-    for (int unknown : order[g]) {
-      group_of[unknown] = g;
-      position[unknown] = next++;
-    }
+  for (const std::vector<int>& group : order)
+    for (int unknown : group) position[unknown] = next++;
   // The later one of each pair belongs to the front of the earlier one.
-  std::vector<std::vector<int>> later(groups);
+  std::vector<std::vector<int>> later(order.size());
   for (const Pair& pair : pairs) {
     const int a = group_of[pair.first], b = group_of[pair.second];
     if (a < b) later[a].push_back(pair.second);
     if (b < a) later[b].push_back(pair.first);
   }
-  fronts_.resize(groups);
-  std::vector<int> local(count, -1);
   long offset = 0;
-  int column = 0, max_size = 0;
-  for (int g = 0; g < groups; ++g) {
-    Front& front = fronts_[g];
+  int column = 0;
+  for (std::size_t g = 0; g < order.size(); ++g) {
     std::vector<int>& rest = later[g];
     std::sort(rest.begin(), rest.end(), [&](int a, int b) { return position[a] < position[b]; });
     rest.erase(std::unique(rest.begin(), rest.end()), rest.end());
+    Front front;
     front.own = static_cast<int>(order[g].size());
     front.unknowns = std::move(order[g]);
     front.unknowns.insert(front.unknowns.end(), rest.begin(), rest.end());
@@ -50,41 +64,40 @@ Fronts::Fronts(int count, std::vector<std::vector<int>> order, const std::vector
     front.offset = offset;
     column += front.own;
     offset += static_cast<long>(front.size()) * front.size();
-    max_size = std::max(max_size, front.size());
-    if (rest.empty()) continue;
-    front.parent = group_of[rest.front()];
-    std::vector<int>& handed_on = later[front.parent];
-    for (int unknown : rest)
-      if (group_of[unknown] != front.parent) handed_on.push_back(unknown);
+    if (!rest.empty()) {
+      front.parent = group_of[rest.front()];
+      std::vector<int>& handed_on = later[front.parent];
+      for (int unknown : rest)
+        if (group_of[unknown] != front.parent) handed_on.push_back(unknown);
+    }
+    fronts_.push_back(std::move(front));
   }
+}
+
+void Fronts::find_places(const std::vector<int>& group_of, const std::vector<Pair>& pairs) {
+  std::vector<int> local(group_of.size(), -1);
   for (Front& front : fronts_) {
     if (front.parent < 0) continue;
     const Front& parent = fronts_[front.parent];
     for (int i = 0; i < parent.size(); ++i) local[parent.unknowns[i]] = i;
     for (int i = front.own; i < front.size(); ++i) front.in_parent.push_back(local[front.unknowns[i]]);
   }
-  // Places, front by front, so that `local` is filled once for each.
-  std::vector<std::vector<int>> pairs_of(groups);
+  // Front by front, so that `local` is filled once for each.
+  std::vector<std::vector<int>> pairs_of(fronts_.size());
   for (std::size_t p = 0; p < pairs.size(); ++p)
     pairs_of[std::min(group_of[pairs[p].first], group_of[pairs[p].second])].push_back(static_cast<int>(p));
   places_.resize(pairs.size());
-  diagonal_.resize(count);
-  for (int g = 0; g < groups; ++g) {
+  diagonal_.resize(group_of.size());
+  for (std::size_t g = 0; g < fronts_.size(); ++g) {
     const Front& front = fronts_[g];
     const int n = front.size();
     for (int i = 0; i < n; ++i) local[front.unknowns[i]] = i;
-    for (int i = 0; i < front.own; ++i)
-      diagonal_[front.unknowns[i]] = static_cast<int>(front.offset + static_cast<long>(i) * n + i);
-    for (int p : pairs_of[g]) {
-      const int a = local[pairs[p].first], b = local[pairs[p].second];
-      places_[p] = static_cast<int>(front.offset + static_cast<long>(std::min(a, b)) * n + std::max(a, b));
-    }
+    const auto place = [&](int a, int b) {
+      return static_cast<int>(front.offset + static_cast<long>(std::min(a, b)) * n + std::max(a, b));
+    };
+    for (int i = 0; i < front.own; ++i) diagonal_[front.unknowns[i]] = place(i, i);
+    for (int p : pairs_of[g]) places_[p] = place(local[pairs[p].first], local[pairs[p].second]);
   }
-  values_ = VectorXd::Zero(offset);
-  pivots_.resize(count);
-  off_diagonal_.assign(count, 0.0);
-  scaled_.resize(max_size, max_size);
-  own_.resize(max_size);
 }
 
 Fronts::Inertia Fronts::factor() {
@@ -112,7 +125,8 @@ Fronts::Inertia Fronts::factor() {
         scaled.col(k) = F(k, k) * L.col(k);
       }
     }
-    F.bottomRightCorner(rest, rest).triangularView<Eigen::Lower>() -= scaled * L.transpose();
+    // Small blocks, of which both triangles cost less than the set-up of a product of one.
+    F.bottomRightCorner(rest, rest).noalias() -= scaled.lazyProduct(L.transpose());
     add_to_parent(front);
   }
   return total;

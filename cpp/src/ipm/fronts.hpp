@@ -52,6 +52,9 @@ class Fronts {
     int size() const { return static_cast<int>(unknowns.size()); }
   };
 
+  void find_fronts(std::vector<std::vector<int>> order, const std::vector<int>& group_of,
+                   const std::vector<Pair>& pairs);
+  void find_places(const std::vector<int>& group_of, const std::vector<Pair>& pairs);
   void add_to_parent(const Front& front);
 
   std::vector<Front> fronts_;

@@ -13,7 +13,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMaxRefinements = 5;
-constexpr double kSmallResidual = 1e-12;
+constexpr double kSmallResidual = 1e-9;  // as little as a step of the barrier method needs
+constexpr int kFewRows = 64;             // up to which a product is cheaper without packing its factors
 
 }  // namespace
 
@@ -111,9 +112,14 @@ void Kkt::assemble(double delta, double delta_c) {
     A.setZero();
     for (const Dense::Entry& entry : dense.entries)
       A(entry.row, entry.column) = jacobian_[entry.from] * std::sqrt(slack_weights_[dense.slacks[entry.row]]);
+    const int* place = fronts_.places().data() + dense.first_place;
+    if (dense.rows <= kFewRows) {
+      for (int j = 0; j < dense.columns; ++j)
+        for (int i = j; i < dense.columns; ++i) values[*place++] += A.col(i).dot(A.col(j));
+      continue;
+    }
     C.setZero();
     C.selfadjointView<Eigen::Lower>().rankUpdate(A.transpose());
-    const int* place = fronts_.places().data() + dense.first_place;
     for (int j = 0; j < dense.columns; ++j)
       for (int i = j; i < dense.columns; ++i) values[*place++] += C(i, j);
   }

@@ -5,6 +5,7 @@ Multi-fidelity receding-horizon planning of walks on two feet.
 from __future__ import annotations
 import collections.abc
 import mcplan._core
+import mcplan._core.nlp
 import numpy
 import numpy.typing
 import typing
@@ -133,6 +134,7 @@ class Options:
         constraint_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-06,
         max_iterations: typing.SupportsInt | typing.SupportsIndex = 400,
         time_limit_s: typing.SupportsFloat | typing.SupportsIndex = ...,
+        solver: mcplan._core.nlp.Solver = ...,
         automatic_ordering: bool = False,
         logger: collections.abc.Callable[[mcplan._core.LogLevel, str], None] = None,
     ) -> None: ...
@@ -152,7 +154,7 @@ class Options:
     @property
     def automatic_ordering(self) -> bool:
         """
-        The linear solver's own pivot order.
+        Pivot order of Ipopt's linear solver is its own.
         """
     @automatic_ordering.setter
     def automatic_ordering(self, arg0: bool) -> None: ...
@@ -325,6 +327,13 @@ class Options:
     @sole_ratio.setter
     def sole_ratio(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def solver(self) -> mcplan._core.nlp.Solver:
+        """
+        Solver of the nonlinear programs.
+        """
+    @solver.setter
+    def solver(self, arg0: mcplan._core.nlp.Solver) -> None: ...
+    @property
     def time_limit_s(self) -> float:
         """
         [s] Wall clock of a cycle.
@@ -465,6 +474,11 @@ class Cycle:
     def momentum_cost(self) -> float:
         """
         Executed step: integral of |L|^2.
+        """
+    @property
+    def solver(self) -> mcplan._core.nlp.Solver:
+        """
+        That found the step: ipopt or ipm.
         """
     @property
     def status(self) -> mcplan._core.Status:

@@ -13,6 +13,7 @@ from mcplan.cli.given_options import named_as_typed
 if TYPE_CHECKING:
     from mcplan import rhp as engine
     from mcplan._core import Plan, Robot, Scene
+    from mcplan.cli.rhp_text import Progress
 
 
 TerrainArgument = Annotated[str, typer.Argument(metavar="TERRAIN", help="Scene: built-in name or TOML file.")]
@@ -55,7 +56,15 @@ QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print no line 
 
 
 @named_as_typed(
-    "scale", "fidelity", "lookahead", "cycles", "transcription", "solver", "paper", "lifted_psi", time_limit_s="--time-limit"
+    "scale",
+    "fidelity",
+    "lookahead",
+    "cycles",
+    "transcription",
+    "solver",
+    "paper",
+    "lifted_psi",
+    time_limit_s="--time-limit",
 )
 def rhp(
     terrain: TerrainArgument,
@@ -94,19 +103,15 @@ def rhp(
 
     require_outputs("rhp", output, html, plots)
     given = {"fidelity": fidelity, "lookahead": lookahead, "cycles": cycles, "transcription": transcription}
-    options = walking.make_options({**given, "solver": solver, "paper": paper, "lifted_psi": lifted_psi, "time_limit": time_limit})
+    options = walking.make_options(
+        {**given, "solver": solver, "paper": paper, "lifted_psi": lifted_psi, "time_limit": time_limit}
+    )
     with named_by_file(terrain, robot, sequence, "--sequence"):
         scene, model, steps = walking.parts_of(terrain, robot, sequence)
         scene = scaled(scene, scale)
         planner = _planner(terrain, scene, model, steps, options)
     progress = None if json or quiet else Progress(verbose)
-    interrupted = False
-    try:
-        for cycle in walking.cycles_of(planner, cycles):
-            if progress is not None:
-                progress.row(cycle)
-    except KeyboardInterrupt:  # also between two cycles: what was walked until then is there
-        interrupted = True
+    interrupted = _interrupted(planner, cycles, progress)
     walk = planner.result()
     written = write_outputs(walk.plan, walk.report, Outputs(output, html, plots), drawn=not interrupted)
     if json:
@@ -117,6 +122,19 @@ def rhp(
     if interrupted:
         return CODE
     return 0 if walk.success else 1
+
+
+def _interrupted(planner: engine.RecedingHorizon, cycles: int, progress: Progress | None) -> bool:
+    """Walk; whether Ctrl-C ended it."""
+    from mcplan import walking
+
+    try:
+        for cycle in walking.cycles_of(planner, cycles):
+            if progress is not None:
+                progress.row(cycle)
+    except KeyboardInterrupt:  # also between two cycles: what was walked until then is there
+        return True
+    return False
 
 
 def summary(walk: engine.Walk, scene: Scene, robot: Robot, options: engine.Options) -> dict[str, Any]:

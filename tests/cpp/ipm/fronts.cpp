@@ -77,8 +77,7 @@ void load(Fronts& fronts, const Case& given) {
     const auto [a, b] = given.pairs[p];
     if (a != b) fronts.values()[fronts.places()[p]] += given.matrix(a, b);
   }
-  for (int i = 0; i < given.matrix.rows(); ++i)
-    fronts.values()[fronts.diagonal_places()[i]] += given.matrix(i, i);
+  for (int i = 0; i < given.matrix.rows(); ++i) fronts.values()[fronts.diagonal_places()[i]] += given.matrix(i, i);
 }
 
 }  // namespace
