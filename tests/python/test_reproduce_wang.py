@@ -25,13 +25,15 @@ def read(path):
         return list(csv.DictReader(file))
 
 
-def made_up(terrain, method, predicted, acc=0.3, cycles=2, asked=2, seed=0, status="solved", **numbers):
+def made_up(
+    terrain, method, predicted, acc=0.3, cycles=2, asked=2, seed=0, status="solved", transcription="euler", **numbers
+):
     """A run whose steps go 0.5 m at the cost `acc`, without momentum."""
     cycle = {"status": status, "converged": status == "solved", "iterations": 40, "time_s": 0.2, "cpu_s": 0.1}
     cycle |= {"evaluation_s": 0.01, "acceleration_cost": acc, "momentum_cost": 0.0, "distance_m": 0.5}
     cycle |= {"duration_s": 1.4, "defect": 0.0, "drift_com_m": 0.03, "drift_momentum": 30.0, **numbers}
     entries = [{"index": index, **cycle} for index in range(cycles)]
-    return Run(Config(terrain, method, predicted, seed), asked, 1.0, entries)
+    return Run(Config(terrain, method, predicted, seed, transcription), asked, 1.0, entries)
 
 
 def tracked_of(method, predicted, seed=0, fell=False, limits=True, terrain="rubbles", transcription="euler"):
@@ -176,13 +178,15 @@ def test_table_2_tells_convergence_from_a_quiet_walk():
     assert (cells["point"]["converges"], cells["point"]["converges_and_quiet"]) == (1, 2)
     assert cells["com"]["converges"] == "fail" and cells["com"]["failures"] == "1-step PH: infeasible in cycle 1"
     assert cells["rectangle"]["converges"] == ""
-    assert "| candidate 1 (`com`) |" in "\n".join(wang_table_2.table(rows, []))
+    assert "| candidate 1 (`com`) |" in "\n".join(wang_table_2.table(rows, runs, []))
     # Nothing was tracked, and what does not converge cannot be.
     assert (cells["point"]["followed"], cells["com"]["followed"]) == ("", "fail")
 
 
 def test_table_2_has_the_least_horizon_whose_walk_was_followed():
     runs = [made_up("rubbles", method, p) for method in ("single", "rectangle", "point") for p in (1, 2)]
+    runs.append(made_up("rubbles", "rectangle", 1, transcription="trapezoidal"))
+    runs.append(made_up("rubbles", "point", 1, status="infeasible", transcription="trapezoidal"))
     tracked = [
         tracked_of("single", 1),
         tracked_of("single", 2, fell=True),  # a longer horizon takes nothing away
@@ -197,7 +201,8 @@ def test_table_2_has_the_least_horizon_whose_walk_was_followed():
     cells = {row["method"]: row for row in wang_table_2.rows(runs, tracked) if row["terrain"] == "rubbles"}
     keys = [key for _, _, key in wang_table_2.COLUMNS]
     assert [cells["single"][key] for key in keys] == [1, 1, "", ""]
-    assert [cells["point"][key] for key in keys] == [2, 1, "", ""]
+    assert [cells["point"][key] for key in keys] == [2, 1, "fail", "fail"]  # what does not converge is not followed
+    assert cells["point"]["failures"] == "1-step PH, trapezoidal: infeasible in cycle 1"
     assert [cells["rectangle"][key] for key in keys] == ["fail", "fail", 1, 1]
     (row,) = [row for row in wang_table_2.start_rows(tracked) if (row["method"], row["predicted"]) == ("rectangle", 2)]
     assert (row["starts"], row["followed"], row["followed_without"]) == (1, 1, 1)

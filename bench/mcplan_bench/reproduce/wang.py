@@ -69,7 +69,7 @@ def reproduce(
         tracked, about["interrupted"] = wang_tracking.collect(candidates, out, resume, say)
     runs = [run for run in everything if run.config.transcription == "euler"]
 
-    table_2, table_3 = wang_table_2.rows(runs, tracked), wang_tables.table_3_rows(runs)
+    table_2, table_3 = wang_table_2.rows(everything, tracked), wang_tables.table_3_rows(runs)
     figure_4, figure_5 = wang_tables.cost_rows(runs), wang_figures.figure_5_rows(runs)
     written = [
         out / FILE,
@@ -85,16 +85,16 @@ def reproduce(
         wang_figures.figure_5(out, figure_5),
     ]
     page = out / "wang.md"
-    lines = _page(about, runs, sizes, (_table_2(table_2, tracked), table_3), (figure_4, figure_5))
+    lines = _page(about, runs, sizes, (_table_2(table_2, runs, tracked), table_3), (figure_4, figure_5))
     write_whole("\n".join(lines) + "\n", page)
     if about["interrupted"]:
         raise KeyboardInterrupt
     return [page, *written]
 
 
-def _table_2(rows: list[dict[str, Any]], tracked: list[wang_tracking.Tracked]) -> list[str]:
+def _table_2(rows: list[dict[str, Any]], runs: list[Run], tracked: list[wang_tracking.Tracked]) -> list[str]:
     starts = wang_table_2.starts(wang_table_2.start_rows(tracked))
-    return [*wang_table_2.table(rows, tracked), *starts, *wang_table_2.details(tracked)]
+    return [*wang_table_2.table(rows, runs, tracked), *starts, *wang_table_2.details(tracked)]
 
 
 def _require_numbers(cycles: int, lookahead_max: int, seeds: dict[str, int]) -> None:
