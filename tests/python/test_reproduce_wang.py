@@ -204,6 +204,9 @@ def test_table_2_has_the_least_horizon_whose_walk_was_followed():
     assert [cells["point"][key] for key in keys] == [2, 1, "fail", "fail"]  # what does not converge is not followed
     assert cells["point"]["failures"] == "1-step PH, trapezoidal: infeasible in cycle 1"
     assert [cells["rectangle"][key] for key in keys] == ["fail", "fail", 1, 1]
+    assert [c.title for c in wang_table_2.relapses(tracked, True)] == ["rubbles, single, 2-step PH"]
+    rows = wang_table_2.rows(runs, tracked)
+    assert wang_table_2.agreement(rows, "followed") == (2, 3)  # 1, fail and 2; the paper has 1, 2 and 2
     (row,) = [row for row in wang_table_2.start_rows(tracked) if (row["method"], row["predicted"]) == ("rectangle", 2)]
     assert (row["starts"], row["followed"], row["followed_without"]) == (1, 1, 1)
     details = "\n".join(wang_table_2.details(tracked))

@@ -105,7 +105,34 @@ def table(rows: list[dict[str, Any]], runs: list[Run], tracked: Sequence[Tracked
     for row in rows:
         cells = [TITLES[row["method"]], row["terrain"], *(str(row[key]) for key in keys)]
         lines.append(f"| {' | '.join(cells)} |")
-    lines += ["", *_meaning(runs, tracked), *_failures(rows)]
+    lines += ["", *_compared(rows, tracked), "", *_meaning(runs, tracked), *_failures(rows)]
+    return lines
+
+
+def agreement(rows: list[dict[str, Any]], key: str) -> tuple[int, int]:
+    """In how many cells a column says what the paper says, and of how many that were tried."""
+    tried = [row for row in rows if row[key] != ""]
+    return sum(row[key] == row["published"] for row in tried), len(tried)
+
+
+def relapses(tracked: Sequence[Tracked], limits: bool) -> list[Config]:
+    """Walks from the scene's start that fell though one of the same form with a shorter horizon was followed."""
+    results = [t for t in followed(tracked, limits) if not t.config.seed]
+
+    def shorter_followed(c: Config) -> bool:
+        same = [t for t in results if (_place(t.config), t.config.transcription) == (_place(c), c.transcription)]
+        return any(t.followed and t.config.predicted < c.predicted for t in same)
+
+    return [t.config for t in results if not t.followed and shorter_followed(t.config)]
+
+
+def _compared(rows: list[dict[str, Any]], tracked: Sequence[Tracked]) -> list[str]:
+    counts = ["{} of {}".format(*agreement(rows, key)) for key in (*(k for _, _, k in COLUMNS), "converges")]
+    counts.append("{} of {}".format(*agreement(rows, "converges_and_quiet")))
+    again = "; ".join(config.title for config in relapses(tracked, True))
+    lines = [f"Cells as in the paper, from left to right: {', '.join(counts)}."]
+    if again:
+        lines += [f"Walks that fell (`followed`) though one with a shorter horizon did not: {again}."]
     return lines
 
 
