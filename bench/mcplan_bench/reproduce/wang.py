@@ -67,8 +67,21 @@ def reproduce(
         longest = 1 if quick else wang_tracking.LONGEST
         candidates = wang_tracking.wanted(everything, tracked_seeds, longest)
         tracked, about["interrupted"] = wang_tracking.collect(candidates, out, resume, say)
-    runs = [run for run in everything if run.config.transcription == "euler"]
+    written = _write(out, about, sizes, everything, tracked)
+    if about["interrupted"]:
+        raise KeyboardInterrupt
+    return written
 
+
+def _write(
+    out: Path,
+    about: dict[str, Any],
+    sizes: list[dict[str, Any]],
+    everything: list[Run],
+    tracked: list[wang_tracking.Tracked],
+) -> list[Path]:
+    """Write tables, figures and the page, which comes first of what is returned."""
+    runs = [run for run in everything if run.config.transcription == "euler"]
     table_2, table_3 = wang_table_2.rows(everything, tracked), wang_tables.table_3_rows(runs)
     figure_4, figure_5 = wang_tables.cost_rows(runs), wang_figures.figure_5_rows(runs)
     written = [
@@ -87,8 +100,6 @@ def reproduce(
     page = out / "wang.md"
     lines = _page(about, runs, sizes, (_table_2(table_2, runs, tracked), table_3), (figure_4, figure_5))
     write_whole("\n".join(lines) + "\n", page)
-    if about["interrupted"]:
-        raise KeyboardInterrupt
     return [page, *written]
 
 
