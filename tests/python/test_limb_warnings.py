@@ -8,16 +8,22 @@ import pytest
 
 import mcplan as mp
 from mcplan.cli import main
+from mcplan.files.scenes import save_scene
+
+
+def fenced(x: float) -> mp.Scene:
+    """Level ground with a fence from 0.25 to 0.60 m at x, below which the feet swing and legs pass through it."""
+    scene = mp.load_scene("flat")
+    corners = [[x, -2.0, 0.6], [x + 0.1, -2.0, 0.6], [x + 0.1, 2.0, 0.6], [x, 2.0, 0.6]]
+    fence = mp.model.Surface(name="fence", vertices_W=corners, thickness=0.35, end_effectors=["right_hand"])
+    scene.surfaces = [*scene.surfaces, fence]
+    return scene
 
 
 @pytest.fixture(scope="module")
 def over_fence() -> mp.Plan:
-    """A walk whose legs pass through a fence from 0.25 to 0.60 m, below which the feet swing."""
-    scene = mp.load_scene("flat")
-    corners = [[0.9, -2.0, 0.6], [1.0, -2.0, 0.6], [1.0, 2.0, 0.6], [0.9, 2.0, 0.6]]
-    fence = mp.model.Surface(name="fence", vertices_W=corners, thickness=0.35, end_effectors=["right_hand"])
-    scene.surfaces = [*scene.surfaces, fence]
-    result = mp.plan(scene, "humanoid44")
+    """A walk whose legs pass through a fence."""
+    result = mp.plan(fenced(0.9), "humanoid44")
     assert str(result.report.status) == "solved"
     assert [w.surface for w in result.report.warnings] == ["fence"]
     return result.plan
@@ -45,6 +51,22 @@ def test_the_command_tells_warnings_and_its_exit_code_does_not(over_fence, tmp_p
     told = json.loads(capsys.readouterr().out)
     assert told["ok"] and not told["violations"]
     assert [(w["name"], w["surface"]) for w in told["warnings"]] == [("limb", "fence")]
+
+
+def test_a_walk_over_a_fence_has_the_warnings_of_its_plan(tmp_path, capsys):
+    scene = fenced(0.1)
+    walk = mp.walk(scene, cycles=2, lookahead=2)
+    assert str(walk.report.status) == "solved"
+    assert [w.surface for w in walk.report.warnings] == ["fence"]
+    assert [str(w) for w in walk.report.warnings] == [str(w) for w in mp.check(walk.plan).warnings]
+    file = tmp_path / "fenced.toml"
+    save_scene(scene, file)
+    words = ["rhp", str(file), "--cycles", "2", "--lookahead", "2", "--quiet"]
+    assert main(words) == 0
+    assert f"warning: {walk.report.warnings[0]}: limbs are not planned around solids" in capsys.readouterr().out
+    assert main([*words, "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["success"] and [(w["name"], w["surface"]) for w in told["warnings"]] == [("limb", "fence")]
 
 
 def test_open_ground_warns_of_nothing():

@@ -11,7 +11,7 @@ import pytest
 
 import mcplan as mp
 from mcplan.cli import main
-from mcplan_bench.reproduce import tazaki, tazaki_models
+from mcplan_bench.reproduce import tazaki, tazaki_models, tazaki_text
 from wrench_plans import LEFT_HAND, RIGHT_HAND, hanging_plan, leaning_plan, with_contact
 
 pytest.importorskip("matplotlib")
@@ -23,18 +23,21 @@ def test_the_page_shows_the_published_times_and_links_what_was_written(tmp_path,
     page = (tmp_path / "tazaki.md").read_text()
     assert "| flat | 12.16 | 11.36 |" in page
     figures = re.findall(r"\]\((.+?\.png)\)", page)
-    assert len(figures) == 6  # Figures 1, 3 and 4, both methods
+    assert {"tazaki_figure_1.png", "tazaki_figure_3.png", "tazaki_figure_4.png"} <= set(figures)
     for name in figures:
         assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")
-    with (tmp_path / "table_2.csv").open(newline="") as file:
+    with (tmp_path / "tazaki_table_2.csv").open(newline="") as file:
         (row,) = csv.DictReader(file)
     assert float(row["paper_1_ms"]) > 0.0 and float(row["standard_1_ms"]) > 0.0
-    with (tmp_path / "models.csv").open(newline="") as file:
+    with (tmp_path / "tazaki_models.csv").open(newline="") as file:
         paper, ours = csv.DictReader(file)
     assert (paper["model"], ours["model"]) == ("lipm", "wrench")
     assert float(ours["cost"]) < float(paper["cost"])
     assert "## The paper's model of contacts against ours" in page and "| flat | ours |" in page
-    assert "held" not in page and not (tmp_path / "hand_forces.png").exists()  # there are no hands on flat
+    assert "pads held" not in page and not (tmp_path / "tazaki_hand_forces.png").exists()  # there are no hands on flat
+    assert "| flat | ours, `wrench` | 2 of 2 |" in page and "30 joints and 44 kg" in page
+    robot = mp.load_robot(tmp_path / "humanoid44_joints.toml")
+    assert robot.mass == 44.0 and (tmp_path / "humanoid44_joints.urdf").samefile(robot.urdf)
 
 
 def result_of(plan: mp.Plan, status: str = "solved") -> SimpleNamespace:
@@ -106,10 +109,12 @@ def row_with(paper_loops: int, standard_loops: int) -> dict[str, float]:
 
 
 def test_an_effect_of_threads_is_told_only_where_threads_ran():
-    none = "\n".join(tazaki._threads([row_with(0, 0)], 2))
+    none = " ".join(tazaki_text.threads_text([row_with(0, 0)], 2, False))
     assert "times as long" not in none and none.count("started no thread") == 2
-    published = "\n".join(tazaki._threads([row_with(120, 0)], 2))
+    published = " ".join(tazaki_text.threads_text([row_with(120, 0)], 2, False))
     assert "shared out 120 loops" in published and "1.50 times as long" in published
     assert "Ours started no thread: it shares out loops of 400 neighbours or more" in published
-    cells = [tazaki._cell(row_with(120, 0), f"{method}_parallel_ms") for method in ("paper", "standard")]
+    assert "waited for cores" not in published
+    assert "waited for cores" in " ".join(tazaki_text.threads_text([row_with(120, 0)], 2, True))
+    cells = [tazaki_text.cell(row_with(120, 0), f"{method}_parallel_ms") for method in ("paper", "standard")]
     assert cells == ["3.00", "–"]

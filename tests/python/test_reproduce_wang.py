@@ -5,16 +5,19 @@ from __future__ import annotations
 import csv
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from mcplan.cli import main
 from mcplan.errors import InvalidInput
-from mcplan_bench.reproduce import wang_figures, wang_runs, wang_size, wang_tables
+from mcplan_bench.reproduce import wang_figures, wang_runs, wang_size, wang_table_2, wang_tables, wang_tracking
 from mcplan_bench.reproduce.wang_runs import Config, Run
+from mcplan_bench.reproduce.wang_tracking import Tracked
 
-pytest.importorskip("matplotlib")
+for package in ("matplotlib", "mujoco", "pinocchio", "proxsuite"):
+    pytest.importorskip(package)
 
 
 def read(path):
@@ -22,13 +25,22 @@ def read(path):
         return list(csv.DictReader(file))
 
 
-def made_up(terrain, method, predicted, acc=0.3, cycles=2, asked=2, seed=0, status="solved", **numbers):
+def made_up(
+    terrain, method, predicted, acc=0.3, cycles=2, asked=2, seed=0, status="solved", transcription="euler", **numbers
+):
     """A run whose steps go 0.5 m at the cost `acc`, without momentum."""
     cycle = {"status": status, "converged": status == "solved", "iterations": 40, "time_s": 0.2, "cpu_s": 0.1}
     cycle |= {"evaluation_s": 0.01, "acceleration_cost": acc, "momentum_cost": 0.0, "distance_m": 0.5}
     cycle |= {"duration_s": 1.4, "defect": 0.0, "drift_com_m": 0.03, "drift_momentum": 30.0, **numbers}
     entries = [{"index": index, **cycle} for index in range(cycles)]
-    return Run(Config(terrain, method, predicted, seed), asked, 1.0, entries)
+    return Run(Config(terrain, method, predicted, seed, transcription), asked, 1.0, entries)
+
+
+def tracked_of(method, predicted, seed=0, fell=False, limits=True, terrain="rubbles", transcription="euler"):
+    """A run of the simulation of 20 s that ends after 9 s if it falls."""
+    config = Config(terrain, method, predicted, seed, transcription)
+    measures = {"com_rms_m": 0.006, "com_max_m": 0.03, "final_base_error_m": 0.02}
+    return Tracked(config, limits, "1.2.3", 20.0, "", 9.0 if fell else 21.0, fell, measures)
 
 
 @pytest.fixture(scope="module")
@@ -79,6 +91,7 @@ def test_resume_draws_again_without_solving(quick, monkeypatch, capsys):
     before = json.loads((quick / "runs.json").read_text())
     (quick / "figure_5.png").unlink()
     monkeypatch.setattr(wang_runs, "walk", lambda *_: pytest.fail("nothing is missing"))
+    monkeypatch.setattr(wang_tracking, "follow", lambda *_: pytest.fail("nothing is missing"))
     assert main(["reproduce", "wang", "--quick", "--resume", "--out", str(quick)]) == 0
     assert (quick / "figure_5.png").exists()
     assert json.loads((quick / "runs.json").read_text()) == before
@@ -91,7 +104,8 @@ def test_ctrl_c_leaves_what_was_done_and_resume_goes_on(tmp_path, monkeypatch):
         walks.append(config)
         if len(walks) == 3:
             raise KeyboardInterrupt
-        return made_up(config.terrain, config.method, config.predicted, cycles=cycles, asked=cycles), _Nothing
+        run = made_up(config.terrain, config.method, config.predicted, cycles=cycles, asked=cycles)
+        return replace(run, config=config), _Nothing
 
     monkeypatch.setattr(wang_runs, "walk", walk)
     wanted = wang_runs.configs(3, 0)
@@ -134,7 +148,7 @@ def test_the_tables_of_the_paper_are_typed_in_right():
     ]
     assert round(min(ratios), 1) == 1.4 and round(max(ratios), 1) == 3.0 and round(np.mean(ratios), 1) == 2.4
     assert set(wang_tables.PUBLISHED_3) == set(wang_runs.TABLE_3)
-    assert set(wang_tables.PUBLISHED_2) == set(wang_runs.METHODS) == set(wang_size.PUBLISHED)
+    assert set(wang_table_2.PUBLISHED) == set(wang_runs.METHODS) == set(wang_size.PUBLISHED)
 
 
 def test_candidate_2_is_compared_with_the_baseline_by_iterations_and_by_time_of_one():
@@ -158,12 +172,88 @@ def test_table_2_tells_convergence_from_a_quiet_walk():
         made_up("rubbles", "point", 2, acc=0.4),
         made_up("rubbles", "com", 1, cycles=1, status="infeasible"),
     ]
-    cells = {row["method"]: row for row in wang_tables.table_2_rows(runs) if row["terrain"] == "rubbles"}
+    rows = wang_table_2.rows(runs, [])
+    cells = {row["method"]: row for row in rows if row["terrain"] == "rubbles"}
     assert (cells["single"]["converges"], cells["single"]["converges_and_quiet"]) == (1, 1)
     assert (cells["point"]["converges"], cells["point"]["converges_and_quiet"]) == (1, 2)
     assert cells["com"]["converges"] == "fail" and cells["com"]["failures"] == "1-step PH: infeasible in cycle 1"
     assert cells["rectangle"]["converges"] == ""
-    assert "| candidate 1 (`com`) |" in "\n".join(wang_tables.table_2(wang_tables.table_2_rows(runs)))
+    assert "| candidate 1 (`com`) |" in "\n".join(wang_table_2.table(rows, runs, []))
+    # Nothing was tracked, and what does not converge cannot be.
+    assert (cells["point"]["followed"], cells["com"]["followed"]) == ("", "fail")
+
+
+def test_table_2_has_the_least_horizon_whose_walk_was_followed():
+    runs = [made_up("rubbles", method, p) for method in ("single", "rectangle", "point") for p in (1, 2)]
+    runs.append(made_up("rubbles", "rectangle", 1, transcription="trapezoidal"))
+    runs.append(made_up("rubbles", "point", 1, status="infeasible", transcription="trapezoidal"))
+    tracked = [
+        tracked_of("single", 1),
+        tracked_of("single", 2, fell=True),  # a longer horizon takes nothing away
+        tracked_of("point", 1, fell=True),
+        tracked_of("point", 1, limits=False),
+        tracked_of("point", 2),
+        tracked_of("rectangle", 1, fell=True),
+        tracked_of("rectangle", 1, fell=True, limits=False),
+        tracked_of("rectangle", 1, transcription="trapezoidal"),
+        tracked_of("rectangle", 2, seed=1),  # the table is of the scene's start
+    ]
+    cells = {row["method"]: row for row in wang_table_2.rows(runs, tracked) if row["terrain"] == "rubbles"}
+    keys = [key for _, _, key in wang_table_2.COLUMNS]
+    assert [cells["single"][key] for key in keys] == [1, 1, "", ""]
+    assert [cells["point"][key] for key in keys] == [2, 1, "fail", "fail"]  # what does not converge is not followed
+    assert cells["point"]["failures"] == "1-step PH, trapezoidal: infeasible in cycle 1"
+    assert [cells["rectangle"][key] for key in keys] == ["fail", "fail", 1, 1]
+    assert [c.title for c in wang_table_2.relapses(tracked, True)] == ["rubbles, single, 2-step PH"]
+    rows = wang_table_2.rows(runs, tracked)
+    assert wang_table_2.agreement(rows, "followed") == (2, 3)  # 1, fail and 2; the paper has 1, 2 and 2
+    (row,) = [row for row in wang_table_2.start_rows(tracked) if (row["method"], row["predicted"]) == ("rectangle", 2)]
+    assert (row["starts"], row["followed"], row["followed_without"]) == (1, 1, 1)
+    details = "\n".join(wang_table_2.details(tracked))
+    assert "falls at 9.0 s of 20.0 s" in details and "6.0 mm, 30 mm" in details
+
+
+def test_what_is_tracked_has_converged_and_starts_come_one_after_the_other():
+    runs = [made_up("rubbles", "point", p, seed=seed) for seed in (2, 1, 0) for p in (1, 2, 3, 4)]
+    runs.append(made_up("v_shape", "com", 1, cycles=1, status="infeasible"))
+    wanted = wang_tracking.wanted(runs, seeds=1)
+    assert [(c.seed, c.predicted) for c in wanted] == [(0, 1), (0, 2), (0, 3), (1, 1), (1, 2)]
+
+
+def test_runs_of_the_simulation_are_saved_one_by_one(tmp_path, monkeypatch):
+    configs = [Config("rubbles", "point", p) for p in (1, 2, 3)]
+    for config in configs:
+        path = wang_runs.plan_path(tmp_path, config)
+        path.parent.mkdir(exist_ok=True)
+        path.touch()
+    done = []
+
+    def follow(config, plan, limits):
+        if len(done) == 3:
+            raise KeyboardInterrupt
+        done.append((config.predicted, limits))
+        version = wang_tracking.mcplan.__version__
+        return Tracked(config, limits, version, 20.0, fell=config.predicted == 1, completed_s=9.0)
+
+    monkeypatch.setattr(wang_tracking, "follow", follow)
+    monkeypatch.setattr(wang_tracking, "load_plan", lambda path: None)
+    runs, interrupted = wang_tracking.collect(configs, tmp_path, False, print)
+    assert interrupted and done == [(1, True), (1, False), (2, True)] and len(runs) == 3
+    with (tmp_path / wang_tracking.FILE).open("a") as file:
+        file.write('{"config": {"terr')  # cut off while it was written
+    done.clear()
+    runs, interrupted = wang_tracking.collect(configs, tmp_path, True, print)
+    assert not interrupted and done == [(3, True)]
+    assert [run.config.predicted for run in runs] == [1, 1, 2, 3]
+    assert wang_tracking.load(tmp_path / wang_tracking.FILE) == runs
+
+
+def test_a_rectangle_walk_is_tracked(tmp_path):
+    """Its executed steps have forces at the corners of the soles, as those of every fidelity."""
+    run, plan = wang_runs.walk(Config("rubbles", "rectangle", 2), 1)
+    tracked = wang_tracking.follow(run.config, plan, True)
+    assert run.success and tracked.followed, tracked.ending
+    assert tracked.measures["com_max_m"] < 0.05
 
 
 def test_a_walk_cut_short_is_no_success():
@@ -214,6 +304,7 @@ def test_noise_stays_within_its_share_and_repeats_with_its_seed():
         (["wang", "--lookahead-max", "11"], "--lookahead-max"),
         (["wang", "--cycles", "0"], "cycles"),
         (["wang", "--seeds", "-1"], "seeds"),
+        (["wang", "--tracked-seeds", "-1"], "tracked-seeds"),
         (["tazaki", "--cycles", "3"], "--cycles"),
     ],
 )

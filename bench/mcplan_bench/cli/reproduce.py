@@ -25,6 +25,12 @@ LookaheadMaxOption = Annotated[
 SeedsOption = Annotated[
     int | None, typer.Option("--seeds", metavar="K", help="wang: number of noisy starts beside the scene's; default 0.")
 ]
+TrackedSeedsOption = Annotated[
+    int | None, typer.Option("--tracked-seeds", metavar="K", help="wang: how many of them are tracked, too; default 0.")
+]
+NoTrackOption = Annotated[
+    bool, typer.Option("--no-track", help="wang: track no walk; it takes 20 s each and needs mcplan[sim].")
+]
 TablesOption = Annotated[
     str | None, typer.Option("--tables", metavar="LIST", help="lengagne: tables among 1,2,3,4; default all.")
 ]
@@ -42,7 +48,7 @@ ResumeOption = Annotated[
 ]
 
 
-@named_as_typed("cycles", "lookahead_max", "seeds", "tables", "motions", "repeats")
+@named_as_typed("cycles", "lookahead_max", "seeds", "tracked_seeds", "tables", "motions", "repeats")
 def reproduce(
     paper: PaperArgument,
     out: OutOption = None,
@@ -50,6 +56,8 @@ def reproduce(
     cycles: CyclesOption = None,
     lookahead_max: LookaheadMaxOption = None,
     seeds: SeedsOption = None,
+    tracked_seeds: TrackedSeedsOption = None,
+    no_track: NoTrackOption = False,
     tables: TablesOption = None,
     motions: MotionsOption = None,
     repeats: RepeatsOption = None,
@@ -76,6 +84,7 @@ def reproduce(
     given: dict[str, Any] = {"cycles": cycles, "lookahead_max": lookahead_max, "seeds": seeds}
     given |= {"tables": None if tables is None else _numbers(tables), "motions": motions and motions.split(",")}
     given |= {"repeats": repeats, "resume": resume or None}
+    given |= {"tracked_seeds": tracked_seeds, "no_track": no_track or None}
     options = {name: value for name, value in given.items() if value is not None}
     for name in options:
         if name not in _OWN[paper]:
@@ -102,7 +111,7 @@ def reproduce(
 _OWN: dict[str, tuple[str, ...]] = {
     "lengagne": ("tables", "motions", "repeats", "resume"),
     "tazaki": (),
-    "wang": ("cycles", "lookahead_max", "seeds", "resume"),
+    "wang": ("cycles", "lookahead_max", "seeds", "tracked_seeds", "no_track", "resume"),
 }
 
 

@@ -15,6 +15,8 @@ from mcplan_bench.contact_replay import Array, contacts, replay
 from mcplan_bench.criteria import comparable_cost
 from mcplan_bench.sections import ABSENT, number, table_lines
 
+from .tazaki_names import PREFIX
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -242,6 +244,6 @@ def save_hand_forces(out: Path, rail: dict[tuple[str, str], Result]) -> Path | N
         return None
     from mcplan.view.sheets import save_figure
 
-    path = out / "hand_forces.png"
+    path = out / f"{PREFIX}hand_forces.png"
     save_figure(plot_hand_forces(paper.plan, ours.plan), path)
     return path

@@ -13,7 +13,7 @@ from mcplan.extras import require
 from mcplan.files.outputs import write_whole
 from mcplan_bench import records
 
-from . import wang_figures, wang_size, wang_tables
+from . import wang_figures, wang_size, wang_table_2, wang_tables, wang_tracking
 from .wang_runs import FILE, NOISE, ROBOT, TERRAINS, Run, collect, configs
 from .wang_runs import rows as cycle_rows
 
@@ -25,6 +25,8 @@ def reproduce(
     cycles: int = 14,
     lookahead_max: int = 5,
     seeds: int = 0,
+    tracked_seeds: int = 0,
+    no_track: bool = False,
     resume: bool = False,
 ) -> list[Path]:
     """Write wang.md, the tables as CSV, all numbers as runs.json and cycles.csv, and the figures as PNG.
@@ -35,32 +37,57 @@ def reproduce(
         progress: Called with a line for each walk.
         cycles: Steps of each walk.
         lookahead_max: Longest horizon in steps, the executed one included: 2 to 10.
-        seeds: Noisy starts of each cell of Table III, beside the scene's own.
-        resume: Take the walks that runs.json in `out` has and run the rest; where none is missing, nothing is solved.
+        seeds: Noisy starts of the walks with one and two predicted steps, beside the scene's own.
+        tracked_seeds: Those of them that are tracked, too.
+        no_track: Track nothing: Table II then has the planner's own measures alone.
+        resume: Take the walks that runs.json and tracked.jsonl in `out` have and run the rest; where none is missing,
+            nothing is solved or simulated.
 
     Returns:
         The files written, the page first.
 
     Raises:
         InvalidInput: A number is out of its range, or the walks to resume are those of another version.
-        MissingExtra: matplotlib is not installed.
+        MissingExtra: matplotlib is not installed, or what tracking needs.
         KeyboardInterrupt: Ctrl-C; what was done by then is written.
     """
     require("mcplan reproduce wang", "view", "matplotlib")
-    _require_numbers(cycles, lookahead_max, seeds)
+    if not no_track:
+        require("mcplan reproduce wang", "sim", "mujoco", "pinocchio", "proxsuite")
+    _require_numbers(cycles, lookahead_max, {"seeds": seeds, "tracked_seeds": tracked_seeds})
     say = progress or (lambda text: None)
     out.mkdir(parents=True, exist_ok=True)
     if quick:
         cycles, lookahead_max = min(cycles, 2), min(lookahead_max, 3)
-    requested = configs(lookahead_max, seeds, TERRAINS[-1:] if quick else TERRAINS)
+    requested = configs(lookahead_max, seeds, TERRAINS[-1:] if quick else TERRAINS, trapezoidal=not quick)
     sizes = wang_size.built()
-    runs, about = collect(requested, cycles, out, resume, say)
+    everything, about = collect(requested, cycles, out, resume, say)
+    tracked: list[wang_tracking.Tracked] = []
+    if not (no_track or about["interrupted"]):
+        longest = 1 if quick else wang_tracking.LONGEST
+        candidates = wang_tracking.wanted(everything, tracked_seeds, longest)
+        tracked, about["interrupted"] = wang_tracking.collect(candidates, out, resume, say)
+    written = _write(out, about, sizes, everything, tracked)
+    if about["interrupted"]:
+        raise KeyboardInterrupt
+    return written
 
-    table_2, table_3 = wang_tables.table_2_rows(runs), wang_tables.table_3_rows(runs)
+
+def _write(
+    out: Path,
+    about: dict[str, Any],
+    sizes: list[dict[str, Any]],
+    everything: list[Run],
+    tracked: list[wang_tracking.Tracked],
+) -> list[Path]:
+    """Write tables, figures and the page, which comes first of what is returned."""
+    runs = [run for run in everything if run.config.transcription == "euler"]
+    table_2, table_3 = wang_table_2.rows(everything, tracked), wang_tables.table_3_rows(runs)
     figure_4, figure_5 = wang_tables.cost_rows(runs), wang_figures.figure_5_rows(runs)
     written = [
         out / FILE,
-        records.write_csv(out / "cycles.csv", cycle_rows(runs)),
+        records.write_csv(out / "cycles.csv", cycle_rows(everything)),
+        records.write_csv(out / "tracked.csv", wang_table_2.run_rows(tracked)),
         records.write_csv(out / "table_1.csv", sizes),
         records.write_csv(out / "table_2.csv", table_2),
         records.write_csv(out / "table_3.csv", table_3),
@@ -71,29 +98,33 @@ def reproduce(
         wang_figures.figure_5(out, figure_5),
     ]
     page = out / "wang.md"
-    lines = _page(about, runs, sizes, (table_2, table_3), (figure_4, figure_5))
+    lines = _page(about, runs, sizes, (_table_2(table_2, runs, tracked), table_3), (figure_4, figure_5))
     write_whole("\n".join(lines) + "\n", page)
-    if about["interrupted"]:
-        raise KeyboardInterrupt
     return [page, *written]
 
 
-def _require_numbers(cycles: int, lookahead_max: int, seeds: int) -> None:
+def _table_2(rows: list[dict[str, Any]], runs: list[Run], tracked: list[wang_tracking.Tracked]) -> list[str]:
+    starts = wang_table_2.starts(wang_table_2.start_rows(tracked))
+    return [*wang_table_2.table(rows, runs, tracked), *starts, *wang_table_2.details(tracked)]
+
+
+def _require_numbers(cycles: int, lookahead_max: int, seeds: dict[str, int]) -> None:
     for name, value, low, high in (("cycles", cycles, 1, None), ("lookahead_max", lookahead_max, 2, 10)):
         if value < low or (high is not None and value > high):
             raise InvalidInput(name, f"must be {low} to {high}" if high else f"must be at least {low}", str(value))
-    if seeds < 0:
-        raise InvalidInput("seeds", "must be at least 0", str(seeds))
+    for name, value in seeds.items():
+        if value < 0:
+            raise InvalidInput(name, "must be at least 0", str(value))
 
 
 def _page(
     about: dict[str, Any],
     runs: list[Run],
     sizes: list[dict[str, Any]],
-    tables: tuple[list[dict[str, Any]], list[dict[str, Any]]],
+    tables: tuple[list[str], list[dict[str, Any]]],
     figures: tuple[list[dict[str, Any]], list[dict[str, Any]]],
 ) -> list[str]:
-    """Lines of wang.md; tables II and III, figures 4 and 5."""
+    """Lines of wang.md; table II as lines, table III and figures 4 and 5 as rows."""
     (table_2, table_3), (figure_4, figure_5) = tables, figures
     return [
         *_head(about, wang_tables.seeds(runs), table_3),
@@ -103,7 +134,7 @@ def _page(
         "",
         "## Table II: predicted steps needed",
         "",
-        *wang_tables.table_2(table_2),
+        *table_2,
         "",
         "## Table III: time of a cycle",
         "",
@@ -140,8 +171,8 @@ def _head(about: dict[str, Any], seeds: list[int], table_3: list[dict[str, Any]]
         "Written by `mcplan reproduce wang`, which also writes the numbers of every cycle to `runs.json` and `cycles.csv`; from",
         "the former `mcplan reproduce wang --resume` draws all again.",
         "",
-        'All walks are in the paper\'s form: `transcription="euler"`, `paper=True`. "n-step PH" is a prediction horizon of n',
-        "steps, `lookahead` n + 1.",
+        'All walks are in the paper\'s form: `paper=True` and, where nothing else is said, `transcription="euler"`. "n-step PH"',
+        "is a prediction horizon of n steps, `lookahead` n + 1.",
         "",
     ]
     if about["interrupted"]:

@@ -10,7 +10,7 @@ import numpy as np
 from mcplan.view.colours import COM, COOL, TEXT, WARM
 from mcplan.view.sheets import label, legend, save_figure, sheet
 
-from .wang_runs import METHODS, TERRAINS, Run
+from .wang_runs import METHODS, TERRAINS, Config, Run, plan_path
 from .wang_tables import find, horizons
 
 LOOKS = {
@@ -24,13 +24,13 @@ Chart = tuple[list[int], list[float]]
 
 
 def pictures(out: Path) -> list[Path]:
-    """Pictures of the terrains with the walk saved for each; terrains without one are left out."""
+    """Pictures of the terrains with the walk of `point` with two predicted steps; terrains without one are left out."""
     from mcplan import Plan
     from mcplan.view.pictures.picture import picture
 
     written = []
     for terrain in TERRAINS:
-        saved = out / f"walk_{terrain}.npz"
+        saved = plan_path(out, Config(terrain, "point", 2))
         if saved.exists():
             written.append(picture(Plan.load(saved), path=out / f"figure_4_{terrain}.png", meshes=False))
     return written

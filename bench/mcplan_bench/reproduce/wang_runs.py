@@ -27,6 +27,9 @@ ROBOT = "talos_wang"
 #: Predicted steps of the methods in Table III.
 TABLE_3 = (("single", 1), ("single", 2), ("rectangle", 2), ("point", 2))
 
+#: Those with noisy starts: of Table III, and of Table II with the horizon at which the paper's controller fails.
+NOISY = (*TABLE_3, ("rectangle", 1), ("point", 1))
+
 #: Longest horizon at which `com` is tried: it fails in the same cycle whatever the horizon.
 COM_PREDICTED = 2
 
@@ -51,12 +54,14 @@ class Config:
     method: str
     predicted: int  #: steps in the prediction horizon (PH); lookahead is one more
     seed: int = 0  #: 0: from the scene's start; else of the noise on it
+    transcription: str = "euler"  #: the paper's; or "trapezoidal", whose motion is the integral of its forces
 
     @property
     def title(self) -> str:
         """For lines of progress."""
         seed = f", seed {self.seed}" if self.seed else ""
-        return f"{self.terrain}, {self.method}, {self.predicted}-step PH{seed}"
+        form = "" if self.transcription == "euler" else f", {self.transcription}"
+        return f"{self.terrain}, {self.method}, {self.predicted}-step PH{seed}{form}"
 
 
 @dataclass
@@ -100,41 +105,50 @@ class Run:
         return f"{bad[0]['status']} in cycle {bad[0]['index'] + 1}" if bad else ""
 
 
-def configs(lookahead_max: int, seeds: int, terrains: Iterable[str] = TERRAINS) -> list[Config]:
+def configs(
+    lookahead_max: int, seeds: int, terrains: Iterable[str] = TERRAINS, trapezoidal: bool = True
+) -> list[Config]:
     """The walks of all tables and figures, those that the tables need first.
 
     Args:
         lookahead_max: Longest horizon in steps, the executed one included; at least 2.
-        seeds: Noisy starts of each cell of Table III.
+        seeds: Noisy starts of the walks of Tables II and III with one and two predicted steps.
+        terrains: Where they are made.
+        trapezoidal: With those of Table II whose motion is the integral of their forces.
     """
     out: list[Config] = []
 
-    def add(method: str, predicted: int, seed: int = 0) -> None:
-        out.extend(Config(terrain, method, predicted, seed) for terrain in terrains)
+    def add(method: str, predicted: int, seed: int = 0, transcription: str = "euler") -> None:
+        out.extend(Config(terrain, method, predicted, seed, transcription) for terrain in terrains)
 
     longest = lookahead_max - 1
     first = [cell for cell in TABLE_3 if cell[1] <= longest]
     first += [("point", 1), ("rectangle", 1)]
     first += [("com", predicted) for predicted in range(1, min(longest, COM_PREDICTED) + 1)]
-    first += [(m, p) for p in range(2, longest + 1) for m in ("point", "single", "rectangle") if (m, p) not in first]
+    longer = [(m, p) for p in range(2, longest + 1) for m in ("point", "single", "rectangle") if (m, p) not in first]
     for method, predicted in first:
         add(method, predicted)
+    for method, predicted in NOISY:
+        if trapezoidal and predicted <= longest:
+            add(method, predicted, transcription="trapezoidal")
+    for method, predicted in longer:
+        add(method, predicted)
     for seed in range(1, seeds + 1):
-        for method, predicted in TABLE_3:
+        for method, predicted in NOISY:
             if predicted <= longest:
                 add(method, predicted, seed)
     return out
 
 
 def planner(config: Config, **more: Any) -> RecedingHorizon:
-    """The paper's form: forward Euler, its CoM box and friction pyramid; `more` are further options."""
+    """The paper's form, with its CoM box and friction pyramid; `more` are further options."""
     import mcplan
     from mcplan._core import rhp
 
     options = rhp.Options()
     options.fidelity = getattr(rhp.Fidelity, config.method)
     options.lookahead = config.predicted + 1
-    options.transcription = rhp.Transcription.euler
+    options.transcription = getattr(rhp.Transcription, config.transcription)
     options.paper = True
     options.time_limit_s = TIME_LIMIT_S[config.method]
     for name, value in more.items():
@@ -209,7 +223,7 @@ def collect(
     Args:
         requested: The walks.
         cycles: Of each walk.
-        out: Folder; runs.json and the plans of the nominal `point` 2-step walks are saved in it.
+        out: Folder; runs.json and the plans are saved in it.
         resume: Keep what its runs.json has of the same number of cycles and run the rest.
         say: Called with a line for each walk.
 
@@ -238,14 +252,23 @@ def collect(
             say(f"Interrupted in {config.title}; what is done is saved, --resume goes on")
             break
         runs.append(run)
-        if (config.method, config.predicted, config.seed) == ("point", 2, 0) and plan.phases:
-            plan.save(out / f"walk_{config.terrain}.npz")
+        if plan.phases:
+            path = plan_path(out, config)
+            path.parent.mkdir(exist_ok=True)
+            plan.save(path)
         save(out / FILE, runs, about)
         times = [cycle["time_s"] for cycle in run.cycles]
         end = run.failure or f"{run.distance_m:.2f} m, cost {run.cost_per_m:.2f} per metre"
         say(f"{number}/{len(missing)}  {config.title}: {end}, {np.mean(times):.2f} s a cycle")
     save(out / FILE, runs, about)
     return runs, about
+
+
+def plan_path(out: Path, config: Config) -> Path:
+    """Where the plan of a walk is saved."""
+    start = f"_seed_{config.seed}" if config.seed else ""
+    form = "" if config.transcription == "euler" else f"_{config.transcription}"
+    return out / "walks" / f"{config.terrain}_{config.method}_{config.predicted}{start}{form}.npz"
 
 
 def save(path: Path, runs: list[Run], about: dict[str, Any]) -> Path:

@@ -1,4 +1,4 @@
-"""Tables II and III of Wang et al. from the runs, beside the published ones."""
+"""Table III and the costs of Figure 4 of Wang et al. from the runs, beside what is published."""
 
 from __future__ import annotations
 
@@ -6,21 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from .wang_runs import METHODS, TERRAINS, TIME_LIMIT_S, Run
+from .wang_runs import METHODS, TERRAINS, Run
 
 TITLES = {
     "single": "baseline (`single`)",
     "com": "candidate 1 (`com`)",
     "rectangle": "candidate 2 (`rectangle`)",
     "point": "candidate 3 (`point`)",
-}
-
-#: Table II: minimum number of predicted steps; None: fails.
-PUBLISHED_2: dict[str, tuple[int | None, ...]] = {
-    "single": (1, 1, 1),
-    "com": (None, None, None),
-    "rectangle": (2, 1, 2),
-    "point": (2, 2, 2),
 }
 
 #: Table III: mean and standard deviation of the time of a cycle [s], for the terrains in order.
@@ -30,11 +22,6 @@ PUBLISHED_3 = {
     ("rectangle", 2): ((1.30, 0.59), (1.00, 0.27), (1.12, 0.24)),
     ("point", 2): ((0.58, 0.03), (0.57, 0.06), (0.62, 0.07)),
 }
-
-#: A walk counts as one that a controller could follow when its cost per metre is at most so many times that of the
-#: baseline with one predicted step on the same terrain. Chosen after the first runs: candidates 2 and 3 cost 0.8 to 1.9
-#: times as much with two predicted steps and 3 to 5 times with one.
-TRACKABLE_COST = 2.5
 
 
 def find(runs: list[Run], terrain: str, method: str, predicted: int) -> Run | None:
@@ -49,70 +36,6 @@ def find(runs: list[Run], terrain: str, method: str, predicted: int) -> Run | No
 def horizons(runs: list[Run], method: str) -> list[int]:
     """Numbers of predicted steps that were run."""
     return sorted({run.config.predicted for run in runs if run.config.method == method})
-
-
-def trackable(run: Run, runs: list[Run]) -> bool | None:
-    """Whether it succeeds at a cost near the baseline's; None without a baseline that succeeds."""
-    baseline = find(runs, run.config.terrain, "single", 1)
-    if baseline is None or not baseline.success:
-        return None
-    return run.success and run.cost_per_m <= TRACKABLE_COST * baseline.cost_per_m
-
-
-def table_2_rows(runs: list[Run]) -> list[dict[str, Any]]:
-    """One row per method and terrain: minimum number of predicted steps; "fail", or "" where nothing was run."""
-    out = []
-    for method in METHODS:
-        for terrain, published in zip(TERRAINS, PUBLISHED_2[method], strict=True):
-            tried = [run for p in horizons(runs, method) if (run := find(runs, terrain, method, p)) is not None]
-            good = [run.config.predicted for run in tried if run.success]
-            near = [run.config.predicted for run in tried if trackable(run, runs)]
-            failures = [f"{run.config.predicted}-step PH: {run.failure}" for run in tried if not run.success]
-            nothing: int | str = "fail" if tried else ""
-            out.append(
-                {
-                    "method": method,
-                    "terrain": terrain,
-                    "published": "fail" if published is None else published,
-                    "tried_up_to": max((run.config.predicted for run in tried), default=""),
-                    "converges": min(good, default=nothing),
-                    "converges_and_quiet": min(near, default=nothing),
-                    "failures": "; ".join(failures),
-                }
-            )
-    return out
-
-
-def table_2(rows: list[dict[str, Any]]) -> list[str]:
-    """Table II as Markdown."""
-    head = " | ".join(f"{t}: paper | converges | and quiet" for t in TERRAINS)
-    lines = [f"| method | {head} |", "|---" * (1 + 3 * len(TERRAINS)) + "|"]
-    for method in METHODS:
-        cells = []
-        for terrain in TERRAINS:
-            (row,) = (r for r in rows if (r["method"], r["terrain"]) == (method, terrain))
-            cells += [str(row[key]) for key in ("published", "converges", "converges_and_quiet")]
-        lines.append(f"| {TITLES[method]} | {' | '.join(cells)} |")
-    lines += [
-        "",
-        "The paper calls a walk a success when a whole-body controller followed it in simulation. Here no controller has run:",
-        '"converges" is the least horizon with which every cycle converged within its constraints, "and quiet" the least',
-        f"with which also the cost per metre is at most {TRACKABLE_COST:g} times that of the baseline with one predicted step on",
-        "that terrain. This stands in for the controller's verdict, because the paper's candidates converge with one predicted",
-        "step, too, but jerk so that the controller fails. The limit was chosen between the two groups that we saw: 0.8 to 1.9",
-        "times with two predicted steps, 3 to 5 times with one.",
-    ]
-    failures = [row for row in rows if row["failures"]]
-    if failures:
-        lines += ["", "Walks that did not end well:", ""]
-        lines += [f"- {TITLES[row['method']]}, {row['terrain']}: {row['failures']}" for row in failures]
-        lines += [
-            "",
-            f"A cycle of `com` has at most {TIME_LIMIT_S['com']:g} s. It fails because its first step, with no angular momentum",
-            "in the prediction, ends with the CoM moving past the next stance foot: nothing catches it within the bounds on the",
-            "rate of L.",
-        ]
-    return lines
 
 
 def seeds(runs: list[Run]) -> list[int]:

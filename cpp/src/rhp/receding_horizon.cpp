@@ -315,6 +315,7 @@ Walk RecedingHorizon::result() const {
     plan.open_end = true;
     found = check(plan, plan.scene, plan.robot);
   }
+  report.warnings = found.warnings;
   report.friction_use = friction_use(plan);
   if (out.cycles.back().executed) report.worst_violation = found.worst();
   if (report.status == Status::solved && !found.ok()) {

@@ -139,7 +139,7 @@ def _interrupted(planner: engine.RecedingHorizon, cycles: int, progress: Progres
 
 def summary(walk: engine.Walk, scene: Scene, robot: Robot, options: engine.Options) -> dict[str, Any]:
     """What ``--json`` prints."""
-    from mcplan.cli.check import finite, violation_dict
+    from mcplan.cli.check import finite, violation_dict, warning_dict
 
     totals = ("distance_m", "acc_per_m", "momentum_per_m", "drift_com_m", "drift_momentum")
     worst = violation_dict(walk.report.worst_violation)
@@ -156,6 +156,7 @@ def summary(walk: engine.Walk, scene: Scene, robot: Robot, options: engine.Optio
         "time_s": walk.report.time_s,
         **{name: finite(getattr(walk, name)()) for name in totals},
         "worst_violation": {key: worst[key] for key in ("name", "phase", "time_s", "value", "tolerance", "unit")},
+        "warnings": [warning_dict(warning) for warning in walk.report.warnings],
         "cycles": [cycle_dict(cycle) for cycle in walk.cycles],
         "version": walk.report.version,
     }

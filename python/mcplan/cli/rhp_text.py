@@ -68,6 +68,8 @@ def summary_text(
         written: Files with its plan.
         interrupted: Whether Ctrl-C ended it.
     """
+    from mcplan.cli.check import warning_lines
+
     report = walk.report
     lead = f"{scene}  {robot}  "
     indent = " " * len(lead)
@@ -87,6 +89,7 @@ def summary_text(
     if report.worst_violation.name and worst not in report.message:
         label = "closest to its limit" if str(report.status) == "solved" else "worst"
         lines.append(f"{indent}{label}: {worst}")
+    lines += warning_lines(report.warnings)
     files = [str(path) for path in written]
     if files and not done:
         lines.append(f"Not written, since no step was found: {', '.join(files)}")

@@ -49,7 +49,7 @@ struct Cycle {
 /// A walk.
 struct Walk {
   Plan plan;      ///< the executed steps, one after the other
-  Report report;  ///< status and message of the worst cycle, times summed, worst violation of the whole plan
+  Report report;  ///< of the worst cycle: status, message; times summed; of the whole plan: violation, warnings
   std::vector<Cycle> cycles;
   bool success = false;  ///< every cycle that was asked for converged within its constraints
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mcplan.view.colours import COM, SURFACES, TEXT, WARM, plain, surface_colours
 from mcplan.view.sheets import label, sheet
@@ -20,6 +21,28 @@ def has_sequences(report: Report) -> bool:
     return any(len(row.sequence) for row in report.history)
 
 
+def sequences_by_switches(report: Report) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Contact sequence at each number of switches.
+
+    Returns:
+        (n + 1,) edges of the columns of such a chart, and (n, steps, end-effectors) surfaces, -1: none.
+
+    Raises:
+        ValueError: The history has no sequences.
+    """
+    rows = [row for row in report.history if len(row.sequence)]
+    if not rows:
+        raise ValueError("report.history: must hold contact sequences, got none (record them in the planner's options)")
+    counts = np.cumsum([row.switches for row in rows])
+    # The iteration that switched is the last of its count: those after it polish, or try changes that are rejected.
+    reached: dict[int, NDArray[np.int64]] = {}
+    for count, row in zip(counts, rows, strict=True):
+        reached.setdefault(int(count), np.asarray(row.sequence, np.int64))
+    at = sorted(reached)
+    edges = np.append(np.array(at) - 0.5, at[-1] + 0.5)
+    return edges, np.array([reached[count] for count in at])
+
+
 def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
     """Contact sequence against the number of contact switches, a panel per end-effector.
 
@@ -33,17 +56,7 @@ def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
     from matplotlib.colors import BoundaryNorm, ListedColormap
     from matplotlib.patches import Patch
 
-    rows = [row for row in report.history if len(row.sequence)]
-    if not rows:
-        raise ValueError("report.history: must hold contact sequences, got none (record them in the planner's options)")
-    counts = np.cumsum([row.switches for row in rows])
-    # The iteration that switched is the last of its count: those after it polish, or try changes that are rejected.
-    reached: dict[int, np.ndarray] = {}
-    for count, row in zip(counts, rows, strict=True):
-        reached.setdefault(int(count), np.asarray(row.sequence))
-    at = sorted(reached)
-    edges = np.append(np.array(at) - 0.5, at[-1] + 0.5)
-    grid = np.array([reached[count] for count in at])  # counts x steps x end-effectors
+    edges, grid = sequences_by_switches(report)
     surfaces = int(max(grid.max() + 1, len(plan.scene.surfaces) if plan is not None else 1))
     palette = (
         surface_colours(plan.scene) if plan is not None else [SURFACES[i % len(SURFACES)] for i in range(surfaces)]
