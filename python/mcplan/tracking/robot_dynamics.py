@@ -68,6 +68,14 @@ class RobotDynamics:
         x, y, z = point_W - self._data.oMi[joint].translation
         return np.asarray(jacobian[:3] + np.array([[0, z, -y], [-z, 0, x], [y, -x, 0]]) @ jacobian[3:])
 
+    def point_velocity(self, joint: int, point_W: Array) -> Array:
+        """(3,) velocity, world's axes, of a point [m] that is fixed to the link of a joint [m/s]."""
+        pin, axes = self._pin, self._pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+        velocity = pin.getVelocity(self.model, self._data, joint, axes)
+        x, y, z = point_W - self._data.oMi[joint].translation
+        wx, wy, wz = velocity.angular
+        return np.asarray(velocity.linear + np.array([wy * z - wz * y, wz * x - wx * z, wx * y - wy * x]))
+
     def end_effector(self, index: int) -> EndEffectorMotion:
         """Motion of an end-effector's contact frame."""
         pin, data, frame = self._pin, self._data, self.urdf_model.frames[index]

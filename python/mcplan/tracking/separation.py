@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,10 +17,26 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Links are kept this far apart [m]; pairs nearer than NEAR_M are looked at, at most ROWS of them, the nearest.
-APART_M, NEAR_M, ROWS = 0.01, 0.05, 8
+#: Links are kept this far apart [m], but at most this ratio of their distance in the nominal posture: a knee and a foot of
+#: one leg are nearer to each other than that in every stance.
+APART_M, MARGIN_RATIO = 0.01, 0.5
+#: Pairs nearer than this [m] are looked at; beyond the second one distances are not worked out.
+NEAR_M, FAR_M = 0.05, 0.5
+#: Number of rows.
+ROWS = 8
 #: Gains [1/s^2, 1/s] by which a distance may approach APART_M, and the largest acceleration that it is opened with [m/s^2].
 KP, KD, LARGEST = 900.0, 60.0, 50.0
+
+
+@dataclass(frozen=True)
+class _NearPair:
+    """A pair of shapes near to each other: its number, nearest points, direction from the first to the second one, and the
+    least acceleration of its distance."""
+
+    pair: int
+    points_W: tuple[Array, Array]
+    normal_W: Array
+    least: float
 
 
 class Separation:
@@ -46,30 +63,43 @@ class Separation:
         self._distance = np.full(len(self._pairs), -np.inf)
         self._places: tuple[Array, Array] | None = None
         self._moved = np.zeros(model.mj.ngeom)
+        self._margins = np.minimum(APART_M, MARGIN_RATIO * self._nominal_distances())
 
     def rows(self, dynamics: RobotDynamics) -> tuple[Array, Array]:
         """Rows (ROWS, nv) and least values (ROWS,) of accelerations; rows that are not used are 0 and -inf.
 
         For a pair at distance d, of which n points from the first shape's nearest point to the second one's:
-        n (J_2 - J_1) qdd >= -KP (d - APART_M) - KD n (J_2 - J_1) v, at most LARGEST.
+        n (J_2 - J_1) qdd >= -KP (d - margin) - KD n (J_2 - J_1) v, at most LARGEST. Of the near pairs these are the ROWS
+        with the largest right-hand sides.
         """
         rows, least = np.zeros((ROWS, len(dynamics.velocity))), np.full(ROWS, -np.inf)
-        for row, (pair, distance, points) in enumerate(self._nearest(dynamics)):
-            apart = points[1] - points[0]
-            size = float(np.linalg.norm(apart))
-            if size < 1e-9:
-                continue
-            normal = np.sign(distance) * apart / size
-            first, second = (self._joint_of[geom] for geom in pair)
-            rows[row] = normal @ (
-                dynamics.point_jacobian(second, points[1]) - dynamics.point_jacobian(first, points[0])
-            )
-            rate = float(rows[row] @ dynamics.velocity)
-            least[row] = min(-KP * (distance - APART_M) - KD * rate, LARGEST)
+        for row, near in enumerate(self._most_urgent(dynamics)):
+            first, second = (self._joint_of[geom] for geom in self._pairs[near.pair])
+            here, there = near.points_W
+            rows[row] = near.normal_W @ (dynamics.point_jacobian(second, there) - dynamics.point_jacobian(first, here))
+            least[row] = min(near.least, LARGEST)
         return rows, least
 
-    def _nearest(self, dynamics: RobotDynamics) -> list[tuple[Array, float, Array]]:
-        """Geoms, distance and nearest points (2, 3) of the nearest pairs."""
+    def _most_urgent(self, dynamics: RobotDynamics) -> list[_NearPair]:
+        """The near pairs with the largest least accelerations, the largest first.
+
+        The nearest ones would not do: thighs are near to each other in every stance, and a hand that comes towards them
+        fast has to be braked before it is as near as they are.
+        """
+        found = []
+        for pair, distance, (here, there) in self._near(dynamics):
+            size = float(np.linalg.norm(there - here))
+            if size < 1e-9:
+                continue
+            normal = np.sign(distance) * (there - here) / size
+            first, second = (self._joint_of[geom] for geom in self._pairs[pair])
+            rate = float(normal @ (dynamics.point_velocity(second, there) - dynamics.point_velocity(first, here)))
+            least = -KP * (distance - self._margins[pair]) - KD * rate
+            found.append(_NearPair(pair, (here, there), normal, least))
+        return sorted(found, key=lambda near: -near.least)[:ROWS]
+
+    def _near(self, dynamics: RobotDynamics) -> list[tuple[int, float, Array]]:
+        """Number, distance and nearest points (2, 3) of the pairs nearer than NEAR_M."""
         mj, data = self._mj, self._data
         data.qpos[:], _ = to_mujoco(self._model, dynamics.configuration, dynamics.velocity)
         self._mujoco.mj_kinematics(mj, data)
@@ -77,13 +107,20 @@ class Separation:
         found = []
         points = np.zeros(6)
         for i in np.flatnonzero(self._distance < NEAR_M):
-            first, second = self._pairs[i]
             # Beyond some distance its value is of no interest, but how long it need not be looked at is.
-            distance = self._mujoco.mj_geomDistance(mj, data, first, second, 10.0 * NEAR_M, points)
+            distance = self._mujoco.mj_geomDistance(mj, data, *self._pairs[i], FAR_M, points)
             self._distance[i] = distance
             if distance < NEAR_M:
-                found.append((self._pairs[i], distance, points.reshape(2, 3).copy()))
-        return sorted(found, key=lambda item: item[1])[:ROWS]
+                found.append((int(i), float(distance), points.reshape(2, 3).copy()))
+        return found
+
+    def _nominal_distances(self) -> Array:
+        """(n,) distance of each pair in the nominal posture, at most FAR_M."""
+        urdf_model = self._model.urdf_model
+        self._data.qpos[:], _ = to_mujoco(self._model, urdf_model.neutral, np.zeros(urdf_model.model.nv))
+        self._mujoco.mj_kinematics(self._mj, self._data)
+        distances = [self._mujoco.mj_geomDistance(self._mj, self._data, *pair, FAR_M, None) for pair in self._pairs]
+        return np.maximum(distances, 0.0)
 
     def _shrink(self) -> None:
         """Take from each distance what its two shapes may have come nearer since the last time."""
