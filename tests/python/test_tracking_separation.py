@@ -38,7 +38,7 @@ def test_no_near_pair_is_overlooked_on_the_way(name):
             configuration[7:], pin_model.lowerPositionLimit[7:], pin_model.upperPositionLimit[7:]
         )
         dynamics.update(configuration, velocity)
-        near = np.sort([distance for _, distance, _ in separation._near(dynamics)])
+        near = np.sort(separation._near(dynamics)[1])
         exact = np.sort(distances(model, dynamics))
         expected = exact[exact < NEAR_M]
         assert len(near) == len(expected)

@@ -68,13 +68,17 @@ class RobotDynamics:
         x, y, z = point_W - self._data.oMi[joint].translation
         return np.asarray(jacobian[:3] + np.array([[0, z, -y], [-z, 0, x], [y, -x, 0]]) @ jacobian[3:])
 
-    def point_velocity(self, joint: int, point_W: Array) -> Array:
-        """(3,) velocity, world's axes, of a point [m] that is fixed to the link of a joint [m/s]."""
+    def point_velocities(self, joints: NDArray[np.int64], points_W: Array) -> Array:
+        """(n, 3) velocities, world's axes, of points (n, 3) [m] that are fixed to the links of joints (n,) [m/s]."""
         pin, axes = self._pin, self._pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
-        velocity = pin.getVelocity(self.model, self._data, joint, axes)
-        x, y, z = point_W - self._data.oMi[joint].translation
-        wx, wy, wz = velocity.angular
-        return np.asarray(velocity.linear + np.array([wy * z - wz * y, wz * x - wx * z, wx * y - wy * x]))
+        distinct, number = np.unique(joints, return_inverse=True)
+        motions = np.zeros((len(distinct), 6))
+        origins = np.zeros((len(distinct), 3))
+        for k, joint in enumerate(distinct.tolist()):
+            motions[k] = pin.getVelocity(self.model, self._data, joint, axes).vector
+            origins[k] = self._data.oMi[joint].translation
+        moving = motions[number]
+        return np.asarray(moving[:, :3] + np.cross(moving[:, 3:], points_W - origins[number]))
 
     def end_effector(self, index: int) -> EndEffectorMotion:
         """Motion of an end-effector's contact frame."""

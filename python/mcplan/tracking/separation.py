@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -28,17 +27,6 @@ ROWS = 8
 KP, KD, LARGEST = 900.0, 60.0, 50.0
 
 
-@dataclass(frozen=True)
-class _NearPair:
-    """A pair of shapes near to each other: its number, nearest points, direction from the first to the second one, and the
-    least acceleration of its distance."""
-
-    pair: int
-    points_W: tuple[Array, Array]
-    normal_W: Array
-    least: float
-
-
 class Separation:
     """Pairs of links that may touch each other.
 
@@ -58,7 +46,8 @@ class Separation:
         self._geoms = np.unique(self._pairs)
         names = list(model.urdf_model.model.names)
         joint_of = {model.mj.joint(name).bodyid[0]: names.index(name) for name in model.joints}
-        self._joint_of = {geom: joint_of.get(int(model.mj.geom_bodyid[geom]), 1) for geom in self._geoms}
+        geom_joint = [joint_of.get(int(body), 1) for body in model.mj.geom_bodyid]
+        self._joints = np.array(geom_joint, dtype=np.int64)[self._pairs]
         # Exact where it was last worked out, less what shapes have moved since.
         self._distance = np.full(len(self._pairs), -np.inf)
         self._places: tuple[Array, Array] | None = None
@@ -73,46 +62,38 @@ class Separation:
         with the largest right-hand sides.
         """
         rows, least = np.zeros((ROWS, len(dynamics.velocity))), np.full(ROWS, -np.inf)
-        for row, near in enumerate(self._most_urgent(dynamics)):
-            first, second = (self._joint_of[geom] for geom in self._pairs[near.pair])
-            here, there = near.points_W
-            rows[row] = near.normal_W @ (dynamics.point_jacobian(second, there) - dynamics.point_jacobian(first, here))
-            least[row] = min(near.least, LARGEST)
+        pairs, distances, points = self._near(dynamics)
+        apart = points[:, 1] - points[:, 0]
+        sizes = np.sqrt((apart * apart).sum(axis=1))
+        normals = apart * (np.sign(distances) / np.maximum(sizes, 1e-9))[:, None]
+        joints = self._joints[pairs]
+        velocities = dynamics.point_velocities(joints.ravel(), points.reshape(-1, 3)).reshape(-1, 2, 3)
+        rates = (normals * (velocities[:, 1] - velocities[:, 0])).sum(axis=1)
+        wanted = -KP * (distances - self._margins[pairs]) - KD * rates
+        wanted[sizes < 1e-9] = -np.inf
+        # The nearest ones would not do: thighs are near to each other in every stance, and a hand that comes towards them
+        # fast has to be braked before it is as near as they are.
+        for row, k in enumerate(np.argsort(-wanted)[:ROWS]):
+            if wanted[k] > -np.inf:
+                (first, second), (here, there) = joints[k].tolist(), points[k]
+                rows[row] = normals[k] @ (dynamics.point_jacobian(second, there) - dynamics.point_jacobian(first, here))
+                least[row] = min(wanted[k], LARGEST)
         return rows, least
 
-    def _most_urgent(self, dynamics: RobotDynamics) -> list[_NearPair]:
-        """The near pairs with the largest least accelerations, the largest first.
-
-        The nearest ones would not do: thighs are near to each other in every stance, and a hand that comes towards them
-        fast has to be braked before it is as near as they are.
-        """
-        found = []
-        for pair, distance, (here, there) in self._near(dynamics):
-            size = float(np.linalg.norm(there - here))
-            if size < 1e-9:
-                continue
-            normal = np.sign(distance) * (there - here) / size
-            first, second = (self._joint_of[geom] for geom in self._pairs[pair])
-            rate = float(normal @ (dynamics.point_velocity(second, there) - dynamics.point_velocity(first, here)))
-            least = -KP * (distance - self._margins[pair]) - KD * rate
-            found.append(_NearPair(pair, (here, there), normal, least))
-        return sorted(found, key=lambda near: -near.least)[:ROWS]
-
-    def _near(self, dynamics: RobotDynamics) -> list[tuple[int, float, Array]]:
-        """Number, distance and nearest points (2, 3) of the pairs nearer than NEAR_M."""
-        mj, data = self._mj, self._data
+    def _near(self, dynamics: RobotDynamics) -> tuple[NDArray[np.int64], Array, Array]:
+        """Numbers (n,), distances (n,) and nearest points (n, 2, 3) of the pairs nearer than NEAR_M."""
+        mj, data, measure = self._mj, self._data, self._mujoco.mj_geomDistance
         data.qpos[:], _ = to_mujoco(self._model, dynamics.configuration, dynamics.velocity)
         self._mujoco.mj_kinematics(mj, data)
         self._shrink()
-        found = []
-        points = np.zeros(6)
-        for i in np.flatnonzero(self._distance < NEAR_M):
+        pairs = np.flatnonzero(self._distance < NEAR_M)
+        points, distances = np.zeros((len(pairs), 6)), np.zeros(len(pairs))
+        for k, (first, second) in enumerate(self._pairs[pairs].tolist()):
             # Beyond some distance its value is of no interest, but how long it need not be looked at is.
-            distance = self._mujoco.mj_geomDistance(mj, data, *self._pairs[i], FAR_M, points)
-            self._distance[i] = distance
-            if distance < NEAR_M:
-                found.append((int(i), float(distance), points.reshape(2, 3).copy()))
-        return found
+            distances[k] = measure(mj, data, first, second, FAR_M, points[k])
+        self._distance[pairs] = distances
+        near = distances < NEAR_M
+        return pairs[near], distances[near], points[near].reshape(-1, 2, 3)
 
     def _nominal_distances(self) -> Array:
         """(n,) distance of each pair in the nominal posture, at most FAR_M."""
