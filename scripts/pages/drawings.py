@@ -2,6 +2,7 @@
 
 python -m pages.drawings page WALK.npz PICTURE.png SECONDS    the page of a plan at an instant, by Chromium
 python -m pages.drawings postures RUN.npz PICTURE.png T,T,...  postures of a run at these instants [s] in one scene
+python -m pages.drawings unlimited CASE PICTURE.png            strip of a case of `bench tracking`, full torque at every speed
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import sys
 PAGE_SIZE, POSTURES_SIZE = (1400, 800), (800, 652)
 
 
-def main(kind: str, source: str, picture: str, argument: str) -> None:
+def main(kind: str, source: str, picture: str, argument: str = "") -> None:
     """Draw one of the pictures above."""
     if kind == "page":
         import mcplan
@@ -23,8 +24,16 @@ def main(kind: str, source: str, picture: str, argument: str) -> None:
 
         times_s = [float(time_s) for time_s in argument.split(",")]
         save_run_postures(TrackingResult.load(source), picture, times_s, POSTURES_SIZE)
+    elif kind == "unlimited":
+        from mcplan.showing import save_strip
+        from mcplan.tracking import Options
+        from mcplan_bench.tracking import plan_of, track_plan
+        from mcplan_bench.tracking_cases import named
+
+        case = named(source)
+        save_strip(track_plan(case, plan_of(case).plan, Options(speed_limits=False)), picture)
     else:
-        raise SystemExit(f"no kind of picture {kind!r}; there are: page, postures")
+        raise SystemExit(f"no kind of picture {kind!r}; there are: page, postures, unlimited")
 
 
 if __name__ == "__main__":

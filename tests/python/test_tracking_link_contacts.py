@@ -116,3 +116,13 @@ def test_hands_make_contact_with_thighs_and_by_their_balls_alone_with_the_terrai
     shapes = link_shapes(urdf_model)
     assert all(shape.on_terrain == (shape.joint not in hands) for shape in shapes)
     assert any(shape.joint in hands for shape in shapes)
+
+
+@pytest.mark.slow
+def test_arms_are_not_thrown_about_where_the_hips_have_no_torque_left():
+    """Arms that are to do for the base what saturated hips cannot were driven beyond their speeds, and into the thighs."""
+    pytest.importorskip("proxsuite")
+    plan = mp.walk(mp.load_scene("up_and_down"), mp.load_robot("talos_wang"), fidelity="point", cycles=4).plan
+    result = mp.track(plan, "talos", hold_s=0.0)
+    assert not result.measures.fell and result.measures.torque_use > 0.99
+    assert result.measures.velocity_use < 1.0 and result.measures.self_contacts == 0

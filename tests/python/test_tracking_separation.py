@@ -13,7 +13,7 @@ pytest.importorskip("example_robot_data")
 
 from mcplan.tracking.mujoco_model import build  # noqa: E402
 from mcplan.tracking.robot_dynamics import RobotDynamics  # noqa: E402
-from mcplan.tracking.separation import APART_M, KD, KP, LARGEST, NEAR_M, ROWS, Separation, _pairs  # noqa: E402
+from mcplan.tracking.separation import APART_M, KD, KP, LARGEST, MARGIN_RATIO, NEAR_M, ROWS, Separation, _pairs  # noqa: E402
 from mcplan.tracking.states import to_mujoco  # noqa: E402
 
 
@@ -38,9 +38,9 @@ def test_no_near_pair_is_overlooked_on_the_way(name):
             configuration[7:], pin_model.lowerPositionLimit[7:], pin_model.upperPositionLimit[7:]
         )
         dynamics.update(configuration, velocity)
-        near = np.sort([distance for _, distance, _ in separation._nearest(dynamics)])
+        near = np.sort(separation._near(dynamics)[1])
         exact = np.sort(distances(model, dynamics))
-        expected = exact[exact < NEAR_M][:ROWS]
+        expected = exact[exact < NEAR_M]
         assert len(near) == len(expected)
         np.testing.assert_allclose(near, expected, atol=2e-3)  # of MuJoCo's, which depend on where its search begins
         met += len(near)
@@ -89,3 +89,39 @@ def test_links_that_close_are_braked_and_no_more_than_so_much(lowered):
         closing = rows[0] @ velocity
         expected = -KP * (distances(model, dynamics).min() - APART_M) - KD * closing
         assert closing < 0.0 and least[0] == pytest.approx(min(expected, LARGEST))
+
+
+@pytest.mark.parametrize("name", ["talos", "g1"])
+def test_no_links_are_driven_apart_in_the_nominal_posture(name):
+    """Knee and foot of G1 are 7 mm from each other there, its elbow and wrist 10 mm: that is how it is built."""
+    model = build(mp.load_robot(name), simulated.level())
+    dynamics = RobotDynamics(model.urdf_model)
+    dynamics.update(model.urdf_model.neutral.copy(), np.zeros(model.urdf_model.model.nv))
+    rows, least = Separation(model).rows(dynamics)
+    assert rows.any() and np.isfinite(least).any()
+    assert (least < 0.0).all()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_rows_are_those_of_the_pairs_that_have_to_be_braked_first(seed):
+    """Which are not the nearest ones: twice as many pairs of TALOS as there are rows are near to each other in any stance."""
+    model = build(mp.load_robot("talos"), simulated.level())
+    pin_model, dynamics, moved = (
+        model.urdf_model.model,
+        RobotDynamics(model.urdf_model),
+        RobotDynamics(model.urdf_model),
+    )
+    configuration = model.urdf_model.neutral.copy()
+    velocity = np.zeros(pin_model.nv)
+    velocity[6:] = np.random.default_rng(seed).normal(size=pin_model.nv - 6)
+    dynamics.update(configuration, velocity)
+    _, least = Separation(model).rows(dynamics)
+    h, there = 1e-5, []
+    for side in (-h, h):
+        moved.update(pin.integrate(pin_model, configuration, side * velocity), velocity)
+        there.append(distances(model, moved))
+    distance, rate = distances(model, dynamics), (there[1] - there[0]) / (2 * h)
+    margins = np.minimum(APART_M, MARGIN_RATIO * distance)  # it is the nominal posture
+    expected = (-KP * (distance - margins) - KD * rate)[distance < NEAR_M]
+    assert len(expected) > 2 * ROWS
+    np.testing.assert_allclose(np.sort(least), np.minimum(np.sort(expected)[-ROWS:], LARGEST), rtol=0.02, atol=0.5)

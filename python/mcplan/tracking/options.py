@@ -51,7 +51,7 @@ class Gains:
     contact_weight: float = 1e3
     hand_weight: float = 100.0
     posture_kp: float = 20.0
-    posture_weight: float = 0.01
+    posture_weight: float = 0.03
     force_weight: float = 1e-6
 
 

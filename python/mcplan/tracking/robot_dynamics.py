@@ -68,6 +68,18 @@ class RobotDynamics:
         x, y, z = point_W - self._data.oMi[joint].translation
         return np.asarray(jacobian[:3] + np.array([[0, z, -y], [-z, 0, x], [y, -x, 0]]) @ jacobian[3:])
 
+    def point_velocities(self, joints: NDArray[np.int64], points_W: Array) -> Array:
+        """(n, 3) velocities, world's axes, of points (n, 3) [m] that are fixed to the links of joints (n,) [m/s]."""
+        pin, axes = self._pin, self._pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+        distinct, number = np.unique(joints, return_inverse=True)
+        motions = np.zeros((len(distinct), 6))
+        origins = np.zeros((len(distinct), 3))
+        for k, joint in enumerate(distinct.tolist()):
+            motions[k] = pin.getVelocity(self.model, self._data, joint, axes).vector
+            origins[k] = self._data.oMi[joint].translation
+        moving = motions[number]
+        return np.asarray(moving[:, :3] + np.cross(moving[:, 3:], points_W - origins[number]))
+
     def end_effector(self, index: int) -> EndEffectorMotion:
         """Motion of an end-effector's contact frame."""
         pin, data, frame = self._pin, self._data, self.urdf_model.frames[index]

@@ -16,8 +16,13 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Links are kept this far apart [m]; pairs nearer than NEAR_M are looked at, at most ROWS of them, the nearest.
-APART_M, NEAR_M, ROWS = 0.01, 0.05, 8
+#: Links are kept this far apart [m], but at most this ratio of their distance in the nominal posture: a knee and a foot of
+#: one leg are nearer to each other than that in every stance.
+APART_M, MARGIN_RATIO = 0.01, 0.5
+#: Pairs nearer than this [m] are looked at; beyond the second one distances are not worked out.
+NEAR_M, FAR_M = 0.05, 0.5
+#: Number of rows.
+ROWS = 8
 #: Gains [1/s^2, 1/s] by which a distance may approach APART_M, and the largest acceleration that it is opened with [m/s^2].
 KP, KD, LARGEST = 900.0, 60.0, 50.0
 
@@ -41,49 +46,62 @@ class Separation:
         self._geoms = np.unique(self._pairs)
         names = list(model.urdf_model.model.names)
         joint_of = {model.mj.joint(name).bodyid[0]: names.index(name) for name in model.joints}
-        self._joint_of = {geom: joint_of.get(int(model.mj.geom_bodyid[geom]), 1) for geom in self._geoms}
+        geom_joint = [joint_of.get(int(body), 1) for body in model.mj.geom_bodyid]
+        self._joints = np.array(geom_joint, dtype=np.int64)[self._pairs]
         # Exact where it was last worked out, less what shapes have moved since.
         self._distance = np.full(len(self._pairs), -np.inf)
         self._places: tuple[Array, Array] | None = None
         self._moved = np.zeros(model.mj.ngeom)
+        self._margins = np.minimum(APART_M, MARGIN_RATIO * self._nominal_distances())
 
     def rows(self, dynamics: RobotDynamics) -> tuple[Array, Array]:
         """Rows (ROWS, nv) and least values (ROWS,) of accelerations; rows that are not used are 0 and -inf.
 
         For a pair at distance d, of which n points from the first shape's nearest point to the second one's:
-        n (J_2 - J_1) qdd >= -KP (d - APART_M) - KD n (J_2 - J_1) v, at most LARGEST.
+        n (J_2 - J_1) qdd >= -KP (d - margin) - KD n (J_2 - J_1) v, at most LARGEST. Of the near pairs these are the ROWS
+        with the largest right-hand sides.
         """
         rows, least = np.zeros((ROWS, len(dynamics.velocity))), np.full(ROWS, -np.inf)
-        for row, (pair, distance, points) in enumerate(self._nearest(dynamics)):
-            apart = points[1] - points[0]
-            size = float(np.linalg.norm(apart))
-            if size < 1e-9:
-                continue
-            normal = np.sign(distance) * apart / size
-            first, second = (self._joint_of[geom] for geom in pair)
-            rows[row] = normal @ (
-                dynamics.point_jacobian(second, points[1]) - dynamics.point_jacobian(first, points[0])
-            )
-            rate = float(rows[row] @ dynamics.velocity)
-            least[row] = min(-KP * (distance - APART_M) - KD * rate, LARGEST)
+        pairs, distances, points = self._near(dynamics)
+        apart = points[:, 1] - points[:, 0]
+        sizes = np.sqrt((apart * apart).sum(axis=1))
+        normals = apart * (np.sign(distances) / np.maximum(sizes, 1e-9))[:, None]
+        joints = self._joints[pairs]
+        velocities = dynamics.point_velocities(joints.ravel(), points.reshape(-1, 3)).reshape(-1, 2, 3)
+        rates = (normals * (velocities[:, 1] - velocities[:, 0])).sum(axis=1)
+        wanted = -KP * (distances - self._margins[pairs]) - KD * rates
+        wanted[sizes < 1e-9] = -np.inf
+        # The nearest ones would not do: thighs are near to each other in every stance, and a hand that comes towards them
+        # fast has to be braked before it is as near as they are.
+        for row, k in enumerate(np.argsort(-wanted)[:ROWS]):
+            if wanted[k] > -np.inf:
+                (first, second), (here, there) = joints[k].tolist(), points[k]
+                rows[row] = normals[k] @ (dynamics.point_jacobian(second, there) - dynamics.point_jacobian(first, here))
+                least[row] = min(wanted[k], LARGEST)
         return rows, least
 
-    def _nearest(self, dynamics: RobotDynamics) -> list[tuple[Array, float, Array]]:
-        """Geoms, distance and nearest points (2, 3) of the nearest pairs."""
-        mj, data = self._mj, self._data
+    def _near(self, dynamics: RobotDynamics) -> tuple[NDArray[np.int64], Array, Array]:
+        """Numbers (n,), distances (n,) and nearest points (n, 2, 3) of the pairs nearer than NEAR_M."""
+        mj, data, measure = self._mj, self._data, self._mujoco.mj_geomDistance
         data.qpos[:], _ = to_mujoco(self._model, dynamics.configuration, dynamics.velocity)
         self._mujoco.mj_kinematics(mj, data)
         self._shrink()
-        found = []
-        points = np.zeros(6)
-        for i in np.flatnonzero(self._distance < NEAR_M):
-            first, second = self._pairs[i]
+        pairs = np.flatnonzero(self._distance < NEAR_M)
+        points, distances = np.zeros((len(pairs), 6)), np.zeros(len(pairs))
+        for k, (first, second) in enumerate(self._pairs[pairs].tolist()):
             # Beyond some distance its value is of no interest, but how long it need not be looked at is.
-            distance = self._mujoco.mj_geomDistance(mj, data, first, second, 10.0 * NEAR_M, points)
-            self._distance[i] = distance
-            if distance < NEAR_M:
-                found.append((self._pairs[i], distance, points.reshape(2, 3).copy()))
-        return sorted(found, key=lambda item: item[1])[:ROWS]
+            distances[k] = measure(mj, data, first, second, FAR_M, points[k])
+        self._distance[pairs] = distances
+        near = distances < NEAR_M
+        return pairs[near], distances[near], points[near].reshape(-1, 2, 3)
+
+    def _nominal_distances(self) -> Array:
+        """(n,) distance of each pair in the nominal posture, at most FAR_M."""
+        urdf_model = self._model.urdf_model
+        self._data.qpos[:], _ = to_mujoco(self._model, urdf_model.neutral, np.zeros(urdf_model.model.nv))
+        self._mujoco.mj_kinematics(self._mj, self._data)
+        distances = [self._mujoco.mj_geomDistance(self._mj, self._data, *pair, FAR_M, None) for pair in self._pairs]
+        return np.maximum(distances, 0.0)
 
     def _shrink(self) -> None:
         """Take from each distance what its two shapes may have come nearer since the last time."""

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 #: [1/s] rate of the instants at which a plan is evaluated, beside those around its knots.
 RATE = 200.0
 #: [m] by which points in contact may move in a plan that is to be tracked: five times the tube that such plans ask for.
-#: A tube of this width has cost 16 to 19 % of the contact forces (docs/tracking_planar.md, "What a plan needs").
+#: A tube of this width has cost 19 to 28 % of the contact forces (docs/tracking_planar.md, "What a plan needs").
 DRIFT_M = 5.0 * PLANNING["tube_m"]
 #: [N] that every point in contact has to carry at least: a fifth of what such plans ask for.
 MIN_N = 0.2 * PLANNING["min_normal_force"]
