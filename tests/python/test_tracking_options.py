@@ -1,15 +1,17 @@
 """Options out of range are named; pushes act when and where they are to."""
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
 
 import mcplan as mp
-from mcplan.tracking import Options, Push
+from mcplan.tracking import Gains, Options, Push
 
 NAN, INF = float("nan"), float("inf")
 
 WRONG = [
-    ("simulation_step_s", [0.0, -0.001, 0.0051, NAN, INF]),
+    ("simulation_step_s", [0.0, -0.001, 1e-9, 0.9e-5, 0.0051, NAN, INF]),
     ("control_step_s", [0.0005, 0.0015, 0.0, -0.002, 0.051, 1.0, NAN, INF]),
     ("mass_scale", [0.19, 5.1, 0.0, -1.0, NAN, INF]),
     ("friction_scale", [0.0, -0.1, 10.1, NAN, INF]),
@@ -43,6 +45,7 @@ def test_a_number_out_of_range_is_named(field, value):
     ("field", "value"),
     [
         ("simulation_step_s", 0.002),
+        ("simulation_step_s", 1e-5),
         ("control_step_s", 0.001),
         ("control_step_s", 0.004),
         ("control_step_s", 0.05),
@@ -72,6 +75,30 @@ def test_the_ends_of_ranges_are_accepted(field, value):
 )
 def test_a_push_that_cannot_be_meant_is_named_with_its_place(push, field):
     assert refused(pushes=(Push(40.0, 0.2, 1.0), push)).field == f"pushes[1].{field}"
+
+
+@pytest.mark.parametrize("name", [item.name for item in fields(Gains)])
+def test_a_gain_out_of_range_is_named(name):
+    for value in (NAN, INF, -INF, -1e6, -1e-9, 1.1e6, "much", None):
+        error = refused(gains=Gains(**{name: value}))
+        assert (error.field, error.rule) == (f"gains.{name}", "must be a number in 0 to 1e+06")
+    for value in (0, 1e6, np.float64(3.0)):
+        Options(gains=Gains(**{name: value})).validate()
+
+
+def test_a_push_that_does_not_act_in_the_run_is_refused():
+    ends = Push(40.0, 0.2, 2.9), Push(40.0, 0.2, -0.1), Push(40.0, 0.0, 0.0)
+    Options(pushes=ends).require_pushes_within(3.0)
+    for at_s, rule in ((3.0, "before the end of the run, 3 s"), (1e9, "before the end"), (-0.2, "before the start")):
+        with pytest.raises(mp.errors.InvalidOptions, match=rule) as found:
+            Options(pushes=(*ends, Push(40.0, 0.2, at_s))).require_pushes_within(3.0)
+        assert found.value.field == "pushes[3].at_s"
+
+
+def test_such_a_push_is_refused_before_anything_is_simulated():
+    plan = mp.plan("flat", "talos", phases=6, max_iterations=5, restarts=0).plan
+    with pytest.raises(mp.errors.InvalidOptions, match=r"pushes\[0\].at_s: must lie before the end of the run"):
+        mp.track(plan, pushes=[(40.0, 0.2, plan.duration() + 1.0, 90.0)])
 
 
 def test_a_push_acts_from_its_time_for_its_duration():

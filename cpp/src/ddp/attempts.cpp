@@ -21,7 +21,7 @@ Attempts::Attempts(Problem&& problem, std::vector<int> surfaces, const Deadline&
       deadline_(&deadline),
       best_(&best),
       search_(problem_, deadline, report) {
-  if (deadline.limited()) search_.watch([this](const Incumbent& now, const Tuning& tuning) { keep(now, tuning); });
+  search_.watch([this](const Incumbent& now, const Tuning& tuning) { keep(now, tuning); });
 }
 
 /// Polish every guess, those without a sequence of their own after a discovery. The cheapest, empty when all of them
@@ -154,7 +154,7 @@ Ending Attempts::restart(Ending ending, const ContactSequence& initial) {
   std::mt19937_64 random(p.options.seed);
   for (std::size_t i = settings.size(); i > 1; --i) std::swap(settings[i - 1], settings[random() % i]);
   Tuning tuning = first_;
-  for (int i = 0; i < p.options.restarts && !best_->ok(); ++i) {
+  for (int i = 0; i < p.options.restarts && !best_->solved(); ++i) {
     if (ending != Ending::done && ending != Ending::broke_down) break;
     const auto [proximal, duration_s] = settings[static_cast<std::size_t>(i) % settings.size()];
     tuning.duration_initial = std::clamp(duration_s * p.similarity.time / p.units.time, p.duration_min, p.duration_max);
@@ -162,7 +162,7 @@ Ending Attempts::restart(Ending ending, const ContactSequence& initial) {
     again.sequence = initial;
     std::vector<Guess> others{{again, proximal}};
     // A foot too close to the next step catches it with its toe: the same motion with footholds further inside.
-    if (best_->best() && best_->best()->worst.name == "clearance" && !last_.sequence.empty()) {
+    if (best_->finished() && best_->finished()->worst.name == "clearance" && !last_.sequence.empty()) {
       tuning.extra_margin += further_inside();
       others.insert(others.begin(), Guess{last_});
     }
@@ -177,16 +177,21 @@ Ending Attempts::run(const Incumbent* warm) {
   if (sequence.empty()) return ending;
   Incumbent start = first_guess({}, first_);
   start.sequence = sequence;
-  if (deadline_->limited()) keep(warm ? *warm : at_once(sequence), first_);
+  keep(warm ? *warm : at_once(sequence), first_);
   const Options& options = problem_.options;
   if (options.method == Method::paper) {
     const bool unset = options.max_iterations == Options().max_iterations;
     ending = search_.run_paper(start, unset ? kPaperIterations : options.max_iterations, first_);
     if (ending != Ending::broke_down && (ending != Ending::time_limit || !best_->best())) finish(start, first_);
-    return late(ending);
+    ending = late(ending);
+    // The published algorithm is judged by what it ends with.
+    if (ending != Ending::time_limit) best_->drop_iterates();
+    return ending;
   }
   if (best_->best() && deadline_->passed()) return Ending::time_limit;
-  return restart(attempt(guesses(start, warm), first_), sequence);
+  ending = restart(attempt(guesses(start, warm), first_), sequence);
+  if (ending != Ending::interrupted) best_->look_back(search_, surfaces_);
+  return late(ending);
 }
 
 }  // namespace mcplan::ddp

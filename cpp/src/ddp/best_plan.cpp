@@ -53,66 +53,103 @@ bool BestPlan::judge(Finished& finished, const Problem& problem, Look look, cons
   return result.ok();
 }
 
-void BestPlan::take(Finished&& finished) {
-  const bool better =
-      !best_ || (finished.ok && !best_->ok) ||
-      (finished.ok == best_->ok && (finished.ok ? finished.evaluation.merit() < best_->evaluation.merit()
-                                                : violation_ratio(finished.worst) < violation_ratio(best_->worst)));
-  if (better) best_ = std::move(finished);
+namespace {
+
+/// Whether the checker rather has `one` than `other`.
+bool better(const BestPlan::Finished& one, const BestPlan::Finished& other) {
+  if (one.ok != other.ok) return one.ok;
+  if (one.ok) return one.evaluation.merit() < other.evaluation.merit();
+  return violation_ratio(one.worst) < violation_ratio(other.worst);
 }
 
-bool BestPlan::finish(Search& search, const std::vector<int>& surfaces, Incumbent now, const Tuning& tuning) {
+void take(std::optional<BestPlan::Finished>& best, BestPlan::Finished&& now) {
+  if (!best || better(now, *best)) best = std::move(now);
+}
+
+}  // namespace
+
+const std::optional<BestPlan::Finished>& BestPlan::best() const {
+  const bool finished = finished_ && (finished_->ok || !looked_ || !better(*looked_, *finished_));
+  return finished ? finished_ : looked_;
+}
+
+void BestPlan::finish(Search& search, const std::vector<int>& surfaces, Incumbent now, const Tuning& tuning) {
   // If the contacts cannot be met exactly, the plan is kept as it is, and the checker says what is wrong with it.
   const StopRequest late = when_passed();
   search.make_exact(now, tuning, late);
-  if (best_ && late && late()) return best_->ok;
+  if (best() && late && late()) return;
   const Stopwatch watch(search.report().timing_s, "check");
   Finished finished = converted(search, surfaces, now, tuning, !(late && late()));
   finished.sampled = true;
   judge(finished, search.problem(), Look::full, late);
-  if (finished.sampled && best_) return best_->ok;
+  if (finished.sampled && best()) return;
   if (finished.sampled) judge(finished, search.problem(), Look::late);
-  take(std::move(finished));
-  return best_->ok;
+  take(finished_, std::move(finished));
 }
 
 void BestPlan::keep(Search& search, const std::vector<int>& surfaces, const Incumbent& now, const Tuning& tuning) {
-  if (!deadline_->limited()) return;
+  const int iterations = search.report().iterations;
+  if (!kept_.empty() && iterations < next_) return;
+  kept_.push_back({now, tuning});
+  next_ = iterations + kLookPause * ++looks_;
+  if (deadline_->limited() && !look(search, surfaces, kept_.back())) cut_short_ = true;
+}
+
+/// False when the clock cut it short, so that without a limit something else might have come of it.
+bool BestPlan::look(Search& search, const std::vector<int>& surfaces, const Kept& kept) {
   const double begin_s = deadline_->elapsed_s();
-  if (best_ && (begin_s < next_s_ || deadline_->remaining_s() < cost_s_)) return;
-  if (ok() && !(search.evaluate(now, tuning).merit() < kCheaper * best_->evaluation.merit())) return;
+  const bool first = !best();
+  if (!first && deadline_->remaining_s() < cost_s_) return false;
+  const auto& [now, tuning] = kept;
+  if (looked_ && looked_->ok && !(search.evaluate(now, tuning).merit() < kCheaper * looked_->evaluation.merit()))
+    return true;
   Incumbent iterate = now;
-  const double until_s = begin_s + std::max(deadline_->remaining_s(), 0.0) + (best_ ? 0.0 : kGrace_s);
+  const double until_s = begin_s + std::max(deadline_->remaining_s(), 0.0) + (first ? kGrace_s : 0.0);
   int rounds = 0;
+  bool given_up = false;
   search.make_exact(iterate, tuning, [&] {
     const double now_s = deadline_->elapsed_s();
-    const bool hopeless = !best_ && ++rounds == 2 && begin_s + kExactRoundsMin * (now_s - begin_s) > until_s;
-    return hopeless || now_s >= until_s;
+    const bool hopeless = first && ++rounds == 2 && begin_s + kExactRoundsMin * (now_s - begin_s) > until_s;
+    return given_up = hopeless || now_s >= until_s;
   });
   const bool late = deadline_->passed();
-  if (best_ && late) return;
+  if (!first && late) return false;
   const Stopwatch watch(search.report().timing_s, "check");
   Finished finished = converted(search, surfaces, iterate, tuning, !late);
   const double converted_s = deadline_->elapsed_s();
-  const Look look = deadline_->remaining_s() <= 0.0 ? Look::late : Look::few;
-  if (best_ && look == Look::late) return;
+  const Look instants = deadline_->remaining_s() <= 0.0 ? Look::late : Look::few;
+  if (!first && instants == Look::late) return false;
   finished.sampled = true;
-  const bool accepted = judge(finished, search.problem(), look, best_ ? when_passed() : nullptr);
-  if (finished.sample_s == 0.0) return;
+  const bool accepted = judge(finished, search.problem(), instants, first ? nullptr : when_passed());
+  if (finished.sample_s == 0.0) return false;
   instant_s_ = (deadline_->elapsed_s() - converted_s) * finished.sample_s / finished.plan.duration();
   if (accepted && full_look_s(finished.plan) <= deadline_->remaining_s())
     judge(finished, search.problem(), Look::full, when_passed());
-  take(std::move(finished));
-  const double end_s = deadline_->elapsed_s();
-  cost_s_ = end_s - begin_s;
-  next_s_ = end_s + std::min(++kept_, kPauseMax) * cost_s_;
+  const bool whole = !given_up && instants == Look::few && !(accepted && finished.sampled);
+  take(looked_, std::move(finished));
+  cost_s_ = deadline_->elapsed_s() - begin_s;
+  return whole;
+}
+
+void BestPlan::look_back(Search& search, const std::vector<int>& surfaces) {
+  if (!solved() && (!deadline_->limited() || cut_short_)) {
+    std::optional<Finished> at_once = std::exchange(looked_, earlier_);
+    bool whole = true;
+    for (std::size_t i = 0; i < kept_.size() && whole; ++i) whole = look(search, surfaces, kept_[i]);
+    if (!whole && at_once) take(looked_, std::move(*at_once));
+  }
+  kept_.clear();
+  cut_short_ = false;
+  earlier_ = looked_;
 }
 
 void BestPlan::settle(const Problem& problem, Report& report) {
-  if (!best_ || !best_->sampled || full_look_s(best_->plan) > std::max(deadline_->remaining_s(), kGrace_s)) return;
+  if (!best()) return;
+  Finished& plan = &best() == &finished_ ? *finished_ : *looked_;
+  if (!plan.sampled || full_look_s(plan.plan) > std::max(deadline_->remaining_s(), kGrace_s)) return;
   const Stopwatch watch(report.timing_s, "check");
   const double until_s = deadline_->elapsed_s() + std::max(deadline_->remaining_s(), kGrace_s);
-  judge(*best_, problem, Look::full, [&] { return deadline_->elapsed_s() >= until_s; });
+  judge(plan, problem, Look::full, [&] { return deadline_->elapsed_s() >= until_s; });
 }
 
 /// What a check in full will take, from what the last one at few instants took.

@@ -11,11 +11,12 @@ namespace mcplan::ddp {
 
 /// The best plan of a solve so far, by the checker's measure: one that the checker accepts before one that it does not;
 /// among those accepted the cheaper one, among the others the one whose worst violation is the fewest times its
-/// tolerance.
+/// tolerance. The plan that an attempt ends with, once accepted, comes before all others: it is what the search is for.
 ///
-/// Under a time limit it is kept up to date while the search runs: iterates are made exact, converted and checked now
-/// and then, so that there is an answer at any time, and the answer after a longer time is never worse. When that is
-/// done does not depend on the limit. Theory: docs/theory/ddp.md, "6. Time limit".
+/// Iterates are plans, too, for a search that does not come to its end or to no plan that is accepted. Which of them
+/// are looked at is a matter of how many iterations there were, not of a clock; when, of whether there is a time limit:
+/// under one at once, so that there is an answer at any time, else when no attempt has been successful. The attempts
+/// know nothing of it. A limit that does not strike thus changes no plan. Theory: docs/theory/ddp.md, "6. Time limit".
 class BestPlan {
  public:
   /// `scene` and `surfaces`: the user's scene, and which of its surfaces the searched problem has.
@@ -32,18 +33,27 @@ class BestPlan {
     Evaluation evaluation;
   };
 
-  /// Make exact, convert, check in full. True when any plan so far passes. Where the time limit cuts it short, what was
-  /// kept before stays, and without any the iterate is looked at as it is.
-  bool finish(Search& search, const std::vector<int>& surfaces, Incumbent now, const Tuning& tuning);
+  /// End an attempt: make exact, convert, check in full. Where the time limit cuts it short, what was kept before
+  /// stays, and without any the iterate is looked at as it is.
+  void finish(Search& search, const std::vector<int>& surfaces, Incumbent now, const Tuning& tuning);
 
-  /// Under a time limit: the same at few instants, if it is due and there is time for it.
+  /// Remember an iterate if one is due; under a time limit look at it, at few instants, if there is time.
   void keep(Search& search, const std::vector<int>& surfaces, const Incumbent& now, const Tuning& tuning);
+
+  /// After the last attempt at a problem: look at what was remembered and not looked at, unless there is no need.
+  void look_back(Search& search, const std::vector<int>& surfaces);
+
+  /// No iterate is to be the answer.
+  void drop_iterates() { looked_ = earlier_; }
 
   /// What is kept was perhaps looked at in few instants alone: check it in full if there is time.
   void settle(const Problem& problem, Report& report);
 
-  const std::optional<Finished>& best() const { return best_; }
-  bool ok() const { return best_ && best_->ok; }
+  const std::optional<Finished>& best() const;
+  bool ok() const { return best() && best()->ok; }
+  /// What an attempt has ended with, the best of it: all that the search may go by.
+  const std::optional<Finished>& finished() const { return finished_; }
+  bool solved() const { return finished_ && finished_->ok; }
 
  private:
   Finished converted(Search& search, const std::vector<int>& surfaces, const Incumbent& now, const Tuning& tuning,
@@ -57,15 +67,23 @@ class BestPlan {
   StopRequest when_passed() const;
   static double sample_s(const Plan& plan, Look look);
   double full_look_s(const Plan& plan) const;
-  void take(Finished&& finished);
+  struct Kept {
+    Incumbent iterate;
+    Tuning tuning;
+  };
+  bool look(Search& search, const std::vector<int>& surfaces, const Kept& kept);
 
   const Scene* scene_;
   const Deadline* deadline_;
   bool measured_start_;
-  std::optional<Finished> best_;
-  int kept_ = 0;
-  double cost_s_ = 0.0, next_s_ = 0.0;  ///< of making an iterate a plan and checking it; when the next one is due
-  double instant_s_ = 0.0;              ///< of which an instant of the check
+  std::optional<Finished> finished_;  ///< of the plans that attempts have ended with
+  std::optional<Finished> looked_;    ///< of the iterates
+  std::optional<Finished> earlier_;   ///< of those of earlier problems
+  std::vector<Kept> kept_;            ///< of this problem
+  int looks_ = 0, next_ = 0;          ///< how many have been kept; at which iteration the next one is due
+  bool cut_short_ = false;            ///< whether the clock was in the way of looking at any of them
+  double cost_s_ = 0.0;               ///< of making an iterate a plan and checking it
+  double instant_s_ = 0.0;            ///< of which an instant of the check
 };
 
 /// Value in tolerances; what admits none is beyond every other violation.

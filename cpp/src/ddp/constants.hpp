@@ -166,8 +166,9 @@ constexpr double kLookInstants = 400.0, kLookInstantsPerPhase = 3.0, kLookInstan
 constexpr double kExactRoundsMin = 4.0;
 /// The first iterate may be made exact for so long after the limit [s]: the only plan there is. Chosen.
 constexpr double kGrace_s = 0.01;
-/// The search goes on for this many times as long as looking took, a time more after each look. Chosen.
-constexpr int kPauseMax = 8;
+/// An iterate is looked at after so many iterations, the next one after twice as many more, and so on. Chosen; what it
+/// costs is in "Time limit".
+constexpr int kLookPause = 8;
 /// Once there is a plan that the checker accepts, only one of so much less merit is looked at. Chosen.
 constexpr double kCheaper = 0.9;
 /// With less left of a phase [s] the next one starts at once. Chosen.

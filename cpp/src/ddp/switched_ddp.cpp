@@ -156,7 +156,7 @@ PlanResult SwitchedDdp::Impl::solve(const Request& request) {
       for (ContactState& state : report.history[rows].sequence)
         for (int& surface : state)
           if (surface != kFree) surface = surfaces[surface];
-    if (best.ok() || !ended_by_itself(ending) || all) {
+    if (best.solved() || !ended_by_itself(ending) || all) {
       best.settle(attempts.problem(), report);
       break;
     }

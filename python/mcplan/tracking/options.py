@@ -8,6 +8,11 @@ import numpy as np
 
 from mcplan.errors import InvalidOptions
 
+#: Least time step of MuJoCo [s]: 200 steps to a control step of the default length.
+SIMULATION_STEP_MIN_S = 1e-5
+#: Largest gain and weight of the controller, a thousand times the largest default.
+GAIN_MAX = 1e6
+
 
 @dataclass(frozen=True)
 class Push:
@@ -34,7 +39,7 @@ class Push:
 
 @dataclass(frozen=True)
 class Gains:
-    """Weights and gains of the controller's tasks: the same for every robot and plan.
+    """Weights and gains of the controller's tasks, 0 to 1e6 each: the same for every robot and plan.
 
     Each task asks for the acceleration a_reference + kp (x_reference - x) + kd (v_reference - v), kd = 2 sqrt(kp).
     """
@@ -60,10 +65,10 @@ class Options:
     """How a plan is tracked.
 
     Attributes:
-        simulation_step_s: Time step of MuJoCo.
+        simulation_step_s: Time step of MuJoCo, 1e-5 to 0.005 s.
         control_step_s: Time step of the controller; a multiple of the simulation's.
         assist: Assist the base with a bounded wrench, as the assisted set-up of Tazaki's paper does with inertia.
-        pushes: Forces on the base.
+        pushes: Forces on the base; each begins before the end of the run and ends after its start.
         mass_scale: Factor on the masses of the simulated robot that the controller does not know of.
         friction_scale: Factor on the friction of the simulated surfaces that the controller does not know of.
         ground_shift_m: Height by which the simulated surfaces lie above the planned ones.
@@ -104,9 +109,9 @@ class Options:
         ratio = self.control_step_s / self.simulation_step_s if self.simulation_step_s > 0 else 0.0
         _require(
             "simulation_step_s",
-            "must be above 0 and at most 0.005 s",
+            f"must lie in {SIMULATION_STEP_MIN_S:g} to 0.005 s",
             self.simulation_step_s,
-            0 < self.simulation_step_s <= 0.005,
+            SIMULATION_STEP_MIN_S <= self.simulation_step_s <= 0.005,
         )
         _require(
             "control_step_s",
@@ -135,6 +140,18 @@ class Options:
                 value = getattr(push, item.name)
                 _require(f"pushes[{i}].{item.name}", "must be finite", value, bool(np.isfinite(value)))
             _require(f"pushes[{i}].duration_s", "must not be negative", push.duration_s, push.duration_s >= 0)
+        for item in fields(self.gains):
+            value = getattr(self.gains, item.name)
+            holds = isinstance(value, int | float | np.integer | np.floating) and 0 <= value <= GAIN_MAX
+            _require(f"gains.{item.name}", f"must be a number in 0 to {GAIN_MAX:g}", value, bool(holds))
+
+    def require_pushes_within(self, run_s: float) -> None:
+        """Raise InvalidOptions naming the first push that does not act in a run of that duration."""
+        for i, push in enumerate(self.pushes):
+            rule = f"must lie before the end of the run, {run_s:.6g} s"
+            _require(f"pushes[{i}].at_s", rule, push.at_s, push.at_s < run_s)
+            rule = f"must not lie so far before the start of the run that the push of {push.duration_s:g} s is over by then"
+            _require(f"pushes[{i}].at_s", rule, push.at_s, push.at_s >= 0 or push.at_s + push.duration_s > 0)
 
 
 def _require(field_name: str, rule: str, value: object, holds: bool) -> None:

@@ -77,7 +77,7 @@ def track(
 
     Raises:
         MissingExtra: The packages of ``pip install 'mcplan[sim]'`` are not installed.
-        InvalidOptions: An option is out of range.
+        InvalidOptions: An option is out of range, or a push does not act in the run.
         InvalidPlan: The file is no plan.
         InvalidRobot: The robot has no URDF, or it cannot be read, or it lacks an end-effector of the plan.
         InvalidInput: The robot cannot take up the plan's first or last posture.
@@ -86,6 +86,7 @@ def track(
     options = options or Options()
     options.validate()
     plan = _as_plan(plan)
+    options.require_pushes_within(plan.duration() + options.hold_s)
     tracked_robot = robot_for(plan, robot)
     if options.seed:
         options = disturbed(options, options.seed, plan.duration(), tracked_robot.mass)

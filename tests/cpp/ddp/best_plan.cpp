@@ -98,6 +98,40 @@ TEST_CASE("a longer time limit never gives a worse plan by the checker's measure
   }
 }
 
+TEST_CASE("a limit that does not strike changes nothing, however fast the clock: solved or not") {
+  for (const int phases : {8, 18}) {
+    CAPTURE(phases);
+    Options options;
+    options.phases = phases;
+    const PlanResult without = SwitchedDdp(scenes::stairs(), scenes::humanoid44(), options).solve();
+    CHECK((without.report.status == Status::solved) == (phases == 18));
+    options.time_limit_s = 1e6;
+    for (const double tick_s : {1e-9, 1e-3, 1.0}) {
+      CAPTURE(tick_s);
+      options.clock = CountingClock(tick_s);
+      const PlanResult with = SwitchedDdp(scenes::stairs(), scenes::humanoid44(), options).solve();
+      REQUIRE(with.report.time_s < options.time_limit_s);
+      CHECK(with.report.status == without.report.status);
+      CHECK(with.report.iterations == without.report.iterations);
+      CHECK(with.report.cost == without.report.cost);
+      CHECK(with.plan == without.plan);
+    }
+  }
+}
+
+TEST_CASE("a search without a limit is never worse than a limited one, where it is not solved either") {
+  Options options;
+  options.phases = 8;
+  const double without = ratio(SwitchedDdp(scenes::stairs(), scenes::humanoid44(), options).solve());
+  for (const double limit_s : {0.03, 0.3, 1.0, 3.0, 10.0}) {
+    CAPTURE(limit_s);
+    options.time_limit_s = limit_s;
+    options.clock = CountingClock(1e-3);
+    // Iterates are compared at some hundred instants, here at all.
+    CHECK(without <= 1.05 * ratio(SwitchedDdp(scenes::stairs(), scenes::humanoid44(), options).solve()));
+  }
+}
+
 TEST_CASE("however short the limit, the plan stands on its surfaces and is no first linearisation") {
   for (const mcplan::Scene& scene : scenes::all_four()) {
     CAPTURE(scene.name);
