@@ -6,9 +6,11 @@ import copy
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
+import numpy as np
+
 from mcplan import moved
 from mcplan.arguments import require
-from mcplan.errors import InvalidOptions, did_you_mean, shown
+from mcplan.errors import InvalidArgument, InvalidOptions, did_you_mean, shown
 
 ALIASES = {"time_limit": "time_limit_s"}
 #: Names that options of rhp had until 0.1.
@@ -80,9 +82,15 @@ def _set(target: Any, name: str, value: Any, prefix: str = "") -> None:
         if value.replace("-", "_") not in members:
             raise InvalidOptions(prefix + name, f"must be one of {', '.join(members)}", shown(value))
         value = members[value.replace("-", "_")]
+    kind = type(getattr(target, name))
+    # pybind11 takes the one for the other.
+    if (kind is int and isinstance(value, bool)) or (kind is bool and not isinstance(value, bool | np.bool_)):
+        raise InvalidOptions(prefix + name, f"must be of type {kind.__name__}", shown(value))
     try:
         setattr(target, name, value)
-    except TypeError:
+    except TypeError as error:
+        if isinstance(error, InvalidArgument) and error.field.startswith(f"{name}["):  # an item of it
+            raise InvalidOptions(prefix + error.field, error.rule, error.value) from None
         raise InvalidOptions(prefix + name, _type_rule(target, name, value), shown(value)) from None
 
 

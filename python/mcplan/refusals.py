@@ -6,6 +6,7 @@ The module calls this for each of its functions, constructors and members (cpp/s
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -149,7 +150,10 @@ def _class_misfit(kind: str, value: Any) -> tuple[str, str, str] | None:
 
 
 def _number(_: list[str], value: Any) -> tuple[str, str, str] | None:
-    is_number = hasattr(value, "__float__") or hasattr(value, "__index__")
+    # An array of one number has __float__, too, and pybind11 does not take it.
+    is_number = not isinstance(value, np.ndarray) and (hasattr(value, "__float__") or hasattr(value, "__index__"))
+    if is_number and isinstance(value, int) and abs(value) > sys.float_info.max:
+        return "", "must be a number that a float can hold", f"one of {value.bit_length()} bits"
     return None if is_number else ("", "must be a number", found(value))
 
 

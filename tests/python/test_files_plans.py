@@ -443,3 +443,22 @@ def test_pickles_in_a_plan_file_are_never_run(plan, tmp_path):
 def test_a_missing_file_is_no_invalid_plan(tmp_path):
     with pytest.raises(FileNotFoundError):
         load_plan(tmp_path / "none.npz")
+
+
+@pytest.mark.parametrize("kind", [mp.Plan, mp.PlanarPlan])
+def test_what_is_no_path_is_refused_by_its_name(kind):
+    for given, text in ((5, "5"), (None, "None"), (b"x.npz", "b'x.npz'"), (["x.npz"], "a list")):
+        for call in (lambda given=given: kind.load(given), lambda given=given: kind.save(kind(), given)):
+            with pytest.raises(mp.errors.InvalidArgument) as found:
+                call()
+            assert (found.value.field, found.value.rule, found.value.value) == ("path", "must be a path", text)
+
+
+def test_names_that_no_file_can_have_are_refused(tmp_path):
+    plan = standing_plan()
+    for call in (plan.save, mp.Plan.load):
+        with pytest.raises(mp.errors.InvalidInput, match="path: must have no null character"):
+            call("\0.npz")
+    with pytest.raises(mp.errors.InvalidInput, match="path: must be that of a file, not of a folder"):
+        plan.save(f"{tmp_path}/x.npz/")
+    assert not list(tmp_path.iterdir())

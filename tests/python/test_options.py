@@ -112,3 +112,18 @@ def test_options_of_another_kind_are_refused(solve):
 def test_an_option_has_one_of_its_names(call):
     with pytest.raises(mp.InvalidInput, match="time_limit: may not stand beside time_limit_s, which it is short for"):
         call("flat", time_limit=0.05, time_limit_s=5.0)
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "text"),
+    [
+        (mp.ddp.Options, {"initial_sequence": [["a"]]}, 'initial_sequence[0][0]: must be a whole number, got "a"'),
+        (mp.ddp.Options, {"initial_sequence": [3]}, "initial_sequence[0]: must be a list, got 3"),
+        (mp.ddp.Options, {"phases": True}, "phases: must be of type int, got True"),
+        (mp.ddp.Options, {"stepping_guesses": 5}, "stepping_guesses: must be of type bool, got 5"),
+    ],
+)
+def test_items_of_lists_are_named_and_truth_is_no_number(kind, values, text):
+    with pytest.raises(mp.errors.InvalidOptions) as found:
+        fill(kind(), values)
+    assert str(found.value) == text

@@ -36,6 +36,8 @@ CALLS: list[tuple[str, Callable[[mp.Plan], Any]]] = [
     ("grasp: must be True or False, got ", lambda p: mp.model.Surface(grasp="yes")),
     ("end_effectors[1]: must be a string, got 3", lambda p: mp.model.Surface(end_effectors=["a", 3])),
     (f'law: must be one of {LAWS}, got "wrench"', lambda p: mp.model.Phase(law="wrench")),
+    ("t: must be a number, got an ndarray", lambda p: p.at(np.array([1.0]))),
+    ("t: must be a number that a float can hold, got one of 1329 bits", lambda p: p.at(10**400)),
     ('phases: must be a whole number, got "x"', lambda p: mp.ddp.Options(phases="x")),
     ("phases: must be a whole number, got 2.5", lambda p: mp.ddp.Options(phases=2.5)),
     ("contacts: must be a mapping, got 3", lambda p: mp.model.Stance(contacts=3)),

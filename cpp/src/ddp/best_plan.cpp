@@ -11,7 +11,7 @@
 namespace mcplan::ddp {
 
 double BestPlan::sample_s(const Plan& plan, Look look) {
-  if (look == Look::full) return Tolerances().sample_s;
+  if (look == Look::full) return std::max(Tolerances().sample_s, plan.duration() / kFullInstantsMax);
   const double per_phase = look == Look::late ? kLookInstantsPerPhaseLate : kLookInstantsPerPhase;
   const double instants = std::max(kLookInstants, per_phase * static_cast<double>(plan.phases.size()));
   return std::max(Tolerances().sample_s, plan.duration() / instants);

@@ -161,6 +161,8 @@ constexpr int kOutlookNearest[] = {32, 128};
 
 /// Instants at which iterates are checked: so many in all, and so many a phase, fewer once the time is over. Chosen.
 constexpr double kLookInstants = 400.0, kLookInstantsPerPhase = 3.0, kLookInstantsPerPhaseLate = 1.0;
+/// Instants of a check in full at most: those of a plan of 1000 s. The checker takes twice as many. Chosen.
+constexpr double kFullInstantsMax = 1e6;
 /// Rounds that Newton's method takes at least to make the first iterate exact, from a defect of a tenth to rounding:
 /// 1e-1, 1e-2, 1e-4, 1e-8, 1e-16.
 constexpr double kExactRoundsMin = 4.0;

@@ -179,7 +179,8 @@ PlanResult SwitchedDdp::Impl::conclude(Ending ending, int steps, const BestPlan&
   report.time_s = time_s;
   if (best) {
     // Of a plan that was looked at in few instants, in as few.
-    report.friction_use = best->sampled ? friction_use(best->plan, best->sample_s) : friction_use(best->plan);
+    constexpr double kUsual_s = 0.005;
+    report.friction_use = friction_use(best->plan, best->sampled ? best->sample_s : std::max(kUsual_s, best->sample_s));
     report.worst_violation = best->worst;
     report.warnings = best->warnings;
     report.cost = best->evaluation.cost;

@@ -29,8 +29,12 @@ struct PathInstant {
   double since_start_s = 0.0;  ///< of the phase
 };
 
-/// The instants of a stretch, every sample_s [s] of each phase, of a plan whose sizes and indices fit together. The
-/// swing must be the plan's for these phases; what its height makes of the path is asked for later.
+/// Instants of a phase that a path has at most: all of them are held at once, and iterates may have phases of hours.
+constexpr double kPathInstantsMax = 1e4;
+
+/// The instants of a stretch, every sample_s [s] of each phase, less often in very long ones, of a plan whose sizes and
+/// indices fit together. The swing must be the plan's for these phases; what its height makes of the path is asked for
+/// later.
 std::vector<PathInstant> path_of(const Plan& plan, const Swing& swing, double sample_s);
 
 /// The end-effector at that instant, lifted by the height that the swing has now, on the straightened path.

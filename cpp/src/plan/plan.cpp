@@ -114,7 +114,7 @@ std::vector<PathInstant> path_of(const Plan& plan, const Swing& swing, double sa
   double before_s = 0.0;
   for (int k = swing.first_phase; k < swing.end_phase; ++k) {
     const double duration = plan.phases[k].duration;
-    const int samples = samples_of(plan.phases[k], sample_s);
+    const int samples = samples_of(plan.phases[k], std::max(sample_s, duration / kPathInstantsMax));
     PhaseFrame frame{k, 0.0, {}};
     ActiveSwing active = active_swing(plan, swing, k);
     straighten(active);

@@ -1,6 +1,7 @@
 #include "plan/swings.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mcplan/robot/similarity.hpp"
 #include "phase_state.hpp"
@@ -51,7 +52,7 @@ void choose_swings(Plan& plan, bool heights) {
   const Similarity similarity = similarity_of(plan.robot, plan.scene.gravity);
   const double usual_height = swing_height_of(plan.robot, similarity), sample_s = 0.01 * similarity.time;
   for (int k = 0; k < static_cast<int>(plan.phases.size()); ++k)
-    if (samples_of(plan.phases[k], sample_s) > 0) require_queryable(plan, k, 0.0);
+    if (plan.phases[k].duration > 0.0 && std::isfinite(plan.phases[k].duration)) require_queryable(plan, k, 0.0);
   for (int e = 0; e < plan.end_effector_count(); ++e)
     for (const FreeStretch& stretch : free_stretches(plan, solids, e)) {
       Swing swing;

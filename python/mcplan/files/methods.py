@@ -4,12 +4,15 @@ The front imports this, so that they are there whenever ``mcplan`` is; what read
 Annotations are types here, not texts, because those who ask the classes for signatures would look for their names in ``_core``.
 """
 
+import os
 from collections.abc import Callable
 from inspect import cleandoc
 from pathlib import Path
 from typing import Any
 
 from mcplan._core import Plan, PlanarPlan
+from mcplan.arguments import require_or_path
+from mcplan.errors import InvalidInput, shown
 
 _Files = tuple[Callable[[Any, str | Path], None], Callable[[str | Path], Any]]
 
@@ -26,6 +29,14 @@ def _of_planar_plans() -> _Files:
     return save_whole_body_plan, load_whole_body_plan
 
 
+def _require_path(path: Any) -> str:
+    require_or_path("path", path)
+    text: str = os.fspath(path)
+    if "\0" in text:
+        raise InvalidInput("path", "must have no null character", shown(text))
+    return text
+
+
 def _give(owner: Any, files: Callable[[], _Files]) -> None:
     """Make methods of a class that write and read its objects as `files` does."""
 
@@ -33,10 +44,13 @@ def _give(owner: Any, files: Callable[[], _Files]) -> None:
         """Write the plan to an .npz or a .json file, which is complete or not there at all; C++ reads the latter.
 
         Raises:
-            InvalidInput: The name promises another kind of file, or is empty.
+            InvalidArgument: It is no path.
+            InvalidInput: The name promises another kind of file, is empty or that of a folder.
             OSError: The file cannot be written.
             InvalidPlan: Its sizes do not fit together or a number is not finite.
         """
+        if _require_path(path).endswith("/"):
+            raise InvalidInput("path", "must be that of a file, not of a folder", shown(path))
         files()[0](self, path)
 
     def load(path: str | Path) -> Any:
@@ -45,7 +59,9 @@ def _give(owner: Any, files: Callable[[], _Files]) -> None:
         Raises:
             InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
             FileNotFoundError: There is no such file.
+            InvalidArgument: It is no path.
         """
+        _require_path(path)
         return files()[1](path)
 
     save.__annotations__["self"] = load.__annotations__["return"] = owner
