@@ -1298,6 +1298,7 @@ class Plan:
         Raises:
             InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
             FileNotFoundError: There is no such file.
+            InvalidArgument: It is no path.
         """
     def __copy__(self) -> Plan: ...
     def __deepcopy__(self, memo: dict) -> Plan: ...
@@ -1351,7 +1352,8 @@ class Plan:
         Write the plan to an .npz or a .json file, which is complete or not there at all; C++ reads the latter.
 
         Raises:
-            InvalidInput: The name promises another kind of file, or is empty.
+            InvalidArgument: It is no path.
+            InvalidInput: The name promises another kind of file, is empty or that of a folder.
             OSError: The file cannot be written.
             InvalidPlan: Its sizes do not fit together or a number is not finite.
         """
@@ -2901,6 +2903,7 @@ class PlanarPlan:
         Raises:
             InvalidPlan: Not such a file, or its content does not fit together; the message names file, field and rule.
             FileNotFoundError: There is no such file.
+            InvalidArgument: It is no path.
         """
     def __copy__(self) -> PlanarPlan: ...
     def __deepcopy__(self, memo: dict) -> PlanarPlan: ...
@@ -2952,7 +2955,8 @@ class PlanarPlan:
         Write the plan to an .npz or a .json file, which is complete or not there at all; C++ reads the latter.
 
         Raises:
-            InvalidInput: The name promises another kind of file, or is empty.
+            InvalidArgument: It is no path.
+            InvalidInput: The name promises another kind of file, is empty or that of a folder.
             OSError: The file cannot be written.
             InvalidPlan: Its sizes do not fit together or a number is not finite.
         """
