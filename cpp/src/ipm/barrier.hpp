@@ -24,14 +24,12 @@ class Barrier {
     std::string message;
   };
 
-  /// From point.t, moved off its bounds. At most max_iterations more; throws Halt.
+  /// From point.t, moved off its bounds, while fewer than max_iterations are counted by the functions. Throws Halt.
   Ending run(Point& point, int max_iterations);
 
-  int iterations() const { return iterations_; }
   const Eigen::VectorXd& equality_multipliers() const { return lambda_; }
   Eigen::VectorXd inequality_multipliers() const { return multipliers_of_slacks(); }
   double linear_solver_s() const { return linear_solver_s_; }
-  int factorisations() const { return factorisations_; }
 
  private:
   struct Step {
@@ -45,7 +43,6 @@ class Barrier {
   int n() const { return unknowns_.free_count(); }
   Eigen::VectorXd multipliers_of_slacks() const;
   void start(Point& point);
-  void least_squares_multipliers(const Point& point);
   Errors errors(const Point& point, double mu);
   bool factor(const Point& point);
   void direction(const Point& point, double mu, const Eigen::VectorXd& c, const Eigen::VectorXd& slack_error,
@@ -77,7 +74,8 @@ class Barrier {
   double theta_now_ = 0.0, phi_now_ = 0.0, slope_ = 0.0, theta_min_ = 0.0;
   bool fixed_mu_ = false;  ///< monotone: the barrier falls when its problem is solved
   std::vector<double> history_;
-  int iterations_ = 0, factorisations_ = 0, trials_ = 0;
+  bool header_written_ = false;
+  int trials_ = 0;
   double alpha_ = 0.0, alpha_dual_ = 0.0, linear_solver_s_ = 0.0;
 };
 

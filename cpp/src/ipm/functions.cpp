@@ -25,7 +25,11 @@ Functions::Functions(const nlp::Problem& problem, const Unknowns& unknowns, cons
 
 void Functions::begin_iteration() {
   if (options_.stop && options_.stop()) throw Halt{nlp::Outcome::interrupted, "stopped by the caller"};
-  if (!deadline_.limited()) return;
+  if (deadline_.limited()) look_at_clock();
+  ++iterations_;
+}
+
+void Functions::look_at_clock() {
   if (options_.finishing_s && best_x_.size() > 0)
     reserved_s_ = std::min(options_.finishing_s(best_x_), 0.5 * options_.time_limit_s);
   const double left_s = deadline_.remaining_s();
@@ -51,7 +55,6 @@ void Functions::evaluate(Point& point) {
   const int n = unknowns_.free_count();
   for (int i = 0; i < n; ++i) point.x[unknowns_.free[i]] = point.t[i];
   clocked(point.x, [&] {
-    ++evaluations_;
     point.cost = problem_.cost(point.x);
     problem_.rows(point.x, rows_);
     return std::isfinite(point.cost) && rows_.allFinite();

@@ -52,13 +52,14 @@ class Functions {
   const Eigen::VectorXd& best_x() const { return best_x_; }
   bool best_is_feasible() const { return best_violation_ <= options_.constraint_tolerance; }
   double evaluation_s() const { return evaluation_s_; }
-  int evaluations() const { return evaluations_; }
+  int iterations() const { return iterations_; }  ///< begun, of phase one and of the barrier method
   const Deadline& deadline() const { return deadline_; }
 
-  /// Once an iteration: the time that the caller needs afterwards, and whether to stop.
+  /// Once an iteration, at its begin: the time that the caller needs afterwards, and whether to stop.
   void begin_iteration();
 
  private:
+  void look_at_clock();
   template <class Function>
   void clocked(const Eigen::VectorXd& x, const Function& function);
 
@@ -70,7 +71,7 @@ class Functions {
   Eigen::VectorXd best_x_;
   double best_violation_ = nlp::kInfinity, best_cost_ = nlp::kInfinity;
   double evaluation_s_ = 0.0, reserved_s_ = 0.0, left_s_ = 0.0, longest_s_ = 0.0;
-  int evaluations_ = 0;
+  int iterations_ = 0;
 };
 
 }  // namespace mcplan::ipm

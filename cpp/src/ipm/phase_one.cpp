@@ -8,11 +8,11 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kDrawnIn = 0.05;
+constexpr double kStationary = 1e-5;  // of the gradient, over the norm of the residuals
 
 /// How far outside: negative below the lower limit, positive above the upper one.
-double beyond(double value, double lower, double upper) {
-  const double room = std::min(kDrawnIn, kDrawnIn * (upper - lower));
+double beyond(double value, double lower, double upper, double drawn_in) {
+  const double room = std::min(drawn_in, drawn_in * (upper - lower));
   if (value < lower + room) return value - (lower + room);
   if (value > upper - room) return value - (upper - room);
   return 0.0;
@@ -22,12 +22,12 @@ double beyond(double value, double lower, double upper) {
 struct Residuals {
   VectorXd equalities, rows, bounds;
 
-  Residuals(const Unknowns& unknowns, const Point& point)
+  Residuals(const Unknowns& unknowns, const Point& point, double drawn_in)
       : equalities(point.equalities), rows(unknowns.slack_count()), bounds(unknowns.free_count()) {
     const int n = unknowns.free_count();
-    for (int i = 0; i < n; ++i) bounds[i] = beyond(point.t[i], unknowns.lower[i], unknowns.upper[i]);
+    for (int i = 0; i < n; ++i) bounds[i] = beyond(point.t[i], unknowns.lower[i], unknowns.upper[i], drawn_in);
     for (int i = 0; i < unknowns.slack_count(); ++i)
-      rows[i] = beyond(point.inequalities[i], unknowns.lower[n + i], unknowns.upper[n + i]);
+      rows[i] = beyond(point.inequalities[i], unknowns.lower[n + i], unknowns.upper[n + i], drawn_in);
   }
   double half_square() const { return 0.5 * (equalities.squaredNorm() + rows.squaredNorm() + bounds.squaredNorm()); }
   double largest() const {
@@ -40,36 +40,35 @@ VectorXd ones_where_not_zero(const VectorXd& v) { return (v.array() != 0.0).cast
 
 }  // namespace
 
-int PhaseOne::run(const Unknowns& unknowns, Functions& functions, Kkt& kkt, Point& point) const {
+bool PhaseOne::run(const Unknowns& unknowns, Functions& functions, Kkt& kkt, Point& point) const {
   const int n = unknowns.free_count();
   VectorXd gradient(n), step(n), multipliers(unknowns.equality_count());
   const VectorXd no_equalities = VectorXd::Zero(unknowns.equality_count());
   const VectorXd no_rows = VectorXd::Zero(unknowns.slack_count());
-  if (max_iterations == 0) return 0;
+  if (max_iterations == 0) return false;
   functions.evaluate(point);
   Point trial = point;
   double lambda = damping, growth = 2.0;
   bool moved = true;
-  int iterations = 0;
-  while (iterations < max_iterations) {
-    const Residuals now(unknowns, point);
+  for (int i = 0; i < max_iterations; ++i) {
+    const Residuals now(unknowns, point, drawn_in);
     if (now.largest() <= enough) break;
     functions.begin_iteration();
     if (moved) {
       functions.derivatives(point, gradient, kkt);
       functions.hessian(point, 0.0, no_equalities, no_rows, kkt);
     }
-    ++iterations;
     kkt.set_weights(ones_where_not_zero(now.rows), ones_where_not_zero(now.bounds));
     if (kkt.factor(lambda, 1.0) == Kkt::Factor::singular) break;
     gradient = now.bounds;
     kkt.add_inequalities_transposed(now.rows, gradient);
     kkt.solve(-gradient, -now.equalities, step, multipliers);
     kkt.add_equalities_transposed(now.equalities, gradient);
+    if (gradient.norm() <= kStationary * std::sqrt(2.0 * now.half_square())) return true;
     if (!step.allFinite()) break;
     trial.t.head(n) = point.t.head(n) + step;
     functions.evaluate(trial);
-    const double fallen = now.half_square() - Residuals(unknowns, trial).half_square();
+    const double fallen = now.half_square() - Residuals(unknowns, trial, drawn_in).half_square();
     const double expected = 0.5 * step.dot(lambda * step - gradient);
     moved = fallen > 0.0;
     if (moved) {
@@ -81,7 +80,7 @@ int PhaseOne::run(const Unknowns& unknowns, Functions& functions, Kkt& kkt, Poin
       growth *= 2.0;
     }
   }
-  return iterations;
+  return false;
 }
 
 }  // namespace mcplan::ipm

@@ -53,7 +53,8 @@ bool decided(const nlp::Problem& problem, const VectorXd& x, double constraint_t
 
 /// Where the barrier method fails from a start, it begins again from the same start after a phase one: what a failed
 /// attempt leaves behind is no better a place to go on from.
-constexpr PhaseOne kAttempts[] = {{10.0, 0, 0.0}, {10.0, 8, 0.1}, {1.0, 50, 0.1}};
+constexpr PhaseOne kAttempts[] = {{10.0, 0}, {10.0, 8}, {1.0, 50}};
+constexpr int kMaxProof = 300;  // steps towards a point of least violation, where all attempts have failed
 
 void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOptions& options, const Deadline& deadline,
          nlp::Solution& out) {
@@ -66,21 +67,29 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
   try {
     for (const PhaseOne& phase_one : kAttempts) {
       point = point_at(unknowns, x);
-      const int done = out.iterations + phase_one.run(unknowns, functions, kkt, point);
-      const Barrier::Ending ending = barrier.run(point, options.max_iterations - done);
-      out.iterations = done + barrier.iterations();
+      phase_one.run(unknowns, functions, kkt, point);
+      const Barrier::Ending ending = barrier.run(point, options.max_iterations);
       out.outcome = ending.outcome;
       out.message = ending.message;
       if (ending.outcome != Outcome::numerical_failure) break;
     }
+    if (out.outcome == Outcome::numerical_failure) {
+      point = point_at(unknowns, x);
+      const int steps = std::min(kMaxProof, options.max_iterations - functions.iterations());
+      const PhaseOne proof{1.0, steps, 10.0 * options.constraint_tolerance, 0.0};
+      if (proof.run(unknowns, functions, kkt, point)) {
+        out.outcome = Outcome::infeasible;
+        out.message = "converged to a point at which the violation is locally least";
+      }
+    }
   } catch (const Halt& halt) {
-    out.iterations += barrier.iterations();
     out.outcome = halt.outcome;
     out.message = halt.message;
   }
   out.x = out.outcome == Outcome::converged ? point.x : functions.best_x();
   if (out.x.size() == 0) out.x = x;
   out.multipliers = multipliers_of(problem, unknowns, barrier);
+  out.iterations = functions.iterations();
   out.evaluation_s = functions.evaluation_s();
   out.linear_solver_s = barrier.linear_solver_s();
 }
@@ -106,16 +115,19 @@ nlp::Solution solve(nlp::Solver solver, const nlp::Problem& problem, const Vecto
   nlp::Solution first = ipm::solve(problem, x0, options);
   const double left_s = options.time_limit_s - first.time_s;
   const int iterations = options.max_iterations - first.iterations;
-  const bool ended = first.outcome == Outcome::converged || first.outcome == Outcome::time_limit ||
-                     first.outcome == Outcome::interrupted;
+  const bool ended = first.outcome != Outcome::numerical_failure && first.outcome != Outcome::nearly_converged &&
+                     first.outcome != Outcome::iteration_limit;
   if (solver == nlp::Solver::ipm || ended || !(left_s > 0.0) || iterations <= 0) return first;
   nlp::SolverOptions rest = options;
   rest.time_limit_s = left_s;
   rest.max_iterations = iterations;
   nlp::Solution second = nlp::solve(problem, x0, rest);
-  const bool better = second.outcome == Outcome::converged || second.worst.value <= first.worst.value;
+  const bool better = second.outcome == Outcome::converged || second.outcome == Outcome::nearly_converged ||
+                      second.worst.value <= first.worst.value;
   nlp::Solution& kept = better ? second : first;
   nlp::Solution& other = better ? first : second;
+  kept.outcome = second.outcome;  // the reference has the last word
+  kept.message = second.message;
   kept.iterations += other.iterations;
   kept.time_s += other.time_s;
   kept.evaluation_s += other.evaluation_s;

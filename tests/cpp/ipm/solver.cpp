@@ -175,6 +175,8 @@ TEST_CASE("what cannot be satisfied is not called converged, and its worst row i
     CHECK(s.worst.value > 1.0);
     CHECK(!s.worst.name.empty());
     CHECK(s.x.allFinite());
+    CHECK(s.outcome == Outcome::infeasible);
+    CHECK(s.solver == Solver::ipm);  // Ipopt is not asked
   }
 }
 

@@ -13,8 +13,8 @@ namespace mcplan::ipm {
 nlp::Solution solve(const nlp::Problem& problem, const Eigen::VectorXd& x0, const nlp::SolverOptions& options = {});
 
 /// Solve with the solver that is asked for. `automatic` is the kernel, and where it ends neither converged nor by the
-/// time limit or the caller, Ipopt from x0 with the iterations and the time that are left; iterations and times of both
-/// are added, and of two that did not converge the point that violates less is kept.
+/// time limit or the caller nor infeasible, Ipopt from x0 with the iterations and the time that are left; iterations
+/// and times of both are added, and of two that did not converge the point that violates less is kept.
 nlp::Solution solve(nlp::Solver solver, const nlp::Problem& problem, const Eigen::VectorXd& x0,
                     const nlp::SolverOptions& options = {});
 
