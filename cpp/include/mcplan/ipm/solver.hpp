@@ -12,9 +12,10 @@ namespace mcplan::ipm {
 /// the stop request throws. A number that is not finite ends with numerical_failure and a message that names the piece.
 nlp::Solution solve(const nlp::Problem& problem, const Eigen::VectorXd& x0, const nlp::SolverOptions& options = {});
 
-/// Solve with the solver that is asked for. `automatic` is the kernel, and where it ends neither converged nor by the
-/// time limit or the caller nor infeasible, Ipopt from x0 with the iterations and the time that are left; iterations
-/// and times of both are added, and of two that did not converge the point that violates less is kept.
+/// Solve with the solver that is asked for. `automatic` is the kernel, and where it ends nearly converged, by a
+/// numerical failure or at the limit of iterations, Ipopt from x0 with the iterations and the time that are left.
+/// Iterations and times of both are added; the outcome is Ipopt's, and of two that did not converge the point that
+/// violates less is kept.
 nlp::Solution solve(nlp::Solver solver, const nlp::Problem& problem, const Eigen::VectorXd& x0,
                     const nlp::SolverOptions& options = {});
 
