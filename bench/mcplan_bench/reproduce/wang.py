@@ -161,7 +161,12 @@ def _page(
 def _head(about: dict[str, Any], seeds: list[int], table_3: list[dict[str, Any]]) -> list[str]:
     load = sum(row["load"] for row in table_3) / max(len(table_3), 1)
     busy = ", more than the cores: wall clocks are longer than on an idle machine" if load > about["cores"] else ""
-    starts = f"and for Table III from noisy ones (seeds {', '.join(map(str, seeds))})" if seeds else "(no seeds)"
+    named = (
+        f"{seeds[0]} to {seeds[-1]}"
+        if len(seeds) > 2 and seeds[-1] - seeds[0] == len(seeds) - 1
+        else ", ".join(map(str, seeds))
+    )
+    starts = f"and for Table III from noisy ones (seeds {named})" if seeds else "(no seeds)"
     lines = [
         "# Tables I to III and Figures 4 and 5 of Wang et al.",
         "",
