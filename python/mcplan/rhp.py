@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mcplan._core import Plan, Robot, Scene
-from mcplan._core.rhp import Cycle, Fidelity, Options, RecedingHorizon, State, Transcription, Walk
+from mcplan._core.rhp import Cycle, Fidelity, Options, RecedingHorizon, Solver, State, Transcription, Walk
 from mcplan._core.rhp import Walk as Result
 
 if TYPE_CHECKING:
@@ -29,6 +29,7 @@ __all__ = [
     "Options",
     "RecedingHorizon",
     "Result",
+    "Solver",
     "State",
     "Transcription",
     "Walk",

@@ -82,8 +82,8 @@ def tracking(
     The runs are compared with what is demanded of them. Without assistance but for the cases named assisted, torque
     limits on. Walks: no fall, CoM within 15 mm rms, base within 50 mm at the end, every QP solved, no warning of the
     simulator. Planar robots: contact forces within 10 % rms of the plan, drift of 10 mm. Disturbed: 18 of 20 stay up.
-    Speed: 1 ms for a control step, 1.5 times real time. Exit code 1 unless all holds, as without --case it does not:
-    the unassisted jump over short_gap falls with motors that lose torque at speed.
+    Speed: 1 ms for a control step, 1.5 times real time. Exit code 1 unless all holds, as it does not without --case:
+    unassisted, the jump over short_gap falls.
 
     Example: mcplan bench tracking --short
 
@@ -118,10 +118,7 @@ def tracking(
         holds.append(result["speed"]["holds"])
     result["holds"] = False not in holds
     written = _write(result, out, markdown)
-    if json:
-        print(json_module.dumps(_plain(result)))
-    else:
-        _print(result, written)
+    print(json_module.dumps(_plain(result))) if json else _print(result, written)
     return 0 if result["holds"] else 1
 
 

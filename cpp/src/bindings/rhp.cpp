@@ -84,6 +84,7 @@ void bind_results(py::module_& m) {
 
 void bind_rhp(py::module_& parent) {
   py::module_ m = parent.def_submodule("rhp", "Multi-fidelity receding-horizon planning of walks on two feet.");
+  m.attr("Solver") = parent.attr("nlp").attr("Solver");  // beside the options that have it
   bind_rhp_options(m);
   bind_state(m);
   bind_results(m);

@@ -6,11 +6,22 @@ from __future__ import annotations
 import collections.abc
 import mcplan._core
 import mcplan._core.nlp
+from mcplan._core.nlp import Solver
 import numpy
 import numpy.typing
 import typing
 
-__all__: list[str] = ["Cycle", "Fidelity", "Options", "RecedingHorizon", "Result", "State", "Transcription", "Walk"]
+__all__: list[str] = [
+    "Cycle",
+    "Fidelity",
+    "Options",
+    "RecedingHorizon",
+    "Result",
+    "Solver",
+    "State",
+    "Transcription",
+    "Walk",
+]
 
 class Fidelity:
     """
