@@ -33,6 +33,7 @@ BAD = {
         "--lookahead": ("99",),
         "--cycles": ("0",),
         "--transcription": ("x",),
+        "--solver": ("x",),
         "--time-limit": ("0",),
     },
     "sip walking": {
@@ -69,7 +70,12 @@ BAD = {
     "robots": {"--seed": ("3",), "--faces": ("30",)},
     "robots talos": {"--seed": ("3",)},
     "reproduce lengagne": {"--motions": ("nope",), "--tables": ("9", "x"), "--repeats": ("0", "x")},
-    "reproduce wang": {"--cycles": ("0", "x"), "--lookahead-max": ("1",), "--seeds": ("-1",)},
+    "reproduce wang": {
+        "--cycles": ("0", "x"),
+        "--lookahead-max": ("1",),
+        "--seeds": ("-1",),
+        "--tracked-seeds": ("-1",),
+    },
     "bench": {"--repeats": ("0", "x"), "--threads": ("0",)},
     "bench robustness": {
         "--scenes": ("-1", "x"),
