@@ -119,7 +119,7 @@ TEST_CASE("a horizon of stages has the optimum that Ipopt finds, in as many iter
     const Cart cart(steps, steps == 10 ? 0.6 : 1.0);
     CAPTURE(steps);
     SolverOptions options;
-    options.tolerance = options.constraint_tolerance = 1e-7;
+    options.tolerance = options.constraint_tolerance = 1e-8;
     options.gradient_scaling = false;
     const Solution reference = nlp::solve(cart.problem, cart.start(), options);
     const Solution s = ipm::solve(cart.problem, cart.start(), options);
@@ -193,7 +193,7 @@ TEST_CASE("limits of iterations and time, a stop request and a number that is no
   options.time_limit_s = 0.02;
   const Solution late = ipm::solve(Solver::automatic, cart.problem, cart.start(), options);
   CHECK(late.outcome == Outcome::time_limit);
-  CHECK(late.time_s <= 0.02);
+  CHECK(late.time_s <= 0.022);  // every reading of the clock is a millisecond
 
   options = {};
   int polls = 0;
