@@ -1,8 +1,9 @@
 """No call of the public API crashes, hangs or raises anything but a typed error, whatever was set before.
 
-The calls are random, of everything that the compiled module binds (api_signatures finds it) and of the verbs of mcplan, in
-processes of their own (api_fuzz, api_verbs). A failure names the command that repeats it. MCPLAN_API_FUZZ_S is the CPU time
-[s] of the slow test, an hour by default; MCPLAN_API_FUZZ_SEED the first of its seeds.
+The calls are random, of everything that the compiled module binds (api_signatures finds it), of the verbs of mcplan and of
+the engines with input that they mostly take, in processes of their own (api_fuzz, api_verbs, api_solves). A failure names the
+command that repeats it. MCPLAN_API_FUZZ_S is the CPU time [s] of the slow test, an hour by default; MCPLAN_API_FUZZ_SEED the
+first of its seeds.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ HERE = Path(__file__).parent
 CALLS = 3000  # in a process: some two seconds of CPU time
 SEEDS = 12
 VERB_CALLS, VERB_SEEDS = 250, 4
+SOLVES, SOLVE_SEEDS = 100, 4
 STUCK_S = (
     120.0  # of a process all of whose threads sleep: a deadlock. One that computes for too long is ended by api_fuzz.
 )
@@ -117,6 +119,11 @@ def test_random_calls_of_verbs_end_in_a_result_or_an_error_of_ours(seed: int, va
     run(seed, VERB_CALLS, valid, tmp_path / "calls.txt", "api_verbs.py")
 
 
+@pytest.mark.parametrize("seed", range(SOLVE_SEEDS))
+def test_random_solves_end_in_a_result_or_a_typed_error(seed: int, valid: Path, tmp_path: Path) -> None:
+    run(seed, SOLVES, valid, tmp_path / "calls.txt", "api_solves.py")
+
+
 @pytest.mark.parametrize(
     ("code", "stuck"),
     [("import threading; threading.Lock().acquire(); threading.Event().wait()", True), ("while True: pass", False)],
@@ -137,4 +144,5 @@ def test_random_calls_for_an_hour(valid: Path, tmp_path: Path) -> None:
     while cpu_of_children_s() < end_s:
         run(seed, 3000, valid, tmp_path / "calls.txt")
         run(seed, VERB_CALLS, valid, tmp_path / "calls.txt", "api_verbs.py")
+        run(seed, SOLVES, valid, tmp_path / "calls.txt", "api_solves.py")
         seed += 1

@@ -81,15 +81,18 @@ void Travel::check_continuity(const Problem& problem, const Sample& sample, int 
 
 /// |p(b) - p(a) - (b - a) (v(a) + v(b)) / 2|: how far the path goes beyond its velocities, of the third order in b - a
 /// where it is smooth. Where that is much, the halves say whether the path bends or jumps, down to a quarter of a
-/// millisecond.
+/// millisecond, or to what instants can be told apart in phases that last for ages. What is no number is no jump of any
+/// length: halves say no more.
 double Travel::jump(const Problem& problem, const Sample& sample, int l, const Seen& a, const Seen& b) {
-  constexpr int kMaxInstants = 100000;
+  constexpr int kMaxInstants = 20000;
   const double duration = b.since_start_s - a.since_start_s;
   const double found = (b.position_W - a.position_W - 0.5 * duration * (a.velocity_W + b.velocity_W)).norm();
   const double tolerance = problem.tolerances.slip;
-  if (found <= tolerance || duration <= 2.5e-4 * problem.similarity.time || ++looked_closer_ > kMaxInstants)
-    return found;
   const double middle = a.since_start_s + 0.5 * duration;
+  const bool divisible = a.since_start_s < middle && middle < b.since_start_s && std::isfinite(found);
+  if (found <= tolerance || !divisible || duration <= 2.5e-4 * problem.similarity.time ||
+      ++looked_closer_ > kMaxInstants)
+    return found;
   const Seen between = seen(state_in_phase(problem.plan, sample.view->frame, middle), middle, l);
   const double before = jump(problem, sample, l, a, between);
   return before > tolerance ? before : std::max(before, jump(problem, sample, l, between, b));

@@ -36,7 +36,11 @@ Replay start_of(const Problem& problem, int phase) {
   return with_law(problem, phase, [&](auto law) { return law.start(problem, phase); });
 }
 
+/// A state that has overflowed stays as it is: it violates all that asks for it, and is not worth a step.
 Replay advance(const Problem& problem, int phase, const Replay& from, double since_start, double h) {
+  const bool numbers = from.com_W.allFinite() && from.com_velocity_W.allFinite() && from.rpy.allFinite() &&
+                       from.rpy_rate.allFinite() && from.momentum_W.allFinite() && from.quat_wxyz.allFinite();
+  if (!numbers) return from;
   return with_law(problem, phase, [&](auto law) { return law.advance(problem, phase, from, since_start, h); });
 }
 

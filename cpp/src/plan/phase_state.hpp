@@ -29,8 +29,9 @@ struct PathInstant {
   double since_start_s = 0.0;  ///< of the phase
 };
 
-/// Instants of a phase that a path has at most: all of them are held at once, and iterates may have phases of hours.
-constexpr double kPathInstantsMax = 1e4;
+/// Instants of a plan's phases that the path of an end-effector has at most, shared out evenly, but not fewer than
+/// kPathInstantsMin in a phase: all of a stretch are held at once, and iterates may have phases of hours.
+constexpr double kPathInstantsMax = 2e4, kPathInstantsMin = 200;
 
 /// The instants of a stretch, every sample_s [s] of each phase, less often in very long ones, of a plan whose sizes and
 /// indices fit together. The swing must be the plan's for these phases; what its height makes of the path is asked for

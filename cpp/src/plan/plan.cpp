@@ -111,10 +111,11 @@ PlanState state_in_phase(const Plan& plan, const PhaseFrame& frame, double since
 
 std::vector<PathInstant> path_of(const Plan& plan, const Swing& swing, double sample_s) {
   std::vector<PathInstant> path;
+  const double instants_max = std::max(kPathInstantsMin, kPathInstantsMax / static_cast<double>(plan.phases.size()));
   double before_s = 0.0;
   for (int k = swing.first_phase; k < swing.end_phase; ++k) {
     const double duration = plan.phases[k].duration;
-    const int samples = samples_of(plan.phases[k], std::max(sample_s, duration / kPathInstantsMax));
+    const int samples = samples_of(plan.phases[k], std::max(sample_s, duration / instants_max));
     PhaseFrame frame{k, 0.0, {}};
     ActiveSwing active = active_swing(plan, swing, k);
     straighten(active);

@@ -105,3 +105,16 @@ TEST_CASE("checker tells a path that bends between rare samples from one that ju
     c.plan.knots[6].end_effector_velocities_W[right_hand].y() = 3.0;
   }
 }
+
+TEST_CASE("checker ends where a phase lasts so long that the instants of its clock are seconds apart") {
+  for (const double duration : {1e13, 1e18, 1e300}) {
+    CAPTURE(duration);
+    Case c;
+    mcplan::choose_swings(c.plan);
+    c.plan.phases[5].duration = duration;
+    c.plan.knots[6].end_effector_velocities_W[right_hand].y() = 1e3;
+    mcplan::Tolerances tolerances;
+    tolerances.sample_s = duration / 100.0;
+    CHECK(names(mcplan::check(c.plan, c.scene, c.robot, tolerances)).count("dynamics") == 1);
+  }
+}
