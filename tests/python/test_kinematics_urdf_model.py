@@ -7,7 +7,7 @@ import pytest
 
 import mcplan as mp
 import plans_by_hand as by_hand
-from mcplan.kinematics.urdf_model import load_model
+from mcplan.kinematics.urdf_model import leg_velocities, load_model, own_joints
 from two_link_arm import LENGTHS, MASSES, arm_robot
 
 pin = pytest.importorskip("pinocchio")
@@ -121,3 +121,22 @@ def test_relative_paths_are_those_of_the_working_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     robot.urdf = "arm.urdf"
     assert load_model(robot).path == Path(tmp_path, "arm.urdf").resolve()
+
+
+def test_own_joints_are_those_that_move_one_end_effector_alone():
+    pytest.importorskip("example_robot_data")
+    urdf_model = load_model(mp.load_robot("talos"))
+    hand = urdf_model.robot.end_effector_index("right_hand")
+    names = [urdf_model.model.names[joint] for joint in own_joints(urdf_model, hand)]
+    assert names == [f"arm_right_{i}_joint" for i in range(1, 8)]
+
+
+@pytest.mark.parametrize(("robot", "part", "count"), [("talos", "leg_", 12), ("anymal", "", 12)])
+def test_velocities_of_legs_are_those_of_the_joints_of_feet(robot, part, count):
+    pytest.importorskip("example_robot_data")
+    urdf_model = load_model(mp.load_robot(robot))
+    legs = leg_velocities(urdf_model)
+    model = urdf_model.model
+    assert legs.shape == (model.nv - 6,)
+    found = {name for name, joint in zip(model.names[2:], model.joints[2:], strict=True) if legs[joint.idx_v - 6]}
+    assert len(found) == legs.sum() == count and all(name.startswith(part) for name in found)

@@ -348,6 +348,23 @@ def test_accelerations_keep_joints_within_their_speeds():
     assert found[False][elbow] > found[True][elbow] + 0.1
 
 
+@pytest.mark.parametrize(
+    ("weight", "part"), [("posture_weight", "arm_left_1_joint"), ("leg_posture_weight", "leg_left_6_joint")]
+)
+def test_each_weight_of_the_posture_pulls_its_own_joints(weight, part):
+    """With a weight so large that no task counts beside it, a joint accelerates as its posture asks."""
+    controller, start = controller_of()
+    joint = list(controller.urdf_model.model.names)[2:].index(part)
+    away = start.copy()
+    away[7 + joint] += 0.01
+    for weights in ({"posture_weight": 0.0, "leg_posture_weight": 0.0}, {weight: 1e5}):
+        controller.gains = replace(Gains(posture_weight=0.0, leg_posture_weight=0.0), **weights)
+        assert controller.step(0, away, np.zeros(controller.nv), contacts_at(controller)).solved
+        desired = -controller.gains.posture_kp * 0.01
+        asked = weights[weight] > 0.0
+        assert (abs(controller.qp.solution[6 + joint] - desired) < 0.05 * abs(desired)) == asked
+
+
 def test_torques_are_those_that_motors_have_at_the_measured_speed():
     controller, start = controller_of()
     rng = np.random.default_rng(2)

@@ -138,3 +138,20 @@ def _contact_frames(model: Any, neutral: Array, robot: Robot) -> list[int]:
         contact = pin.Frame(f"mcplan/{end.name}", joint, link, placement, pin.FrameType.OP_FRAME)
         frames.append(model.addFrame(contact, False))
     return frames
+
+
+def own_joints(urdf_model: UrdfModel, end: int) -> list[int]:
+    """Joints between the base and one end-effector that move no other end-effector, from the base outwards."""
+    supports = [list(urdf_model.model.supports[urdf_model.model.frames[f].parentJoint]) for f in urdf_model.frames]
+    others = {joint for i, chain in enumerate(supports) if i != end for joint in chain}
+    return [joint for joint in supports[end] if joint > 1 and joint not in others]
+
+
+def leg_velocities(urdf_model: UrdfModel) -> NDArray[np.bool_]:
+    """(nv - 6,) whether a joint's velocity is one of a leg: of joints that move one foot and no other end-effector."""
+    model, found = urdf_model.model, np.zeros(urdf_model.model.nv, bool)
+    for end, end_effector in enumerate(urdf_model.robot.end_effectors):
+        if end_effector.kind == "foot":
+            for joint in own_joints(urdf_model, end):
+                found[model.joints[joint].idx_v : model.joints[joint].idx_v + model.joints[joint].nv] = True
+    return found[6:]

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from mcplan.errors import InvalidOptions
 from mcplan.files import strength
+from mcplan.kinematics.urdf_model import own_joints
 
 if TYPE_CHECKING:
     from mcplan.kinematics.urdf_model import UrdfModel
@@ -101,10 +102,3 @@ def random_strengths(urdf_model: UrdfModel, end: int, samples: int = 2000, seed:
             )
     name = urdf_model.robot.end_effectors[end].name
     return [Strength(name, direction, np.sort(forces[:, k])) for k, direction in enumerate(DIRECTIONS)]
-
-
-def own_joints(urdf_model: UrdfModel, end: int) -> list[int]:
-    """Joints between the base and one end-effector that move no other end-effector, from the base outwards."""
-    supports = [list(urdf_model.model.supports[urdf_model.model.frames[f].parentJoint]) for f in urdf_model.frames]
-    others = {joint for i, chain in enumerate(supports) if i != end for joint in chain}
-    return [joint for joint in supports[end] if joint > 1 and joint not in others]

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan.kinematics.rotations import minimal_rotation, polygon_normal, rotation_vector
-from mcplan.kinematics.urdf_model import UrdfModel
+from mcplan.kinematics.urdf_model import UrdfModel, leg_velocities
 
 from .actuators import TorqueSpeed
 from .contact_forces import SIDES, ForcePoints, pyramid
@@ -98,6 +98,7 @@ class Controller:
         self.motors, self.separation = restraints.motors, restraints.separation
         self.lower, self.upper = model.lowerPositionLimit[7:].copy(), model.upperPositionLimit[7:].copy()
         self.posture = np.atleast_2d(posture)[:, 7:]
+        self.legs = leg_velocities(urdf_model)
         self.normals = [polygon_normal(np.asarray(s.vertices_W)) for s in scene.surfaces]
         self.pyramids = [pyramid(n, s.friction) for n, s in zip(self.normals, scene.surfaces, strict=True)]
         self.points = [ForcePoints.of(end.half_size) for end in urdf_model.robot.end_effectors]
@@ -170,9 +171,10 @@ class Controller:
         gradient[:nv] = -rows.T @ values
         diagonal = np.full(size, gains.force_weight)
         diagonal[:nv], diagonal[-1] = DAMPING, SLACK_WEIGHT
-        diagonal[6:nv] += gains.posture_weight
+        posture_weights = np.where(self.legs, gains.leg_posture_weight, gains.posture_weight)
+        diagonal[6:nv] += posture_weights
         hessian[np.diag_indices(size)] += diagonal
-        gradient[6:nv] -= gains.posture_weight * self._posture_acceleration(n)
+        gradient[6:nv] -= posture_weights * self._posture_acceleration(n)
 
         force_map = np.zeros((nv, nf))
         friction = np.zeros((SIDES * nf // 3, size))

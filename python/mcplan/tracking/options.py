@@ -57,6 +57,7 @@ class Gains:
     hand_weight: float = 100.0
     posture_kp: float = 20.0
     posture_weight: float = 0.03
+    leg_posture_weight: float = 0.01  # of joints that move one foot and no other end-effector
     force_weight: float = 1e-6
 
 
