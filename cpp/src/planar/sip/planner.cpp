@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mcplan/base/deadline.hpp"
+#include "mcplan/ipm/solver.hpp"
 #include "mcplan/nlp/solver.hpp"
 #include "mcplan/version.hpp"
 #include "planar/sip/attempts.hpp"
@@ -189,12 +190,13 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
     how.hessian = second ? nlp::Hessian::exact : nlp::Hessian::limited_memory;
     how.initial_barrier = close ? kCloseBarrier : attempt.initial_barrier;
     how.adaptive_barrier = attempt.adaptive_barrier;
+    how.kernel = attempt.kernel;
     how.gradient_scaling = false;
     how.logger = with.logger;
     how.stop = with.stop;
     how.clock = with.clock;
     if (deadline.limited()) how.finishing_s = [&](const Eigen::VectorXd& at) { return finishing_s(with, at); };
-    nlp::Solution solution = nlp::solve(program.problem(), x, how);
+    nlp::Solution solution = ipm::solve(options.solver, program.problem(), x, how);
     took.derivative_s = std::max(took.derivative_s, solution.start_s / std::max(derivatives, 1.0));
     report.iterations += solution.iterations;
     report.timing_s["evaluation"] += solution.evaluation_s;
@@ -226,7 +228,9 @@ nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {
   const bool convert = options.free_durations && options.has_cost() && together.min <= together.max;
   if (convert) with.free_durations = false;
   Eigen::VectorXd start = convert ? moved(x, options, with) : x;
-  if (options.dynamics && options.kinematics_first && options.forces != Forces::parameters) {
+  // The kernel brings limbs to their contacts faster with forces than in two steps.
+  const bool two_steps = options.kinematics_first && options.solver != nlp::Solver::ipm;
+  if (options.dynamics && two_steps && options.forces != Forces::parameters) {
     Options kinematics = with;
     kinematics.dynamics = false;
     kinematics.order = std::min(options.order, kKinematicOrder);
