@@ -19,6 +19,8 @@ constexpr double kMinDelta = 1e-20, kDualDelta = 1e-8;
 constexpr double kProgress = 0.9999;  // of the optimality error over the last iterations
 constexpr int kHistory = 4;
 constexpr double kNearViolation = 1e-2, kLeastPart = 0.0625, kGrowPart = 4.0;  // of the blend of Hessians
+constexpr double kFirstDamping = 1e-2;
+constexpr int kManyTrials = 6;
 
 }  // namespace
 
@@ -64,6 +66,8 @@ void Barrier::start(Point& point) {
   theta_min_ = 1e-4 * std::max(1.0, theta(point));
   last_delta_ = 0.0;
   part_ = 1.0 / kGrowPart;
+  damping_ = 0.0;
+  trials_ = 0;
 }
 
 Barrier::Errors Barrier::errors(const Point& point, double mu) {
@@ -129,10 +133,16 @@ bool Barrier::factor_ladder() {
   return good;
 }
 
-/// The largest of a few parts of the way from the Gauss-Newton Hessian, which is positive semidefinite, to the exact one
-/// with which the inertia is right; the Gauss-Newton Hessian alone while rows are violated, where multipliers say little.
+/// The largest of a few parts of the way from the Gauss-Newton Hessian, which is positive semidefinite, to the exact
+/// one with which the inertia is right; the Gauss-Newton Hessian alone while rows are violated, where multipliers say
+/// little.
 bool Barrier::factor_blend(const Point& point) {
   functions_.gauss_newton_hessian(point, gauss_newton_);
+  // A line search that ends with a tiny step says that the quadratic model holds nowhere near its minimum.
+  if (trials_ > kManyTrials)
+    damping_ = std::max(kFirstDamping, 10.0 * damping_);
+  else
+    damping_ = damping_ > kFirstDamping ? damping_ / 3.0 : 0.0;
   const bool near = functions_.violation(point) <= kNearViolation;
   part_ = near ? std::min(1.0, part_ == 0.0 ? kLeastPart : kGrowPart * part_) : 0.0;
   if (near) exact_ = functions_.hessian(point, 1.0, lambda_, multipliers_of_slacks());
@@ -141,9 +151,9 @@ bool Barrier::factor_blend(const Point& point) {
     kkt_.set_hessian(blend_);
     set_weights();
     const double start_s = functions_.deadline().now_s();
-    const Kkt::Factor result = kkt_.factor(0.0, 0.0);
+    const Kkt::Factor result = kkt_.factor(damping_, 0.0);
     linear_solver_s_ += functions_.deadline().now_s() - start_s;
-    delta_ = 0.0;
+    delta_ = damping_;
     if (result == Kkt::Factor::good) return true;
   }
   part_ = 0.0;

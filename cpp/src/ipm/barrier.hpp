@@ -75,6 +75,7 @@ class Barrier {
   Point trial_;
   Eigen::VectorXd gauss_newton_, exact_, blend_;  ///< Hessians
   double part_ = 0.0;                             ///< of the exact Hessian in the blend
+  double damping_ = 0.0;                          ///< of the blend, after steps cut short
   double mu_ = 0.1, delta_ = 0.0, last_delta_ = 0.0;
   double theta_now_ = 0.0, phi_now_ = 0.0, slope_ = 0.0, theta_min_ = 0.0;
   bool fixed_mu_ = false;  ///< monotone: the barrier falls when its problem is solved

@@ -66,7 +66,8 @@ void Functions::evaluate(Point& point) {
   });
   for (int i = 0; i < unknowns_.equality_count(); ++i)
     point.equalities[i] = rows_[unknowns_.equalities[i]] - unknowns_.right_side[i];
-  for (int i = 0; i < unknowns_.slack_count(); ++i) point.inequalities[i] = unknowns_.scale[i] * rows_[unknowns_.inequalities[i]];
+  for (int i = 0; i < unknowns_.slack_count(); ++i)
+    point.inequalities[i] = unknowns_.scale[i] * rows_[unknowns_.inequalities[i]];
   const double violated = violation(point), enough = options_.constraint_tolerance;
   const bool better =
       violated <= enough ? best_violation_ > enough || point.cost < best_cost_ : violated < best_violation_;
@@ -109,7 +110,8 @@ void Functions::gauss_newton_hessian(const Point& point, VectorXd& values) {
 const VectorXd& Functions::hessian(const Point& point, double cost_factor, const VectorXd& equalities,
                                    const VectorXd& inequalities) {
   for (int i = 0; i < unknowns_.equality_count(); ++i) multipliers_[unknowns_.equalities[i]] = equalities[i];
-  for (int i = 0; i < unknowns_.slack_count(); ++i) multipliers_[unknowns_.inequalities[i]] = unknowns_.scale[i] * inequalities[i];
+  for (int i = 0; i < unknowns_.slack_count(); ++i)
+    multipliers_[unknowns_.inequalities[i]] = unknowns_.scale[i] * inequalities[i];
   clocked(point.x, [&] {
     problem_.hessian(point.x, cost_factor, multipliers_, hessian_);
     return hessian_.allFinite();

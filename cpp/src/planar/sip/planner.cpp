@@ -196,7 +196,7 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
     how.stop = with.stop;
     how.clock = with.clock;
     if (deadline.limited()) how.finishing_s = [&](const Eigen::VectorXd& at) { return finishing_s(with, at); };
-    nlp::Solution solution = ipm::solve(options.solver, program.problem(), x, how);
+    nlp::Solution solution = ipm::solve(attempt.solver, program.problem(), x, how);
     took.derivative_s = std::max(took.derivative_s, solution.start_s / std::max(derivatives, 1.0));
     report.iterations += solution.iterations;
     report.timing_s["evaluation"] += solution.evaluation_s;
@@ -228,9 +228,7 @@ nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {
   const bool convert = options.free_durations && options.has_cost() && together.min <= together.max;
   if (convert) with.free_durations = false;
   Eigen::VectorXd start = convert ? moved(x, options, with) : x;
-  // The kernel brings limbs to their contacts faster with forces than in two steps.
-  const bool two_steps = options.kinematics_first && options.solver != nlp::Solver::ipm;
-  if (options.dynamics && two_steps && options.forces != Forces::parameters) {
+  if (options.dynamics && options.kinematics_first && options.forces != Forces::parameters) {
     Options kinematics = with;
     kinematics.dynamics = false;
     kinematics.order = std::min(options.order, kKinematicOrder);
@@ -325,6 +323,7 @@ Result Planner::Impl::solve(const Eigen::VectorXd& start) {
   report.cost_terms["duration"] = measure.duration(x);
   if (options.dynamics) report.cost_terms["torque"] = measure.torque_cost(x);
   if (options.jerk_weight > 0.0) report.cost_terms["jerk"] = measure.jerk_cost(x);
+  result.solver = solution.solver;
   result.parameters = layout.parameters;
   result.constraints = rows;
   judge(result, solution);
