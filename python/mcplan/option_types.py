@@ -249,6 +249,8 @@ class SipOptions(TypedDict, total=False):
     """With dynamics: find contacts and joints within limits first, forces from there."""
     feasible_first: bool
     """With a cost: solve without it first, and start from that."""
+    solver: Literal["ipopt", "ipm", "auto"] | _core.nlp.Solver
+    """Solver of the nonlinear programs."""
     hessian: Literal["automatic", "exact", "gauss_newton", "limited_memory"] | sip.HessianChoice
     """Where second derivatives come from."""
     tolerance: float

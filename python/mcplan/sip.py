@@ -28,6 +28,7 @@ from mcplan._core.sip import (
     Proof,
     ProvedConstraint,
     Result,
+    Solver,
     TaylorModel,
     certify,
 )
@@ -49,6 +50,7 @@ __all__ = [
     "Proof",
     "ProvedConstraint",
     "Result",
+    "Solver",
     "TaylorModel",
     "certify",
     "plan",

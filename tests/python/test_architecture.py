@@ -27,7 +27,7 @@ CPP_ROOMS = {
     "ipm": {"base", "model", "nlp"},
     "rhp": {"base", "model", "scene", "robot", "plan", "nlp", "ipm"},
     "planar": {"base", "model", "plan"},  # robot, task, plan and checker, which sees no planner either
-    "planar/sip": {"base", "model", "plan", "nlp", "planar"},
+    "planar/sip": {"base", "model", "plan", "nlp", "ipm", "planar"},
 }
 #: The public headers of each folder: data, options, results, and what loads, plans, checks and saves them. Another header
 #: is internal and lies in cpp/src; it becomes public, and installed, by its name here.

@@ -45,6 +45,7 @@ BAD = {
         "--neq": ("99",),
         "--free-flyer": ("x",),
         "--continuous": ("x",),
+        "--solver": ("x",),
         "--hessian": ("x",),
         "--max-iterations": ("-1",),
         "--time-limit": ("-1",),

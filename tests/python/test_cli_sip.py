@@ -14,7 +14,7 @@ from mcplan.model import PlanarNoClearance, PlanarSurface
 
 FIGURES = {"status", "iterations", "time_s", "evaluation_s", "parameters", "constraints", "cost", "durations_s"}
 FIGURES |= {"drift_m", "drift_rad", "worst_violation", "certified"}
-BESIDES = {"message", "linear_solver_s", "cost_terms", "task", "motion", "robot", "version"}
+BESIDES = {"message", "solver", "linear_solver_s", "cost_terms", "task", "motion", "robot", "version"}
 FAST = ("--forces", "uniform", "--minimise", "none")  # 1 s
 FASTEST = ("--kinematics", "--order", 5)  # 0.2 s
 
@@ -53,6 +53,20 @@ def options_of(monkeypatch):
         return seen[0]
 
     return parse
+
+
+@pytest.mark.parametrize("solver", ["ipm", "auto"])
+def test_the_kernel_solves_where_it_is_asked_for(capsys, solver):
+    code, out, _ = run(capsys, "cartwheel", "--minimise", "none", "--solver", solver, "--json")
+    found = strict(out)
+    assert code == 0 and found["solver"] == "ipm" and found["status"] == "solved"
+
+
+def test_solvers_that_there_are_not_and_what_the_kernel_has_not_are_refused(capsys):
+    code, out, err = run(capsys, "cartwheel", "--solver", "snopt")
+    assert code == 2 and out == "" and "--solver: must be one of ipopt, ipm, auto" in err
+    code, out, err = run(capsys, "cartwheel", "--solver", "ipm", "--hessian", "limited-memory")
+    assert code == 2 and out == "" and "--hessian: must be automatic, exact or gauss_newton" in err
 
 
 def test_json_holds_every_figure_and_nothing_else_is_printed(capsys, tmp_path):

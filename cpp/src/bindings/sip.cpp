@@ -111,6 +111,7 @@ void bind_certificate(py::module_& m) {
 
 void bind_sip(py::module_& parent) {
   py::module_ m = parent.def_submodule("sip", "Whole-body semi-infinite planning of planar robots.");
+  m.attr("Solver") = parent.attr("nlp").attr("Solver");  // beside the options that have it
   bind_taylor_model(m);
   bind_certificate(m);
   bind_sip_planner(m);

@@ -47,6 +47,7 @@ void bind_result(py::module_& m) {
   c.def_readonly("constraints", &Result::constraints, "Rows of the program.");
   c.def_readonly("drift_m", &Result::drift_m, "Largest of a contact, at 1 kHz, from exact kinematics [m].");
   c.def_readonly("drift_rad", &Result::drift_rad, "[rad]");
+  c.def_readonly("solver", &Result::solver, "That found the motion: ipopt or ipm.");
   c.def_property(
       "certificate", [](const JudgedResult& self) { return self.certificate; },
       [](JudgedResult& self, std::optional<Certificate> value) { self.certificate = std::move(value); },

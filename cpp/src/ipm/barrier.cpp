@@ -18,6 +18,9 @@ constexpr double kFirstDelta = 1e-4, kMaxDelta = 1e20, kGrowDelta = 8.0, kFirstG
 constexpr double kMinDelta = 1e-20, kDualDelta = 1e-8;
 constexpr double kProgress = 0.9999;  // of the optimality error over the last iterations
 constexpr int kHistory = 4;
+constexpr double kNearViolation = 1e-2, kLeastPart = 0.0625, kGrowPart = 4.0;  // of the blend of Hessians
+constexpr double kFirstDamping = 1e-2;
+constexpr int kManyTrials = 6;
 
 }  // namespace
 
@@ -62,6 +65,9 @@ void Barrier::start(Point& point) {
   filter_ = Filter(1e4 * std::max(1.0, theta(point)));
   theta_min_ = 1e-4 * std::max(1.0, theta(point));
   last_delta_ = 0.0;
+  part_ = 1.0 / kGrowPart;
+  damping_ = 0.0;
+  trials_ = 0;
 }
 
 Barrier::Errors Barrier::errors(const Point& point, double mu) {
@@ -90,9 +96,18 @@ Barrier::Errors Barrier::errors(const Point& point, double mu) {
 
 /// With the smallest of a ladder of multiples of the identity that leaves as many negative pivots as equalities.
 bool Barrier::factor(const Point& point) {
-  functions_.hessian(point, 1.0, lambda_, multipliers_of_slacks(), kkt_);
+  if (options_.kernel.blend_hessians) return factor_blend(point);
+  kkt_.set_hessian(functions_.hessian(point, 1.0, lambda_, multipliers_of_slacks()));
+  return factor_ladder();
+}
+
+void Barrier::set_weights() {
   weights_ = lower_dual_.array() / gap_lower_.array() + upper_dual_.array() / gap_upper_.array();
   kkt_.set_weights(weights_.tail(unknowns_.slack_count()), weights_.head(n()));
+}
+
+bool Barrier::factor_ladder() {
+  set_weights();
   const double start_s = functions_.deadline().now_s();
   delta_ = 0.0;
   double dual_delta = 0.0;
@@ -116,6 +131,34 @@ bool Barrier::factor(const Point& point) {
   if (good && delta_ > 0.0) last_delta_ = delta_;
   linear_solver_s_ += functions_.deadline().now_s() - start_s;
   return good;
+}
+
+/// The largest of a few parts of the way from the Gauss-Newton Hessian, which is positive semidefinite, to the exact
+/// one with which the inertia is right; the Gauss-Newton Hessian alone while rows are violated, where multipliers say
+/// little.
+bool Barrier::factor_blend(const Point& point) {
+  functions_.gauss_newton_hessian(point, gauss_newton_);
+  // A line search that ends with a tiny step says that the quadratic model holds nowhere near its minimum.
+  if (trials_ > kManyTrials)
+    damping_ = std::max(kFirstDamping, 10.0 * damping_);
+  else
+    damping_ = damping_ > kFirstDamping ? damping_ / 3.0 : 0.0;
+  const bool near = functions_.violation(point) <= kNearViolation;
+  part_ = near ? std::min(1.0, part_ == 0.0 ? kLeastPart : kGrowPart * part_) : 0.0;
+  if (near) exact_ = functions_.hessian(point, 1.0, lambda_, multipliers_of_slacks());
+  for (; part_ >= kLeastPart; part_ *= 0.5) {
+    blend_ = gauss_newton_ + part_ * (exact_ - gauss_newton_);
+    kkt_.set_hessian(blend_);
+    set_weights();
+    const double start_s = functions_.deadline().now_s();
+    const Kkt::Factor result = kkt_.factor(damping_, 0.0);
+    linear_solver_s_ += functions_.deadline().now_s() - start_s;
+    delta_ = damping_;
+    if (result == Kkt::Factor::good) return true;
+  }
+  part_ = 0.0;
+  kkt_.set_hessian(gauss_newton_);
+  return factor_ladder();
 }
 
 void Barrier::direction(const Point& point, double mu, const VectorXd& c, const VectorXd& slack_error, Step& step) {
@@ -226,6 +269,8 @@ Barrier::Ending Barrier::run(Point& point, int max_iterations) {
     log(point, now, step);
     if (now.largest() <= options_.tolerance && functions_.violation(point) <= options_.constraint_tolerance)
       return {nlp::Outcome::converged, "converged"};
+    if (options_.kernel.feasible_is_enough && functions_.violation(point) <= options_.constraint_tolerance)
+      return {nlp::Outcome::converged, "a point within all constraints"};
     if (functions_.iterations() >= max_iterations) return {nlp::Outcome::iteration_limit, "reached max_iterations"};
     functions_.begin_iteration();
     if (!factor(point)) return {nlp::Outcome::numerical_failure, "the linear system of a step could not be solved"};

@@ -45,6 +45,9 @@ class Barrier {
   void start(Point& point);
   Errors errors(const Point& point, double mu);
   bool factor(const Point& point);
+  bool factor_blend(const Point& point);
+  bool factor_ladder();
+  void set_weights();
   void direction(const Point& point, double mu, const Eigen::VectorXd& c, const Eigen::VectorXd& slack_error,
                  Step& step);
   double max_step(const Eigen::VectorXd& t, const Eigen::VectorXd& d, double tau) const;
@@ -70,6 +73,9 @@ class Barrier {
   Eigen::VectorXd gap_lower_, gap_upper_;  ///< distances to the bounds, infinite where there is none
   Eigen::VectorXd right_a_, right_b_, weights_, barrier_gradient_, slack_error_, slack_work_, dual_;
   Point trial_;
+  Eigen::VectorXd gauss_newton_, exact_, blend_;  ///< Hessians
+  double part_ = 0.0;                             ///< of the exact Hessian in the blend
+  double damping_ = 0.0;                          ///< of the blend, after steps cut short
   double mu_ = 0.1, delta_ = 0.0, last_delta_ = 0.0;
   double theta_now_ = 0.0, phi_now_ = 0.0, slope_ = 0.0, theta_min_ = 0.0;
   bool fixed_mu_ = false;  ///< monotone: the barrier falls when its problem is solved

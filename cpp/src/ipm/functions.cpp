@@ -21,6 +21,11 @@ Functions::Functions(const nlp::Problem& problem, const Unknowns& unknowns, cons
   hessian_.resize(static_cast<int>(problem.hessian_structure().size()));
   multipliers_ = VectorXd::Zero(problem.row_count());
   left_s_ = deadline.remaining_s();
+  if (!options.kernel.distant_start) return;
+  entry_scale_ = VectorXd::Ones(jacobian_.size());
+  for (int i = 0; i < jacobian_.size(); ++i)
+    if (const int slack = unknowns.slack_of[problem.jacobian_structure()[i].row]; slack >= 0)
+      entry_scale_[i] = unknowns.scale[slack];
 }
 
 void Functions::begin_iteration() {
@@ -61,7 +66,8 @@ void Functions::evaluate(Point& point) {
   });
   for (int i = 0; i < unknowns_.equality_count(); ++i)
     point.equalities[i] = rows_[unknowns_.equalities[i]] - unknowns_.right_side[i];
-  for (int i = 0; i < unknowns_.slack_count(); ++i) point.inequalities[i] = rows_[unknowns_.inequalities[i]];
+  for (int i = 0; i < unknowns_.slack_count(); ++i)
+    point.inequalities[i] = unknowns_.scale[i] * rows_[unknowns_.inequalities[i]];
   const double violated = violation(point), enough = options_.constraint_tolerance;
   const bool better =
       violated <= enough ? best_violation_ > enough || point.cost < best_cost_ : violated < best_violation_;
@@ -77,7 +83,8 @@ double Functions::violation(const Point& point) const {
   for (int i = 0; i < n; ++i) worst = std::max(worst, outside(point.t[i], unknowns_.lower[i], unknowns_.upper[i]));
   for (int i = 0; i < unknowns_.equality_count(); ++i) worst = std::max(worst, std::abs(point.equalities[i]));
   for (int i = 0; i < unknowns_.slack_count(); ++i)
-    worst = std::max(worst, outside(point.inequalities[i], unknowns_.lower[n + i], unknowns_.upper[n + i]));
+    worst = std::max(
+        worst, outside(point.inequalities[i], unknowns_.lower[n + i], unknowns_.upper[n + i]) / unknowns_.scale[i]);
   return worst;
 }
 
@@ -88,18 +95,28 @@ void Functions::derivatives(const Point& point, VectorXd& gradient, Kkt& kkt) {
     return gradient_.allFinite() && jacobian_.allFinite();
   });
   for (int i = 0; i < unknowns_.free_count(); ++i) gradient[i] = gradient_[unknowns_.free[i]];
+  if (entry_scale_.size() > 0) jacobian_.array() *= entry_scale_.array();
   kkt.set_jacobian(jacobian_);
 }
 
-void Functions::hessian(const Point& point, double cost_factor, const VectorXd& equalities,
-                        const VectorXd& inequalities, Kkt& kkt) {
+void Functions::gauss_newton_hessian(const Point& point, VectorXd& values) {
+  values.resize(hessian_.size());
+  clocked(point.x, [&] {
+    problem_.gauss_newton_hessian(point.x, values);
+    return values.allFinite();
+  });
+}
+
+const VectorXd& Functions::hessian(const Point& point, double cost_factor, const VectorXd& equalities,
+                                   const VectorXd& inequalities) {
   for (int i = 0; i < unknowns_.equality_count(); ++i) multipliers_[unknowns_.equalities[i]] = equalities[i];
-  for (int i = 0; i < unknowns_.slack_count(); ++i) multipliers_[unknowns_.inequalities[i]] = inequalities[i];
+  for (int i = 0; i < unknowns_.slack_count(); ++i)
+    multipliers_[unknowns_.inequalities[i]] = unknowns_.scale[i] * inequalities[i];
   clocked(point.x, [&] {
     problem_.hessian(point.x, cost_factor, multipliers_, hessian_);
     return hessian_.allFinite();
   });
-  kkt.set_hessian(hessian_);
+  return hessian_;
 }
 
 }  // namespace mcplan::ipm

@@ -42,15 +42,15 @@ class Functions {
   /// Gradient of the cost, in the free variables; the Jacobian goes to the system.
   void derivatives(const Point& point, Eigen::VectorXd& gradient, Kkt& kkt);
 
-  /// Hessian of cost_factor * cost + equalities' + inequalities' multipliers, to the system.
-  void hessian(const Point& point, double cost_factor, const Eigen::VectorXd& equalities,
-               const Eigen::VectorXd& inequalities, Kkt& kkt);
+  /// Hessian of cost_factor * cost + equalities' + inequalities' multipliers; valid until the next call.
+  const Eigen::VectorXd& hessian(const Point& point, double cost_factor, const Eigen::VectorXd& equalities,
+                                 const Eigen::VectorXd& inequalities);
+  void gauss_newton_hessian(const Point& point, Eigen::VectorXd& values);  ///< of the cost
 
   /// Largest violation of rows and bounds, slacks aside.
   double violation(const Point& point) const;
 
   const Eigen::VectorXd& best_x() const { return best_x_; }
-  bool best_is_feasible() const { return best_violation_ <= options_.constraint_tolerance; }
   double evaluation_s() const { return evaluation_s_; }
   int iterations() const { return iterations_; }  ///< begun, of phase one and of the barrier method
   const Deadline& deadline() const { return deadline_; }
@@ -68,6 +68,7 @@ class Functions {
   const nlp::SolverOptions& options_;
   const Deadline& deadline_;
   Eigen::VectorXd rows_, gradient_, jacobian_, hessian_, multipliers_;
+  Eigen::VectorXd entry_scale_;  ///< of the Jacobian's entries; empty: rows are not scaled
   Eigen::VectorXd best_x_;
   double best_violation_ = nlp::kInfinity, best_cost_ = nlp::kInfinity;
   double evaluation_s_ = 0.0, reserved_s_ = 0.0, left_s_ = 0.0, longest_s_ = 0.0;

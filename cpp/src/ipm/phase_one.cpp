@@ -56,7 +56,7 @@ bool PhaseOne::run(const Unknowns& unknowns, Functions& functions, Kkt& kkt, Poi
     functions.begin_iteration();
     if (moved) {
       functions.derivatives(point, gradient, kkt);
-      functions.hessian(point, 0.0, no_equalities, no_rows, kkt);
+      kkt.set_hessian(functions.hessian(point, 0.0, no_equalities, no_rows));
     }
     kkt.set_weights(ones_where_not_zero(now.rows), ones_where_not_zero(now.bounds));
     if (kkt.factor(lambda, 1.0) == Kkt::Factor::singular) break;

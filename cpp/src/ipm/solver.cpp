@@ -32,7 +32,7 @@ VectorXd multipliers_of(const nlp::Problem& problem, const Unknowns& unknowns, c
   VectorXd out = VectorXd::Zero(problem.row_count());
   const VectorXd slacks = barrier.inequality_multipliers();
   for (int i = 0; i < unknowns.equality_count(); ++i) out[unknowns.equalities[i]] = barrier.equality_multipliers()[i];
-  for (int i = 0; i < unknowns.slack_count(); ++i) out[unknowns.inequalities[i]] = slacks[i];
+  for (int i = 0; i < unknowns.slack_count(); ++i) out[unknowns.inequalities[i]] = unknowns.scale[i] * slacks[i];
   return out;
 }
 
@@ -54,18 +54,19 @@ bool decided(const nlp::Problem& problem, const VectorXd& x, double constraint_t
 /// Where the barrier method fails from a start, it begins again from the same start after a phase one: what a failed
 /// attempt leaves behind is no better a place to go on from.
 constexpr PhaseOne kAttempts[] = {{10.0, 0}, {10.0, 8}, {1.0, 50}};
+constexpr PhaseOne kAttemptsFromAfar[] = {{10.0, 50, 2.0}, {100.0, 50, 2.0}, {1.0, 50, 2.0}};
 constexpr int kMaxProof = 300;  // steps towards a point of least violation, where all attempts have failed
 
 void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOptions& options, const Deadline& deadline,
          nlp::Solution& out) {
-  const Unknowns unknowns(problem);
+  const Unknowns unknowns(problem, options.kernel.distant_start);
   Functions functions(problem, unknowns, options, deadline);
   Kkt kkt(problem, unknowns);
   Barrier barrier(unknowns, options, functions, kkt);
   Point point;
   out.start_s = deadline.elapsed_s();
   try {
-    for (const PhaseOne& phase_one : kAttempts) {
+    for (const PhaseOne& phase_one : options.kernel.distant_start ? kAttemptsFromAfar : kAttempts) {
       point = point_at(unknowns, x);
       phase_one.run(unknowns, functions, kkt, point);
       const Barrier::Ending ending = barrier.run(point, options.max_iterations);

@@ -1,10 +1,16 @@
 #include "ipm/unknowns.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mcplan::ipm {
+namespace {
 
-Unknowns::Unknowns(const nlp::Problem& problem) {
+constexpr double kMaxScale = 20.0;
+
+}  // namespace
+
+Unknowns::Unknowns(const nlp::Problem& problem, bool scaled) {
   const int variables = problem.variable_count(), rows = problem.row_count();
   index_of.assign(variables, -1);
   equality_of.assign(rows, -1);
@@ -32,9 +38,12 @@ Unknowns::Unknowns(const nlp::Problem& problem) {
     lower[i] = problem.variable_lower()[free[i]];
     upper[i] = problem.variable_upper()[free[i]];
   }
+  scale = Eigen::VectorXd::Ones(slack_count());
   for (int i = 0; i < slack_count(); ++i) {
-    lower[free_count() + i] = problem.row_lower()[inequalities[i]];
-    upper[free_count() + i] = problem.row_upper()[inequalities[i]];
+    const double low = problem.row_lower()[inequalities[i]], high = problem.row_upper()[inequalities[i]];
+    if (scaled && std::isfinite(high - low)) scale[i] = std::min(2.0 / (high - low), kMaxScale);
+    lower[free_count() + i] = scale[i] * low;
+    upper[free_count() + i] = scale[i] * high;
   }
 }
 

@@ -10,7 +10,8 @@ namespace mcplan::ipm {
 /// What a problem leaves to solve for. Variables whose bounds are equal are constants and no unknowns; rows whose
 /// limits are equal are equalities, the others inequalities with a slack each, and rows without limits are left out.
 struct Unknowns {
-  explicit Unknowns(const nlp::Problem& problem);
+  /// scaled: rows with two limits are multiplied by 2 / (upper - lower), at most by 20.
+  Unknowns(const nlp::Problem& problem, bool scaled);
 
   std::vector<int> free;          ///< the problem's variables that are unknowns
   std::vector<int> equalities;    ///< the problem's rows
@@ -19,7 +20,8 @@ struct Unknowns {
   std::vector<int> equality_of;   ///< of a row among equalities, or -1
   std::vector<int> slack_of;      ///< of a row among inequalities, or -1
   Eigen::VectorXd right_side;     ///< of the equalities
-  Eigen::VectorXd lower, upper;   ///< of the free variables, then of the slacks
+  Eigen::VectorXd scale;          ///< of each inequality: its row is multiplied by it
+  Eigen::VectorXd lower, upper;   ///< of the free variables, then of the slacks, which are scaled
 
   int free_count() const { return static_cast<int>(free.size()); }
   int equality_count() const { return static_cast<int>(equalities.size()); }

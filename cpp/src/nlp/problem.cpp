@@ -233,6 +233,19 @@ void Problem::hessian(const ConstVector& x, double cost_factor, const ConstVecto
   }
 }
 
+void Problem::gauss_newton_hessian(const ConstVector& x, Vector values) const {
+  values.setZero();
+  for (const Block& block : blocks_) {
+    const int n = block.piece->size(), m = block.piece->rows();
+    if (block.hessian_at.empty() || !block.is_cost()) continue;
+    weights_.head(m).setOnes();
+    auto H = zeroed(n, n, block.hessian_from);
+    block.piece->gauss_newton_hessian(gather(block, x), weights_.head(m), H);
+    for (std::size_t i = 0; i < block.hessian_at.size(); ++i)
+      values[block.hessian_at[i]] += H.data()[block.hessian_from[i]];
+  }
+}
+
 Problem::Worst Problem::worst_violation(const ConstVector& x) const {
   Worst worst;
   for (int i = 0; i < variable_count(); ++i) {

@@ -5,6 +5,8 @@ Whole-body semi-infinite planning of planar robots.
 from __future__ import annotations
 import collections.abc
 import mcplan._core
+import mcplan._core.nlp
+from mcplan._core.nlp import Solver
 import numpy
 import numpy.typing
 import typing
@@ -21,6 +23,7 @@ __all__: list[str] = [
     "Proof",
     "ProvedConstraint",
     "Result",
+    "Solver",
     "TaylorModel",
     "certify",
 ]
@@ -440,6 +443,7 @@ class Options:
         log_weight_max: typing.SupportsFloat | typing.SupportsIndex = 5.0,
         kinematics_first: bool = True,
         feasible_first: bool = True,
+        solver: mcplan._core.nlp.Solver = ...,
         hessian: HessianChoice = ...,
         tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.0001,
         constraint_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-05,
@@ -626,6 +630,13 @@ class Options:
     @self_collision.setter
     def self_collision(self, arg0: bool) -> None: ...
     @property
+    def solver(self) -> mcplan._core.nlp.Solver:
+        """
+        Solver of the nonlinear programs.
+        """
+    @solver.setter
+    def solver(self, arg0: mcplan._core.nlp.Solver) -> None: ...
+    @property
     def time_limit_s(self) -> float:
         """
         [s] Wall clock of the whole solve.
@@ -721,6 +732,11 @@ class Result:
         """
     @report.setter
     def report(self, arg1: mcplan._core.Report) -> None: ...
+    @property
+    def solver(self) -> mcplan._core.nlp.Solver:
+        """
+        That found the motion: ipopt or ipm.
+        """
 
 class Planner:
     """

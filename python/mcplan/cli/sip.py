@@ -62,6 +62,7 @@ SelfCollisionOption = Annotated[bool, typer.Option("--self-collision", help="Con
 WarmStartOption = Annotated[
     Path | None, typer.Option("--warm-start", metavar="PLAN", help="Plan to start the search from (.npz, .json).")
 ]
+SolverOption = Annotated[str, typer.Option("--solver", metavar="S", help="Solver of the programs: ipopt, ipm or auto.")]
 HessianOption = Annotated[
     str,
     typer.Option(
@@ -99,7 +100,7 @@ QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print no progr
 
 @named_as_typed(
     *("forces", "minimise", "contact", "order", "neq", "free_flyer", "free_durations", "continuous", "self_collision"),
-    *("warm_start", "hessian", "max_iterations", "certify"),
+    *("warm_start", "solver", "hessian", "max_iterations", "certify"),
     dynamics="--kinematics",
     tube_m="--tube",
     tube_rad="--tube",
@@ -120,6 +121,7 @@ def sip(
     kinematics: KinematicsOption = False,
     self_collision: SelfCollisionOption = False,
     warm_start: WarmStartOption = None,
+    solver: SolverOption = "ipopt",
     hessian: HessianOption = "automatic",
     max_iterations: MaxIterationsOption = None,
     certify: CertifyOption = False,
@@ -151,7 +153,7 @@ def sip(
     given = {"forces": forces, "contact": contact, "tube_m": tube, "tube_rad": None if tube is None else 5.0 * tube}
     given |= {"order": order, "neq": neq, "free_flyer": free_flyer, "free_durations": free_durations}
     given |= {"continuous": continuous, "dynamics": not kinematics, "self_collision": self_collision}
-    given |= {"hessian": hessian, "max_iterations": max_iterations, "time_limit": time_limit}
+    given |= {"solver": solver, "hessian": hessian, "max_iterations": max_iterations, "time_limit": time_limit}
     model, options = _asked(task, trackable, minimise, given)
     if certify:
         planning.require_provable(options)
@@ -215,6 +217,7 @@ def summary(result: engine.Result) -> dict[str, Any]:
         "robot": plan.task.robot.name,
         "status": str(report.status),
         "message": report.message,
+        "solver": result.solver.name,
         "iterations": report.iterations,
         "time_s": report.time_s,
         "evaluation_s": report.timing_s.get("evaluation", 0.0),

@@ -67,6 +67,7 @@ class Problem {
 
   /// cost_factor * Hessian of the cost + sum_i multipliers_i * Hessian of row i, in the order of hessian_structure().
   void hessian(const ConstVector& x, double cost_factor, const ConstVector& multipliers, Vector values) const;
+  void gauss_newton_hessian(const ConstVector& x, Vector values) const;  ///< of the cost
 
   /// Largest violation of a bound or a row.
   struct Worst {

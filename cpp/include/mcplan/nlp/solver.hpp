@@ -34,6 +34,16 @@ struct SolverOptions {
   Hessian hessian = Hessian::exact;
   double initial_barrier = 0.1;
   bool adaptive_barrier = false;
+  /// What the kernel alone looks at.
+  struct Kernel {
+    /// For starts far from all that holds: the kernel goes towards a point without violations before its barrier
+    /// method, not only where that fails, and scales rows by the widths of their limits.
+    bool distant_start = false;
+    bool feasible_is_enough = false;  ///< a solve ends at the first iterate within constraint_tolerance
+    /// Second derivatives are those of Piece::gauss_newton_hessian() while rows are violated, and then as much of the
+    /// difference to the exact ones as leaves the system's inertia as it should be.
+    bool blend_hessians = false;
+  } kernel;
   bool gradient_scaling = true;  ///< Ipopt scales costs and rows by their gradients at x0; off for well-scaled problems
   Logger logger;                 ///< one line an iteration; null: silent
   StopRequest stop;              ///< polled once an iteration; null: never

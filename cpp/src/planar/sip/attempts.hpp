@@ -13,12 +13,26 @@ struct Attempt {
   bool adaptive_barrier;
   double initial_barrier;
   int max_iterations;
+  nlp::Solver solver = nlp::Solver::ipopt;
+  nlp::SolverOptions::Kernel kernel{};
 };
 
-/// All ways to try, in turn. Without a cost second derivatives say little: L-BFGS, the weak pull's own Hessian, and the
-/// exact one each solve what the others do not. With one the exact Hessian converges in some tens of iterations where
+/// The kernel's ways. For a point within the constraints second derivatives say nothing. Where it is all that is asked
+/// for, the barrier begins small: a large one draws durations to the middle of their range, where phases are long and
+/// polynomials coarse. With a cost, the exact Hessian is blended with that of Gauss and Newton (docs/theory/ipm.md).
+inline std::vector<Attempt> kernel_attempts_for(const Options& options, bool cost) {
+  const int max = options.max_iterations;
+  const double barrier = options.has_cost() ? 0.1 : 0.01;
+  if (!cost) return {{HessianChoice::gauss_newton, true, barrier, max, nlp::Solver::ipm, {true, true, false}}};
+  const bool blend = options.hessian == HessianChoice::automatic;
+  const HessianChoice hessian = blend ? HessianChoice::exact : options.hessian;
+  return {{hessian, false, 2e-3, max, nlp::Solver::ipm, {false, false, blend}}};
+}
+
+/// Ipopt's, in turn. Without a cost second derivatives say little: L-BFGS, the weak pull's own Hessian, and the exact
+/// one each solve what the others do not. With one the exact Hessian converges in some tens of iterations where
 /// Gauss-Newton, which leaves out the constraints' curvature, needs hundreds (docs/theory/sip.md).
-inline std::vector<Attempt> attempts_for(const Options& options, bool cost) {
+inline std::vector<Attempt> ipopt_attempts_for(const Options& options, bool cost) {
   const int max = options.max_iterations, some = std::min(max, 200);
   if (options.hessian != HessianChoice::automatic) return {{options.hessian, !cost, cost ? 0.01 : 0.1, max}};
   if (cost)
@@ -28,6 +42,16 @@ inline std::vector<Attempt> attempts_for(const Options& options, bool cost) {
   return {{HessianChoice::limited_memory, true, 0.1, some},
           {HessianChoice::gauss_newton, true, 0.1, some},
           {HessianChoice::exact, true, 0.1, max}};
+}
+
+/// All ways to try, in turn.
+inline std::vector<Attempt> attempts_for(const Options& options, bool cost) {
+  if (options.solver == nlp::Solver::ipopt) return ipopt_attempts_for(options, cost);
+  std::vector<Attempt> out = kernel_attempts_for(options, cost);
+  if (options.solver == nlp::Solver::ipm) return out;
+  const std::vector<Attempt> more = ipopt_attempts_for(options, cost);
+  out.insert(out.end(), more.begin(), more.end());
+  return out;
 }
 
 }  // namespace mcplan::sip

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ipm/names.hpp"
 #include "mcplan/planar/sip/options.hpp"
 #include "model/fields.hpp"
 
@@ -98,6 +99,7 @@ struct Fields<sip::Options> {
             "With dynamics: find contacts and joints within limits first, forces from there."),
       field("feasible_first", &Options::feasible_first, "",
             "With a cost: solve without it first, and start from that."),
+      field("solver", &Options::solver, "", "Solver of the nonlinear programs."),
       field("hessian", &Options::hessian, "", "Where second derivatives come from."),
       field("tolerance", &Options::tolerance, "", "Optimality tolerance of the solver.").positive(),
       field("constraint_tolerance", &Options::constraint_tolerance, "", "Tolerance of the solver on constraints.")

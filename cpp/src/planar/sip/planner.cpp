@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mcplan/base/deadline.hpp"
+#include "mcplan/ipm/solver.hpp"
 #include "mcplan/nlp/solver.hpp"
 #include "mcplan/version.hpp"
 #include "planar/sip/attempts.hpp"
@@ -189,12 +190,13 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
     how.hessian = second ? nlp::Hessian::exact : nlp::Hessian::limited_memory;
     how.initial_barrier = close ? kCloseBarrier : attempt.initial_barrier;
     how.adaptive_barrier = attempt.adaptive_barrier;
+    how.kernel = attempt.kernel;
     how.gradient_scaling = false;
     how.logger = with.logger;
     how.stop = with.stop;
     how.clock = with.clock;
     if (deadline.limited()) how.finishing_s = [&](const Eigen::VectorXd& at) { return finishing_s(with, at); };
-    nlp::Solution solution = nlp::solve(program.problem(), x, how);
+    nlp::Solution solution = ipm::solve(attempt.solver, program.problem(), x, how);
     took.derivative_s = std::max(took.derivative_s, solution.start_s / std::max(derivatives, 1.0));
     report.iterations += solution.iterations;
     report.timing_s["evaluation"] += solution.evaluation_s;
@@ -321,6 +323,7 @@ Result Planner::Impl::solve(const Eigen::VectorXd& start) {
   report.cost_terms["duration"] = measure.duration(x);
   if (options.dynamics) report.cost_terms["torque"] = measure.torque_cost(x);
   if (options.jerk_weight > 0.0) report.cost_terms["jerk"] = measure.jerk_cost(x);
+  result.solver = solution.solver;
   result.parameters = layout.parameters;
   result.constraints = rows;
   judge(result, solution);

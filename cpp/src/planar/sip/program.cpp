@@ -40,6 +40,9 @@ class IntervalCost : public nlp::Piece {
   void hessian(const ConstVector& x, const ConstVector& weights, Matrix H) const override {
     model_.add_cost_hessian(x, scale_ * weights[0], curvature_ == Curvature::exact, H);
   }
+  void gauss_newton_hessian(const ConstVector& x, const ConstVector& weights, Matrix H) const override {
+    model_.add_cost_hessian(x, scale_ * weights[0], false, H);
+  }
 
  private:
   IntervalModel& model_;

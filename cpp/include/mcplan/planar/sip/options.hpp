@@ -5,6 +5,7 @@
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/base/logging.hpp"
 #include "mcplan/base/range.hpp"
+#include "mcplan/nlp/solver.hpp"
 
 namespace mcplan::sip {
 
@@ -77,6 +78,7 @@ struct Options {
 
   bool kinematics_first = true;  ///< with dynamics: find contacts and joints within limits first, forces from there
   bool feasible_first = true;    ///< with a cost: solve without it first, and start from that
+  nlp::Solver solver = nlp::Solver::ipopt;
   HessianChoice hessian = HessianChoice::automatic;
   double tolerance = 1e-4, constraint_tolerance = 1e-5;           ///< of the solver
   int max_iterations = 1000;                                      ///< of each of its runs

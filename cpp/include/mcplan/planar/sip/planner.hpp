@@ -13,8 +13,9 @@ namespace mcplan::sip {
 struct Result {
   PlanarPlan plan;
   Report report;  ///< time_s is split in timing_s: "evaluation", "linear_solver", "check", ...; cost_terms by name
-  int parameters = 0, constraints = 0;    ///< size of the program
-  double drift_m = 0.0, drift_rad = 0.0;  ///< largest, at 1 kHz, from exact kinematics
+  nlp::Solver solver = nlp::Solver::ipopt;  ///< that found it: ipopt or ipm
+  int parameters = 0, constraints = 0;      ///< size of the program
+  double drift_m = 0.0, drift_rad = 0.0;    ///< largest, at 1 kHz, from exact kinematics
 };
 
 /// Whole-body planning of a planar robot through a sequence of contact stances by semi-infinite programming (Lengagne
