@@ -38,12 +38,16 @@ def test_a_step_of_the_contact(before, planned, in_contact, fraction, after, lan
 
 def test_a_foot_that_finds_no_ground_is_lowered_so_far_and_no_farther():
     contact, dt = Contact(), 0.002
-    depths = []
+    depths, speeds = [], []
     for _ in range(500):
         contact.update(True, False, 1.0, dt)
         depths.append(contact.search_depth_m)
+        speeds.append(contact.search_speed)
     expected = np.minimum(SEARCH_SPEED * dt * np.arange(1, 501), SEARCH_DEPTH)
     np.testing.assert_allclose(depths, expected, atol=1e-12)
+    moving = np.diff(depths) > 0.9 * SEARCH_SPEED * dt
+    np.testing.assert_allclose(np.diff(depths)[moving], np.array(speeds[:-1])[moving] * dt, atol=1e-12)
+    assert set(np.array(speeds[1:])[~moving]) == {0.0}
     assert contact.update(True, True, 1.0, dt) and contact.search_depth_m == 0.0
     # The next time it begins anew.
     contact.update(False, False, 0.0, dt)

@@ -71,3 +71,8 @@ class Contact:
     def search_depth_m(self) -> float:
         """Depth below its planned place at which the ground is searched."""
         return min(SEARCH_SPEED * self.searched_s, SEARCH_DEPTH)
+
+    @property
+    def search_speed(self) -> float:
+        """Speed at which that depth grows [m/s]."""
+        return SEARCH_SPEED if SEARCH_SPEED * self.searched_s < SEARCH_DEPTH else 0.0
