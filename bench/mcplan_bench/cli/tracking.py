@@ -83,7 +83,7 @@ def tracking(
     limits on. Walks: no fall, CoM within 15 mm rms, base within 50 mm at the end, every QP solved, no warning of the
     simulator. Planar robots: contact forces within 10 % rms of the plan, drift of 10 mm. Disturbed: 18 of 20 stay up.
     Speed: 1 ms for a control step, 1.5 times real time. Exit code 1 unless all holds, as it does not without --case:
-    unassisted, the jump over short_gap falls, and of 20 disturbed runs of rubbles 3.
+    unassisted, the jump over short_gap falls.
 
     Example: mcplan bench tracking --short
 

@@ -94,7 +94,6 @@ Barrier::Errors Barrier::errors(const Point& point, double mu) {
   return out;
 }
 
-/// With the smallest of a ladder of multiples of the identity that leaves as many negative pivots as equalities.
 bool Barrier::factor(const Point& point) {
   if (options_.kernel.blend_hessians) return factor_blend(point);
   kkt_.set_hessian(functions_.hessian(point, 1.0, lambda_, multipliers_of_slacks()));
@@ -106,6 +105,7 @@ void Barrier::set_weights() {
   kkt_.set_weights(weights_.tail(unknowns_.slack_count()), weights_.head(n()));
 }
 
+/// With the smallest of a ladder of multiples of the identity that leaves as many negative pivots as equalities.
 bool Barrier::factor_ladder() {
   set_weights();
   const double start_s = functions_.deadline().now_s();

@@ -261,15 +261,15 @@ class Controller:
                 desired = _follow(gains.contact_kp, error, -motion.velocity_W, 0.0)
                 weight = gains.contact_weight if self.flat[i] else gains.hand_weight
             elif contact.mode is Mode.SEARCH or ref.returns[n, i]:
-                target, speed_W = ref.end_effectors_W[n, i], ref.end_effector_velocities_W[n, i]
+                target_W, velocity_W = ref.end_effectors_W[n, i], ref.end_effector_velocities_W[n, i]
                 if contact.mode is Mode.SEARCH:
                     normal = self.normals[self._surface(n, i)]
-                    target = target - contact.search_depth_m * normal
-                    speed_W = speed_W - contact.search_speed * normal
+                    target_W = target_W - contact.search_depth_m * normal
+                    velocity_W = velocity_W - contact.search_speed * normal
                 error = np.concatenate(
-                    [target - motion.position_W, rotation_vector(ref.soles_W[n, i] @ motion.rotation_W.T)]
+                    [target_W - motion.position_W, rotation_vector(ref.soles_W[n, i] @ motion.rotation_W.T)]
                 )
-                rate = np.concatenate([speed_W, ref.sole_velocities_W[n, i]]) - motion.velocity_W
+                rate = np.concatenate([velocity_W, ref.sole_velocities_W[n, i]]) - motion.velocity_W
                 feed = np.concatenate([ref.end_effector_accelerations_W[n, i], np.zeros(3)])
                 desired = _follow(gains.swing_kp, error, rate, feed)
                 weight = gains.swing_weight

@@ -37,8 +37,8 @@ class Piece {
   /// sum_i weights_i d2f_i/dx2, size x size, likewise; only the lower triangle of H is read.
   virtual void hessian(const ConstVector& x, const ConstVector& weights, Matrix H) const = 0;
 
-  /// The same without what may make it indefinite, such as the curvature of residuals whose squares are summed: with
-  /// weights of zero for constraints, a positive semidefinite matrix. Its entries are among those of hessian().
+  /// The same of a cost, without what may make it indefinite, such as the curvature of residuals whose squares are
+  /// summed. Its entries are among those of hessian(), which it is unless a piece says otherwise.
   virtual void gauss_newton_hessian(const ConstVector& x, const ConstVector& weights, Matrix H) const {
     hessian(x, weights, H);
   }
