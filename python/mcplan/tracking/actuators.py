@@ -54,8 +54,8 @@ class TorqueSpeed:
     def bounds(self, velocities: Array) -> tuple[Array, Array]:
         """Smallest and largest torque (nj,) at speeds (nj,) [rad/s]; the former is never above the latter."""
         fast = np.asarray(velocities, float) / self.velocity_limits
-        low = np.clip((1.0 + fast) / (1.0 - KNEE), -1.0, 1.0)
-        high = np.clip((1.0 - fast) / (1.0 - KNEE), -1.0, 1.0)
+        low = np.maximum(np.minimum((1.0 + fast) / (1.0 - KNEE), 1.0), -1.0)  # np.clip takes three times as long
+        high = np.maximum(np.minimum((1.0 - fast) / (1.0 - KNEE), 1.0), -1.0)
         return -self.torque_limits * low, self.torque_limits * high
 
 

@@ -58,11 +58,13 @@ class ForcePoints:
 
     def map(self, rotation_W: Array) -> Array:
         """(6, 3 p): wrench at the contact point, world axes, of the forces at the points: sum f_i, sum r_i x f_i."""
-        result = np.zeros((6, 3 * self.count))
-        for i, r in enumerate(self.offsets @ rotation_W.T):
-            result[:3, 3 * i : 3 * i + 3] = np.eye(3)
-            result[3:, 3 * i : 3 * i + 3] = [[0, -r[2], r[1]], [r[2], 0, -r[0]], [-r[1], r[0], 0]]
-        return result
+        x, y, z = (self.offsets @ rotation_W.T).T
+        result = np.zeros((6, self.count, 3))
+        result[0, :, 0] = result[1, :, 1] = result[2, :, 2] = 1.0
+        result[3, :, 1], result[3, :, 2] = -z, y
+        result[4, :, 0], result[4, :, 2] = z, -x
+        result[5, :, 0], result[5, :, 1] = -y, x
+        return result.reshape(6, -1)
 
     def distribute(self, force_W: Array, pressure_F: Array) -> Array:
         """(3 p,) forces at the points that add up to a force (3,) [N] acting at (2,) in the contact frame [m]."""

@@ -212,19 +212,20 @@ class Controller:
         """Rows of what holds but for the slack, and their bounds: positions and speeds of joints, links kept apart."""
         nj, nv = self.nv - 6, self.nv
         low, high = self._joint_bounds()
-        limits = np.zeros((2 * nj, size))
-        limits[:nj, 6:nv] = limits[nj:, 6:nv] = np.eye(nj)
-        limits[:nj, -1], limits[nj:, -1] = 1.0, -1.0
         far = np.full(nj, np.inf)
-        if self.separation is None:
-            return limits, np.concatenate([low, -far]), np.concatenate([far, high])
-        rows, least = self.separation.rows(self.dynamics)
-        apart = np.zeros((len(rows), size))
-        apart[:, :nv], apart[:, -1] = rows, 1.0
+        apart, least = np.zeros((0, nv)), np.zeros(0)
+        if self.separation is not None:
+            apart, least = self.separation.rows(self.dynamics)
+        limits = np.zeros((2 * nj + len(apart), size))
+        joints = np.arange(nj)
+        limits[joints, 6 + joints] = limits[nj + joints, 6 + joints] = 1.0
+        limits[2 * nj :, :nv] = apart
+        limits[:, -1] = 1.0
+        limits[nj : 2 * nj, -1] = -1.0
         return (
-            np.vstack([limits, apart]),
+            limits,
             np.concatenate([low, -far, least]),
-            np.concatenate([far, high, np.full(len(rows), np.inf)]),
+            np.concatenate([far, high, np.full(len(apart), np.inf)]),
         )
 
     def _tasks(self, n: int, motions: list[EndEffectorMotion]) -> tuple[Array, Array]:

@@ -30,6 +30,12 @@ class RobotDynamics:
         self._data: Any = self.model.createData()
         self.base_drift = np.zeros(3)
         self.mass = float(pin.computeTotalMass(self.model))
+        # Which velocities move a joint's link: its own and those of the joints before it.
+        self._carried = np.zeros((self.model.njoints, self.model.nv))
+        for joint, before in enumerate(self.model.supports):
+            for mover in list(before)[1:]:
+                at = self.model.idx_vs[mover]
+                self._carried[joint, at : at + self.model.nvs[mover]] = 1.0
 
     def update(self, configuration: Array, velocity: Array) -> None:
         """Move to a state, given as Pinocchio has it."""
@@ -61,24 +67,19 @@ class RobotDynamics:
         """(3,) contact point of an end-effector [m]."""
         return np.asarray(self._data.oMf[self.urdf_model.frames[index]].translation)
 
-    def point_jacobian(self, joint: int, point_W: Array) -> Array:
-        """(3, nv) velocity, world's axes, of a point [m] that is fixed to the link of a joint."""
-        pin, axes = self._pin, self._pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
-        jacobian = pin.getJointJacobian(self.model, self._data, joint, axes)
-        x, y, z = point_W - self._data.oMi[joint].translation
-        return np.asarray(jacobian[:3] + np.array([[0, z, -y], [-z, 0, x], [y, -x, 0]]) @ jacobian[3:])
+    def distance_rows(self, joints: NDArray[np.int64], points_W: Array, normals_W: Array) -> Array:
+        """Rates of distances per velocity, (n, nv): n (J_2 - J_1) for points that are fixed to the links of two joints.
 
-    def point_velocities(self, joints: NDArray[np.int64], points_W: Array) -> Array:
-        """(n, 3) velocities, world's axes, of points (n, 3) [m] that are fixed to the links of joints (n,) [m/s]."""
-        pin, axes = self._pin, self._pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
-        distinct, number = np.unique(joints, return_inverse=True)
-        motions = np.zeros((len(distinct), 6))
-        origins = np.zeros((len(distinct), 3))
-        for k, joint in enumerate(distinct.tolist()):
-            motions[k] = pin.getVelocity(self.model, self._data, joint, axes).vector
-            origins[k] = self._data.oMi[joint].translation
-        moving = motions[number]
-        return np.asarray(moving[:, :3] + np.cross(moving[:, 3:], points_W - origins[number]))
+        Args:
+            joints: (n, 2) of each pair.
+            points_W: (n, 2, 3) [m].
+            normals_W: (n, 3) from the first point to the second one, of unit length.
+        """
+        # Columns of J are the motions, at the world's origin, of whatever a joint carries: all that lies beyond it.
+        columns = np.asarray(self._data.J)
+        linear, moments_W = normals_W @ columns[:3], np.cross(points_W, normals_W[:, None])
+        first, second = (linear + moments_W[:, end] @ columns[3:] for end in (0, 1))
+        return np.asarray(second * self._carried[joints[:, 1]] - first * self._carried[joints[:, 0]])
 
     def end_effector(self, index: int) -> EndEffectorMotion:
         """Motion of an end-effector's contact frame."""

@@ -66,18 +66,14 @@ class Separation:
         apart = points[:, 1] - points[:, 0]
         sizes = np.sqrt((apart * apart).sum(axis=1))
         normals = apart * (np.sign(distances) / np.maximum(sizes, 1e-9))[:, None]
-        joints = self._joints[pairs]
-        velocities = dynamics.point_velocities(joints.ravel(), points.reshape(-1, 3)).reshape(-1, 2, 3)
-        rates = (normals * (velocities[:, 1] - velocities[:, 0])).sum(axis=1)
-        wanted = -KP * (distances - self._margins[pairs]) - KD * rates
+        ways = dynamics.distance_rows(self._joints[pairs], points, normals)
+        wanted = -KP * (distances - self._margins[pairs]) - KD * (ways @ dynamics.velocity)
         wanted[sizes < 1e-9] = -np.inf
         # The nearest ones would not do: thighs are near to each other in every stance, and a hand that comes towards them
         # fast has to be braked before it is as near as they are.
-        for row, k in enumerate(np.argsort(-wanted)[:ROWS]):
-            if wanted[k] > -np.inf:
-                (first, second), (here, there) = joints[k].tolist(), points[k]
-                rows[row] = normals[k] @ (dynamics.point_jacobian(second, there) - dynamics.point_jacobian(first, here))
-                least[row] = min(wanted[k], LARGEST)
+        first = np.argsort(-wanted)[:ROWS]
+        first = first[wanted[first] > -np.inf]
+        rows[: len(first)], least[: len(first)] = ways[first], np.minimum(wanted[first], LARGEST)
         return rows, least
 
     def _near(self, dynamics: RobotDynamics) -> tuple[NDArray[np.int64], Array, Array]:
@@ -107,9 +103,9 @@ class Separation:
         """Take from each distance what its two shapes may have come nearer since the last time."""
         places = self._data.geom_xpos[self._geoms].copy(), self._data.geom_xmat[self._geoms].copy()
         if self._places is not None:
-            shift = np.linalg.norm(places[0] - self._places[0], axis=1)
-            turn = np.linalg.norm(places[1] - self._places[1], axis=1) * self._mj.geom_rbound[self._geoms]
-            self._moved[self._geoms] = shift + turn
+            shift, turn = (now - before for now, before in zip(places, self._places, strict=True))
+            turned = np.sqrt(np.einsum("ij,ij->i", turn, turn)) * self._mj.geom_rbound[self._geoms]
+            self._moved[self._geoms] = np.sqrt(np.einsum("ij,ij->i", shift, shift)) + turned
             self._distance -= self._moved[self._pairs].sum(axis=1)
         self._places = places
 
