@@ -147,7 +147,9 @@ TEST_CASE("wherever the limit falls, 50 ms of processor time do for what follows
   if (kSlowBuild) return;
   const std::pair<mcplan::Scene, int> cases[] = {
       {tiled(40.0, 0, 0), 288}, {tiled(4000.0, 0, 0), 288}, {tiled(3.0, 20, 50), 18}};
-  for (const auto& [scene, phases] : cases) {
+  for (const auto& entry : cases) {  // by names that a lambda may capture in C++17, which those of a binding are not
+    const mcplan::Scene& scene = entry.first;
+    const int phases = entry.second;
     const int looks = after_limit(scene, phases, -1, 0.3).looks;
     for (int part = 0; part < 12; ++part) {
       const int last = part < 4 ? part + 1 : part * (looks - 1) / 12;
