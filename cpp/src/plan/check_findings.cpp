@@ -63,23 +63,18 @@ double severity(double value, double tolerance) {
 Findings::Findings(const Tolerances& tolerances, const Similarity& similarity) {
   const auto table = rows(tolerances, similarity);
   for (int i = 0; i < kConstraints; ++i) {
-    worst_[i].unit = table[i].unit;
-    worst_[i].tolerance = table[i].tolerance;
+    worst_[i].unit = worst_[i].own_unit = table[i].unit;
+    worst_[i].tolerance = worst_[i].own_tolerance = table[i].tolerance;
   }
 }
 
-void Findings::offer(Constraint constraint, double value, const Place& place) {
-  const Worst& own = worst_[static_cast<int>(constraint)];
-  offer(constraint, value, place, own.tolerance, own.unit);
-}
-
-void Findings::offer(Constraint constraint, double value, const Place& place, double tolerance, const char* unit) {
+void Findings::compare(Constraint constraint, double value, const Place& place, double tolerance, const char* unit) {
   if (!std::isfinite(value)) value = std::numeric_limits<double>::max();
   Worst& worst = worst_[static_cast<int>(constraint)];
   const double measure = severity(value, tolerance);
   // Two infinite severities (tolerance 0) compare by value.
   if (worst.measured && (measure < worst.severity || (measure == worst.severity && value <= worst.value))) return;
-  worst = {value, tolerance, measure, unit, place, true};
+  worst = {value, tolerance, measure, unit, place, true, worst.own_tolerance, worst.own_unit};
 }
 
 std::vector<Violation> Findings::violations(int count, const Robot& robot) const {

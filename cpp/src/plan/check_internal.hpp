@@ -65,21 +65,32 @@ class Findings {
   Findings(const Tolerances& tolerances, const Similarity& similarity);
 
   /// Keep this measurement if it is the worst of its constraint. Not a number counts as the largest number.
-  void offer(Constraint constraint, double value, const Place& place);
+  void offer(Constraint constraint, double value, const Place& place) {
+    const Worst& own = worst_[static_cast<int>(constraint)];
+    offer(constraint, value, place, own.own_tolerance, own.own_unit);
+  }
 
   /// The same with a unit and a tolerance other than the constraint's own.
-  void offer(Constraint constraint, double value, const Place& place, double tolerance, const char* unit);
+  void offer(Constraint constraint, double value, const Place& place, double tolerance, const char* unit) {
+    const Worst& worst = worst_[static_cast<int>(constraint)];
+    if (worst.measured && tolerance == worst.tolerance && value <= worst.value) return;  // nearly all of them
+    compare(constraint, value, place, tolerance, unit);
+  }
 
   /// The first `count` constraints, in the order of the enumeration.
   std::vector<Violation> violations(int count, const Robot& robot) const;
 
  private:
   struct Worst {
-    double value = 0.0, tolerance = 0.0, severity = 0.0;
+    double value = 0.0, tolerance = 0.0, severity = 0.0;  ///< the tolerance that this value was measured by
     const char* unit = "";
     Place place;
     bool measured = false;
+    double own_tolerance = 0.0;  ///< of the constraint
+    const char* own_unit = "";
   };
+  void compare(Constraint constraint, double value, const Place& place, double tolerance, const char* unit);
+
   std::array<Worst, kConstraints> worst_;
 };
 
@@ -143,6 +154,7 @@ struct Sample {
 /// forces; one step of h [s] with RK4 (error far below 1e-9); the force of each contact.
 int sample_count(const Problem& problem, int phase);
 Replay start_of(const Problem& problem, int phase);
+Eigen::Matrix3d orientation_of(const Replay& replay);
 Replay advance(const Problem& problem, int phase, const Replay& from, double since_start, double h);
 void contact_forces(const Problem& problem, Sample& sample);
 void check_dynamics(const Problem& problem, const Sample& phase_end, Findings& findings);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "check_laws.hpp"
+#include "mcplan/base/rotation.hpp"
 
 namespace mcplan::checks {
 namespace {
@@ -34,6 +35,13 @@ int sample_count(const Problem& problem, int phase) {
 
 Replay start_of(const Problem& problem, int phase) {
   return with_law(problem, phase, [&](auto law) { return law.start(problem, phase); });
+}
+
+/// Of the quaternion where one is integrated, else of the angles.
+Eigen::Matrix3d orientation_of(const Replay& replay) {
+  const Eigen::Vector4d& q = replay.quat_wxyz;
+  if (q.isZero()) return rotation_from_rpy(replay.rpy);
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
 }
 
 /// A state that has overflowed stays as it is: it violates all that asks for it, and is not worth a step.

@@ -71,16 +71,18 @@ PhaseView phase_view(const Problem& problem, int phase) {
 /// the robot says it finer, A Rz(yaw)^T (p - p_l) <= b takes the box's place, and the other end-effectors are held to
 /// theirs.
 void check_reach(const Problem& problem, const Sample& sample, Findings& findings) {
-  const Eigen::Matrix3d level = level_frame(sample.replay.rpy.z());
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const EndEffector& limits = problem.robot.end_effectors[l];
     const Vector3d offset = sample.at.end_effectors[l].position_W - sample.replay.com_W;
     const bool in_contact = problem.surface(sample.phase, l) >= 0;
     const Place place{sample.phase, l, sample.time_s};
-    if (in_contact) check_partners(problem, sample, l, level, findings);
-    if (in_contact && limits.com_reach.given()) {
-      findings.offer(Constraint::reach, beyond_polytope(limits.com_reach, level.transpose() * -offset), place);
-      continue;
+    if (in_contact && (limits.com_reach.given() || !limits.partner_reach.empty())) {
+      const Eigen::Matrix3d level = level_frame(sample.replay.rpy.z());
+      check_partners(problem, sample, l, level, findings);
+      if (limits.com_reach.given()) {
+        findings.offer(Constraint::reach, beyond_polytope(limits.com_reach, level.transpose() * -offset), place);
+        continue;
+      }
     }
     const Eigen::AlignedBox3d& box = sample.view->reach_boxes[l];
     const Vector3d relative = sample.r_WB.transpose() * offset;

@@ -32,20 +32,35 @@ double angle_between(const Matrix3d& a, const Matrix3d& b) {
   return 2.0 * std::asin(std::min((a - b).norm() / std::sqrt(8.0), 1.0));
 }
 
-/// p'' = sum_l f_l / m - g,  L' = sum_l ((a_l - p) x f_l + tau_l),  q' = (0, omega) q / 2  with  omega = R I^-1 R^T L.
-Replay wrench_rate(const Problem& problem, int phase, const Replay& state) {
-  const double mass = problem.robot.mass;
-  Replay rate{state.com_velocity_W, Vector3d(0.0, 0.0, -problem.scene.gravity), Vector3d::Zero(), Vector3d::Zero(),
-              Vector3d::Zero()};
-  for (const Contact& contact : problem.plan.phases[phase].contacts) {
-    const Vector3d force = mass * contact.stiffness * (state.com_W - contact.anchor_W);
-    rate.com_velocity_W += force / mass;
-    rate.momentum_W += (contact.center_of_pressure_W - state.com_W).cross(force) + contact.moment_W;
+/// Sums over the contacts of a phase, of which all of an instant's forces and moments follow:
+///
+///     sum_l f_l = m (mu p - s),   sum_l ((a_l - p) x f_l + tau_l) = m ((a - s) x p - c) + tau,
+///     mu = sum mu_l,  s = sum mu_l s_l,  a = sum mu_l a_l,  c = sum mu_l a_l x s_l,  tau = sum tau_l
+struct Wrenches {
+  Wrenches(const Problem& problem, int phase) : mass(problem.robot.mass), inertia(problem.robot.inertia) {
+    for (const Contact& contact : problem.plan.phases[phase].contacts) {
+      const Vector3d pulled = contact.stiffness * contact.anchor_W;
+      stiffness += contact.stiffness;
+      anchors += pulled;
+      lines += contact.stiffness * contact.center_of_pressure_W - pulled;
+      steady += contact.moment_W / mass - contact.center_of_pressure_W.cross(pulled);
+    }
+    fall = anchors + Vector3d(0.0, 0.0, problem.scene.gravity);
   }
+
+  double mass;
+  Vector3d inertia;
+  double stiffness = 0.0;                                                        ///< mu
+  Vector3d anchors = Vector3d::Zero(), lines = anchors, steady = anchors, fall;  ///< s, a - s, tau / m - c, s + g
+};
+
+/// p'' = sum_l f_l / m - g,  L' = sum_l ((a_l - p) x f_l + tau_l),  q' = (0, omega) q / 2  with  omega = R I^-1 R^T L.
+Replay wrench_rate(const Wrenches& sum, const Replay& state) {
+  Replay rate{state.com_velocity_W, sum.stiffness * state.com_W - sum.fall, Vector3d::Zero(), Vector3d::Zero(),
+              sum.mass * (sum.lines.cross(state.com_W) + sum.steady)};
   const Vector4d& q = state.quat_wxyz;
   const Quaterniond turned(q[0], q[1], q[2], q[3]);
-  const Vector3d omega =
-      angular_velocity(turned.normalized().toRotationMatrix(), state.momentum_W, problem.robot.inertia);
+  const Vector3d omega = angular_velocity(turned.normalized().toRotationMatrix(), state.momentum_W, sum.inertia);
   const Quaterniond slope = Quaterniond(0.0, 0.5 * omega.x(), 0.5 * omega.y(), 0.5 * omega.z()) * turned;
   rate.quat_wxyz = {slope.w(), slope.x(), slope.y(), slope.z()};
   return rate;
@@ -166,9 +181,10 @@ Replay LawCheck<laws::Wrench>::advance(const Problem& problem, int phase, const 
   // The base turns by h |omega|, which errs by 1e-8 rad a second at 0.02.
   const double turning = std::ceil(from.momentum_W.norm() / problem.robot.inertia.minCoeff() * h / 0.02);
   const int steps = static_cast<int>(std::clamp(std::max(stiffness_steps(problem, phase, h), turning), 1.0, 64.0));
+  const Wrenches wrenches(problem, phase);
   Replay state = from;
   for (int i = 0; i < steps; ++i) {
-    state = rk4(state, h / steps, [&](double, const Replay& at) { return wrench_rate(problem, phase, at); });
+    state = rk4(state, h / steps, [&](double, const Replay& at) { return wrench_rate(wrenches, at); });
     set_angles(state);
   }
   return state;

@@ -5,7 +5,6 @@
 
 #include "check_laws.hpp"
 #include "mcplan/base/error.hpp"
-#include "mcplan/base/rotation.hpp"
 #include "model/read.hpp"
 #include "plan_shape.hpp"
 #include "tolerances_fields.hpp"
@@ -115,9 +114,8 @@ bool check_motion(const Problem& problem, const StopRequest& stop, Memory& memor
       if (i > 0) sample.replay = advance(problem, k, sample.replay, sample.since_start_s, duration / steps);
       sample.since_start_s = duration * i / steps;
       sample.time_s = problem.knot_times[k] + sample.since_start_s;
-      sample.r_WB = rotation_from_rpy(sample.replay.rpy);
-      sample.at = state_in_phase(problem.plan, view.frame, sample.since_start_s);
-      sample.r_at_WB = rotation_from_rpy(sample.at.base_rpy);
+      sample.r_WB = orientation_of(sample.replay);
+      set_state(problem.plan, view.frame, sample.since_start_s, sample.at, sample.r_at_WB);
       contact_forces(problem, sample);
       check_sample(problem, sample, memory, findings);
     }

@@ -32,8 +32,11 @@ void Wrench::set_motion(const PhaseInstant& at, PlanState& state) {
     return from.angular_momentum_W + mass * (travelled.cross(rho) + t * steady);
   };
   state.angular_momentum_W = momentum_at(tau, f);
-  state.base_rpy = BaseRotation(from.base_rpy, from.angular_momentum_W, inertia)
-                       .rpy(momentum_at(0.5 * tau, half), state.angular_momentum_W, tau);
+  const Vector3d middle_W = momentum_at(0.5 * tau, half);
+  state.base_rpy =
+      at.turning != nullptr
+          ? at.turning->rpy(middle_W, state.angular_momentum_W, tau)
+          : BaseRotation(from.base_rpy, from.angular_momentum_W, inertia).rpy(middle_W, state.angular_momentum_W, tau);
   state.base_rpy_rate = rpy_rate(state.base_rpy, state.angular_momentum_W, inertia);
   set_forces(at, &Contact::center_of_pressure_W, state);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/base_rotation.hpp"
 #include "mcplan/plan/plan.hpp"
 
 namespace mcplan {
@@ -10,7 +11,8 @@ struct PhaseInstant {
   const Phase& phase;
   const Knot& from;
   const Knot& to;
-  double since_start = 0.0;  ///< [s]
+  double since_start = 0.0;               ///< [s]
+  const BaseRotation* turning = nullptr;  ///< from the first knot, where somebody has it already
 };
 
 }  // namespace mcplan

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "base/base_rotation.hpp"
 #include "mcplan/plan/plan.hpp"
 #include "swing_path.hpp"
 
@@ -12,7 +14,8 @@ namespace mcplan {
 struct PhaseFrame {
   int phase = 0;
   double start_s = 0.0;
-  std::vector<ActiveSwing> swings;  ///< in the plan's order
+  std::vector<ActiveSwing> swings;      ///< in the plan's order
+  std::optional<BaseRotation> turning;  ///< of laws whose momentum turns the base; without, each instant makes its own
 };
 
 /// The phase must be one of the plan's, whose sizes and indices fit together.
@@ -20,6 +23,9 @@ PhaseFrame phase_frame(const Plan& plan, int phase);
 
 /// What Plan::at_phase() says, to the last bit.
 PlanState state_in_phase(const Plan& plan, const PhaseFrame& frame, double since_start);
+
+/// The same into a state that is used again and again, which saves its lists; r_WB is the base's orientation.
+void set_state(const Plan& plan, const PhaseFrame& frame, double since_start, PlanState& state, Eigen::Matrix3d& r_WB);
 
 /// An end-effector on its way: instants of phases in which it is free.
 struct PathInstant {

@@ -66,28 +66,42 @@ PlanState Plan::at_phase(int k, double since_start) const {
 }
 
 PhaseFrame phase_frame(const Plan& plan, int phase) {
-  PhaseFrame frame{phase, 0.0, {}};
+  PhaseFrame frame{phase, 0.0, {}, {}};
   for (int i = 0; i < phase; ++i) frame.start_s += plan.phases[i].duration;
   for (const Swing& swing : plan.swings)
     if (phase >= swing.first_phase && phase < swing.end_phase) frame.swings.push_back(active_swing(plan, swing, phase));
+  const Knot& from = plan.knots[phase];
+  if (plan.phases[phase].has_wrenches())
+    frame.turning.emplace(from.base_rpy, from.angular_momentum_W, plan.robot.inertia);
   return frame;
 }
 
 PlanState state_in_phase(const Plan& plan, const PhaseFrame& frame, double since_start) {
+  PlanState state;
+  Eigen::Matrix3d r_WB;
+  set_state(plan, frame, since_start, state, r_WB);
+  return state;
+}
+
+void set_state(const Plan& plan, const PhaseFrame& frame, double since_start, PlanState& state, Eigen::Matrix3d& r_WB) {
   const int k = frame.phase;
   const Phase& phase = plan.phases[k];
   const Knot &from = plan.knots[k], &to = plan.knots[k + 1];
   const double tau = since_start;
 
-  PlanState state;
   state.phase = k;
   state.time = frame.start_s + tau;
 
   state.end_effectors.resize(phase.contacts.size());
-  for (std::size_t l = 0; l < phase.contacts.size(); ++l)
-    state.end_effectors[l].center_of_pressure_W = from.end_effectors_W[l];
-  std::visit([&](auto law) { law.set_motion({plan, phase, from, to, tau}, state); }, phase.law);
-  const Eigen::Matrix3d r_WB = rotation_from_rpy(state.base_rpy);
+  for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
+    EndEffectorState& end = state.end_effectors[l];
+    end.center_of_pressure_W = from.end_effectors_W[l];
+    end.points_W.clear();  // of another law, if any
+    end.point_forces_W.clear();
+  }
+  const BaseRotation* turning = frame.turning ? &*frame.turning : nullptr;
+  std::visit([&](auto law) { law.set_motion({plan, phase, from, to, tau, turning}, state); }, phase.law);
+  r_WB = rotation_from_rpy(state.base_rpy);
   state.base_quat_wxyz = quat_wxyz_from_rotation(r_WB);
 
   for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
@@ -106,7 +120,6 @@ PlanState state_in_phase(const Plan& plan, const PhaseFrame& frame, double since
   for (EndEffectorState& end : state.end_effectors)
     if (end.surface < 0) end.center_of_pressure_W = end.position_W;
   std::visit([&](auto law) { law.set_moments(phase, state); }, phase.law);
-  return state;
 }
 
 std::vector<PathInstant> path_of(const Plan& plan, const Swing& swing, double sample_s) {
@@ -116,7 +129,7 @@ std::vector<PathInstant> path_of(const Plan& plan, const Swing& swing, double sa
   for (int k = swing.first_phase; k < swing.end_phase; ++k) {
     const double duration = plan.phases[k].duration;
     const int samples = samples_of(plan.phases[k], std::max(sample_s, duration / instants_max));
-    PhaseFrame frame{k, 0.0, {}};
+    PhaseFrame frame{k, 0.0, {}, {}};
     ActiveSwing active = active_swing(plan, swing, k);
     straighten(active);
     for (int i = 0; samples > 0 && i <= samples; ++i) {

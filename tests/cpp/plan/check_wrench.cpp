@@ -4,6 +4,7 @@
 #include <set>
 
 #include "mcplan/base/error.hpp"
+#include "mcplan/base/rotation.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "plan/name_sets.hpp"
 #include "plan/wrench_fixtures.hpp"
@@ -248,6 +249,29 @@ TEST_CASE("checker rejects a sole in contact that is turned against the base bey
   CHECK(worst.unit == "rad");
   CHECK(worst.end_effector == "left_foot");
   CHECK(worst.phase >= 10);
+}
+
+TEST_CASE("a heading on its limit lends its tolerance to no reach that is measured after it") {
+  Plan plan = wrench_walk();
+  double first = 0.0, farthest = -1.0, turned = 0.0;
+  for (int i = 0; i <= 4000; ++i) {
+    const mcplan::PlanState at = plan.at(plan.duration() * i / 4000);
+    const Eigen::Vector3d relative =
+        mcplan::rotation_from_rpy(at.base_rpy).transpose() * (at.end_effectors[right_foot].position_W - at.com_W);
+    if (i == 0) first = relative.x();
+    farthest = std::max(farthest, relative.x());
+    turned = std::max(turned, std::abs(at.end_effectors[left_foot].yaw - at.base_rpy.z()));
+  }
+  REQUIRE(first < farthest - 0.01);
+  plan.robot.end_effectors[left_foot].yaw_range = {-turned, turned};  // on its limit, which it may be
+  plan.robot.end_effectors[right_foot].reach_max_B.x() = farthest - 0.005;
+  const CheckResult result = check(plan);
+  CHECK_FALSE(result.ok());
+  const auto worst = find(result, "reach");
+  CHECK(worst.end_effector == "right_foot");
+  CHECK(worst.unit == "m");
+  CHECK(worst.tolerance == mcplan::Tolerances().reach);
+  CHECK(worst.value == doctest::Approx(0.005).epsilon(1e-2));
 }
 
 TEST_CASE("checker holds forces of contact wrenches to cone, cap and sign") {
