@@ -31,7 +31,8 @@ FootholdMargins margins(const Scene& scene) {
 TEST_CASE("margins yield as far as a gap asks, and no further") {
   // By hand: a step of 0.32 m spans the gap, the soles and both margins.
   const std::pair<double, double> cases[] = {{0.03, 1.0}, {0.06, 0.5}, {0.08, 0.25}, {0.099, 0.0}};
-  for (const auto& [width, ratio] : cases) {
+  for (const auto& entry : cases) {  // by names that CAPTURE may capture in C++17, which those of a binding are not
+    const double width = entry.first, ratio = entry.second;
     CAPTURE(width);
     const FootholdMargins found = margins(gap(width));
     CHECK(found.out_of_reach.empty());
