@@ -45,6 +45,20 @@ std::vector<bool> inputs(const nlp::Problem& problem, const Unknowns& unknowns) 
   return out;
 }
 
+/// A stage with more equalities than variables to solve them for is eliminated with the one before, and so on: by
+/// itself its block of the matrix would be singular. So ends a horizon whose last state is fixed, until as many inputs
+/// have come together as it takes to reach it. `inputs`: of each stage, those that go ahead of it and stand in
+/// equalities.
+void join_overdetermined(int n, const std::vector<int>& inputs, std::vector<std::vector<int>>& own) {
+  for (std::size_t stage = own.size() - 1; stage > 0; --stage) {
+    int surplus = -inputs[stage];
+    for (int unknown : own[stage]) surplus += unknown < n ? -1 : 1;
+    if (surplus <= 0) continue;
+    own[stage - 1].insert(own[stage - 1].end(), own[stage].begin(), own[stage].end());
+    own[stage].clear();
+  }
+}
+
 }  // namespace
 
 std::vector<std::vector<int>> elimination_order(const nlp::Problem& problem, const Unknowns& unknowns) {
@@ -54,7 +68,8 @@ std::vector<std::vector<int>> elimination_order(const nlp::Problem& problem, con
   for (int variable : unknowns.free) stages = std::max(stages, problem.variable_stages(variable).first + 1);
 
   Sets sets(problem.variable_count());
-  std::vector<int> row_stage(problem.row_count(), 0);
+  std::vector<int> row_stage(problem.row_count(), 0), inputs_in_equalities(stages, 0);
+  std::vector<bool> counted(problem.variable_count(), false);
   for (const nlp::Problem::Block& block : problem.blocks()) {
     int stage = -1, input_stage = 0, first_input = -1;
     const bool couples = block.is_cost() || has_inequality(block, unknowns);
@@ -66,6 +81,10 @@ std::vector<std::vector<int>> elimination_order(const nlp::Problem& problem, con
         continue;
       }
       input_stage = first;
+      if (!couples && !counted[variable]) {
+        counted[variable] = true;
+        ++inputs_in_equalities[first];
+      }
       if (couples && first_input >= 0) sets.join(first_input, variable);
       first_input = variable;
     }
@@ -90,6 +109,7 @@ std::vector<std::vector<int>> elimination_order(const nlp::Problem& problem, con
     sets_of[stage][at].push_back(i);
   }
   for (int i = 0; i < unknowns.equality_count(); ++i) own[row_stage[unknowns.equalities[i]]].push_back(n + i);
+  join_overdetermined(n, inputs_in_equalities, own);
   for (int stage = stages - 1; stage >= 0; --stage) {
     for (std::vector<int>& set : sets_of[stage]) out.push_back(std::move(set));
     if (!own[stage].empty()) out.push_back(std::move(own[stage]));
