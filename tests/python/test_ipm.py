@@ -291,3 +291,26 @@ def test_a_result_reads_as_a_line_and_cannot_be_written_to():
         result.x["x"][0] = 1.0
     with pytest.raises(TypeError):
         result.x["x"] = np.zeros(2)
+
+
+@pytest.mark.parametrize(("chain", "single"), [(2, 0), (4, 6), (5, 0)])
+def test_fixed_last_states_that_take_different_numbers_of_inputs_are_one_linear_system(chain, single):
+    """A chain of integrators with an input at its end, beside integrators with an input each; least squares of inputs."""
+    n, m, steps, h = chain + single, 1 + single, 12, 0.1
+    A, B = np.eye(n), np.zeros((n, m))
+    A[range(chain - 1), range(1, chain)] = h
+    B[chain - 1, 0] = h
+    B[range(chain, n), range(1, m)] = h
+    problem = ipm.Problem()
+    x = [problem.variables("x", n, k) for k in range(steps + 1)]
+    u = [problem.variables("u", m, k) for k in range(steps)]
+    problem.change(x[0], lower=0.0, upper=0.0)
+    problem.change(x[-1], lower=1.0, upper=1.0)
+    for k in range(steps):
+        problem.equality("step", [x[k], u[k], x[k + 1]], ipm.Linear([A, B, -np.eye(n)]))
+        problem.cost("effort", [u[k]], ipm.Quadratic(np.eye(m)))
+    result = ipm.solve(problem, tolerance=1e-6)
+    reach = np.hstack([np.linalg.matrix_power(A, steps - 1 - k) @ B for k in range(steps)])
+    least = np.linalg.pinv(reach) @ np.ones(n)
+    assert result.status == mp.Status.solved and result.iterations <= 2
+    assert result.x["u"].ravel() == pytest.approx(least, rel=1e-6, abs=1e-6 * np.abs(least).max())
