@@ -12,7 +12,8 @@
 
 Verbs, engines and what they are about are here; ``mcplan.model`` has what scenes, robots and plans are made of,
 ``mcplan.errors`` each error. The engines ``ddp``, ``rhp`` and ``sip`` have their options, a solve and its result: ``plan`` is
-``ddp.plan``, ``walk`` is ``rhp.walk``, ``whole_body`` is ``sip.plan``.
+``ddp.plan``, ``walk`` is ``rhp.walk``, ``whole_body`` is ``sip.plan``. ``mcplan.ipm`` is the solver behind them, for problems
+of one's own.
 
 Importing this loads NumPy and nothing heavier; the rest comes when first used.
 """
@@ -27,6 +28,7 @@ from typing import TYPE_CHECKING, Any
 
 from mcplan import ddp, moved, rhp, sip
 from mcplan import errors as errors
+from mcplan import ipm as ipm
 from mcplan import model as model
 from mcplan._core import (
     Plan,

@@ -267,7 +267,7 @@ class Interrupted(KeyboardInterrupt):
 
     Attributes:
         result: What the call would have returned, as far as it came: a ``PlanResult``, ``Walk``, ``sip.Result``,
-            ``CheckResult`` or run, with status ``interrupted`` unless it was done just then.
+            ``ipm.Result``, ``CheckResult`` or run, with status ``interrupted`` unless it was done just then.
     """
 
     def __init__(self, result: Any = None) -> None:

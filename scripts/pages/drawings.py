@@ -3,6 +3,7 @@
 python -m pages.drawings page WALK.npz PICTURE.png SECONDS    the page of a plan at an instant, by Chromium
 python -m pages.drawings postures RUN.npz PICTURE.png T,T,...  postures of a run at these instants [s] in one scene
 python -m pages.drawings unlimited CASE PICTURE.png            strip of a case of `bench tracking`, full torque at every speed
+python -m pages.drawings swing_up EXAMPLE.py PICTURE.png       the swing-up of examples/cart_pole.py
 """
 
 from __future__ import annotations
@@ -32,8 +33,12 @@ def main(kind: str, source: str, picture: str, argument: str = "") -> None:
 
         case = named(source)
         save_strip(track_plan(case, plan_of(case).plan, Options(speed_limits=False)), picture)
+    elif kind == "swing_up":
+        from pages.swing_up import save
+
+        save(source, picture)
     else:
-        raise SystemExit(f"no kind of picture {kind!r}; there are: page, postures, unlimited")
+        raise SystemExit(f"no kind of picture {kind!r}; there are: page, postures, unlimited, swing_up")
 
 
 if __name__ == "__main__":

@@ -128,6 +128,8 @@ class Fuzzer:
         if argument.name == "path":
             return self.rng.choice(["plan.npz", "no/such/folder/x.npz", "", "x.txt", "/dev/null", b"x", None, "x\0y"])
         value = self.values.of(argument.type)
+        if argument.name == "time_limit_s" and isinstance(value, int | float):
+            return min(value, SOLVE_LIMIT_S)
         if argument.type.endswith("Options") and hasattr(value, "time_limit_s") and value.time_limit_s > SOLVE_LIMIT_S:
             value.time_limit_s = SOLVE_LIMIT_S
         return value

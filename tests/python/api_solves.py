@@ -11,7 +11,8 @@ import copy
 from typing import Any
 
 from api_fuzz import Fuzzer, main
-from mcplan import _core
+from api_stage_problems import stage_problem
+from mcplan import _core, ipm
 
 LIMITS_S = [0.001, 0.01, 0.03, 0.1]
 LONG_WAYS = [1, 2, 5, 40, 100, 288]  # phases
@@ -22,7 +23,7 @@ class SolveFuzzer(Fuzzer):
     """Makes random solves, with inputs of its own for each."""
 
     def step(self) -> None:
-        self.rng.choice([self.search, self.search, self.walk, self.whole_body])()
+        self.rng.choice([self.search, self.search, self.walk, self.whole_body, self.stages])()
 
     def solve(self, text: str, engine: Any, inputs: list[Any], options: Any, run: Any) -> None:
         options.logger = None
@@ -45,6 +46,18 @@ class SolveFuzzer(Fuzzer):
     def whole_body(self) -> None:
         options = self.edited(_core.sip.Options(), OPTION_EDITS)
         self.solve("sip", _core.sip.Planner, [self.varied("PlanarTask")], options, lambda planner: planner.solve())
+
+    def stages(self) -> None:
+        solver, limit_s = self.rng.choice(["ipm", "ipopt", "auto"]), self.rng.choice(LIMITS_S)
+
+        def run() -> None:
+            problem = stage_problem(self.rng, self.reenter)
+            if self.rng.random() < 0.2:
+                ipm.check_derivatives(problem)
+            result = ipm.solve(problem, solver=solver, time_limit_s=limit_s)
+            ipm.solve(problem, result, solver=solver, time_limit_s=limit_s, adaptive_barrier=True)
+
+        self.guarded(f"stages by {solver} for {limit_s} s", run)
 
     def varied(self, name: str, edits: list[int] = EDITS) -> Any:
         return self.edited(copy.deepcopy(self.rng.choice(self.valid[f"mcplan._core.{name}"])), edits)

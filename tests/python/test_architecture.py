@@ -55,7 +55,7 @@ _GROUND = {"_core", "errors", "extras", "options", "arguments"}
 _ENGINES = {"solve", "walking"}
 _LOOKED_AT = {"files", "kinematics", "tracking", "view", "planar"}
 _FRONT = _ENGINES | _LOOKED_AT | {"loading", "checking", "showing", "following", "model", "option_types"}
-_FRONT |= {"ddp", "rhp", "sip"}
+_FRONT |= {"ddp", "ipm", "rhp", "sip"}
 PYTHON_ROOMS = {
     "__main__": {"cli"},
     "_core": set(),
@@ -74,6 +74,7 @@ PYTHON_ROOMS = {
     "solve": _GROUND | {"files"},
     "walking": _GROUND | {"files", "solve"},
     "ddp": _GROUND | {"solve"},
+    "ipm": {"_core", "errors", "arguments"},
     "rhp": _GROUND | {"walking"},
     "sip": _GROUND | {"planar"},
     "kinematics": _GROUND | {"files"},

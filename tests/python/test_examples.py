@@ -8,14 +8,14 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-EXAMPLES = sorted((ROOT / "examples").glob("[0-9]*.py"))
+EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 #: What they show is in the Python package alone, and what it needs.
 PYTHON_ALONE = {"06_track": ("mujoco", "pinocchio", "proxsuite", "example_robot_data", "scipy")}
 NO_PLANNER = not (ROOT / "cpp/src/ddp/switched_ddp.cpp").exists()
 
 
 def test_every_example_has_its_twin():
-    cpp = sorted(path.stem for path in (ROOT / "examples").glob("[0-9]*.cpp"))
+    cpp = sorted(path.stem for path in (ROOT / "examples").glob("*.cpp"))
     assert cpp == [path.stem for path in EXAMPLES if path.stem not in PYTHON_ALONE] != []
 
 

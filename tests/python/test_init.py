@@ -101,7 +101,7 @@ def test_files_with_the_earlier_key_of_a_ratio_are_read(tmp_path):
         mp.load_robot(file)
 
 
-@pytest.mark.parametrize("module", [mp.ddp, errors, model, mp.rhp, mp.sip], ids=lambda module: module.__name__)
+@pytest.mark.parametrize("module", [mp.ddp, errors, mp.ipm, model, mp.rhp, mp.sip], ids=lambda module: module.__name__)
 def test_every_name_of_a_public_module_is_documented(module):
     assert module.__all__ == sorted(module.__all__) and len(module.__doc__) > 60
     for name in module.__all__:

@@ -43,6 +43,7 @@ void bind_robot(py::module_& m);
 void bind_plan(py::module_& m);
 void bind_ddp(py::module_& m);
 void bind_nlp(py::module_& m);
+void bind_ipm(py::module_& m);
 void bind_rhp(py::module_& m);
 void bind_sip(py::module_& m);
 void bind_sip_planner(py::module_& m);  // of the sip submodule

@@ -160,6 +160,7 @@ PYBIND11_MODULE(_core, m) {
   bind_planar_files(m);
   bind_ddp(m);
   bind_nlp(m);
+  bind_ipm(m);
   bind_rhp(m);
   bind_sip(m);
   // The planners' rooms go here, one line each: they may use everything above.

@@ -21,6 +21,8 @@ class Sets {
   std::vector<int> parent_;
 };
 
+constexpr std::size_t kMaxJoined = 500;  // unknowns of stages that are eliminated together
+
 /// Equalities are unknowns of their own and join no variables.
 bool has_inequality(const nlp::Problem::Block& block, const Unknowns& unknowns) {
   for (int i = 0; i < block.piece->rows(); ++i)
@@ -43,6 +45,63 @@ std::vector<bool> inputs(const nlp::Problem& problem, const Unknowns& unknowns) 
     for (int variable : block.piece->variables()) out[variable] = false;
   }
   return out;
+}
+
+/// Pairs equalities with variables that they could be solved for, none twice.
+class Pairing {
+ public:
+  /// columns: of each equality, the free variables that it sees; stage_of: at which each of these is eliminated.
+  Pairing(const std::vector<std::vector<int>>& columns, const std::vector<int>& stage_of)
+      : columns_(columns), stage_of_(stage_of), row_of_(stage_of.size(), -1), tried_(stage_of.size(), -1) {}
+
+  /// False: among the variables of this stage and later ones there is none left for this equality.
+  bool add(int row, int stage) {
+    ++round_;
+    return place(row, stage);
+  }
+
+ private:
+  bool place(int row, int stage) {
+    for (int column : columns_[row]) {
+      if (stage_of_[column] < stage || tried_[column] == round_) continue;
+      tried_[column] = round_;
+      if (row_of_[column] >= 0 && !place(row_of_[column], stage)) continue;
+      row_of_[column] = row;
+      return true;
+    }
+    return false;
+  }
+
+  const std::vector<std::vector<int>>& columns_;
+  const std::vector<int>& stage_of_;
+  std::vector<int> row_of_, tried_;
+  int round_ = 0;
+};
+
+/// A stage whose equalities have too few variables to be solved for is eliminated with the one before, and so on: by
+/// itself its block of the matrix would be singular. So ends a horizon whose last state is fixed, until as many inputs
+/// have come together as it takes to reach it.
+void join_overdetermined(const nlp::Problem& problem, const Unknowns& unknowns, std::vector<std::vector<int>>& own) {
+  const int n = unknowns.free_count();
+  std::vector<std::vector<int>> columns(unknowns.equality_count());
+  for (const nlp::Entry& entry : problem.jacobian_structure()) {
+    const int row = unknowns.equality_of[entry.row], column = unknowns.index_of[entry.column];
+    if (row >= 0 && column >= 0) columns[row].push_back(column);
+  }
+  std::vector<int> stage_of(n);
+  for (int i = 0; i < n; ++i) stage_of[i] = problem.variable_stages(unknowns.free[i]).first;
+  // Equalities that have no variable in the whole horizon say what others say: no joining helps them.
+  Pairing pairing(columns, stage_of), whole(columns, stage_of);
+  std::vector<bool> paired(unknowns.equality_count());
+  for (int row = 0; row < unknowns.equality_count(); ++row) paired[row] = !whole.add(row, 0);
+  for (int stage = static_cast<int>(own.size()) - 1; stage > 0; --stage) {
+    bool all = true;
+    for (int unknown : own[stage])
+      if (unknown >= n && !paired[unknown - n]) all &= paired[unknown - n] = pairing.add(unknown - n, stage);
+    if (all || own[stage].size() + own[stage - 1].size() > kMaxJoined) continue;
+    own[stage - 1].insert(own[stage - 1].end(), own[stage].begin(), own[stage].end());
+    own[stage].clear();
+  }
 }
 
 }  // namespace
@@ -90,6 +149,7 @@ std::vector<std::vector<int>> elimination_order(const nlp::Problem& problem, con
     sets_of[stage][at].push_back(i);
   }
   for (int i = 0; i < unknowns.equality_count(); ++i) own[row_stage[unknowns.equalities[i]]].push_back(n + i);
+  join_overdetermined(problem, unknowns, own);
   for (int stage = stages - 1; stage >= 0; --stage) {
     for (std::vector<int>& set : sets_of[stage]) out.push_back(std::move(set));
     if (!own[stage].empty()) out.push_back(std::move(own[stage]));

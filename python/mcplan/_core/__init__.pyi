@@ -10,6 +10,7 @@ import pathlib
 import typing
 from . import ddp
 from . import nlp
+from . import ipm
 from . import rhp
 from . import sip
 
@@ -76,6 +77,7 @@ __all__: list[str] = [
     "data_folder",
     "ddp",
     "file_kind",
+    "ipm",
     "largest_drift",
     "least_norm_gain",
     "load_planar_robot",

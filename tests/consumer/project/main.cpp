@@ -89,6 +89,9 @@ int main() {
   const mcplan::nlp::Solution least = mcplan::nlp::solve(problem, Eigen::VectorXd::Constant(1, 2.0));
   expect(least.outcome == mcplan::nlp::Outcome::converged && std::abs(least.x[0] - 1.0) < 1e-4,
          "the least x is not at its bound");
+  const mcplan::nlp::Solution by_kernel = mcplan::ipm::solve(problem, Eigen::VectorXd::Constant(1, 2.0));
+  expect(by_kernel.outcome == mcplan::nlp::Outcome::converged && std::abs(by_kernel.x[0] - 1.0) < 1e-4,
+         "the kernel does not find the least x at its bound");
 
   scene.surfaces[0].vertices_W.resize(2);
   try {

@@ -132,6 +132,36 @@ TEST_CASE("a horizon of stages has the optimum that Ipopt finds, in as many iter
   }
 }
 
+TEST_CASE("a last state that takes several inputs to reach is a linear system like any other") {
+  // Of a mass from rest to rest with least effort the forces fall linearly: one step of Newton's method finds them.
+  const int steps = 12;
+  const double h = 0.1;
+  Problem problem;
+  std::vector<int> states, forces;
+  for (int k = 0; k <= steps; ++k) {
+    states.push_back(problem.add_variables("state", 2, -kInfinity, kInfinity, {k, k}));
+    if (k < steps) forces.push_back(problem.add_variables("force", 1, -kInfinity, kInfinity, {k, k}));
+  }
+  for (int i = 0; i < 2; ++i) {
+    problem.set_bounds(states.front() + i, 0.0, 0.0);
+    problem.set_bounds(states.back() + i, 1.0 - i, 1.0 - i);
+  }
+  MatrixXd A(2, 5);
+  A << 1.0, h, 0.5 * h * h, -1.0, 0.0, 0.0, 1.0, h, 0.0, -1.0;
+  for (int k = 0; k < steps; ++k) {
+    const int a = states[k], b = states[k + 1];
+    problem.add_equality(std::make_unique<LinearPiece>("step", std::vector<int>{a, a + 1, forces[k], b, b + 1}, A));
+    problem.add_cost(squared_norm("effort", {forces[k]}));
+  }
+  problem.finish();
+  const Solution s = ipm::solve(problem, VectorXd::Constant(problem.variable_count(), 0.6), tight());
+  CHECK_MESSAGE(s.outcome == Outcome::converged, s.message);
+  CHECK(s.iterations == 1);
+  const VectorXd u = s.x(forces);
+  for (int k = 2; k < steps; ++k) CHECK(std::abs(u[k] - 2.0 * u[k - 1] + u[k - 2]) < 1e-8 * u[0]);
+  CHECK(s.worst.value < 1e-12);
+}
+
 TEST_CASE("fixed variables keep their values, and what is decided beforehand is said") {
   Problem some;
   some.add_variables("x", 3, -10.0, 10.0, {0, 0});
