@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "ddp/constants.hpp"
-
 namespace mcplan::ddp::polish {
 namespace {
 
@@ -13,6 +11,9 @@ namespace {
 constexpr double kBarrierMin = 1e-6, kBarrierMax = 1e-2;
 /// Sum of the defects that counts as closed.
 constexpr double kClosed = 1e-5;
+/// Sum of the defects down to which a step from closed ones may open them again, since it is linear: a bound as tight
+/// as the other one leaves steps of a hundredth. Measured.
+constexpr double kOpened = 1e-2;
 /// A step changes no duration by more than this fraction and no stiffness by more than that (of standing: 1). Without,
 /// bad first guesses lead to objectives of 1e10 (measured on a prototype).
 constexpr double kDurationChange = 0.5, kStiffnessChange = 1.0;
@@ -107,7 +108,7 @@ bool InteriorPoint::accepts(double slope, double value, double defect, double va
     if (defect_there >= d && value_there >= v) return false;
   // Where the defects are closed, only the objective can improve.
   if (defect < kClosed && slope < 0.0)
-    return defect_there < kClosed && value_there <= value + kArmijo * step_ * slope + 1e-12 * std::abs(value);
+    return defect_there < kOpened && value_there <= value + kArmijo * step_ * slope + 1e-12 * std::abs(value);
   const double d = (1.0 - kFilterMargin) * defect, v = value - kFilterMargin * defect;
   if (defect_there > d && value_there > v) return false;
   filter_.emplace_back(d, v);
@@ -140,7 +141,7 @@ bool InteriorPoint::begin(const Trajectory& trajectory, const Settings& settings
   mu_ = settings.barrier;
   iterations_ = 0;
   filter_.clear();
-  merits_.clear();
+  objectives_.clear();
   if (!motion_.evaluate(pendulum_)) return false;
   max_defect_ = std::max(motion_.defect_sum(), kDefectMax);
   limits_.head(motion_.trajectory);
@@ -169,11 +170,11 @@ void InteriorPoint::take() {
   mu_ = next;
 }
 
-/// Whether the merit, extrapolated, stays above a value.
+/// Whether the objective, extrapolated, stays above a value. Defects are closed faster, and do not count.
 bool InteriorPoint::stays_above(double value) {
-  merits_.push_back(objective_ + kDefectPenalty * motion_.defect_sum());
+  objectives_.push_back(objective_);
   if (iterations_ < kPatience) return false;
-  const double now = merits_.back(), fall = merits_[merits_.size() - 1 - kWindow] - now;
+  const double now = objectives_.back(), fall = objectives_[objectives_.size() - 1 - kWindow] - now;
   return now - kWindowsAhead * std::max(fall, 0.0) > value;
 }
 

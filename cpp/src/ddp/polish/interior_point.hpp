@@ -68,7 +68,7 @@ class InteriorPoint {
   RowArray r_, trial_r_, dr_;
   std::vector<Eigen::VectorXd> dz_;
   std::vector<std::pair<double, double>> filter_;  ///< defects and objectives that are not to be seen together again
-  std::vector<double> merits_;                     ///< by iteration
+  std::vector<double> objectives_;                 ///< by iteration
   double mu_ = 0.0, proximal_ = 0.0, step_ = 0.0, objective_ = 0.0, cost_ = 0.0, gain_ = 0.0;
   int iterations_ = 0;
   double max_defect_ = 0.0;
