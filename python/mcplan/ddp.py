@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from mcplan._core import Knot, Plan, Robot, Scene
 from mcplan._core import PlanResult as Result
-from mcplan._core.ddp import Method, Model, Options, StiffnessInput, SwitchedDdp, Weights
+from mcplan._core.ddp import Method, Model, Options, Polish, StiffnessInput, SwitchedDdp, Weights
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -28,6 +28,7 @@ __all__ = [
     "Model",
     "Options",
     "Result",
+    "Polish",
     "StiffnessInput",
     "SwitchedDdp",
     "Weights",

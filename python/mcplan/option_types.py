@@ -80,6 +80,8 @@ class DdpOptions(TypedDict, total=False):
     """What a contact can do; Method.paper always takes Model.lipm."""
     stiffness_input: Literal["mu", "lambda_"] | ddp.StiffnessInput
     """How the contact stiffness enters as an input."""
+    polish: Literal["penalty", "interior_point"] | ddp.Polish
+    """What finds the motion of a contact sequence that is given."""
     weights: DdpWeights | ddp.Weights
     """Weights of the cost terms."""
     duration_min_s: float

@@ -11,6 +11,7 @@ namespace {
 
 using ddp::Method;
 using ddp::Model;
+using ddp::Polish;
 using ddp::StiffnessInput;
 using ddp::SwitchedDdp;
 using ddp::Weights;
@@ -28,6 +29,7 @@ void bind_ddp_options(py::module_& m) {
   bind_enum<Method>(m);
   bind_enum<Model>(m);
   bind_enum<StiffnessInput>(m);
+  bind_enum<Polish>(m);
   bind_weights(m);
   bind_fields<ddp::Options>(m).def("validate", &ddp::Options::validate,
                                    "Raise InvalidOptions naming all that is out of its range.");

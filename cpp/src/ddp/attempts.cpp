@@ -36,7 +36,7 @@ Incumbent Attempts::cheapest(std::vector<Guess>& guesses, const Tuning& tuning, 
     if (!discover && stepping_ahead) break;
     Incumbent& now = guesses[i].start;
     if (discover) ending = search_.discover(now, guesses[i].discover_with, tuning);
-    if (ending == Ending::done) ending = search_.polish(now, kPolishIterations, kRoughTolerance, lowest, tuning);
+    if (ending == Ending::done) ending = search_.polish_guess(now, lowest, tuning);
     // A guess that breaks down numerically is dropped, the others may still do.
     if (ending == Ending::broke_down) {
       ending = Ending::done;
@@ -57,13 +57,7 @@ Ending Attempts::attempt(std::vector<Guess> guesses, const Tuning& tuning) {
   Incumbent chosen = cheapest(guesses, tuning, ending);
   if (chosen.sequence.empty()) return ending == Ending::done ? Ending::broke_down : ending;
   if (ending == Ending::done) ending = search_.refine(chosen, tuning);
-  if (ending == Ending::done) {
-    // Limits are penalties: harder ones at the end bring what is left of a violation below the checker's tolerance.
-    Tuning hard = tuning;
-    hard.limit_weight *= kHardening;
-    const double never = std::numeric_limits<double>::infinity();
-    ending = search_.polish(chosen, kFinalIterations, kFinalTolerance, never, hard);
-  }
+  if (ending == Ending::done) ending = search_.polish_last(chosen, tuning);
   last_ = chosen;
   // Out of time there is a plan already, and none for another one.
   if (ending != Ending::time_limit || !best_->best()) finish(std::move(chosen), tuning);

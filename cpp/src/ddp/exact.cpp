@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "ddp/constants.hpp"
+#include "ddp/footholds.hpp"
 #include "ddp/moment_limits.hpp"
 #include "ddp/search.hpp"
 
@@ -12,32 +13,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Fixed = std::vector<std::vector<char>>;
-
-/// Put every end-effector in contact onto its surface and keep it there.
-void snap_positions(const Problem& problem, const ContactSequence& sequence, Trajectory& t) {
-  const Layout& at = problem.layout;
-  const int n = problem.steps;
-  const int fixed = at.nx() - (problem.model == Model::wrench ? 0 : at.angle());
-  t.x[0].tail(fixed) = problem.start.tail(fixed);
-  for (int l = 0; l < at.end_effector_count(); ++l) {
-    for (int k = 0; k <= n; ++k) {
-      if (sequence[k][l] == kFree) continue;
-      // Phases first..k are one contact; it holds the knots first..last_knot.
-      const int first = k, surface = sequence[k][l];
-      while (k < n && sequence[k + 1][l] == surface) ++k;
-      const int last_knot = std::min(k + 1, n);
-      Vector3d foothold = t.x[first].segment<3>(at.end(l));
-      if (first > 0) {
-        foothold.setZero();
-        for (int j = first; j <= last_knot; ++j) foothold += t.x[j].segment<3>(at.end(l));
-        foothold = problem.polygons[surface].nearest(foothold / (last_knot - first + 1));
-      }
-      for (int j = first; j <= last_knot; ++j) t.x[j].segment<3>(at.end(l)) = foothold;
-    }
-    for (int k = 0; k < n; ++k)
-      t.u[k].segment<3>(at.stride(l)) = t.x[k + 1].segment<3>(at.end(l)) - t.x[k].segment<3>(at.end(l));
-  }
-}
 
 /// Bring a centre of pressure onto its sole, held there if it was outside; forces of free end-effectors act nowhere.
 void snap_pressure(const Problem& problem, int l, int surface, double sole_yaw, VectorXd& u, std::vector<char>& fixed) {

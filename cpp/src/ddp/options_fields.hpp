@@ -25,6 +25,16 @@ struct Names<ddp::Model> {
 };
 
 template <>
+struct Names<ddp::Polish> {
+  static constexpr const char* name = "Polish";
+  static constexpr const char* meaning = "What finds the motion of a contact sequence that is given.";
+  static constexpr Choice<ddp::Polish> all[] = {
+      {"penalty", ddp::Polish::penalty, "Contacts and limits as weights, steps by a merit function."},
+      {"interior_point", ddp::Polish::interior_point,
+       "Contacts exact, limits by an elastic barrier, steps by a filter."}};
+};
+
+template <>
 struct Names<ddp::StiffnessInput> {
   static constexpr const char* name = "StiffnessInput";
   static constexpr const char* meaning = "How the contact stiffness enters the search as an input.";
@@ -92,6 +102,7 @@ struct Fields<ddp::Options> {
       field("method", &Options::method, "", "Which search runs."),
       field("model", &Options::model, "", "What a contact can do; Method.paper always takes Model.lipm."),
       field("stiffness_input", &Options::stiffness_input, "", "How the contact stiffness enters as an input."),
+      field("polish", &Options::polish, "", "What finds the motion of a contact sequence that is given."),
       field("weights", &Options::weights, "", "Weights of the cost terms."),
       field("duration_min_s", &Options::duration_min_s, "s", "Shortest phase, as a soft limit; 0: the robot's.")
           .not_negative(),

@@ -251,14 +251,15 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now, const 
 Ending Search::refine(Incumbent& now, const Tuning& tuning) {
   Ending ending = Ending::done;
   polish_proximal_ = kTrialProximal;
+  const std::size_t trials = exact_contacts() ? kExactTrials : kTrials;
   for (int round = 0; round < kRefineRounds; ++round) {
     const std::vector<ContactSequence> changes = ranked_changes(now, tuning);
     bool improved = false;
-    for (std::size_t i = 0; i < changes.size() && i < kTrials && !improved; ++i) {
+    for (std::size_t i = 0; i < changes.size() && i < trials && !improved; ++i) {
       Incumbent trial = now;
       trial.sequence = changes[i];
       const double merit = now.evaluation.merit();
-      ending = polish(trial, kTrialIterations, kRoughTolerance, merit, tuning);
+      ending = polish_trial(trial, merit, tuning);
       improved = trial.evaluation.merit() < merit * (1.0 - kTrialGain);
       if (improved) {
         const int switches = differences(trial.sequence, now.sequence);

@@ -10,6 +10,7 @@
 #include "ddp/constants.hpp"
 #include "ddp/ending.hpp"
 #include "ddp/local_model.hpp"
+#include "ddp/polish/interior_point.hpp"
 #include "ddp/pricing.hpp"
 #include "ddp/value_functions.hpp"
 #include "mcplan/base/deadline.hpp"
@@ -56,6 +57,14 @@ class Search {
   /// `give_up_above`.
   Ending polish(Incumbent& now, int iterations, double tolerance, double give_up_above, const Tuning& tuning);
 
+  /// The optimum of the motion with the sequence frozen, by the interior point.
+  Ending optimise(Incumbent& now, const polish::Settings& settings, const Tuning& tuning);
+
+  /// One guess of an attempt, its last polish, and a trial of refine(), by the polish that the options ask for.
+  Ending polish_guess(Incumbent& now, double give_up_above, const Tuning& tuning);
+  Ending polish_last(Incumbent& now, const Tuning& tuning);
+  Ending polish_trial(Incumbent& now, double give_up_above, const Tuning& tuning);
+
   /// Best-neighbour search on the true cost: neighbours and swing edits, cheapest by the local model first, each
   /// polished for a few iterations and kept if the merit falls.
   Ending refine(Incumbent& now, const Tuning& tuning);
@@ -92,6 +101,7 @@ class Search {
   int switch_contacts(ContactSequence& sequence, Iteration& row);
   bool paper_switches(Incumbent& now, Iteration& row);
   std::vector<ContactSequence> ranked_changes(const Incumbent& now, const Tuning& tuning);
+  bool exact_contacts() const { return problem_->options.polish == Polish::interior_point; }
   bool should_stop(Ending& ending) const;
   void record(Iteration&& row, const Incumbent& now, const Schedule& schedule);
 

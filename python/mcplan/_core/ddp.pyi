@@ -8,7 +8,7 @@ import mcplan._core
 from mcplan._core import PlanResult as Result
 import typing
 
-__all__: list[str] = ["Method", "Model", "Options", "Result", "StiffnessInput", "SwitchedDdp", "Weights"]
+__all__: list[str] = ["Method", "Model", "Options", "Polish", "Result", "StiffnessInput", "SwitchedDdp", "Weights"]
 
 class Method:
     """
@@ -111,6 +111,44 @@ class StiffnessInput:
     def __int__(self) -> int: ...
     @typing.overload
     def __ne__(self, other: StiffnessInput) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class Polish:
+    """
+    What finds the motion of a contact sequence that is given.
+
+    Members:
+
+      penalty : Contacts and limits as weights, steps by a merit function.
+
+      interior_point : Contacts exact, limits by an elastic barrier, steps by a filter.
+    """
+
+    __members__: typing.ClassVar[dict[str, Polish]]
+    interior_point: typing.ClassVar[Polish]
+    penalty: typing.ClassVar[Polish]
+    @typing.overload
+    def __eq__(self, other: Polish) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: Polish) -> bool: ...
     @typing.overload
     def __ne__(self, other: typing.Any) -> bool: ...
     @typing.overload
@@ -348,6 +386,7 @@ class Options:
         method: Method = ...,
         model: Model = ...,
         stiffness_input: StiffnessInput = ...,
+        polish: Polish = ...,
         weights: Weights = ...,
         duration_min_s: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         duration_max_s: typing.SupportsFloat | typing.SupportsIndex = 0.0,
@@ -479,6 +518,13 @@ class Options:
         """
     @phases.setter
     def phases(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def polish(self) -> Polish:
+        """
+        What finds the motion of a contact sequence that is given.
+        """
+    @polish.setter
+    def polish(self, arg0: Polish) -> None: ...
     @property
     def proximal_weight(self) -> float:
         """

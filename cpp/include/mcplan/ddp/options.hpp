@@ -24,6 +24,12 @@ enum class Model {
   lipm,    ///< the paper's: every force acts at its end-effector and points at the CoM, the base barely turns
 };
 
+/// What finds the motion of a contact sequence that is given.
+enum class Polish {
+  penalty,         ///< Gauss-Newton on the cost with contacts and limits as weights, by a merit function
+  interior_point,  ///< contacts exact, limits by an elastic barrier, by a filter
+};
+
 /// How the contact stiffness enters as an input.
 enum class StiffnessInput {
   mu,  ///< mu = lambda^2 >= 0: contact forces are linear in it, so a free end-effector can see what contact would give
@@ -61,6 +67,7 @@ struct Options {
   Method method = Method::standard;
   Model model = Model::wrench;  ///< Method::paper always takes Model::lipm
   StiffnessInput stiffness_input = StiffnessInput::mu;
+  Polish polish = Polish::penalty;  ///< Method::paper has none
   Weights weights;
 
   double duration_min_s = 0.0, duration_max_s = 0.0;  ///< soft box of the phase durations; 0: the robot's

@@ -1,7 +1,5 @@
-#include <algorithm>
-#include <cmath>
-
 #include "ddp/cost_terms.hpp"
+#include "ddp/input_limits.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -22,13 +20,7 @@ class Bounds final : public CostTerm {
       if (u[i] < low) rows.add_single(w, u[i] - low, at.nx() + i);
       if (u[i] > high) rows.add_single(w, u[i] - high, at.nx() + i);
     };
-    const bool lambda = problem.options.stiffness_input == StiffnessInput::lambda;
-    for (int l = 0; l < at.end_effector_count(); ++l) {
-      // The stiffness at which the force cap is met in the nominal stance, at least one CoM height away.
-      const EndLimits& limit = problem.limits[l];
-      const double mu_max = limit.force_max / std::max(limit.nominal.norm(), 1.0);
-      hold(at.stiffness(l), 0.0, lambda ? std::sqrt(mu_max) : mu_max);
-    }
+    for (int l = 0; l < at.end_effector_count(); ++l) hold(at.stiffness(l), 0.0, max_stiffness_input(problem, l));
     for (int i = 0; i < at.moment_count(); ++i) {
       const double max_moment = at.moments()[i].max;
       hold(at.moment(i), -max_moment, max_moment);

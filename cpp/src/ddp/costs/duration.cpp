@@ -1,6 +1,5 @@
-#include <algorithm>
-
 #include "ddp/cost_terms.hpp"
+#include "ddp/input_limits.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -18,13 +17,10 @@ class Duration final : public CostTerm {
     const double limit = step.schedule.tuning.limit_weight;
     const int i = problem.layout.duration(), iz = problem.layout.nx() + i;
     const double h = (*step.u)[i];
-    // A phase that was under way when replanning has as long as was left of it.
-    const bool under_way = step.k == 0 && problem.first_duration > 0.0;
-    const double low = under_way ? std::min(problem.first_duration, problem.duration_min) : problem.duration_min;
-    const double middle = under_way ? problem.first_duration : 0.5 * (problem.duration_min + problem.duration_max);
-    rows.add_single(problem.options.weights.duration, h - middle, iz);
-    if (h < low) rows.add_single(limit, h - low, iz);
-    if (h > problem.duration_max) rows.add_single(limit, h - problem.duration_max, iz);
+    const DurationLimits of = duration_limits(problem, step.k);
+    rows.add_single(problem.options.weights.duration, h - of.middle, iz);
+    if (h < of.min) rows.add_single(limit, h - of.min, iz);
+    if (h > of.max) rows.add_single(limit, h - of.max, iz);
   }
 };
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "ddp/problem.hpp"
+
+namespace mcplan::ddp {
+
+/// Where the duration of a phase may lie and where it is drawn to, non-dimensional.
+struct DurationLimits {
+  double min, middle, max;
+};
+
+inline DurationLimits duration_limits(const Problem& problem, int k) {
+  // A phase that was under way when replanning has as long as was left of it.
+  const bool under_way = k == 0 && problem.first_duration > 0.0;
+  return {under_way ? std::min(problem.first_duration, problem.duration_min) : problem.duration_min,
+          under_way ? problem.first_duration : 0.5 * (problem.duration_min + problem.duration_max),
+          problem.duration_max};
+}
+
+/// Largest stiffness input of an end-effector: the one at which the force cap is met in the nominal stance, at least
+/// one CoM height away.
+inline double max_stiffness_input(const Problem& problem, int l) {
+  const EndLimits& limit = problem.limits[l];
+  const double mu_max = limit.force_max / std::max(limit.nominal.norm(), 1.0);
+  return problem.options.stiffness_input == StiffnessInput::lambda ? std::sqrt(mu_max) : mu_max;
+}
+
+}  // namespace mcplan::ddp
