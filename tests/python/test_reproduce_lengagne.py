@@ -146,6 +146,32 @@ def test_table_4_of_the_cartwheel_is_solved_proved_and_falls_from_case_to_case(q
     assert mcplan.check(saved).ok()
 
 
+def test_the_kernel_stands_beside_ipopt_in_table_4(quick):
+    rows = read(quick / "solvers.csv")
+    assert [(row["table"], row["motion"], row["forces"]) for row in rows] == [
+        ("4", "cartwheel", forces) for forces in paper.CASES.values()
+    ]
+    page = (quick / "lengagne.md").read_text()
+    full = {row["forces"]: row for row in read(quick / "table_4.csv") if row["kept"] == "True"}
+    for row in rows:
+        assert row["ipopt_status"] == row["ipm_status"] == "solved" and row["ipm_certified"] == "True"
+        assert row["ipopt_cost"] == full[row["forces"]]["cost"]  # the paper's tables stay Ipopt's
+        assert float(row["ipm_cost"]) <= 1.02 * float(row["ipopt_cost"])
+        assert f"| {row['ipopt_iterations']} | {row['ipm_iterations']} |" in page
+        saved = mcplan.files.whole_body_plans.load_whole_body_plan(quick / f"table_4_cartwheel_{row['forces']}_ipm.npz")
+        assert mcplan.check(saved).ok()
+
+
+def test_a_solver_is_compared_where_both_were_run_with_its_own_poorer_case():
+    theirs = [made_up(Config(4, "walking", "tube", forces=f), cost=c) for f, c in (("uniform", 5.0), ("per_body", 4.0))]
+    ours = [made_up(Config(4, "walking", "tube", forces="uniform", solver="ipm"), cost=5.1, iterations=7)]
+    (row,) = lengagne_tables.solver_rows([*theirs, *ours], 4)
+    assert (row["forces"], row["ipm_iterations"], row["ipopt_cost"], row["ipm_cost"]) == ("uniform", 7, 5.0, 5.1)
+    assert {row["forces"] for row in lengagne_tables.full_rows([*theirs, *ours])} == {"uniform", "per_body"}
+    assert len(lengagne_tables.full_rows([*theirs, *ours])) == 2
+    assert lengagne_tables.solver_table([row])[-1].count("|") == lengagne_tables.solver_table([row])[0].count("|")
+
+
 def test_resume_draws_again_without_solving(quick, monkeypatch):
     before = json.loads((quick / "runs.json").read_text())
     (quick / "lengagne_figure_2.png").unlink()
@@ -209,7 +235,9 @@ def test_every_row_of_the_paper_is_run():
     for table, published in ((1, paper.TABLE_1), (2, paper.TABLE_2)):
         assert {Config(table, motion, "band", neq) for motion, neq in published} <= wanted
     assert {Config(3, motion, "band", 2, paper.CASES[case]) for motion, case in paper.TABLE_3} <= wanted
-    assert {Config(4, motion, "tube", forces=paper.CASES[case]) for motion, case in paper.TABLE_4} <= wanted
+    for solver in ("ipopt", "ipm"):
+        assert {Config(3, m, "tube", forces=paper.CASES[c], solver=solver) for m, c in paper.TABLE_3} <= wanted
+        assert {Config(4, m, "tube", forces=paper.CASES[c], solver=solver) for m, c in paper.TABLE_4} <= wanted
     grids = {(c.table, c.motion, c.neq) for c in wanted if c.continuous == "grid" and c.hold == "band"}
     assert grids == {(table, *key) for table in (1, 2) for key in paper.TABLE_1}
 

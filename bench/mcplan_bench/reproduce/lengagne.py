@@ -16,7 +16,14 @@ from mcplan_bench import records
 from . import lengagne_figures, lengagne_tables
 from .lengagne_runs import FILE, Run, collect
 from .lengagne_settings import chosen_motions, configs
-from .lengagne_text import differences_3, differences_4, differences_grid, differences_kinematics, head
+from .lengagne_text import (
+    differences_3,
+    differences_4,
+    differences_grid,
+    differences_kinematics,
+    differences_solvers,
+    head,
+)
 
 TABLES = (1, 2, 3, 4)
 
@@ -70,6 +77,7 @@ def reproduce(
         "grid": lengagne_tables.grid_rows(runs),
         "table_3": lengagne_tables.dynamic_rows(runs),
         "table_4": lengagne_tables.full_rows(runs),
+        "solvers": [row for table in (3, 4) for row in lengagne_tables.solver_rows(runs, table)],
     }
     written = [out / FILE, *(records.write_csv(out / f"{name}.csv", rows) for name, rows in parts.items() if rows)]
     pictures = lengagne_figures.costs(out, parts["table_4"])
@@ -93,6 +101,7 @@ def _page(
         ("grid", "Time grid and extrema instead of the hull", tables.grid_table, differences_grid),
         ("table_3", "Table III: dynamics, nothing minimised", tables.dynamic_table, differences_3),
         ("table_4", "Table IV: full motions, least torque", tables.full_table, differences_4),
+        ("solvers", "Tables III and IV by Ipopt and by the kernel", tables.solver_table, differences_solvers),
     ):
         if parts[name]:
             lines += ["", f"## {title}", "", *table(parts[name])]

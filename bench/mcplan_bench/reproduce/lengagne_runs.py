@@ -202,7 +202,7 @@ def from_poorer(cold: Run, runs: list[Run], out: Path, say: Callable[[str], None
 
     order = list(CASES.values())
     for forces in reversed(order[: order.index(cold.config.forces)]):
-        poorer = best_of(runs, 4, cold.config.motion, forces)
+        poorer = best_of(runs, 4, cold.config.motion, forces, solver=cold.config.solver)
         if poorer is None or not poorer.converged:
             continue
         if merit(cold) <= merit(poorer):
@@ -218,10 +218,16 @@ def merit(kept: Run) -> float:
     return kept.cost if kept.status == "solved" and kept.cost is not None else float("inf")
 
 
-def best_of(runs: list[Run], table: int, motion: str, forces: str, hold: str = "tube") -> Run | None:
+def best_of(
+    runs: list[Run], table: int, motion: str, forces: str, hold: str = "tube", solver: str = "ipopt"
+) -> Run | None:
     """The run of a row with dynamics, the cheaper one where there are two."""
-    requested = (table, motion, forces, hold)
-    here = [r for r in runs if (r.config.table, r.config.motion, r.config.forces, r.config.hold) == requested]
+    requested = (table, motion, forces, hold, solver)
+    here = [
+        r
+        for r in runs
+        if (r.config.table, r.config.motion, r.config.forces, r.config.hold, r.config.solver) == requested
+    ]
     return min(here, key=merit, default=None)
 
 

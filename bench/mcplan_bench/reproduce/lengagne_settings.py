@@ -12,6 +12,9 @@ from .lengagne_paper import CASES, MOTIONS
 
 STEEP = "climbing_steep"
 
+#: mcplan's own solver, which Tables III and IV have beside Ipopt.
+KERNEL = "ipm"
+
 #: Free-flyer of the tables of kinematics.
 FREE_FLYER = {1: "parameterised", 2: "computed"}
 NEQ = (0, 1, 2, 3)
@@ -27,7 +30,7 @@ ITERATIONS = {1: 200, 2: 200, 3: 1000, 4: 2000}
 
 #: Wall clock of a run [s]: none of the runs that converge comes near it.
 TIME_LIMIT_S = {1: 60.0, 2: 60.0, 3: 120.0, 4: 600.0}
-#: Wall clock of runs that mostly end without a result [s]: climbing_steep with uniform weights, and equal contacts.
+#: Wall clock of runs that mostly end without a result [s]: climbing_steep with uniform weights by Ipopt, equal contacts.
 HOPELESS_S, EQUAL_S = 30.0, 20.0
 
 
@@ -41,18 +44,21 @@ class Config:
     neq: int = -1  #: highest coefficient that band and strict constrain; -1: none
     forces: str = ""  #: where contact forces come from; empty: kinematics alone
     continuous: str = "hull"  #: constraints between knots
+    solver: str = "ipopt"  #: of the nonlinear programs; ipm: mcplan's own
 
     @property
     def title(self) -> str:
         """For lines of progress."""
         held = self.hold if self.neq < 0 else f"{self.hold} 0..{self.neq}"
         parts = [f"Table {'I II III IV'.split()[self.table - 1]}", self.motion, self.forces, held]
-        return ", ".join(p for p in [*parts, "" if self.continuous == "hull" else self.continuous] if p)
+        parts += ["" if self.continuous == "hull" else self.continuous, "" if self.solver == "ipopt" else self.solver]
+        return ", ".join(p for p in parts if p)
 
     @property
     def key(self) -> str:
         """Name of its plan's file."""
-        return f"table_{self.table}_{self.motion}_{self.forces}"
+        solver = "" if self.solver == "ipopt" else f"_{self.solver}"
+        return f"table_{self.table}_{self.motion}_{self.forces}{solver}"
 
     @property
     def clearance(self) -> bool:
@@ -68,6 +74,7 @@ class Config:
             "continuous": self.continuous,
             "minimise": "none",
             "clearance": self.clearance,
+            "solver": self.solver,
         }
         if self.neq >= 0:
             out["neq"] = self.neq
@@ -84,7 +91,7 @@ class Config:
         """Wall clock of the run."""
         if self.hold == "equal":
             return EQUAL_S
-        hopeless = self.motion == STEEP and self.forces == "uniform"
+        hopeless = self.motion == STEEP and self.forces == "uniform" and self.solver == "ipopt"
         return HOPELESS_S if hopeless else TIME_LIMIT_S[self.table]
 
 
@@ -98,8 +105,10 @@ def configs(tables: Iterable[int], motions: Sequence[str], quick: bool = False) 
             elif table == 3:
                 for forces in CASES.values():
                     out += [Config(3, motion, "band", 2, forces), Config(3, motion, "tube", forces=forces)]
+                out += [Config(3, motion, "tube", forces=forces, solver=KERNEL) for forces in CASES.values()]
             elif table == 4 and motion != STEEP:
-                out += [Config(4, motion, "tube", forces=forces) for forces in CASES.values()]
+                for solver in ("ipopt", KERNEL):
+                    out += [Config(4, motion, "tube", forces=forces, solver=solver) for forces in CASES.values()]
         if table == 3 and "cartwheel" in motions:
             out += [
                 Config(3, "cartwheel", "band", 2, "parameters"),

@@ -6,7 +6,7 @@ from typing import Any
 
 from . import lengagne_paper as paper
 from .lengagne_runs import Run, best_of, find
-from .lengagne_settings import FREE_FLYER, NEQ, STEEP, Config
+from .lengagne_settings import FREE_FLYER, KERNEL, NEQ, STEEP, Config
 
 Row = dict[str, Any]
 
@@ -186,6 +186,47 @@ def dynamic_table(rows: list[Row]) -> list[str]:
     return lines
 
 
+def solver_rows(runs: list[Run], table: int) -> list[Row]:
+    """Rows of Table III (tube) or IV that both Ipopt and the kernel were run with, each one's best."""
+    out = []
+    for motion in (*paper.MOTIONS, STEEP):
+        for forces in paper.CASES.values():
+            ours = best_of(runs, table, motion, forces, solver=KERNEL)
+            theirs = best_of(runs, table, motion, forces)
+            if ours is None or theirs is None:
+                continue
+            row: Row = {"table": table, "motion": motion, "forces": forces}
+            for name, kept in (("ipopt", theirs), (KERNEL, ours)):
+                row |= {f"{name}_{key}": getattr(kept, key) for key in COMPARED}
+            out.append(row)
+    return out
+
+
+#: Of the solvers side by side; `status` is the planner's, with the checker's word in it.
+COMPARED = ("iterations", "time_s", "cpu_s", "cost", "status", "certified")
+
+
+def solver_table(rows: list[Row]) -> list[str]:
+    """Ipopt and the kernel side by side, as Markdown; costs of Table IV alone, where they are minimised."""
+    lines = [
+        "| table | motion | case | iterations: Ipopt | kernel | time [s]: Ipopt | kernel | processor: Ipopt | kernel "
+        "| criterion [N² m² s]: Ipopt | kernel | status: Ipopt | kernel |",
+        "|---" * 13 + "|",
+    ]
+    for row in rows:
+        pairs = [
+            [str(row[f"{name}_iterations"]) for name in ("ipopt", KERNEL)],
+            [f"{row[f'{name}_time_s']:.2f}" for name in ("ipopt", KERNEL)],
+            [f"{row[f'{name}_cpu_s']:.2f}" for name in ("ipopt", KERNEL)],
+            [f"{row[f'{name}_cost']:.1f}" if row["table"] == 4 else "" for name in ("ipopt", KERNEL)],
+            [row[f"{name}_status"] for name in ("ipopt", KERNEL)],
+        ]
+        cells = " | ".join(cell for pair in pairs for cell in pair)
+        case = CASE_TITLES[row["forces"]]
+        lines.append(f"| {'I II III IV'.split()[row['table'] - 1]} | {TITLES[row['motion']]} | {case} | {cells} |")
+    return lines
+
+
 def paired(rows: list[Row]) -> list[tuple[Row, Row]]:
     """Band and tube of each motion and case; rows of which one is missing are left out."""
     tubes = {(row["motion"], row["forces"]): row for row in rows if row["contacts"] == "tube"}
@@ -200,7 +241,8 @@ def full_rows(runs: list[Run]) -> list[Row]:
         for case, forces in paper.CASES.items():
             best = best_of(runs, 4, motion, forces)
             for kept in runs:
-                if (kept.config.table, kept.config.motion, kept.config.forces) != (4, motion, forces):
+                config = kept.config
+                if (config.table, config.motion, config.forces, config.solver) != (4, motion, forces, "ipopt"):
                     continue
                 row: Row = {"motion": motion, "case": case, "forces": forces, "start": kept.start or "P = 0"}
                 row |= _published(paper.TABLE_4.get((motion, case)))

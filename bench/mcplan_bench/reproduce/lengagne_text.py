@@ -272,3 +272,26 @@ def differences_4(parts: Parts) -> list[str]:
         "and constraints is exact; the paper does not say what it gives Ipopt."
     )
     return lines + bullet("Climbing in case 1 is not in the paper.")
+
+
+def differences_solvers(parts: Parts) -> list[str]:
+    """On Tables III and IV by both solvers."""
+    rows = parts["solvers"]
+    faster = [row["ipopt_cpu_s"] / row["ipm_cpu_s"] for row in rows if row["ipm_cpu_s"] > 0.0]
+    lines = paragraph(
+        "The rows with the tube once more, with mcplan's own interior-point kernel (`--solver ipm`, docs/theory/ipm.md) in place "
+        "of Ipopt. *status*: what the planner says, with the checker's word in it. Where a richer case was started from a poorer "
+        "one, the cheaper run of each solver."
+    )
+    lines.append("")
+    solved = [sum(row[f"{name}_status"] == "solved" for row in rows) for name in ("ipopt", "ipm")]
+    lines += bullet(f"Solved: {solved[0]} of {len(rows)} by Ipopt, {solved[1]} of {len(rows)} by the kernel.")
+    if faster:
+        lines += bullet(f"Ipopt takes {min(faster):.1f} to {max(faster):.1f} times the kernel's processor time.")
+    costs = [row["ipm_cost"] / row["ipopt_cost"] - 1.0 for row in rows if row["table"] == 4 and row["ipopt_cost"]]
+    if costs:
+        lines += bullet(
+            f"The kernel's criteria of Table IV lie between {100 * min(costs):+.1f} % and {100 * max(costs):+.1f} % of "
+            "Ipopt's: both are local minima."
+        )
+    return lines

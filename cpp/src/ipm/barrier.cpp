@@ -21,6 +21,8 @@ constexpr int kHistory = 4;
 constexpr double kNearViolation = 1e-2, kLeastPart = 0.0625, kGrowPart = 4.0;  // of the blend of Hessians
 constexpr double kFirstDamping = 1e-2;
 constexpr int kManyTrials = 6;
+constexpr double kShortStep = 0.01;  // of the way that is looked for, where nothing but a feasible point is
+constexpr int kManyShortSteps = 15;
 
 }  // namespace
 
@@ -68,6 +70,7 @@ void Barrier::start(Point& point) {
   part_ = 1.0 / kGrowPart;
   damping_ = 0.0;
   trials_ = 0;
+  short_steps_ = 0;
 }
 
 Barrier::Errors Barrier::errors(const Point& point, double mu) {
@@ -284,6 +287,10 @@ Barrier::Ending Barrier::run(Point& point, int max_iterations) {
                 "no further progress; the optimality error is within 100 times the tolerance"};
       return {nlp::Outcome::numerical_failure, "the steps became too small"};
     }
+    // Stuck between bounds: where such runs came to an end, it was more than a hundred steps later, and not solved.
+    short_steps_ = alpha_ < kShortStep ? short_steps_ + 1 : 0;
+    if (options_.kernel.feasible_is_enough && short_steps_ >= kManyShortSteps)
+      return {nlp::Outcome::numerical_failure, "the steps became too small"};
   }
 }
 

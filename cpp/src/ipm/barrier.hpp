@@ -82,6 +82,7 @@ class Barrier {
   std::vector<double> history_;
   bool header_written_ = false;
   int trials_ = 0;
+  int short_steps_ = 0;  ///< in a row
   double alpha_ = 0.0, alpha_dual_ = 0.0, linear_solver_s_ = 0.0;
 };
 

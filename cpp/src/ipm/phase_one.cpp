@@ -9,6 +9,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kStationary = 1e-5;  // of the gradient, over the norm of the residuals
+constexpr double kHardly = 1e-2;      // of the sum of squares, by which it falls over `patience` steps
 
 /// How far outside: negative below the lower limit, positive above the upper one.
 double beyond(double value, double lower, double upper, double drawn_in) {
@@ -48,11 +49,15 @@ bool PhaseOne::run(const Unknowns& unknowns, Functions& functions, Kkt& kkt, Poi
   if (max_iterations == 0) return false;
   functions.evaluate(point);
   Point trial = point;
-  double lambda = damping, growth = 2.0;
+  double lambda = damping, growth = 2.0, before = nlp::kInfinity;
   bool moved = true;
   for (int i = 0; i < max_iterations; ++i) {
     const Residuals now(unknowns, point, drawn_in);
     if (now.largest() <= enough) break;
+    if (patience > 0 && i % patience == 0) {
+      if (now.half_square() > (1.0 - kHardly) * before) return true;
+      before = now.half_square();
+    }
     functions.begin_iteration();
     if (moved) {
       functions.derivatives(point, gradient, kkt);

@@ -56,6 +56,7 @@ bool decided(const nlp::Problem& problem, const VectorXd& x, double constraint_t
 constexpr PhaseOne kAttempts[] = {{10.0, 0}, {10.0, 8}, {1.0, 50}};
 constexpr PhaseOne kAttemptsFromAfar[] = {{10.0, 50, 2.0}, {100.0, 50, 2.0}, {1.0, 50, 2.0}};
 constexpr int kMaxProof = 300;  // steps towards a point of least violation, where all attempts have failed
+constexpr int kPatience = 30;   // of them, from afar: near such a point they are many and short where rows are curved
 
 void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOptions& options, const Deadline& deadline,
          nlp::Solution& out) {
@@ -77,7 +78,8 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
     if (out.outcome == Outcome::numerical_failure) {
       point = point_at(unknowns, x);
       const int steps = std::min(kMaxProof, options.max_iterations - functions.iterations());
-      const PhaseOne proof{1.0, steps, 10.0 * options.constraint_tolerance, 0.0};
+      const int patience = options.kernel.distant_start ? kPatience : 0;
+      const PhaseOne proof{1.0, steps, 10.0 * options.constraint_tolerance, 0.0, patience};
       if (proof.run(unknowns, functions, kkt, point)) {
         out.outcome = Outcome::infeasible;
         out.message = "converged to a point at which the violation is locally least";

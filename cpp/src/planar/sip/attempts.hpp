@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "mcplan/planar/sip/options.hpp"
@@ -52,6 +53,24 @@ inline std::vector<Attempt> attempts_for(const Options& options, bool cost) {
   const std::vector<Attempt> more = ipopt_attempts_for(options, cost);
   out.insert(out.end(), more.begin(), more.end());
   return out;
+}
+
+/// What the kernel may take of iterations for a point within all constraints while there are other ways to one. The
+/// motions of the tasks that are built in take at most 110, or it fails.
+constexpr int kTrialIterations = 150;
+
+/// Options of such a try: by the kernel alone.
+inline Options trial_of(Options options) {
+  options.solver = nlp::Solver::ipm;
+  options.max_iterations = std::min(options.max_iterations, kTrialIterations);
+  return options;
+}
+
+/// The forces with one more weight for each contact, or for each point: they have all motions of the ones given.
+inline std::optional<Forces> freer(Forces forces) {
+  if (forces == Forces::uniform) return Forces::per_body;
+  if (forces == Forces::per_body) return Forces::per_point;
+  return std::nullopt;
 }
 
 }  // namespace mcplan::sip

@@ -10,6 +10,7 @@
 #include "mcplan/nlp/solver.hpp"
 #include "mcplan/version.hpp"
 #include "planar/sip/attempts.hpp"
+#include "planar/sip/plannable.hpp"
 #include "planar/sip/program.hpp"
 
 namespace mcplan::sip {
@@ -23,37 +24,12 @@ bool ends_all(nlp::Outcome outcome) {
          outcome == nlp::Outcome::interrupted;
 }
 
-/// What a valid task may lack for this planner, by the first field that does.
-void require_plannable(const PlanarTask& task, const Options& options) {
-  if (task.robot.joint_count() < 1) throw InvalidRobot("bodies", "needs at least one joint to plan", "the base alone");
-  if (task.interval_count() < 2)
-    throw InvalidPlanarTask("phases[0].intervals",
-                            "must be at least 2 in a task of one phase, to be at rest at both ends",
-                            text(task.interval_count()));
-  if (options.dynamics && options.forces == Forces::parameters) return;
-  for (std::size_t k = 0; k < task.phases.size(); ++k) {
-    Eigen::Index points = 0;
-    for (const PlanarContact& contact : task.phases[k].contacts)
-      points += static_cast<Eigen::Index>(task.robot.end_effectors[contact.end_effector].points.size());
-    try {
-      least_norm_gain(task, static_cast<int>(k), Eigen::VectorXd::Ones(points));
-    } catch (const InvalidPlan& error) {
-      throw InvalidPlanarTask("phases[" + std::to_string(k) + "].contacts", error.rule(), error.value());
-    }
-  }
-}
-
-/// The task's and the options' bounds of durations must leave something between them.
-void require_durations(const PlanarTask& task, const Options& options) {
-  const std::vector<Range> ranges = duration_ranges(task, options);
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const double lower = ranges[i].min, upper = ranges[i].max;
-    if (lower > upper)
-      throw InvalidOptions(options.free_durations ? "phase_duration_s" : "total_duration_s",
-                           "must overlap with what the task allows" +
-                               (options.free_durations ? " phase " + std::to_string(i) : std::string()),
-                           "at least " + text(lower) + " and at most " + text(upper) + " s");
-  }
+/// The one of two solutions of a program without a cost that is worth keeping, with the later one's outcome.
+nlp::Solution better_of(nlp::Solution first, nlp::Solution second) {
+  if (first.worst.value >= second.worst.value || second.outcome == nlp::Outcome::converged) return second;
+  first.outcome = second.outcome;
+  first.message = second.message;
+  return first;
 }
 
 /// Instants at which the checker looks at a plan, at most.
@@ -112,6 +88,7 @@ struct Planner::Impl {
   double starting_s(double derivatives) const;
   nlp::Solution run(const Options& with, double cost_scale, const Eigen::VectorXd& x, bool close = false);
   void part(nlp::Solution& solution, double cost_scale, Eigen::VectorXd apart);
+  nlp::Solution within_cones(const Options& with, const Eigen::VectorXd& near, const Eigen::VectorXd& x);
   nlp::Solution feasible(const Eigen::VectorXd& x);
   void tighten(nlp::Solution& solution, double cost_scale);
   Result solve(const Eigen::VectorXd& start);
@@ -217,19 +194,45 @@ nlp::Solution Planner::Impl::run(const Options& with, double cost_scale, const E
   return *best;
 }
 
+/// A point within all constraints from `near`, whose limbs are at their contacts.
+///
+/// Where forces have few weights and the motion is steep, the kernel gets stuck between cones and limits. Then motions
+/// of forces with more weights come first: they are found sooner, and those asked for are near them. What is left is
+/// the start x that the search was given, which is no worse than where a failed one stopped.
+nlp::Solution Planner::Impl::within_cones(const Options& with, const Eigen::VectorXd& near, const Eigen::VectorXd& x) {
+  const std::optional<Forces> more = freer(with.forces);
+  if (with.solver == nlp::Solver::ipopt || !with.dynamics || !more) return run(with, 0.0, near);
+  const Options trial = trial_of(with);
+  Options easier = trial;
+  easier.forces = *more;
+  nlp::Solution solution = run(trial, 0.0, near);
+  if (ends_all(solution.outcome)) return solution;
+  const nlp::Solution found = run(easier, 0.0, moved(near, with, easier));
+  if (found.outcome == nlp::Outcome::converged || found.outcome == nlp::Outcome::interrupted)
+    solution = better_of(std::move(solution), run(trial, 0.0, moved(found.x, easier, with)));
+  if (ends_all(solution.outcome)) return solution;
+  return better_of(std::move(solution), run(with, 0.0, x));
+}
+
 /// A point within all constraints.
 ///
 /// Kinematics come first: a small program that brings the limbs to their contacts, after which forces need half of
 /// the iterations. Where phases have durations of their own, one duration for all is searched: the knots stay equally
-/// spaced, and motions found so are not driven to their shortest phases.
+/// spaced, and motions found so are not driven to their shortest phases. Nor does the kernel choose a weight for each
+/// point before there is a cost: from what a first motion needed of them walking may end in a minimum that costs 4 %
+/// more.
 nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {
   Options with = options;
   const Range together = total_range(task, options);
-  const bool convert = options.free_durations && options.has_cost() && together.min <= together.max;
-  if (convert) with.free_durations = false;
+  const bool together_first = options.free_durations && options.has_cost() && together.min <= together.max;
+  if (together_first) with.free_durations = false;
+  if (options.solver != nlp::Solver::ipopt && options.has_cost() && options.forces == Forces::per_point)
+    with.forces = Forces::per_body;
+  const bool convert = together_first || with.forces != options.forces;
   Eigen::VectorXd start = convert ? moved(x, options, with) : x;
   if (options.dynamics && options.kinematics_first && options.forces != Forces::parameters) {
     Options kinematics = with;
+    if (with.solver == nlp::Solver::ipm) kinematics = trial_of(with);
     kinematics.dynamics = false;
     kinematics.order = std::min(options.order, kKinematicOrder);
     kinematics.neq = std::min(options.neq, kinematics.order);
@@ -243,7 +246,7 @@ nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {
       return found;
     }
   }
-  nlp::Solution solution = run(with, 0.0, start);
+  nlp::Solution solution = within_cones(with, start, convert ? moved(x, options, with) : x);
   if (convert) {
     solution.x = moved(solution.x, with, options);
     if (!ends_all(solution.outcome)) solution = run(options, 0.0, x);
@@ -267,22 +270,30 @@ void Planner::Impl::part(nlp::Solution& solution, double cost_scale, Eigen::Vect
 }
 
 /// What the Taylor polynomials leave out of forces and torques may exceed the checker's tolerances by some parts in ten
-/// thousand where intervals are long: then again from here with twice that as a margin.
+/// thousand where intervals are long: then again from here with twice that as a margin. The kernel may end at motions
+/// with longer intervals: where margins would be large, or do not help, its polynomials get a higher order.
 void Planner::Impl::tighten(nlp::Solution& solution, double cost_scale) {
-  constexpr int kRounds = 3;
-  constexpr double kMaxMargin = 0.02;
+  constexpr int kMaxOrder = 12, kRounds = 3;
+  constexpr double kMaxMargin = 0.02, kLargeExcess = 1e-3;
+  const bool kernel = options.solver != nlp::Solver::ipopt;
   Options with = options;
-  for (int round = 0; round < kRounds && solution.outcome == nlp::Outcome::converged; ++round) {
+  bool moved = true;
+  for (int round = 0; round < (kernel ? 6 : kRounds) && solution.outcome == nlp::Outcome::converged; ++round) {
     if (deadline.limited() && deadline.remaining_s() <= 2.0 * finishing_s(options, solution.x)) return;
     double excess = 0.0;
     for (const Violation& v : judged(plan_of(task, options, layout, solution.x)).violations()) {
       if (v.name != "torque" && v.name != "friction" && v.name != "pull") return;
       excess = std::max(excess, v.value);
     }
-    with.margin += 2.0 * excess;
-    if (excess == 0.0 || with.margin > kMaxMargin) return;
-    nlp::Solution next = run(with, cost_scale, solution.x, true);
+    if (excess == 0.0) return;
+    if (kernel && with.order < kMaxOrder && (excess > kLargeExcess || !moved))
+      with.order = std::min(with.order + 2, kMaxOrder);
+    else
+      with.margin += 2.0 * excess;
+    if (with.margin > kMaxMargin) return;
+    nlp::Solution next = run(with, cost_scale, solution.x, excess <= kLargeExcess || !kernel);
     if (next.outcome != nlp::Outcome::converged) return;
+    moved = next.x != solution.x;
     solution = std::move(next);
   }
 }

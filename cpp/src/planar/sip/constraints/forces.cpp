@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "planar/sip/constraints.hpp"
 
 namespace mcplan::sip {
@@ -19,13 +22,15 @@ double weight(const IntervalMotion& motion) { return motion.task.robot.mass() * 
 // squared form (eq. 14) has no gradient at zero force and lets pulling forces through.
 void keep_in_friction_cone(IntervalMotion& motion, std::vector<Limited>& out) {
   const auto& contacts = motion.task.phases[motion.local.phase].contacts;
-  const double unit = weight(motion);
   for (std::size_t v = 0; v < motion.forces.size(); ++v) {
     const IntervalMotion::Force& force = motion.forces[v];
     const double mu = motion.task.surfaces[contacts[force.contact].surface].friction;
+    constexpr double kSticky = 1e3;  // rows of more friction are scaled, so that none has numbers without use
+    const double unit = weight(motion) * std::max(1.0, mu / kSticky);
     for (double side : {1.0, -1.0}) {
       const TaylorGraph::Node spare = motion.graph.linear({{mu, force.normal}, {side, force.tangential}});
-      out.push_back({"friction of " + place(motion, v), spare, motion.options.margin * unit, INFINITY, 1.0 / unit});
+      out.push_back(
+          {"friction of " + place(motion, v), spare, motion.options.margin * weight(motion), INFINITY, 1.0 / unit});
     }
   }
 }
