@@ -73,7 +73,7 @@ class Barrier {
   Filter filter_{nlp::kInfinity};
   Eigen::VectorXd gradient_, lambda_, lower_dual_, upper_dual_;
   Eigen::VectorXd gap_lower_, gap_upper_;  ///< distances to the bounds, infinite where there is none
-  // Workspace, so that iterations allocate nothing.
+  // Workspace of the iterations.
   Eigen::VectorXd right_a_, right_b_, weights_, barrier_gradient_, slack_error_, slack_work_, slack_multipliers_;
   Eigen::VectorXd dual_, dx_, corrected_equalities_, corrected_slacks_;
   Step step_, affine_, corrected_;
