@@ -11,6 +11,7 @@ using Eigen::VectorXd;
 
 // Names and values of the constants as in Wächter, Biegler 2006, where they have one.
 constexpr double kBoundPush = 1e-2;                                  // kappa_1, kappa_2: of the start, off its bounds
+constexpr double kProbingPush = 0.1;                                 // the same where the barrier is probed from there
 constexpr double kMultiplierScale = 100.0;                           // s_max
 constexpr double kBarrierTolerance = 10.0;                           // kappa_epsilon
 constexpr double kLinearDecrease = 0.2, kSuperlinearDecrease = 1.5;  // kappa_mu, theta_mu
@@ -18,6 +19,7 @@ constexpr double kFirstDelta = 1e-4, kMaxDelta = 1e20, kGrowDelta = 8.0, kFirstG
 constexpr double kMinDelta = 1e-20, kDualDelta = 1e-8;
 constexpr double kProgress = 0.9999;  // of the optimality error over the last iterations
 constexpr int kHistory = 4;
+constexpr double kLeastRatio = 0.1;  // of a probed barrier parameter, over the average complementarity
 constexpr double kNearViolation = 1e-2, kLeastPart = 0.0625, kGrowPart = 4.0;  // of the blend of Hessians
 constexpr double kFirstDamping = 1e-2;
 constexpr int kManyTrials = 6;
@@ -29,25 +31,35 @@ constexpr int kManyShortSteps = 15;
 double Barrier::Errors::largest() const { return std::max({dual, primal, complementarity}); }
 
 Barrier::Barrier(const Unknowns& unknowns, const nlp::SolverOptions& options, Functions& functions, Kkt& kkt)
-    : unknowns_(unknowns), options_(options), functions_(functions), kkt_(kkt) {
+    : unknowns_(unknowns),
+      options_(options),
+      functions_(functions),
+      kkt_(kkt),
+      probing_(options.adaptive_barrier && !options.kernel.distant_start) {
   const int free = unknowns.free_count(), all = static_cast<int>(unknowns.lower.size());
-  gradient_ = dual_ = right_a_ = VectorXd::Zero(free);
-  lambda_ = right_b_ = VectorXd::Zero(unknowns.equality_count());
+  gradient_ = dual_ = right_a_ = dx_ = VectorXd::Zero(free);
+  lambda_ = right_b_ = corrected_equalities_ = VectorXd::Zero(unknowns.equality_count());
   lower_dual_ = upper_dual_ = gap_lower_ = gap_upper_ = weights_ = barrier_gradient_ = VectorXd::Zero(all);
-  slack_error_ = slack_work_ = VectorXd::Zero(unknowns.slack_count());
+  slack_error_ = slack_work_ = slack_multipliers_ = corrected_slacks_ = VectorXd::Zero(unknowns.slack_count());
+  for (Step* step : {&step_, &affine_, &corrected_}) {
+    step->t = step->lower = step->upper = VectorXd::Zero(all);
+    step->lambda = VectorXd::Zero(lambda_.size());
+  }
+  history_.reserve(kHistory + 1);
 }
 
-VectorXd Barrier::multipliers_of_slacks() const {
-  return upper_dual_.tail(unknowns_.slack_count()) - lower_dual_.tail(unknowns_.slack_count());
+const VectorXd& Barrier::multipliers_of_slacks() {
+  slack_multipliers_ = upper_dual_.tail(unknowns_.slack_count()) - lower_dual_.tail(unknowns_.slack_count());
+  return slack_multipliers_;
 }
 
 void Barrier::start(Point& point) {
+  const double push = probing_ ? kProbingPush : kBoundPush;
   const auto inside = [&](int i, double value) {
     const double low = unknowns_.lower[i], high = unknowns_.upper[i];
-    const double room = kBoundPush * (high - low);
-    if (low > -nlp::kInfinity) value = std::max(value, low + std::min(kBoundPush * std::max(1.0, std::abs(low)), room));
-    if (high < nlp::kInfinity)
-      value = std::min(value, high - std::min(kBoundPush * std::max(1.0, std::abs(high)), room));
+    const double room = push * (high - low);
+    if (low > -nlp::kInfinity) value = std::max(value, low + std::min(push * std::max(1.0, std::abs(low)), room));
+    if (high < nlp::kInfinity) value = std::min(value, high - std::min(push * std::max(1.0, std::abs(high)), room));
     return value;
   };
   for (int i = 0; i < n(); ++i) point.t[i] = inside(i, point.t[i]);
@@ -75,9 +87,8 @@ void Barrier::start(Point& point) {
 
 Barrier::Errors Barrier::errors(const Point& point, double mu) {
   dual_ = gradient_ - lower_dual_.head(n()) + upper_dual_.head(n());
-  slack_work_ = multipliers_of_slacks();
   kkt_.add_equalities_transposed(lambda_, dual_);
-  kkt_.add_inequalities_transposed(slack_work_, dual_);
+  kkt_.add_inequalities_transposed(multipliers_of_slacks(), dual_);
   const double bounds = lower_dual_.sum() + upper_dual_.sum();
   const double count = static_cast<double>(lower_dual_.size() * 2);
   const double dual_scale =
@@ -164,7 +175,7 @@ bool Barrier::factor_blend(const Point& point) {
   return factor_ladder();
 }
 
-void Barrier::direction(const Point& point, double mu, const VectorXd& c, const VectorXd& slack_error, Step& step) {
+void Barrier::direction(double mu, const VectorXd& c, const VectorXd& slack_error, Step& step, bool rough) {
   const double start_s = functions_.deadline().now_s();
   const int slacks = unknowns_.slack_count();
   barrier_gradient_ = mu / gap_upper_.array() - mu / gap_lower_.array();
@@ -173,18 +184,20 @@ void Barrier::direction(const Point& point, double mu, const VectorXd& c, const 
   kkt_.add_inequalities_transposed(slack_work_, right_a_);
   right_a_ = -right_a_;
   right_b_ = -c;
-  step.t.resize(point.t.size());
-  VectorXd dx(n());
-  kkt_.solve(right_a_, right_b_, dx, step.lambda);
-  kkt_.multiply_inequalities(dx, slack_work_);
-  step.t << dx, slack_work_ + slack_error;
+  if (rough)
+    kkt_.solve_roughly(right_a_, right_b_, dx_, step.lambda);
+  else
+    kkt_.solve(right_a_, right_b_, dx_, step.lambda);
+  kkt_.multiply_inequalities(dx_, slack_work_);
+  step.t.head(n()) = dx_;
+  step.t.tail(slacks) = slack_work_ + slack_error;
   step.lower = (mu - lower_dual_.array() * step.t.array()) / gap_lower_.array() - lower_dual_.array();
   step.upper = (mu + upper_dual_.array() * step.t.array()) / gap_upper_.array() - upper_dual_.array();
   linear_solver_s_ += functions_.deadline().now_s() - start_s;
 }
 
 /// Longest step that leaves 1 - tau of every distance to a bound.
-double Barrier::max_step(const VectorXd&, const VectorXd& d, double tau) const {
+double Barrier::max_step(const VectorXd& d, double tau) const {
   double alpha = 1.0;
   for (int i = 0; i < d.size(); ++i) {
     if (d[i] < 0.0 && -alpha * d[i] > tau * gap_lower_[i]) alpha = -tau * gap_lower_[i] / d[i];
@@ -215,22 +228,21 @@ double Barrier::average_complementarity() const {
 }
 
 /// Mehrotra's: how far complementarity falls along the step to mu = 0 says how far it should be asked to fall.
-double Barrier::probed_mu(const Point& point) {
-  Step affine;
-  direction(point, 0.0, point.equalities, slack_error_, affine);
-  const double primal = max_step(point.t, affine.t, 1.0), dual = max_dual_step(affine, 1.0);
+double Barrier::probed_mu(const Point& point, double average) {
+  direction(0.0, point.equalities, slack_error_, affine_, true);
+  const double primal = max_step(affine_.t, 1.0), dual = max_dual_step(affine_, 1.0);
   double sum = 0.0;
   int count = 0;
   for (int i = 0; i < lower_dual_.size(); ++i) {
     if (gap_lower_[i] < nlp::kInfinity)
-      sum += (gap_lower_[i] + primal * affine.t[i]) * (lower_dual_[i] + dual * affine.lower[i]), ++count;
+      sum += (gap_lower_[i] + primal * affine_.t[i]) * (lower_dual_[i] + dual * affine_.lower[i]), ++count;
     if (gap_upper_[i] < nlp::kInfinity)
-      sum += (gap_upper_[i] - primal * affine.t[i]) * (upper_dual_[i] + dual * affine.upper[i]), ++count;
+      sum += (gap_upper_[i] - primal * affine_.t[i]) * (upper_dual_[i] + dual * affine_.upper[i]), ++count;
   }
-  const double now = average_complementarity();
-  if (count == 0 || now <= 0.0) return 0.0;
-  const double ratio = std::max(0.0, sum / count) / now;
-  return std::min(ratio * ratio * ratio, 1.0) * now;
+  if (count == 0 || average <= 0.0) return 0.0;
+  const double ratio = std::max(0.0, sum / count) / average;
+  const double least = probing_ ? kLeastRatio : 0.0;
+  return std::clamp(ratio * ratio * ratio, least, 1.0) * average;
 }
 
 void Barrier::choose_mu(const Point& point, const Errors& now) {
@@ -248,7 +260,7 @@ void Barrier::choose_mu(const Point& point, const Errors& now) {
       history_.push_back(error);
       if (static_cast<int>(history_.size()) > kHistory) history_.erase(history_.begin());
       fixed_mu_ = false;
-      set(std::max(probed_mu(point), least));
+      set(std::max(probed_mu(point, average_complementarity()), least));
       return;
     }
     if (!fixed_mu_) {
@@ -264,8 +276,7 @@ Barrier::Ending Barrier::run(Point& point, int max_iterations) {
   trial_ = point;
   header_written_ = false;
   start(point);
-  Step step;
-  step.lambda.resize(lambda_.size());
+  Step& step = step_;
   for (;;) {
     for (int k = 0; k < slack_error_.size(); ++k) slack_error_[k] = point.slack_error(k);
     const Errors now = errors(point, 0.0);
@@ -278,7 +289,7 @@ Barrier::Ending Barrier::run(Point& point, int max_iterations) {
     functions_.begin_iteration();
     if (!factor(point)) return {nlp::Outcome::numerical_failure, "the linear system of a step could not be solved"};
     choose_mu(point, now);
-    direction(point, mu_, point.equalities, slack_error_, step);
+    direction(mu_, point.equalities, slack_error_, step);
     if (!step.t.allFinite())
       return {nlp::Outcome::numerical_failure, "the linear system of a step could not be solved"};
     if (!search(point, step)) {

@@ -28,7 +28,7 @@ class Barrier {
   Ending run(Point& point, int max_iterations);
 
   const Eigen::VectorXd& equality_multipliers() const { return lambda_; }
-  Eigen::VectorXd inequality_multipliers() const { return multipliers_of_slacks(); }
+  const Eigen::VectorXd& inequality_multipliers() { return multipliers_of_slacks(); }
   double linear_solver_s() const { return linear_solver_s_; }
 
  private:
@@ -41,19 +41,20 @@ class Barrier {
   };
 
   int n() const { return unknowns_.free_count(); }
-  Eigen::VectorXd multipliers_of_slacks() const;
+  const Eigen::VectorXd& multipliers_of_slacks();
   void start(Point& point);
   Errors errors(const Point& point, double mu);
   bool factor(const Point& point);
   bool factor_blend(const Point& point);
   bool factor_ladder();
   void set_weights();
-  void direction(const Point& point, double mu, const Eigen::VectorXd& c, const Eigen::VectorXd& slack_error,
-                 Step& step);
-  double max_step(const Eigen::VectorXd& t, const Eigen::VectorXd& d, double tau) const;
+  /// A step towards the solution for mu, with the violations c and slack_error; a rough one is not refined.
+  void direction(double mu, const Eigen::VectorXd& c, const Eigen::VectorXd& slack_error, Step& step,
+                 bool rough = false);
+  double max_step(const Eigen::VectorXd& d, double tau) const;
   double max_dual_step(const Step& step, double tau) const;
   void choose_mu(const Point& point, const Errors& now);
-  double probed_mu(const Point& point);
+  double probed_mu(const Point& point, double average);
   double average_complementarity() const;
 
   double theta(const Point& point) const;
@@ -68,10 +69,14 @@ class Barrier {
   const nlp::SolverOptions& options_;
   Functions& functions_;
   Kkt& kkt_;
+  const bool probing_;  ///< the barrier parameter, from a start that no phase one has moved
   Filter filter_{nlp::kInfinity};
   Eigen::VectorXd gradient_, lambda_, lower_dual_, upper_dual_;
   Eigen::VectorXd gap_lower_, gap_upper_;  ///< distances to the bounds, infinite where there is none
-  Eigen::VectorXd right_a_, right_b_, weights_, barrier_gradient_, slack_error_, slack_work_, dual_;
+  // Workspace of the iterations.
+  Eigen::VectorXd right_a_, right_b_, weights_, barrier_gradient_, slack_error_, slack_work_, slack_multipliers_;
+  Eigen::VectorXd dual_, dx_, corrected_equalities_, corrected_slacks_;
+  Step step_, affine_, corrected_;
   Point trial_;
   Eigen::VectorXd gauss_newton_, exact_, blend_;  ///< Hessians
   double part_ = 0.0;                             ///< of the exact Hessian in the blend

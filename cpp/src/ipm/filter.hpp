@@ -11,7 +11,7 @@ namespace mcplan::ipm {
 /// implementation of an interior-point filter line-search algorithm, 2006, section 2.3).
 class Filter {
  public:
-  explicit Filter(double max_violation) : max_violation_(max_violation) {}
+  explicit Filter(double max_violation) : max_violation_(max_violation) { entries_.reserve(kRoom); }
 
   void clear() { entries_.clear(); }
 
@@ -28,6 +28,7 @@ class Filter {
   }
 
   static constexpr double kMargin = 1e-5;
+  static constexpr int kRoom = 400;  ///< entries before the first allocation
 
  private:
   double max_violation_;

@@ -15,6 +15,7 @@ using ConstBlock = Eigen::Map<const MatrixXd>;
 
 /// Up to this size a pivot counts as zero.
 constexpr double kLeastPivot = 1e-300;
+constexpr int kPanel = 8;  // columns of what remains that are computed together, from their diagonal on
 
 }  // namespace
 
@@ -27,14 +28,16 @@ Fronts::Fronts(int count, std::vector<std::vector<int>> order, const std::vector
   long size = 0;
   int largest = 0;
   for (Front& front : fronts_) {
-    size += static_cast<long>(front.size()) * front.size();
+    size += static_cast<long>(front.size()) * front.own;
     largest = std::max(largest, front.size());
   }
   values_ = VectorXd::Zero(size);
   pivots_.resize(count);
   off_diagonal_.assign(count, 0.0);
-  scaled_.resize(largest, largest);
+  scaled_.resize(static_cast<long>(largest) * largest);
+  update_.resize(scaled_.size());
   own_.resize(largest);
+  rest_.resize(largest);
 }
 
 void Fronts::find_fronts(std::vector<std::vector<int>> order, const std::vector<int>& group_of,
@@ -63,31 +66,38 @@ void Fronts::find_fronts(std::vector<std::vector<int>> order, const std::vector<
     front.first_column = column;
     front.offset = offset;
     column += front.own;
-    offset += static_cast<long>(front.size()) * front.size();
+    offset += static_cast<long>(front.size()) * front.own;
+    // What is left of this front couples its other unknowns with each other.
     if (!rest.empty()) {
-      front.parent = group_of[rest.front()];
-      std::vector<int>& handed_on = later[front.parent];
+      const int parent = group_of[rest.front()];
       for (int unknown : rest)
-        if (group_of[unknown] != front.parent) handed_on.push_back(unknown);
+        if (group_of[unknown] != parent) later[parent].push_back(unknown);
     }
     fronts_.push_back(std::move(front));
   }
 }
 
 void Fronts::find_places(const std::vector<int>& group_of, const std::vector<Pair>& pairs) {
-  std::vector<int> local(group_of.size(), -1);
-  for (Front& front : fronts_) {
-    if (front.parent < 0) continue;
-    const Front& parent = fronts_[front.parent];
-    for (int i = 0; i < parent.size(); ++i) local[parent.unknowns[i]] = i;
-    for (int i = front.own; i < front.size(); ++i) front.in_parent.push_back(local[front.unknowns[i]]);
-  }
-  // Front by front, so that `local` is filled once for each.
+  // Front by front, so that `local` is filled once for each: the pairs that lie in it, and those of fronts before it.
   std::vector<std::vector<int>> pairs_of(fronts_.size());
   for (std::size_t p = 0; p < pairs.size(); ++p)
     pairs_of[std::min(group_of[pairs[p].first], group_of[pairs[p].second])].push_back(static_cast<int>(p));
+  std::vector<std::vector<int>> before(fronts_.size());
+  for (std::size_t g = 0; g < fronts_.size(); ++g) {
+    Front& front = fronts_[g];
+    const int rest = front.size() - front.own;
+    front.first_update = static_cast<long>(updates_.size());
+    updates_.resize(updates_.size() + static_cast<std::size_t>(rest) * (rest + 1) / 2);
+    int last = -1;
+    for (int i = front.own; i < front.size(); ++i) {
+      const int owner = group_of[front.unknowns[i]];
+      if (owner != last) before[owner].push_back(static_cast<int>(g));
+      last = owner;
+    }
+  }
   places_.resize(pairs.size());
   diagonal_.resize(group_of.size());
+  std::vector<int> local(group_of.size(), -1);
   for (std::size_t g = 0; g < fronts_.size(); ++g) {
     const Front& front = fronts_[g];
     const int n = front.size();
@@ -97,6 +107,14 @@ void Fronts::find_places(const std::vector<int>& group_of, const std::vector<Pai
     };
     for (int i = 0; i < front.own; ++i) diagonal_[front.unknowns[i]] = place(i, i);
     for (int p : pairs_of[g]) places_[p] = place(local[pairs[p].first], local[pairs[p].second]);
+    for (int earlier : before[g]) {
+      const Front& from = fronts_[earlier];
+      int* at = updates_.data() + from.first_update;
+      for (int j = from.own; j < from.size(); ++j)
+        for (int i = j; i < from.size(); ++i, ++at)
+          if (group_of[from.unknowns[j]] == static_cast<int>(g))
+            *at = place(local[from.unknowns[i]], local[from.unknowns[j]]);
+    }
   }
 }
 
@@ -104,7 +122,7 @@ Fronts::Inertia Fronts::factor() {
   Inertia total;
   for (const Front& front : fronts_) {
     const int n = front.size(), m = front.own, rest = n - m;
-    Block F(values_.data() + front.offset, n, n);
+    Block F(values_.data() + front.offset, n, m);
     int* pivots = pivots_.data() + front.first_column;
     double* off_diagonal = off_diagonal_.data() + front.first_column;
     const PivotCount count = eliminate(F, m, pivots, off_diagonal, kLeastPivot);
@@ -114,8 +132,8 @@ Fronts::Inertia Fronts::factor() {
     if (count.zero > 0) return total;
     if (rest == 0) continue;
     // What remains: F_rr - L D L', its lower triangle.
-    auto scaled = scaled_.topLeftCorner(rest, m);
-    const auto L = F.bottomLeftCorner(rest, m);
+    Block scaled(scaled_.data(), rest, m);
+    const auto L = F.bottomRows(rest);
     for (int k = 0; k < m; ++k) {
       if (off_diagonal[k] != 0.0) {
         scaled.col(k) = F(k, k) * L.col(k) + off_diagonal[k] * L.col(k + 1);
@@ -125,42 +143,34 @@ Fronts::Inertia Fronts::factor() {
         scaled.col(k) = F(k, k) * L.col(k);
       }
     }
-    // Small blocks, of which both triangles cost less than the set-up of a product of one.
-    F.bottomRightCorner(rest, rest).noalias() -= scaled.lazyProduct(L.transpose());
-    add_to_parent(front);
+    Block update(update_.data(), rest, rest);
+    for (int j = 0; j < rest; j += kPanel) {
+      const int columns = std::min(kPanel, rest - j);
+      update.block(j, j, rest - j, columns) =
+          scaled.bottomRows(rest - j).lazyProduct(L.middleRows(j, columns).transpose());
+    }
+    const int* at = updates_.data() + front.first_update;
+    for (int j = 0; j < rest; ++j)
+      for (int i = j; i < rest; ++i) values_[*at++] -= update(i, j);
   }
   return total;
 }
 
-void Fronts::add_to_parent(const Front& front) {
-  const Front& parent = fronts_[front.parent];
-  const int n = front.size(), m = front.own, rest = n - m, size = parent.size();
-  const double* from = values_.data() + front.offset + static_cast<long>(m) * n + m;
-  double* to = values_.data() + parent.offset;
-  // Unknowns stand in the same order in both fronts where neither is the parent's own, and may not otherwise.
-  for (int j = 0; j < rest; ++j, from += n) {
-    const int column = front.in_parent[j];
-    for (int i = j; i < rest; ++i) {
-      const int row = front.in_parent[i];
-      to[static_cast<long>(std::min(row, column)) * size + std::max(row, column)] += from[i];
-    }
-  }
-}
-
 void Fronts::solve(VectorXd& b) const {
   for (const Front& front : fronts_) {
-    const int n = front.size(), m = front.own;
-    const ConstBlock F(values_.data() + front.offset, n, n);
+    const int n = front.size(), m = front.own, rest = n - m;
+    const ConstBlock F(values_.data() + front.offset, n, m);
     const int* pivots = pivots_.data() + front.first_column;
     for (int i = 0; i < m; ++i) own_[i] = b[front.unknowns[pivots[i]]];
     for (int k = 0; k < m; ++k) own_.segment(k + 1, m - k - 1) -= own_[k] * F.col(k).segment(k + 1, m - k - 1);
     for (int i = 0; i < m; ++i) b[front.unknowns[i]] = own_[i];
-    for (int k = 0; k < m; ++k)
-      for (int i = m; i < n; ++i) b[front.unknowns[i]] -= F(i, k) * own_[k];
+    if (rest == 0) continue;
+    rest_.head(rest).noalias() = F.bottomRows(rest) * own_.head(m);
+    for (int i = 0; i < rest; ++i) b[front.unknowns[m + i]] -= rest_[i];
   }
   for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
-    const int n = front->size(), m = front->own;
-    const ConstBlock F(values_.data() + front->offset, n, n);
+    const int n = front->size(), m = front->own, rest = n - m;
+    const ConstBlock F(values_.data() + front->offset, n, m);
     const int* pivots = pivots_.data() + front->first_column;
     const double* off_diagonal = off_diagonal_.data() + front->first_column;
     for (int k = 0; k < m; ++k) {
@@ -176,11 +186,11 @@ void Fronts::solve(VectorXd& b) const {
       own_[k + 1] = (p * next - value) / (c * determinant);
       ++k;
     }
-    for (int k = m - 1; k >= 0; --k) {
-      double sum = own_[k] - F.col(k).segment(k + 1, m - k - 1).dot(own_.segment(k + 1, m - k - 1));
-      for (int i = m; i < n; ++i) sum -= F(i, k) * b[front->unknowns[i]];
-      own_[k] = sum;
+    if (rest > 0) {
+      for (int i = 0; i < rest; ++i) rest_[i] = b[front->unknowns[m + i]];
+      own_.head(m).noalias() -= F.bottomRows(rest).transpose() * rest_.head(rest);
     }
+    for (int k = m - 2; k >= 0; --k) own_[k] -= F.col(k).segment(k + 1, m - k - 1).dot(own_.segment(k + 1, m - k - 1));
     for (int i = 0; i < m; ++i) b[front->unknowns[pivots[i]]] = own_[i];
   }
 }

@@ -8,11 +8,12 @@ namespace mcplan::ipm {
 
 /// Factorisation P' L D L' P of a sparse symmetric matrix, unknowns group by group in a given order.
 ///
-/// Each group has a front: the dense matrix of its own unknowns and of those that come later and share an entry with
-/// them, directly or through groups before. Its own are eliminated with pivots of size one and two (Bunch, Kaufman),
-/// chosen among them; what is left of the front is added to that of the next group that has part in it. Groups that are
-/// the stages of a horizon from its end to its begin make it a Riccati recursion, where what is handed on is the
-/// cost-to-go; groups of a band whose arrow comes last make it the Cholesky factorisation of a band with an arrow.
+/// Each group has a front: the dense columns of its own unknowns, with rows for those that come later and share an
+/// entry with them, directly or through groups before. Its own are eliminated with pivots of size one and two (Bunch,
+/// Kaufman), chosen among them; what is left is subtracted from the columns of the groups whose unknowns they are.
+/// Groups that are the stages of a horizon from its end to its begin make it a Riccati recursion, where what is handed
+/// on is the cost-to-go; groups of a band whose arrow comes last make it the Cholesky factorisation of a band with an
+/// arrow.
 class Fronts {
  public:
   using Pair = std::pair<int, int>;
@@ -44,26 +45,26 @@ class Fronts {
 
  private:
   struct Front {
-    int own = 0, parent = -1;
-    int first_column = 0;        ///< of this front's own unknowns, among all
-    long offset = 0;             ///< of its matrix in values_
-    std::vector<int> unknowns;   ///< own ones first
-    std::vector<int> in_parent;  ///< where those that are not its own stand in the parent's front
+    int own = 0;
+    int first_column = 0;       ///< of this front's own unknowns, among all
+    long offset = 0;            ///< of its own columns in values_
+    long first_update = 0;      ///< of its places among updates_
+    std::vector<int> unknowns;  ///< own ones first
     int size() const { return static_cast<int>(unknowns.size()); }
   };
 
   void find_fronts(std::vector<std::vector<int>> order, const std::vector<int>& group_of,
                    const std::vector<Pair>& pairs);
   void find_places(const std::vector<int>& group_of, const std::vector<Pair>& pairs);
-  void add_to_parent(const Front& front);
 
   std::vector<Front> fronts_;
   std::vector<int> places_, diagonal_;
+  std::vector<int> updates_;  ///< of the lower triangle of what remains of each front, column by column: its places
   Eigen::VectorXd values_;
   std::vector<int> pivots_;           ///< of every own unknown: its place within the front before pivoting
   std::vector<double> off_diagonal_;  ///< of D; other than zero at the first of two
-  Eigen::MatrixXd scaled_;            ///< L D of one front
-  mutable Eigen::VectorXd own_;
+  Eigen::VectorXd scaled_, update_;   ///< of one front: L D, and L D L'
+  mutable Eigen::VectorXd own_, rest_;
 };
 
 }  // namespace mcplan::ipm

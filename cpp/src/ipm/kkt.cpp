@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "ipm/order.hpp"
 
@@ -168,12 +167,17 @@ void Kkt::residual(const VectorXd& a, const VectorXd& b, const VectorXd& dx, con
   left_a_ = a - left_a_;
 }
 
-void Kkt::solve(const VectorXd& a, const VectorXd& b, VectorXd& dx, VectorXd& lambda) {
+void Kkt::solve_roughly(const VectorXd& a, const VectorXd& b, VectorXd& dx, VectorXd& lambda) {
   right_ << a, b;
-  const double size = std::max(right_.size() > 0 ? right_.cwiseAbs().maxCoeff() : 0.0, 1e-300);
   fronts_.solve(right_);
   dx = right_.head(n_);
   lambda = right_.tail(m_);
+}
+
+void Kkt::solve(const VectorXd& a, const VectorXd& b, VectorXd& dx, VectorXd& lambda) {
+  const double largest_a = n_ > 0 ? a.cwiseAbs().maxCoeff() : 0.0, largest_b = m_ > 0 ? b.cwiseAbs().maxCoeff() : 0.0;
+  const double size = std::max({largest_a, largest_b, 1e-300});
+  solve_roughly(a, b, dx, lambda);
   double before = nlp::kInfinity;
   for (int i = 0; i <= kMaxRefinements; ++i) {
     residual(a, b, dx, lambda);

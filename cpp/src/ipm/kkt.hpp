@@ -31,6 +31,9 @@ class Kkt {
   /// dx and lambda, refined until the residual is small against the right side or falls no further.
   void solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& dx, Eigen::VectorXd& lambda);
 
+  /// The same without a look at the residual, for a step that is only to be looked at.
+  void solve_roughly(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& dx, Eigen::VectorXd& lambda);
+
   /// out = J_I x, out += J_I' y, out = J_E x, out += J_E' y.
   void multiply_inequalities(const Eigen::VectorXd& x, Eigen::VectorXd& out) const;
   void add_inequalities_transposed(const Eigen::VectorXd& y, Eigen::VectorXd& out) const;

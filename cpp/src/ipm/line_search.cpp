@@ -54,7 +54,7 @@ bool Barrier::search(Point& point, Step& step) {
   phi_now_ = barrier_cost(point, mu_);
   barrier_gradient_ = mu_ / gap_upper_.array() - mu_ / gap_lower_.array();
   slope_ = gradient_.dot(step.t.head(n())) + barrier_gradient_.dot(step.t);
-  const double max_alpha = max_step(point.t, step.t, tau);
+  const double max_alpha = max_step(step.t, tau);
   alpha_dual_ = max_dual_step(step, tau);
   double alpha = max_alpha;
   for (trials_ = 1; trials_ <= kMaxTrials; ++trials_, alpha *= 0.5) {
@@ -80,14 +80,15 @@ bool Barrier::search(Point& point, Step& step) {
 /// Second-order corrections: the same matrix, with the violation at the end of the step in the right side.
 bool Barrier::correct(const Point& point, const Point& trial, double max_alpha, Step& step) {
   const double tau = std::max(kLeastTau, 1.0 - mu_);
-  VectorXd c = max_alpha * point.equalities + trial.equalities, g = max_alpha * slack_error_;
+  VectorXd &c = corrected_equalities_, &g = corrected_slacks_;
+  c = max_alpha * point.equalities + trial.equalities;
+  g = max_alpha * slack_error_;
   for (int i = 0; i < g.size(); ++i) g[i] += trial.slack_error(i);
   double before = theta(trial);
-  Step corrected;
-  corrected.lambda.resize(lambda_.size());
+  Step& corrected = corrected_;
   for (int i = 0; i < kMaxCorrections; ++i) {
-    direction(point, mu_, c, g, corrected);
-    const double alpha = max_step(point.t, corrected.t, tau);
+    direction(mu_, c, g, corrected);
+    const double alpha = max_step(corrected.t, tau);
     trial_.t = point.t + alpha * corrected.t;
     functions_.evaluate(trial_);
     const double now = theta(trial_);

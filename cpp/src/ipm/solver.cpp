@@ -28,7 +28,7 @@ Point point_at(const Unknowns& unknowns, const VectorXd& x) {
 }
 
 /// Of the problem's rows.
-VectorXd multipliers_of(const nlp::Problem& problem, const Unknowns& unknowns, const Barrier& barrier) {
+VectorXd multipliers_of(const nlp::Problem& problem, const Unknowns& unknowns, Barrier& barrier) {
   VectorXd out = VectorXd::Zero(problem.row_count());
   const VectorXd slacks = barrier.inequality_multipliers();
   for (int i = 0; i < unknowns.equality_count(); ++i) out[unknowns.equalities[i]] = barrier.equality_multipliers()[i];

@@ -36,7 +36,8 @@ nlp::SolverOptions solver_options(const Options& options, double time_left_s) {
   // Measured on the terrains: a high first barrier leads to the same optimum from any guess, a low one saves a seventh
   // of the iterations where there are most of them.
   out.initial_barrier = options.paper ? 0.3 : options.fidelity == Fidelity::single ? 0.03 : 0.1;
-  out.gradient_scaling = false;  // the variables are of the order of one as they are
+  out.adaptive_barrier = options.solver != nlp::Solver::ipopt;  // a third of the kernel's iterations less
+  out.gradient_scaling = false;                                 // the variables are of the order of one as they are
   out.stop = options.stop;
   out.clock = options.clock;
   return out;
@@ -157,7 +158,8 @@ nlp::Solution RecedingHorizon::Impl::solve(Cycle& cycle, Horizon& horizon_now, H
   nlp::Solution solution;
   for (int attempt = 0;; ++attempt) {
     nlp::SolverOptions how = solver_options(options, deadline.remaining_s());
-    if (attempt > 0) how.initial_barrier = 1e-4;  // close to the solution already
+    // Close to the solution already. The kernel begins well inside all bounds wherever it is.
+    if (attempt > 0 && options.solver == nlp::Solver::ipopt) how.initial_barrier = 1e-4;
     how.max_iterations = std::max(1, options.max_iterations - cycle.iterations);
     solution = ipm::solve(options.solver, horizon_now.problem, horizon_now.guess, how);
     cycle.solver = solution.solver;
