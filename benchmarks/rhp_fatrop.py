@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Cycles of the receding horizon by mcplan's kernel, by its Ipopt, and by CasADi with fatrop, from the same states.
 
-    python benchmarks/rhp_fatrop.py [--cycles 14] [--tolerances 1e-4] [--cases point single] [--out FILE.json]
+    python benchmarks/rhp_fatrop.py [--cycles 14] [--tolerances 1e-3] [--cases point single] [--out FILE.json]
 
 The kernel walks; the state at the start of each of its cycles is what the others solve too, each warm-started from its own
 solution two cycles before. Needs the extra `bench`. What may be compared and what not: benchmarks/README.md.
@@ -125,7 +125,7 @@ def main() -> None:
     parser.add_argument("--cycles", type=int, default=14)
     parser.add_argument("--cases", nargs="+", choices=tuple(LOOKAHEAD), default=tuple(LOOKAHEAD))
     parser.add_argument("--terrains", nargs="+", choices=TERRAINS, default=TERRAINS)
-    parser.add_argument("--tolerances", nargs="+", type=float, default=[1e-4], help="of fatrop, one after the other")
+    parser.add_argument("--tolerances", nargs="+", type=float, default=[1e-3], help="of fatrop, one after the other")
     parser.add_argument("--max-iterations", type=int, default=300, help="of fatrop")
     parser.add_argument("--euler", action="store_true", help="forward Euler and the paper's bounds, not linear forces")
     parser.add_argument("--out", type=Path)
