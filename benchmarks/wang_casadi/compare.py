@@ -26,13 +26,15 @@ CASES = (("point", 3), ("single", 2))
 LIMIT = 1e-4  # of the relative difference of the optima
 
 
-def planner(terrain: str, robot: str, fidelity: str, lookahead: int, transcription: str, paper: bool) -> Any:
+def planner(
+    terrain: str, robot: str, fidelity: str, lookahead: int, transcription: str, paper: bool, solver: str = "ipopt"
+) -> Any:
     """mcplan's, before its first cycle."""
     from mcplan._core import rhp
 
     options = rhp.Options()
     options.fidelity, options.transcription = getattr(rhp.Fidelity, fidelity), getattr(rhp.Transcription, transcription)
-    options.lookahead, options.paper = lookahead, paper
+    options.lookahead, options.paper, options.solver = lookahead, paper, getattr(rhp.Solver, solver)
     # As in the peers' program.
     options.foothold_margin_m, options.sole_ratio, options.com_height = 0.0, 1.0, (0.87, 1.07)
     return rhp.RecedingHorizon(mcplan.load_scene(terrain), mcplan.load_robot(robot), options)

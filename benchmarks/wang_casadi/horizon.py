@@ -38,6 +38,7 @@ class Settings:
     transcription: str = "trapezoidal"  # or euler
     paper: bool = False
     form: str = "same"  # or plain
+    turned: bool = False  # the pyramid inside the friction cone has its edges where mcplan's variables have them
     tolerance: float = 1e-5
     max_iterations: int = 400
 
@@ -66,7 +67,7 @@ class Horizon:
         self.plain = settings.form == "plain"
         self.euler = settings.transcription == "euler"
         self.program = Program()
-        for name in ("acc_executed", "momentum_executed", "acc_predicted", "momentum_predicted", "psi"):
+        for name in ("acc_executed", "momentum_executed", "acc_predicted", "momentum_predicted", "psi", "terminal"):
             self.program.parts[name] = ca.SX(0)
         self._check_force_bounds()
         self._contacts()
@@ -76,7 +77,7 @@ class Horizon:
                 self._phase(s, q)
         self._reach()
         error = self.c[-1] - self.program.parameter("goal", 3)
-        self.program.parts["terminal"] = GOAL_WEIGHT * ca.sumsqr(error)
+        self.program.cost("terminal", GOAL_WEIGHT * ca.sumsqr(error))
         self.program.build(tuple(self.program.parts), settings.ipopt)
 
     # What is where
@@ -164,7 +165,7 @@ class Horizon:
         h = self.duration(s, q) / N
         first = 3 * N * s + N * q
         controls = [self._control(s, q, k, first + k) for k in range(self.controls())]
-        parts, when = self.program.parts, "executed" if s == 0 else "predicted"
+        cost, when = self.program.cost, "executed" if s == 0 else "predicted"
         centroidal = self.model(s) == "single"
         for k in range(N):
             here, there = controls[k], controls[k if self.euler else k + 1]
@@ -172,16 +173,17 @@ class Horizon:
             (self._euler_step if self.euler else self._linear_force_step)(g, h, here, there, centroidal)
             a0, a1 = here["a"], there["a"]
             if self.euler:
-                parts[f"acc_{when}"] += h * ca.sumsqr(a0)
-                parts["psi"] += h * here["psi"]
+                cost(f"acc_{when}", h * ca.sumsqr(a0))
+                cost("psi", h * here["psi"])
             else:
-                parts[f"acc_{when}"] += h / 3 * (ca.sumsqr(a0) + ca.dot(a0, a1) + ca.sumsqr(a1))
-                parts["psi"] += h / 2 * (here["psi"] + there["psi"])
+                cost(f"acc_{when}", h / 3 * (ca.sumsqr(a0) + ca.dot(a0, a1) + ca.sumsqr(a1)))
+                cost("psi", h / 2 * here["psi"])
+                cost("psi", h / 2 * there["psi"])
             if centroidal and self.euler:
-                parts[f"momentum_{when}"] += h * ca.sumsqr(self.L[g])
+                cost(f"momentum_{when}", h * ca.sumsqr(self.L[g]))
             elif centroidal:
                 rate = self._rate_between(g, h, here, there)
-                parts[f"momentum_{when}"] += self._square_of_momentum(g, h, rate)
+                cost(f"momentum_{when}", self._square_of_momentum(g, h, rate))
                 for inner in (rate[0] + rate[1] / 3, rate[0] + (2 * rate[1] + rate[2]) / 3):  # Bernstein's
                     self.program.add(inner, -MOMENTUM_RATE, MOMENTUM_RATE)
 
@@ -201,12 +203,10 @@ class Horizon:
                     psi += self._relaxation(("psi", j, i, s, q, k), lever / LEVER, f / most)
         a = total / walker.mass - ca.SX([0, 0, walker.gravity])
         if not self.plain:
-            inserted, a = a, program.variable(("a", s, q, k), 3)
-            program.equal(a, inserted)
+            a = program.defined(("a", s, q, k), a)
         out = {"a": a, "psi": psi}
         if self.model(s) == "single":
-            out["R"] = program.variable(("R", s, q, k), 3, -MOMENTUM_RATE, MOMENTUM_RATE)
-            program.equal(out["R"], torque)
+            out["R"] = program.defined(("R", s, q, k), torque, -MOMENTUM_RATE, MOMENTUM_RATE)
         return out
 
     def _force(self, name: tuple, j: int, most: float) -> ca.SX:
@@ -223,7 +223,7 @@ class Horizon:
             program.at_most(world[2], most)  # the other bounds are implied
         slope = mu if outer else mu * math.cos(math.pi / sides)
         for side in range(sides):
-            phi = 2 * math.pi * side / sides
+            phi = 2 * math.pi * (side + 0.5 * (self.settings.turned and not outer)) / sides
             along = [round(math.cos(phi), 12), round(math.sin(phi), 12)]
             program.at_most(along[0] * local[0] + along[1] * local[1] - slope * local[2])
         return FORCE_UNIT * world

@@ -47,6 +47,7 @@ class Loop:
         self.walker, self.settings = walker, settings
         self.state = State.start(walker)
         self.cycles: list[Cycle] = []
+        self.origins: Array = np.zeros((0, 3))  # [m] from which the footholds of the last cycle were counted
         self.horizons = horizons if horizons is not None else {}
 
     def horizon(self, index: int) -> Horizon:
@@ -72,6 +73,7 @@ class Loop:
             guess = self.nominal(horizon, start, footholds, patches)
         else:
             footholds, guess = self.moved(self.cycles[index - 2], start, patches, horizon)
+        self.origins = footholds
         outcome = horizon.program.solve(
             perturb(guess),
             self.parameters(start, foot, patches, footholds),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -27,7 +27,8 @@ class Outcome:
     iterations: int
     time_s: float  # wall clock, of the call to the solver
     cpu_s: float  # of the process, the same call
-    evaluation_s: float  # of which in functions and derivatives
+    evaluation_s: float  # of the wall clock, in functions and derivatives
+    evaluation_cpu_s: float  # of the process, the same
 
 
 @dataclass
@@ -41,12 +42,21 @@ class Program:
     low: list[float] = field(default_factory=list)
     high: list[float] = field(default_factory=list)
     parts: dict[str, ca.SX] = field(default_factory=dict)
+    terms: list[ca.SX] = field(default_factory=list)  # of the objective, one by one
+    definitions: dict[Hashable, tuple[int, ca.SX]] = field(default_factory=dict)  # index in `rows`, what it equals
     solver: Any = None
 
     def variable(self, name: Hashable, size: int, low: Any = -math.inf, high: Any = math.inf) -> ca.SX:
         self.x[name] = ca.SX.sym(str(name), size)
         self.bounds[name] = (np.broadcast_to(low, size) * 1.0, np.broadcast_to(high, size) * 1.0)
         return self.x[name]
+
+    def defined(self, name: Hashable, expression: ca.SX, low: Any = -math.inf, high: Any = math.inf) -> ca.SX:
+        """A variable that equals an expression."""
+        x = self.variable(name, expression.numel(), low, high)
+        self.definitions[name] = (len(self.rows), expression)
+        self.equal(expression, x)
+        return x
 
     def parameter(self, name: Hashable, rows: int, columns: int = 1) -> ca.SX:
         self.p[name] = ca.SX.sym(str(name), rows, columns)
@@ -63,6 +73,11 @@ class Program:
 
     def at_most(self, expression: ca.SX, most: float = 0.0) -> None:
         self.add(expression, -math.inf, most)
+
+    def cost(self, part: str, term: ca.SX) -> None:
+        """Add a term of the objective to one of its parts."""
+        self.parts[part] += term
+        self.terms.append(term)
 
     def build(self, objective: tuple[str, ...], ipopt: dict[str, Any]) -> None:
         """Prepare the solver; the objective is the sum of the named parts."""
@@ -96,29 +111,46 @@ class Program:
                 f"{sorted(map(str, set(parameters) ^ set(self.p)))}"
             )
         bounds = self.bounds | {name: (value, value) for name, value in fixed.items()}
-        p = np.concatenate([np.ravel(parameters[name], order="F") for name in self.p])
-        begin, cpu = time.perf_counter(), time.process_time()
-        out = self.solver(
-            x0=np.concatenate([np.ravel(guess[name]) for name in self.x]),
-            p=p,
-            lbx=np.concatenate([bounds[name][0] for name in self.x]),
-            ubx=np.concatenate([bounds[name][1] for name in self.x]),
-            lbg=self.low,
-            ubg=self.high,
-        )
-        elapsed, cpu = time.perf_counter() - begin, time.process_time() - cpu
-        stats = self.solver.stats()
-        x = out["x"].full().ravel()
-        sizes = np.cumsum([each.numel() for each in self.x.values()])[:-1]
-        parts = self._parts(x, p)
-        return Outcome(
-            values=dict(zip(self.x, np.split(x, sizes), strict=True)),
-            objective=float(out["f"]),
-            parts=dict(zip(self.parts, map(float, parts if isinstance(parts, tuple) else (parts,)), strict=True)),
-            success=bool(stats["success"]),
-            status=str(stats["return_status"]),
-            iterations=int(stats["iter_count"]),
-            time_s=elapsed,
-            cpu_s=cpu,
-            evaluation_s=sum(value for key, value in stats.items() if key.startswith("t_wall_nlp_")),
-        )
+        arguments = {
+            "x0": np.concatenate([np.ravel(guess[name]) for name in self.x]),
+            "p": self.vector(parameters),
+            "lbx": np.concatenate([bounds[name][0] for name in self.x]),
+            "ubx": np.concatenate([bounds[name][1] for name in self.x]),
+            "lbg": self.low,
+            "ubg": self.high,
+        }
+        return solve_with(self, self.solver, arguments, lambda x: x)
+
+    def vector(self, parameters: Values) -> Array:
+        """The parameters in the program's order."""
+        return np.concatenate([np.ravel(parameters[name], order="F") for name in self.p])
+
+    def violation(self, values: Values, parameters: Values) -> float:
+        """The largest violation of a row or bound, in the units of each; what is held fixed in a solve is not looked at."""
+        x = np.concatenate([values[name] for name in self.x])
+        g = self._rows(x, self.vector(parameters)).full().ravel()
+        low, high = (np.concatenate([self.bounds[name][side] for name in self.x]) for side in (0, 1))
+        return float(max(np.max(self.low - g), np.max(g - self.high), np.max(low - x), np.max(x - high)))
+
+
+def solve_with(program: Program, solver: Any, arguments: dict[str, Any], original: Callable[[Array], Array]) -> Outcome:
+    """Run a solver; `original` makes the program's variables of the solver's."""
+    begin, cpu = time.perf_counter(), time.process_time()
+    out = solver(**arguments)
+    elapsed, cpu = time.perf_counter() - begin, time.process_time() - cpu
+    stats = solver.stats()
+    x = original(out["x"].full().ravel())
+    sizes = np.cumsum([each.numel() for each in program.x.values()])[:-1]
+    parts = program._parts(x, arguments["p"])
+    return Outcome(
+        values=dict(zip(program.x, np.split(x, sizes), strict=True)),
+        objective=float(out["f"]),
+        parts=dict(zip(program.parts, map(float, parts if isinstance(parts, tuple) else (parts,)), strict=True)),
+        success=bool(stats["success"]),
+        status=str(stats["return_status"]),
+        iterations=int(stats["iter_count"]),
+        time_s=elapsed,
+        cpu_s=cpu,
+        evaluation_s=sum(value for key, value in stats.items() if key.startswith("t_wall_nlp_")),
+        evaluation_cpu_s=sum(value for key, value in stats.items() if key.startswith("t_proc_nlp_")),
+    )
