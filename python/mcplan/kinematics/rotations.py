@@ -74,7 +74,8 @@ def rotation_vector(rotation: Array) -> Array:
     sine = float(np.sqrt(vee @ vee))
     if sine < 1e-9:
         return vee
-    return vee * (np.arctan2(sine, 0.5 * (np.trace(rotation) - 1.0)) / sine)
+    trace = rotation[0, 0] + rotation[1, 1] + rotation[2, 2]
+    return vee * (np.arctan2(sine, 0.5 * (trace - 1.0)) / sine)
 
 
 def minimal_rotation(start: Array, goal: Array) -> Array:

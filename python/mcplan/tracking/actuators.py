@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,12 +42,12 @@ class TorqueSpeed:
         known = (np.asarray(velocity_limits, float) > 0.0) & limited
         return cls(np.asarray(torque_limits, float), np.where(known, velocity_limits, np.inf))
 
-    @property
+    @cached_property
     def stall_torques(self) -> Array:
         """(nj,) where the line at full voltage meets speed 0 [N m]."""
         return self.torque_limits / (1.0 - KNEE)
 
-    @property
+    @cached_property
     def slopes(self) -> Array:
         """(nj,) torque lost with speed at full voltage [N m s/rad]."""
         return self.stall_torques / self.velocity_limits

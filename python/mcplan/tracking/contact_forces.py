@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,12 +76,16 @@ class ForcePoints:
 
         f_i = tau z x (r_i - r) / sum |r_i - r|^2, r the mean of the points; none at a single point.
         """
-        arms = self.offsets - self.offsets.mean(axis=0)
-        size = float((arms**2).sum())
+        size, across = self._twist
         if size <= 0.0:
             return np.zeros(3 * self.count)
-        across = np.column_stack([-arms[:, 1], arms[:, 0], np.zeros(self.count)])
         return np.asarray((moment_Nm / size * across @ rotation_W.T).ravel())
+
+    @cached_property
+    def _twist(self) -> tuple[float, Array]:
+        """sum |r_i - r|^2 and z x (r_i - r), (p, 3), in the contact frame."""
+        arms = self.offsets - self.offsets.mean(axis=0)
+        return float((arms**2).sum()), np.column_stack([-arms[:, 1], arms[:, 0], np.zeros(self.count)])
 
 
 def clipped(polygon: Array, outline: Array) -> Array:

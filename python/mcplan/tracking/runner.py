@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -216,6 +217,6 @@ def _run(
 
 
 def _fallen(com_W: Array, base_WB: Array, desired: References, n: int, robot: Robot) -> bool:
-    far = float(np.linalg.norm(com_W - desired.com_W[n])) > FALLEN_RATIO * robot.com_height
-    cosine = 0.5 * (np.trace(desired.base_WB[n].T @ base_WB) - 1.0)
-    return far or bool(np.arccos(np.clip(cosine, -1.0, 1.0)) > FALLEN_RAD)
+    off = com_W - desired.com_W[n]
+    cosine = 0.5 * (float(np.vdot(desired.base_WB[n], base_WB)) - 1.0)  # of the angle between the two
+    return math.sqrt(float(off @ off)) > FALLEN_RATIO * robot.com_height or cosine < math.cos(FALLEN_RAD)

@@ -53,7 +53,7 @@ class Simulation:
         self._is_surface[list(model.surface_geoms)] = True
         self._lag_of = lambda: Lag(float(model.mj.opt.timestep), delay_s, bandwidth_hz)
         self._lag = self._lag_of()
-        self._limited = np.flatnonzero(np.isfinite(model.motors.velocity_limits))
+        self._limited = np.isfinite(model.motors.velocity_limits)
 
     @property
     def time_s(self) -> float:
@@ -101,7 +101,7 @@ class Simulation:
         if self.broke:
             return given
         self.data.xfrc_applied[self.model.base_body] = 0.0 if base_wrench_W is None else base_wrench_W
-        if not (self._lag.acts or len(self._limited)):
+        if not (self._lag.acts or self._limited.any()):
             self.data.ctrl[self.model.actuator_index] = torques
             self._step(self._mj, self.data, steps)
             given = self.data.actuator_force[self.model.actuator_index]
@@ -122,12 +122,13 @@ class Simulation:
         """
         model, motors, index = self.model, self.model.motors, self.model.actuator_index
         low, high = motors.bounds(self.data.qvel[model.dof_index])
-        full = np.where(torques > high, 1.0, np.where(torques < low, -1.0, 0.0))
-        full[np.isinf(motors.velocity_limits)] = 0.0
-        self.data.ctrl[index] = np.where(full == 0.0, torques, 0.0)
-        stall = np.where(full == 0.0, 0.0, motors.stall_torques)
-        self._mj.actuator_biasprm[index, 0] = full * stall
-        self._mj.actuator_biasprm[index, 2] = np.where(full == 0.0, 0.0, -motors.slopes)
+        above, below = (torques > high) & self._limited, (torques < low) & self._limited
+        full = above | below
+        some = bool(full.any())
+        self.data.ctrl[index] = np.where(full, 0.0, torques) if some else torques
+        if some or self._mj.actuator_biasprm[:, 2].any():  # now, or the last time
+            self._mj.actuator_biasprm[index, 0] = np.where(full, np.where(above, 1.0, -1.0) * motors.stall_torques, 0.0)
+            self._mj.actuator_biasprm[index, 2] = np.where(full, -motors.slopes, 0.0)
 
     def contact_forces_W(self) -> Array:
         """(e, 3) force [N] of the terrain on each end-effector."""
@@ -156,9 +157,10 @@ class Simulation:
         """Contacts of links with each other and, but for those of end-effectors, with the terrain; at this instant."""
         contact, model = self.data.contact, self.model
         found: dict[tuple[tuple[str, str], bool], Touch] = {}
-        unplanned = ~(self._is_surface[contact.geom].any(axis=1) & (self._end_of_geom[contact.geom] >= 0).any(axis=1))
+        geoms_of = contact.geom
+        unplanned = ~(self._is_surface[geoms_of].any(axis=1) & (self._end_of_geom[geoms_of] >= 0).any(axis=1))
         for i in np.flatnonzero(unplanned & (contact.efc_address >= 0) & (contact.dist < 0.0)):
-            geoms = sorted(int(geom) for geom in contact.geom[i])
+            geoms = sorted(int(geom) for geom in geoms_of[i])
             on_terrain = [geom for geom in geoms if self._is_surface[geom]]
             first, second = [geom for geom in geoms if geom not in on_terrain] + on_terrain
             depth_m, force_N = -float(contact.dist[i]), float(self.data.efc_force[contact.efc_address[i]])
@@ -173,8 +175,9 @@ class Simulation:
         """Of end-effectors' contacts with the terrain: end-effector, force on it (n, 3), normal force (n,), point (n, 3),
         world frame."""
         contact = self.data.contact
-        address, end_effectors = contact.efc_address, self._end_of_geom[contact.geom]
-        used = (address >= 0) & (end_effectors >= 0).any(axis=1) & self._is_surface[contact.geom].any(axis=1)
+        geoms = contact.geom  # MuJoCo's arrays are made anew whenever they are asked for
+        address, end_effectors = contact.efc_address, self._end_of_geom[geoms]
+        used = (address >= 0) & (end_effectors >= 0).any(axis=1) & self._is_surface[geoms].any(axis=1)
         address, end_effectors = address[used], end_effectors[used]
         # With elliptic cones the constraint forces are the components along normal and tangents.
         local = self.data.efc_force[address[:, None] + np.arange(3)]
