@@ -36,28 +36,34 @@ double angle_between(const Matrix3d& a, const Matrix3d& b) {
 ///
 ///     sum_l f_l = m (mu p - s),   sum_l ((a_l - p) x f_l + tau_l) = m ((a - s) x p - c) + tau,
 ///     mu = sum mu_l,  s = sum mu_l s_l,  a = sum mu_l a_l,  c = sum mu_l a_l x s_l,  tau = sum tau_l
+///
+/// with places counted from where the CoM is as the phase begins: kilometres from the world's origin the products would
+/// lose the digits that their difference is made of.
 struct Wrenches {
-  Wrenches(const Problem& problem, int phase) : mass(problem.robot.mass), inertia(problem.robot.inertia) {
+  Wrenches(const Problem& problem, int phase)
+      : mass(problem.robot.mass), inertia(problem.robot.inertia), origin_W(problem.plan.knots[phase].com_W) {
     for (const Contact& contact : problem.plan.phases[phase].contacts) {
-      const Vector3d pulled = contact.stiffness * contact.anchor_W;
+      const Vector3d pulled = contact.stiffness * (contact.anchor_W - origin_W);
+      const Vector3d pressed = contact.center_of_pressure_W - origin_W;
       stiffness += contact.stiffness;
       anchors += pulled;
-      lines += contact.stiffness * contact.center_of_pressure_W - pulled;
-      steady += contact.moment_W / mass - contact.center_of_pressure_W.cross(pulled);
+      lines += contact.stiffness * pressed - pulled;
+      steady += contact.moment_W / mass - pressed.cross(pulled);
     }
     fall = anchors + Vector3d(0.0, 0.0, problem.scene.gravity);
   }
 
   double mass;
-  Vector3d inertia;
+  Vector3d inertia, origin_W;
   double stiffness = 0.0;                                                        ///< mu
   Vector3d anchors = Vector3d::Zero(), lines = anchors, steady = anchors, fall;  ///< s, a - s, tau / m - c, s + g
 };
 
 /// p'' = sum_l f_l / m - g,  L' = sum_l ((a_l - p) x f_l + tau_l),  q' = (0, omega) q / 2  with  omega = R I^-1 R^T L.
 Replay wrench_rate(const Wrenches& sum, const Replay& state) {
-  Replay rate{state.com_velocity_W, sum.stiffness * state.com_W - sum.fall, Vector3d::Zero(), Vector3d::Zero(),
-              sum.mass * (sum.lines.cross(state.com_W) + sum.steady)};
+  const Vector3d com = state.com_W - sum.origin_W;
+  Replay rate{state.com_velocity_W, sum.stiffness * com - sum.fall, Vector3d::Zero(), Vector3d::Zero(),
+              sum.mass * (sum.lines.cross(com) + sum.steady)};
   const Vector4d& q = state.quat_wxyz;
   const Quaterniond turned(q[0], q[1], q[2], q[3]);
   const Vector3d omega = angular_velocity(turned.normalized().toRotationMatrix(), state.momentum_W, sum.inertia);

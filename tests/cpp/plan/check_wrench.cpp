@@ -251,6 +251,26 @@ TEST_CASE("checker rejects a sole in contact that is turned against the base bey
   CHECK(worst.phase >= 10);
 }
 
+TEST_CASE("a walk is accepted wherever in the world it is") {
+  Plan plan = wrench_walk();
+  const Eigen::Vector3d away(4000.0, -3000.0, 0.0);
+  for (auto& surface : plan.scene.surfaces)
+    for (Eigen::Vector3d& corner : surface.vertices_W) corner += away;
+  plan.scene.start.position_W += away;
+  plan.scene.goal.position_W += away;
+  for (auto& knot : plan.knots) {
+    knot.com_W += away;
+    for (Eigen::Vector3d& position : knot.end_effectors_W) position += away;
+  }
+  for (auto& phase : plan.phases)
+    for (auto& contact : phase.contacts) {
+      contact.anchor_W += away;
+      contact.center_of_pressure_W += away;
+    }
+  INFO(check(plan).to_string());
+  CHECK(check(plan).ok());
+}
+
 TEST_CASE("a heading on its limit lends its tolerance to no reach that is measured after it") {
   Plan plan = wrench_walk();
   double first = 0.0, farthest = -1.0, turned = 0.0;
