@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "ipm/barrier.hpp"
 #include "ipm/functions.hpp"
 #include "ipm/kkt.hpp"
 #include "ipm/phase_one.hpp"
 #include "ipm/unknowns.hpp"
+#include "mcplan/base/error.hpp"
 #include "nlp/start.hpp"
 
 namespace mcplan::ipm {
@@ -36,6 +39,41 @@ VectorXd multipliers_of(const nlp::Problem& problem, const Unknowns& unknowns, B
   return out;
 }
 
+VectorXd bound_multipliers_of(const nlp::Problem& problem, const Unknowns& unknowns, const Barrier& barrier) {
+  VectorXd out = VectorXd::Zero(problem.variable_count());
+  out(unknowns.free) = barrier.bound_multipliers();
+  return out;
+}
+
+/// Multipliers with which the options ask to begin, if they do.
+std::optional<Barrier::Duals> duals_of(const Unknowns& unknowns, const nlp::SolverOptions& options) {
+  const VectorXd &rows = options.start.multipliers, &bounds = options.start.bound_multipliers;
+  if (rows.size() == 0 && bounds.size() == 0) return std::nullopt;
+  Barrier::Duals out;
+  out.equalities = VectorXd::Zero(unknowns.equality_count());
+  VectorXd net = VectorXd::Zero(unknowns.lower.size());
+  const int n = unknowns.free_count();
+  if (bounds.size() > 0) net.head(n) = bounds(unknowns.free);
+  if (rows.size() > 0) {
+    out.equalities = rows(unknowns.equalities);
+    net.tail(unknowns.slack_count()) = rows(unknowns.inequalities).cwiseQuotient(unknowns.scale);
+  }
+  out.lower = (-net).cwiseMax(0.0);
+  out.upper = net.cwiseMax(0.0);
+  for (int i = 0; i < net.size(); ++i) {
+    if (unknowns.lower[i] == -nlp::kInfinity) out.lower[i] = 0.0;
+    if (unknowns.upper[i] == nlp::kInfinity) out.upper[i] = 0.0;
+  }
+  return out;
+}
+
+void require_size(const char* field, const VectorXd& given, int size) {
+  if (given.size() > 0 && given.size() != size)
+    throw InvalidOptions(field, "must be empty or have " + text(size) + " entries",
+                         text(static_cast<int>(given.size())));
+  if (!given.allFinite()) throw InvalidOptions(field, "must be finite numbers", "nan or inf");
+}
+
 /// A problem that leaves nothing to solve for: bounds that contradict each other, or every variable fixed.
 bool decided(const nlp::Problem& problem, const VectorXd& x, double constraint_tolerance, nlp::Solution& out) {
   const std::string impossible = nlp::contradiction(problem);
@@ -48,6 +86,7 @@ bool decided(const nlp::Problem& problem, const VectorXd& x, double constraint_t
                                     : "every variable is fixed, and a constraint does not hold";
   out.x = x;
   out.multipliers = VectorXd::Zero(problem.row_count());
+  out.bound_multipliers = VectorXd::Zero(problem.variable_count());
   return true;
 }
 
@@ -64,13 +103,16 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
   Functions functions(problem, unknowns, options, deadline);
   Kkt kkt(problem, unknowns);
   Barrier barrier(unknowns, options, functions, kkt);
+  const std::optional<Barrier::Duals> duals = duals_of(unknowns, options);
   Point point;
   out.start_s = deadline.elapsed_s();
   try {
     for (const PhaseOne& phase_one : options.kernel.distant_start ? kAttemptsFromAfar : kAttempts) {
       point = point_at(unknowns, x);
       phase_one.run(unknowns, functions, kkt, point);
-      const Barrier::Ending ending = barrier.run(point, options.max_iterations);
+      // A start that a phase one has moved is no neighbour of where the multipliers are from.
+      const bool given = duals && phase_one.max_iterations == 0;
+      const Barrier::Ending ending = barrier.run(point, options.max_iterations, given ? &*duals : nullptr);
       out.outcome = ending.outcome;
       out.message = ending.message;
       if (ending.outcome != Outcome::numerical_failure) break;
@@ -92,6 +134,8 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
   out.x = out.outcome == Outcome::converged ? point.x : functions.best_x();
   if (out.x.size() == 0) out.x = x;
   out.multipliers = multipliers_of(problem, unknowns, barrier);
+  out.bound_multipliers = bound_multipliers_of(problem, unknowns, barrier);
+  out.barrier = barrier.parameter();
   out.iterations = functions.iterations();
   out.evaluation_s = functions.evaluation_s();
   out.linear_solver_s = barrier.linear_solver_s();
@@ -102,6 +146,8 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
 nlp::Solution solve(const nlp::Problem& problem, const VectorXd& x0, const nlp::SolverOptions& options) {
   const Deadline deadline(options.time_limit_s, options.clock);
   options.validate();
+  require_size("start.multipliers", options.start.multipliers, problem.row_count());
+  require_size("start.bound_multipliers", options.start.bound_multipliers, problem.variable_count());
   const VectorXd x = nlp::start_of(problem, x0);
   nlp::Solution out;
   out.solver = nlp::Solver::ipm;
