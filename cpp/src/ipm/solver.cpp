@@ -96,9 +96,13 @@ constexpr PhaseOne kAttempts[] = {{10.0, 0}, {10.0, 8}, {1.0, 50}};
 constexpr PhaseOne kAttemptsFromAfar[] = {{10.0, 50, 2.0}, {100.0, 50, 2.0}, {1.0, 50, 2.0}};
 constexpr int kMaxProof = 300;  // steps towards a point of least violation, where all attempts have failed
 constexpr int kPatience = 30;   // of them, from afar: near such a point they are many and short where rows are curved
+// Otherwise: towards a point without violations so many steps do far more than lessen the sum of squares by a quarter.
+constexpr int kLongPatience = 100;
+constexpr double kFarLess = 0.25;
 
+/// gives_up: where violations hardly fall any more, that counts as infeasible, though it is no proof.
 void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOptions& options, const Deadline& deadline,
-         nlp::Solution& out) {
+         bool gives_up, nlp::Solution& out) {
   const Unknowns unknowns(problem, options.kernel.distant_start);
   Functions functions(problem, unknowns, options, deadline);
   Kkt kkt(problem, unknowns);
@@ -120,11 +124,16 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
     if (out.outcome == Outcome::numerical_failure) {
       point = point_at(unknowns, x);
       const int steps = std::min(kMaxProof, options.max_iterations - functions.iterations());
-      const int patience = options.kernel.distant_start ? kPatience : 0;
-      const PhaseOne proof{1.0, steps, 10.0 * options.constraint_tolerance, 0.0, patience};
+      PhaseOne proof{1.0, steps, 10.0 * options.constraint_tolerance, 0.0};
+      if (options.kernel.distant_start) {
+        proof.patience = kPatience;
+      } else if (gives_up) {
+        proof.patience = kLongPatience;
+        proof.hardly = kFarLess;
+      }
       if (proof.run(unknowns, functions, kkt, point)) {
         out.outcome = Outcome::infeasible;
-        out.message = "converged to a point at which the violation is locally least";
+        out.message = "converged to a point at which the violation is locally least, or nearly so";
       }
     }
   } catch (const Halt& halt) {
@@ -141,9 +150,8 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
   out.linear_solver_s = barrier.linear_solver_s();
 }
 
-}  // namespace
-
-nlp::Solution solve(const nlp::Problem& problem, const VectorXd& x0, const nlp::SolverOptions& options) {
+nlp::Solution solve_by_kernel(const nlp::Problem& problem, const VectorXd& x0, const nlp::SolverOptions& options,
+                              bool gives_up) {
   const Deadline deadline(options.time_limit_s, options.clock);
   options.validate();
   require_size("start.multipliers", options.start.multipliers, problem.row_count());
@@ -151,17 +159,23 @@ nlp::Solution solve(const nlp::Problem& problem, const VectorXd& x0, const nlp::
   const VectorXd x = nlp::start_of(problem, x0);
   nlp::Solution out;
   out.solver = nlp::Solver::ipm;
-  if (!decided(problem, x, options.constraint_tolerance, out)) run(problem, x, options, deadline, out);
+  if (!decided(problem, x, options.constraint_tolerance, out)) run(problem, x, options, deadline, gives_up, out);
   out.cost = problem.cost(out.x);
   out.worst = problem.worst_violation(out.x);
   out.time_s = deadline.elapsed_s();
   return out;
 }
 
+}  // namespace
+
+nlp::Solution solve(const nlp::Problem& problem, const VectorXd& x0, const nlp::SolverOptions& options) {
+  return solve_by_kernel(problem, x0, options, true);
+}
+
 nlp::Solution solve(nlp::Solver solver, const nlp::Problem& problem, const VectorXd& x0,
                     const nlp::SolverOptions& options) {
   if (solver == nlp::Solver::ipopt) return nlp::solve(problem, x0, options);
-  nlp::Solution first = ipm::solve(problem, x0, options);
+  nlp::Solution first = solve_by_kernel(problem, x0, options, solver == nlp::Solver::ipm);
   const double left_s = options.time_limit_s - first.time_s;
   const int iterations = options.max_iterations - first.iterations;
   const bool ended = first.outcome != Outcome::numerical_failure && first.outcome != Outcome::nearly_converged &&
