@@ -1,10 +1,9 @@
-#include "allocations.hpp"
-
 #include <doctest/doctest.h>
 
 #include <array>
 #include <memory>
 
+#include "allocations.hpp"
 #include "mcplan/ipm/solver.hpp"
 #include "nlp/problems.hpp"
 

@@ -1,9 +1,8 @@
-#include "allocations.hpp"
-
 #include <doctest/doctest.h>
 
 #include <array>
 
+#include "allocations.hpp"
 #include "mcplan/rhp/receding_horizon.hpp"
 #include "rhp/walkers.hpp"
 
