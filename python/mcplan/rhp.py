@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mcplan._core import Plan, Robot, Scene
-from mcplan._core.rhp import Cycle, Fidelity, Options, RecedingHorizon, Solver, State, Transcription, Walk
+from mcplan._core.rhp import Cycle, Fidelity, Options, RecedingHorizon, Solver, State, StepFrom, Transcription, Walk
 from mcplan._core.rhp import Walk as Result
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ __all__ = [
     "Result",
     "Solver",
     "State",
+    "StepFrom",
     "Transcription",
     "Walk",
     "receding_horizon",
@@ -50,7 +51,8 @@ def walk(
 
     Each cycle plans `lookahead` steps and executes the first; the next cycle starts from where it ends. A cycle that
     fails ends the walk: ``walk.plan`` is what was executed until then, ``walk.cycles`` says what happened. Ctrl-C ends
-    it with Interrupted, which carries the walk.
+    it with Interrupted, which carries the walk. A cycle that a limit cuts short executes its best point or the step that
+    the last plan predicted, where the checker finds that usable: ``cycle.step_from`` says which.
 
     Args:
         scene: A scene, or what load_scene takes; its ``steps`` say which foot lands on which surface.
@@ -96,6 +98,7 @@ def receding_horizon(
             cycle = planner.step(measured)  # an rhp.State; without one: from where the last step ends
             if cycle.executed:
                 follow(planner.executed())  # a plan of one step, from time 0
+            # else, if time ran out: step() again from the same state goes on where this cycle stopped
 
     Args:
         scene: As for walk().

@@ -20,7 +20,7 @@ PER_CYCLE = {
     "cost",
 }
 PER_CYCLE |= {"index", "message", "executed", "duration_s", "distance_m", "acceleration_cost", "momentum_cost"}
-PER_CYCLE |= {"drift_com_m", "drift_momentum"}
+PER_CYCLE |= {"drift_com_m", "drift_momentum", "step_from"}
 IN_TOTAL = {"success", "status", "message", "cycles_done", "distance_m", "acc_per_m", "momentum_per_m", "drift_com_m"}
 IN_TOTAL |= {"drift_momentum", "worst_violation", "scene", "robot", "fidelity", "lookahead", "transcription", "version"}
 IN_TOTAL |= {"cycles", "time_s", "warnings"}

@@ -78,6 +78,19 @@ def test_a_cycle_out_of_time_is_named_and_not_executed():
     assert not planner.result().success and not planner.result().plan.phases
 
 
+def test_a_cycle_that_was_cut_short_is_gone_on_with_and_says_where_its_step_is_from():
+    planner = mp.receding_horizon("flat", solver="ipm", max_iterations=4)
+    cycles = [planner.step()]
+    assert cycles[0].step_from == mp.rhp.StepFrom.none and not cycles[0].executed
+    while not cycles[-1].executed:
+        assert len(cycles) < 30 and cycles[-1].status == mp.Status.iteration_limit
+        cycles.append(planner.step())
+    assert cycles[-1].step_from in (mp.rhp.StepFrom.iterate, mp.rhp.StepFrom.converged)
+    worst = mp.check(planner.executed()).worst()
+    assert worst.value <= 10.0 * worst.tolerance
+    assert len(planner.result().plan.phases) == 3 and not planner.result().success
+
+
 def test_a_failed_cycle_leaves_the_steps_before_it():
     planner = mp.receding_horizon("flat", max_iterations=60)
     assert planner.step().executed

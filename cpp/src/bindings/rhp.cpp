@@ -40,11 +40,13 @@ void bind_state(py::module_& m) {
 }
 
 void bind_results(py::module_& m) {
+  bind_enum<rhp::StepFrom>(m);
   py::class_<Cycle> c(m, "Cycle", "How one cycle went.");
   c.def_readonly("index", &Cycle::index);
   c.def_readonly("status", &Cycle::status, "solved: converged, and the checker accepts the executed step.");
   c.def_readonly("message", &Cycle::message);
-  c.def_readonly("executed", &Cycle::executed, "Its first step keeps the constraints and was taken into the walk.");
+  c.def_readonly("executed", &Cycle::executed, "A step was taken into the walk: step_from is not none.");
+  c.def_readonly("step_from", &Cycle::step_from, "Where that step comes from.");
   c.def_readonly("solver", &Cycle::solver, "That found the step: ipopt or ipm.");
   c.def_readonly("iterations", &Cycle::iterations);
   c.def_readonly("time_s", &Cycle::time_s, "Wall clock, set-up and check included [s].");
@@ -61,7 +63,8 @@ void bind_results(py::module_& m) {
   c.def_readonly("drift_com_m", &Cycle::drift_com_m,
                  "Forces of the executed step replayed in continuous time against its states, at its end [m].");
   c.def_readonly("drift_momentum", &Cycle::drift_momentum, "The same of L [kg m^2/s].");
-  c.def_readonly("worst_violation", &Cycle::worst_violation, "Of the executed step.");
+  c.def_readonly("worst_violation", &Cycle::worst_violation,
+                 "Of the executed step; without one, of the program's best point.");
   c.def("__repr__", [](py::handle self) {
     return "<Cycle " + std::string(py::str(self.attr("index"))) + ": " + std::string(py::str(self.attr("status"))) +
            ", " + std::string(py::str(self.attr("iterations"))) + " iterations>";
@@ -114,7 +117,8 @@ void bind_rhp(py::module_& parent) {
         const Alone alone(&self, "step");
         return interruptible([&] { return self.step(); });
       },
-      "One cycle from where the last one ended.");
+      "One cycle from where the last one ended; after one that a limit cut short without a step, on where that one "
+      "stopped.");
   c.def(
       "step",
       [](RecedingHorizon& self, State measured) {

@@ -46,6 +46,7 @@ Barrier::Barrier(const Unknowns& unknowns, const nlp::SolverOptions& options, Fu
     step->lambda = VectorXd::Zero(lambda_.size());
   }
   history_.reserve(kHistory + 1);
+  mu_ = options.initial_barrier;
 }
 
 const VectorXd& Barrier::multipliers_of_slacks() {
@@ -53,13 +54,17 @@ const VectorXd& Barrier::multipliers_of_slacks() {
   return slack_multipliers_;
 }
 
-void Barrier::start(Point& point) {
+void Barrier::start(Point& point, const Duals* duals) {
+  mu_ = options_.initial_barrier;
   const double push = probing_ ? kProbingPush : kBoundPush;
   const auto inside = [&](int i, double value) {
     const double low = unknowns_.lower[i], high = unknowns_.upper[i];
-    const double room = push * (high - low);
-    if (low > -nlp::kInfinity) value = std::max(value, low + std::min(push * std::max(1.0, std::abs(low)), room));
-    if (high < nlp::kInfinity) value = std::min(value, high - std::min(push * std::max(1.0, std::abs(high)), room));
+    const auto distance = [&](double bound, double dual) {
+      const double usual = std::min(push * std::max(1.0, std::abs(bound)), push * (high - low));
+      return dual > 0.0 ? std::min(usual, mu_ / dual) : usual;
+    };
+    if (low > -nlp::kInfinity) value = std::max(value, low + distance(low, duals ? duals->lower[i] : 0.0));
+    if (high < nlp::kInfinity) value = std::min(value, high - distance(high, duals ? duals->upper[i] : 0.0));
     return value;
   };
   for (int i = 0; i < n(); ++i) point.t[i] = inside(i, point.t[i]);
@@ -68,12 +73,16 @@ void Barrier::start(Point& point) {
   functions_.derivatives(point, gradient_, kkt_);
   gap_lower_ = point.t - unknowns_.lower;
   gap_upper_ = unknowns_.upper - point.t;
-  mu_ = options_.initial_barrier;
   lower_dual_ = mu_ / gap_lower_.array();
   upper_dual_ = mu_ / gap_upper_.array();
   // Not those that make the gradient of the Lagrangian smallest, as is common: on walks they cost a quarter more
   // iterations, with Hessians that are less often positive.
   lambda_.setZero();
+  if (duals) {
+    lambda_ = duals->equalities;
+    lower_dual_ = lower_dual_.cwiseMax(duals->lower);
+    upper_dual_ = upper_dual_.cwiseMax(duals->upper);
+  }
   fixed_mu_ = !options_.adaptive_barrier;
   history_.clear();
   filter_ = Filter(1e4 * std::max(1.0, theta(point)));
@@ -272,10 +281,10 @@ void Barrier::choose_mu(const Point& point, const Errors& now) {
     set(std::max(least, std::min(kLinearDecrease * mu_, std::pow(mu_, kSuperlinearDecrease))));
 }
 
-Barrier::Ending Barrier::run(Point& point, int max_iterations) {
+Barrier::Ending Barrier::run(Point& point, int max_iterations, const Duals* duals) {
   trial_ = point;
   header_written_ = false;
-  start(point);
+  start(point, duals);
   Step& step = step_;
   for (;;) {
     for (int k = 0; k < slack_error_.size(); ++k) slack_error_[k] = point.slack_error(k);

@@ -24,11 +24,18 @@ class Barrier {
     std::string message;
   };
 
+  /// Multipliers with which a run begins: of equalities, and of free variables and slacks, zero or more.
+  struct Duals {
+    Eigen::VectorXd equalities, lower, upper;
+  };
+
   /// From point.t, moved off its bounds, while fewer than max_iterations are counted by the functions. Throws Halt.
-  Ending run(Point& point, int max_iterations);
+  Ending run(Point& point, int max_iterations, const Duals* duals = nullptr);
 
   const Eigen::VectorXd& equality_multipliers() const { return lambda_; }
   const Eigen::VectorXd& inequality_multipliers() { return multipliers_of_slacks(); }
+  Eigen::VectorXd bound_multipliers() const { return upper_dual_.head(n()) - lower_dual_.head(n()); }
+  double parameter() const { return mu_; }
   double linear_solver_s() const { return linear_solver_s_; }
 
  private:
@@ -42,7 +49,7 @@ class Barrier {
 
   int n() const { return unknowns_.free_count(); }
   const Eigen::VectorXd& multipliers_of_slacks();
-  void start(Point& point);
+  void start(Point& point, const Duals* duals);
   Errors errors(const Point& point, double mu);
   bool factor(const Point& point);
   bool factor_blend(const Point& point);

@@ -35,7 +35,7 @@ Kkt::Kkt(const nlp::Problem& problem, const Unknowns& unknowns)
   block_ = MatrixXd::Zero(longest, widest);
   product_ = MatrixXd::Zero(widest, widest);
   slack_weights_ = VectorXd::Zero(unknowns.slack_count());
-  slacks_ = slack_weights_;
+  slacks_ = roots_ = slack_weights_;
   bound_weights_ = VectorXd::Zero(n_);
   right_.resize(n_ + m_);
   left_a_.resize(n_);
@@ -92,8 +92,9 @@ std::vector<Fronts::Pair> Kkt::structure(const nlp::Problem& problem, const Unkn
   return pairs;
 }
 
-void Kkt::set_weights(const VectorXd& slacks, const VectorXd& bounds) {
+void Kkt::set_weights(const Eigen::Ref<const VectorXd>& slacks, const Eigen::Ref<const VectorXd>& bounds) {
   slack_weights_ = slacks;
+  roots_ = slacks.cwiseSqrt();
   bound_weights_ = bounds;
 }
 
@@ -110,7 +111,7 @@ void Kkt::assemble(double delta, double delta_c) {
     auto C = product_.topLeftCorner(dense.columns, dense.columns);
     A.setZero();
     for (const Dense::Entry& entry : dense.entries)
-      A(entry.row, entry.column) = jacobian_[entry.from] * std::sqrt(slack_weights_[dense.slacks[entry.row]]);
+      A(entry.row, entry.column) = jacobian_[entry.from] * roots_[dense.slacks[entry.row]];
     const int* place = fronts_.places().data() + dense.first_place;
     if (dense.rows <= kFewRows) {
       for (int j = 0; j < dense.columns; ++j)

@@ -23,7 +23,7 @@ class Kkt {
   /// Jacobian in the order of problem.jacobian_structure(), Hessian in that of hessian_structure().
   void set_jacobian(const Eigen::VectorXd& values) { jacobian_ = values; }
   void set_hessian(const Eigen::VectorXd& values) { hessian_ = values; }
-  void set_weights(const Eigen::VectorXd& slacks, const Eigen::VectorXd& bounds);
+  void set_weights(const Eigen::Ref<const Eigen::VectorXd>& slacks, const Eigen::Ref<const Eigen::VectorXd>& bounds);
 
   enum class Factor { good, wrong_inertia, singular };
   Factor factor(double delta, double delta_c);
@@ -71,6 +71,7 @@ class Kkt {
   std::vector<Dense> dense_;
   Fronts fronts_;
   Eigen::VectorXd jacobian_, hessian_, slack_weights_, bound_weights_;
+  Eigen::VectorXd roots_;  ///< of slack_weights_
   double delta_ = 0.0, delta_c_ = 0.0, residual_ = 0.0;
   Eigen::MatrixXd block_, product_;
   Eigen::VectorXd right_, left_a_, left_b_, slacks_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ipm/barrier.hpp"
 
@@ -14,6 +15,7 @@ using Eigen::VectorXd;
 constexpr double kSwitchViolation = 1.1, kSwitchCost = 2.3, kSwitch = 1.0;  // s_theta, s_phi, delta
 constexpr double kArmijo = 1e-8;                                            // eta_phi
 constexpr double kRounding = 10.0 * 2.2e-16;
+constexpr double kLeastProduct = 1e-100;
 constexpr int kMaxTrials = 30, kMaxCorrections = 4;
 constexpr double kCorrectionProgress = 0.99;  // kappa_soc
 constexpr double kDualReset = 1e10;           // kappa_Sigma
@@ -28,12 +30,20 @@ double Barrier::theta(const Point& point) const {
 }
 
 double Barrier::barrier_cost(const Point& point, double mu) const {
-  double logs = 0.0;
+  // The logarithm of products, as long as these are far from what a number can hold.
+  double logs = 0.0, product = 1.0;
+  const auto add = [&](double gap) {
+    if (!(gap > 0.0)) product = std::numeric_limits<double>::quiet_NaN();
+    product *= gap;
+    if (product > kLeastProduct && product < 1.0 / kLeastProduct) return;
+    logs += std::log(product);
+    product = 1.0;
+  };
   for (int i = 0; i < point.t.size(); ++i) {
-    if (unknowns_.lower[i] > -nlp::kInfinity) logs += std::log(point.t[i] - unknowns_.lower[i]);
-    if (unknowns_.upper[i] < nlp::kInfinity) logs += std::log(unknowns_.upper[i] - point.t[i]);
+    if (unknowns_.lower[i] > -nlp::kInfinity) add(point.t[i] - unknowns_.lower[i]);
+    if (unknowns_.upper[i] < nlp::kInfinity) add(unknowns_.upper[i] - point.t[i]);
   }
-  return point.cost - mu * logs;
+  return point.cost - mu * (logs + std::log(product));
 }
 
 bool Barrier::acceptable(double theta_trial, double phi_trial, double alpha, bool& armijo) {

@@ -9,7 +9,6 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kStationary = 1e-5;  // of the gradient, over the norm of the residuals
-constexpr double kHardly = 1e-2;      // of the sum of squares, by which it falls over `patience` steps
 
 /// How far outside: negative below the lower limit, positive above the upper one.
 double beyond(double value, double lower, double upper, double drawn_in) {
@@ -55,7 +54,7 @@ bool PhaseOne::run(const Unknowns& unknowns, Functions& functions, Kkt& kkt, Poi
     const Residuals now(unknowns, point, drawn_in);
     if (now.largest() <= enough) break;
     if (patience > 0 && i % patience == 0) {
-      if (now.half_square() > (1.0 - kHardly) * before) return true;
+      if (now.half_square() > (1.0 - hardly) * before) return true;
       before = now.half_square();
     }
     functions.begin_iteration();

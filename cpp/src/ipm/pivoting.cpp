@@ -40,10 +40,21 @@ int largest_off_diagonal(const Matrix& F, int own, int k, int from, double& size
 void update_one(Matrix& F, int own, int k) {
   const int n = static_cast<int>(F.rows());
   const double inverse = 1.0 / F(k, k);
-  for (int j = k + 1; j < own; ++j) {
-    const double factor = F(j, k) * inverse;
-    if (factor != 0.0) F.col(j).segment(j, n - j) -= factor * F.col(k).segment(j, n - j);
+  // Two columns at a time: each reading of column k serves both.
+  int j = k + 1;
+  for (; j + 1 < own; j += 2) {
+    const double first = F(j, k) * inverse, second = F(j + 1, k) * inverse;
+    if (first == 0.0 && second == 0.0) continue;
+    F(j, j) -= first * F(j, k);
+    const auto from = F.col(k).segment(j + 1, n - j - 1);
+    auto left = F.col(j).segment(j + 1, n - j - 1);
+    auto right = F.col(j + 1).segment(j + 1, n - j - 1);
+    for (int i = 0; i < n - j - 1; ++i) {
+      left[i] -= first * from[i];
+      right[i] -= second * from[i];
+    }
   }
+  if (j < own) F.col(j).segment(j, n - j) -= F(j, k) * inverse * F.col(k).segment(j, n - j);
   F.col(k).segment(k + 1, n - k - 1) *= inverse;
 }
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "ipm/barrier.hpp"
 #include "ipm/functions.hpp"
 #include "ipm/kkt.hpp"
 #include "ipm/phase_one.hpp"
 #include "ipm/unknowns.hpp"
+#include "mcplan/base/error.hpp"
 #include "nlp/start.hpp"
 
 namespace mcplan::ipm {
@@ -36,6 +39,41 @@ VectorXd multipliers_of(const nlp::Problem& problem, const Unknowns& unknowns, B
   return out;
 }
 
+VectorXd bound_multipliers_of(const nlp::Problem& problem, const Unknowns& unknowns, const Barrier& barrier) {
+  VectorXd out = VectorXd::Zero(problem.variable_count());
+  out(unknowns.free) = barrier.bound_multipliers();
+  return out;
+}
+
+/// Multipliers with which the options ask to begin, if they do.
+std::optional<Barrier::Duals> duals_of(const Unknowns& unknowns, const nlp::SolverOptions& options) {
+  const VectorXd &rows = options.start.multipliers, &bounds = options.start.bound_multipliers;
+  if (rows.size() == 0 && bounds.size() == 0) return std::nullopt;
+  Barrier::Duals out;
+  out.equalities = VectorXd::Zero(unknowns.equality_count());
+  VectorXd net = VectorXd::Zero(unknowns.lower.size());
+  const int n = unknowns.free_count();
+  if (bounds.size() > 0) net.head(n) = bounds(unknowns.free);
+  if (rows.size() > 0) {
+    out.equalities = rows(unknowns.equalities);
+    net.tail(unknowns.slack_count()) = rows(unknowns.inequalities).cwiseQuotient(unknowns.scale);
+  }
+  out.lower = (-net).cwiseMax(0.0);
+  out.upper = net.cwiseMax(0.0);
+  for (int i = 0; i < net.size(); ++i) {
+    if (unknowns.lower[i] == -nlp::kInfinity) out.lower[i] = 0.0;
+    if (unknowns.upper[i] == nlp::kInfinity) out.upper[i] = 0.0;
+  }
+  return out;
+}
+
+void require_size(const char* field, const VectorXd& given, int size) {
+  if (given.size() > 0 && given.size() != size)
+    throw InvalidOptions(field, "must be empty or have " + text(size) + " entries",
+                         text(static_cast<int>(given.size())));
+  if (!given.allFinite()) throw InvalidOptions(field, "must be finite numbers", "nan or inf");
+}
+
 /// A problem that leaves nothing to solve for: bounds that contradict each other, or every variable fixed.
 bool decided(const nlp::Problem& problem, const VectorXd& x, double constraint_tolerance, nlp::Solution& out) {
   const std::string impossible = nlp::contradiction(problem);
@@ -48,6 +86,7 @@ bool decided(const nlp::Problem& problem, const VectorXd& x, double constraint_t
                                     : "every variable is fixed, and a constraint does not hold";
   out.x = x;
   out.multipliers = VectorXd::Zero(problem.row_count());
+  out.bound_multipliers = VectorXd::Zero(problem.variable_count());
   return true;
 }
 
@@ -57,20 +96,27 @@ constexpr PhaseOne kAttempts[] = {{10.0, 0}, {10.0, 8}, {1.0, 50}};
 constexpr PhaseOne kAttemptsFromAfar[] = {{10.0, 50, 2.0}, {100.0, 50, 2.0}, {1.0, 50, 2.0}};
 constexpr int kMaxProof = 300;  // steps towards a point of least violation, where all attempts have failed
 constexpr int kPatience = 30;   // of them, from afar: near such a point they are many and short where rows are curved
+// Otherwise: towards a point without violations so many steps do far more than lessen the sum of squares by a quarter.
+constexpr int kLongPatience = 100;
+constexpr double kFarLess = 0.25;
 
+/// gives_up: where violations hardly fall any more, that counts as infeasible, though it is no proof.
 void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOptions& options, const Deadline& deadline,
-         nlp::Solution& out) {
+         bool gives_up, nlp::Solution& out) {
   const Unknowns unknowns(problem, options.kernel.distant_start);
   Functions functions(problem, unknowns, options, deadline);
   Kkt kkt(problem, unknowns);
   Barrier barrier(unknowns, options, functions, kkt);
+  const std::optional<Barrier::Duals> duals = duals_of(unknowns, options);
   Point point;
   out.start_s = deadline.elapsed_s();
   try {
     for (const PhaseOne& phase_one : options.kernel.distant_start ? kAttemptsFromAfar : kAttempts) {
       point = point_at(unknowns, x);
       phase_one.run(unknowns, functions, kkt, point);
-      const Barrier::Ending ending = barrier.run(point, options.max_iterations);
+      // A start that a phase one has moved is no neighbour of where the multipliers are from.
+      const bool given = duals && phase_one.max_iterations == 0;
+      const Barrier::Ending ending = barrier.run(point, options.max_iterations, given ? &*duals : nullptr);
       out.outcome = ending.outcome;
       out.message = ending.message;
       if (ending.outcome != Outcome::numerical_failure) break;
@@ -78,11 +124,16 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
     if (out.outcome == Outcome::numerical_failure) {
       point = point_at(unknowns, x);
       const int steps = std::min(kMaxProof, options.max_iterations - functions.iterations());
-      const int patience = options.kernel.distant_start ? kPatience : 0;
-      const PhaseOne proof{1.0, steps, 10.0 * options.constraint_tolerance, 0.0, patience};
+      PhaseOne proof{1.0, steps, 10.0 * options.constraint_tolerance, 0.0};
+      if (options.kernel.distant_start) {
+        proof.patience = kPatience;
+      } else if (gives_up) {
+        proof.patience = kLongPatience;
+        proof.hardly = kFarLess;
+      }
       if (proof.run(unknowns, functions, kkt, point)) {
         out.outcome = Outcome::infeasible;
-        out.message = "converged to a point at which the violation is locally least";
+        out.message = "converged to a point at which the violation is locally least, or nearly so";
       }
     }
   } catch (const Halt& halt) {
@@ -92,30 +143,39 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
   out.x = out.outcome == Outcome::converged ? point.x : functions.best_x();
   if (out.x.size() == 0) out.x = x;
   out.multipliers = multipliers_of(problem, unknowns, barrier);
+  out.bound_multipliers = bound_multipliers_of(problem, unknowns, barrier);
+  out.barrier = barrier.parameter();
   out.iterations = functions.iterations();
   out.evaluation_s = functions.evaluation_s();
   out.linear_solver_s = barrier.linear_solver_s();
 }
 
-}  // namespace
-
-nlp::Solution solve(const nlp::Problem& problem, const VectorXd& x0, const nlp::SolverOptions& options) {
+nlp::Solution solve_by_kernel(const nlp::Problem& problem, const VectorXd& x0, const nlp::SolverOptions& options,
+                              bool gives_up) {
   const Deadline deadline(options.time_limit_s, options.clock);
   options.validate();
+  require_size("start.multipliers", options.start.multipliers, problem.row_count());
+  require_size("start.bound_multipliers", options.start.bound_multipliers, problem.variable_count());
   const VectorXd x = nlp::start_of(problem, x0);
   nlp::Solution out;
   out.solver = nlp::Solver::ipm;
-  if (!decided(problem, x, options.constraint_tolerance, out)) run(problem, x, options, deadline, out);
+  if (!decided(problem, x, options.constraint_tolerance, out)) run(problem, x, options, deadline, gives_up, out);
   out.cost = problem.cost(out.x);
   out.worst = problem.worst_violation(out.x);
   out.time_s = deadline.elapsed_s();
   return out;
 }
 
+}  // namespace
+
+nlp::Solution solve(const nlp::Problem& problem, const VectorXd& x0, const nlp::SolverOptions& options) {
+  return solve_by_kernel(problem, x0, options, true);
+}
+
 nlp::Solution solve(nlp::Solver solver, const nlp::Problem& problem, const VectorXd& x0,
                     const nlp::SolverOptions& options) {
   if (solver == nlp::Solver::ipopt) return nlp::solve(problem, x0, options);
-  nlp::Solution first = ipm::solve(problem, x0, options);
+  nlp::Solution first = solve_by_kernel(problem, x0, options, solver == nlp::Solver::ipm);
   const double left_s = options.time_limit_s - first.time_s;
   const int iterations = options.max_iterations - first.iterations;
   const bool ended = first.outcome != Outcome::numerical_failure && first.outcome != Outcome::nearly_converged &&

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <utility>
 
 namespace mcplan::nlp {
@@ -40,7 +39,8 @@ Pattern probe(const Piece& piece) {
   }
   Probe random;
   VectorXd x(n), weights(m);
-  for (int trial = 0; trial < kPoints; ++trial) {
+  const int points = piece.linear() ? 1 : kPoints;  // the Jacobian of a linear piece is the same everywhere
+  for (int trial = 0; trial < points; ++trial) {
     for (double& value : x) value = random.next();
     for (double& value : weights) value = random.next();
     MatrixXd J = MatrixXd::Zero(m, n), H = MatrixXd::Zero(n, n);
@@ -65,14 +65,32 @@ class Places {
   explicit Places(std::vector<Entry>& entries) : entries_(entries) {}
 
   int of(int row, int column) {
-    const auto [it, fresh] = index_.try_emplace({row, column}, static_cast<int>(entries_.size()));
-    if (fresh) entries_.push_back({row, column});
-    return it->second;
+    if (2 * (entries_.size() + 1) > slots_.size()) grow();
+    int& slot = find(row, column);
+    if (slot < 0) {
+      slot = static_cast<int>(entries_.size());
+      entries_.push_back({row, column});
+    }
+    return slot;
   }
 
  private:
+  /// Where the entry is, or where it would be: open addressing in a table of a power of two.
+  int& find(int row, int column) {
+    const std::uint64_t key = (static_cast<std::uint64_t>(row) << 32) | static_cast<std::uint32_t>(column);
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t at = (key * 0x9E3779B97F4A7C15ULL >> 20) & mask;
+    while (slots_[at] >= 0 && (entries_[slots_[at]].row != row || entries_[slots_[at]].column != column))
+      at = (at + 1) & mask;
+    return slots_[at];
+  }
+  void grow() {
+    slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), -1);
+    for (std::size_t i = 0; i < entries_.size(); ++i) find(entries_[i].row, entries_[i].column) = static_cast<int>(i);
+  }
+
   std::vector<Entry>& entries_;
-  std::map<std::pair<int, int>, int> index_;
+  std::vector<int> slots_;  ///< index of an entry, or -1
 };
 
 double violation(double value, double lower, double upper) { return std::max({lower - value, value - upper, 0.0}); }

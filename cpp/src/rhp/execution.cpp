@@ -106,6 +106,37 @@ Plan executed_plan(const Walker& walker, const State& state, const Horizon& hori
   return plan;
 }
 
+Plan predicted_step(const Walker& walker, const State& state, const Plan& horizon, int step) {
+  Plan plan = horizon;
+  plan.phases.assign(horizon.phases.begin() + 3 * step, horizon.phases.begin() + 3 * step + 3);
+  plan.knots.clear();
+  plan.final_contacts.clear();
+  plan.momentum_max = walker.options.momentum_max;
+  plan.momentum_rate_max = walker.options.momentum_rate_max;
+  std::array<Vector3d, 2> feet_W{state.feet_W[0], state.feet_W[1]};
+  CentroidalState at = centroidal(state);
+  plan.knots.push_back(make_knot(walker, at, feet_W));
+  for (int q = 0; q < 3; ++q) {
+    const Phase& phase = plan.phases[q];
+    at = integrate_phase(phase, at, phase.duration, walker.robot.mass, walker.scene.gravity);
+    for (int foot = 0; foot < 2; ++foot) {
+      const int end = walker.feet[foot].end_effector;
+      if (phase.contacts[end].surface < 0) feet_W[foot] = horizon.knots[3 * step + q + 1].end_effectors_W[end];
+    }
+    plan.knots.push_back(make_knot(walker, at, feet_W));
+  }
+  for (const Contact& contact : plan.phases.back().contacts) plan.final_contacts.push_back(contact.surface);
+  choose_swings(plan);
+  return plan;
+}
+
+bool usable(const CheckResult& found) {
+  if (!found.complete) return false;
+  for (const Violation& v : found.violations())
+    if (!(v.value <= kUsableRatio * v.tolerance)) return false;
+  return true;
+}
+
 State end_of(const Walker& walker, const Plan& plan) {
   const Knot& knot = plan.knots.back();
   State state;
@@ -129,6 +160,24 @@ void append_plan(Plan& plan, const Plan& next) {
     swing.end_phase += offset;
     plan.swings.push_back(swing);
   }
+}
+
+RunningCost running_cost(const Walker& walker, const Plan& plan) {
+  // Gauss's rule of five points: exact for forces that are linear in time, whose momentum squared has degree 8.
+  constexpr double kPoints[] = {0.0, 0.5384693101056831, 0.9061798459386640};
+  constexpr double kWeights[] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
+  RunningCost out;
+  for (std::size_t q = 0; q < plan.phases.size(); ++q) {
+    const double h = plan.phases[q].duration / walker.options.intervals;
+    for (int k = 0; k < walker.options.intervals; ++k)
+      for (int i = -2; i <= 2; ++i) {
+        const double s = k + 0.5 * (1.0 + (i < 0 ? -1.0 : 1.0) * kPoints[std::abs(i)]);
+        const PlanState at = plan.at_phase(static_cast<int>(q), h * s);
+        out.acceleration += 0.5 * h * kWeights[std::abs(i)] * at.com_acceleration_W.squaredNorm();
+        out.momentum += 0.5 * h * kWeights[std::abs(i)] * at.angular_momentum_W.squaredNorm();
+      }
+  }
+  return out;
 }
 
 Measures measure(const Walker& walker, const State& state, const Horizon& horizon, const VectorXd& x,

@@ -2,6 +2,7 @@
 
 #include "ipm/names.hpp"
 #include "mcplan/rhp/options.hpp"
+#include "mcplan/rhp/receding_horizon.hpp"
 #include "model/fields.hpp"
 
 namespace mcplan::model {
@@ -25,6 +26,18 @@ struct Names<rhp::Transcription> {
   static constexpr Choice<rhp::Transcription> all[] = {
       {"trapezoidal", rhp::Transcription::trapezoidal, "Forces linear between nodes, motion integrated exactly."},
       {"euler", rhp::Transcription::euler, "The paper's forward Euler."}};
+};
+
+template <>
+struct Names<rhp::StepFrom> {
+  static constexpr const char* name = "StepFrom";
+  static constexpr const char* meaning = "Where the step that a cycle executes comes from.";
+  static constexpr Choice<rhp::StepFrom> all[] = {
+      {"none", rhp::StepFrom::none, "Nothing is executed."},
+      {"converged", rhp::StepFrom::converged, "The solver converged."},
+      {"iterate", rhp::StepFrom::iterate, "The best point of a solve that was cut short, usable as it is."},
+      {"previous_plan", rhp::StepFrom::previous_plan,
+       "The solve was cut short: what the last cycle with a plan of its own predicted for now, usable."}};
 };
 
 template <>

@@ -50,16 +50,9 @@ bool only_euler_drift(const CheckResult& result) {
   return true;
 }
 
-void require_state(const Walker& walker, const State& state) {
-  if (state.feet_W.size() != 2 || state.surfaces.size() != 2)
-    throw InvalidInput("measured.feet_W", "must have two feet, with a surface for each",
-                       text(static_cast<int>(state.feet_W.size())));
-  for (int surface : state.surfaces)
-    if (surface < 0 || surface >= static_cast<int>(walker.surfaces.size()))
-      throw InvalidInput("measured.surfaces", "must be indices of surfaces", text(surface));
-  bool finite = state.com_W.allFinite() && state.com_velocity_W.allFinite() && state.angular_momentum_W.allFinite();
-  for (const Vector3d& foot : state.feet_W) finite = finite && foot.allFinite();
-  if (!finite) throw InvalidInput("measured", "must be finite numbers", "nan or inf");
+/// A limit of time or iterations came before the end of the solve.
+bool cut_short(const Cycle& cycle) {
+  return cycle.status == Status::time_limit || cycle.status == Status::iteration_limit;
 }
 
 }  // namespace
@@ -77,6 +70,7 @@ struct RecedingHorizon::Impl {
   }
 
   void start_at(const State& own) {
+    unfinished.reset();
     own_state = own;
     state = size.to_human(own);
   }
@@ -92,27 +86,36 @@ struct RecedingHorizon::Impl {
   int index = 0;                ///< cycles done well
   std::deque<Memory> memories;  ///< of the last two cycles
   Plan executed, horizon;
+  bool horizon_rests = false;  ///< at its end
+  int steps_used = 0;          ///< of the horizon, after its first
+  double finishing_s = 0.0;    ///< that the last accepted cycle took after its solve
   Plan walked;
   std::vector<Cycle> cycles;
+  /// A horizon and, once there is one, its solution; where a limit cuts its solve short without a step, the next cycle
+  /// from the same state goes on there.
+  struct Unfinished {
+    HorizonRequest request;
+    Horizon horizon;
+    nlp::Solution solution;
+  };
+  std::optional<Unfinished> unfinished;
+  void solve(Cycle& cycle, Unfinished& now, const Deadline& deadline) const;
+  void accept(Cycle& cycle, const Unfinished& now, const Deadline& deadline);
 
   int steps_left() const { return footsteps.ends() ? footsteps.count() - index : walker.options.lookahead; }
 
   Cycle run();
-  nlp::Solution solve(Cycle& cycle, Horizon& horizon_now, HorizonRequest request, const Deadline& deadline) const;
-  void accept(Cycle& cycle, const Horizon& horizon_now, const nlp::Solution& solution);
+  HorizonRequest request_for(int steps) const;
+  CheckResult checked(const Plan& step) const;
+  void accept_predicted(Cycle& cycle);
+  void take(Cycle& cycle, Plan next, const CheckResult& found, const RunningCost& cost);
+  void remember(const Horizon& horizon_now, const nlp::Solution& solution);
 };
 
-Cycle RecedingHorizon::Impl::run() {
-  const Options& options = walker.options;
-  const Deadline deadline(options.time_limit_s, options.clock);
-  Cycle cycle;
-  cycle.index = static_cast<int>(cycles.size());
-  const int steps = std::min(options.lookahead, steps_left());
-  if (steps <= 0) throw InvalidInput("cycles", "must not go beyond the sequence of steps", text(index + 1));
-  const bool rest = footsteps.ends() && steps == steps_left();
-
+HorizonRequest RecedingHorizon::Impl::request_for(int steps) const {
   // Solutions of one leg repeat two cycles later; before that, and where the horizon has become shorter, there is none.
   const Memory* memory = memories.size() == 2 ? &memories.front() : nullptr;
+  if (memory && steps_used > 0 && memory->swing != footsteps[index].foot) memory = &memories.back();
   if (memory && (memory->swing != footsteps[index].foot || static_cast<int>(memory->footholds_W.size()) != steps))
     memory = nullptr;
   HorizonRequest request;
@@ -121,25 +124,42 @@ Cycle RecedingHorizon::Impl::run() {
   request.steps = steps;
   request.footholds_W = memory ? moved_footholds(walker, state, footsteps, index, *memory)
                                : nominal_footholds(walker, state, footsteps, index, steps);
-  request.rest = rest;
-  request.guess = [&](const Horizon& built) {
+  request.rest = footsteps.ends() && steps == steps_left();
+  request.guess = [this, memory](const Horizon& built) {
     return memory && memory->x.size() == built.problem.variable_count() ? remembered_guess(state, built, *memory)
                                                                         : nominal_guess(walker, state, built);
   };
-  Horizon horizon_now = build_horizon(walker, footsteps, request);
-  const nlp::Solution solution = solve(cycle, horizon_now, std::move(request), deadline);
+  return request;
+}
+
+Cycle RecedingHorizon::Impl::run() {
+  const Options& options = walker.options;
+  const Deadline deadline(options.time_limit_s, options.clock);
+  Cycle cycle;
+  cycle.index = static_cast<int>(cycles.size());
+  const int steps = std::min(options.lookahead, steps_left());
+  if (steps <= 0) throw InvalidInput("cycles", "must not go beyond the sequence of steps", text(index + 1));
+  std::optional<Unfinished> now = std::exchange(unfinished, std::nullopt);
+  if (!now) {
+    now.emplace();
+    now->request = request_for(steps);
+    now->horizon = build_horizon(walker, footsteps, now->request);
+  }
+  nlp::Solution& solution = now->solution;
+  solve(cycle, *now, deadline);
   cycle.status = nlp::status_of(solution.outcome);
   cycle.message = solution.message;
-  cycle.variables = horizon_now.problem.variable_count();
-  cycle.constraints = horizon_now.problem.row_count();
+  cycle.variables = now->horizon.problem.variable_count();
+  cycle.constraints = now->horizon.problem.row_count();
   cycle.cost = solution.cost;
   cycle.worst_violation.name = solution.worst.name;
   cycle.worst_violation.value = solution.worst.value;
   cycle.worst_violation.tolerance = options.constraint_tolerance;
-  if (solution.worst.value <= options.constraint_tolerance)
-    accept(cycle, horizon_now, solution);
-  else if (cycle.status == Status::solved)
-    cycle.status = Status::acceptable;
+  const bool keeps = solution.worst.value <= options.constraint_tolerance;
+  if (!keeps && cycle.status == Status::solved) cycle.status = Status::acceptable;
+  if (keeps || cut_short(cycle)) accept(cycle, *now, deadline);
+  if (!cycle.executed && cut_short(cycle)) accept_predicted(cycle);
+  if (!cycle.executed && cut_short(cycle)) unfinished = std::move(now);
   if (!cycle.executed && !out_of_reach.empty()) cycle.message += (cycle.message.empty() ? "" : "; ") + out_of_reach;
   cycle.time_s = deadline.elapsed_s();
   cycles.push_back(cycle);
@@ -150,66 +170,105 @@ Cycle RecedingHorizon::Impl::run() {
   return cycle;
 }
 
-/// Solve the horizon, again with the faces of reach that were left out and matter after all; `horizon_now` becomes the
-/// one that the solution is of.
-nlp::Solution RecedingHorizon::Impl::solve(Cycle& cycle, Horizon& horizon_now, HorizonRequest request,
-                                           const Deadline& deadline) const {
+/// Solve the horizon, from where its solve was cut short if it was; again with the faces of reach that were left out
+/// and matter after all: `now` becomes the one that the solution is of.
+void RecedingHorizon::Impl::solve(Cycle& cycle, Unfinished& now, const Deadline& deadline) const {
   const Options& options = walker.options;
-  nlp::Solution solution;
+  nlp::Solution& solution = now.solution;
   for (int attempt = 0;; ++attempt) {
     nlp::SolverOptions how = solver_options(options, deadline.remaining_s());
     // Close to the solution already. The kernel begins well inside all bounds wherever it is.
     if (attempt > 0 && options.solver == nlp::Solver::ipopt) how.initial_barrier = 1e-4;
+    if (attempt == 0 && solution.x.size() > 0) {
+      now.horizon.guess = solution.x;
+      how.start = {solution.multipliers, solution.bound_multipliers};
+      if (solution.barrier > 0.0) how.initial_barrier = solution.barrier;
+    }
+    if (deadline.limited()) how.finishing_s = [this](const VectorXd&) { return finishing_s; };
     how.max_iterations = std::max(1, options.max_iterations - cycle.iterations);
-    solution = ipm::solve(options.solver, horizon_now.problem, horizon_now.guess, how);
+    solution = ipm::solve(options.solver, now.horizon.problem, now.horizon.guess, how);
     cycle.solver = solution.solver;
     cycle.iterations += solution.iterations;
     cycle.evaluation_s += solution.evaluation_s;
     cycle.linear_solver_s += solution.linear_solver_s;
     // Faces that were left out and matter after all: again with them, from here.
     constexpr int kAttempts = 5;
-    const std::set<ReachRow> missed = violated_reach(walker, horizon_now, solution.x, options.constraint_tolerance);
+    const std::set<ReachRow> missed = violated_reach(walker, now.horizon, solution.x, options.constraint_tolerance);
     if (missed.empty() || attempt == kAttempts || solution.outcome != nlp::Outcome::converged || deadline.passed()) {
-      const nlp::Problem::Worst unseen = worst_left_out(walker, horizon_now, solution.x);
+      const nlp::Problem::Worst unseen = worst_left_out(walker, now.horizon, solution.x);
       if (unseen.value > solution.worst.value) solution.worst = unseen;
       if (!missed.empty() && solution.outcome == nlp::Outcome::converged && deadline.passed()) {
         solution.outcome = nlp::Outcome::time_limit;
         solution.message = "reached time_limit_s";
       }
-      return solution;
+      return;
     }
-    request.reach_rows.insert(missed.begin(), missed.end());
-    request.guess = [&](const Horizon&) { return solution.x; };
-    horizon_now = build_horizon(walker, footsteps, request);
+    now.request.reach_rows.insert(missed.begin(), missed.end());
+    now.request.guess = [x = solution.x](const Horizon&) { return x; };
+    now.horizon = build_horizon(walker, footsteps, now.request);
   }
 }
 
-/// Take a motion that keeps the program's constraints; the checker decides whether it is called solved.
-void RecedingHorizon::Impl::accept(Cycle& cycle, const Horizon& horizon_now, const nlp::Solution& solution) {
-  Plan next = executed_plan(walker, state, horizon_now, solution.x, 1);
+CheckResult RecedingHorizon::Impl::checked(const Plan& step) const {
   Tolerances tolerances;
   tolerances.sample_s = 0.005;
-  const Similarity& own = size.own();
-  const CheckResult found = check(size.to_own(next), size.scene(), size.robot(), tolerances);
+  return check(size.to_own(step), size.scene(), size.robot(), tolerances);
+}
+
+/// Take a motion that keeps the program's constraints, or one that does not quite and is usable all the same; the
+/// checker decides whether it is called solved.
+void RecedingHorizon::Impl::accept(Cycle& cycle, const Unfinished& now, const Deadline& deadline) {
+  const Horizon& horizon_now = now.horizon;
+  const nlp::Solution& solution = now.solution;
+  const double start_s = deadline.elapsed_s();
+  Plan next = executed_plan(walker, state, horizon_now, solution.x, 1);
+  const CheckResult found = checked(next);
+  if (!(solution.worst.value <= walker.options.constraint_tolerance) && !usable(found)) {
+    cycle.message += "; its best point is not usable: " + found.worst().to_string();
+    return;
+  }
   const bool euler = walker.options.transcription == Transcription::euler;
-  cycle.worst_violation = found.worst();
   if (cycle.status == Status::solved && !found.ok()) {
     cycle.status = Status::acceptable;
     cycle.message = euler && only_euler_drift(found)
                         ? "converged; the forward-Euler motion is not the integral of its forces"
                         : "converged, but the checker finds " + found.worst().to_string();
   }
+  const bool converged =
+      solution.outcome == nlp::Outcome::converged || solution.outcome == nlp::Outcome::nearly_converged;
+  cycle.step_from = converged ? StepFrom::converged : StepFrom::iterate;
   const Measures measures = measure(walker, state, horizon_now, solution.x, next);
-  cycle.acceleration_cost = measures.acceleration_cost * (own.velocity() * own.velocity() / own.time);
-  cycle.momentum_cost = measures.momentum_cost * (own.angular_momentum() * own.angular_momentum() * own.time);
-  cycle.drift_com_m = measures.drift_com_m * own.length;
-  cycle.drift_momentum = measures.drift_momentum * own.angular_momentum();
+  cycle.drift_com_m = measures.drift_com_m * size.own().length;
+  cycle.drift_momentum = measures.drift_momentum * size.own().angular_momentum();
   cycle.defect = measures.defect;
-  cycle.duration_s = next.duration() * own.time;
-  const State end = end_of(walker, next);
-  cycle.distance_m = walker.r_WH.col(0).dot(end.com_W - state.com_W) * own.length;
-  cycle.executed = true;
+  horizon = executed_plan(walker, state, horizon_now, solution.x, horizon_now.steps);
+  horizon_rests = now.request.rest;
+  steps_used = 0;
+  remember(horizon_now, solution);
+  take(cycle, std::move(next), found, {measures.acceleration_cost, measures.momentum_cost});
+  finishing_s = deadline.elapsed_s() - start_s;
+}
 
+/// Take the step that the last plan predicted for now, if there is one and it is usable from here. The last step of a
+/// horizon that does not end at rest is none: the goal alone pulls at its end, at more than a metre a second, and no
+/// cycle was seen to find a step from there.
+void RecedingHorizon::Impl::accept_predicted(Cycle& cycle) {
+  const int steps = static_cast<int>(horizon.phases.size()) / 3, last = horizon_rests ? steps - 1 : steps - 2;
+  if (steps_used + 1 > last) return;
+  Plan next = predicted_step(walker, state, horizon, steps_used + 1);
+  const CheckResult found = checked(next);
+  if (!usable(found)) {
+    cycle.message += "; the step that the last plan predicted is not usable: " + found.worst().to_string();
+    return;
+  }
+  cycle.step_from = StepFrom::previous_plan;
+  ++steps_used;
+  const RunningCost cost = running_cost(walker, next);
+  take(cycle, std::move(next), found, cost);
+}
+
+/// The next cycle of the same leg starts from here.
+void RecedingHorizon::Impl::remember(const Horizon& horizon_now, const nlp::Solution& solution) {
   Memory memory;
   memory.state = state;
   memory.x = solution.x;
@@ -217,8 +276,18 @@ void RecedingHorizon::Impl::accept(Cycle& cycle, const Horizon& horizon_now, con
   memory.swing = footsteps[index].foot;
   memories.push_back(std::move(memory));
   if (memories.size() > 2) memories.pop_front();
+}
 
-  horizon = executed_plan(walker, state, horizon_now, solution.x, horizon_now.steps);
+/// A step becomes the walk's next one.
+void RecedingHorizon::Impl::take(Cycle& cycle, Plan next, const CheckResult& found, const RunningCost& cost) {
+  const Similarity& own = size.own();
+  cycle.worst_violation = found.worst();
+  cycle.acceleration_cost = cost.acceleration * (own.velocity() * own.velocity() / own.time);
+  cycle.momentum_cost = cost.momentum * (own.angular_momentum() * own.angular_momentum() * own.time);
+  cycle.duration_s = next.duration() * own.time;
+  const State end = end_of(walker, next);
+  cycle.distance_m = walker.r_WH.col(0).dot(end.com_W - state.com_W) * own.length;
+  cycle.executed = true;
   if (walked.phases.empty() || moved) {
     measured = measured || moved;
     walked = next;
@@ -325,36 +394,6 @@ Walk RecedingHorizon::result() const {
     report.message = "every cycle converged, but the checker finds " + found.worst().to_string();
   }
   return out;
-}
-
-double Walk::distance_m() const {
-  double total = 0.0;
-  for (const Cycle& cycle : cycles) total += cycle.distance_m;
-  return total;
-}
-
-double Walk::acc_per_m() const {
-  double total = 0.0;
-  for (const Cycle& cycle : cycles) total += cycle.acceleration_cost;
-  return total / std::max(std::abs(distance_m()), 1e-9);
-}
-
-double Walk::momentum_per_m() const {
-  double total = 0.0;
-  for (const Cycle& cycle : cycles) total += cycle.momentum_cost;
-  return total / std::max(std::abs(distance_m()), 1e-9);
-}
-
-double Walk::drift_com_m() const {
-  double max_drift = 0.0;
-  for (const Cycle& cycle : cycles) max_drift = std::max(max_drift, cycle.drift_com_m);
-  return max_drift;
-}
-
-double Walk::drift_momentum() const {
-  double max_drift = 0.0;
-  for (const Cycle& cycle : cycles) max_drift = std::max(max_drift, cycle.drift_momentum);
-  return max_drift;
 }
 
 }  // namespace mcplan::rhp

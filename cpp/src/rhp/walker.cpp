@@ -246,4 +246,16 @@ State start_of(const Walker& walker, const Plan& plan) {
   return state;
 }
 
+void require_state(const Walker& walker, const State& state) {
+  if (state.feet_W.size() != 2 || state.surfaces.size() != 2)
+    throw InvalidInput("measured.feet_W", "must have two feet, with a surface for each",
+                       text(static_cast<int>(state.feet_W.size())));
+  for (int surface : state.surfaces)
+    if (surface < 0 || surface >= static_cast<int>(walker.surfaces.size()))
+      throw InvalidInput("measured.surfaces", "must be indices of surfaces", text(surface));
+  bool finite = state.com_W.allFinite() && state.com_velocity_W.allFinite() && state.angular_momentum_W.allFinite();
+  for (const Vector3d& foot : state.feet_W) finite = finite && foot.allFinite();
+  if (!finite) throw InvalidInput("measured", "must be finite numbers", "nan or inf");
+}
+
 }  // namespace mcplan::rhp

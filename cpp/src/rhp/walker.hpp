@@ -85,6 +85,9 @@ struct Walker {
   State start() const;                  ///< at the scene's start
 };
 
+/// Throws InvalidInput where a measured state is no state of the walker.
+void require_state(const Walker& walker, const State& state);
+
 /// The steps that the scene lists. Throws InvalidScene where there are none, or one names no foot of the robot or a
 /// surface that this foot may not touch.
 Footsteps footsteps_of(const Walker& walker);

@@ -19,6 +19,7 @@ __all__: list[str] = [
     "Result",
     "Solver",
     "State",
+    "StepFrom",
     "Transcription",
     "Walk",
 ]
@@ -418,6 +419,50 @@ class State:
     @surfaces.setter
     def surfaces(self, arg1: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]) -> None: ...
 
+class StepFrom:
+    """
+    Where the step that a cycle executes comes from.
+
+    Members:
+
+      none : Nothing is executed.
+
+      converged : The solver converged.
+
+      iterate : The best point of a solve that was cut short, usable as it is.
+
+      previous_plan : The solve was cut short: what the last cycle with a plan of its own predicted for now, usable.
+    """
+
+    __members__: typing.ClassVar[dict[str, StepFrom]]
+    converged: typing.ClassVar[StepFrom]
+    iterate: typing.ClassVar[StepFrom]
+    none: typing.ClassVar[StepFrom]
+    previous_plan: typing.ClassVar[StepFrom]
+    @typing.overload
+    def __eq__(self, other: StepFrom) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: StepFrom) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
 class Cycle:
     """
     How one cycle went.
@@ -468,7 +513,7 @@ class Cycle:
     @property
     def executed(self) -> bool:
         """
-        Its first step keeps the constraints and was taken into the walk.
+        A step was taken into the walk: step_from is not none.
         """
     @property
     def index(self) -> int: ...
@@ -497,6 +542,11 @@ class Cycle:
         solved: converged, and the checker accepts the executed step.
         """
     @property
+    def step_from(self) -> StepFrom:
+        """
+        Where that step comes from.
+        """
+    @property
     def time_s(self) -> float:
         """
         Wall clock, set-up and check included [s].
@@ -506,7 +556,7 @@ class Cycle:
     @property
     def worst_violation(self) -> mcplan._core.Violation:
         """
-        Of the executed step.
+        Of the executed step; without one, of the program's best point.
         """
 
 class Walk:
@@ -595,7 +645,7 @@ class RecedingHorizon:
     @typing.overload
     def step(self) -> Cycle:
         """
-        One cycle from where the last one ended.
+        One cycle from where the last one ended; after one that a limit cut short without a step, on where that one stopped.
         """
     @typing.overload
     def step(self, measured: State) -> Cycle:

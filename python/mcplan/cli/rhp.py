@@ -171,7 +171,8 @@ def cycle_dict(cycle: engine.Cycle) -> dict[str, Any]:
     step = ("duration_s", "distance_m", "acceleration_cost", "momentum_cost", "drift_com_m", "drift_momentum")
     data = {name: finite(getattr(cycle, name)) for name in (*solve, *sizes)}
     done = {name: finite(getattr(cycle, name)) if cycle.executed else None for name in step}
-    return {"index": cycle.index, "status": str(cycle.status), "solver": cycle.solver.name, **data, **done}
+    names = {"solver": cycle.solver.name, "step_from": cycle.step_from.name}
+    return {"index": cycle.index, "status": str(cycle.status), **names, **data, **done}
 
 
 def _planner(

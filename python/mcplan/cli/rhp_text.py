@@ -22,6 +22,7 @@ _COLUMNS: tuple[tuple[str, int], ...] = (
     ("acc cost", 8),
 )
 _MORE = (
+    ("step from", 13),
     ("variables", 9),
     ("rows", 6),
     ("evaluation", 10),
@@ -44,7 +45,7 @@ class Progress:
         cells = [str(cycle.index), str(cycle.status), str(cycle.iterations), f"{cycle.time_s:.3f}"]
         cells += step if cycle.executed else ["-"] * 3
         time_s = max(cycle.time_s, 1e-9)
-        cells += [str(cycle.variables), str(cycle.constraints)]
+        cells += [cycle.step_from.name, str(cycle.variables), str(cycle.constraints)]
         cells += [f"{100.0 * cycle.evaluation_s / time_s:.0f} %", f"{100.0 * cycle.linear_solver_s / time_s:.0f} %"]
         cells += [f"{cycle.drift_com_m:.1e}", f"{cycle.drift_momentum:.1e}"] if cycle.executed else ["-"] * 2
         self._print(cells)

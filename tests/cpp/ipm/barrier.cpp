@@ -1,7 +1,11 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
 
+#include "mcplan/base/error.hpp"
 #include "mcplan/ipm/solver.hpp"
 #include "nlp/problems.hpp"
 
@@ -151,4 +155,117 @@ TEST_CASE("the Gauss-Newton Hessian of a problem is that of its costs alone") {
   J << -20.0 * x[0], 10.0, -1.0, 0.0;
   const MatrixXd expected = 2.0 * J.transpose() * J + 2.0 * MatrixXd::Identity(2, 2);
   CHECK((H - MatrixXd(expected.triangularView<Eigen::Lower>())).lpNorm<Eigen::Infinity>() < 1e-12);
+}
+
+namespace {
+
+/// One variable in [0, width] that is pulled to `target`; `seen`: every x at which the cost was evaluated.
+struct Pulled {
+  Pulled(double width, double target) {
+    problem.add_variables("x", 1, 0.0, width, {0, 0});
+    problem.add_cost(squared_distance({0}, VectorXd::Constant(1, target), [this](const ConstVector& x) {
+      if (finished) seen.push_back(x[0]);
+    }));
+    problem.finish();
+    finished = true;
+  }
+  Problem problem;
+  std::vector<double> seen;
+  bool finished = false;
+};
+
+/// lg(mu) of each row of the iteration table.
+std::vector<double> barriers(const Problem& problem, const VectorXd& x, SolverOptions options) {
+  std::vector<double> out;
+  options.logger = [&](LogLevel, const std::string& line) {
+    double cost, primal, dual, complementarity, barrier;
+    if (std::sscanf(line.c_str(), "%*d%*c %lf %lf %lf %lf %lf", &cost, &primal, &dual, &complementarity, &barrier) == 5)
+      out.push_back(barrier);
+  };
+  REQUIRE(ipm::solve(problem, x, options).outcome == Outcome::converged);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a start is moved off its bounds by a hundredth, by a tenth where the barrier is probed") {
+  for (const bool adaptive : {false, true})
+    for (const double width : {1e9, 0.5}) {
+      Pulled pulled(width, 0.25);
+      SolverOptions options = tight();
+      options.adaptive_barrier = adaptive;
+      REQUIRE(ipm::solve(pulled.problem, VectorXd::Zero(1), options).outcome == Outcome::converged);
+      const double push = adaptive ? 0.1 : 0.01;
+      CHECK(pulled.seen.front() == doctest::Approx(push * std::min(1.0, width)));
+    }
+  Pulled inside(1.0, 0.25);
+  SolverOptions options = tight();
+  options.adaptive_barrier = true;
+  ipm::solve(inside.problem, VectorXd::Constant(1, 0.4), options);
+  CHECK(inside.seen.front() == 0.4);
+}
+
+TEST_CASE("a probed barrier parameter falls at most to a tenth of the average complementarity") {
+  // Far from its bounds the affine step meets no obstacle: what is probed is next to nothing.
+  Pulled pulled(1.0, 0.5);
+  SolverOptions options = tight();
+  options.adaptive_barrier = true;
+  options.initial_barrier = 0.1;
+  const std::vector<double> kept = barriers(pulled.problem, VectorXd::Constant(1, 0.5), options);
+  REQUIRE(kept.size() > 2);
+  CHECK(kept[0] == doctest::Approx(-1.0));
+  CHECK(kept[1] == doctest::Approx(-2.0).epsilon(0.03));
+  options.kernel.distant_start = true;  // as sip solves: no floor
+  const std::vector<double> free = barriers(pulled.problem, VectorXd::Constant(1, 0.5), options);
+  REQUIRE(free.size() > 1);
+  CHECK(free[1] < -3.0);
+}
+
+TEST_CASE("a solution with its multipliers and its barrier parameter is where a solve ends at once") {
+  const Shell shell;
+  for (const bool adaptive : {false, true}) {
+    CAPTURE(adaptive);
+    SolverOptions options = tight();
+    options.adaptive_barrier = adaptive;
+    const Solution whole = ipm::solve(shell.problem, Vector2d(1.0, 0.1), options);
+    REQUIRE(whole.outcome == Outcome::converged);
+    REQUIRE(whole.bound_multipliers.size() == 2);
+    CHECK(whole.barrier <= options.tolerance);
+    options.initial_barrier = whole.barrier;
+    const Solution without = ipm::solve(shell.problem, whole.x, options);
+    options.start = {whole.multipliers, whole.bound_multipliers};
+    const Solution again = ipm::solve(shell.problem, whole.x, options);
+    CHECK_MESSAGE(again.outcome == Outcome::converged, again.message);
+    CHECK(again.iterations <= 2);
+    CHECK(again.iterations < without.iterations);
+    CHECK((again.x - whole.x).lpNorm<Eigen::Infinity>() < 1e-7);
+    CHECK((again.multipliers - whole.multipliers).lpNorm<Eigen::Infinity>() < 1e-4);
+  }
+}
+
+TEST_CASE("a solve that was cut short goes on from its point, its multipliers and its barrier parameter") {
+  const Shell shell;
+  SolverOptions options = tight();
+  const Solution whole = ipm::solve(shell.problem, Vector2d(1.0, 0.1), options);
+  SolverOptions cut = options;
+  cut.max_iterations = whole.iterations - 3;
+  const Solution part = ipm::solve(shell.problem, Vector2d(1.0, 0.1), cut);
+  REQUIRE(part.outcome == Outcome::iteration_limit);
+  CHECK(part.barrier > 0.0);
+  CHECK(part.barrier < options.initial_barrier);
+  options.initial_barrier = part.barrier;
+  options.start = {part.multipliers, part.bound_multipliers};
+  const Solution rest = ipm::solve(shell.problem, part.x, options);
+  CHECK_MESSAGE(rest.outcome == Outcome::converged, rest.message);
+  CHECK((rest.x - whole.x).lpNorm<Eigen::Infinity>() < 1e-6);
+  CHECK(rest.iterations < whole.iterations);
+}
+
+TEST_CASE("multipliers of the wrong size or that are no numbers are refused") {
+  const Shell shell;
+  SolverOptions options = tight();
+  options.start.multipliers = VectorXd::Zero(3);  // of two rows
+  CHECK_THROWS_AS(ipm::solve(shell.problem, Vector2d(1.0, 0.1), options), InvalidOptions);
+  options.start.multipliers = VectorXd::Constant(2, std::nan(""));
+  CHECK_THROWS_AS(ipm::solve(shell.problem, Vector2d(1.0, 0.1), options), InvalidOptions);
 }

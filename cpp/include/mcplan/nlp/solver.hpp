@@ -44,6 +44,13 @@ struct SolverOptions {
     /// difference to the exact ones as leaves the system's inertia as it should be.
     bool blend_hessians = false;
   } kernel;
+  /// Multipliers of an earlier solve of a problem like this one, with which the kernel's barrier method begins: as
+  /// Solution has them, of the rows and of the variables' bounds. Empty: none. A start is then moved off its limits no
+  /// further than initial_barrier over their multipliers, so that with Solution::barrier as initial_barrier a solve
+  /// goes on where another one was cut short.
+  struct Start {
+    Eigen::VectorXd multipliers, bound_multipliers;
+  } start;
   bool gradient_scaling = true;  ///< Ipopt scales costs and rows by their gradients at x0; off for well-scaled problems
   Logger logger;                 ///< one line an iteration; null: silent
   StopRequest stop;              ///< polled once an iteration; null: never
@@ -72,10 +79,12 @@ Status status_of(Outcome outcome);
 
 struct Solution {
   Outcome outcome = Outcome::numerical_failure;
-  Solver solver = Solver::ipopt;  ///< that found it: ipopt or ipm
-  std::string message;            ///< why it ended, in one sentence
-  Eigen::VectorXd x;              ///< the solution, or the best iterate: feasible and cheap, or least violated
-  Eigen::VectorXd multipliers;    ///< of the rows, at the last iterate: <= 0 at a lower limit, >= 0 at an upper one
+  Solver solver = Solver::ipopt;      ///< that found it: ipopt or ipm
+  std::string message;                ///< why it ended, in one sentence
+  Eigen::VectorXd x;                  ///< the solution, or the best iterate: feasible and cheap, or least violated
+  Eigen::VectorXd multipliers;        ///< of the rows, at the last iterate: <= 0 at a lower limit, >= 0 at an upper one
+  Eigen::VectorXd bound_multipliers;  ///< of the variables, of the same signs; empty where Ipopt found x
+  double barrier = 0.0;               ///< the kernel's barrier parameter at the end; 0 where Ipopt found x
   double cost = 0.0;
   Problem::Worst worst;  ///< largest violation at x
   int iterations = 0;

@@ -23,12 +23,25 @@ struct State {
   std::vector<int> surfaces;                                     ///< on which they stand
 };
 
+/// Where the step that a cycle executes comes from.
+enum class StepFrom {
+  none,           ///< nothing is executed
+  converged,      ///< the solver converged
+  iterate,        ///< the best point of a solve that was cut short, usable as it is
+  previous_plan,  ///< the solve was cut short: what the last cycle with a plan of its own predicted for now, usable
+};
+
+/// A step of a solve that was cut short is usable where it keeps all constraints of its program, or the checker finds
+/// no violation of more than so many tolerances.
+inline constexpr double kUsableRatio = 10.0;
+
 /// How one cycle went.
 struct Cycle {
   int index = 0;
   Status status = Status::numerical_failure;  ///< solved: converged, and the checker accepts the executed step
   std::string message;
-  bool executed = false;  ///< its first step keeps the program's constraints and was taken into the walk
+  bool executed = false;  ///< a step was taken into the walk: step_from is not none
+  StepFrom step_from = StepFrom::none;
   nlp::Solver solver = nlp::Solver::ipopt;  ///< that found it: ipopt or ipm
   int iterations = 0;
   double time_s = 0.0;           ///< wall clock, problem set up and checked included
@@ -43,7 +56,7 @@ struct Cycle {
   double defect = 0.0;             ///< largest dynamics defect of the transcription, in its units
   double drift_com_m = 0.0;     ///< end of the executed step: its forces replayed in continuous time against its states
   double drift_momentum = 0.0;  ///< the same of L [kg m^2/s]
-  Violation worst_violation;    ///< of the executed step
+  Violation worst_violation;    ///< of the executed step; without one, of the program's best point
 };
 
 /// A walk.
@@ -87,7 +100,8 @@ class RecedingHorizon {
   /// Run all cycles that options ask for, or until one fails.
   Walk walk();
 
-  /// One cycle from where the last one ended.
+  /// One cycle from where the last one ended. After one that a limit cut short without a step it goes on where that one
+  /// stopped.
   Cycle step();
 
   /// One cycle from a measured state. Throws InvalidInput where it does not fit the robot.
