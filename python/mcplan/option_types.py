@@ -109,6 +109,12 @@ class DdpOptions(TypedDict, total=False):
     """Look for better contact sequences as a whole, by dynamic programming, where it pays."""
     stepping_guesses: bool
     """Begin with end-effectors that step in turn, too, beside what the search finds."""
+    allow_flight: bool
+    """Allow phases without any contact. Where steps lead to the goal they come last even so."""
+    min_contacts: int
+    """Number of contacts at any time; -1: two for robots that stand on four feet, where a plan is found so."""
+    detours: bool
+    """Look for ways round what steps cannot cross, too."""
     one_switch_per_step: bool
     """At most one contact is made or broken between two phases (Tazaki, eq. 32)."""
     restarts: int

@@ -68,6 +68,10 @@ void take(std::optional<BestPlan::Finished>& best, BestPlan::Finished&& now) {
 
 }  // namespace
 
+bool better(const std::optional<BestPlan::Finished>& one, const std::optional<BestPlan::Finished>& other) {
+  return one && (!other || better(*one, *other));
+}
+
 const std::optional<BestPlan::Finished>& BestPlan::best() const {
   const bool finished = finished_ && (finished_->ok || !looked_ || !better(*looked_, *finished_));
   return finished ? finished_ : looked_;

@@ -86,6 +86,9 @@ class BestPlan {
   double instant_s_ = 0.0;            ///< of which an instant of the check
 };
 
+/// The order in which BestPlan prefers; none comes after all others.
+bool better(const std::optional<BestPlan::Finished>& one, const std::optional<BestPlan::Finished>& other);
+
 /// Value in tolerances; what admits none is beyond every other violation.
 double violation_ratio(const Violation& violation);
 

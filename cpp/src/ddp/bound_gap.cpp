@@ -208,8 +208,9 @@ std::vector<int> surfaces_of(const ResolvedStance& stance) {
 /// `contact_distance`; `com_speed`; `path_continuity`. Where a rule forbids that all are free, there are no jumps. What
 /// no chain of such pairs joins with the start's surfaces cannot be touched. Of end-effectors whose contacts are held
 /// to com_reach instead of the box nothing is said, nor of stances without contacts.
-std::optional<Impossible> gap_too_wide(const Scene& scene, const Robot& robot) {
-  const Ways ways(scene, robot, !forbids_flight(scene, robot));
+std::optional<Impossible> gap_too_wide(const Scene& scene, const Robot& robot, bool allow_flight) {
+  const bool forbidden = forbids_flight(scene, robot);
+  const Ways ways(scene, robot, allow_flight && !forbidden);
   if (ways.unlimited()) return std::nullopt;
   const std::vector<int> start = surfaces_of(resolve_stance(scene, robot, scene.start, "start"));
   const std::vector<int> goal = surfaces_of(resolve_stance(scene, robot, scene.goal, "goal"));
@@ -225,7 +226,8 @@ std::optional<Impossible> gap_too_wide(const Scene& scene, const Robot& robot) {
   const bool high = ways.flights() && rise > limit.rise && gap.width <= limit.jump;
   const double largest = high ? limit.rise : ways.flights() ? std::max(limit.step, limit.jump) : limit.step;
   const std::string why = ways.flights() ? ", with the CoM at " + model::digits(robot.max_com_speed, "%.3g") + " m/s"
-                                         : ", for the scene's rules forbid flights";
+                          : forbidden    ? ", for the scene's rules forbid flights"
+                                         : ", and flights are not allowed";
   return Impossible{(high ? from + " and " + to + " are " + metres(rise) + " apart in height, more"
                           : "the gap of " + metres(gap.width) + " between " + from + " and " + to + " is wider") +
                         " than any " + (ways.flights() ? "jump" : "step") + " of " + robot.name + ": at most " +

@@ -35,6 +35,42 @@ constexpr int kPaperPhases = 18, kPhasesMax = 400;
 /// Friction coefficient that stands for any larger one where a stride is judged. Chosen.
 constexpr double kStrideFrictionMax = 10.0;
 
+// Routes.
+
+/// Level distance from ground that a foot may have in its nominal place, as a ratio of its stride, less what its sole
+/// stays inside, down to the second. Chosen: gaps of twice that are stepped over, with a fifth of the stride to spare.
+constexpr double kGapRatio = 0.4, kGapRatioMin = 0.1;
+/// Ground faces up by at least this (z of the normal). Chosen: steeper than any friction holds.
+constexpr double kGroundNormal = 0.3;
+/// Surfaces whose heights differ by less than this ratio of a step are one place. Chosen.
+constexpr double kSameHeightRatio = 0.05;
+/// The trunk is looked for in solids up to this height and within this distance, in heights of the CoM, or so much
+/// beyond where the feet stand. Chosen.
+constexpr double kTrunkHeight = 1.3, kTrunkRoom = 0.2, kFootRoom = 0.05;
+/// What a way as loose as may be costs more than one over ground, as a ratio. Chosen.
+constexpr double kLooseness = 3.0;
+/// Spacing of the places that are joined, in strides, and how far beside the way they lie, likewise, or half its length
+/// if that is more; the most places that there may be. Chosen.
+constexpr double kRoadSpacing = 0.25, kRoadMargin = 5.0, kRoadCellsMax = 2e4;
+/// Detours that are looked for, how many points of one are compared, and what passing within so many strides of one
+/// costs the next. Chosen.
+constexpr int kDetours = 3, kRoadSamples = 40;
+constexpr double kAvoided = 4.0, kNearRoute = 0.35;
+/// A corner is cut where that costs at most so much more. Chosen.
+constexpr double kStraighter = 1.02;
+/// Corners are rounded over this share of the route on both sides. Chosen.
+constexpr double kRounding = 0.03;
+
+// The trunk.
+
+/// Radius of the ball about the CoM that stays out of solids, in heights of the CoM. Chosen: the checker asks for 0.1.
+constexpr double kTrunkRadius = 0.15;
+/// Room beside a sole that swings past such a solid, in heights of the CoM. Chosen.
+constexpr double kSwingRoom = 0.02;
+/// Distance from the reference of the CoM, in heights of it, within which solids are looked at. Chosen: ground is one
+/// away, and robots crouch.
+constexpr double kStanding = 0.6;
+
 // Weights that are no options.
 
 /// On the state at the start, which is a fact. Chosen: above all weights of the paper.

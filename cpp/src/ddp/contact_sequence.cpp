@@ -6,8 +6,11 @@
 namespace mcplan::ddp {
 
 ContactRules::ContactRules(std::vector<std::vector<int>> surfaces, std::vector<StateRule> rules,
-                           bool one_switch_per_step)
-    : surfaces_(std::move(surfaces)), rules_(std::move(rules)), one_switch_(one_switch_per_step) {
+                           bool one_switch_per_step, int min_contacts)
+    : surfaces_(std::move(surfaces)),
+      rules_(std::move(rules)),
+      one_switch_(one_switch_per_step),
+      min_contacts_(min_contacts) {
   for (const std::vector<int>& list : surfaces_) {
     std::vector<char>& may = may_touch_.emplace_back();
     for (int surface : list) {
@@ -18,6 +21,9 @@ ContactRules::ContactRules(std::vector<std::vector<int>> surfaces, std::vector<S
 }
 
 bool ContactRules::allowed(const ContactState& state) const {
+  if (min_contacts_ > 0 &&
+      std::count_if(state.begin(), state.end(), [](int contact) { return contact != kFree; }) < min_contacts_)
+    return false;
   for (int l = 0; l < end_effector_count(); ++l)
     if (state[l] != kFree &&
         (state[l] < 0 || state[l] >= static_cast<int>(may_touch_[l].size()) || !may_touch_[l][state[l]]))

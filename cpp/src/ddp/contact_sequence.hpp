@@ -26,8 +26,9 @@ class ContactRules {
  public:
   ContactRules() = default;
 
-  /// surfaces[l]: the surfaces that end-effector l may touch.
-  ContactRules(std::vector<std::vector<int>> surfaces, std::vector<StateRule> rules, bool one_switch_per_step = true);
+  /// surfaces[l]: the surfaces that end-effector l may touch; at least `min_contacts` of them touch one at any time.
+  ContactRules(std::vector<std::vector<int>> surfaces, std::vector<StateRule> rules, bool one_switch_per_step = true,
+               int min_contacts = 0);
 
   /// From now on a contact that is made at step k is looked for among near[k][l] alone; what is already touched may be
   /// kept, and `valid` is as before.
@@ -65,6 +66,7 @@ class ContactRules {
   std::vector<std::vector<std::vector<int>>> near_;  // by step and end-effector; empty: all surfaces everywhere
   std::vector<StateRule> rules_;
   bool one_switch_ = true;
+  int min_contacts_ = 0;
 };
 
 /// Whether a cost is below another by more than rounding. Scenes with a mirror plane are full of sequences that cost

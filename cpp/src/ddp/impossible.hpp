@@ -25,14 +25,16 @@ std::optional<Impossible> stance_out_of_reach(const Scene& scene, const Robot& r
 /// The friction cones of all surfaces together hold nothing up. bound_friction.cpp
 std::optional<Impossible> slips_everywhere(const Scene& scene, const Robot& robot);
 
-/// No step and no jump leads from the surfaces of the start to those of the goal. bound_gap.cpp
-std::optional<Impossible> gap_too_wide(const Scene& scene, const Robot& robot);
+/// No step and, where flights are allowed, no jump leads from the surfaces of the start to those of the goal.
+/// bound_gap.cpp
+std::optional<Impossible> gap_too_wide(const Scene& scene, const Robot& robot, bool allow_flight = true);
 
 /// Where no steps lead from the start to the goal, what flight it takes, in words; else empty. bound_gap.cpp
 std::string flight_needed(const Scene& scene, const Robot& robot);
 
 /// The first condition that fails. From a `measured` start only what holds of the goal is asked for.
-std::optional<Impossible> why_impossible(const Scene& scene, const Robot& robot, bool measured);
+std::optional<Impossible> why_impossible(const Scene& scene, const Robot& robot, bool measured,
+                                         bool allow_flight = true);
 
 /// Largest distance [m] of an end-effector's reach box from the CoM.
 double farthest_reach(const EndEffector& end);

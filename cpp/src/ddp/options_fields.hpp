@@ -134,6 +134,12 @@ struct Fields<ddp::Options> {
             "Look for better contact sequences as a whole, by dynamic programming, where it pays."),
       field("stepping_guesses", &Options::stepping_guesses, "",
             "Begin with end-effectors that step in turn, too, beside what the search finds."),
+      field("allow_flight", &Options::allow_flight, "",
+            "Allow phases without any contact. Where steps lead to the goal they come last even so."),
+      field("min_contacts", &Options::min_contacts, "",
+            "Number of contacts at any time; -1: two for robots that stand on four feet, where a plan is found so.")
+          .at_least(-1),
+      field("detours", &Options::detours, "", "Look for ways round what steps cannot cross, too."),
       field("one_switch_per_step", &Options::one_switch_per_step, "",
             "At most one contact is made or broken between two phases (Tazaki, eq. 32)."),
       field("restarts", &Options::restarts, "", "Further attempts while the checker rejects the plan.").at_least(0),

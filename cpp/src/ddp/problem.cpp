@@ -41,8 +41,8 @@ std::vector<Vector3d> pyramid_tangents(const Vector3d& normal, int sides) {
 
 }  // namespace
 
-Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& options_in)
-    : scene(scene_in), robot(robot_in), options(options_in) {
+Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& options_in, const Route& route_in)
+    : scene(scene_in), robot(robot_in), options(options_in), route(route_in) {
   scene.validate();
   robot.validate();
   options.validate();
@@ -58,7 +58,8 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   const std::vector<std::vector<int>> surfaces = make_ends();
   layout = model == Model::lipm ? lipm_layout(limits, options.method == Method::paper)
                                 : wrench_layout(limits, polygons, surfaces);
-  rules = ContactRules(surfaces, make_state_rules(), options.one_switch_per_step);
+  rules = ContactRules(surfaces, make_state_rules(), options.one_switch_per_step,
+                       std::max(options.min_contacts, options.allow_flight ? 0 : 1));
 
   const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
   const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
@@ -101,6 +102,7 @@ void Problem::make_surfaces() {
     std::vector<Vector3d> scaled;
     for (const Vector3d& v : surface.vertices_W) scaled.push_back(v / units.length);
     polygons.emplace_back(scaled);
+    thickness.push_back(surface.thickness / units.length);
     keep_out_depth.push_back(kKeepOutDepth * surface.thickness / units.length);
     friction.push_back(surface.grasp
                            ? std::numeric_limits<double>::infinity()

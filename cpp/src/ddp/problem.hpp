@@ -5,6 +5,7 @@
 
 #include "ddp/contact_sequence.hpp"
 #include "ddp/layout.hpp"
+#include "ddp/routes.hpp"
 #include "mcplan/ddp/options.hpp"
 #include "mcplan/plan/plan.hpp"
 #include "mcplan/robot/robot.hpp"
@@ -57,11 +58,13 @@ struct EndLimits {
 /// (Method::paper keeps them all).
 class Problem {
  public:
-  Problem(const Scene& scene, const Robot& robot, const Options& options);
+  /// `route`: what the reference follows from the start to the goal.
+  Problem(const Scene& scene, const Robot& robot, const Options& options, const Route& route = {});
 
   Scene scene;
   Robot robot;
   Options options;
+  Route route;  ///< [m]
   Units units;
   Similarity similarity;  ///< what margins and durations stated for a robot of human size are multiplied by
   Layout layout;
@@ -75,6 +78,8 @@ class Problem {
   double edge_margin = 0.0;                           ///< footholds are planned this much inside their polygon
   double pressure_margin = 0.0;                       ///< and centres of pressure
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
+  std::vector<double> thickness;       ///< by scene surface, of the solid below it
+  std::vector<int> standing_solids;    ///< surfaces whose solids come near the reference of the CoM
   std::vector<EndLimits> limits;       ///< by active end-effector
   Eigen::Vector3d inertia;             ///< in units of mass length^2
   double first_duration = 0.0;         ///< what is left of the first phase when replanning, else 0
@@ -139,7 +144,9 @@ class Problem {
   void make_slack();
   void make_foothold_margins();
   int automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const;
+  Eigen::Vector3d strides_along(int l, const Eigen::Vector3d& way, double yaw_from, double yaw_to) const;
   void make_reference(const Eigen::VectorXd& goal);
+  void find_standing_solids();
   void place_footholds(const ContactSequence& sequence, Trajectory& guess) const;
 };
 

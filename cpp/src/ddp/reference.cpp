@@ -5,6 +5,7 @@
 #include "ddp/constants.hpp"
 #include "ddp/problem.hpp"
 #include "mcplan/base/rotation.hpp"
+#include "plan/solid_box.hpp"
 
 /// What the search is to stay near, and what it begins with.
 namespace mcplan::ddp {
@@ -12,43 +13,77 @@ namespace mcplan::ddp {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
+/// How many strides it takes, end-effector l making `way` (non-dimensional) while the base turns: along the base's
+/// axes, level, and up. What lies across the base asks for more of them, since boxes are narrow, whatever lies ahead.
+/// In the paper's model a stride ends where the friction cone does, since forces point at the CoM there.
+Vector3d Problem::strides_along(int l, const Vector3d& way, double yaw_from, double yaw_to) const {
+  double tangent = 0.0;
+  for (int surface : rules.surfaces(l)) tangent = std::max(tangent, friction[surface]);
+  const EndLimits& limit = limits[l];
+  const double spread = std::min(tangent, kStrideFrictionMax) * std::abs(limit.nominal.z());
+  const double ahead = model == Model::wrench
+                           ? std::numeric_limits<double>::infinity()
+                           : std::sqrt(std::max(spread * spread - limit.nominal.y() * limit.nominal.y(), 0.0));
+  const double stride = std::min(limit.reach_max.x(), ahead) - std::max(limit.reach_min.x(), -ahead);
+  const Vector3d size = limit.reach_max - limit.reach_min;
+  double across = 0.0;
+  constexpr int kPieces = 16;
+  for (int i = 0; i < kPieces; ++i) {
+    const double yaw = yaw_from + (yaw_to - yaw_from) * (i + 0.5) / kPieces;
+    across += std::abs(std::cos(yaw) * way.y() - std::sin(yaw) * way.x()) / kPieces;
+  }
+  const double level = stride > 0.0 ? way.head<2>().norm() / stride : 0.0;
+  return {level, size.y() > 0.0 ? across / size.y() : 0.0, std::abs(way.z()) / size.z()};
+}
+
 /// As many steps as the end-effectors that stand need to cover the way, level and up, one after the other, a swing and
-/// a phase of full support each; at least the paper's 18. The stride is what the reach box allows, in the paper's model
-/// inside the friction cone, since forces point at the CoM there.
+/// a phase of full support each; at least the paper's 18.
 int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const {
   double strides = 0.0;
   for (std::size_t l = 0; l < active.size(); ++l) {
     const int e = active[l];
     if (from.contacts[e] == kFree || to.contacts[e] == kFree) continue;
-    double tangent = 0.0;
-    for (int surface : rules.surfaces(static_cast<int>(l))) tangent = std::max(tangent, friction[surface]);
-    const EndLimits& limit = limits[l];
-    const double spread = std::min(tangent, kStrideFrictionMax) * std::abs(limit.nominal.z());
-    const double ahead = model == Model::wrench
-                             ? std::numeric_limits<double>::infinity()
-                             : std::sqrt(std::max(spread * spread - limit.nominal.y() * limit.nominal.y(), 0.0));
-    const double stride = std::min(limit.reach_max.x(), ahead) - std::max(limit.reach_min.x(), -ahead);
-    const Vector3d way = (to.end_effectors_W[e] - from.end_effectors_W[e]) / units.length;
-    const double level = stride > 0.0 ? way.head<2>().norm() / stride : 0.0;
-    const double up = std::abs(way.z()) / (limit.reach_max.z() - limit.reach_min.z());
-    strides += std::ceil(std::min(std::max(level, up) - 1e-9, 1e3));
+    Vector3d own = Vector3d::Zero();
+    constexpr int kPieces = 16;
+    for (int i = 0; i < kPieces; ++i) {
+      const auto at = [&](int k) -> Vector3d {
+        const double share = static_cast<double>(k) / kPieces;
+        const Vector3d straight = share * (to.end_effectors_W[e] - from.end_effectors_W[e]);
+        return (route.empty() ? straight : point_on(route, share)) / units.length;
+      };
+      const auto yaw = [&](int k) { return from.yaw + (to.yaw - from.yaw) * k / kPieces; };
+      own += strides_along(static_cast<int>(l), at(i + 1) - at(i), yaw(i), yaw(i + 1));
+    }
+    strides += std::ceil(std::min(own.maxCoeff() - 1e-9, 1e3));
   }
   return std::clamp(2 * static_cast<int>(strides) + 2, kPaperPhases, kPhasesMax);
 }
 
-/// Cubic from start to goal, at rest at both ends (Tazaki, sec. III-A), tied to the step index. End-effectors keep
-/// their place relative to the base where that turns.
+/// Cubic from start to goal, at rest at both ends (Tazaki, sec. III-A), tied to the step index; along the route, where
+/// there is one. End-effectors keep their place relative to the base where that turns.
 void Problem::make_reference(const VectorXd& goal) {
   const double total = steps * duration_initial;
   const double yaw_from = rpy(start).z(), yaw_to = rpy(goal).z();
   const auto level = [](double yaw) { return rotation_from_rpy({0.0, 0.0, yaw}); };
   const VectorXd way = goal - start;
+  // What the route has beside the straight line.
+  const auto detour = [&](double blend) -> Vector3d {
+    if (route.empty()) return Vector3d::Zero();
+    return (point_on(route, blend) - (1.0 - blend) * route.front() - blend * route.back()) / units.length;
+  };
   reference.x.clear();
   for (int k = 0; k <= steps; ++k) {
     const double s = static_cast<double>(k) / steps, blend = s * s * (3.0 - 2.0 * s);
     VectorXd x = start + blend * way;
     const double rate = 6.0 * s * (1.0 - s) / total;
     x.segment<3>(layout.velocity()) = rate * way.segment<3>(layout.com());
+    if (!route.empty()) {
+      constexpr double kNear = 1e-3;
+      const double before = std::max(blend - kNear, 0.0), after = std::min(blend + kNear, 1.0);
+      x.segment<3>(layout.velocity()) += rate * (detour(after) - detour(before)) / (after - before);
+      x.segment<3>(layout.com()) += detour(blend);
+      for (int l = 0; l < layout.end_effector_count(); ++l) x.segment<3>(layout.end(l)) += detour(blend);
+    }
     for (int a = 0; a < layout.axis_count(); ++a)
       x[layout.momentum(a)] = inertia[layout.axes()[a]] * rate * way[layout.angle(a)];
     if (yaw_from != yaw_to)
@@ -61,6 +96,26 @@ void Problem::make_reference(const VectorXd& goal) {
             x.segment<3>(layout.com()) + level(yaw_from + blend * (yaw_to - yaw_from)) * (from + blend * (to - from));
       }
     reference.x.push_back(x);
+  }
+  find_standing_solids();
+}
+
+/// Ground lies one length below the reference of the CoM: what comes nearer stands on it. Looked for along the whole
+/// way once, since there may be thousands of surfaces.
+void Problem::find_standing_solids() {
+  standing_solids.clear();
+  if (options.method == Method::paper) return;
+  std::vector<Eigen::AlignedBox3d> pieces;  // of the way between two knots, which the motion may leave a little
+  for (int k = 0; k < steps; ++k) {
+    Eigen::AlignedBox3d& piece = pieces.emplace_back(Vector3d(reference.x[k].segment<3>(layout.com())));
+    piece.extend(Vector3d(reference.x[k + 1].segment<3>(layout.com())));
+  }
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    const Eigen::AlignedBox3d box = box_of(Solid{polygons[i], thickness[i]});
+    const bool near = std::any_of(pieces.begin(), pieces.end(), [&](const Eigen::AlignedBox3d& piece) {
+      return box.squaredExteriorDistance(piece) < kStanding * kStanding;
+    });
+    if (near) standing_solids.push_back(static_cast<int>(i));
   }
 }
 

@@ -13,12 +13,16 @@
 #include "ddp/impossible.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
+#include "ddp/routes.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/friction_use.hpp"
 #include "mcplan/version.hpp"
 #include "model/text.hpp"
 
 namespace mcplan::ddp {
+
+using Eigen::Vector3d;
+
 namespace {
 
 /// Whether a search that ended so may have missed what it did not look at.
@@ -67,16 +71,34 @@ struct SwitchedDdp::Impl {
       throw InvalidOptions("method", "must be standard to start from a plan: the published algorithm does not",
                            "paper");
   }
-  std::vector<int> surfaces_of(const Request& request, const Outlook& outlook) const;
-  Problem pose(const Request& request, const std::vector<int>& surfaces) const;
+  /// A search of its own: along a route or straight on, with flights or without.
+  struct Way {
+    Route route;
+    bool flights = true;
+    int min_contacts = 0;
+  };
+  /// What it has found.
+  struct Found {
+    BestPlan best;
+    Ending ending = Ending::no_sequence;
+    int steps = 0;
+  };
+
+  std::vector<int> surfaces_of(const Request& request, const Route& route, const Outlook& outlook) const;
+  Problem pose(const Request& request, const Way& way, const std::vector<int>& surfaces) const;
   PlanResult solve(const Request& request);
+  Found search(const Request& request, const Way& way, const Deadline& deadline, Report& report) const;
+  bool four_feet_stand() const;
+  void tell(const Way& way, const Found& found) const;
+  Found search_all(const Request& request, const Deadline& deadline, Report& report) const;
   PlanResult conclude(Ending ending, int steps, const BestPlan& best, Report&& report, double time_s) const;
   std::string message_of(Status status, int steps, const BestPlan& kept, const Report& report) const;
   PlanResult without_plan(Report&& report) const;
 };
 
 /// Surfaces that the search looks at: those near the way, and those that are named.
-std::vector<int> SwitchedDdp::Impl::surfaces_of(const Request& request, const Outlook& outlook) const {
+std::vector<int> SwitchedDdp::Impl::surfaces_of(const Request& request, const Route& route,
+                                                const Outlook& outlook) const {
   const bool all = outlook.reach <= 0.0 || options.method == Method::paper;
   std::set<int> needed;
   for (int i = 0; all && i < static_cast<int>(scene.surfaces.size()); ++i) needed.insert(i);
@@ -90,13 +112,23 @@ std::vector<int> SwitchedDdp::Impl::surfaces_of(const Request& request, const Ou
         if (surface >= 0) needed.insert(scene.surface_index(request.earlier->scene.surfaces[surface].name));
   const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
   const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
+  const double near = outlook.reach * reach_of(robot);
+  for (std::size_t i = 1; i < route.size(); ++i) {
+    std::vector<Vector3d> here = from.end_effectors_W, there = here;
+    for (Vector3d& end : here) end += route[i - 1] - route.front();
+    for (Vector3d& end : there) end += route[i] - route.front();
+    const std::vector<int> beside = surfaces_near_way(scene, here, there, near, needed);
+    needed.insert(beside.begin(), beside.end());
+  }
   return surfaces_near_way(scene, request.measured ? request.measured->end_effectors_W : from.end_effectors_W,
-                           to.end_effectors_W, outlook.reach * reach_of(robot), needed);
+                           to.end_effectors_W, near, needed);
 }
 
 /// The problem on these surfaces.
-Problem SwitchedDdp::Impl::pose(const Request& request, const std::vector<int>& surfaces) const {
+Problem SwitchedDdp::Impl::pose(const Request& request, const Way& way, const std::vector<int>& surfaces) const {
   Options with = options;
+  with.allow_flight = way.flights;
+  with.min_contacts = way.min_contacts;
   if (request.earlier) with.phases = static_cast<int>(request.earlier->phases.size()) - request.first;
   if (request.measured) with.initial_sequence.clear();
   for (auto& row : with.initial_sequence)
@@ -104,7 +136,7 @@ Problem SwitchedDdp::Impl::pose(const Request& request, const std::vector<int>& 
       const auto here = std::lower_bound(surfaces.begin(), surfaces.end(), surface);
       if (here != surfaces.end() && *here == surface) surface = static_cast<int>(here - surfaces.begin());
     }
-  Problem problem(part_of(scene, surfaces), robot, with);
+  Problem problem(part_of(scene, surfaces), robot, with, way.route);
   if (!request.measured) return problem;
   const Plan& previous = *request.earlier;
   ContactState contacts;
@@ -117,29 +149,17 @@ Problem SwitchedDdp::Impl::pose(const Request& request, const std::vector<int>& 
   return problem;
 }
 
-PlanResult SwitchedDdp::Impl::solve(const Request& request) {
-  const Deadline deadline(options.time_limit_s, options.clock);
-  BestPlan best(scene, deadline, request.measured != nullptr);
-  Report report;
-  report.seed = options.seed;
-  report.threads = options.threads;
-  report.version = MCPLAN_VERSION;
-  if (std::optional<Impossible> impossible = why_impossible(scene, robot, request.measured != nullptr)) {
-    report.status = Status::infeasible;
-    report.message = impossible->message;
-    report.worst_violation = impossible->violation;
-    report.time_s = deadline.elapsed_s();
-    return without_plan(std::move(report));
-  }
-  Ending ending = Ending::no_sequence;
-  int steps = 0;
-  std::size_t rows = 0;  // of the history, named by the scene's surfaces
+/// With ever more of the scene, until there is a plan that the checker accepts.
+SwitchedDdp::Impl::Found SwitchedDdp::Impl::search(const Request& request, const Way& way, const Deadline& deadline,
+                                                   Report& report) const {
+  Found found{BestPlan(scene, deadline, request.measured != nullptr)};
+  std::size_t rows = report.history.size();  // named by the scene's surfaces
   for (int level = 0; level < kOutlooks; ++level) {
     const Outlook look = outlook(options.method == Method::paper ? kOutlooks - 1 : level);
-    const std::vector<int> surfaces = surfaces_of(request, look);
-    Problem problem = pose(request, surfaces);
+    const std::vector<int> surfaces = surfaces_of(request, way.route, look);
+    Problem problem = pose(request, way, surfaces);
     problem.look_near(look.nearest);
-    steps = problem.steps;
+    found.steps = problem.steps;
     const bool all = surfaces.size() == scene.surfaces.size() && problem.rules.looks_everywhere();
     std::optional<Incumbent> warm;
     if (request.earlier) {
@@ -150,18 +170,96 @@ PlanResult SwitchedDdp::Impl::solve(const Request& request) {
       warm->trajectory.x.front() = problem.start;
       warm->trajectory.u.front()[problem.layout.duration()] = problem.first_duration;
     }
-    Attempts attempts(std::move(problem), surfaces, deadline, best, report);
-    ending = attempts.run(warm ? &*warm : nullptr);
+    Attempts attempts(std::move(problem), surfaces, deadline, found.best, report);
+    found.ending = attempts.run(warm ? &*warm : nullptr);
     for (; rows < report.history.size(); ++rows)
       for (ContactState& state : report.history[rows].sequence)
         for (int& surface : state)
           if (surface != kFree) surface = surfaces[surface];
-    if (best.solved() || !ended_by_itself(ending) || all) {
-      best.settle(attempts.problem(), report);
+    if (found.best.solved() || !ended_by_itself(found.ending) || all) {
+      found.best.settle(attempts.problem(), report);
       break;
     }
   }
-  return conclude(ending, steps, best, std::move(report), deadline.elapsed_s());
+  return found;
+}
+
+/// At the start, on surfaces that hold them up.
+bool SwitchedDdp::Impl::four_feet_stand() const {
+  const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
+  int feet = 0;
+  for (std::size_t e = 0; e < robot.end_effectors.size(); ++e)
+    feet += from.contacts[e] >= 0 && robot.end_effectors[e].kind == "foot";
+  return feet >= 4;
+}
+
+void SwitchedDdp::Impl::tell(const Way& way, const Found& found) const {
+  if (!options.logger) return;
+  std::ostringstream line;
+  line << (way.flights ? "" : "without flights, ") << (way.route.empty() ? "straight on" : "by way of");
+  for (std::size_t i = 1; i + 1 < way.route.size(); ++i)
+    line << " (" << model::digits(way.route[i].x(), "%.2f") << ", " << model::digits(way.route[i].y(), "%.2f") << ", "
+         << model::digits(way.route[i].z(), "%.2f") << ")";
+  line << ", in " << found.steps << " phases: ";
+  if (!found.best.best())
+    line << "no plan";
+  else if (found.best.ok())
+    line << "cost " << model::digits(found.best.best()->evaluation.cost, "%.4g");
+  else
+    line << "violates " << found.best.best()->worst.name;
+  options.logger(LogLevel::info, line.str());
+}
+
+/// Straight on; where steps do not lead along there, round what is in the way as well, and where they do, again without
+/// flights if there were any. The best of what is found.
+SwitchedDdp::Impl::Found SwitchedDdp::Impl::search_all(const Request& request, const Deadline& deadline,
+                                                       Report& report) const {
+  const bool given = request.earlier || !options.initial_sequence.empty() || options.method == Method::paper;
+  const Routes routes = given || !options.detours ? Routes() : find_routes(scene, robot, options.sole_inside);
+  std::optional<Found> best;
+  const int by_feet = !given && four_feet_stand() ? 2 : 0,
+            least = options.min_contacts < 0 ? by_feet : options.min_contacts;
+  const auto stopped = [&] { return best && !best->best.ok() && !ended_by_itself(best->ending); };
+  const auto try_way = [&](const Way& way) {
+    if (best && deadline.passed()) return;
+    Found found = search(request, way, deadline, report);
+    tell(way, found);
+    if (!best || better(found.best.best(), best->best.best())) best.emplace(std::move(found));
+  };
+  for (const Route& route : routes.detours)
+    if (!stopped()) try_way({route, false, least});
+  const bool trunk_passes = !routes.obstructed || !best || !best->best.ok();
+  if (trunk_passes && !stopped()) try_way({{}, options.allow_flight, least});
+  const auto flies = [](const Plan& plan) {
+    return std::any_of(plan.phases.begin(), plan.phases.end(), [](const Phase& phase) {
+      return std::all_of(phase.contacts.begin(), phase.contacts.end(), [](const Contact& c) { return c.surface < 0; });
+    });
+  };
+  if (!given && options.allow_flight && !stopped() && best->best.ok() && flies(best->best.best()->plan) &&
+      flight_needed(scene, robot).empty())
+    try_way({{}, false, least});
+  // Two feet are what a walk should have; a leap may have fewer.
+  const auto hopeless = [&] { return !best->best.best() || violation_ratio(best->best.best()->worst) > kAcceptable; };
+  if (options.min_contacts < 0 && least > 0 && !stopped() && hopeless()) try_way({{}, options.allow_flight, 0});
+  return std::move(*best);
+}
+
+PlanResult SwitchedDdp::Impl::solve(const Request& request) {
+  const Deadline deadline(options.time_limit_s, options.clock);
+  Report report;
+  report.seed = options.seed;
+  report.threads = options.threads;
+  report.version = MCPLAN_VERSION;
+  if (std::optional<Impossible> impossible =
+          why_impossible(scene, robot, request.measured != nullptr, options.allow_flight)) {
+    report.status = Status::infeasible;
+    report.message = impossible->message;
+    report.worst_violation = impossible->violation;
+    report.time_s = deadline.elapsed_s();
+    return without_plan(std::move(report));
+  }
+  const Found found = search_all(request, deadline, report);
+  return conclude(found.ending, found.steps, found.best, std::move(report), deadline.elapsed_s());
 }
 
 PlanResult SwitchedDdp::Impl::without_plan(Report&& report) const {

@@ -36,6 +36,8 @@ std::array<Row, kConstraints> rows(const Tolerances& t, const Similarity& s) {
            {"angular_momentum", "-", t.force_cap},
            {"reach", "m", t.reach},
            {"clearance", "m", t.clearance},
+           {"limb", "m", t.clearance},
+           {"trunk", "m", t.clearance},
            {"sequence_switch", "switches", 0.0},
            {"sequence_rule", "contacts", 0.0},
            {"start", "m", t.boundary * s.length},

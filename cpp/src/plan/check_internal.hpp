@@ -36,6 +36,8 @@ enum class Constraint {
   angular_momentum,
   reach,
   clearance,
+  limb,
+  trunk,
   sequence_switch,
   sequence_rule,
   start,
@@ -236,12 +238,12 @@ class Surroundings {
   std::vector<Near> near_;                  ///< per end-effector
 };
 
-/// check_limbs.cpp: straight limbs in solids, a warning each.
+/// check_limbs.cpp: straight limbs and the trunk in solids.
 class Limbs {
  public:
-  void look(const Problem& problem, const Sample& sample);
+  void look(const Problem& problem, const Sample& sample, Findings& findings);
 
-  /// The worst place of each surface, longest first.
+  /// The worst place of a limb in each surface's solid, longest first: what is less than a violation, too.
   std::vector<Violation> warnings(const Problem& problem) const;
 
  private:
@@ -250,9 +252,12 @@ class Limbs {
     Place place;
   };
   static constexpr double kMove = 0.25;     ///< [m] of the CoM, before surfaces are looked for again
+  static constexpr double kBent = 0.05;     ///< [m] of a limb that bends around an edge, for a robot of human size
+  static constexpr double kTrunk = 0.1;     ///< [CoM heights] radius
   static constexpr double kEvery_s = 0.01;  ///< instants that are looked at, for a robot of human size
 
   void look_around(const Problem& problem, const Eigen::Vector3d& com_W);
+  void check_trunk(const Problem& problem, const Sample& sample, Findings& findings) const;
 
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< of the problem's solids
   std::vector<int> near_;                   ///< surfaces whose solids limbs can be in

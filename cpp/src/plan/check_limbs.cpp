@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "check_internal.hpp"
 #include "solid_box.hpp"
@@ -30,6 +31,40 @@ double length_inside(const Solid& solid, const Vector3d& from, const Vector3d& t
   return last > first ? (last - first) * (to - from).norm() : 0.0;
 }
 
+/// The least way [m] by which a segment that passes through a solid would have to be moved to be outside: of two convex
+/// bodies with flat sides the least overlap along the normals of the sides and along what is normal to an edge of each.
+double depth_of(const Solid& solid, const Vector3d& from, const Vector3d& to) {
+  const std::vector<Vector3d>& top = solid.polygon.vertices_W();
+  const Vector3d down = -solid.thickness * solid.polygon.normal_W();
+  double least = std::numeric_limits<double>::infinity();
+  const auto look_along = [&](const Vector3d& axis) {
+    const double length = axis.norm();
+    if (!(length > 1e-9 * (to - from).norm())) return;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Vector3d& vertex : top) {
+      low = std::min({low, axis.dot(vertex), axis.dot(vertex + down)});
+      high = std::max({high, axis.dot(vertex), axis.dot(vertex + down)});
+    }
+    const double a = axis.dot(from), b = axis.dot(to);
+    least = std::min({least, (high - std::min(a, b)) / length, (std::max(a, b) - low) / length});
+  };
+  look_along(down);
+  look_along((to - from).cross(down));
+  for (int i = 0; i < solid.polygon.edge_count(); ++i) {
+    look_along(solid.polygon.edge_outward_W(i));
+    look_along((to - from).cross(top[(i + 1) % top.size()] - top[i]));
+  }
+  return std::max(least, 0.0);
+}
+
+/// Distance [m] of a point outside the prism of a solid; zero inside.
+double distance_outside(const Solid& solid, const Vector3d& point) {
+  const double height = solid.polygon.height(point);
+  const Vector3d level = point - height * solid.polygon.normal_W();
+  const double beside = (solid.polygon.nearest(level) - level).norm();
+  return std::hypot(beside, std::max({height, -solid.thickness - height, 0.0}));
+}
+
 }  // namespace
 
 /// Surfaces whose solid lies no farther from the CoM than a limb reaches, until the CoM has moved on.
@@ -52,11 +87,12 @@ void Limbs::look_around(const Problem& problem, const Vector3d& com_W) {
 
 /// A limb is taken as straight from the CoM to its end-effector. What an end-effector touches is left out: knees and
 /// elbows bend around that.
-void Limbs::look(const Problem& problem, const Sample& sample) {
+void Limbs::look(const Problem& problem, const Sample& sample, Findings& findings) {
   if (sample.time_s < next_s_) return;
   next_s_ = sample.time_s + kEvery_s * problem.similarity.time;
   const Vector3d& com = sample.replay.com_W;
   look_around(problem, com);
+  check_trunk(problem, sample, findings);
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const Vector3d& end = sample.at.end_effectors[l].position_W;
     Eigen::AlignedBox3d around(com);
@@ -64,8 +100,23 @@ void Limbs::look(const Problem& problem, const Sample& sample) {
     for (int surface : near_) {
       if (surface == problem.surface(sample.phase, l) || !boxes_[surface].intersects(around)) continue;
       const double length = length_inside(problem.solids[surface], com, end);
+      if (length > 0.0)
+        findings.offer(Constraint::limb,
+                       depth_of(problem.solids[surface], com, end) - kBent * problem.similarity.length,
+                       {sample.phase, l, sample.time_s});
       if (length > worst_[surface].length) worst_[surface] = {length, {sample.phase, l, sample.time_s}};
     }
+  }
+}
+
+/// A ball about the CoM, thinner than any trunk (kTrunk CoM heights), in no solid.
+void Limbs::check_trunk(const Problem& problem, const Sample& sample, Findings& findings) const {
+  const double radius = kTrunk * problem.robot.com_height;
+  const Vector3d& com = sample.replay.com_W;
+  for (int surface : near_) {
+    if (!(boxes_[surface].squaredExteriorDistance(com) < radius * radius)) continue;
+    findings.offer(Constraint::trunk, radius - distance_outside(problem.solids[surface], com),
+                   {sample.phase, -1, sample.time_s});
   }
 }
 

@@ -94,7 +94,7 @@ void check_sample(const Problem& problem, const Sample& sample, Memory& memory, 
   check_yaw_range(problem, sample, findings);
   check_com_speed(problem, sample, findings);
   memory.surroundings.check_clearance(problem, sample, findings);
-  memory.limbs.look(problem, sample);
+  memory.limbs.look(problem, sample, findings);
 }
 
 /// Each phase is integrated from its own knot, in equal steps no longer than sample_s, and looked at after each.

@@ -1701,7 +1701,7 @@ class Tolerances:
     @property
     def clearance(self) -> float:
         """
-        [m] Swinging end-effector inside a solid.
+        [m] Swinging end-effector, limb or trunk inside a solid.
         """
     @clearance.setter
     def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...

@@ -400,6 +400,9 @@ class Options:
         friction_sides: typing.SupportsInt | typing.SupportsIndex = 0,
         whole_sequence_moves: bool = True,
         stepping_guesses: bool = True,
+        allow_flight: bool = True,
+        min_contacts: typing.SupportsInt | typing.SupportsIndex = -1,
+        detours: bool = True,
         one_switch_per_step: bool = True,
         restarts: typing.SupportsInt | typing.SupportsIndex = 3,
         max_iterations: typing.SupportsInt | typing.SupportsIndex = 5000,
@@ -418,6 +421,20 @@ class Options:
         """
         Raise InvalidOptions naming all that is out of its range.
         """
+    @property
+    def allow_flight(self) -> bool:
+        """
+        Allow phases without any contact. Where steps lead to the goal they come last even so.
+        """
+    @allow_flight.setter
+    def allow_flight(self, arg0: bool) -> None: ...
+    @property
+    def detours(self) -> bool:
+        """
+        Look for ways round what steps cannot cross, too.
+        """
+    @detours.setter
+    def detours(self, arg0: bool) -> None: ...
     @property
     def duration_initial_s(self) -> float:
         """
@@ -497,6 +514,13 @@ class Options:
         """
     @method.setter
     def method(self, arg0: Method) -> None: ...
+    @property
+    def min_contacts(self) -> int:
+        """
+        Number of contacts at any time; -1: two for robots that stand on four feet, where a plan is found so.
+        """
+    @min_contacts.setter
+    def min_contacts(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def model(self) -> Model:
         """

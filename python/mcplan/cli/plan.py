@@ -30,6 +30,9 @@ SoleInsideOption = Annotated[
 MinFlightOption = Annotated[
     float | None, typer.Option("--min-flight", metavar="S", help="Minimum duration of a phase without contacts [s].")
 ]
+NoFlightOption = Annotated[
+    bool, typer.Option("--no-flight", help="Plan no phase without contacts, not even where steps do not lead.")
+]
 PhasesOption = Annotated[
     int | None,
     typer.Option("--phases", metavar="N", help="Number of phases; default: by the distance to the goal, at least 18."),
@@ -72,6 +75,7 @@ def plan(
     scale: ScaleOption = 1.0,
     sole_inside: SoleInsideOption = None,
     min_flight: MinFlightOption = None,
+    no_flight: NoFlightOption = False,
     phases: PhasesOption = None,
     model: ModelOption = None,
     method: MethodOption = None,
@@ -100,6 +104,8 @@ def plan(
     given = {"phases": phases, "method": method, "time_limit": time_limit, "threads": threads, "seed": seed}
     given |= {"model": model, "sole_inside": sole_inside, "flight_duration_min_s": min_flight}
     options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    if no_flight:
+        options["allow_flight"] = False
     if plots is not None:
         options["record_history"] = True
     if verbose:

@@ -1,6 +1,9 @@
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "mcplan/plan/checker.hpp"
@@ -34,7 +37,80 @@ double counted(const Vector3d& from, const Vector3d& to, double x) {
   return (to - from).norm() * inside / kPoints;
 }
 
+/// Whether points along a segment, moved, lie in a block that is aligned with the axes.
+bool passes(const Eigen::AlignedBox3d& block, const Vector3d& from, const Vector3d& to, const Vector3d& moved) {
+  constexpr int kPoints = 400;
+  for (int i = 0; i <= kPoints; ++i)
+    if (block.contains(from + static_cast<double>(i) / kPoints * (to - from) + moved)) return true;
+  return false;
+}
+
+/// The least way by which the segment has to be moved to be outside, among many directions.
+double least_way_out(const Eigen::AlignedBox3d& block, const Vector3d& from, const Vector3d& to) {
+  double least = 1.0;
+  constexpr int kDirections = 4000;
+  for (int i = 0; i < kDirections; ++i) {
+    const double z = 1.0 - (2.0 * i + 1.0) / kDirections, turn = 2.399963 * i, r = std::sqrt(1.0 - z * z);
+    const Vector3d direction(r * std::cos(turn), r * std::sin(turn), z);
+    double low = 0.0, high = least;
+    if (passes(block, from, to, high * direction)) continue;
+    for (int j = 0; j < 20; ++j) {
+      const double middle = 0.5 * (low + high);
+      (passes(block, from, to, middle * direction) ? low : high) = middle;
+    }
+    least = high;
+  }
+  return least;
+}
+
+const mcplan::Violation& found(const CheckResult& result, const std::string& name) {
+  for (const mcplan::Violation& violation : result.constraints)
+    if (violation.name == name) return violation;
+  throw std::out_of_range(name);
+}
+
 }  // namespace
+
+TEST_CASE("a limb that would have to move by more than it can bend to be out of a solid is a violation") {
+  Plan plan = walk();
+  mcplan::Surface wall = rectangle("wall", 0.05, 0.19, -1, 1, 0.60);
+  wall.thickness = 0.5;
+  wall.end_effectors = {"hand"};
+  plan.scene.surfaces.push_back(wall);
+  const Eigen::AlignedBox3d block(Vector3d(0.05, -1, 0.10), Vector3d(0.19, 1, 0.60));
+  const CheckResult result = mcplan::check(plan, plan.scene, plan.robot);
+  const mcplan::Violation& limb = found(result, "limb");
+  CHECK(limb.value > limb.tolerance);
+  CHECK_FALSE(result.ok());
+  const mcplan::PlanState at = plan.at(limb.time_s);
+  const Vector3d& end = at.end_effectors[plan.robot.end_effector_index(limb.end_effector)].position_W;
+  CHECK(limb.value + 0.05 == doctest::Approx(least_way_out(block, at.com_W, end)).epsilon(0.03));
+  double largest = 0.0;
+  for (double t = 0.0; t < plan.duration(); t += 0.1) {
+    const mcplan::PlanState state = plan.at(t);
+    for (const auto& other : state.end_effectors)
+      if (passes(block, state.com_W, other.position_W, Vector3d::Zero()))
+        largest = std::max(largest, least_way_out(block, state.com_W, other.position_W));
+  }
+  CHECK(limb.value + 0.05 >= 0.97 * largest);
+}
+
+TEST_CASE("a CoM that comes nearer to a solid than a tenth of its height is a violation, by the depth of that ball") {
+  Plan plan = walk();
+  const auto trunk_at = [&](double bottom) {
+    plan.scene = hall();
+    mcplan::Surface beam = rectangle("beam", 0.1, 0.2, -0.2, 0.2, 2.0);
+    beam.thickness = 2.0 - bottom;
+    beam.end_effectors = {"hand"};
+    plan.scene.surfaces.push_back(beam);
+    return found(mcplan::check(plan, plan.scene, plan.robot), "trunk");
+  };
+  CHECK(trunk_at(kHeight + 0.08).value == 0.0);
+  CHECK(trunk_at(kHeight + 0.068).value == doctest::Approx(0.002));  // within the tolerance
+  CHECK(trunk_at(kHeight + 0.05).value == doctest::Approx(0.02));
+  CHECK(trunk_at(kHeight + 0.05).value > trunk_at(kHeight + 0.05).tolerance);
+  CHECK(trunk_at(0.3).value == doctest::Approx(0.07));  // the CoM is in it
+}
 
 TEST_CASE("a straight limb that passes through a solid is a warning with its place and time, and no violation") {
   constexpr double kFence = 0.11;

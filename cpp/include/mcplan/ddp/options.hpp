@@ -81,6 +81,9 @@ struct Options {
   int friction_sides = 0;            ///< of the pyramid inside the cone that is held instead of it; 0: the cone itself
   bool whole_sequence_moves = true;  ///< dynamic programming over (step, contact state) where it pays
   bool stepping_guesses = true;      ///< first guesses with end-effectors that step in turn, beside those of the search
+  bool allow_flight = true;          ///< phases without any contact; where steps lead to the goal, they come last
+  int min_contacts = -1;             ///< at any time; negative: two for robots on four feet where that will do, or none
+  bool detours = true;               ///< ways round what steps cannot cross, beside the straight one
   bool one_switch_per_step = true;   ///< Tazaki's eq. (32)
   int restarts = 3;                  ///< further attempts from other settings while the checker rejects the plan
 

@@ -24,7 +24,7 @@ struct Tolerances {
   double moment = 1e-6;                       ///< [N m] excess over max_moment or the torsion the contact can give
   double reach = 1e-3;                        ///< [m] outside the reach box
   double yaw = 1e-2;                          ///< [rad] heading of a sole outside its range
-  double clearance = 5e-3;                    ///< [m] swinging end-effector inside a solid
+  double clearance = 5e-3;                    ///< [m] swinging end-effector, limb or trunk inside a solid
   double boundary = 1e-2;                     ///< [m], [m/s], [rad], [rad/s] start and goal against the scene's
   double stance = 2e-2;                       ///< [m] end-effectors in contact at the start off the nominal stance
   int switches = 1;        ///< [-] contacts made or broken in one step; surface to surface counts two
@@ -67,6 +67,10 @@ struct Tolerances {
 ///                        free ones; in contact in com_reach and partner_reach, where the robot has them, and its
 ///                        heading in yaw_range
 ///     clearance          depth of a swinging end-effector in a solid
+///     limb               how far the straight line from the CoM to an end-effector would have to be moved to be out
+///                        of a solid that this does not touch, beyond the 0.05 m by which knees and elbows may bend (of
+///                        a robot of human size)
+///     trunk              depth of a ball about the CoM, of a tenth of its height, in a solid
 ///     sequence_switch    contacts made or broken in one step
 ///     sequence_rule      the scene's contact rules, in every phase and at the end
 ///     start, goal        CoM, heading and contacts of the scene's stances, at rest (no start where the plan begins

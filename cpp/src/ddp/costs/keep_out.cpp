@@ -4,7 +4,8 @@ namespace mcplan::ddp {
 namespace {
 
 /// A free end-effector stays out of the solids below the surfaces (at the knots; not in the paper): height above the
-/// plane at least 0 where it is inside a polygon's outline and not far below it.
+/// plane at least 0 where it is inside a polygon's outline and not far below it; far below, its distance outside the
+/// nearest edge.
 class KeepOut final : public CostTerm {
  public:
   KeepOut() : CostTerm("keep_out", Scope::free, 20) {}
@@ -19,10 +20,18 @@ class KeepOut final : public CostTerm {
       const Polygon& polygon = problem.polygons[i];
       const double height = polygon.height(p);
       if (height >= 0.0 || height < -problem.keep_out_depth[i] || polygon.outside(p) > 0.0) continue;
+      // Out of what is higher than it can be lifted it goes by the nearest side.
+      const EndLimits& limit = problem.limits[step.l];
+      const bool up = -height <= limit.reach_max.z() - limit.reach_min.z();
+      int side = 0;
+      for (int e = 1; !up && e < polygon.edge_count(); ++e)
+        if (polygon.overshoot(e, p) > polygon.overshoot(side, p)) side = e;
+      const double value = up ? height : polygon.overshoot(side, p);
       if (rows.with_gradient())
-        rows.add_dense(weight, height).segment<3>(problem.layout.end(step.l)) = polygon.normal_W();
+        rows.add_dense(weight, value).segment<3>(problem.layout.end(step.l)) =
+            up ? polygon.normal_W() : polygon.edge_outward_W(side);
       else
-        rows.add_value(weight, height);
+        rows.add_value(weight, value);
     }
   }
 };

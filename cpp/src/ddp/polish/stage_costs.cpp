@@ -103,8 +103,9 @@ Rows& StageCosts::other_rows(const Motion& motion, int k, bool with_gradient) {
   rows.clear();
   const ContactState& state = fixed_->contacts()[k];
   StepView view{problem, *pendulum_, schedule_, k, t.x[k], last ? nullptr : &t.u[k], instants_};
-  // No term of these asks for the instants; one that does would find them here.
-  if (!last && !(of_step_.empty() && of_contact_.empty() && of_flight_.empty()))
+  // No term of these asks for the instants; one that does would find them here, but for those of a step, which come
+  // before them everywhere.
+  if (!last && !(of_contact_.empty() && of_flight_.empty()))
     make_instants(problem, *pendulum_, t.x[k], t.u[k], instants_);
   const auto write = [&](const std::vector<const CostTerm*>& terms) {
     for (const CostTerm* term : terms)

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "mcplan/scene/polygon.hpp"
+
+namespace mcplan::ddp {
+
+/// Of a point and the prism below a polygon: how far outside it is, and in which direction that grows; inside, minus
+/// the distance to the nearest side. A trunk does not leave a post through its top.
+struct Outside {
+  double distance;
+  Eigen::Vector3d outward;
+};
+
+inline Outside outside_prism(const Polygon& polygon, double thickness, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d& n = polygon.normal_W();
+  const double height = polygon.height(p), above = std::max(height, 0.0) + std::min(height + thickness, 0.0);
+  const Eigen::Vector3d level = p - height * n;
+  const Eigen::Vector3d away = level - polygon.nearest(level) + above * n;
+  const double distance = away.norm();
+  if (distance > 0.0) return {distance, away / distance};
+  int side = 0;
+  for (int i = 1; i < polygon.edge_count(); ++i)
+    if (polygon.overshoot(i, p) > polygon.overshoot(side, p)) side = i;
+  return {polygon.overshoot(side, p), polygon.edge_outward_W(side)};
+}
+
+}  // namespace mcplan::ddp

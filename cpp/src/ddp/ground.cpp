@@ -1,0 +1,114 @@
+#include "ddp/ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ddp/constants.hpp"
+#include "ddp/costs/prism.hpp"
+#include "mcplan/base/rotation.hpp"
+#include "plan/solid_box.hpp"
+
+namespace mcplan::ddp {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+Ground::Ground(const Scene& scene, const Robot& robot, const ResolvedStance& from, const ResolvedStance& to,
+               double sole_inside) {
+  stride_ = rise_ = std::numeric_limits<double>::infinity();
+  height_ = robot.com_height;
+  half_width_ = kTrunkRoom * robot.com_height;
+  const bool turns = from.yaw != to.yaw;
+  const double support = std::min(sole_inside < 0.0 ? robot.sole_support : sole_inside, 1.0);
+  for (std::size_t e = 0; e < robot.end_effectors.size(); ++e) {
+    if (from.contacts[e] < 0 || to.contacts[e] < 0) continue;
+    const EndEffector& end = robot.end_effectors[e];
+    const Vector3d size = end.reach_max_B - end.reach_min_B;
+    feet_.push_back(static_cast<int>(e));
+    stride_ = std::min(stride_, size.x());
+    rise_ = std::min(rise_, size.z());
+    half_width_ = std::max(half_width_, std::abs(end.nominal_B.y()) + end.half_size.y() + kFootRoom * height_);
+    inside_ = std::max(inside_, support * end.half_size.x());
+    const Vector3d place = rotation_from_rpy({0.0, 0.0, from.yaw}) * end.nominal_B;
+    nominal_.push_back(turns ? Vector2d::Zero() : Vector2d(place.head<2>()));
+  }
+  for (const Surface& surface : scene.surfaces) {
+    const Solid solid{Polygon(surface.vertices_W), surface.thickness};
+    const double up = solid.polygon.normal_W().z();
+    const bool holds = up > kGroundNormal && std::any_of(feet_.begin(), feet_.end(), [&](int e) {
+                         return may_touch(surface, robot.end_effectors[e]);
+                       });
+    if (holds) {
+      patches_.push_back({solid.polygon, {}});
+      for (const Vector3d& vertex : surface.vertices_W) patches_.back().box.extend(vertex);
+    }
+    // A slope comes near the trunk uphill of it, and is no obstacle.
+    constexpr double kStraight = 1e-3;
+    if (std::abs(up) < kStraight || std::abs(up) > 1.0 - kStraight)
+      solids_.push_back({solid.polygon, solid.thickness, box_of(solid)});
+  }
+}
+
+double Ground::gap() const { return std::max(kGapRatio * stride_ - inside_, kGapRatioMin * stride_); }
+
+/// The point of a patch that is nearest to a point of its plane above or below `at`.
+Ground::Footing Ground::footing(const Patch& patch, const Vector2d& at) const {
+  const Vector3d &n = patch.polygon.normal_W(), &v = patch.polygon.vertices_W().front();
+  const Vector3d point(at.x(), at.y(), v.z() - n.head<2>().dot(at - v.head<2>()) / n.z());
+  if (patch.polygon.outside(point) <= 0.0) return {0.0, point.z()};
+  const Vector3d nearest = patch.polygon.nearest(point);
+  return {(nearest.head<2>() - at).norm(), nearest.z()};
+}
+
+/// The trunk, a cylinder as wide as the feet stand, from the height of a step to above the CoM, is in a solid.
+bool Ground::blocked(const Vector2d& at, double height) const {
+  const double low = height + rise_, high = height + kTrunkHeight * height_;
+  return std::any_of(solids_.begin(), solids_.end(), [&](const Standing& solid) {
+    const Eigen::AlignedBox3d& box = solid.box;
+    if (!(box.max().z() > low) || !(box.min().z() < high)) return false;
+    const Vector2d nearest = at.cwiseMax(box.min().head<2>()).cwiseMin(box.max().head<2>());
+    if (!((nearest - at).norm() < half_width_)) return false;
+    // What is flat or upright is as near at the middle of the heights that both have as at any other of them.
+    const double middle = 0.5 * (std::max(low, box.min().z()) + std::min(high, box.max().z()));
+    return outside_prism(solid.polygon, solid.thickness, {at.x(), at.y(), middle}).distance < half_width_;
+  });
+}
+
+std::vector<Place> Ground::places(const Vector2d& at) const {
+  double widest = 0.0;
+  for (const Vector2d& place : nominal_) widest = std::max(widest, place.norm());
+  const double far = gap() + widest;
+  std::vector<const Patch*> near;
+  for (const Patch& patch : patches_) {
+    const Vector2d nearest = at.cwiseMax(patch.box.min().head<2>()).cwiseMin(patch.box.max().head<2>());
+    if ((nearest - at).norm() <= far) near.push_back(&patch);
+  }
+  std::vector<Place> out;
+  for (const Patch* patch : near) {
+    const Footing below = footing(*patch, at);
+    if (below.away > gap()) continue;
+    const bool known = std::any_of(out.begin(), out.end(), [&](const Place& place) {
+      return std::abs(place.height - below.height) < kSameHeightRatio * rise_;
+    });
+    if (known) continue;
+    Place place{below.height, 0.0, false};
+    bool stands = true;
+    for (const Vector2d& foot : nominal_) {
+      double away = std::numeric_limits<double>::infinity();
+      for (const Patch* under : near) {
+        const Footing here = footing(*under, at + foot);
+        if (std::abs(here.height - below.height) <= rise_) away = std::min(away, here.away);
+      }
+      stands = stands && away <= gap();
+      place.looseness += away / gap() / static_cast<double>(nominal_.size());
+    }
+    if (!stands) continue;
+    place.blocked = blocked(at, place.height);
+    out.push_back(place);
+  }
+  std::sort(out.begin(), out.end(), [](const Place& a, const Place& b) { return a.height > b.height; });
+  return out;
+}
+
+}  // namespace mcplan::ddp

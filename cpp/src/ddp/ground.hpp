@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "mcplan/robot/robot.hpp"
+#include "mcplan/scene/polygon.hpp"
+#include "mcplan/scene/scene.hpp"
+
+namespace mcplan::ddp {
+
+/// Where a robot can be on foot, seen from above: at one height, with the ground below it or near enough.
+struct Place {
+  double height = 0.0;     ///< [m] of the ground
+  double looseness = 0.0;  ///< level distance of the feet from ground, on average: 0 on it, 1 as far as may be
+  bool blocked = false;    ///< a solid stands where the trunk would be
+};
+
+/// The ground that the feet can touch, those end-effectors that stand at both start and goal, and the solids that stand
+/// on it. All lengths in metres, in the world.
+class Ground {
+ public:
+  /// `sole_inside`: Options::sole_inside.
+  Ground(const Scene& scene, const Robot& robot, const ResolvedStance& from, const ResolvedStance& to,
+         double sole_inside);
+
+  bool has_feet() const { return !feet_.empty(); }
+
+  /// The places with the CoM above this point, highest first: those heights of surfaces within gap() of it at which
+  /// every foot, in its nominal place, finds one within gap() as well.
+  std::vector<Place> places(const Eigen::Vector2d& at) const;
+
+  double stride() const { return stride_; }  ///< the longest step of all feet
+  double rise() const { return rise_; }      ///< and the highest one
+  double gap() const;                        ///< how far from ground a foot may be in its nominal place
+
+ private:
+  struct Patch {
+    Polygon polygon;
+    Eigen::AlignedBox3d box;
+  };
+  struct Footing {
+    double away = 0.0, height = 0.0;
+  };
+  Footing footing(const Patch& patch, const Eigen::Vector2d& at) const;
+  bool blocked(const Eigen::Vector2d& at, double height) const;
+
+  std::vector<int> feet_;                   // of the robot
+  std::vector<Eigen::Vector2d> nominal_;    // from the CoM in the heading of the walk; where it changes, the CoM's
+  double stride_ = 0.0, rise_ = 0.0;        // the least of all feet
+  double inside_ = 0.0;                     // how far soles stay inside of their surface
+  double half_width_ = 0.0, height_ = 0.0;  // of the trunk and the feet beside it
+  std::vector<Patch> patches_;              // surfaces that hold the feet
+  struct Standing {
+    Polygon polygon;
+    double thickness;
+    Eigen::AlignedBox3d box;
+  };
+  std::vector<Standing> solids_;  // what may stand in the way
+};
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mcplan/robot/robot.hpp"
+#include "mcplan/scene/scene.hpp"
+
+/// Ways over the ground on foot, from the start of a scene to its goal, for the search to begin with: it improves a
+/// walk, and does not come from one that goes through a hole to one round it. Theory: docs/theory/ddp.md, "Routes".
+namespace mcplan::ddp {
+
+/// Points [m] of the ground below the CoM, from the start to the goal; empty: the straight line.
+using Route = std::vector<Eigen::Vector3d>;
+
+/// What is known of the ground between start and goal.
+struct Routes {
+  bool straight = true;        ///< steps lead along the straight line
+  bool obstructed = false;     ///< or would, were there not a solid that the trunk would walk into
+  std::vector<Route> detours;  ///< where they do not: ways round, the cheapest one first; there may be none
+};
+
+/// Looks for up to three detours, on different sides of what is in the way. Of scenes where nothing stands at both
+/// start and goal nothing is known: they are straight. `sole_inside` is the search's option.
+Routes find_routes(const Scene& scene, const Robot& robot, double sole_inside = -1.0);
+
+/// Point at this share of a route's length. Its corners are rounded, its ends are not.
+Eigen::Vector3d point_on(const Route& route, double share);
+
+}  // namespace mcplan::ddp

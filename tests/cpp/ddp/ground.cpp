@@ -1,0 +1,68 @@
+#include "ddp/ground.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "support.hpp"
+
+namespace {
+
+using mcplan::Robot;
+using mcplan::Scene;
+using mcplan::ddp::Ground;
+using mcplan::ddp::Place;
+
+Ground ground_of(const Scene& scene, const Robot& robot, double sole_inside = -1.0) {
+  return Ground(scene, robot, resolve_stance(scene, robot, scene.start, "start"),
+                resolve_stance(scene, robot, scene.goal, "goal"), sole_inside);
+}
+
+}  // namespace
+
+TEST_CASE("places are where every foot has ground within 0.4 strides, the looser the farther it is") {
+  const Scene scene = scenes::gap();  // ends at 0.5, goes on at 1.3
+  const Ground ground = ground_of(scene, scenes::humanoid44());
+  CHECK(ground.stride() == doctest::Approx(0.6));
+  CHECK(ground.gap() == doctest::Approx(0.24));
+  const auto on = ground.places({0.3, 0.0});
+  REQUIRE(on.size() == 1);
+  CHECK(on[0].height == 0.0);
+  CHECK(on[0].looseness == 0.0);
+  const auto off = ground.places({0.5 + 0.12, 0.0});
+  REQUIRE(off.size() == 1);
+  CHECK(off[0].looseness == doctest::Approx(0.5));
+  CHECK(ground.places({0.9, 0.0}).empty());
+  // Soles that stay on their surface reach less far.
+  CHECK(ground_of(scene, scenes::humanoid44(), 1.0).gap() == doctest::Approx(0.14));
+}
+
+TEST_CASE("stairs have two places near a riser, and solids that stand are where a trunk cannot be") {
+  Scene scene = scenes::stairs();
+  const Ground stairs = ground_of(scene, scenes::humanoid44());
+  std::vector<double> heights;
+  for (const Place& place : stairs.places({0.2, 0.0})) heights.push_back(place.height);
+  CHECK(heights.size() >= 1);
+  CHECK(std::is_sorted(heights.rbegin(), heights.rend()));
+  scene = scenes::flat();
+  mcplan::Surface post = scenes::rectangle("post", 0.9, 1.0, -0.05, 0.05, 1.4, "hand");
+  post.thickness = 1.4;
+  scene.surfaces.push_back(post);
+  mcplan::Surface kerb = scenes::rectangle("kerb", 0.4, 0.5, -0.05, 0.05, 0.1, "hand");
+  kerb.thickness = 0.1;
+  scene.surfaces.push_back(kerb);
+  mcplan::Surface beam = scenes::rectangle("beam", 0.0, 0.1, -1, 1, 2.0, "hand");
+  scene.surfaces.push_back(beam);
+  const Ground ground = ground_of(scene, scenes::humanoid44());
+  const auto blocked = [&](double x, double y) {
+    const auto places = ground.places({x, y});
+    REQUIRE(places.size() == 1);
+    return places[0].blocked;
+  };
+  CHECK(blocked(0.95, 0.0));
+  CHECK(blocked(0.95, 0.2));
+  CHECK_FALSE(blocked(0.95, 0.3));
+  CHECK_FALSE(blocked(0.45, 0.0));  // lower than a step
+  CHECK_FALSE(blocked(0.05, 0.0));  // above the head
+}

@@ -1,0 +1,105 @@
+#include "ddp/routes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support.hpp"
+
+namespace {
+
+using namespace mcplan::ddp;
+using Eigen::Vector3d;
+using mcplan::Scene;
+
+/// Two floors with a hole of `width` between them, and bridges over it at these y.
+Scene hole(double width, const std::vector<double>& bridges) {
+  Scene scene = scenes::made_of(
+      "hole", {scenes::rectangle("a", -1, 0.5, -2, 2, 0), scenes::rectangle("b", 0.5 + width, 4, -2, 2, 0)}, "a", "b",
+      {width + 1.0, 0, 0});
+  for (std::size_t i = 0; i < bridges.size(); ++i)
+    scene.surfaces.push_back(
+        scenes::rectangle("bridge" + std::to_string(i), 0.5, 0.5 + width, bridges[i] - 0.3, bridges[i] + 0.3, 0));
+  return scene;
+}
+
+double length_of(const Route& route) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < route.size(); ++i) length += (route[i] - route[i - 1]).norm();
+  return length;
+}
+
+}  // namespace
+
+TEST_CASE("the straight way needs no detour where steps lead along it: the paper's scenes but those with a gap") {
+  for (const Scene& scene : scenes::all_four()) {
+    const Routes routes = find_routes(scene, scenes::humanoid44());
+    CAPTURE(scene.name);
+    CHECK(routes.straight == (scene.name == "flat" || scene.name == "stairs"));
+    CHECK_FALSE(routes.obstructed);
+    CHECK(routes.detours.empty());
+  }
+  CHECK(find_routes(hole(0.3, {}), scenes::humanoid44()).straight);
+}
+
+TEST_CASE("round a hole lead as many routes as there are bridges, the shorter one first, each over its bridge") {
+  for (const std::vector<double>& bridges : {std::vector<double>{}, {0.7}, {0.7, -1.2}}) {
+    const Scene scene = hole(1.6, bridges);
+    const Routes routes = find_routes(scene, scenes::humanoid44());
+    CHECK_FALSE(routes.straight);
+    REQUIRE(routes.detours.size() == bridges.size());
+    for (std::size_t i = 0; i < bridges.size(); ++i) {
+      const Route& route = routes.detours[i];
+      CHECK((route.front() - Vector3d(0, 0, 0)).norm() < 1e-9);
+      CHECK((route.back() - Vector3d(2.6, 0, 0)).norm() < 1e-9);
+      // By the nearest edge of the bridge, on which both feet stand, and not much longer than that.
+      const double y = std::abs(bridges[i]) - 0.3, least = 2.0 * std::hypot(0.5, y) + 1.6;
+      CHECK(length_of(route) > least - 0.3);
+      CHECK(length_of(route) < 1.3 * least);
+      for (double share : {0.4, 0.5, 0.6}) CHECK(std::abs(point_on(route, share).y() - bridges[i]) < 0.45);
+    }
+  }
+}
+
+TEST_CASE("a post is passed on either side, a fence from wall to wall on none") {
+  Scene scene = scenes::flat();
+  mcplan::Surface post = scenes::rectangle("post", 0.9, 1.0, -0.05, 0.05, 1.4, "hand");
+  post.thickness = 1.4;
+  scene.surfaces.push_back(post);
+  Routes routes = find_routes(scene, scenes::humanoid44());
+  CHECK(routes.obstructed);
+  CHECK_FALSE(routes.straight);
+  REQUIRE(routes.detours.size() == 2);
+  for (const Route& route : routes.detours)
+    for (int s = 0; s <= 50; ++s) {
+      const Vector3d at = point_on(route, s / 50.0);
+      CHECK((at.head<2>() - at.head<2>().cwiseMax(Eigen::Vector2d(0.9, -0.05)).cwiseMin(Eigen::Vector2d(1.0, 0.05)))
+                .norm() > 0.15);
+    }
+  CHECK(point_on(routes.detours[0], 0.5).y() * point_on(routes.detours[1], 0.5).y() < 0.0);
+  scene.surfaces.back() = scenes::rectangle("fence", 0.9, 1.0, -20, 20, 0.6, "hand");
+  scene.surfaces.back().thickness = 0.35;
+  routes = find_routes(scene, scenes::humanoid44());
+  CHECK(routes.obstructed);
+  CHECK(routes.detours.empty());
+}
+
+TEST_CASE("points of a route go by its length from end to end, with its corners rounded") {
+  const Route route{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.5}};
+  CHECK((point_on(route, 0.0) - route.front()).norm() < 1e-12);
+  CHECK((point_on(route, 1.0) - route.back()).norm() < 1e-12);
+  const double total = 1.0 + std::sqrt(1.25);
+  CHECK((point_on(route, 0.5 / total) - Vector3d(0.5, 0, 0)).norm() < 1e-9);
+  const Vector3d corner = point_on(route, 1.0 / total);
+  CHECK((corner - route[1]).norm() > 0.005);
+  CHECK((corner - route[1]).norm() < 0.05);
+}
+
+TEST_CASE("scenes where nothing stands at both ends are straight") {
+  Scene scene = scenes::flat();
+  scene.start.contacts = {{"right_foot", "ground"}};
+  scene.goal.contacts = {{"left_foot", "ground"}};
+  if (scene.surface_index("ground") >= 0) CHECK(find_routes(scene, scenes::humanoid44()).straight);
+}
