@@ -123,3 +123,17 @@ def test_the_logger_hears_of_every_way_that_was_tried():
     ways = [line for line in lines if "phases: " in line]
     assert any("by way of (" in line and "cost" in line for line in ways)
     assert any(line.startswith("straight on") for line in ways)
+
+
+def test_the_contact_sequence_of_a_plan_that_went_round_is_drawn_from_its_own_iterations(tmp_path):
+    from mcplan.showing import save_plots
+    from mcplan.view.plots.report import sequences_by_switches
+
+    result = mp.plan(with_hole(0.8), record_history=True)
+    lengths = {len(row.sequence) for row in result.report.history}
+    assert len(lengths) > 1
+    edges, grid = sequences_by_switches(result.report, len(result.plan.phases))
+    assert grid.shape[1] == len(result.plan.phases) + 1 and len(edges) == grid.shape[0] + 1
+    assert sequences_by_switches(result.report)[1].shape[1] == len(result.report.history[-1].sequence)
+    names = {path.name for path in save_plots(result.plan, result.report, tmp_path)}
+    assert "contact_sequence.png" in names

@@ -102,7 +102,8 @@ void Limbs::look(const Problem& problem, const Sample& sample, Findings& finding
       const double length = length_inside(problem.solids[surface], com, end);
       if (length > 0.0)
         findings.offer(Constraint::limb,
-                       depth_of(problem.solids[surface], com, end) - kBent * problem.similarity.length,
+                       std::max(depth_of(problem.solids[surface], com, end) - kBent * problem.similarity.length,
+                                length - kInside * problem.similarity.length),
                        {sample.phase, l, sample.time_s});
       if (length > worst_[surface].length) worst_[surface] = {length, {sample.phase, l, sample.time_s}};
     }

@@ -67,9 +67,9 @@ struct Tolerances {
 ///                        free ones; in contact in com_reach and partner_reach, where the robot has them, and its
 ///                        heading in yaw_range
 ///     clearance          depth of a swinging end-effector in a solid
-///     limb               how far the straight line from the CoM to an end-effector would have to be moved to be out
-///                        of a solid that this does not touch, beyond the 0.05 m by which knees and elbows may bend (of
-///                        a robot of human size)
+///     limb               of the straight line from the CoM to an end-effector in a solid that this does not touch: how
+///                        far it would have to be moved to be outside, beyond the 0.1 m by which knees and elbows bend,
+///                        or its length inside beyond 0.15 m, whichever is more (of a robot of human size)
 ///     trunk              depth of a ball about the CoM, of a tenth of its height, in a solid
 ///     sequence_switch    contacts made or broken in one step
 ///     sequence_rule      the scene's contact rules, in every phase and at the end

@@ -21,8 +21,13 @@ def has_sequences(report: Report) -> bool:
     return any(len(row.sequence) for row in report.history)
 
 
-def sequences_by_switches(report: Report) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def sequences_by_switches(report: Report, phases: int = 0) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Contact sequence at each number of switches.
+
+    Args:
+        report: With the sequence of each iteration in its history.
+        phases: Number of phases. A search that went several ways has sequences of several lengths, and these are taken;
+            0: those of the last iteration.
 
     Returns:
         (n + 1,) edges of the columns of such a chart, and (n, steps, end-effectors) surfaces, -1: none.
@@ -33,6 +38,10 @@ def sequences_by_switches(report: Report) -> tuple[NDArray[np.float64], NDArray[
     rows = [row for row in report.history if len(row.sequence)]
     if not rows:
         raise ValueError("report.history: must hold contact sequences, got none (record them in the planner's options)")
+    length = phases + 1 if phases else len(rows[-1].sequence)
+    rows = [row for row in rows if len(row.sequence) == length] or [
+        row for row in rows if len(row.sequence) == len(rows[-1].sequence)
+    ]
     counts = np.cumsum([row.switches for row in rows])
     # The iteration that switched is the last of its count: those after it polish, or try changes that are rejected.
     reached: dict[int, NDArray[np.int64]] = {}
@@ -56,7 +65,7 @@ def plot_contact_sequence(report: Report, plan: Plan | None = None) -> Figure:
     from matplotlib.colors import BoundaryNorm, ListedColormap
     from matplotlib.patches import Patch
 
-    edges, grid = sequences_by_switches(report)
+    edges, grid = sequences_by_switches(report, len(plan.phases) if plan is not None else 0)
     surfaces = int(max(grid.max() + 1, len(plan.scene.surfaces) if plan is not None else 1))
     palette = (
         surface_colours(plan.scene) if plan is not None else [SURFACES[i % len(SURFACES)] for i in range(surfaces)]
