@@ -72,7 +72,7 @@ constexpr int kSwitchesPerIteration = 6;  ///< chosen
 /// Iterations after the contact weight has reached its maximum. Chosen.
 constexpr int kFreeAtFullWeight = 25;
 /// The same before the interior point, which ends at the same optimum from less: running without a switch. Measured on
-/// five scenes: with 3 to 25 the same plans.
+/// five scenes: with 3, 5 and 25 plans of the same cost.
 constexpr int kCalmAtFullWeight = 5;
 /// Proximal weight of the second discovery over the first one's: shorter steps lead to other sequences. Chosen.
 constexpr double kSecondDiscovery = 4.0;

@@ -10,8 +10,8 @@ namespace mcplan::ddp {
 namespace {
 
 /// A guess and a trial are given up when they are foreseen to stay above the best one, of which what the motion can
-/// change counts so many times, after so many iterations. Measured: with 1.5 times a trial's, `gap` of ANYmal ends at
-/// 1.2 times its cost; a guess of flat is given up that is the best one.
+/// change counts so many times, after so many iterations. Measured on 41 pairs of robot and scene, with 5 trials a
+/// round: trials that are given up from iteration 4 on above 1.5 times leave two more pairs above the penalty's cost.
 constexpr double kGuessAllowance = 3.0, kTrialAllowance = 2.0;
 constexpr int kGuessPatience = 12, kTrialPatience = 6;
 
