@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 #include <random>
+#include <set>
 #include <utility>
 
 #include "ddp/constants.hpp"
@@ -30,13 +31,20 @@ Incumbent Attempts::cheapest(std::vector<Guess>& guesses, const Tuning& tuning, 
   Incumbent chosen;
   double lowest = std::numeric_limits<double>::infinity();
   bool stepping_ahead = false;
+  std::set<ContactSequence> seen;
   for (std::size_t i = 0; i < guesses.size() && ending == Ending::done; ++i) {
     const bool discover = guesses[i].discover_with > 0.0;
     // The stepping sequences differ in who begins: when the first of them is ahead, the other is no better.
     if (!discover && stepping_ahead) break;
     Incumbent& now = guesses[i].start;
     if (discover) ending = search_.discover(now, guesses[i].discover_with, tuning);
-    if (ending == Ending::done) ending = search_.polish_guess(now, lowest, tuning);
+    // From another discovery of the same sequence the interior point ends at the same optimum.
+    const bool exact = problem_.options.polish == Polish::interior_point;
+    if (discover && exact && ending == Ending::done && !seen.insert(now.sequence).second) continue;
+    const Search::Origin origin = discover             ? Search::Origin::discovered
+                                  : guesses[i].planned ? Search::Origin::plan
+                                                       : Search::Origin::sequence;
+    if (ending == Ending::done) ending = search_.polish_guess(now, origin, lowest, tuning);
     // A guess that breaks down numerically is dropped, the others may still do.
     if (ending == Ending::broke_down) {
       ending = Ending::done;
@@ -119,7 +127,7 @@ ContactSequence Attempts::initial(Ending& ending) {
 
 std::vector<Attempts::Guess> Attempts::guesses(const Incumbent& start, const Incumbent* warm) const {
   const Options& options = problem_.options;
-  if (warm) return {{*warm}};
+  if (warm) return {{*warm, 0.0, true}};
   if (!options.initial_sequence.empty()) return {{first_guess(start.sequence, first_)}};
   // Shorter and longer steps lead to other sequences; the better one goes on.
   std::vector<Guess> out{{start, options.proximal_weight}, {start, kSecondDiscovery * options.proximal_weight}};
@@ -158,7 +166,7 @@ Ending Attempts::restart(Ending ending, const ContactSequence& initial) {
     // A foot too close to the next step catches it with its toe: the same motion with footholds further inside.
     if (best_->finished() && best_->finished()->worst.name == "clearance" && !last_.sequence.empty()) {
       tuning.extra_margin += further_inside();
-      others.insert(others.begin(), Guess{last_});
+      others.insert(others.begin(), Guess{last_, 0.0, true});
     }
     ending = attempt(std::move(others), tuning);
   }

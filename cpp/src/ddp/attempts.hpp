@@ -28,6 +28,7 @@ class Attempts {
   struct Guess {
     Incumbent start;
     double discover_with = 0.0;  ///< proximal weight of a discovery before the polish; 0: the sequence is kept
+    bool planned = false;        ///< of an earlier plan
   };
   Incumbent first_guess(const ContactSequence& sequence, const Tuning& tuning) const;
   Incumbent at_once(const ContactSequence& sequence);

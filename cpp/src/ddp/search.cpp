@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <set>
 
 #include "ddp/constants.hpp"
 #include "ddp/edits.hpp"
@@ -174,12 +175,14 @@ Ending Search::discover(Incumbent& now, double proximal_weight, const Tuning& tu
   schedule.proximal_weight = proximal_weight;
   schedule.discovering = true;
   Ending ending = Ending::done;
-  for (int at_full = 0; at_full < kFreeAtFullWeight;) {
+  const int calm = exact_contacts() ? kCalmAtFullWeight : kFreeAtFullWeight;
+  for (int at_full = 0, quiet = 0; at_full < kFreeAtFullWeight && quiet < calm;) {
     if (should_stop(ending)) return ending;
     ending = iterate(now, schedule, true);
     if (ending != Ending::done) return ending;
     if (watcher_) watcher_(now, tuning);
     at_full += schedule.contact_weight >= w.contact_max;
+    quiet = schedule.contact_weight >= w.contact_max && report_->history.back().switches == 0 ? quiet + 1 : 0;
     schedule.contact_weight = std::min(w.contact_growth * schedule.contact_weight, w.contact_max);
   }
   return Ending::done;
@@ -252,10 +255,15 @@ Ending Search::refine(Incumbent& now, const Tuning& tuning) {
   Ending ending = Ending::done;
   polish_proximal_ = kTrialProximal;
   const std::size_t trials = exact_contacts() ? kExactTrials : kTrials;
+  // The interior point ends at the optimum of a sequence from wherever it begins: no sequence is tried twice.
+  std::set<ContactSequence> tried{now.sequence};
   for (int round = 0; round < kRefineRounds; ++round) {
     const std::vector<ContactSequence> changes = ranked_changes(now, tuning);
     bool improved = false;
-    for (std::size_t i = 0; i < changes.size() && i < trials && !improved; ++i) {
+    std::size_t made = 0;
+    for (std::size_t i = 0; i < changes.size() && made < trials && !improved; ++i) {
+      if (exact_contacts() && !tried.insert(changes[i]).second) continue;
+      ++made;
       Incumbent trial = now;
       trial.sequence = changes[i];
       const double merit = now.evaluation.merit();

@@ -60,8 +60,11 @@ class Search {
   /// The optimum of the motion with the sequence frozen, by the interior point.
   Ending optimise(Incumbent& now, const polish::Settings& settings, const Tuning& tuning);
 
+  /// Where a guess of an attempt comes from: discover(), a sequence alone, or an earlier plan.
+  enum class Origin { discovered, sequence, plan };
+
   /// One guess of an attempt, its last polish, and a trial of refine(), by the polish that the options ask for.
-  Ending polish_guess(Incumbent& now, double give_up_above, const Tuning& tuning);
+  Ending polish_guess(Incumbent& now, Origin origin, double give_up_above, const Tuning& tuning);
   Ending polish_last(Incumbent& now, const Tuning& tuning);
   Ending polish_trial(Incumbent& now, double give_up_above, const Tuning& tuning);
 
@@ -101,6 +104,7 @@ class Search {
   int switch_contacts(ContactSequence& sequence, Iteration& row);
   bool paper_switches(Incumbent& now, Iteration& row);
   std::vector<ContactSequence> ranked_changes(const Incumbent& now, const Tuning& tuning);
+  Ending polish_plan(Incumbent& now, const Tuning& tuning);
   bool exact_contacts() const { return problem_->options.polish == Polish::interior_point; }
   bool should_stop(Ending& ending) const;
   void record(Iteration&& row, const Incumbent& now, const Schedule& schedule);

@@ -44,6 +44,14 @@ ModelOption = Annotated[
 MethodOption = Annotated[
     str | None, typer.Option("--method", metavar="M", help="Method of the search: standard (default) or paper.")
 ]
+PolishOption = Annotated[
+    str | None,
+    typer.Option(
+        "--polish",
+        metavar="P",
+        help="What finds the motion of a given contact sequence: penalty (default) or interior_point.",
+    ),
+]
 TimeLimitOption = Annotated[
     float | None,
     typer.Option("--time-limit", metavar="S", help="Time [s] after which the best plan so far is returned."),
@@ -65,7 +73,7 @@ VerboseOption = Annotated[bool, typer.Option("-v", "--verbose", help="Print the 
 
 
 @named_as_typed(
-    *("scale", "sole_inside", "phases", "model", "method", "time_limit", "threads", "seed"),
+    *("scale", "sole_inside", "phases", "model", "method", "polish", "time_limit", "threads", "seed"),
     time_limit_s="--time-limit",
     flight_duration_min_s="--min-flight",
 )
@@ -79,6 +87,7 @@ def plan(
     phases: PhasesOption = None,
     model: ModelOption = None,
     method: MethodOption = None,
+    polish: PolishOption = None,
     time_limit: TimeLimitOption = None,
     threads: ThreadsOption = None,
     seed: SeedOption = None,
@@ -102,7 +111,7 @@ def plan(
 
     require_outputs("plan", output, html, plots)
     given = {"phases": phases, "method": method, "time_limit": time_limit, "threads": threads, "seed": seed}
-    given |= {"model": model, "sole_inside": sole_inside, "flight_duration_min_s": min_flight}
+    given |= {"model": model, "polish": polish, "sole_inside": sole_inside, "flight_duration_min_s": min_flight}
     options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if no_flight:
         options["allow_flight"] = False

@@ -20,6 +20,12 @@ Optimal optimal(double r, double precision, double mu) {
   return {mu / y, y};
 }
 
+/// The same of all rows, slacks alone: y = mu / s.
+Eigen::ArrayXd optimal_slacks(const Eigen::ArrayXd& r, const Eigen::ArrayXd& precision, double mu) {
+  const Eigen::ArrayXd half = 0.5 * (r.abs() + (r.square() + 4.0 * mu / precision).sqrt());
+  return (r <= 0.0).select(half, mu / (precision * half));
+}
+
 }  // namespace
 
 ElasticBarrier::ElasticBarrier(const Array& precision)
@@ -53,25 +59,17 @@ void ElasticBarrier::step(const Array& dr, const Array& r) {
 }
 
 double ElasticBarrier::value(const Array& r, double mu) const {
-  // A logarithm of products is a product of logarithms; eight slacks at a time stay far from under- and overflow.
-  double sum = 0.0, product = 1.0;
-  int factors = 0;
-  for (Eigen::Index i = 0; i < r.size(); ++i) {
-    const Optimal at = optimal(r[i], precision_[i], mu);
-    sum += 0.5 * at.y * at.y / precision_[i];
-    product *= at.s;
-    if (++factors < 8) continue;
-    sum -= mu * std::log(product);
-    product = 1.0;
-    factors = 0;
-  }
-  return sum - mu * std::log(product);
+  const Array s = optimal_slacks(r, precision_, mu);
+  // A logarithm of products is a sum of logarithms; eight slacks at a time stay far from under- and overflow.
+  const Eigen::Index whole = s.size() / 8 * 8;
+  double logarithms = 0.0;
+  for (Eigen::Index i = 0; i < whole; i += 8) logarithms += std::log(s.segment<8>(i).prod());
+  logarithms += std::log(s.tail(s.size() - whole).prod());
+  return 0.5 * mu * mu * (precision_ * s.square()).inverse().sum() - mu * logarithms;
 }
 
 double ElasticBarrier::slope(const Array& r, const Array& dr, double mu) const {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < r.size(); ++i) sum += optimal(r[i], precision_[i], mu).y * dr[i];
-  return sum;
+  return mu * (dr / optimal_slacks(r, precision_, mu)).sum();
 }
 
 double ElasticBarrier::penalty(const Array& r) const { return 0.5 * (precision_ * r.max(0.0).square()).sum(); }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "ddp/constants.hpp"
+
 namespace mcplan::ddp::polish {
 namespace {
 
@@ -20,6 +22,9 @@ constexpr double kDurationChange = 0.5, kStiffnessChange = 1.0;
 /// Sum of the defects that the filter admits, or the first iterate's if that is more. Measured on gap_with_rail:
 /// without one sequence of two does not converge in 100 iterations, with 0.3 they take longer.
 constexpr double kDefectMax = 1.0;
+/// A step may raise the merit, objective + kDefectPenalty x defects, so many times: the filter alone lets the objective
+/// rise tenfold where that closes defects. Chosen.
+constexpr double kGrowth = 3.0;
 /// Halvings of a step before it is taken as it is or given up.
 constexpr int kHalvings = 8;
 /// Margins of the filter, in defects and in the objective; Armijo's factor where only the latter is left to improve.
@@ -27,10 +32,11 @@ constexpr double kFilterMargin = 1e-5, kArmijo = 1e-4;
 /// A step shorter than this asks for a proximal weight, a longer one than that for less of it.
 constexpr double kShort = 0.1, kLong = 0.9;
 constexpr double kProximalFirst = 0.1, kProximalFactor = 10.0, kProximalFall = 3.0, kProximalMax = 1e6;
-/// Iterations before a solve is given up, and over how many its progress is judged; it is extrapolated by three times
-/// as many. Giving up after 5 to 8 rejected good guesses (measured on a prototype).
-constexpr int kPatience = 12, kWindow = 3;
+/// Iterations over which progress is judged before a solve is given up; it is extrapolated by three times as many.
+constexpr std::size_t kWindow = 3;
 constexpr double kWindowsAhead = 3.0;
+/// Iterations over which the objective must change by more than the tolerance.
+constexpr std::size_t kLingering = 8;
 
 /// Vanderbei's rule (LOQO): the barrier falls with the mean complementarity, and hardly where the products of slacks
 /// and multipliers are far from equal.
@@ -115,18 +121,23 @@ bool InteriorPoint::accepts(double slope, double value, double defect, double va
   return true;
 }
 
-/// Shorten the step until the filter accepts it; the trial point is what it leads to.
+/// Shorten the step until the filter accepts it, and the merit does not rise too far unless no other step is left; the
+/// trial point is what it leads to.
 bool InteriorPoint::search(double slope) {
   const double defect = motion_.defect_sum(), value = cost_ + barrier_.value(r_, mu_);
-  step_ = shortened();
-  for (int i = 0; i <= kHalvings; ++i, step_ *= 0.5) {
-    move(step_);
-    if (!trial_.evaluate(pendulum_)) continue;
-    limits_.values(trial_, trial_r_);
-    const double cost = costs_.value(trial_);
-    if (!accepts(slope, value, defect, cost + barrier_.value(trial_r_, mu_), trial_.defect_sum())) continue;
-    cost_ = cost;
-    return true;
+  const double longest = shortened(), merit_max = kGrowth * (objective_ + kDefectPenalty * defect);
+  for (const bool bounded : {true, false}) {
+    step_ = longest;
+    for (int i = 0; i <= kHalvings; ++i, step_ *= 0.5) {
+      move(step_);
+      if (!trial_.evaluate(pendulum_)) continue;
+      limits_.values(trial_, trial_r_);
+      const double cost = costs_.value(trial_), defect_there = trial_.defect_sum();
+      if (bounded && cost + barrier_.penalty(trial_r_) + kDefectPenalty * defect_there > merit_max) continue;
+      if (!accepts(slope, value, defect, cost + barrier_.value(trial_r_, mu_), defect_there)) continue;
+      cost_ = cost;
+      return true;
+    }
   }
   return false;
 }
@@ -170,16 +181,26 @@ void InteriorPoint::take() {
   mu_ = next;
 }
 
-/// Whether the objective, extrapolated, stays above a value. Defects are closed faster, and do not count.
-bool InteriorPoint::stays_above(double value) {
-  objectives_.push_back(objective_);
-  if (iterations_ < kPatience) return false;
+/// Whether the objective, extrapolated, stays above what it is compared with. Defects are closed faster, and do not
+/// count.
+bool InteriorPoint::stays_above(const Settings& settings) {
+  if (iterations_ < settings.patience || objectives_.size() <= kWindow) return false;
+  const double fixed = costs_.constant();
+  const double bar = fixed + settings.allowance * (settings.give_up_above - fixed);
   const double now = objectives_.back(), fall = objectives_[objectives_.size() - 1 - kWindow] - now;
-  return now - kWindowsAhead * std::max(fall, 0.0) > value;
+  return now - kWindowsAhead * std::max(fall, 0.0) > bar;
+}
+
+/// Whether the objective has hardly changed for a while, at the last barrier parameter.
+bool InteriorPoint::lingers(const Settings& settings) const {
+  if (settings.to_the_end || mu_ > kBarrierMin || objectives_.size() < kLingering) return false;
+  const auto [low, high] = std::minmax_element(objectives_.end() - kLingering, objectives_.end());
+  return *high - *low < settings.tolerance * std::abs(*low) && motion_.defect_sum() < kOpened;
 }
 
 Outcome InteriorPoint::solve(Trajectory& trajectory, const Settings& settings,
                              const std::function<bool(const Trajectory&, const Progress&)>& go_on) {
+  if (costs_.constant() > settings.give_up_above) return Outcome::gave_up;
   if (!begin(trajectory, settings)) return Outcome::broke_down;
   Outcome outcome = Outcome::cut_short;
   while (iterations_ < settings.max_iterations) {
@@ -206,8 +227,13 @@ Outcome InteriorPoint::solve(Trajectory& trajectory, const Settings& settings,
     take();
     if (go_on && !go_on(motion_.trajectory, {iterations_, objective_, motion_.defect_max(), mu_, proximal_, step_}))
       break;
-    if (!stays_above(settings.give_up_above)) continue;
-    outcome = Outcome::gave_up;
+    objectives_.push_back(objective_);
+    if (stays_above(settings)) {
+      outcome = Outcome::gave_up;
+      break;
+    }
+    if (!lingers(settings)) continue;
+    outcome = Outcome::stalled;
     break;
   }
   trajectory = motion_.trajectory;

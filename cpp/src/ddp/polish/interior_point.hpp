@@ -16,7 +16,12 @@ struct Settings {
   double proximal = 0.0;  ///< first weight on the change of the inputs
   int max_iterations = 100;
   double tolerance = 1e-4;  ///< converged when less than this fraction of the objective is to be gained
-  double give_up_above = std::numeric_limits<double>::infinity();  ///< when the objective is foreseen to stay above
+  /// Given up when the objective is foreseen to stay above this one, of which what the motion can change counts
+  /// `allowance` times: the barrier falls last, and with it a good part of the objective.
+  double give_up_above = std::numeric_limits<double>::infinity();
+  double allowance = 1.0;
+  int patience = 12;       ///< iterations before that
+  bool to_the_end = true;  ///< not: end when the objective hardly changes any more
 };
 
 enum class Outcome {
@@ -56,7 +61,8 @@ class InteriorPoint {
   bool accepts(double slope, double value, double defect, double value_there, double defect_there);
   bool search(double slope);
   void take();
-  bool stays_above(double value);
+  bool stays_above(const Settings& settings);
+  bool lingers(const Settings& settings) const;
 
   FixedSequence fixed_;
   Pendulum pendulum_;

@@ -25,6 +25,9 @@ class StageCosts {
   /// Their sum, with the constants of the contact sequence, so that it compares with Evaluation::cost.
   double value(const Motion& motion);
 
+  /// The part of it that depends on the contact sequence alone.
+  double constant() const { return constant_; }
+
   /// Add those of knot k, to second order (Gauss-Newton).
   void add(const Motion& motion, int k, StageModel& model);
 
