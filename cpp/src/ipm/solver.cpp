@@ -39,13 +39,12 @@ VectorXd multipliers_of(const nlp::Problem& problem, const Unknowns& unknowns, B
 /// A problem that leaves nothing to solve for: bounds that contradict each other, or every variable fixed.
 bool decided(const nlp::Problem& problem, const VectorXd& x, double constraint_tolerance, nlp::Solution& out) {
   const std::string impossible = nlp::contradiction(problem);
-  const bool fixed = problem.variable_lower() == problem.variable_upper();
+  const bool fixed = Unknowns(problem, false).free_count() == 0;
   if (impossible.empty() && !fixed) return false;
-  const bool holds = impossible.empty() && problem.worst_violation(x).value <= constraint_tolerance;
-  out.outcome = holds ? Outcome::converged : Outcome::infeasible;
-  out.message = !impossible.empty() ? impossible
-                : holds             ? "every variable is fixed, and the constraints hold"
-                                    : "every variable is fixed, and a constraint does not hold";
+  const nlp::Verdict verdict = impossible.empty() ? nlp::judge_fixed(problem, x, constraint_tolerance)
+                                                  : nlp::Verdict{Outcome::infeasible, impossible};
+  out.outcome = verdict.outcome;
+  out.message = verdict.message;
   out.x = x;
   out.multipliers = VectorXd::Zero(problem.row_count());
   return true;
@@ -54,7 +53,8 @@ bool decided(const nlp::Problem& problem, const VectorXd& x, double constraint_t
 /// Where the barrier method fails from a start, it begins again from the same start after a phase one: what a failed
 /// attempt leaves behind is no better a place to go on from.
 constexpr PhaseOne kAttempts[] = {{10.0, 0}, {10.0, 8}, {1.0, 50}};
-constexpr PhaseOne kAttemptsFromAfar[] = {{10.0, 50, 2.0}, {100.0, 50, 2.0}, {1.0, 50, 2.0}};
+constexpr PhaseOne kAttemptsFromAfar[] = {
+    {10.0, 50, 2.0, 0.05, false}, {100.0, 50, 2.0, 0.05, false}, {1.0, 50, 2.0, 0.05, false}};
 constexpr int kMaxProof = 300;  // steps towards a point of least violation, where all attempts have failed
 constexpr int kPatience = 30;   // of them, from afar: near such a point they are many and short where rows are curved
 
@@ -79,7 +79,8 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
       point = point_at(unknowns, x);
       const int steps = std::min(kMaxProof, options.max_iterations - functions.iterations());
       const int patience = options.kernel.distant_start ? kPatience : 0;
-      const PhaseOne proof{1.0, steps, 10.0 * options.constraint_tolerance, 0.0, patience};
+      const bool within = !options.kernel.distant_start;
+      const PhaseOne proof{1.0, steps, 10.0 * options.constraint_tolerance, 0.0, within, patience};
       if (proof.run(unknowns, functions, kkt, point)) {
         out.outcome = Outcome::infeasible;
         out.message = "converged to a point at which the violation is locally least";
