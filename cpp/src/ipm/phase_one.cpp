@@ -10,7 +10,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kStationary = 1e-5;  // of the gradient, over the norm of the residuals
-constexpr double kHardly = 1e-2;      // of the sum of squares, by which it falls over `patience` steps
+constexpr double kHardly = 0.1;       // of the sum of squares, by which it falls over `patience` steps
 constexpr double kHeld = 1e12;        // weight of variables that are to stay where they are
 
 /// How far outside: negative below the lower limit, positive above the upper one.

@@ -18,7 +18,7 @@ struct PhaseOne {
   double drawn_in = 0.05;  ///< limits, by this ratio of their width and at most by this: what comes next needs room
   /// Variables stay within their bounds, outside of which the problem's functions need not be defined.
   bool within_bounds = true;
-  int patience = 0;  ///< ends, too, where so many steps lessen the sum of squares by less than a hundredth; 0: never
+  int patience = 0;  ///< ends, too, where so many steps lessen the sum of squares by less than a tenth; 0: never
 
   /// Moves point.t (and evaluates there). True if no direction lessens the sum of squares any more, or hardly, though a
   /// residual is larger than `enough`. Throws Halt.

@@ -83,7 +83,9 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
       const PhaseOne proof{1.0, steps, 10.0 * options.constraint_tolerance, 0.0, within, patience};
       if (proof.run(unknowns, functions, kkt, point)) {
         out.outcome = Outcome::infeasible;
-        out.message = "converged to a point at which the violation is locally least";
+        out.message = patience > 0
+                          ? "found no point within all constraints: least squares of the violations hardly fall"
+                          : "converged to a point at which the violation is locally least";
       }
     }
   } catch (const Halt& halt) {
