@@ -8,6 +8,7 @@
 #include "ipm/kkt.hpp"
 #include "ipm/phase_one.hpp"
 #include "ipm/unknowns.hpp"
+#include "nlp/has_ipopt.hpp"
 #include "nlp/start.hpp"
 
 namespace mcplan::ipm {
@@ -123,7 +124,7 @@ nlp::Solution solve(nlp::Solver solver, const nlp::Problem& problem, const Vecto
   const int iterations = options.max_iterations - first.iterations;
   const bool ended = first.outcome != Outcome::numerical_failure && first.outcome != Outcome::nearly_converged &&
                      first.outcome != Outcome::iteration_limit;
-  if (solver == nlp::Solver::ipm || ended || !(left_s > 0.0) || iterations <= 0) return first;
+  if (solver == nlp::Solver::ipm || !nlp::has_ipopt() || ended || !(left_s > 0.0) || iterations <= 0) return first;
   nlp::SolverOptions rest = options;
   rest.time_limit_s = left_s;
   rest.max_iterations = iterations;

@@ -10,6 +10,7 @@
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/nlp/solver.hpp"
+#include "nlp/has_ipopt.hpp"
 #include "nlp/ipopt_adapter.hpp"
 #include "nlp/ipopt_ending.hpp"
 #include "nlp/ipopt_version.hpp"
@@ -132,6 +133,8 @@ Solution solve(const Problem& problem, const VectorXd& x0, const SolverOptions& 
   out.time_s = deadline.elapsed_s();
   return out;
 }
+
+bool has_ipopt() { return true; }
 
 std::string ipopt_version() { return IPOPT_VERSION; }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mcplan/planar/sip/options.hpp"
+#include "nlp/has_ipopt.hpp"
 
 namespace mcplan::sip {
 
@@ -51,7 +52,7 @@ inline std::vector<Attempt> attempts_for(const Options& options, bool cost) {
   const bool history = cost && options.hessian == HessianChoice::limited_memory;
   if (options.solver == nlp::Solver::ipopt || history) return ipopt_attempts_for(options, cost);
   std::vector<Attempt> out = kernel_attempts_for(options, cost);
-  if (options.solver == nlp::Solver::ipm) return out;
+  if (options.solver == nlp::Solver::ipm || !nlp::has_ipopt()) return out;
   const std::vector<Attempt> more = ipopt_attempts_for(options, cost);
   out.insert(out.end(), more.begin(), more.end());
   return out;
