@@ -4,6 +4,7 @@ python -m pages.drawings page WALK.npz PICTURE.png SECONDS    the page of a plan
 python -m pages.drawings postures RUN.npz PICTURE.png T,T,...  postures of a run at these instants [s] in one scene
 python -m pages.drawings unlimited CASE PICTURE.png            strip of a case of `bench tracking`, full torque at every speed
 python -m pages.drawings swing_up EXAMPLE.py PICTURE.png       the swing-up of examples/cart_pole.py
+python -m pages.drawings look_ahead TERRAIN PICTURE.png        CPU time of a cycle with each solver, over the look-ahead
 """
 
 from __future__ import annotations
@@ -37,8 +38,12 @@ def main(kind: str, source: str, picture: str, argument: str = "") -> None:
         from pages.swing_up import save
 
         save(source, picture)
+    elif kind == "look_ahead":
+        from pages.look_ahead import save as save_look_ahead
+
+        save_look_ahead(source, picture)
     else:
-        raise SystemExit(f"no kind of picture {kind!r}; there are: page, postures, unlimited, swing_up")
+        raise SystemExit(f"no kind of picture {kind!r}; there are: page, postures, unlimited, swing_up, look_ahead")
 
 
 if __name__ == "__main__":

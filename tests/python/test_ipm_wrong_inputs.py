@@ -134,6 +134,7 @@ def test_ctrl_c_within_a_function_ends_the_solve_with_the_best_point(solver):
             ipm.solve(with_function(value), solver=solver)
     result = stop.value.result
     assert isinstance(result, ipm.Result) and result.status == mp.Status.interrupted
+    assert result.message == "stopped by the caller"
     assert np.isfinite(result.x["x"]).all()
 
 
@@ -171,6 +172,13 @@ def build(**change):
         ({"stage": -1}, InvalidInput, "x: stage: must lie in"),
         ({"stage": (3, 1)}, InvalidInput, "x: stage: must lie in"),
         ({"stage": "0"}, InvalidArgument, "x: stage: must be a whole number"),
+        ({"stage": (0, 1, 2)}, InvalidArgument, "x: stage: must be a whole number, or a first and a last one"),
+        ({"lower": float("inf"), "upper": float("inf")}, InvalidInput, r"lower\[0\]: must lie below infinity, got inf"),
+        (
+            {"lower": -float("inf"), "upper": [1.0, -float("inf")]},
+            InvalidInput,
+            r"upper\[1\]: must lie above minus inf",
+        ),
         ({"lower": [0.0, 2.0]}, InvalidInput, r"x at stage 0: lower\[1\]: must not lie above upper\[1\] = 1, got 2"),
         ({"lower": [0.0] * 3}, InvalidInput, "x at stage 0: lower: must be 2 numbers or one for all, got 3 numbers"),
         ({"upper": float("nan")}, InvalidInput, "x at stage 0: upper: must be numbers, got nan"),
@@ -209,6 +217,12 @@ def test_blocks_are_refused_by_name():
         problem.equality("row", [x], ipm.Linear(np.eye(2)))
     with pytest.raises(InvalidInput, match=r"band: lower\[0\]: must not lie above upper\[0\] = 1, got 2"):
         problem.inequality("band", [x], one, lower=2.0, upper=1.0)
+    with pytest.raises(InvalidInput, match=r"band: upper\[0\]: must lie above minus infinity, got -inf"):
+        problem.inequality("band", [x], one, upper=-np.inf)
+    with pytest.raises(
+        InvalidInput, match=r"fit: matrix: must have squares that are finite, got numbers up to 1e\+200"
+    ):
+        problem.least_squares("fit", [x], ipm.Linear([[1e200, 1.0]]))
     with pytest.raises(InvalidInput, match="sum: must be one number: a cost"):
         problem.cost("sum", [x], ipm.Linear(np.eye(2)))
     with pytest.raises(InvalidInput, match="fit: weights: must not be negative, got -1"):

@@ -12,7 +12,15 @@ import pytest
 
 from mcplan.cli import main
 from mcplan.errors import InvalidInput
-from mcplan_bench.reproduce import wang_figures, wang_runs, wang_size, wang_table_2, wang_tables, wang_tracking
+from mcplan_bench.reproduce import (
+    wang_figures,
+    wang_kernel,
+    wang_runs,
+    wang_size,
+    wang_table_2,
+    wang_tables,
+    wang_tracking,
+)
 from mcplan_bench.reproduce.wang_runs import Config, Run
 from mcplan_bench.reproduce.wang_tracking import Tracked
 
@@ -311,3 +319,31 @@ def test_noise_stays_within_its_share_and_repeats_with_its_seed():
 def test_options_out_of_range_are_named(words, message, capsys, tmp_path):
     assert main(["reproduce", *words, "--out", str(tmp_path)]) == 2
     assert message in capsys.readouterr().err
+
+
+def test_the_kernels_walks_stand_beside_ipopts_and_in_no_other_table(quick):
+    page = (quick / "wang.md").read_text()
+    section = page[page.index("### The same by the kernel") : page.index("## Figure 4")]
+    lines = [line for line in section.splitlines() if line.startswith("| baseline") or line.startswith("| cand")]
+    rows = read(quick / "solvers.csv")
+    assert len(lines) == len(rows) == 4  # of Table III, on one terrain
+    for row in rows:
+        assert int(row["ipopt_converged"]) == int(row["ipm_converged"]) == 2
+        assert float(row["ipm_cost_per_m"]) == pytest.approx(float(row["ipopt_cost_per_m"]), rel=0.01)
+    runs = json.loads((quick / "runs.json").read_text())["runs"]
+    assert {run["config"]["solver"] for run in runs} == {"ipopt", "ipm"}
+    for name in ("table_3.csv", "figure_4.csv"):
+        walks = [(row["method"], row["predicted"], row["terrain"]) for row in read(quick / name)]
+        assert len(walks) == len(set(walks))
+    assert all(row["starts"] == "1" for row in read(quick / "table_3.csv"))
+
+
+def test_cells_are_compared_where_both_solvers_were_run_from_the_scenes_own_start():
+    ipopt = [made_up("rubbles", "single", 1), made_up("rubbles", "single", 2), made_up("rubbles", "single", 1, seed=3)]
+    kernel = made_up("rubbles", "single", 1, acc=0.33, cpu_s=0.02)
+    kernel = replace(kernel, config=replace(kernel.config, solver="ipm"))
+    (row,) = wang_kernel.rows([*ipopt, kernel])
+    assert row["ratio"] == pytest.approx(5.0) and row["ipm_cost_per_m"] == pytest.approx(0.66)
+    text = "\n".join(wang_kernel.section([row]))
+    assert "Ipopt takes 5.0 to 5.0 times" in text and "+10.0 %" in text and "2 of 2 | 2 of 2 |" in text
+    assert wang_kernel.section(wang_kernel.rows(ipopt)) == []

@@ -49,9 +49,12 @@ def test_what_polynomials_leave_out_of_long_intervals_is_made_up_for(task, force
     assert_kept(result.plan)
 
 
-@pytest.mark.parametrize("forces", ["uniform", "per_point"])
-def test_motors_that_are_too_weak_are_said_to_be(forces):
-    plain = planar_task_to_plain(mp.load_planar_task("cartwheel"))
+@pytest.mark.parametrize("forces", ["uniform", "per_body", "per_point"])
+@pytest.mark.parametrize(
+    "task", ["cartwheel", pytest.param("walking", marks=SLOW), pytest.param("climbing", marks=SLOW)]
+)
+def test_motors_that_are_too_weak_are_said_to_be(task, forces):
+    plain = planar_task_to_plain(mp.load_planar_task(task))
     for body in plain["robot"]["bodies"]:
         if isinstance(body["torque_max"], float):  # that of the base is no number
             body["torque_max"] *= 0.08

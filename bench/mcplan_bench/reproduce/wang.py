@@ -13,7 +13,7 @@ from mcplan.extras import require
 from mcplan.files.outputs import write_whole
 from mcplan_bench import records
 
-from . import wang_figures, wang_size, wang_table_2, wang_tables, wang_tracking
+from . import wang_figures, wang_kernel, wang_size, wang_table_2, wang_tables, wang_tracking
 from .wang_runs import FILE, NOISE, ROBOT, TERRAINS, Run, collect, configs
 from .wang_runs import rows as cycle_rows
 
@@ -61,13 +61,14 @@ def reproduce(
         cycles, lookahead_max = min(cycles, 2), min(lookahead_max, 3)
     requested = configs(lookahead_max, seeds, TERRAINS[-1:] if quick else TERRAINS, trapezoidal=not quick)
     sizes = wang_size.built()
-    everything, about = collect(requested, cycles, out, resume, say)
+    made, about = collect(requested, cycles, out, resume, say)
+    everything = [run for run in made if run.config.solver == "ipopt"]
     tracked: list[wang_tracking.Tracked] = []
     if not (no_track or about["interrupted"]):
         longest = 1 if quick else wang_tracking.LONGEST
         candidates = wang_tracking.wanted(everything, tracked_seeds, longest)
         tracked, about["interrupted"] = wang_tracking.collect(candidates, out, resume, say)
-    written = _write(out, about, sizes, everything, tracked)
+    written = _write(out, about, sizes, everything, tracked, wang_kernel.rows(made))
     if about["interrupted"]:
         raise KeyboardInterrupt
     return written
@@ -79,6 +80,7 @@ def _write(
     sizes: list[dict[str, Any]],
     everything: list[Run],
     tracked: list[wang_tracking.Tracked],
+    solvers: list[dict[str, Any]],
 ) -> list[Path]:
     """Write tables, figures and the page, which comes first of what is returned."""
     runs = [run for run in everything if run.config.transcription == "euler"]
@@ -91,6 +93,7 @@ def _write(
         records.write_csv(out / "table_1.csv", sizes),
         records.write_csv(out / "table_2.csv", table_2),
         records.write_csv(out / "table_3.csv", table_3),
+        records.write_csv(out / "solvers.csv", solvers),
         records.write_csv(out / "figure_4.csv", figure_4),
         records.write_csv(out / "figure_5.csv", figure_5),
         *wang_figures.pictures(out),
@@ -98,7 +101,8 @@ def _write(
         wang_figures.figure_5(out, figure_5),
     ]
     page = out / "wang.md"
-    lines = _page(about, runs, sizes, (_table_2(table_2, runs, tracked), table_3), (figure_4, figure_5))
+    tables = (_table_2(table_2, runs, tracked), table_3, solvers)
+    lines = _page(about, runs, sizes, tables, (figure_4, figure_5))
     write_whole("\n".join(lines) + "\n", page)
     return [page, *written]
 
@@ -121,11 +125,11 @@ def _page(
     about: dict[str, Any],
     runs: list[Run],
     sizes: list[dict[str, Any]],
-    tables: tuple[list[str], list[dict[str, Any]]],
+    tables: tuple[list[str], list[dict[str, Any]], list[dict[str, Any]]],
     figures: tuple[list[dict[str, Any]], list[dict[str, Any]]],
 ) -> list[str]:
-    """Lines of wang.md; table II as lines, table III and figures 4 and 5 as rows."""
-    (table_2, table_3), (figure_4, figure_5) = tables, figures
+    """Lines of wang.md; table II as lines, table III, the solvers and figures 4 and 5 as rows."""
+    (table_2, table_3, solvers), (figure_4, figure_5) = tables, figures
     return [
         *_head(about, wang_tables.seeds(runs), table_3),
         "## Table I: variables and constraints of an instant",
@@ -142,6 +146,7 @@ def _page(
         "",
         *_times(table_3),
         "",
+        *wang_kernel.section(solvers),
         "## Figure 4: cost and time over the horizon",
         "",
         "![terrains, cost and time](figure_4.png)",

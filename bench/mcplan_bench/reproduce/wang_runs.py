@@ -36,6 +36,9 @@ COM_PREDICTED = 2
 #: Wall clock of a cycle [s]: `com` spends hundreds of iterations to say that it fails.
 TIME_LIMIT_S = {"single": 120.0, "com": 10.0, "rectangle": 120.0, "point": 120.0}
 
+#: The solver of our own, with which the walks of Table III are made once more.
+KERNEL = "ipm"
+
 NOISE = 0.05
 #: What the noise of a start is a ratio to: lengths of a step ahead, between the feet and from the floor to the CoM [m],
 #: and the bounds of velocity [m/s] and angular momentum [kg m^2/s].
@@ -55,13 +58,15 @@ class Config:
     predicted: int  #: steps in the prediction horizon (PH); lookahead is one more
     seed: int = 0  #: 0: from the scene's start; else of the noise on it
     transcription: str = "euler"  #: the paper's; or "trapezoidal", whose motion is the integral of its forces
+    solver: str = "ipopt"  #: of the programs; or "ipm", mcplan's own
 
     @property
     def title(self) -> str:
         """For lines of progress."""
         seed = f", seed {self.seed}" if self.seed else ""
         form = "" if self.transcription == "euler" else f", {self.transcription}"
-        return f"{self.terrain}, {self.method}, {self.predicted}-step PH{seed}{form}"
+        kernel = "" if self.solver == "ipopt" else f", {self.solver}"
+        return f"{self.terrain}, {self.method}, {self.predicted}-step PH{seed}{form}{kernel}"
 
 
 @dataclass
@@ -118,8 +123,8 @@ def configs(
     """
     out: list[Config] = []
 
-    def add(method: str, predicted: int, seed: int = 0, transcription: str = "euler") -> None:
-        out.extend(Config(terrain, method, predicted, seed, transcription) for terrain in terrains)
+    def add(method: str, predicted: int, seed: int = 0, transcription: str = "euler", solver: str = "ipopt") -> None:
+        out.extend(Config(terrain, method, predicted, seed, transcription, solver) for terrain in terrains)
 
     longest = lookahead_max - 1
     first = [cell for cell in TABLE_3 if cell[1] <= longest]
@@ -128,6 +133,9 @@ def configs(
     longer = [(m, p) for p in range(2, longest + 1) for m in ("point", "single", "rectangle") if (m, p) not in first]
     for method, predicted in first:
         add(method, predicted)
+    for method, predicted in TABLE_3:
+        if predicted <= longest:
+            add(method, predicted, solver=KERNEL)
     for method, predicted in NOISY:
         if trapezoidal and predicted <= longest:
             add(method, predicted, transcription="trapezoidal")
@@ -149,6 +157,7 @@ def planner(config: Config, **more: Any) -> RecedingHorizon:
     options.fidelity = getattr(rhp.Fidelity, config.method)
     options.lookahead = config.predicted + 1
     options.transcription = getattr(rhp.Transcription, config.transcription)
+    options.solver = rhp.Solver.__members__[config.solver]
     options.paper = True
     options.time_limit_s = TIME_LIMIT_S[config.method]
     for name, value in more.items():
@@ -268,7 +277,8 @@ def plan_path(out: Path, config: Config) -> Path:
     """Where the plan of a walk is saved."""
     start = f"_seed_{config.seed}" if config.seed else ""
     form = "" if config.transcription == "euler" else f"_{config.transcription}"
-    return out / "walks" / f"{config.terrain}_{config.method}_{config.predicted}{start}{form}.npz"
+    kernel = "" if config.solver == "ipopt" else f"_{config.solver}"
+    return out / "walks" / f"{config.terrain}_{config.method}_{config.predicted}{start}{form}{kernel}.npz"
 
 
 def save(path: Path, runs: list[Run], about: dict[str, Any]) -> Path:

@@ -255,8 +255,9 @@ Solved Program::judged(const nlp::Problem& problem, nlp::Solution solution, doub
         out.bound_multipliers[i] = 0.0;
   }
   VectorXd rows(problem.row_count());
-  problem.rows(x, rows);
-  for (int i = 0; i < problem.row_count(); ++i) {
+  const bool violated = !(solution.worst.value <= tolerance);  // else functions, which may be slow, are not asked again
+  if (violated) problem.rows(x, rows);
+  for (int i = 0; violated && i < problem.row_count(); ++i) {
     const double amount = beyond(rows[i], problem.row_lower()[i], problem.row_upper()[i]);
     if (amount > tolerance) out.violations.emplace_back(std::to_string(i), amount);
   }

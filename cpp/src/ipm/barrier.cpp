@@ -10,10 +10,11 @@ namespace {
 using Eigen::VectorXd;
 
 // Names and values of the constants as in Wächter, Biegler 2006, where they have one.
-constexpr double kBoundPush = 1e-2;                                  // kappa_1, kappa_2: of the start, off its bounds
-constexpr double kProbingPush = 0.1;                                 // the same where the barrier is probed from there
-constexpr double kMultiplierScale = 100.0;                           // s_max
-constexpr double kBarrierTolerance = 10.0;                           // kappa_epsilon
+constexpr double kBoundPush = 1e-2;         // kappa_1, kappa_2: of the start, off its bounds
+constexpr double kProbingPush = 0.1;        // the same where the barrier is probed from there
+constexpr double kMultiplierScale = 100.0;  // s_max
+constexpr double kMaxMultipliers = 1e6;     // average beyond which errors are not measured by: they grow without bound
+constexpr double kBarrierTolerance = 10.0;  // kappa_epsilon
 constexpr double kLinearDecrease = 0.2, kSuperlinearDecrease = 1.5;  // kappa_mu, theta_mu
 constexpr double kFirstDelta = 1e-4, kMaxDelta = 1e20, kGrowDelta = 8.0, kFirstGrowDelta = 100.0, kShrinkDelta = 3.0;
 constexpr double kMinDelta = 1e-20, kDualDelta = 1e-8;
@@ -98,12 +99,14 @@ Barrier::Errors Barrier::errors(const Point& point, double mu) {
   dual_ = gradient_ - lower_dual_.head(n()) + upper_dual_.head(n());
   kkt_.add_equalities_transposed(lambda_, dual_);
   kkt_.add_inequalities_transposed(multipliers_of_slacks(), dual_);
-  const double bounds = lower_dual_.sum() + upper_dual_.sum();
+  // Those of two bounds that lie close together are large and cancel each other.
+  const double bounds = (upper_dual_ - lower_dual_).cwiseAbs().sum();
   const double count = static_cast<double>(lower_dual_.size() * 2);
-  const double dual_scale =
-      std::max(kMultiplierScale, (lambda_.cwiseAbs().sum() + bounds) / std::max(1.0, count + lambda_.size())) /
-      kMultiplierScale;
-  const double bound_scale = std::max(kMultiplierScale, bounds / std::max(1.0, count)) / kMultiplierScale;
+  const auto scale = [](double average) {
+    return std::clamp(average, kMultiplierScale, kMaxMultipliers) / kMultiplierScale;
+  };
+  const double dual_scale = scale((lambda_.cwiseAbs().sum() + bounds) / std::max(1.0, count + lambda_.size()));
+  const double bound_scale = scale(bounds / std::max(1.0, count));
   Errors out;
   out.dual = n() > 0 ? dual_.cwiseAbs().maxCoeff() / dual_scale : 0.0;
   for (int i = 0; i < point.equalities.size(); ++i) out.primal = std::max(out.primal, std::abs(point.equalities[i]));
@@ -192,7 +195,7 @@ void Barrier::direction(double mu, const VectorXd& c, const VectorXd& slack_erro
   right_a_ = gradient_ + barrier_gradient_.head(n());
   kkt_.add_inequalities_transposed(slack_work_, right_a_);
   right_a_ = -right_a_;
-  right_b_ = -c;
+  right_b_ = -c - kkt_.delta_c() * lambda_;  // the regularisation acts on what multipliers change by
   if (rough)
     kkt_.solve_roughly(right_a_, right_b_, dx_, step.lambda);
   else

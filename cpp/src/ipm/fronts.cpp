@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
 #include "ipm/pivoting.hpp"
+#include "mcplan/base/error.hpp"
 
 namespace mcplan::ipm {
 namespace {
@@ -15,6 +18,7 @@ using ConstBlock = Eigen::Map<const MatrixXd>;
 
 /// Up to this size a pivot counts as zero.
 constexpr double kLeastPivot = 1e-300;
+constexpr long kMaxEntries = std::numeric_limits<int>::max();  // places are ints
 constexpr int kPanel = 8;  // columns of what remains that are computed together, from their diagonal on
 
 }  // namespace
@@ -24,18 +28,28 @@ Fronts::Fronts(int count, std::vector<std::vector<int>> order, const std::vector
   for (std::size_t g = 0; g < order.size(); ++g)
     for (int unknown : order[g]) group_of[unknown] = static_cast<int>(g);
   find_fronts(std::move(order), group_of, pairs);
-  find_places(group_of, pairs);
-  long size = 0;
+  long size = 0, scaled = 0, update = 0;
   int largest = 0;
-  for (Front& front : fronts_) {
+  for (const Front& front : fronts_) {
+    const long rest = front.size() - front.own;
     size += static_cast<long>(front.size()) * front.own;
+    scaled = std::max(scaled, rest * front.own);
+    update = std::max(update, rest * rest);
     largest = std::max(largest, front.size());
   }
+  if (size > kMaxEntries)
+    throw InvalidInput("problem",
+                       "must have a factor of at most " + std::to_string(kMaxEntries) +
+                           " entries: fewer "
+                           "variables and equalities at one stage",
+                       std::to_string(size) + " entries, " + std::to_string(largest) + " unknowns at one of them");
+  find_places(group_of, pairs);
   values_ = VectorXd::Zero(size);
   pivots_.resize(count);
   off_diagonal_.assign(count, 0.0);
-  scaled_.resize(static_cast<long>(largest) * largest);
-  update_.resize(scaled_.size());
+  least_pivots_ = VectorXd::Zero(count);
+  scaled_.resize(scaled);
+  update_.resize(update);
   own_.resize(largest);
   rest_.resize(largest);
 }
@@ -129,7 +143,9 @@ Fronts::Inertia Fronts::factor() {
     total.positive += count.positive;
     total.negative += count.negative;
     total.zero += count.zero;
-    if (count.zero > 0) return total;
+    for (int k = 0; k < m && count.zero == 0; k += off_diagonal[k] == 0.0 ? 1 : 2)
+      if (off_diagonal[k] == 0.0 && F(k, k) < 0.0 && -F(k, k) < least_pivots_[front.unknowns[pivots[k]]]) ++total.zero;
+    if (total.zero > 0) return total;
     if (rest == 0) continue;
     // What remains: F_rr - L D L', its lower triangle.
     Block scaled(scaled_.data(), rest, m);

@@ -29,6 +29,9 @@ class Fronts {
   void set_zero() { values_.setZero(); }
   double* values() { return values_.data(); }
 
+  /// Up to which size a negative pivot of each unknown counts as zero: rounding errors of equalities that say the same.
+  Eigen::VectorXd& least_pivots() { return least_pivots_; }
+
   /// Inertia of the matrix; zero: pivots too small to divide by.
   struct Inertia {
     int positive = 0, negative = 0, zero = 0;
@@ -63,7 +66,8 @@ class Fronts {
   Eigen::VectorXd values_;
   std::vector<int> pivots_;           ///< of every own unknown: its place within the front before pivoting
   std::vector<double> off_diagonal_;  ///< of D; other than zero at the first of two
-  Eigen::VectorXd scaled_, update_;   ///< of one front: L D, and L D L'
+  Eigen::VectorXd least_pivots_;
+  Eigen::VectorXd scaled_, update_;  ///< of one front: L D, and L D L'
   mutable Eigen::VectorXd own_, rest_;
 };
 

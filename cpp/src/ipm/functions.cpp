@@ -8,6 +8,8 @@ namespace {
 
 using Eigen::VectorXd;
 
+constexpr double kDiverged = 1e20;  // as Ipopt's diverging_iterates_tol
+
 double outside(double value, double lower, double upper) { return std::max({lower - value, value - upper, 0.0}); }
 
 }  // namespace
@@ -52,6 +54,7 @@ void Functions::clocked(const VectorXd& x, const Function& function) {
   const bool finite = function();
   evaluation_s_ += deadline_.now_s() - start_s;
   if (finite) return;
+  if (options_.stop && options_.stop()) throw Halt{nlp::Outcome::interrupted, "stopped by the caller"};
   const std::string name = problem_.first_not_finite(x);
   throw Halt{nlp::Outcome::numerical_failure, "not finite: " + (name.empty() ? "a sum of pieces" : name)};
 }
@@ -89,6 +92,8 @@ double Functions::violation(const Point& point) const {
 }
 
 void Functions::derivatives(const Point& point, VectorXd& gradient, Kkt& kkt) {
+  if (point.x.cwiseAbs().maxCoeff() > kDiverged)
+    throw Halt{nlp::Outcome::numerical_failure, "the iterates diverge; is the cost bounded from below?"};
   clocked(point.x, [&] {
     problem_.gradient(point.x, gradient_);
     problem_.jacobian(point.x, jacobian_);

@@ -13,6 +13,7 @@ using Eigen::VectorXd;
 
 constexpr int kMaxRefinements = 5;
 constexpr double kSmallResidual = 1e-9;  // as little as a step of the barrier method needs
+constexpr double kNoPivot = 1e-14;       // of an equality, over its size: the rounding errors of nothing
 constexpr int kFewRows = 64;             // up to which a product is cheaper without packing its factors
 
 }  // namespace
@@ -123,6 +124,15 @@ void Kkt::assemble(double delta, double delta_c) {
     for (int j = 0; j < dense.columns; ++j)
       for (int i = j; i < dense.columns; ++i) values[*place++] += C(i, j);
   }
+  // An equality's pivot is a sum of squares of its coefficients, each over about the variable's diagonal entry.
+  VectorXd& least = fronts_.least_pivots();
+  least.tail(m_).setZero();
+  if (delta_c > 0.0) return;
+  for (const Term& term : equality_terms_) {
+    const double square = jacobian_[term.from] * jacobian_[term.from];
+    double& of_row = least[n_ + term.row];
+    of_row = std::max(of_row, kNoPivot * square / std::max(1.0, std::abs(values[diagonal[term.column]])));
+  }
 }
 
 Kkt::Factor Kkt::factor(double delta, double delta_c) {
@@ -130,7 +140,8 @@ Kkt::Factor Kkt::factor(double delta, double delta_c) {
   delta_c_ = delta_c;
   assemble(delta, delta_c);
   const Fronts::Inertia inertia = fronts_.factor();
-  if (inertia.zero > 0) return Factor::singular;
+  // Fewer negative pivots than equalities: these say the same twice, and rounding errors stand for what is zero.
+  if (inertia.zero > 0 || inertia.negative < m_) return Factor::singular;
   return inertia.negative == m_ ? Factor::good : Factor::wrong_inertia;
 }
 

@@ -27,6 +27,7 @@ class Kkt {
 
   enum class Factor { good, wrong_inertia, singular };
   Factor factor(double delta, double delta_c);
+  double delta_c() const { return delta_c_; }  ///< of the last factor()
 
   /// dx and lambda, refined until the residual is small against the right side or falls no further.
   void solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& dx, Eigen::VectorXd& lambda);

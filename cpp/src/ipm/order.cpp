@@ -52,21 +52,50 @@ class Pairing {
  public:
   /// columns: of each equality, the free variables that it sees; stage_of: at which each of these is eliminated.
   Pairing(const std::vector<std::vector<int>>& columns, const std::vector<int>& stage_of)
-      : columns_(columns), stage_of_(stage_of), row_of_(stage_of.size(), -1), tried_(stage_of.size(), -1) {}
+      : columns_(columns),
+        stage_of_(stage_of),
+        row_of_(stage_of.size(), -1),
+        tried_(stage_of.size(), -1),
+        useless_at_(stage_of.size(), -1) {}
 
   /// False: among the variables of this stage and later ones there is none left for this equality.
   bool add(int row, int stage) {
     ++round_;
-    return place(row, stage);
+    path_.assign(1, {row, -1, 0});
+    seen_.clear();
+    while (!path_.empty()) {
+      if (const int column = path_.back().next == 0 ? unpaired(path_.back().row, stage) : -1; column >= 0) {
+        row_of_[column] = path_.back().row;
+        // Whoever was to give way has another one now.
+        for (std::size_t i = path_.size() - 1; i-- > 0;) row_of_[path_[i].wanted] = path_[i].row;
+        return true;
+      }
+      if (!ask_next(path_.back(), stage)) path_.pop_back();
+    }
+    for (int column : seen_) useless_at_[column] = stage;  // no later search of this stage has to look there again
+    return false;
   }
 
  private:
-  bool place(int row, int stage) {
-    for (int column : columns_[row]) {
-      if (stage_of_[column] < stage || tried_[column] == round_) continue;
+  struct Asking {
+    int row, wanted;   ///< the variable that its owner is asked to give up
+    std::size_t next;  ///< of its variables, the one to ask for next
+  };
+
+  int unpaired(int row, int stage) const {
+    for (int column : columns_[row])
+      if (stage_of_[column] >= stage && row_of_[column] < 0) return column;
+    return -1;
+  }
+
+  bool ask_next(Asking& asking, int stage) {
+    while (asking.next < columns_[asking.row].size()) {
+      const int column = columns_[asking.row][asking.next++];
+      if (stage_of_[column] < stage || tried_[column] == round_ || useless_at_[column] == stage) continue;
       tried_[column] = round_;
-      if (row_of_[column] >= 0 && !place(row_of_[column], stage)) continue;
-      row_of_[column] = row;
+      seen_.push_back(column);
+      asking.wanted = column;
+      path_.push_back({row_of_[column], -1, 0});
       return true;
     }
     return false;
@@ -74,7 +103,8 @@ class Pairing {
 
   const std::vector<std::vector<int>>& columns_;
   const std::vector<int>& stage_of_;
-  std::vector<int> row_of_, tried_;
+  std::vector<int> row_of_, tried_, useless_at_, seen_;
+  std::vector<Asking> path_;  ///< a stack of its own: a horizon may be longer than the thread's is deep
   int round_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace mcplan::ipm {
 namespace {
@@ -9,6 +10,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kStationary = 1e-5;  // of the gradient, over the norm of the residuals
+constexpr double kHeld = 1e12;        // weight of variables that are to stay where they are
 
 /// How far outside: negative below the lower limit, positive above the upper one.
 double beyond(double value, double lower, double upper, double drawn_in) {
@@ -36,13 +38,23 @@ struct Residuals {
   }
 };
 
+/// Which variables are at a bound and would leave it along minus the gradient: none, where that is no matter.
+std::vector<int> held(const Unknowns& unknowns, const Point& point, const VectorXd& gradient, bool within_bounds) {
+  std::vector<int> out;
+  for (int i = 0; within_bounds && i < unknowns.free_count(); ++i)
+    if ((point.t[i] <= unknowns.lower[i] && gradient[i] > 0.0) ||
+        (point.t[i] >= unknowns.upper[i] && gradient[i] < 0.0))
+      out.push_back(i);
+  return out;
+}
+
 VectorXd ones_where_not_zero(const VectorXd& v) { return (v.array() != 0.0).cast<double>(); }
 
 }  // namespace
 
 bool PhaseOne::run(const Unknowns& unknowns, Functions& functions, Kkt& kkt, Point& point) const {
   const int n = unknowns.free_count();
-  VectorXd gradient(n), step(n), multipliers(unknowns.equality_count());
+  VectorXd gradient(n), right_side(n), bound_weights(n), step(n), multipliers(unknowns.equality_count());
   const VectorXd no_equalities = VectorXd::Zero(unknowns.equality_count());
   const VectorXd no_rows = VectorXd::Zero(unknowns.slack_count());
   if (max_iterations == 0) return false;
@@ -62,15 +74,23 @@ bool PhaseOne::run(const Unknowns& unknowns, Functions& functions, Kkt& kkt, Poi
       functions.derivatives(point, gradient, kkt);
       kkt.set_hessian(functions.hessian(point, 0.0, no_equalities, no_rows));
     }
-    kkt.set_weights(ones_where_not_zero(now.rows), ones_where_not_zero(now.bounds));
-    if (kkt.factor(lambda, 1.0) == Kkt::Factor::singular) break;
     gradient = now.bounds;
     kkt.add_inequalities_transposed(now.rows, gradient);
-    kkt.solve(-gradient, -now.equalities, step, multipliers);
+    right_side = -gradient;
     kkt.add_equalities_transposed(now.equalities, gradient);
+    bound_weights = ones_where_not_zero(now.bounds);
+    for (int k : held(unknowns, point, gradient, within_bounds)) {
+      bound_weights[k] = kHeld;
+      gradient[k] = right_side[k] = 0.0;
+    }
     if (gradient.norm() <= kStationary * std::sqrt(2.0 * now.half_square())) return true;
+    kkt.set_weights(ones_where_not_zero(now.rows), bound_weights);
+    if (kkt.factor(lambda, 1.0) == Kkt::Factor::singular) break;
+    kkt.solve(right_side, -now.equalities, step, multipliers);
     if (!step.allFinite()) break;
     trial.t.head(n) = point.t.head(n) + step;
+    if (within_bounds)
+      trial.t.head(n) = trial.t.head(n).cwiseMax(unknowns.lower.head(n)).cwiseMin(unknowns.upper.head(n));
     functions.evaluate(trial);
     const double fallen = now.half_square() - Residuals(unknowns, trial, drawn_in).half_square();
     const double expected = 0.5 * step.dot(lambda * step - gradient);

@@ -16,8 +16,10 @@ struct PhaseOne {
   int max_iterations = 8;
   double enough = 0.1;     ///< ends where no residual is larger than this: the barrier method does the rest
   double drawn_in = 0.05;  ///< limits, by this ratio of their width and at most by this: what comes next needs room
-  int patience = 0;        ///< ends, too, where so many steps hardly lessen the sum of squares; 0: never
-  double hardly = 1e-2;    ///< by less than this ratio of it
+  /// Variables stay within their bounds, outside of which the problem's functions need not be defined.
+  bool within_bounds = true;
+  int patience = 0;     ///< ends, too, where so many steps hardly lessen the sum of squares; 0: never
+  double hardly = 0.1;  ///< by less than this ratio of it
 
   /// Moves point.t (and evaluates there). True if no direction lessens the sum of squares any more, or hardly, though a
   /// residual is larger than `enough`. Throws Halt.

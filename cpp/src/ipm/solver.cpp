@@ -11,6 +11,7 @@
 #include "ipm/phase_one.hpp"
 #include "ipm/unknowns.hpp"
 #include "mcplan/base/error.hpp"
+#include "nlp/has_ipopt.hpp"
 #include "nlp/start.hpp"
 
 namespace mcplan::ipm {
@@ -77,13 +78,12 @@ void require_size(const char* field, const VectorXd& given, int size) {
 /// A problem that leaves nothing to solve for: bounds that contradict each other, or every variable fixed.
 bool decided(const nlp::Problem& problem, const VectorXd& x, double constraint_tolerance, nlp::Solution& out) {
   const std::string impossible = nlp::contradiction(problem);
-  const bool fixed = problem.variable_lower() == problem.variable_upper();
+  const bool fixed = Unknowns(problem, false).free_count() == 0;
   if (impossible.empty() && !fixed) return false;
-  const bool holds = impossible.empty() && problem.worst_violation(x).value <= constraint_tolerance;
-  out.outcome = holds ? Outcome::converged : Outcome::infeasible;
-  out.message = !impossible.empty() ? impossible
-                : holds             ? "every variable is fixed, and the constraints hold"
-                                    : "every variable is fixed, and a constraint does not hold";
+  const nlp::Verdict verdict = impossible.empty() ? nlp::judge_fixed(problem, x, constraint_tolerance)
+                                                  : nlp::Verdict{Outcome::infeasible, impossible};
+  out.outcome = verdict.outcome;
+  out.message = verdict.message;
   out.x = x;
   out.multipliers = VectorXd::Zero(problem.row_count());
   out.bound_multipliers = VectorXd::Zero(problem.variable_count());
@@ -93,7 +93,8 @@ bool decided(const nlp::Problem& problem, const VectorXd& x, double constraint_t
 /// Where the barrier method fails from a start, it begins again from the same start after a phase one: what a failed
 /// attempt leaves behind is no better a place to go on from.
 constexpr PhaseOne kAttempts[] = {{10.0, 0}, {10.0, 8}, {1.0, 50}};
-constexpr PhaseOne kAttemptsFromAfar[] = {{10.0, 50, 2.0}, {100.0, 50, 2.0}, {1.0, 50, 2.0}};
+constexpr PhaseOne kAttemptsFromAfar[] = {
+    {10.0, 50, 2.0, 0.05, false}, {100.0, 50, 2.0, 0.05, false}, {1.0, 50, 2.0, 0.05, false}};
 constexpr int kMaxProof = 300;  // steps towards a point of least violation, where all attempts have failed
 constexpr int kPatience = 30;   // of them, from afar: near such a point they are many and short where rows are curved
 // Otherwise: towards a point without violations so many steps do far more than lessen the sum of squares by a quarter.
@@ -124,8 +125,9 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
     if (out.outcome == Outcome::numerical_failure) {
       point = point_at(unknowns, x);
       const int steps = std::min(kMaxProof, options.max_iterations - functions.iterations());
-      PhaseOne proof{1.0, steps, 10.0 * options.constraint_tolerance, 0.0};
-      if (options.kernel.distant_start) {
+      const bool from_afar = options.kernel.distant_start;
+      PhaseOne proof{1.0, steps, 10.0 * options.constraint_tolerance, 0.0, !from_afar};
+      if (from_afar) {
         proof.patience = kPatience;
       } else if (gives_up) {
         proof.patience = kLongPatience;
@@ -133,7 +135,9 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
       }
       if (proof.run(unknowns, functions, kkt, point)) {
         out.outcome = Outcome::infeasible;
-        out.message = "converged to a point at which the violation is locally least, or nearly so";
+        out.message = proof.patience > 0
+                          ? "found no point within all constraints: least squares of the violations hardly fall"
+                          : "converged to a point at which the violation is locally least";
       }
     }
   } catch (const Halt& halt) {
@@ -180,7 +184,7 @@ nlp::Solution solve(nlp::Solver solver, const nlp::Problem& problem, const Vecto
   const int iterations = options.max_iterations - first.iterations;
   const bool ended = first.outcome != Outcome::numerical_failure && first.outcome != Outcome::nearly_converged &&
                      first.outcome != Outcome::iteration_limit;
-  if (solver == nlp::Solver::ipm || ended || !(left_s > 0.0) || iterations <= 0) return first;
+  if (solver == nlp::Solver::ipm || !nlp::has_ipopt() || ended || !(left_s > 0.0) || iterations <= 0) return first;
   nlp::SolverOptions rest = options;
   rest.time_limit_s = left_s;
   rest.max_iterations = iterations;

@@ -7,6 +7,12 @@ namespace mcplan::ipm {
 namespace {
 
 constexpr double kMaxScale = 20.0;
+constexpr double kNoWidth = 1e-10;  // of the size of two limits, between which distances are rounding errors
+
+bool equal(double low, double high) {
+  const double width = high - low;
+  return low == high || (std::isfinite(width) && width <= kNoWidth * std::max({1.0, std::abs(low), std::abs(high)}));
+}
 
 }  // namespace
 
@@ -16,13 +22,13 @@ Unknowns::Unknowns(const nlp::Problem& problem, bool scaled) {
   equality_of.assign(rows, -1);
   slack_of.assign(rows, -1);
   for (int i = 0; i < variables; ++i) {
-    if (problem.variable_lower()[i] == problem.variable_upper()[i]) continue;
+    if (equal(problem.variable_lower()[i], problem.variable_upper()[i])) continue;
     index_of[i] = free_count();
     free.push_back(i);
   }
   for (int i = 0; i < rows; ++i) {
     const double low = problem.row_lower()[i], high = problem.row_upper()[i];
-    if (low == high) {
+    if (equal(low, high)) {
       equality_of[i] = equality_count();
       equalities.push_back(i);
     } else if (std::isfinite(low) || std::isfinite(high)) {
@@ -31,7 +37,10 @@ Unknowns::Unknowns(const nlp::Problem& problem, bool scaled) {
     }
   }
   right_side.resize(equality_count());
-  for (int i = 0; i < equality_count(); ++i) right_side[i] = problem.row_lower()[equalities[i]];
+  for (int i = 0; i < equality_count(); ++i) {
+    const double low = problem.row_lower()[equalities[i]], high = problem.row_upper()[equalities[i]];
+    right_side[i] = low + 0.5 * (high - low);
+  }
   lower.resize(free_count() + slack_count());
   upper.resize(lower.size());
   for (int i = 0; i < free_count(); ++i) {

@@ -9,6 +9,7 @@ namespace mcplan::ipm {
 
 /// What a problem leaves to solve for. Variables whose bounds are equal are constants and no unknowns; rows whose
 /// limits are equal are equalities, the others inequalities with a slack each, and rows without limits are left out.
+/// Equal is also what differs by rounding errors: a barrier in between would have no room.
 struct Unknowns {
   /// scaled: rows with two limits are multiplied by 2 / (upper - lower), at most by 20.
   Unknowns(const nlp::Problem& problem, bool scaled);

@@ -10,6 +10,7 @@
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/nlp/solver.hpp"
+#include "nlp/has_ipopt.hpp"
 #include "nlp/ipopt_adapter.hpp"
 #include "nlp/ipopt_ending.hpp"
 #include "nlp/ipopt_version.hpp"
@@ -84,19 +85,15 @@ class Turn {
   std::unique_lock<std::timed_mutex> lock_;
 };
 
-/// Without a free variable there is nothing to optimise, and Ipopt's versions disagree on how to say so.
-Ending judge_fixed(const Problem& problem, const VectorXd& x, double constraint_tolerance) {
-  if (problem.worst_violation(x).value <= constraint_tolerance)
-    return {Outcome::converged, "every variable is fixed, and the constraints hold", true};
-  return {Outcome::infeasible, "every variable is fixed, and a constraint does not hold", true};
-}
-
 Ending run(const Problem& problem, const VectorXd& x0, IpoptAdapter& adapter, const SolverOptions& options,
            const Deadline& deadline) {
   const std::string impossible = contradiction(problem);
   if (!impossible.empty()) return {Outcome::infeasible, impossible, false};
-  if (problem.variable_lower() == problem.variable_upper())
-    return judge_fixed(problem, x0, options.constraint_tolerance);
+  // Without a free variable there is nothing to optimise, and Ipopt's versions disagree on how to say so.
+  if (problem.variable_lower() == problem.variable_upper()) {
+    const Verdict verdict = judge_fixed(problem, x0, options.constraint_tolerance);
+    return {verdict.outcome, verdict.message, true};
+  }
   const Turn turn(deadline);
   if (!turn.mine()) return {Outcome::time_limit, "reached time_limit_s while another solve was running", false};
   adapter.begin();
@@ -106,6 +103,7 @@ Ending run(const Problem& problem, const VectorXd& x0, IpoptAdapter& adapter, co
   if (code == Ipopt::Solve_Succeeded) code = application->OptimizeTNLP(&adapter);
   adapter.rethrow();
   if (adapter.reason() == IpoptAdapter::Reason::time) return {Outcome::time_limit, "reached time_limit_s", false};
+  if (adapter.reason() == IpoptAdapter::Reason::stop) return {Outcome::interrupted, "stopped by the caller", false};
   if (adapter.reason() == IpoptAdapter::Reason::not_finite)
     return {Outcome::numerical_failure, "not finite: " + adapter.not_finite(), false};
   return ending_of(code, adapter.feasible());
@@ -135,6 +133,8 @@ Solution solve(const Problem& problem, const VectorXd& x0, const SolverOptions& 
   out.time_s = deadline.elapsed_s();
   return out;
 }
+
+bool has_ipopt() { return true; }
 
 std::string ipopt_version() { return IPOPT_VERSION; }
 

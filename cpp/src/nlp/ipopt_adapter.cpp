@@ -79,7 +79,9 @@ bool IpoptAdapter::evaluate(Index n, const Number* x, bool new_x, Number* out, I
   Eigen::Map<VectorXd> values(out, size);
   try {
     function(at, values);
-    if (!values.allFinite()) {
+    if (!values.allFinite() && options_.stop && options_.stop()) {
+      reason_ = Reason::stop;
+    } else if (!values.allFinite()) {
       not_finite_ = problem_.first_not_finite(at);
       if (not_finite_.empty()) not_finite_ = "a sum of pieces";
       reason_ = Reason::not_finite;

@@ -120,11 +120,27 @@ class Quadratic:
         self.constant = 0.0
 
 
-def squares(function: Linear, weights: Array) -> Quadratic:
-    """1/2 sum_i w_i r_i^2 of linear residuals r."""
+def squares(name: str, function: Linear, weights: Array) -> Quadratic:
+    """1/2 sum_i w_i r_i^2 of linear residuals r.
+
+    Args:
+        name: Of the block, for messages.
+        function: The residuals.
+        weights: Of each of them.
+
+    Raises:
+        InvalidInput: A square is too large a number.
+    """
     A, b = function.matrix, function.constant
-    out = Quadratic(A.T @ (weights[:, None] * A), A.T @ (weights * b))
-    out.constant = 0.5 * float(weights @ b**2)
+    with np.errstate(over="ignore", invalid="ignore"):
+        matrix, gradient = A.T @ (weights[:, None] * A), A.T @ (weights * b)
+        constant = 0.5 * float(weights @ b**2)
+    for field, values in (("matrix", matrix), ("constant", np.append(gradient, constant))):
+        if not np.isfinite(values).all():
+            largest = max(np.abs(A).max(), np.abs(b).max())
+            raise InvalidInput(f"{name}: {field}", "must have squares that are finite", f"numbers up to {largest:g}")
+    out = Quadratic(matrix, gradient)
+    out.constant = constant
     return out
 
 

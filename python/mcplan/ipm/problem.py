@@ -99,7 +99,9 @@ class Problem:
         """
         _require_name("name", name)
         _require_whole(f"{name}: size", size, 1)
-        first, last = stage if isinstance(stage, tuple) and len(stage) == 2 else (stage, stage)
+        if isinstance(stage, list | tuple) and len(stage) != 2 or isinstance(stage, str):
+            raise InvalidArgument(f"{name}: stage", "must be a whole number, or a first and a last one", found(stage))
+        first, last = stage if isinstance(stage, list | tuple) else (stage, stage)
         begin = _require_whole(f"{name}: stage", first, 0)
         _require_whole(f"{name}: stage", last, begin)
         where = f"{name} at stage {first}"
@@ -222,7 +224,7 @@ class Problem:
         if (weighed < 0.0).any():
             raise InvalidInput(field, "must not be negative", str(weighed.min()))
         if isinstance(function, Linear):
-            block = _Block(name, chosen, squares(function, weighed), 0, np.zeros(0), np.zeros(0))
+            block = _Block(name, chosen, squares(name, function, weighed), 0, np.zeros(0), np.zeros(0))
         else:
             block = _Block(name, chosen, function, 0, np.zeros(0), np.zeros(0), weighed)
         self._blocks.append(block)
@@ -272,18 +274,47 @@ class Problem:
         return tuple(variables), rows
 
 
-def program_of(problem: Problem, start: Array | None = None) -> Program:
+@dataclass(frozen=True)
+class Given:
+    """A problem as it is now: who solves it in another thread may add to it meanwhile.
+
+    Attributes:
+        variables: With their values, in their order.
+        blocks: In their order.
+    """
+
+    variables: list[tuple[Variables, _Values]]
+    blocks: list[_Block]
+
+    @classmethod
+    def of(cls, problem: Problem) -> Given:
+        """The problem as it is now."""
+        blocks = list(problem._blocks)  # first: their variables are there before them
+        return cls(list(problem._groups.items()), blocks)
+
+    @property
+    def groups(self) -> list[Variables]:
+        """All variables, in their order."""
+        return [group for group, _ in self.variables]
+
+    @property
+    def rows(self) -> list[tuple[str, int]]:
+        """Name and number of rows of each constraint, in their order."""
+        return [(block.name, block.rows) for block in self.blocks if block.rows]
+
+
+def program_of(given: Given, start: Array | None = None) -> Program:
     """The problem as the compiled module takes it.
 
     Args:
-        problem: To be solved.
+        given: To be solved.
         start: Of all variables, in their order; None: their own.
     """
     out = Program()
-    for group, values in list(problem._groups.items()):  # whole, though another thread may add to it
+    for group, values in given.variables:
         begin = values.start if start is None else start[group.number : group.number + group.size]
         out.add_variables(group.name, values.lower, values.upper, begin, *group.stages)
-    for block in problem._blocks:
+    for block in given.blocks:
         places = [i for group in block.variables for i in range(group.number, group.number + group.size)]
         function = block.function
         if isinstance(function, Linear):
@@ -303,16 +334,6 @@ def program_of(problem: Problem, start: Array | None = None) -> Program:
     return out
 
 
-def groups_of(problem: Problem) -> list[Variables]:
-    """All variables of a problem, in their order."""
-    return list(problem._groups)
-
-
-def rows_of(problem: Problem) -> list[tuple[str, int]]:
-    """Name and number of rows of each constraint, in their order."""
-    return [(block.name, block.rows) for block in problem._blocks if block.rows]
-
-
 def _three(function: Function) -> tuple[Any, Any, Any]:
     return function.value, function.jacobian, function.hessian
 
@@ -327,6 +348,13 @@ def _values(where: str, size: int, lower: ArrayLike, upper: ArrayLike, start: Ar
 
 
 def _require_order(where: str, lower: Array, upper: Array) -> None:
+    for side, values, never, rule in (
+        ("lower", lower, _INF, "below infinity"),
+        ("upper", upper, -_INF, "above minus infinity"),
+    ):
+        wrong = np.flatnonzero(values == never)
+        if wrong.size:
+            raise InvalidInput(f"{where}: {side}[{wrong[0]}]", f"must lie {rule}", f"{never}")
     crossed = np.flatnonzero(lower > upper)
     if crossed.size:
         i = crossed[0]

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from types import MappingProxyType
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,7 +16,7 @@ from mcplan._core.nlp import Solver
 from mcplan.arguments import found, require, require_number
 from mcplan.errors import Interrupted, InvalidArgument, InvalidInput, InvalidOptions
 from mcplan.ipm.functions import Array, numbers
-from mcplan.ipm.problem import Problem, groups_of, program_of, rows_of
+from mcplan.ipm.problem import Given, Problem, program_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +60,10 @@ class Result:
     evaluation_s: float
     linear_solver_s: float
     table: str = field(repr=False)
+
+    def __reduce__(self) -> tuple[Callable[[dict[str, Any]], Result], tuple[dict[str, Any]]]:
+        values = {one.name: getattr(self, one.name) for one in fields(self)}
+        return _restored, ({name: dict(v) if isinstance(v, MappingProxyType) else v for name, v in values.items()},)
 
     def __str__(self) -> str:
         worst = f" ({self.worst})" if self.worst else ""
@@ -137,8 +141,8 @@ def solve(
     if log is not None and not callable(log):
         raise InvalidArgument("log", "must be a function", found(log))
     limit = float("inf") if time_limit_s is None else require_number("time_limit_s", time_limit_s)
-    program = program_of(problem, None if start is None else _point(problem, start))
-    names = _Names.of(problem)
+    given = Given.of(problem)
+    program = program_of(given, None if start is None else _point(given, start))
     try:
         solution = program.solve(
             solver=_solver(solver),
@@ -152,9 +156,9 @@ def solve(
         )
     except Interrupted as stop:
         if isinstance(stop.result, Solution):
-            stop = Interrupted(names.result(stop.result))
+            stop = Interrupted(_Names.of(given).result(stop.result))
         raise stop from None
-    return names.result(solution)
+    return _Names.of(given).result(solution)
 
 
 def check_derivatives(
@@ -174,8 +178,9 @@ def check_derivatives(
         InvalidArgument, InvalidInput, Exception: As for solve().
     """
     require("problem", problem, Problem)
-    program = program_of(problem)
-    point = _start(problem) if at is None else _point(problem, at)
+    given = Given.of(problem)
+    program = program_of(given)
+    point = _start(given) if at is None else _point(given, at)
     wrong = program.check_derivatives(point, require_number("tolerance", tolerance))
     return [WrongDerivative(b, kind, row, (v, w) if w else (v,), g, d) for b, kind, row, v, w, g, d in wrong]
 
@@ -191,16 +196,16 @@ def _solver(solver: object) -> Solver:
     return members[solver]
 
 
-def _start(problem: Problem) -> Array:
-    values = [problem._groups[group].start for group in groups_of(problem)]
+def _start(problem: Given) -> Array:
+    values = [values.start for _, values in problem.variables]
     return np.concatenate(values) if values else np.zeros(0)
 
 
-def _point(problem: Problem, given: Result | Mapping[str, ArrayLike]) -> Array:
+def _point(problem: Given, given: Result | Mapping[str, ArrayLike]) -> Array:
     """All variables in their order from values by name."""
     by_name = given.x if isinstance(given, Result) else given
     require("at", by_name, Mapping)
-    groups = groups_of(problem)
+    groups = problem.groups
     shapes: dict[str, tuple[int, int]] = {}
     for group in groups:
         shapes[group.name] = (shapes.get(group.name, (0, 0))[0] + 1, group.size)
@@ -222,14 +227,14 @@ def _point(problem: Problem, given: Result | Mapping[str, ArrayLike]) -> Array:
 
 @dataclass(frozen=True)
 class _Names:
-    """Names and sizes of a problem as it is handed over: who solves in another thread may add to it meanwhile."""
+    """Names and sizes of the variables of a problem, and of its rows."""
 
     variables: list[tuple[str, int]]
     rows: list[tuple[str, int]]
 
     @classmethod
-    def of(cls, problem: Problem) -> _Names:
-        return cls([(group.name, group.size) for group in groups_of(problem)], rows_of(problem))
+    def of(cls, problem: Given) -> _Names:
+        return cls([(group.name, group.size) for group in problem.groups], problem.rows)
 
     def result(self, solution: Solution) -> Result:
         return Result(
@@ -258,7 +263,16 @@ def _by_name(sizes: list[tuple[str, int]], values: Array) -> Mapping[str, Array]
     for name, size in sizes:
         rows.setdefault(name, []).append(values[at : at + size])
         at += size
-    out = {name: np.array(parts) for name, parts in rows.items()}
-    for array in out.values():
+    return _read_only({name: np.array(parts) for name, parts in rows.items()})
+
+
+def _read_only(arrays: dict[str, Array]) -> Mapping[str, Array]:
+    for array in arrays.values():
         array.flags.writeable = False
-    return MappingProxyType(out)
+    return MappingProxyType(arrays)
+
+
+def _restored(values: dict[str, Any]) -> Result:
+    """A result from its copied or pickled values."""
+    kept: dict[str, Any] = {name: _read_only(v) if isinstance(v, dict) else v for name, v in values.items()}
+    return Result(**kept)

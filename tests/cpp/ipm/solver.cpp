@@ -197,6 +197,32 @@ TEST_CASE("equalities that say the same twice are no obstacle") {
   CHECK((s.x - Vector2d(1, -1)).lpNorm<Eigen::Infinity>() < 1e-4);
 }
 
+TEST_CASE("equalities that say the same at every stage leave multipliers of the size of one") {
+  for (const double scale : {1e-6, 1.0, 3.0}) {
+    Problem problem;
+    const int steps = 40;
+    for (int k = 0; k <= steps; ++k) problem.add_variables("x", 2, -5.0, 5.0, {k, k});
+    for (int k = 0; k < steps; ++k) {
+      std::vector<int> four{2 * k, 2 * k + 1, 2 * k + 2, 2 * k + 3};
+      MatrixXd A(2, 4);
+      A << 1.0, 0.1, -1.0, 0.0, 0.0, 1.0, 0.0, -1.0;
+      for (const double by : {1.0, scale}) problem.add_equality(std::make_unique<LinearPiece>("step", four, by * A));
+    }
+    problem.add_cost(squared_distance({0, 1}, Vector2d(1.0, 2.0)));
+    problem.add_cost(squared_distance({2 * steps, 2 * steps + 1}, Vector2d(0.0, 0.0)));
+    problem.finish();
+    const Solution s = ipm::solve(problem, VectorXd::Zero(2 * steps + 2));
+    REQUIRE_MESSAGE(s.outcome == Outcome::converged, s.message);
+    CHECK(s.multipliers.lpNorm<Eigen::Infinity>() < 1e3 / scale);
+    VectorXd dual(s.x.size()), jacobian(static_cast<Eigen::Index>(problem.jacobian_structure().size()));
+    problem.gradient(s.x, dual);
+    problem.jacobian(s.x, jacobian);
+    for (Eigen::Index i = 0; i < jacobian.size(); ++i)
+      dual[problem.jacobian_structure()[i].column] += jacobian[i] * s.multipliers[problem.jacobian_structure()[i].row];
+    CHECK(dual.lpNorm<Eigen::Infinity>() < 1e-5);
+  }
+}
+
 TEST_CASE("what cannot be satisfied is not called converged, and its worst row is named") {
   const Cart far(10, 50.0);
   for (const Solver solver : {Solver::ipm, Solver::automatic}) {
@@ -252,6 +278,19 @@ TEST_CASE("a start that is no start is refused by name, and what a piece throws 
   VectorXd x0 = cart.start();
   x0[3] = std::nan("");
   CHECK_THROWS_WITH_AS(ipm::solve(cart.problem, x0), doctest::Contains("x0, state[0] at stage 1"), InvalidInput);
+  Problem never;
+  never.add_variables("x", 2, -kInfinity, kInfinity, {0, 0});
+  never.finish();
+  for (const bool lower : {true, false}) {
+    never.set_bounds(1, lower ? kInfinity : -kInfinity, lower ? kInfinity : -kInfinity);
+    for (const Solver solver : {Solver::ipm, Solver::ipopt})
+      CHECK_THROWS_WITH_AS(ipm::solve(solver, never, VectorXd::Zero(2)),
+                           lower ? "x[1] at stage 0: lower: must be below infinity, got inf"
+                                 : "x[1] at stage 0: upper: must be above minus infinity, got -inf",
+                           InvalidInput);
+  }
+  never.set_bounds(1, std::nan(""), 1.0);
+  CHECK_THROWS_AS(ipm::solve(never, VectorXd::Zero(2)), InvalidInput);
   const Valley throws([](const ConstVector&) { throw std::runtime_error("from a piece"); });
   CHECK_THROWS_WITH(ipm::solve(throws.problem, throws.x0), "from a piece");
 }

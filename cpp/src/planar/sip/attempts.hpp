@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mcplan/planar/sip/options.hpp"
+#include "nlp/has_ipopt.hpp"
 
 namespace mcplan::sip {
 
@@ -45,11 +46,13 @@ inline std::vector<Attempt> ipopt_attempts_for(const Options& options, bool cost
           {HessianChoice::exact, true, 0.1, max}};
 }
 
-/// All ways to try, in turn.
+/// All ways to try, in turn. With a cost, who asks for a history instead of second derivatives asks for Ipopt: the
+/// kernel has none, and with the Hessian of Gauss and Newton, which is what would be left to it, it takes minutes.
 inline std::vector<Attempt> attempts_for(const Options& options, bool cost) {
-  if (options.solver == nlp::Solver::ipopt) return ipopt_attempts_for(options, cost);
+  const bool history = cost && options.hessian == HessianChoice::limited_memory;
+  if (options.solver == nlp::Solver::ipopt || history) return ipopt_attempts_for(options, cost);
   std::vector<Attempt> out = kernel_attempts_for(options, cost);
-  if (options.solver == nlp::Solver::ipm) return out;
+  if (options.solver == nlp::Solver::ipm || !nlp::has_ipopt()) return out;
   const std::vector<Attempt> more = ipopt_attempts_for(options, cost);
   out.insert(out.end(), more.begin(), more.end());
   return out;

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/planar/plan_files.hpp"
@@ -80,4 +82,73 @@ TEST_CASE("second derivatives may be chosen for the kernel, but it has no histor
     field = error.field();
   }
   CHECK(field == "hessian");
+}
+
+TEST_CASE("a history of first derivatives is Ipopt's where there is a cost, and says nothing where there is none") {
+  Options options = with(Solver::automatic, Forces::uniform, true);
+  options.hessian = HessianChoice::limited_memory;
+  for (const Attempt& attempt : attempts_for(options, true)) {
+    CHECK(attempt.solver == Solver::ipopt);
+    CHECK(attempt.hessian == HessianChoice::limited_memory);
+  }
+  CHECK(attempts_for(options, false).front().solver == Solver::ipm);
+}
+
+TEST_CASE("each kind of forces gives way to the one with one more kind of weights, and the last to none") {
+  CHECK(freer(Forces::uniform) == Forces::per_body);
+  CHECK(freer(Forces::per_body) == Forces::per_point);
+  CHECK_FALSE(freer(Forces::per_point).has_value());
+  CHECK_FALSE(freer(Forces::parameters).has_value());  // they have no weights
+}
+
+TEST_CASE("a try is the kernel's alone, has few iterations and changes nothing else") {
+  for (const Solver solver : {Solver::automatic, Solver::ipm}) {
+    Options options = with(solver, Forces::per_body, true);
+    options.hessian = HessianChoice::limited_memory;
+    for (const int max : {0, 1, kTrialIterations - 1, kTrialIterations, kTrialIterations + 1, 100000}) {
+      options.max_iterations = max;
+      const Options trial = trial_of(options);
+      CHECK(trial.solver == Solver::ipm);
+      CHECK(trial.max_iterations == std::min(max, kTrialIterations));
+      CHECK(trial.forces == options.forces);
+      CHECK(trial.hessian == options.hessian);
+      CHECK(trial.torque_weight == options.torque_weight);
+      CHECK(trial.time_limit_s == options.time_limit_s);
+      for (const bool cost : {false, true})
+        if (trial.hessian != HessianChoice::limited_memory || !cost)
+          for (const Attempt& attempt : attempts_for(trial, cost)) CHECK(attempt.solver == Solver::ipm);
+    }
+  }
+}
+
+TEST_CASE("no attempt has more iterations than are allowed, and the kernel begins far away without a cost alone") {
+  for (const Solver solver : {Solver::ipopt, Solver::ipm, Solver::automatic})
+    for (const HessianChoice hessian : {HessianChoice::automatic, HessianChoice::exact, HessianChoice::gauss_newton})
+      for (const bool cost : {false, true})
+        for (const int max : {3, 250, 5000}) {
+          Options options = with(solver, Forces::uniform, cost);
+          options.hessian = hessian;
+          options.max_iterations = max;
+          const std::vector<Attempt> attempts = attempts_for(options, cost);
+          REQUIRE_FALSE(attempts.empty());
+          for (const Attempt& attempt : attempts) {
+            CHECK(attempt.max_iterations <= max);
+            CHECK(attempt.initial_barrier > 0.0);
+            const bool kernel = attempt.solver == Solver::ipm;
+            CHECK(attempt.kernel.distant_start == (kernel && !cost));
+            CHECK(attempt.kernel.feasible_is_enough == (kernel && !cost));
+            CHECK(attempt.kernel.blend_hessians == (kernel && cost && hessian == HessianChoice::automatic));
+          }
+        }
+}
+
+TEST_CASE("motors that are far too weak are said to be: nothing within all constraints is near") {
+  mcplan::PlanarTask task = planar_tasks::cartwheel();
+  for (auto& body : task.robot.bodies) body.torque_max *= 0.08;
+  for (const Forces forces : {Forces::uniform, Forces::per_body}) {
+    const Result result = Planner(task, with(Solver::ipm, forces, false)).solve();
+    CHECK_MESSAGE(result.report.status == Status::infeasible, result.report.message);
+    CHECK(result.report.worst_violation.name == "torque");
+    CHECK(result.report.message.find("torque at") != std::string::npos);
+  }
 }
