@@ -97,6 +97,18 @@ def test_legs_do_not_walk_through_a_fence():
     assert "limb" in found and "trunk" not in found
 
 
+def test_four_legs_climb_stairs_with_two_feet_down():
+    treads = [patch("ground", (-1.2, 0.45), (-1.0, 1.0))]
+    for k in range(1, 4):
+        treads.append(
+            patch(f"tread_{k}", (0.45 + 0.36 * (k - 1), 0.45 + 0.36 * k if k < 3 else 4.0), (-1.0, 1.0), 0.09 * k)
+        )
+        treads[-1].thickness = 0.09
+    result = mp.plan(scene(treads, [2.0, 0.0, 0.27], "tread_3"), "anymal")
+    assert str(result.report.status) == "solved", result.report.message
+    assert min(sum(contact.surface >= 0 for contact in phase.contacts) for phase in result.plan.phases) >= 2
+
+
 def test_a_jump_that_is_needed_is_made_and_without_flights_refused_by_name(tmp_path, capsys):
     gap = with_hole(None)
     gap.surfaces = [gap.surfaces[0], patch("there", (1.3, 3.5), (-2.0, 2.0))]

@@ -15,7 +15,8 @@ using Eigen::VectorXd;
 double Problem::foothold_margin(int l, int surface, int edge, double extra_margin) const {
   const double margin = foothold_margins_[l][surface][edge];
   double further = margin + edge_margin;
-  if (extra_margin > 0.0 && limits[l].half_width > 0.0)
+  // A hand without a surface of its own takes hold where it can.
+  if (extra_margin > 0.0 && (limits[l].half_width > 0.0 || robot.end_effectors[active[l]].kind == "foot"))
     further = std::max(further, std::min(margin + extra_margin, kNarrow * widths_[surface][edge]) + edge_margin);
   return std::max(margin, std::min(further, slack_[l][surface][edge]));
 }

@@ -97,8 +97,8 @@ class Problem {
   Tuning tuning() const { return {options.weights.limit, duration_initial, 0.0}; }
 
   /// How far inside edge i of a surface an end-effector's footholds are planned: edge_margin, and the share
-  /// Options::sole_inside of how far its sole, headed anywhere from start to goal, extends towards that edge; for
-  /// soles `extra_margin` as well. Never past the middle of a surface that is too narrow, and with `extra_margin` no
+  /// Options::sole_inside of how far its sole, headed anywhere from start to goal, extends towards that edge; of
+  /// feet `extra_margin` as well. Never past the middle of a surface that is too narrow, and with `extra_margin` no
   /// further than where the end-effector has to stand at the start or the goal.
   double foothold_margin(int l, int surface, int edge, double extra_margin = 0.0) const;
 

@@ -138,6 +138,9 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
         out.message = proof.patience > 0
                           ? "found no point within all constraints: least squares of the violations hardly fall"
                           : "converged to a point at which the violation is locally least";
+      } else if (gives_up && !from_afar && functions.iterations() >= options.max_iterations) {
+        out.outcome = Outcome::iteration_limit;
+        out.message = "reached max_iterations before it was known whether there is a point within all constraints";
       }
     }
   } catch (const Halt& halt) {
