@@ -89,6 +89,7 @@ struct Planner::Impl {
   nlp::Solution run(const Options& with, double cost_scale, const Eigen::VectorXd& x, bool close = false);
   void part(nlp::Solution& solution, double cost_scale, Eigen::VectorXd apart);
   nlp::Solution within_cones(const Options& with, const Eigen::VectorXd& near, const Eigen::VectorXd& x);
+  Eigen::VectorXd cheaper_start(const Eigen::VectorXd& x, double cost_scale);
   nlp::Solution feasible(const Eigen::VectorXd& x);
   void tighten(nlp::Solution& solution, double cost_scale);
   Result solve(const Eigen::VectorXd& start);
@@ -254,6 +255,19 @@ nlp::Solution Planner::Impl::feasible(const Eigen::VectorXd& x) {
   return solution;
 }
 
+/// Where the kernel begins with a cost, given a motion within all constraints. Each point with a weight of its own
+/// leaves minima beside the one that is sought: the cheapest motion with one weight for each contact, which is one of
+/// theirs, comes first, and what is found from there costs no more.
+Eigen::VectorXd Planner::Impl::cheaper_start(const Eigen::VectorXd& x, double cost_scale) {
+  Options with = options;
+  with.forces = Forces::per_body;
+  with.solver = nlp::Solver::ipm;
+  const bool kernel = attempts_for(options, true).front().solver == nlp::Solver::ipm;
+  if (!kernel || !options.dynamics || options.forces != Forces::per_point) return x;
+  const nlp::Solution found = run(with, cost_scale, moved(x, options, with));
+  return found.outcome == nlp::Outcome::converged ? moved(found.x, with, options) : x;
+}
+
 /// Rows for every pair of discs in every interval would be ten times all others, and nearly none of them matters: those
 /// that come close on the way are kept apart, and the program is solved again, from a point without collisions where
 /// there is one: from within a collision a way out is rarely found.
@@ -318,7 +332,7 @@ Result Planner::Impl::solve(const Eigen::VectorXd& start) {
   if (cost && solution.outcome == nlp::Outcome::converged) {
     constexpr double kStartCost = 100.0;  // the objective at the start: its gradients are then of the size of the rows'
     cost_scale = kStartCost / std::max(measure.cost(apart), 1e-9);
-    solution = run(options, cost_scale, apart);
+    solution = run(options, cost_scale, inside ? apart : cheaper_start(apart, cost_scale));
     // A solver that is stopped early has moved its start into the interior, and may have nothing as good yet.
     const auto value = [&](const Eigen::VectorXd& at) { return measure.problem().worst_violation(at).value; };
     const bool worse =
