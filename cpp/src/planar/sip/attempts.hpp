@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "mcplan/nlp/solver.hpp"
 #include "mcplan/planar/sip/options.hpp"
 #include "nlp/has_ipopt.hpp"
 
@@ -74,6 +76,20 @@ inline std::optional<Forces> freer(Forces forces) {
   if (forces == Forces::uniform) return Forces::per_body;
   if (forces == Forces::per_body) return Forces::per_point;
   return std::nullopt;
+}
+
+/// Whether no further attempt is wanted.
+inline bool ends_all(nlp::Outcome outcome) {
+  return outcome == nlp::Outcome::converged || outcome == nlp::Outcome::time_limit ||
+         outcome == nlp::Outcome::interrupted;
+}
+
+/// The one of two solutions of a program without a cost that is worth keeping, with the later one's outcome.
+inline nlp::Solution better_of(nlp::Solution first, nlp::Solution second) {
+  if (first.worst.value >= second.worst.value || second.outcome == nlp::Outcome::converged) return second;
+  first.outcome = second.outcome;
+  first.message = second.message;
+  return first;
 }
 
 }  // namespace mcplan::sip

@@ -7,7 +7,6 @@
 
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/ipm/solver.hpp"
-#include "mcplan/nlp/solver.hpp"
 #include "mcplan/version.hpp"
 #include "planar/sip/attempts.hpp"
 #include "planar/sip/plannable.hpp"
@@ -18,19 +17,6 @@ namespace {
 
 constexpr int kKinematicOrder = 5;      // of angles and places, to a tenth of a millimetre
 constexpr double kCloseBarrier = 1e-4;  // the start is nearly the solution
-
-bool ends_all(nlp::Outcome outcome) {
-  return outcome == nlp::Outcome::converged || outcome == nlp::Outcome::time_limit ||
-         outcome == nlp::Outcome::interrupted;
-}
-
-/// The one of two solutions of a program without a cost that is worth keeping, with the later one's outcome.
-nlp::Solution better_of(nlp::Solution first, nlp::Solution second) {
-  if (first.worst.value >= second.worst.value || second.outcome == nlp::Outcome::converged) return second;
-  first.outcome = second.outcome;
-  first.message = second.message;
-  return first;
-}
 
 /// Instants at which the checker looks at a plan, at most.
 double instants_of(int intervals, double duration_s, double sample_s) {
