@@ -122,6 +122,29 @@ def test_a_jump_that_is_needed_is_made_and_without_flights_refused_by_name(tmp_p
     assert json.loads(capsys.readouterr().out)["status"] == "infeasible"
 
 
+def test_more_contacts_than_stand_are_refused_by_name():
+    with pytest.raises(
+        mp.errors.InvalidOptions,
+        match="min_contacts: must be at most the number of contacts at start and goal, 2, got 3",
+    ):
+        mp.plan("flat", min_contacts=3)
+    with pytest.raises(mp.errors.InvalidOptions, match="min_contacts"):
+        mp.plan("flat", min_contacts=-2)
+
+
+def test_nothing_more_is_tried_once_the_caller_has_stopped_the_search():
+    lines: list[str] = []
+
+    def stop_after_the_first_way(level: str, line: str) -> None:
+        lines.append(line)
+        if "phases: " in line:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        mp.plan(with_hole(0.8), logger=stop_after_the_first_way)
+    assert sum("phases: " in line for line in lines) == 1
+
+
 def test_no_flight_is_planned_where_none_is_allowed_and_the_same_input_gives_the_same_plan():
     one, other = (mp.plan("flat", allow_flight=False, record_history=True, threads=threads) for threads in (1, 2))
     assert one.plan == other.plan and flights(one.plan) == 0

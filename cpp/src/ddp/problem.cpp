@@ -73,6 +73,14 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
     start_contacts.push_back(from.contacts[e]);
     goal_contacts.push_back(to.contacts[e]);
   }
+  for (const ContactState* state : {&start_contacts, &goal_contacts}) {
+    const auto standing = std::count_if(state->begin(), state->end(), [](int contact) { return contact != kFree; });
+    if (standing < options.min_contacts)
+      throw InvalidOptions(
+          "min_contacts",
+          "must be at most the number of contacts at start and goal, " + text(static_cast<int>(standing)),
+          text(options.min_contacts));
+  }
   make_reference(state_of(to));
   make_slack();
 }

@@ -144,7 +144,7 @@ class Problem {
   void make_slack();
   void make_foothold_margins();
   int automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const;
-  Eigen::Vector3d strides_along(int l, const Eigen::Vector3d& way, double yaw_from, double yaw_to) const;
+  Eigen::Vector3d stride_of(int l) const;
   void make_reference(const Eigen::VectorXd& goal);
   void find_standing_solids();
   void place_footholds(const ContactSequence& sequence, Trajectory& guess) const;

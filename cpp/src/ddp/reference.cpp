@@ -13,10 +13,9 @@ namespace mcplan::ddp {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// How many strides it takes, end-effector l making `way` (non-dimensional) while the base turns: along the base's
-/// axes, level, and up. What lies across the base asks for more of them, since boxes are narrow, whatever lies ahead.
-/// In the paper's model a stride ends where the friction cone does, since forces point at the CoM there.
-Vector3d Problem::strides_along(int l, const Vector3d& way, double yaw_from, double yaw_to) const {
+/// What a stride of end-effector l covers at most (non-dimensional): along the base's heading, across it, and up. In
+/// the paper's model it ends where the friction cone does, since forces point at the CoM there.
+Vector3d Problem::stride_of(int l) const {
   double tangent = 0.0;
   for (int surface : rules.surfaces(l)) tangent = std::max(tangent, friction[surface]);
   const EndLimits& limit = limits[l];
@@ -24,37 +23,36 @@ Vector3d Problem::strides_along(int l, const Vector3d& way, double yaw_from, dou
   const double ahead = model == Model::wrench
                            ? std::numeric_limits<double>::infinity()
                            : std::sqrt(std::max(spread * spread - limit.nominal.y() * limit.nominal.y(), 0.0));
-  const double stride = std::min(limit.reach_max.x(), ahead) - std::max(limit.reach_min.x(), -ahead);
   const Vector3d size = limit.reach_max - limit.reach_min;
-  double across = 0.0;
-  constexpr int kPieces = 16;
-  for (int i = 0; i < kPieces; ++i) {
-    const double yaw = yaw_from + (yaw_to - yaw_from) * (i + 0.5) / kPieces;
-    across += std::abs(std::cos(yaw) * way.y() - std::sin(yaw) * way.x()) / kPieces;
-  }
-  const double level = stride > 0.0 ? way.head<2>().norm() / stride : 0.0;
-  return {level, size.y() > 0.0 ? across / size.y() : 0.0, std::abs(way.z()) / size.z()};
+  return {std::min(limit.reach_max.x(), ahead) - std::max(limit.reach_min.x(), -ahead), size.y(), size.z()};
 }
 
-/// As many steps as the end-effectors that stand need to cover the way, level and up, one after the other, a swing and
-/// a phase of full support each; at least the paper's 18.
+/// As many steps as the end-effectors that stand need to cover the way, level, across the base's heading and up, one
+/// after the other, a swing and a phase of full support each; at least the paper's 18. Boxes are narrow: what lies
+/// across asks for more strides, whatever lies ahead.
 int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const {
+  constexpr int kPieces = 64;
   double strides = 0.0;
   for (std::size_t l = 0; l < active.size(); ++l) {
     const int e = active[l];
     if (from.contacts[e] == kFree || to.contacts[e] == kFree) continue;
-    Vector3d own = Vector3d::Zero();
-    constexpr int kPieces = 16;
-    for (int i = 0; i < kPieces; ++i) {
-      const auto at = [&](int k) -> Vector3d {
-        const double share = static_cast<double>(k) / kPieces;
-        const Vector3d straight = share * (to.end_effectors_W[e] - from.end_effectors_W[e]);
-        return (route.empty() ? straight : point_on(route, share)) / units.length;
-      };
-      const auto yaw = [&](int k) { return from.yaw + (to.yaw - from.yaw) * k / kPieces; };
-      own += strides_along(static_cast<int>(l), at(i + 1) - at(i), yaw(i), yaw(i + 1));
+    const auto at = [&](int k) -> Vector3d {
+      const double share = static_cast<double>(k) / kPieces;
+      const Vector3d straight = share * (to.end_effectors_W[e] - from.end_effectors_W[e]);
+      return (route.empty() ? straight : point_on(route, share)) / units.length;
+    };
+    Vector3d way = Vector3d::Zero();
+    for (int k = 0; k < kPieces; ++k) {
+      const Vector3d piece = at(k + 1) - at(k);
+      const double yaw = from.yaw + (to.yaw - from.yaw) * (k + 0.5) / kPieces;
+      way += Vector3d(piece.head<2>().norm(), std::abs(std::cos(yaw) * piece.y() - std::sin(yaw) * piece.x()),
+                      std::abs(piece.z()));
     }
-    strides += std::ceil(std::min(own.maxCoeff() - 1e-9, 1e3));
+    const Vector3d stride = stride_of(static_cast<int>(l));
+    double most = 0.0;
+    for (int i = 0; i < 3; ++i)
+      if (stride[i] > 0.0) most = std::max(most, way[i] / stride[i]);
+    strides += std::ceil(std::min(most - 1e-9, 1e3));
   }
   return std::clamp(2 * static_cast<int>(strides) + 2, kPaperPhases, kPhasesMax);
 }

@@ -184,12 +184,13 @@ SwitchedDdp::Impl::Found SwitchedDdp::Impl::search(const Request& request, const
   return found;
 }
 
-/// At the start, on surfaces that hold them up.
+/// At the start and at the goal.
 bool SwitchedDdp::Impl::four_feet_stand() const {
   const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
+  const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
   int feet = 0;
   for (std::size_t e = 0; e < robot.end_effectors.size(); ++e)
-    feet += from.contacts[e] >= 0 && robot.end_effectors[e].kind == "foot";
+    feet += from.contacts[e] >= 0 && to.contacts[e] >= 0 && robot.end_effectors[e].kind == "foot";
   return feet >= 4;
 }
 
@@ -219,28 +220,29 @@ SwitchedDdp::Impl::Found SwitchedDdp::Impl::search_all(const Request& request, c
   std::optional<Found> best;
   const int by_feet = !given && four_feet_stand() ? 2 : 0,
             least = options.min_contacts < 0 ? by_feet : options.min_contacts;
-  const auto stopped = [&] { return best && !best->best.ok() && !ended_by_itself(best->ending); };
+  bool stopped = false;  // by the caller or a limit: whatever was found before, nothing more is tried
   const auto try_way = [&](const Way& way) {
-    if (best && deadline.passed()) return;
+    stopped = stopped || (best && (deadline.passed() || (options.stop && options.stop())));
+    if (stopped) return;
     Found found = search(request, way, deadline, report);
     tell(way, found);
+    stopped = !ended_by_itself(found.ending);
     if (!best || better(found.best.best(), best->best.best())) best.emplace(std::move(found));
   };
-  for (const Route& route : routes.detours)
-    if (!stopped()) try_way({route, false, least});
+  for (const Route& route : routes.detours) try_way({route, false, least});
   const bool trunk_passes = !routes.obstructed || !best || !best->best.ok();
-  if (trunk_passes && !stopped()) try_way({{}, options.allow_flight, least});
+  if (trunk_passes) try_way({{}, options.allow_flight, least});
   const auto flies = [](const Plan& plan) {
     return std::any_of(plan.phases.begin(), plan.phases.end(), [](const Phase& phase) {
       return std::all_of(phase.contacts.begin(), phase.contacts.end(), [](const Contact& c) { return c.surface < 0; });
     });
   };
-  if (!given && options.allow_flight && !stopped() && best->best.ok() && flies(best->best.best()->plan) &&
+  if (!given && options.allow_flight && best->best.ok() && flies(best->best.best()->plan) &&
       flight_needed(scene, robot).empty())
     try_way({{}, false, least});
   // Two feet are what a walk should have; a leap may have fewer.
   const auto hopeless = [&] { return !best->best.best() || violation_ratio(best->best.best()->worst) > kAcceptable; };
-  if (options.min_contacts < 0 && least > 0 && !stopped() && hopeless()) try_way({{}, options.allow_flight, 0});
+  if (options.min_contacts < 0 && least > 0 && hopeless()) try_way({{}, options.allow_flight, 0});
   return std::move(*best);
 }
 
