@@ -35,7 +35,7 @@ class Attempts {
   ContactSequence initial(Ending& ending);
   std::vector<Guess> guesses(const Incumbent& start, const Incumbent* warm) const;
   Ending attempt(std::vector<Guess> guesses, const Tuning& tuning);
-  Incumbent cheapest(std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending);
+  Incumbent cheapest(const std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending);
   Ending restart(Ending ending, const ContactSequence& initial);
   double further_inside() const;
   Ending late(Ending ending) const;

@@ -166,6 +166,11 @@ constexpr double kTrialGain = 2e-3;
 constexpr std::size_t kWholeSequenceBudget = 1000;
 /// Steps by which a swing is moved, and steps between two swings that may be exchanged. Chosen.
 constexpr int kSwingShifts[] = {-2, -1, 1, 2}, kExchangeSteps = 6;
+/// Time limits [s] that leave less are met with the caller's thread alone, and how often that asks whether to stop
+/// while it waits for others [us]. Chosen.
+constexpr double kAheadRest_s = 2.0;
+constexpr int kAskPause_us = 500;
+
 /// Candidates from which on threads save more than they cost. Measured; the paper found the same.
 constexpr std::size_t kWorthThreads = 400;
 

@@ -122,7 +122,7 @@ Ending Search::run_paper(Incumbent& now, int iterations, const Tuning& tuning) {
     record(std::move(row), now, schedule);
     report_->paper_cost = now.evaluation.cost;
     report_->paper_verdict = verdict_of(report_->history, w.contact_max);
-    if (watcher_) watcher_(now, tuning);
+    show(now, tuning);
     schedule.contact_weight = std::min(w.contact_growth * schedule.contact_weight, w.contact_max);
   }
   return Ending::done;

@@ -36,7 +36,7 @@ Ending Search::optimise(Incumbent& now, const polish::Settings& settings, const 
       row.index = ++report_->iterations;
       row.step = progress.step;
       record(std::move(row), now, schedule);
-      if (watcher_) watcher_(now, tuning);
+      show(now, tuning);
       return !should_stop(ending);
     });
   }

@@ -8,10 +8,18 @@
 
 #include "ddp/constants.hpp"
 #include "ddp/edits.hpp"
+#include "ddp/lanes.hpp"
 #include "ddp/whole_sequence.hpp"
 
 namespace mcplan::ddp {
 namespace {
+
+/// What came of a changed sequence.
+struct Trial {
+  Incumbent incumbent;
+  Ending ending = Ending::done;
+  bool improved = false;
+};
 
 int differences(const ContactSequence& a, const ContactSequence& b) {
   int count = 0;
@@ -29,7 +37,40 @@ Search::Search(const Problem& problem, const Deadline& deadline, Report& report)
       model_(problem),
       values_(model_),
       pricing_(problem.options.threads),
-      evaluate_(problem) {}
+      evaluate_(problem),
+      stop_(problem.options.stop) {}
+
+Search::~Search() = default;
+
+Lanes& Search::lanes() {
+  if (!lanes_) lanes_ = std::make_unique<Lanes>(*this, *deadline_);
+  return *lanes_;
+}
+
+void Search::stand_in_for(const Search& main, Trace& trace, StopRequest stop) {
+  trace.first = trace.report.iterations = main.report_->iterations;
+  trace_ = &trace;
+  report_ = &trace.report;
+  polish_proximal_ = main.polish_proximal_;
+  stop_ = std::move(stop);
+}
+
+bool Search::replay(Trace&& trace, int rows) {
+  std::vector<Iteration>& history = trace.report.history;
+  const bool all = rows < 0 || rows >= static_cast<int>(history.size());
+  const int shift = report_->iterations - trace.first;
+  const int end = all ? trace.report.iterations : history[rows - 1].index;
+  if (shift + end >= problem_->options.max_iterations) return false;
+  for (std::size_t i = 0; i < (all ? history.size() : rows); ++i) {
+    report_->iterations = history[i].index += shift;
+    tell(std::move(history[i]));
+    show(trace.iterates[i].first, trace.iterates[i].second);
+  }
+  report_->iterations = end + shift;
+  report_->parallel_loops += trace.report.parallel_loops;
+  for (const auto& [part, time_s] : trace.report.timing_s) report_->timing_s[part] += time_s;
+  return true;
+}
 
 Schedule Search::full_schedule(const Tuning& tuning) const {
   Schedule schedule;
@@ -44,7 +85,7 @@ Evaluation Search::evaluate(const Incumbent& at, const Tuning& tuning) {
 }
 
 bool Search::should_stop(Ending& ending) const {
-  if (problem_->options.stop && problem_->options.stop())
+  if (interrupted_ || (stop_ && stop_()))
     ending = Ending::interrupted;
   else if (deadline_->passed())
     ending = Ending::time_limit;
@@ -61,9 +102,13 @@ void Search::record(Iteration&& row, const Incumbent& now, const Schedule& sched
   row.defect = now.evaluation.defect_max;
   row.contact_weight = schedule.contact_weight;
   row.proximal_weight = schedule.proximal_weight;
-  report_->switches += row.switches;
   if (problem_->options.record_history) row.sequence = now.sequence;
-  if (const Logger& logger = problem_->options.logger) {
+  tell(std::move(row));
+}
+
+void Search::tell(Iteration&& row) {
+  report_->switches += row.switches;
+  if (const Logger& logger = problem_->options.logger; logger && !trace_) {
     char line[160];
     if (row.index % 20 == 1)
       logger(LogLevel::info, "iter       cost      merit    defect  w_contact  proximal  step  switches");
@@ -72,6 +117,11 @@ void Search::record(Iteration&& row, const Incumbent& now, const Schedule& sched
     logger(LogLevel::info, line);
   }
   report_->history.push_back(std::move(row));
+}
+
+void Search::show(const Incumbent& now, const Tuning& tuning) {
+  if (trace_) trace_->iterates.emplace_back(now, tuning);
+  if (watcher_) watcher_(now, tuning);
 }
 
 /// Shorten the Newton step until the true merit falls below `merit`; `best` is the best point tried.
@@ -180,7 +230,7 @@ Ending Search::discover(Incumbent& now, double proximal_weight, const Tuning& tu
     if (should_stop(ending)) return ending;
     ending = iterate(now, schedule, true);
     if (ending != Ending::done) return ending;
-    if (watcher_) watcher_(now, tuning);
+    show(now, tuning);
     at_full += schedule.contact_weight >= w.contact_max;
     quiet = schedule.contact_weight >= w.contact_max && report_->history.back().switches == 0 ? quiet + 1 : 0;
     schedule.contact_weight = std::min(w.contact_growth * schedule.contact_weight, w.contact_max);
@@ -199,13 +249,15 @@ Ending Search::polish(Incumbent& now, int iterations, double tolerance, double g
     if (should_stop(ending)) return ending;
     ending = iterate(now, schedule, false);
     if (ending != Ending::done) return ending;
-    if (watcher_) watcher_(now, tuning);
+    show(now, tuning);
     const double merit = now.evaluation.merit();
     converged_iterations = std::abs(last - merit) < tolerance * std::abs(merit) ? converged_iterations + 1 : 0;
     if (converged_iterations >= kConvergedIterations && now.evaluation.defect_max < kConvergedDefect)
       return Ending::done;
     if (i % kWindow == kWindow - 1) {
-      if (i > kWindow && merit - kWindowsAhead * (window_start - merit) > give_up_above) return Ending::done;
+      const double foreseen = merit - kWindowsAhead * (window_start - merit);
+      if (trace_ && i > kWindow) trace_->foreseen.emplace_back(static_cast<int>(report_->history.size()), foreseen);
+      if (i > kWindow && foreseen > give_up_above) return Ending::done;
       window_start = merit;
     }
     last = merit;
@@ -252,30 +304,42 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now, const 
 }
 
 Ending Search::refine(Incumbent& now, const Tuning& tuning) {
-  Ending ending = Ending::done;
   polish_proximal_ = kTrialProximal;
   const std::size_t trials = exact_contacts() ? kExactTrials : kTrials;
   // The interior point ends at the optimum of a sequence from wherever it begins: no sequence is tried twice.
   std::set<ContactSequence> tried{now.sequence};
   for (int round = 0; round < kRefineRounds; ++round) {
-    const std::vector<ContactSequence> changes = ranked_changes(now, tuning);
+    std::vector<ContactSequence> changes;
+    std::set<ContactSequence> fresh;
+    for (ContactSequence& change : ranked_changes(now, tuning)) {
+      if (changes.size() == trials) break;
+      if (!exact_contacts() || (tried.count(change) == 0 && fresh.insert(change).second))
+        changes.push_back(std::move(change));
+    }
+    std::vector<Trial> made(changes.size());
+    const double merit = now.evaluation.merit();
+    const Lanes::Run attempt = [&](int i, Search& search) {
+      Trial& trial = made[i];
+      trial.incumbent = now;
+      trial.incumbent.sequence = changes[i];
+      trial.ending = search.polish_trial(trial.incumbent, merit, tuning);
+      trial.improved = trial.incumbent.evaluation.merit() < merit * (1.0 - kTrialGain);
+      return trial.improved || (trial.ending != Ending::done && trial.ending != Ending::broke_down);
+    };
+    lanes().run(static_cast<int>(changes.size()), attempt);
     bool improved = false;
-    std::size_t made = 0;
-    for (std::size_t i = 0; i < changes.size() && made < trials && !improved; ++i) {
-      if (exact_contacts() && !tried.insert(changes[i]).second) continue;
-      ++made;
-      Incumbent trial = now;
-      trial.sequence = changes[i];
-      const double merit = now.evaluation.merit();
-      ending = polish_trial(trial, merit, tuning);
-      improved = trial.evaluation.merit() < merit * (1.0 - kTrialGain);
+    for (int i = 0; i < static_cast<int>(changes.size()) && !improved; ++i) {
+      if (!lanes().tell(i)) attempt(i, *this);
+      if (exact_contacts()) tried.insert(changes[i]);
+      Trial& trial = made[i];
+      improved = trial.improved;
       if (improved) {
-        const int switches = differences(trial.sequence, now.sequence);
+        const int switches = differences(changes[i], now.sequence);
         report_->switches += switches;
         report_->history.back().switches += switches;
-        now = std::move(trial);
+        now = std::move(trial.incumbent);
       }
-      if (ending != Ending::done && ending != Ending::broke_down) return ending;
+      if (trial.ending != Ending::done && trial.ending != Ending::broke_down) return trial.ending;
     }
     if (!improved) break;
   }

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
+class Lanes;
+
 /// Where a search stands: motion, contact sequence and what they truly cost.
 struct Incumbent {
   Trajectory trajectory;
@@ -49,6 +52,9 @@ struct Incumbent {
 class Search {
  public:
   Search(const Problem& problem, const Deadline& deadline, Report& report);
+  ~Search();
+  Search(const Search&) = delete;
+  Search& operator=(const Search&) = delete;
 
   /// Switched DDP with growing w_compl (Tazaki, Algorithm 1) and a proximal term.
   Ending discover(Incumbent& now, double proximal_weight, const Tuning& tuning);
@@ -85,6 +91,28 @@ class Search {
   using Watcher = std::function<void(const Incumbent&, const Tuning&)>;
   void watch(Watcher watcher) { watcher_ = std::move(watcher); }
 
+  /// What a search has done for another one at the same problem, which can tell of it as if it had been there.
+  struct Trace {
+    Report report;  ///< its rows, and what it has taken; iterations are counted from the other's on
+    int first = 0;  ///< the other's at its beginning
+    std::vector<std::pair<Incumbent, Tuning>> iterates;  ///< one a row
+    /// Merits that polish() foresaw, after so many rows: it would have given up for a lower one.
+    std::vector<std::pair<int, double>> foreseen;
+  };
+
+  /// Go on as `main` would, asking `stop` for the caller's: iterates and rows go to the trace, nothing is logged.
+  void stand_in_for(const Search& main, Trace& trace, StopRequest stop);
+
+  /// Tell of the first `rows` rows of a trace, or of all for a negative number. False, and nothing is told, where the
+  /// limit on iterations would have cut it short.
+  bool replay(Trace&& trace, int rows);
+
+  /// Every later stage ends as interrupted.
+  void interrupt() { interrupted_ = true; }
+
+  /// Other threads' searches at the problem.
+  Lanes& lanes();
+
   const Problem& problem() const { return *problem_; }
   LocalModel& model() { return model_; }
   Report& report() { return *report_; }
@@ -108,6 +136,8 @@ class Search {
   bool exact_contacts() const { return problem_->options.polish == Polish::interior_point; }
   bool should_stop(Ending& ending) const;
   void record(Iteration&& row, const Incumbent& now, const Schedule& schedule);
+  void tell(Iteration&& row);
+  void show(const Incumbent& now, const Tuning& tuning);
 
   const Problem* problem_;
   const Deadline* deadline_;
@@ -120,6 +150,10 @@ class Search {
   Candidate stay_, moved_;
   double polish_proximal_ = kPolishProximal;
   Watcher watcher_;
+  Trace* trace_ = nullptr;
+  StopRequest stop_;
+  bool interrupted_ = false;
+  std::unique_ptr<Lanes> lanes_;
 };
 
 }  // namespace mcplan::ddp
