@@ -9,7 +9,6 @@
 #include "ddp/constants.hpp"
 #include "ddp/edits.hpp"
 #include "ddp/lanes.hpp"
-#include "ddp/whole_sequence.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -287,7 +286,8 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now, const 
   }
   const Stopwatch watch(report_->timing_s, "whole_sequence");
   if (problem_->options.whole_sequence_moves && !deadline_->passed()) {
-    PricedSequence whole = best_whole_sequence(model_, values_, kWholeSequenceBudget);
+    if (!graph_) graph_ = std::make_unique<SequenceGraph>(*problem_, kWholeSequenceBudget);
+    PricedSequence whole = best_whole_sequence(*graph_, model_, values_);
     if (!whole.sequence.empty() && whole.sequence != now.sequence) changes.push_back({whole.cost, whole.sequence});
   }
   for (ContactSequence& edited : swing_edits(problem_->rules, now.sequence)) {

@@ -14,6 +14,7 @@
 #include "ddp/polish/interior_point.hpp"
 #include "ddp/pricing.hpp"
 #include "ddp/value_functions.hpp"
+#include "ddp/whole_sequence.hpp"
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/plan/report.hpp"
 
@@ -154,6 +155,7 @@ class Search {
   StopRequest stop_;
   bool interrupted_ = false;
   std::unique_ptr<Lanes> lanes_;
+  std::unique_ptr<SequenceGraph> graph_;  ///< of the problem, made when it is needed
 };
 
 }  // namespace mcplan::ddp

@@ -1,18 +1,12 @@
 #include "ddp/whole_sequence.hpp"
 
 #include <Eigen/Cholesky>
-#include <map>
+#include <algorithm>
 #include <set>
 #include <utility>
 
 namespace mcplan::ddp {
 namespace {
-
-struct Node {
-  Quadratic value;
-  ContactState next;
-  double rank = 0.0;
-};
 
 /// States that can be reached from the start at each step and still reach the goal.
 std::vector<std::set<ContactState>> reachable_states(const Problem& problem, std::size_t limit) {
@@ -40,58 +34,84 @@ std::vector<std::set<ContactState>> reachable_states(const Problem& problem, std
 
 }  // namespace
 
-PricedSequence best_whole_sequence(LocalModel& model, ValueFunctions& values, std::size_t max_riccati_steps) {
-  const Problem& problem = model.problem();
-  const int n = problem.steps;
-  PricedSequence out;
-  const auto states = reachable_states(problem, max_riccati_steps);
-  if (states.empty()) return out;
+SequenceGraph::SequenceGraph(const Problem& problem, std::size_t max_steps) {
+  std::size_t pairs = 0;
+  for (const std::set<ContactState>& states : reachable_states(problem, max_steps)) {
+    nodes_.emplace_back();
+    for (const ContactState& state : states) nodes_.back().push_back({state, {}});
+  }
+  for (std::size_t k = 0; k + 1 < nodes_.size(); ++k)
+    for (Node& node : nodes_[k]) {
+      const std::vector<Node>& later = nodes_[k + 1];
+      for (const ContactState& next : problem.rules.successors(node.state)) {
+        const auto at = std::lower_bound(later.begin(), later.end(), next,
+                                         [](const Node& a, const ContactState& b) { return a.state < b; });
+        if (at != later.end() && at->state == next) node.next.push_back(static_cast<int>(at - later.begin()));
+      }
+      pairs += node.next.size();
+      if (pairs <= max_steps) continue;
+      nodes_.clear();
+      return;
+    }
+}
 
-  std::map<ContactState, Node> later, now;
-  Node last;
-  last.value = model.base(n);
-  model.add_contacts(n, problem.goal_contacts, last.value);
-  later[problem.goal_contacts] = last;
-  std::vector<std::map<ContactState, ContactState>> chosen(n);
+PricedSequence best_whole_sequence(const SequenceGraph& graph, LocalModel& model, ValueFunctions& values) {
+  /// The way from a node to the goal.
+  struct Way {
+    Quadratic value;
+    double rank = 0.0;
+    bool found = false;
+  };
+  PricedSequence out;
+  const auto& nodes = graph.nodes();
+  if (nodes.empty()) return out;
+  const Problem& problem = model.problem();
+  const int n = model.steps();
+  std::vector<Way> later(1), now;
+  later[0].value = model.base(n);
+  later[0].found = true;
+  model.add_contacts(n, problem.goal_contacts, later[0].value);
+  std::vector<std::vector<int>> chosen(n);
 
   Quadratic candidate;
   Eigen::LLT<Eigen::MatrixXd> factor;
   Eigen::MatrixXd h;
   Eigen::VectorXd g;
   for (int k = n - 1; k >= 0; --k) {
-    now.clear();
-    for (const ContactState& state : states[k]) {
-      Node best;
-      bool found = false;
-      for (const ContactState& next : problem.rules.successors(state)) {
-        const auto follower = later.find(next);
-        if (follower == later.end()) continue;
-        if (static_cast<std::size_t>(++out.riccati_steps) > max_riccati_steps) return {};
-        if (!values.backward_step(k, state, follower->second.value, candidate)) continue;
-        candidate.c += change_cost(problem, state, next);
+    now.resize(nodes[k].size());
+    chosen[k].assign(nodes[k].size(), 0);
+    for (std::size_t i = 0; i < nodes[k].size(); ++i) {
+      const SequenceGraph::Node& node = nodes[k][i];
+      Way& best = now[i];
+      best.found = false;
+      for (int next : node.next) {
+        if (!later[next].found) continue;
+        ++out.riccati_steps;
+        if (!values.backward_step(k, node.state, later[next].value, candidate)) continue;
+        candidate.c += change_cost(problem, node.state, nodes[k + 1][next].state);
         h = candidate.h + values.U(k).h;
         g = candidate.g + values.U(k).g;
         factor.compute(h);
         if (factor.info() != Eigen::Success) continue;
         factor.matrixL().solveInPlace(g);
         const double rank = candidate.c + values.U(k).c - 0.5 * g.squaredNorm();
-        if (found && !clearly_less(rank, best.rank)) continue;
+        if (best.found && !clearly_less(rank, best.rank)) continue;
         best.rank = rank;
-        best.next = next;
+        best.found = true;
+        chosen[k][i] = next;
         std::swap(best.value, candidate);
-        found = true;
       }
-      if (!found) continue;
-      chosen[k][state] = best.next;
-      now.emplace(state, std::move(best));
     }
     std::swap(later, now);
   }
-  const auto root = later.find(problem.start_contacts);
-  if (root == later.end()) return out;
-  out.cost = root->second.rank;
-  out.sequence.push_back(problem.start_contacts);
-  for (int k = 0; k < n; ++k) out.sequence.push_back(chosen[k].at(out.sequence.back()));
+  if (!later[0].found) return out;
+  out.cost = later[0].rank;
+  int at = 0;
+  out.sequence.push_back(nodes[0][at].state);
+  for (int k = 0; k < n; ++k) {
+    at = chosen[k][at];
+    out.sequence.push_back(nodes[k + 1][at].state);
+  }
   return out;
 }
 

@@ -42,7 +42,7 @@ TEST_CASE("the price of a whole sequence is that of its own Riccati recursion, a
         REQUIRE(values.backward(sequence, 12));
         REQUIRE(values.forward(sequence, 0));
         const double present = full_price(model, sequence);
-        const PricedSequence found = best_whole_sequence(model, values, kNoLimit);
+        const PricedSequence found = best_whole_sequence(SequenceGraph(problem, kNoLimit), model, values);
         REQUIRE(found.sequence.size() == 13);
         CHECK(problem.rules.valid(found.sequence));
         CHECK(found.sequence.front() == problem.start_contacts);
@@ -68,7 +68,7 @@ TEST_CASE("against all 183 sequences of six steps: never below the best, and nea
     ValueFunctions values(model);
     REQUIRE(values.backward(sequence, 6));
     REQUIRE(values.forward(sequence, 0));
-    const PricedSequence found = best_whole_sequence(model, values, kNoLimit);
+    const PricedSequence found = best_whole_sequence(SequenceGraph(problem, kNoLimit), model, values);
     REQUIRE_FALSE(found.sequence.empty());
     double best = std::numeric_limits<double>::infinity();
     int better = 0;
@@ -98,10 +98,12 @@ TEST_CASE("too many states for the budget: nothing, and no time spent") {
   ValueFunctions values(model);
   REQUIRE(values.backward(sequence, 12));
   REQUIRE(values.forward(sequence, 0));
-  const PricedSequence all = best_whole_sequence(model, values, kNoLimit);
+  const PricedSequence all = best_whole_sequence(SequenceGraph(problem, kNoLimit), model, values);
   CHECK(all.riccati_steps > 100);
-  const PricedSequence some = best_whole_sequence(model, values, 50);
+  const PricedSequence some = best_whole_sequence(SequenceGraph(problem, 50), model, values);
   CHECK(some.sequence.empty());
-  CHECK(some.riccati_steps <= 51);
-  CHECK(best_whole_sequence(model, values, static_cast<std::size_t>(all.riccati_steps)).sequence == all.sequence);
+  CHECK(some.riccati_steps == 0);
+  CHECK(
+      best_whole_sequence(SequenceGraph(problem, static_cast<std::size_t>(all.riccati_steps)).sequence == all.sequence),
+      model, values);
 }
