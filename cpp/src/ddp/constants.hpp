@@ -71,6 +71,9 @@ constexpr double kRounding = 0.03;
 constexpr double kTrunkRadius = 0.15;
 /// Room beside a sole that swings past such a solid, in heights of the CoM. Chosen.
 constexpr double kSwingRoom = 0.02;
+/// Room that swings keep above solids and beside them, in heights of the CoM; the most that a foot is lifted, in usual
+/// swing heights: the largest that a plan's swings are chosen from. Chosen.
+constexpr double kPathRoom = 0.01, kLiftMax = 4.0;
 /// Distance from the reference of the CoM, in heights of it, within which solids are looked at. Chosen: ground is one
 /// away, and robots crouch.
 constexpr double kStanding = 0.6;

@@ -1,0 +1,104 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "ddp/constants.hpp"
+#include "ddp/cost_terms.hpp"
+
+namespace mcplan::ddp {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The swing of a free foot over a phase, as high as it can be lifted, keeps the corners of its sole out of the solids
+/// (not in the paper; once a swing has caught an edge). At shares s of the straight way the lift is at most
+///
+///     min(4 swing_height 16 s^2 (1 - s)^2,  z_CoM + reach_max_z - z),
+///
+/// which is what the swings of a plan are chosen from. A sole that is too low goes up with the CoM where that is what
+/// limits it, else beside the nearest edge: by a foothold further from it.
+class SwingPath final : public CostTerm {
+ public:
+  SwingPath() : CostTerm("swing_path", Scope::free, 30) {}
+
+  bool applies(const StepView& step) const override {
+    return step.schedule.tuning.clear_swings && step.between_knots() &&
+           step.problem.robot.end_effectors[step.problem.active[step.l]].kind == "foot";
+  }
+
+  void write(const StepView& step, Rows& rows) const override {
+    const Problem& problem = step.problem;
+    const Layout& at = problem.layout;
+    const Vector3d from = step.x.segment<3>(at.end(step.l)), way = step.u->segment<3>(at.stride(step.l));
+    const Vector3d middle = from + 0.5 * way;
+    const double far = 0.5 * way.norm() + problem.limits[step.l].half_size.norm() + 2.0 * kPathRoom;
+    for (std::size_t i = 0; i < problem.polygons.size(); ++i) {
+      const Polygon& polygon = problem.polygons[i];
+      if (polygon.outside(middle) > far) continue;
+      // The sole's corners count from a tenth of the time on; between the outermost instants the CoM is known.
+      constexpr double kFirst = 0.12;
+      write_at(step, i, kFirst, nullptr, rows);
+      for (std::size_t j = 1; j + 1 < step.instants.size(); ++j)
+        if (step.instants[j].fraction > kFirst && step.instants[j].fraction < 1.0 - kFirst)
+          write_at(step, i, step.instants[j].fraction, &step.instants[j], rows);
+      write_at(step, i, 1.0 - kFirst, nullptr, rows);
+    }
+  }
+
+ private:
+  static void write_at(const StepView& step, std::size_t solid, double share, const Instant* instant, Rows& rows) {
+    const Problem& problem = step.problem;
+    const Layout& at = problem.layout;
+    const Polygon& polygon = problem.polygons[solid];
+    const EndLimits& limit = problem.limits[step.l];
+    Vector3d place = step.x.segment<3>(at.end(step.l)) + share * step.u->segment<3>(at.stride(step.l));
+    double lift = kLiftMax * problem.swing_height * 16.0 * share * share * (1.0 - share) * (1.0 - share);
+    const bool limited = instant && instant->com.z() + limit.reach_max.z() - place.z() < lift;
+    if (limited) lift = std::max(instant->com.z() + limit.reach_max.z() - place.z(), 0.0);
+    place.z() += lift;
+    // The corner that is deepest inside, by the shorter way out of it: up or beside an edge.
+    const Eigen::Rotation2Dd heading(step.sole_yaw);
+    double deepest = 0.0;
+    int side = -1;
+    Vector3d corner_inside;
+    for (double x : {-1.0, 1.0})
+      for (double y : {-1.0, 1.0}) {
+        Vector3d corner = place;
+        corner.head<2>() += heading * Eigen::Vector2d(x * limit.half_size.x(), y * limit.half_size.y());
+        const double height = polygon.height(corner), beside = polygon.outside(corner);
+        if (height < -problem.thickness[solid]) continue;
+        const double depth = std::min(kPathRoom - height, kPathRoom - beside);
+        if (!(depth > deepest)) continue;
+        deepest = depth;
+        corner_inside = corner;
+        side = 0;
+        for (int e = 1; e < polygon.edge_count(); ++e)
+          if (polygon.overshoot(e, corner) > polygon.overshoot(side, corner)) side = e;
+      }
+    if (side < 0) return;
+    const double up = polygon.height(corner_inside) - kPathRoom;
+    const double away = polygon.overshoot(side, corner_inside) - kPathRoom;
+    const bool raise = limited && lift > 0.0 && up > away;
+    const double weight = step.schedule.interior_weight, value = raise ? up : away;
+    if (!rows.with_gradient()) {
+      rows.add_value(weight, value);
+      return;
+    }
+    auto g = rows.add_dense(weight, value);
+    Vector3d along = raise ? polygon.normal_W() : polygon.edge_outward_W(side);
+    if (raise) instant->add_along({0.0, 0.0, along.z()}, Vector3d::Zero(), g);
+    if (limited) along.z() = 0.0;  // the lift makes up for where the foot is
+    g.segment<3>(at.end(step.l)) += along;
+    g.segment<3>(at.nx() + at.stride(step.l)) += share * along;
+  }
+};
+
+}  // namespace
+
+namespace cost {
+const CostTerm& swing_path() {
+  static const SwingPath term;
+  return term;
+}
+}  // namespace cost
+
+}  // namespace mcplan::ddp
