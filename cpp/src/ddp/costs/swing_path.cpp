@@ -10,7 +10,8 @@ namespace {
 using Eigen::Vector3d;
 
 /// The swing of a free foot over a phase, as high as it can be lifted, keeps the corners of its sole out of the solids
-/// (not in the paper; once a swing has caught an edge). At shares s of the straight way the lift is at most
+/// (not in the paper; once a swing has caught an edge). A share s of the phase's time after its start the foot is at a
+/// share s^2 (3 - 2 s) of the straight way, lifted by at most
 ///
 ///     min(4 swing_height 16 s^2 (1 - s)^2,  z_CoM + reach_max_z - z),
 ///
@@ -34,24 +35,25 @@ class SwingPath final : public CostTerm {
     for (std::size_t i = 0; i < problem.polygons.size(); ++i) {
       const Polygon& polygon = problem.polygons[i];
       if (polygon.outside(middle) > far) continue;
-      // The sole's corners count from a tenth of the time on; between the outermost instants the CoM is known.
-      constexpr double kFirst = 0.12;
-      write_at(step, i, kFirst, nullptr, rows);
-      for (std::size_t j = 1; j + 1 < step.instants.size(); ++j)
-        if (step.instants[j].fraction > kFirst && step.instants[j].fraction < 1.0 - kFirst)
-          write_at(step, i, step.instants[j].fraction, &step.instants[j], rows);
-      write_at(step, i, 1.0 - kFirst, nullptr, rows);
+      // The sole's corners count in the middle 80 % of the time, of which the CoM is known at the instants.
+      constexpr double kEnds[] = {0.1, 0.15, 0.85, 0.9};
+      for (const double time : kEnds) write_at(step, i, time, nullptr, rows);
+      for (std::size_t j = 1; j + 1 < step.instants.size(); ++j) {
+        const double time = step.instants[j].fraction;
+        if (time > kEnds[0] && time < kEnds[3]) write_at(step, i, time, &step.instants[j], rows);
+      }
     }
   }
 
  private:
-  static void write_at(const StepView& step, std::size_t solid, double share, const Instant* instant, Rows& rows) {
+  static void write_at(const StepView& step, std::size_t solid, double s, const Instant* instant, Rows& rows) {
     const Problem& problem = step.problem;
     const Layout& at = problem.layout;
     const Polygon& polygon = problem.polygons[solid];
     const EndLimits& limit = problem.limits[step.l];
+    const double share = s * s * (3.0 - 2.0 * s);
     Vector3d place = step.x.segment<3>(at.end(step.l)) + share * step.u->segment<3>(at.stride(step.l));
-    double lift = kLiftMax * problem.swing_height * 16.0 * share * share * (1.0 - share) * (1.0 - share);
+    double lift = kLiftMax * problem.swing_height * 16.0 * s * s * (1.0 - s) * (1.0 - s);
     const bool limited = instant && instant->com.z() + limit.reach_max.z() - place.z() < lift;
     if (limited) lift = std::max(instant->com.z() + limit.reach_max.z() - place.z(), 0.0);
     place.z() += lift;
