@@ -25,7 +25,9 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0, metavar="K", help="Seed of the first scene.")
     parser.add_argument("--robot", action="append", metavar="R", help="Robot; several take turns.")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="Number of processes.")
-    parser.add_argument("--out", type=Path, default=Path("out/solvable"), metavar="DIR", help="Folder for JSON and CSV.")
+    parser.add_argument(
+        "--out", type=Path, default=Path("out/solvable"), metavar="DIR", help="Folder for JSON and CSV."
+    )
     parser.add_argument("--save", nargs=3, metavar=("SEED", "ROBOT", "FILE"), help="Save the scene of a seed instead.")
     given = parser.parse_args()
     if given.save:

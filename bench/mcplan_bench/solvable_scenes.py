@@ -34,9 +34,10 @@ MAX_TILT_RAD = math.radians(15.0)
 _ROOM_M, _BESIDE_M = 0.02, 0.005
 #: Ratios of a reach box that a step along, up and across uses at most, of the CoM's height that it does along.
 _ALONG, _UP, _OF_HEIGHT = 0.55, 0.25, 0.30
-#: Kinds by turns of ten; robots whose hands do not bear half the weight have patches instead of a hold.
+#: Kinds by turns of ten; instead of a hold, robots whose hands do not bear half the weight have patches, and instead of a
+#: jump those whose legs do not give way by a fifth of the CoM's height: g1's by an eighth, and it is not known to jump.
 KINDS = ("patches", "strips", "patches", "jump", "patches", "strips", "stairs", "patches", "hold", "patches")
-#: Gap beyond the longest step, and CoM heights a gap may be long: humanoid44, talos and g1 jump these on level ground.
+#: Gap beyond the longest step, and CoM heights a gap may be long: humanoid44 and talos jump these on level ground.
 _JUMP_OVER, _JUMP_HEIGHTS = 1.1, 1.1
 
 
@@ -59,7 +60,6 @@ class Gait:
     feet_y: float  # a foot's nominal distance from the middle
     box: Array  # size of the smaller reach box, along, across, up
     height: float  # CoM
-    friction_stride: float
 
     @property
     def stride(self) -> tuple[float, float]:
@@ -78,7 +78,7 @@ def gait_of(robot: Robot) -> Gait:
     sizes = np.array([np.asarray(foot.reach_max_B) - np.asarray(foot.reach_min_B) for foot in feet])
     half = (float(feet[0].half_size[0]), float(feet[0].half_size[1]))
     y = float(abs(feet[0].nominal_B[1]))
-    return Gait(half, y, sizes.min(axis=0), float(robot.com_height), 0.0)
+    return Gait(half, y, sizes.min(axis=0), float(robot.com_height))
 
 
 def solvable_scene(seed: int, robot: Robot) -> Scene:
@@ -107,7 +107,8 @@ def solvable_scene(seed: int, robot: Robot) -> Scene:
 def kind_of(seed: int, robot: Robot) -> str:
     """The kind of a seed's scene for a robot."""
     kind = KINDS[seed % len(KINDS)]
-    return "patches" if kind == "hold" and not _hands_bear(robot) else kind
+    able = {"hold": _hands_bear(robot), "jump": _legs_give_way(robot)}
+    return kind if able.get(kind, True) else "patches"
 
 
 def lay(seed: int, robot: Robot, rng: Random) -> Laid:
@@ -122,6 +123,10 @@ def lay(seed: int, robot: Robot, rng: Random) -> Laid:
 def _hands_bear(robot: Robot) -> bool:
     hands = [end for end in robot.end_effectors if end.kind == "hand"]
     return len(hands) == 2 and all(hand.max_force > 0.75 * robot.mass * GRAVITY for hand in hands)
+
+
+def _legs_give_way(robot: Robot) -> bool:
+    return float(gait_of(robot).box[2]) > 0.2 * float(robot.com_height)
 
 
 def patches(rng: Random, gait: Gait) -> Laid:
@@ -180,7 +185,11 @@ def strips(rng: Random, gait: Gait) -> Laid:
         surface = _rectangle("end" if last else f"strip_{i + 1}", (begin, begin + length), (-1.0, 1.0))
         for vertex in surface:
             vertex[2] = z + tilt[0] * (vertex[0] - begin) + tilt[1] * vertex[1]
-        surfaces.append(Surface(name="end" if last else f"strip_{i + 1}", vertices_W=surface, end_effectors=["foot"], friction=FRICTION))
+        surfaces.append(
+            Surface(
+                name="end" if last else f"strip_{i + 1}", vertices_W=surface, end_effectors=["foot"], friction=FRICTION
+            )
+        )
         z += tilt[0] * length
         end, before = begin + length, tilt
     goal = end - 0.9 + half_x + 0.2
@@ -197,7 +206,9 @@ def stairs(rng: Random, gait: Gait) -> Laid:
     for i in range(count):
         begin = first + i * depth
         last = i == count - 1
-        surfaces.append(_level("end" if last else f"tread_{i + 1}", begin, begin + (1.2 if last else depth), (i + 1) * rise))
+        surfaces.append(
+            _level("end" if last else f"tread_{i + 1}", begin, begin + (1.2 if last else depth), (i + 1) * rise)
+        )
     return Laid(surfaces, (first + (count - 1) * depth + half_x + 0.15, count * rise), "stairs")
 
 

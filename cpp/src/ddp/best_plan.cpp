@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include <cstdio>
-#include "ddp/cost_terms.hpp"
 #include "ddp/constants.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
@@ -90,7 +88,6 @@ void BestPlan::finish(Search& search, const std::vector<int>& surfaces, Incumben
   judge(finished, search.problem(), Look::full, late);
   if (finished.sampled && best()) return;
   if (finished.sampled) judge(finished, search.problem(), Look::late);
-  std::fprintf(stderr, "ATTEMPT margin %.3f clear %d: %s | J %.4g\n", tuning.extra_margin, tuning.clear_swings, finished.worst.to_string().c_str(), finished.evaluation.cost); for (std::size_t i=0;i<cost_terms().size();++i) if (finished.evaluation.terms[i]>1e-4) std::fprintf(stderr, "   %s %.3g", cost_terms()[i]->name(), finished.evaluation.terms[i]); std::fprintf(stderr, "\n");
   take(finished_, std::move(finished));
 }
 

@@ -3,6 +3,7 @@
 
 #include "ddp/constants.hpp"
 #include "ddp/cost_terms.hpp"
+#include "plan/clearance.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -31,22 +32,42 @@ class SwingPath final : public CostTerm {
     const Layout& at = problem.layout;
     const Vector3d from = step.x.segment<3>(at.end(step.l)), way = step.u->segment<3>(at.stride(step.l));
     const Vector3d middle = from + 0.5 * way;
+    const Normals normals{normal_at(problem, from), normal_at(problem, from + way)};
     const double far = 0.5 * way.norm() + problem.limits[step.l].half_size.norm() + 2.0 * kPathRoom;
     for (std::size_t i = 0; i < problem.polygons.size(); ++i) {
       const Polygon& polygon = problem.polygons[i];
       if (polygon.outside(middle) > far) continue;
       // The sole's corners count in the middle 80 % of the time, of which the CoM is known at the instants.
       constexpr double kEnds[] = {0.1, 0.15, 0.85, 0.9};
-      for (const double time : kEnds) write_at(step, i, time, nullptr, rows);
+      for (const double time : kEnds) write_at(step, i, normals, time, nullptr, rows);
       for (std::size_t j = 1; j + 1 < step.instants.size(); ++j) {
         const double time = step.instants[j].fraction;
-        if (time > kEnds[0] && time < kEnds[3]) write_at(step, i, time, &step.instants[j], rows);
+        if (time > kEnds[0] && time < kEnds[3]) write_at(step, i, normals, time, &step.instants[j], rows);
       }
     }
   }
 
  private:
-  static void write_at(const StepView& step, std::size_t solid, double s, const Instant* instant, Rows& rows) {
+  /// Of what a swing leaves and reaches, between which the sole turns.
+  struct Normals {
+    Vector3d lift, land;
+  };
+
+  /// The normal of the surface on which an end-effector stands there; up where there is none.
+  static Vector3d normal_at(const Problem& problem, const Vector3d& place) {
+    Vector3d normal = Vector3d::UnitZ();
+    double nearest = kPathRoom;
+    for (const Polygon& polygon : problem.polygons) {
+      const double off = std::max(std::abs(polygon.height(place)), polygon.outside(place));
+      if (!(off < nearest)) continue;
+      nearest = off;
+      normal = polygon.normal_W();
+    }
+    return normal;
+  }
+
+  static void write_at(const StepView& step, std::size_t solid, const Normals& normals, double s,
+                       const Instant* instant, Rows& rows) {
     const Problem& problem = step.problem;
     const Layout& at = problem.layout;
     const Polygon& polygon = problem.polygons[solid];
@@ -56,16 +77,18 @@ class SwingPath final : public CostTerm {
     double lift = kLiftMax * problem.swing_height * 16.0 * s * s * (1.0 - s) * (1.0 - s);
     const bool limited = instant && instant->com.z() + limit.reach_max.z() - place.z() < lift;
     if (limited) lift = std::max(instant->com.z() + limit.reach_max.z() - place.z(), 0.0);
-    place.z() += lift;
+    const Vector3d between = (1.0 - s) * normals.lift + s * normals.land;
+    if (between.norm() < 0.1) return;  // from a wall to the facing one
+    const Eigen::Matrix3d sole = sole_frame(between.normalized(), step.sole_yaw);
+    place += lift * sole.col(2);
     // The corner that is deepest inside, by the shorter way out of it: up or beside an edge.
-    const Eigen::Rotation2Dd heading(step.sole_yaw);
     double deepest = 0.0;
     int side = -1;
     Vector3d corner_inside;
     for (double x : {-1.0, 1.0})
       for (double y : {-1.0, 1.0}) {
-        Vector3d corner = place;
-        corner.head<2>() += heading * Eigen::Vector2d(x * limit.half_size.x(), y * limit.half_size.y());
+        const Vector3d corner =
+            place + x * limit.half_size.x() * sole.col(0) + y * limit.half_size.y() * sole.col(1);
         const double height = polygon.height(corner), beside = polygon.outside(corner);
         if (height < -problem.thickness[solid]) continue;
         const double depth = std::min(kPathRoom - height, kPathRoom - beside);
