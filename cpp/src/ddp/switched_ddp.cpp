@@ -82,6 +82,7 @@ struct SwitchedDdp::Impl {
     BestPlan best;
     Ending ending = Ending::no_sequence;
     int steps = 0;
+    Way way = {};
   };
 
   std::vector<int> surfaces_of(const Request& request, const Route& route, const Outlook& outlook) const;
@@ -90,6 +91,7 @@ struct SwitchedDdp::Impl {
   void search_in(int phases, const Request& request, const Way& way, const Deadline& deadline, Report& report,
                  Found& found) const;
   Found search(const Request& request, const Way& way, const Deadline& deadline, Report& report) const;
+  void try_more_phases(const Request& request, const Deadline& deadline, Report& report, Found& found) const;
   bool four_feet_stand() const;
   void tell(const Way& way, const Found& found) const;
   Found search_all(const Request& request, const Deadline& deadline, Report& report) const;
@@ -186,23 +188,29 @@ void SwitchedDdp::Impl::search_in(int phases, const Request& request, const Way&
   }
 }
 
-/// In as many phases as the way asks for; where the ground asks for shorter steps than the robot could make, and there
-/// is nearly a plan, in more.
+/// In as many phases as the way asks for.
 SwitchedDdp::Impl::Found SwitchedDdp::Impl::search(const Request& request, const Way& way, const Deadline& deadline,
                                                    Report& report) const {
   Found found{BestPlan(scene, deadline, request.measured != nullptr)};
+  found.way = way;
   search_in(options.phases, request, way, deadline, report, found);
-  const bool given =
-      options.phases > 0 || request.earlier || !options.initial_sequence.empty() || options.method == Method::paper;
+  return found;
+}
+
+/// Where a plan is nearly found, the same way in more phases: ground may ask for shorter steps than the robot can make.
+void SwitchedDdp::Impl::try_more_phases(const Request& request, const Deadline& deadline, Report& report,
+                                        Found& found) const {
+  if (options.phases > 0 || request.earlier || !options.initial_sequence.empty() || options.method == Method::paper)
+    return;
   for (const double factor : kMorePhases) {
     const auto& best = found.best.best();
-    if (given || found.best.ok() || !best || !ended_by_itself(found.ending)) break;
-    if (violation_ratio(best->worst) > kNearlyPlan) break;
+    if (found.best.ok() || !best || !ended_by_itself(found.ending) || violation_ratio(best->worst) > kAcceptable)
+      return;
     const int phases = 2 * static_cast<int>(0.5 * factor * found.steps);
-    if (phases > kPhasesMax) break;
-    search_in(phases, request, way, deadline, report, found);
+    if (phases > kPhasesMax) return;
+    search_in(phases, request, found.way, deadline, report, found);
+    tell(found.way, found);
   }
-  return found;
 }
 
 /// At the start and at the goal.
@@ -281,7 +289,8 @@ PlanResult SwitchedDdp::Impl::solve(const Request& request) {
     report.time_s = deadline.elapsed_s();
     return without_plan(std::move(report));
   }
-  const Found found = search_all(request, deadline, report);
+  Found found = search_all(request, deadline, report);
+  try_more_phases(request, deadline, report, found);
   return conclude(found.ending, found.steps, found.best, std::move(report), deadline.elapsed_s());
 }
 

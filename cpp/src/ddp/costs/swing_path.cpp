@@ -87,8 +87,7 @@ class SwingPath final : public CostTerm {
     Vector3d corner_inside;
     for (double x : {-1.0, 1.0})
       for (double y : {-1.0, 1.0}) {
-        const Vector3d corner =
-            place + x * limit.half_size.x() * sole.col(0) + y * limit.half_size.y() * sole.col(1);
+        const Vector3d corner = place + x * limit.half_size.x() * sole.col(0) + y * limit.half_size.y() * sole.col(1);
         const double height = polygon.height(corner), beside = polygon.outside(corner);
         if (height < -problem.thickness[solid]) continue;
         const double depth = std::min(kPathRoom - height, kPathRoom - beside);
