@@ -210,6 +210,7 @@ Ending Attempts::restart(Ending ending, const ContactSequence& initial) {
     // A foot too close to the next step catches it with its toe: the same motion with footholds further inside.
     if (best_->finished() && best_->finished()->worst.name == "clearance" && !last_.sequence.empty()) {
       tuning.extra_margin += further_inside();
+      tuning.clear_swings = true;
       others.insert(others.begin(), Guess{last_, 0.0, true});
     }
     ending = attempt(std::move(others), tuning);

@@ -51,6 +51,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   units.time = std::sqrt(robot.com_height / scene.gravity);
   units.mass = robot.mass;
   similarity = similarity_of(robot, scene.gravity);
+  swing_height = swing_height_of(robot, similarity) / units.length;
   inertia = robot.inertia / (units.mass * units.length * units.length);
   edge_margin = pressure_margin = kEdgeMargin_m * similarity.length / units.length;
   make_durations();

@@ -40,6 +40,7 @@ struct Tuning {
   double limit_weight = Weights().limit;  ///< on limits at the knots and, at the full weights, between them
   double duration_initial = 0.0;          ///< first guess of all phases
   double extra_margin = 0.0;              ///< further margin of soles, where one has caught an edge
+  bool clear_swings = false;              ///< hold swings out of solids, where one has caught an edge
 };
 
 /// Limits and nominal position of an end-effector, non-dimensional.
@@ -79,6 +80,7 @@ class Problem {
   double pressure_margin = 0.0;                       ///< and centres of pressure
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<double> thickness;       ///< by scene surface, of the solid below it
+  double swing_height = 0.0;           ///< by which an end-effector is lifted usually
   std::vector<int> standing_solids;    ///< surfaces whose solids come near the reference of the CoM
   std::vector<EndLimits> limits;       ///< by active end-effector
   Eigen::Vector3d inertia;             ///< in units of mass length^2
@@ -94,7 +96,7 @@ class Problem {
   Eigen::VectorXd start;          ///< x_0 as demanded
 
   /// The tuning of the first attempt.
-  Tuning tuning() const { return {options.weights.limit, duration_initial, 0.0}; }
+  Tuning tuning() const { return {options.weights.limit, duration_initial}; }
 
   /// How far inside edge i of a surface an end-effector's footholds are planned: edge_margin, and the share
   /// Options::sole_inside of how far its sole, headed anywhere from start to goal, extends towards that edge; of

@@ -82,12 +82,16 @@ struct SwitchedDdp::Impl {
     BestPlan best;
     Ending ending = Ending::no_sequence;
     int steps = 0;
+    Way way = {};
   };
 
   std::vector<int> surfaces_of(const Request& request, const Route& route, const Outlook& outlook) const;
-  Problem pose(const Request& request, const Way& way, const std::vector<int>& surfaces) const;
+  Problem pose(const Request& request, const Way& way, int phases, const std::vector<int>& surfaces) const;
   PlanResult solve(const Request& request);
+  void search_in(int phases, const Request& request, const Way& way, const Deadline& deadline, Report& report,
+                 Found& found) const;
   Found search(const Request& request, const Way& way, const Deadline& deadline, Report& report) const;
+  void try_more_phases(const Request& request, const Deadline& deadline, Report& report, Found& found) const;
   bool four_feet_stand() const;
   void tell(const Way& way, const Found& found) const;
   Found search_all(const Request& request, const Deadline& deadline, Report& report) const;
@@ -124,9 +128,11 @@ std::vector<int> SwitchedDdp::Impl::surfaces_of(const Request& request, const Ro
                            to.end_effectors_W, near, needed);
 }
 
-/// The problem on these surfaces.
-Problem SwitchedDdp::Impl::pose(const Request& request, const Way& way, const std::vector<int>& surfaces) const {
+/// The problem on these surfaces, in so many phases; 0: as many as the way asks for.
+Problem SwitchedDdp::Impl::pose(const Request& request, const Way& way, int phases,
+                                const std::vector<int>& surfaces) const {
   Options with = options;
+  with.phases = phases;
   with.allow_flight = way.flights;
   with.min_contacts = way.min_contacts;
   if (request.earlier) with.phases = static_cast<int>(request.earlier->phases.size()) - request.first;
@@ -150,14 +156,13 @@ Problem SwitchedDdp::Impl::pose(const Request& request, const Way& way, const st
 }
 
 /// With ever more of the scene, until there is a plan that the checker accepts.
-SwitchedDdp::Impl::Found SwitchedDdp::Impl::search(const Request& request, const Way& way, const Deadline& deadline,
-                                                   Report& report) const {
-  Found found{BestPlan(scene, deadline, request.measured != nullptr)};
+void SwitchedDdp::Impl::search_in(int phases, const Request& request, const Way& way, const Deadline& deadline,
+                                  Report& report, Found& found) const {
   std::size_t rows = report.history.size();  // named by the scene's surfaces
   for (int level = 0; level < kOutlooks; ++level) {
     const Outlook look = outlook(options.method == Method::paper ? kOutlooks - 1 : level);
     const std::vector<int> surfaces = surfaces_of(request, way.route, look);
-    Problem problem = pose(request, way, surfaces);
+    Problem problem = pose(request, way, phases, surfaces);
     problem.look_near(look.nearest);
     found.steps = problem.steps;
     const bool all = surfaces.size() == scene.surfaces.size() && problem.rules.looks_everywhere();
@@ -181,7 +186,31 @@ SwitchedDdp::Impl::Found SwitchedDdp::Impl::search(const Request& request, const
       break;
     }
   }
+}
+
+/// In as many phases as the way asks for.
+SwitchedDdp::Impl::Found SwitchedDdp::Impl::search(const Request& request, const Way& way, const Deadline& deadline,
+                                                   Report& report) const {
+  Found found{BestPlan(scene, deadline, request.measured != nullptr)};
+  found.way = way;
+  search_in(options.phases, request, way, deadline, report, found);
   return found;
+}
+
+/// Where a plan is nearly found, the same way in more phases: ground may ask for shorter steps than the robot can make.
+void SwitchedDdp::Impl::try_more_phases(const Request& request, const Deadline& deadline, Report& report,
+                                        Found& found) const {
+  if (options.phases > 0 || request.earlier || !options.initial_sequence.empty() || options.method == Method::paper)
+    return;
+  for (const double factor : kMorePhases) {
+    const auto& best = found.best.best();
+    if (found.best.ok() || !best || !ended_by_itself(found.ending) || violation_ratio(best->worst) > kAcceptable)
+      return;
+    const int phases = 2 * static_cast<int>(0.5 * factor * found.steps);
+    if (phases > kPhasesMax) return;
+    search_in(phases, request, found.way, deadline, report, found);
+    tell(found.way, found);
+  }
 }
 
 /// At the start and at the goal.
@@ -260,7 +289,8 @@ PlanResult SwitchedDdp::Impl::solve(const Request& request) {
     report.time_s = deadline.elapsed_s();
     return without_plan(std::move(report));
   }
-  const Found found = search_all(request, deadline, report);
+  Found found = search_all(request, deadline, report);
+  try_more_phases(request, deadline, report, found);
   return conclude(found.ending, found.steps, found.best, std::move(report), deadline.elapsed_s());
 }
 
