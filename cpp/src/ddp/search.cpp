@@ -105,16 +105,19 @@ void Search::record(Iteration&& row, const Incumbent& now, const Schedule& sched
   tell(std::move(row));
 }
 
+void log_row(const Logger& logger, const Iteration& row) {
+  if (!logger) return;
+  char line[160];
+  if (row.index % 20 == 1)
+    logger(LogLevel::info, "iter       cost      merit    defect  w_contact  proximal  step  switches");
+  std::snprintf(line, sizeof line, "%4d %10.4g %10.4g  %8.1e  %9.3g  %8.3g  %4.2g  %8d", row.index, row.cost, row.merit,
+                row.defect, row.contact_weight, row.proximal_weight, row.step, row.switches);
+  logger(LogLevel::info, line);
+}
+
 void Search::tell(Iteration&& row) {
   report_->switches += row.switches;
-  if (const Logger& logger = problem_->options.logger; logger && !trace_) {
-    char line[160];
-    if (row.index % 20 == 1)
-      logger(LogLevel::info, "iter       cost      merit    defect  w_contact  proximal  step  switches");
-    std::snprintf(line, sizeof line, "%4d %10.4g %10.4g  %8.1e  %9.3g  %8.3g  %4.2g  %8d", row.index, row.cost,
-                  row.merit, row.defect, row.contact_weight, row.proximal_weight, row.step, row.switches);
-    logger(LogLevel::info, line);
-  }
+  if (!trace_) log_row(problem_->options.logger, row);
   report_->history.push_back(std::move(row));
 }
 

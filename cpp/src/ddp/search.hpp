@@ -37,6 +37,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
+/// The iteration table, row by row, with its head every 20 rows; a null logger is none.
+void log_row(const Logger& logger, const Iteration& row);
+
 class Lanes;
 
 /// Where a search stands: motion, contact sequence and what they truly cost.

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <utility>
 
-#include "ddp/attempts.hpp"
 #include "ddp/best_plan.hpp"
 #include "ddp/constants.hpp"
 #include "ddp/cost_terms.hpp"
 #include "ddp/impossible.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
-#include "ddp/routes.hpp"
+#include "ddp/ways.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/friction_use.hpp"
 #include "mcplan/version.hpp"
@@ -24,11 +22,6 @@ namespace mcplan::ddp {
 using Eigen::Vector3d;
 
 namespace {
-
-/// Whether a search that ended so may have missed what it did not look at.
-bool ended_by_itself(Ending ending) {
-  return ending == Ending::done || ending == Ending::broke_down || ending == Ending::no_sequence;
-}
 
 /// What the user is told of a search that ended so, with this plan or none.
 Status status_of(Ending ending, const std::optional<BestPlan::Finished>& best) {
@@ -58,222 +51,16 @@ struct SwitchedDdp::Impl {
   Robot robot;
   Options options;
 
-  /// What a solve begins with: the scene's start, or an earlier plan from one of its phases on, and where it was.
-  struct Request {
-    const Plan* earlier = nullptr;
-    int first = 0;                   ///< phase of the earlier plan that comes first
-    const Knot* measured = nullptr;  ///< state at the start instead of the scene's
-    double remaining_s = 0.0;        ///< of the first phase, when measured
-  };
-
   void require_warm_starts() const {
     if (options.method == Method::paper)
       throw InvalidOptions("method", "must be standard to start from a plan: the published algorithm does not",
                            "paper");
   }
-  /// A search of its own: along a route or straight on, with flights or without.
-  struct Way {
-    Route route;
-    bool flights = true;
-    int min_contacts = 0;
-  };
-  /// What it has found.
-  struct Found {
-    BestPlan best;
-    Ending ending = Ending::no_sequence;
-    int steps = 0;
-    Way way = {};
-  };
-
-  std::vector<int> surfaces_of(const Request& request, const Route& route, const Outlook& outlook) const;
-  Problem pose(const Request& request, const Way& way, int phases, const std::vector<int>& surfaces) const;
   PlanResult solve(const Request& request);
-  void search_in(int phases, const Request& request, const Way& way, const Deadline& deadline, Report& report,
-                 Found& found) const;
-  Found search(const Request& request, const Way& way, const Deadline& deadline, Report& report) const;
-  void try_more_phases(const Request& request, const Deadline& deadline, Report& report, Found& found) const;
-  bool four_feet_stand() const;
-  void tell(const Way& way, const Found& found) const;
-  Found search_all(const Request& request, const Deadline& deadline, Report& report) const;
   PlanResult conclude(Ending ending, int steps, const BestPlan& best, Report&& report, double time_s) const;
   std::string message_of(Status status, int steps, const BestPlan& kept, const Report& report) const;
   PlanResult without_plan(Report&& report) const;
 };
-
-/// Surfaces that the search looks at: those near the way, and those that are named.
-std::vector<int> SwitchedDdp::Impl::surfaces_of(const Request& request, const Route& route,
-                                                const Outlook& outlook) const {
-  const bool all = outlook.reach <= 0.0 || options.method == Method::paper;
-  std::set<int> needed;
-  for (int i = 0; all && i < static_cast<int>(scene.surfaces.size()); ++i) needed.insert(i);
-  if (all) return {needed.begin(), needed.end()};
-  for (const Stance* stance : {&scene.start, &scene.goal})
-    for (const auto& [who, surface] : stance->contacts) needed.insert(scene.surface_index(surface));
-  for (const auto& row : options.initial_sequence) needed.insert(row.begin(), row.end());
-  if (request.earlier)
-    for (const auto& row : request.earlier->contact_sequence())
-      for (int surface : row)
-        if (surface >= 0) needed.insert(scene.surface_index(request.earlier->scene.surfaces[surface].name));
-  const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
-  const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
-  const double near = outlook.reach * reach_of(robot);
-  for (std::size_t i = 1; i < route.size(); ++i) {
-    std::vector<Vector3d> here = from.end_effectors_W, there = here;
-    for (Vector3d& end : here) end += route[i - 1] - route.front();
-    for (Vector3d& end : there) end += route[i] - route.front();
-    const std::vector<int> beside = surfaces_near_way(scene, here, there, near, needed);
-    needed.insert(beside.begin(), beside.end());
-  }
-  return surfaces_near_way(scene, request.measured ? request.measured->end_effectors_W : from.end_effectors_W,
-                           to.end_effectors_W, near, needed);
-}
-
-/// The problem on these surfaces, in so many phases; 0: as many as the way asks for.
-Problem SwitchedDdp::Impl::pose(const Request& request, const Way& way, int phases,
-                                const std::vector<int>& surfaces) const {
-  Options with = options;
-  with.phases = phases;
-  with.allow_flight = way.flights;
-  with.min_contacts = way.min_contacts;
-  if (request.earlier) with.phases = static_cast<int>(request.earlier->phases.size()) - request.first;
-  if (request.measured) with.initial_sequence.clear();
-  for (auto& row : with.initial_sequence)
-    for (int& surface : row) {
-      const auto here = std::lower_bound(surfaces.begin(), surfaces.end(), surface);
-      if (here != surfaces.end() && *here == surface) surface = static_cast<int>(here - surfaces.begin());
-    }
-  Problem problem(part_of(scene, surfaces), robot, with, way.route);
-  if (!request.measured) return problem;
-  const Plan& previous = *request.earlier;
-  ContactState contacts;
-  for (int e : problem.active) {
-    const int surface = previous.phases[request.first].contacts[e].surface;
-    contacts.push_back(surface == kFree ? kFree : problem.scene.surface_index(previous.scene.surfaces[surface].name));
-  }
-  problem.set_start(*request.measured, contacts);
-  problem.first_duration = request.remaining_s / problem.units.time;
-  return problem;
-}
-
-/// With ever more of the scene, until there is a plan that the checker accepts.
-void SwitchedDdp::Impl::search_in(int phases, const Request& request, const Way& way, const Deadline& deadline,
-                                  Report& report, Found& found) const {
-  std::size_t rows = report.history.size();  // named by the scene's surfaces
-  for (int level = 0; level < kOutlooks; ++level) {
-    const Outlook look = outlook(options.method == Method::paper ? kOutlooks - 1 : level);
-    const std::vector<int> surfaces = surfaces_of(request, way.route, look);
-    Problem problem = pose(request, way, phases, surfaces);
-    problem.look_near(look.nearest);
-    found.steps = problem.steps;
-    const bool all = surfaces.size() == scene.surfaces.size() && problem.rules.looks_everywhere();
-    std::optional<Incumbent> warm;
-    if (request.earlier) {
-      warm = from_plan(problem, *request.earlier, request.first);
-      if (warm->sequence.empty() || !problem.rules.valid(warm->sequence)) warm.reset();
-    }
-    if (warm && request.measured) {
-      warm->trajectory.x.front() = problem.start;
-      warm->trajectory.u.front()[problem.layout.duration()] = problem.first_duration;
-    }
-    Attempts attempts(std::move(problem), surfaces, deadline, found.best, report);
-    found.ending = attempts.run(warm ? &*warm : nullptr);
-    for (; rows < report.history.size(); ++rows)
-      for (ContactState& state : report.history[rows].sequence)
-        for (int& surface : state)
-          if (surface != kFree) surface = surfaces[surface];
-    if (found.best.solved() || !ended_by_itself(found.ending) || all) {
-      found.best.settle(attempts.problem(), report);
-      break;
-    }
-  }
-}
-
-/// In as many phases as the way asks for.
-SwitchedDdp::Impl::Found SwitchedDdp::Impl::search(const Request& request, const Way& way, const Deadline& deadline,
-                                                   Report& report) const {
-  Found found{BestPlan(scene, deadline, request.measured != nullptr)};
-  found.way = way;
-  search_in(options.phases, request, way, deadline, report, found);
-  return found;
-}
-
-/// Where a plan is nearly found, the same way in more phases: ground may ask for shorter steps than the robot can make.
-void SwitchedDdp::Impl::try_more_phases(const Request& request, const Deadline& deadline, Report& report,
-                                        Found& found) const {
-  if (options.phases > 0 || request.earlier || !options.initial_sequence.empty() || options.method == Method::paper)
-    return;
-  for (const double factor : kMorePhases) {
-    const auto& best = found.best.best();
-    if (found.best.ok() || !best || !ended_by_itself(found.ending) || violation_ratio(best->worst) > kAcceptable)
-      return;
-    const int phases = 2 * static_cast<int>(0.5 * factor * found.steps);
-    if (phases > kPhasesMax) return;
-    search_in(phases, request, found.way, deadline, report, found);
-    tell(found.way, found);
-  }
-}
-
-/// At the start and at the goal.
-bool SwitchedDdp::Impl::four_feet_stand() const {
-  const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
-  const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
-  int feet = 0;
-  for (std::size_t e = 0; e < robot.end_effectors.size(); ++e)
-    feet += from.contacts[e] >= 0 && to.contacts[e] >= 0 && robot.end_effectors[e].kind == "foot";
-  return feet >= 4;
-}
-
-void SwitchedDdp::Impl::tell(const Way& way, const Found& found) const {
-  if (!options.logger) return;
-  std::ostringstream line;
-  line << (way.flights ? "" : "without flights, ") << (way.route.empty() ? "straight on" : "by way of");
-  for (std::size_t i = 1; i + 1 < way.route.size(); ++i)
-    line << " (" << model::digits(way.route[i].x(), "%.2f") << ", " << model::digits(way.route[i].y(), "%.2f") << ", "
-         << model::digits(way.route[i].z(), "%.2f") << ")";
-  line << ", in " << found.steps << " phases: ";
-  if (!found.best.best())
-    line << "no plan";
-  else if (found.best.ok())
-    line << "cost " << model::digits(found.best.best()->evaluation.cost, "%.4g");
-  else
-    line << "violates " << found.best.best()->worst.name;
-  options.logger(LogLevel::info, line.str());
-}
-
-/// Straight on; where steps do not lead along there, round what is in the way as well, and where they do, again without
-/// flights if there were any. The best of what is found.
-SwitchedDdp::Impl::Found SwitchedDdp::Impl::search_all(const Request& request, const Deadline& deadline,
-                                                       Report& report) const {
-  const bool given = request.earlier || !options.initial_sequence.empty() || options.method == Method::paper;
-  const Routes routes = given || !options.detours ? Routes() : find_routes(scene, robot, options.sole_inside);
-  std::optional<Found> best;
-  const int by_feet = !given && four_feet_stand() ? 2 : 0,
-            least = options.min_contacts < 0 ? by_feet : options.min_contacts;
-  bool stopped = false;  // by the caller or a limit: whatever was found before, nothing more is tried
-  const auto try_way = [&](const Way& way) {
-    stopped = stopped || (best && (deadline.passed() || (options.stop && options.stop())));
-    if (stopped) return;
-    Found found = search(request, way, deadline, report);
-    tell(way, found);
-    stopped = !ended_by_itself(found.ending);
-    if (!best || better(found.best.best(), best->best.best())) best.emplace(std::move(found));
-  };
-  for (const Route& route : routes.detours) try_way({route, false, least});
-  const bool trunk_passes = !routes.obstructed || !best || !best->best.ok();
-  if (trunk_passes) try_way({{}, options.allow_flight, least});
-  const auto flies = [](const Plan& plan) {
-    return std::any_of(plan.phases.begin(), plan.phases.end(), [](const Phase& phase) {
-      return std::all_of(phase.contacts.begin(), phase.contacts.end(), [](const Contact& c) { return c.surface < 0; });
-    });
-  };
-  if (!given && options.allow_flight && best->best.ok() && flies(best->best.best()->plan) &&
-      flight_needed(scene, robot).empty())
-    try_way({{}, false, least});
-  // Two feet are what a walk should have; a leap may have fewer.
-  const auto hopeless = [&] { return !best->best.best() || violation_ratio(best->best.best()->worst) > kAcceptable; };
-  if (options.min_contacts < 0 && least > 0 && hopeless()) try_way({{}, options.allow_flight, 0});
-  return std::move(*best);
-}
 
 PlanResult SwitchedDdp::Impl::solve(const Request& request) {
   const Deadline deadline(options.time_limit_s, options.clock);
@@ -289,8 +76,7 @@ PlanResult SwitchedDdp::Impl::solve(const Request& request) {
     report.time_s = deadline.elapsed_s();
     return without_plan(std::move(report));
   }
-  Found found = search_all(request, deadline, report);
-  try_more_phases(request, deadline, report, found);
+  const Found found = WaysToGoal(scene, robot, options, request, deadline).search(report);
   return conclude(found.ending, found.steps, found.best, std::move(report), deadline.elapsed_s());
 }
 
@@ -393,7 +179,7 @@ PlanResult SwitchedDdp::solve() { return impl_->solve({}); }
 PlanResult SwitchedDdp::solve(const Plan& warm_start) {
   impl_->require_warm_starts();
   warm_start.validate();
-  Impl::Request request;
+  Request request;
   request.earlier = &warm_start;
   return impl_->solve(request);
 }
@@ -413,7 +199,7 @@ PlanResult SwitchedDdp::replan(const Plan& previous, double t, const Knot& measu
     ++first;
     remaining = previous.phases[first].duration;
   }
-  Impl::Request request;
+  Request request;
   request.earlier = &previous;
   request.first = first;
   request.measured = &measured;

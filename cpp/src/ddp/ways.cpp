@@ -1,0 +1,242 @@
+#include "ddp/ways.hpp"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "ddp/attempts.hpp"
+#include "ddp/constants.hpp"
+#include "ddp/impossible.hpp"
+#include "ddp/lanes.hpp"
+#include "ddp/plan_conversion.hpp"
+#include "ddp/reachable_surfaces.hpp"
+#include "model/text.hpp"
+
+namespace mcplan::ddp {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Whether a search that ended so may have missed what it did not look at.
+bool ended_by_itself(Ending ending) {
+  return ending == Ending::done || ending == Ending::broke_down || ending == Ending::no_sequence;
+}
+
+/// Tell of a search that began after so many iterations as if it had come after all that the report has. False, and
+/// nothing is told, where the limit on iterations would have cut it short.
+bool append(Report& report, Report&& other, int before, const Options& options) {
+  const int shift = report.iterations - before;
+  if (other.iterations + shift >= options.max_iterations) return false;
+  report.iterations = other.iterations + shift;
+  report.switches += other.switches;
+  for (const auto& [part, time_s] : other.timing_s) report.timing_s[part] += time_s;
+  for (Iteration& row : other.history) {
+    row.index += shift;
+    log_row(options.logger, row);
+    report.history.push_back(std::move(row));
+  }
+  return true;
+}
+
+}  // namespace
+
+/// Surfaces that the search looks at: those near the way, and those that are named.
+std::vector<int> WaysToGoal::surfaces_of(const Route& route, const Outlook& outlook) const {
+  const bool all = outlook.reach <= 0.0 || options_->method == Method::paper;
+  std::set<int> needed;
+  for (int i = 0; all && i < static_cast<int>(scene_->surfaces.size()); ++i) needed.insert(i);
+  if (all) return {needed.begin(), needed.end()};
+  for (const Stance* stance : {&scene_->start, &scene_->goal})
+    for (const auto& [who, surface] : stance->contacts) needed.insert(scene_->surface_index(surface));
+  for (const auto& row : options_->initial_sequence) needed.insert(row.begin(), row.end());
+  if (request_->earlier)
+    for (const auto& row : request_->earlier->contact_sequence())
+      for (int surface : row)
+        if (surface >= 0) needed.insert(scene_->surface_index(request_->earlier->scene.surfaces[surface].name));
+  const ResolvedStance from = resolve_stance(*scene_, *robot_, scene_->start, "start");
+  const ResolvedStance to = resolve_stance(*scene_, *robot_, scene_->goal, "goal");
+  const double near = outlook.reach * reach_of(*robot_);
+  for (std::size_t i = 1; i < route.size(); ++i) {
+    std::vector<Vector3d> here = from.end_effectors_W, there = here;
+    for (Vector3d& end : here) end += route[i - 1] - route.front();
+    for (Vector3d& end : there) end += route[i] - route.front();
+    const std::vector<int> beside = surfaces_near_way(*scene_, here, there, near, needed);
+    needed.insert(beside.begin(), beside.end());
+  }
+  return surfaces_near_way(*scene_, request_->measured ? request_->measured->end_effectors_W : from.end_effectors_W,
+                           to.end_effectors_W, near, needed);
+}
+
+/// The problem on these surfaces, in so many phases; 0: as many as the way asks for.
+Problem WaysToGoal::pose(const Way& way, int phases, const std::vector<int>& surfaces, const Beside* beside) const {
+  Options with = *options_;
+  with.phases = phases;
+  with.allow_flight = way.flights;
+  with.min_contacts = way.min_contacts;
+  if (beside) {
+    with.threads = 1;
+    with.logger = nullptr;
+    with.stop = beside->stop;
+  }
+  if (request_->earlier) with.phases = static_cast<int>(request_->earlier->phases.size()) - request_->first;
+  if (request_->measured) with.initial_sequence.clear();
+  for (auto& row : with.initial_sequence)
+    for (int& surface : row) {
+      const auto here = std::lower_bound(surfaces.begin(), surfaces.end(), surface);
+      if (here != surfaces.end() && *here == surface) surface = static_cast<int>(here - surfaces.begin());
+    }
+  Problem problem(part_of(*scene_, surfaces), *robot_, with, way.route);
+  if (!request_->measured) return problem;
+  const Plan& previous = *request_->earlier;
+  ContactState contacts;
+  for (int e : problem.active) {
+    const int surface = previous.phases[request_->first].contacts[e].surface;
+    contacts.push_back(surface == kFree ? kFree : problem.scene.surface_index(previous.scene.surfaces[surface].name));
+  }
+  problem.set_start(*request_->measured, contacts);
+  problem.first_duration = request_->remaining_s / problem.units.time;
+  return problem;
+}
+
+/// With ever more of the scene, until there is a plan that the checker accepts.
+void WaysToGoal::search_in(int phases, const Way& way, Report& report, Found& found, const Beside* beside) const {
+  std::size_t rows = report.history.size();  // named by the scene's surfaces
+  for (int level = 0; level < kOutlooks; ++level) {
+    const Outlook look = outlook(options_->method == Method::paper ? kOutlooks - 1 : level);
+    const std::vector<int> surfaces = surfaces_of(way.route, look);
+    Problem problem = pose(way, phases, surfaces, beside);
+    problem.look_near(look.nearest);
+    found.steps = problem.steps;
+    const bool all = surfaces.size() == scene_->surfaces.size() && problem.rules.looks_everywhere();
+    std::optional<Incumbent> warm;
+    if (request_->earlier) {
+      warm = from_plan(problem, *request_->earlier, request_->first);
+      if (warm->sequence.empty() || !problem.rules.valid(warm->sequence)) warm.reset();
+    }
+    if (warm && request_->measured) {
+      warm->trajectory.x.front() = problem.start;
+      warm->trajectory.u.front()[problem.layout.duration()] = problem.first_duration;
+    }
+    Attempts attempts(std::move(problem), surfaces, *deadline_, found.best, report);
+    found.ending = attempts.run(warm ? &*warm : nullptr);
+    for (; rows < report.history.size(); ++rows)
+      for (ContactState& state : report.history[rows].sequence)
+        for (int& surface : state)
+          if (surface != kFree) surface = surfaces[surface];
+    if (found.best.solved() || !ended_by_itself(found.ending) || all) {
+      found.best.settle(attempts.problem(), report);
+      break;
+    }
+  }
+}
+
+/// In as many phases as the way asks for.
+Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* beside) const {
+  Found found{BestPlan(*scene_, *deadline_, request_->measured != nullptr)};
+  found.way = way;
+  search_in(options_->phases, way, report, found, beside);
+  return found;
+}
+
+/// Where a plan is nearly found, the same way in more phases: ground may ask for shorter steps than the robot can make.
+void WaysToGoal::try_more_phases(Report& report, Found& found) const {
+  if (options_->phases > 0 || request_->earlier || !options_->initial_sequence.empty() ||
+      options_->method == Method::paper)
+    return;
+  for (const double factor : kMorePhases) {
+    const auto& best = found.best.best();
+    if (found.best.ok() || !best || !ended_by_itself(found.ending) || violation_ratio(best->worst) > kAcceptable)
+      return;
+    const int phases = 2 * static_cast<int>(0.5 * factor * found.steps);
+    if (phases > kPhasesMax) return;
+    search_in(phases, found.way, report, found);
+    tell(found.way, found);
+  }
+}
+
+/// At the start and at the goal.
+bool WaysToGoal::four_feet_stand() const {
+  const ResolvedStance from = resolve_stance(*scene_, *robot_, scene_->start, "start");
+  const ResolvedStance to = resolve_stance(*scene_, *robot_, scene_->goal, "goal");
+  int feet = 0;
+  for (std::size_t e = 0; e < robot_->end_effectors.size(); ++e)
+    feet += from.contacts[e] >= 0 && to.contacts[e] >= 0 && robot_->end_effectors[e].kind == "foot";
+  return feet >= 4;
+}
+
+void WaysToGoal::tell(const Way& way, const Found& found) const {
+  if (!options_->logger) return;
+  std::ostringstream line;
+  line << (way.flights ? "" : "without flights, ") << (way.route.empty() ? "straight on" : "by way of");
+  for (std::size_t i = 1; i + 1 < way.route.size(); ++i)
+    line << " (" << model::digits(way.route[i].x(), "%.2f") << ", " << model::digits(way.route[i].y(), "%.2f") << ", "
+         << model::digits(way.route[i].z(), "%.2f") << ")";
+  line << ", in " << found.steps << " phases: ";
+  if (!found.best.best())
+    line << "no plan";
+  else if (found.best.ok())
+    line << "cost " << model::digits(found.best.best()->evaluation.cost, "%.4g");
+  else
+    line << "violates " << found.best.best()->worst.name;
+  options_->logger(LogLevel::info, line.str());
+}
+
+/// Ways are independent of each other: threads search along several at once.
+std::vector<WaysToGoal::Ahead> WaysToGoal::search_ahead(const std::vector<Way>& ways, const Report& before) const {
+  const int count = static_cast<int>(ways.size()), team = std::min(count, team_of(options_->threads));
+  std::vector<Ahead> out(count);
+  if (team < 2) return out;
+  run_ahead(count, team, options_->stop, [&](int i, int, const StopRequest& stop) {
+    const Beside beside{stop};
+    out[i].before = out[i].report.iterations = before.iterations;
+    Found found = search_along(ways[i], out[i].report, &beside);
+    if (stop()) return false;
+    out[i].found.emplace(std::move(found));
+    return false;
+  });
+  return out;
+}
+
+/// Straight on; where steps do not lead along there, round what is in the way as well, and where they do, again without
+/// flights if there were any. The best of what is found.
+Found WaysToGoal::search(Report& report) const {
+  const bool given = request_->earlier || !options_->initial_sequence.empty() || options_->method == Method::paper;
+  const Routes routes = given || !options_->detours ? Routes() : find_routes(*scene_, *robot_, options_->sole_inside);
+  std::optional<Found> best;
+  const int by_feet = !given && four_feet_stand() ? 2 : 0,
+            least = options_->min_contacts < 0 ? by_feet : options_->min_contacts;
+  bool stopped = false;  // by the caller or a limit: whatever was found before, nothing more is tried
+  const auto try_way = [&](const Way& way, Ahead* ahead = nullptr) {
+    stopped = stopped || (best && (deadline_->passed() || (options_->stop && options_->stop())));
+    if (stopped) return;
+    const bool told = ahead && ahead->found && append(report, std::move(ahead->report), ahead->before, *options_);
+    Found found = told ? std::move(*ahead->found) : search_along(way, report);
+    tell(way, found);
+    stopped = !ended_by_itself(found.ending);
+    if (!best || better(found.best.best(), best->best.best())) best.emplace(std::move(found));
+  };
+  const Way straight{{}, options_->allow_flight, least};
+  std::vector<Way> sure;
+  for (const Route& route : routes.detours) sure.push_back({route, false, least});
+  if (!routes.obstructed) sure.push_back(straight);
+  std::vector<Ahead> ahead = search_ahead(sure, report);
+  for (std::size_t i = 0; i < sure.size(); ++i) try_way(sure[i], &ahead[i]);
+  if (routes.obstructed && (!best || !best->best.ok())) try_way(straight);
+  const auto flies = [](const Plan& plan) {
+    return std::any_of(plan.phases.begin(), plan.phases.end(), [](const Phase& phase) {
+      return std::all_of(phase.contacts.begin(), phase.contacts.end(), [](const Contact& c) { return c.surface < 0; });
+    });
+  };
+  if (!given && options_->allow_flight && best->best.ok() && flies(best->best.best()->plan) &&
+      flight_needed(*scene_, *robot_).empty())
+    try_way({{}, false, least});
+  // Two feet are what a walk should have; a leap may have fewer.
+  const auto hopeless = [&] { return !best->best.best() || violation_ratio(best->best.best()->worst) > kAcceptable; };
+  if (options_->min_contacts < 0 && least > 0 && hopeless()) try_way({{}, options_->allow_flight, 0});
+  try_more_phases(report, *best);
+  return std::move(*best);
+}
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "ddp/best_plan.hpp"
+#include "ddp/ending.hpp"
+#include "ddp/problem.hpp"
+#include "ddp/reachable_surfaces.hpp"
+#include "ddp/routes.hpp"
+#include "mcplan/base/deadline.hpp"
+#include "mcplan/plan/report.hpp"
+
+namespace mcplan::ddp {
+
+/// What a solve begins with: the scene's start, or an earlier plan from one of its phases on, and where it was.
+struct Request {
+  const Plan* earlier = nullptr;
+  int first = 0;                   ///< phase of the earlier plan that comes first
+  const Knot* measured = nullptr;  ///< state at the start instead of the scene's
+  double remaining_s = 0.0;        ///< of the first phase, when measured
+};
+
+/// A search of its own: along a route or straight on, with flights or without.
+struct Way {
+  Route route;
+  bool flights = true;
+  int min_contacts = 0;
+};
+
+/// What it has found.
+struct Found {
+  BestPlan best;
+  Ending ending = Ending::no_sequence;
+  int steps = 0;
+  Way way = {};
+};
+
+/// The ways from the start of a scene to its goal, and a search along each. Theory: docs/theory/ddp.md, "Routes".
+class WaysToGoal {
+ public:
+  /// Keeps references.
+  WaysToGoal(const Scene& scene, const Robot& robot, const Options& options, const Request& request, const Deadline& deadline)
+      : scene_(&scene), robot_(&robot), options_(&options), request_(&request), deadline_(&deadline) {}
+
+  /// Straight on; where steps do not lead along there, round what is in the way as well, and where they do, again
+  /// without flights if there were any. The best of what is found.
+  Found search(Report& report) const;
+
+ private:
+  std::vector<int> surfaces_of(const Route& route, const Outlook& outlook) const;
+  /// What a search along a way is told besides, in a thread beside others: it is heard of later.
+  struct Beside {
+    StopRequest stop;
+  };
+  Problem pose(const Way& way, int phases, const std::vector<int>& surfaces, const Beside* beside) const;
+  void search_in(int phases, const Way& way, Report& report, Found& found, const Beside* beside = nullptr) const;
+  Found search_along(const Way& way, Report& report, const Beside* beside = nullptr) const;
+  void try_more_phases(Report& report, Found& found) const;
+  bool four_feet_stand() const;
+  void tell(const Way& way, const Found& found) const;
+  /// What a thread has found on a way ahead of the others, if it came to its end.
+  struct Ahead {
+    std::optional<Found> found;
+    Report report;
+    int before = 0;  ///< iterations at its beginning
+  };
+  std::vector<Ahead> search_ahead(const std::vector<Way>& ways, const Report& before) const;
+
+  const Scene* scene_;
+  const Robot* robot_;
+  const Options* options_;
+  const Request* request_;
+  const Deadline* deadline_;
+};
+
+}  // namespace mcplan::ddp
