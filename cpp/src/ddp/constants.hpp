@@ -63,6 +63,8 @@ constexpr double kAvoided = 4.0, kNearRoute = 0.35;
 constexpr double kStraighter = 1.02;
 /// Corners are rounded over this share of the route on both sides. Chosen.
 constexpr double kRounding = 0.03;
+/// The base looks along this share of the route to both sides, and has turned to it after so much. Chosen.
+constexpr double kLookAlong = 0.08, kTurnShare = 0.2;
 
 // The trunk.
 

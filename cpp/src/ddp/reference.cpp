@@ -44,7 +44,7 @@ int Problem::automatic_steps(const ResolvedStance& from, const ResolvedStance& t
     Vector3d way = Vector3d::Zero();
     for (int k = 0; k < kPieces; ++k) {
       const Vector3d piece = at(k + 1) - at(k);
-      const double yaw = from.yaw + (to.yaw - from.yaw) * (k + 0.5) / kPieces;
+      const double share = (k + 0.5) / kPieces, yaw = from.yaw + (to.yaw - from.yaw) * share + turn_on(route, share);
       way += Vector3d(piece.head<2>().norm(), std::abs(std::cos(yaw) * piece.y() - std::sin(yaw) * piece.x()),
                       std::abs(piece.z()));
     }
@@ -82,16 +82,23 @@ void Problem::make_reference(const VectorXd& goal) {
       x.segment<3>(layout.com()) += detour(blend);
       for (int l = 0; l < layout.end_effector_count(); ++l) x.segment<3>(layout.end(l)) += detour(blend);
     }
-    for (int a = 0; a < layout.axis_count(); ++a)
+    const double yaw = yaw_from + blend * (yaw_to - yaw_from) + turn_on(route, blend);
+    for (int a = 0; a < layout.axis_count(); ++a) {
       x[layout.momentum(a)] = inertia[layout.axes()[a]] * rate * way[layout.angle(a)];
-    if (yaw_from != yaw_to)
+      if (layout.axes()[a] != 2 || route.empty()) continue;
+      constexpr double kNear = 1e-3;
+      const double before = std::max(blend - kNear, 0.0), after = std::min(blend + kNear, 1.0);
+      x[layout.angle(a)] = yaw;
+      x[layout.momentum(a)] += inertia[2] * rate * (turn_on(route, after) - turn_on(route, before)) / (after - before);
+    }
+    if (yaw_from != yaw_to || !route.empty())
       for (int l = 0; l < layout.end_effector_count(); ++l) {
         const auto offset = [&](const VectorXd& at, double yaw) -> Vector3d {
           return level(yaw).transpose() * (at.segment<3>(layout.end(l)) - at.segment<3>(layout.com()));
         };
         const Vector3d from = offset(start, yaw_from), to = offset(goal, yaw_to);
         x.segment<3>(layout.end(l)) =
-            x.segment<3>(layout.com()) + level(yaw_from + blend * (yaw_to - yaw_from)) * (from + blend * (to - from));
+            x.segment<3>(layout.com()) + level(yaw) * (from + blend * (to - from));
       }
     reference.x.push_back(x);
   }

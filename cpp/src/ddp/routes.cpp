@@ -206,6 +206,17 @@ Vector3d point_on(const Route& route, double share) {
   return sum / (2 * kHalf + 1);
 }
 
+double turn_on(const Route& route, double share) {
+  if (route.size() < 3) return 0.0;
+  const Vector2d straight = (route.back() - route.front()).head<2>();
+  const double before = std::max(share - kLookAlong, 0.0), after = std::min(share + kLookAlong, 1.0);
+  const Vector2d here = (point_on(route, after) - point_on(route, before)).head<2>();
+  if (!(straight.norm() > 0.0) || !(here.norm() > 0.0)) return 0.0;
+  const double turn = std::atan2(straight.x() * here.y() - straight.y() * here.x(), straight.dot(here));
+  const double in = std::min(std::min(share, 1.0 - share) / kTurnShare, 1.0);
+  return in * in * (3.0 - 2.0 * in) * std::clamp(turn, -0.5 * M_PI, 0.5 * M_PI);
+}
+
 Routes find_routes(const Scene& scene, const Robot& robot, double sole_inside) {
   const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
   const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");

@@ -27,4 +27,8 @@ Routes find_routes(const Scene& scene, const Robot& robot, double sole_inside = 
 /// Point at this share of a route's length. Its corners are rounded, its ends are not.
 Eigen::Vector3d point_on(const Route& route, double share);
 
+/// How far [rad] the base turns there from where it would look straight on: with the route, by a quarter turn at most,
+/// and not at its ends. Nothing on the straight line.
+double turn_on(const Route& route, double share);
+
 }  // namespace mcplan::ddp
