@@ -145,7 +145,8 @@ struct Fields<ddp::Options> {
       field("restarts", &Options::restarts, "", "Further attempts while the checker rejects the plan.").at_least(0),
       field("max_iterations", &Options::max_iterations, "", "Most iterations, over all attempts.").at_least(1),
       field("time_limit_s", &Options::time_limit_s, "s", "Wall clock of the search.").positive().or_infinite(),
-      field("threads", &Options::threads, "", "Threads that price neighbours; the result does not depend on it.")
+      field("threads", &Options::threads, "",
+            "Threads that search ways, guesses and changes at once; the result does not depend on it.")
           .at_least(1)
           .at_most(256),
       field("seed", &Options::seed, "", "Seed of the order in which restarts vary the settings."),

@@ -103,3 +103,20 @@ TEST_CASE("scenes where nothing stands at both ends are straight") {
   scene.goal.contacts = {{"left_foot", "ground"}};
   if (scene.surface_index("ground") >= 0) CHECK(find_routes(scene, scenes::humanoid44()).straight);
 }
+
+TEST_CASE("the base turns with a route: to its left where that goes left, back again, and not at the ends") {
+  const Route left = {{0, 0, 0}, {1, 1, 0}, {3, 1, 0}, {4, 0, 0}};
+  CHECK(turn_on(left, 0.0) == 0.0);
+  CHECK(turn_on(left, 1.0) == 0.0);
+  CHECK(turn_on(left, 0.2) > 0.3);
+  CHECK(std::abs(turn_on(left, 0.5)) < 1e-9);
+  CHECK(turn_on(left, 0.8) < -0.3);
+  CHECK(turn_on({}, 0.5) == 0.0);
+  CHECK(turn_on({{0, 0, 0}, {1, 0, 0}}, 0.5) == 0.0);
+  // A route that comes back turns the base by a quarter at most; one in a turned world turns it as much.
+  const Route hook = {{0, 0, 0}, {0, 3, 0}, {-2, 3, 0}, {-2, 5, 0}, {1, 5, 0}};
+  for (int i = 0; i <= 50; ++i) CHECK(std::abs(turn_on(hook, i / 50.0)) <= 0.5 * M_PI + 1e-12);
+  Route turned;
+  for (const Vector3d& at : left) turned.emplace_back(-at.y(), at.x(), at.z());
+  for (int i = 0; i <= 50; ++i) CHECK(std::abs(turn_on(turned, i / 50.0) - turn_on(left, i / 50.0)) < 1e-9);
+}

@@ -89,8 +89,8 @@ struct Options {
 
   int max_iterations = 5000;                                      ///< over all attempts
   double time_limit_s = std::numeric_limits<double>::infinity();  ///< wall clock
-  int threads = 1;                                                ///< for pricing; the result does not depend on it
-  std::uint64_t seed = 0;                                         ///< of the order in which restarts vary the settings
+  int threads = 1;         ///< for ways, first guesses, changed sequences, pricing; the result does not depend on it
+  std::uint64_t seed = 0;  ///< of the order in which restarts vary the settings
 
   std::vector<std::vector<int>>
       initial_sequence;  ///< phases+1 rows (or empty): surface index per end-effector, -1 free
