@@ -224,8 +224,10 @@ constexpr int kPaperIterations = 60;
 // Scenes of many surfaces.
 
 /// Of the first and the second search: surfaces within so many reaches of the way, and the nearest ones among which a
-/// contact is looked for. Chosen: all surfaces of the built-in scenes lie within the first ("Many surfaces").
-constexpr double kOutlookReach[] = {1.0, 4.0};
+/// contact is looked for, if they are within so many diagonals of the reach. Chosen: all surfaces of the built-in
+/// scenes lie within the first ("Many surfaces").
+constexpr double kOutlookReach[] = {1.0, 4.0}, kOutlookWithin[] = {0.75, 0.0};
+constexpr std::size_t kFewSurfaces = 16;  ///< that no search looks past, however far away they are; chosen
 constexpr int kOutlookNearest[] = {32, 128};
 
 // Time limits and plans.

@@ -229,23 +229,26 @@ ContactSequence Problem::to_active(const ContactSequence& sequence) const {
   return out;
 }
 
-void Problem::look_near(int count) {
+void Problem::look_near(int count, double within) {
   std::size_t max_surfaces = 0;
   for (int l = 0; l < layout.end_effector_count(); ++l) max_surfaces = std::max(max_surfaces, rules.surfaces(l).size());
   rules.look_near({});
-  if (count <= 0 || max_surfaces <= static_cast<std::size_t>(count)) return;
+  const std::size_t few = within > 0.0 ? kFewSurfaces : std::max(count, 0);
+  if (count <= 0 || max_surfaces <= few) return;
   const SurfaceBoxes boxes(polygons);
   std::vector<std::vector<std::vector<int>>> near(steps + 1);
   std::vector<std::pair<double, int>> distances;  // a heap of the nearest
   for (int k = 0; k <= steps; ++k)
     for (int l = 0; l < layout.end_effector_count(); ++l) {
       const Vector3d due = reference.x[k].segment<3>(layout.end(l));
+      const double most = within > 0.0 ? within * (limits[l].reach_max - limits[l].reach_min).norm()
+                                       : std::numeric_limits<double>::infinity();
       distances.clear();
       for (int surface : rules.surfaces(l)) {
         const bool full = distances.size() == static_cast<std::size_t>(count);
         if (full && boxes.min_squared_distance(surface, due) > distances.front().first) continue;
         const std::pair<double, int> here((polygons[surface].nearest(due) - due).squaredNorm(), surface);
-        if (full && !(here < distances.front())) continue;
+        if (here.first > most * most || (full && !(here < distances.front()))) continue;
         if (full) std::pop_heap(distances.begin(), distances.end());
         if (full) distances.pop_back();
         distances.push_back(here);

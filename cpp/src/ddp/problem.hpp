@@ -126,8 +126,9 @@ class Problem {
   ContactSequence to_active(const ContactSequence& sequence) const;
 
   /// Look for the contacts of each step among this many surfaces nearest to where the reference has the end-effector
-  /// then; 0 or enough for all: among all.
-  void look_near(int count);
+  /// then; 0 or enough for all: among all. Leaves out those that are further than so many diagonals of its reach from
+  /// there, unless there are few in all; 0: none.
+  void look_near(int count, double within = 0.0);
 
   /// Start from a measured state instead of the scene's; `contacts` by active end-effector.
   void set_start(const Knot& measured, const ContactState& contacts);

@@ -21,7 +21,8 @@ double distance_to_segment(const Vector3d& point, const Vector3d& from, const Ve
 
 Outlook outlook(int level) {
   if (level >= kOutlooks - 1) return {};
-  return {kOutlookReach[std::max(level, 0)], kOutlookNearest[std::max(level, 0)]};
+  const int i = std::max(level, 0);
+  return {kOutlookReach[i], kOutlookNearest[i], kOutlookWithin[i]};
 }
 
 double reach_of(const Robot& robot) {

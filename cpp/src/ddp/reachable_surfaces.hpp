@@ -13,8 +13,9 @@ namespace mcplan::ddp {
 /// at costs set-up, prices and memory; so a search begins with the nearest, and is repeated with more of them when no
 /// plan comes out of it. The last one looks at all: no scene is made unsolvable.
 struct Outlook {
-  double reach = 0.0;  ///< surfaces further than this many reaches of the robot from the way are set aside; 0: none
-  int nearest = 0;     ///< a contact is looked for among this many surfaces nearest to where it is due; 0: all
+  double reach = 0.0;   ///< surfaces further than this many reaches of the robot from the way are set aside; 0: none
+  int nearest = 0;      ///< a contact is looked for among this many surfaces nearest to where it is due; 0: all
+  double within = 0.0;  ///< of which those nearer than so many diagonals of its reach; 0: all
 };
 constexpr int kOutlooks = 3;
 Outlook outlook(int level);  ///< level 0: the nearest, kOutlooks - 1: all surfaces

@@ -107,7 +107,7 @@ void WaysToGoal::search_in(int phases, const Way& way, Report& report, Found& fo
     const Outlook look = outlook(options_->method == Method::paper ? kOutlooks - 1 : level);
     const std::vector<int> surfaces = surfaces_of(way.route, look);
     Problem problem = pose(way, phases, surfaces, beside);
-    problem.look_near(look.nearest);
+    problem.look_near(look.nearest, look.within);
     found.steps = problem.steps;
     const bool all = surfaces.size() == scene_->surfaces.size() && problem.rules.looks_everywhere();
     std::optional<Incumbent> warm;

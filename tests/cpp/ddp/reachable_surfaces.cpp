@@ -137,4 +137,21 @@ TEST_CASE("contacts are looked for among the nearest surfaces of each step") {
     CHECK(std::find(with.begin(), with.end(), then) != with.end());
   }
   CHECK(problem.rules.successors(stands).size() > 60);
+  // And no further than so many diagonals of the reach, with however many.
+  const double diagonal = (problem.limits[1].reach_max - problem.limits[1].reach_min).norm();
+  for (double within : {0.1, 0.3}) {
+    problem.look_near(32, within);
+    for (int k = 0; k <= problem.steps; ++k) {
+      const Vector3d due = problem.reference.x[k].segment<3>(problem.layout.end(1));
+      std::size_t near = 0, made = 0;
+      for (const mcplan::Polygon& polygon : problem.polygons)
+        near += (polygon.nearest(due) - due).norm() <= within * diagonal;
+      for (const ContactState& next : problem.rules.successors(stands, k)) {
+        if (next[1] == kFree) continue;
+        ++made;
+        CHECK((problem.polygons[next[1]].nearest(due) - due).norm() <= within * diagonal + 1e-12);
+      }
+      CHECK(made == std::min<std::size_t>(near, 32));
+    }
+  }
 }
