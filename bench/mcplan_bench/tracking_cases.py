@@ -103,7 +103,8 @@ def _sequence(scene: str, robot: str, demand: Demand | None, scale: float = 1.0,
 def _jump(demand: Demand | None, assist: bool = False, gap_m: float = 0.0) -> Case:
     case = _sequence("short_gap", "talos", demand, assist=assist)
     name = f"{case.name}/{gap_m:.2f} m" if gap_m else case.name
-    return replace(case, name=name, gap_m=gap_m, planning={"flight_duration_min_s": FLIGHT_S, "weights": FIRM_JUMP})
+    planning = {"flight_duration_min_s": FLIGHT_S, "weights": FIRM_JUMP, "joint_limits": False}
+    return replace(case, name=name, gap_m=gap_m, planning=planning)
 
 
 def _walk(scene: str, fidelity: str) -> Case:
@@ -139,7 +140,7 @@ CASES: tuple[Case, ...] = (
         replace(
             _sequence("short_gap_with_rail", "talos", STAYS_UP if assist else None, assist=assist),
             strong_hands=True,
-            planning={"weights": FIRM_HANDS},
+            planning={"weights": FIRM_HANDS, "joint_limits": False},
         )
         for assist in (True, False)
     ),

@@ -105,6 +105,8 @@ class DdpOptions(TypedDict, total=False):
     """Hold the friction cones."""
     friction_sides: int
     """Sides of the pyramid inside the cone that is held instead of it; 0: the cone itself."""
+    joint_limits: bool
+    """Hold the joint limits of legs for which the robot has them; False: the plan's robot is one without."""
     whole_sequence_moves: bool
     """Look for better contact sequences as a whole, by dynamic programming, where it pays."""
     stepping_guesses: bool

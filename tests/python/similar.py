@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -35,6 +36,16 @@ class Factors:
         return self.mass * self.length * self.velocity
 
 
+def similar_limb(limb: Any, by: Factors) -> Any:
+    out = copy.deepcopy(limb)
+    for name in ("hip_B", "upper", "lower", "ankle", "margin"):
+        setattr(out, name, getattr(limb, name) * by.length)
+    for name in ("knee_torque", "hip_torque", "ankle_torque"):
+        setattr(out, name, getattr(limb, name) * by.moment)
+    out.knee_speed = limb.knee_speed / by.time
+    return out
+
+
 def similar_robot(robot: mp.Robot, by: Factors, durations: bool = True) -> mp.Robot:
     """A robot of another size; without `durations` its phases and the height of its swings stay as they were."""
     out = copy.deepcopy(robot)
@@ -55,6 +66,8 @@ def similar_robot(robot: mp.Robot, by: Factors, durations: bool = True) -> mp.Ro
         other.max_moment = end.max_moment * by.moment
         if end.com_reach.given:
             other.com_reach = similar_polytope(end.com_reach, by)
+        if end.limb.given:
+            other.limb = similar_limb(end.limb, by)
         other.partner_reach = {name: similar_polytope(reach, by) for name, reach in end.partner_reach.items()}
         ends.append(other)
     out.end_effectors = ends

@@ -37,7 +37,7 @@ def walked(walking):
 
 @pytest.fixture(scope="module")
 def stairs():
-    return mp.plan("stairs", mp.load_robot("talos")).plan
+    return mp.plan("stairs", mp.load_robot("talos"), joint_limits=False).plan
 
 
 def beyond(feasibility) -> set[str]:

@@ -53,6 +53,8 @@ void bind_resolved_stance(py::module_& m) {
 
 void bind_robot(py::module_& m) {
   bind_polytope(m);
+  py::class_<LimbLimits> limb = bind_fields<LimbLimits>(m);
+  limb.def_property_readonly("given", &LimbLimits::given, "Whether limits are given.");
   bind_fields<EndEffector>(m);
   py::class_<Robot> c = bind_fields<Robot>(m);
   c.def("end_effector_index", &Robot::end_effector_index, py::arg("end_effector_name"), "Index, or -1.");

@@ -79,6 +79,15 @@ constexpr double kPathRoom = 0.01, kLiftMax = 4.0;
 /// away, and robots crouch.
 constexpr double kStanding = 0.6;
 
+// Joints.
+
+/// Ratio of a joint's torque and speed limits that is planned: penalties settle slightly outside. Chosen: the checker
+/// tolerates 0.02.
+constexpr double kJointMargin = 0.97;
+/// The lever of a stretched knee, over the shorter link, is at least this; legs are kept from being longer. Chosen:
+/// 0.99 of the length of TALOS's stretched leg.
+constexpr double kMinLeverRatio = 0.15;
+
 // Weights that are no options.
 
 /// On the state at the start, which is a fact. Chosen: above all weights of the paper.

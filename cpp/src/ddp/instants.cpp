@@ -18,6 +18,7 @@ void make_instants(const Problem& problem, const Pendulum& pendulum, const Vecto
     course.at(instant.fraction * u[at.duration()], instant.com, angle);
     instant.rpy = problem.base_rpy;
     for (int axis : at.axes()) instant.rpy[axis] = angle[axis];
+    if (!problem.jointed.ends.empty()) instant.velocity = course.velocity(instant.fraction * u[at.duration()]);
     instant.pendulum = &pendulum;
     instant.x = &x;
     instant.u = &u;
@@ -25,11 +26,19 @@ void make_instants(const Problem& problem, const Pendulum& pendulum, const Vecto
   }
 }
 
+void Instant::make_step() const {
+  if (stepped) return;
+  pendulum->step(*x, *u, fraction, step);
+  stepped = true;
+}
+
+void Instant::add_along_velocity(const Vector3d& along, Eigen::Ref<VectorXd> g) const {
+  make_step();
+  pendulum->add_along_velocity(step, along, g);
+}
+
 void Instant::add_along(const Vector3d& along_com, const Vector3d& along_rpy, Eigen::Ref<VectorXd> g) const {
-  if (!stepped) {
-    pendulum->step(*x, *u, fraction, step);
-    stepped = true;
-  }
+  make_step();
   const std::vector<int>& axes = pendulum->layout().axes();
   Vector3d along_angle = Vector3d::Zero();
   for (std::size_t a = 0; a < axes.size(); ++a) along_angle[a] = along_rpy[axes[a]];

@@ -27,7 +27,8 @@ struct Names<ddp::Model> {
 template <>
 struct Names<ddp::Polish> {
   static constexpr const char* name = "Polish";
-  static constexpr const char* meaning = "What finds the motion of a contact sequence that is given.";
+  static constexpr const char* meaning =
+      "What finds the motion of a contact sequence that is given; with joint limits always the penalty.";
   static constexpr Choice<ddp::Polish> all[] = {
       {"penalty", ddp::Polish::penalty, "Contacts and limits as weights, steps by a merit function."},
       {"interior_point", ddp::Polish::interior_point,
@@ -130,6 +131,8 @@ struct Fields<ddp::Options> {
       field("friction", &Options::friction, "", "Hold the friction cones."),
       field("friction_sides", &Options::friction_sides, "",
             "Sides of the pyramid inside the cone that is held instead of it; 0: the cone itself."),
+      field("joint_limits", &Options::joint_limits, "",
+            "Hold the joint limits of legs for which the robot has them; False: the plan's robot is one without."),
       field("whole_sequence_moves", &Options::whole_sequence_moves, "",
             "Look for better contact sequences as a whole, by dynamic programming, where it pays."),
       field("stepping_guesses", &Options::stepping_guesses, "",

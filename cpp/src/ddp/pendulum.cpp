@@ -75,6 +75,11 @@ void Pendulum::Course::at(double t, Vector3d& com, Vector3d& angle) const {
   angle = turning_.rpy(pendulum_->momentum_at(d, half, 0.5 * t), pendulum_->momentum_at(d, f, t), t);
 }
 
+Vector3d Pendulum::Course::velocity(double t) const {
+  const EntireFunctions f(drive_.total * t * t);
+  return f(0) * drive_.v + t * f(1) * drive_.acceleration;
+}
+
 /// dL(t)/dz.
 void Pendulum::momentum_jacobian(const Drive& d, const VectorXd& x, const VectorXd& u, const Time& time,
                                  Eigen::Ref<Eigen::Matrix3Xd> out) const {
@@ -299,6 +304,17 @@ void Pendulum::add_along(const PendulumStep& s, const Vector3d& along_com, const
   }
   g[nx + layout_.duration()] += s.slope * s.velocity.dot(along_com);
   if (axes > 0 && !along_angle.isZero(0.0)) g.noalias() += s.turn.topRows(axes).transpose() * along_angle.head(axes);
+}
+
+void Pendulum::add_along_velocity(const PendulumStep& s, const Vector3d& along, Eigen::Ref<VectorXd> g) const {
+  const int nx = layout_.nx();
+  g.segment<3>(layout_.com()) += s.vp * along;
+  g.segment<3>(layout_.velocity()) += s.pp * along;
+  for (int l = 0; l < layout_.end_effector_count(); ++l) {
+    layout_.add_along_line_point(l, s.mu[l] * s.v_end * along, g);
+    g[nx + layout_.stiffness(l)] += s.v_mu.col(l).dot(along);
+  }
+  g[nx + layout_.duration()] += s.slope * s.acceleration.dot(along);
 }
 
 void Pendulum::substitute_inverse(const PendulumStep& s, MatrixXd& m) const {

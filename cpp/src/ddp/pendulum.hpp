@@ -73,6 +73,7 @@ class Pendulum {
     Course(const Pendulum& pendulum, const Drive& drive)
         : pendulum_(&pendulum), drive_(drive), turning_(drive.angle, drive.momentum, pendulum.inertia_) {}
     void at(double t, Eigen::Vector3d& com, Eigen::Vector3d& angle) const;
+    Eigen::Vector3d velocity(double t) const;  ///< v(t)
 
    private:
     const Pendulum* pendulum_;
@@ -97,6 +98,8 @@ class Pendulum {
   /// g (nz) += (dp+/dz)^T along_com + (d theta+/dz)^T along_angle (by active axis).
   void add_along(const PendulumStep& s, const Eigen::Vector3d& along_com, const Eigen::Vector3d& along_angle,
                  Eigen::Ref<Eigen::VectorXd> g) const;
+  /// g (nz) += (dv+/dz)^T along.
+  void add_along_velocity(const PendulumStep& s, const Eigen::Vector3d& along, Eigen::Ref<Eigen::VectorXd> g) const;
   /// Substitution of x = A^-1 (x' - B u) into [x u]: in place on the columns of M (r x nz) = M T, T = [[A^-1, -A^-1 B],
   /// [0, I]].
   void substitute_inverse(const PendulumStep& s, Eigen::MatrixXd& m) const;

@@ -41,8 +41,15 @@ std::vector<Vector3d> pyramid_tangents(const Vector3d& normal, int sides) {
 
 }  // namespace
 
+Robot robot_for(Robot robot, const Options& options) {
+  if (!options.joint_limits || options.method == Method::paper)
+    for (EndEffector& end : robot.end_effectors) end.limb = {};
+  return robot;
+}
+
 Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& options_in, const Route& route_in)
     : scene(scene_in), robot(robot_in), options(options_in), route(route_in) {
+  robot = robot_for(robot, options);
   scene.validate();
   robot.validate();
   options.validate();
@@ -57,6 +64,8 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   make_durations();
   make_surfaces();
   const std::vector<std::vector<int>> surfaces = make_ends();
+  // The interior point has no rows for joints.
+  if (!jointed.ends.empty()) options.polish = Polish::penalty;
   layout = model == Model::lipm ? lipm_layout(limits, options.method == Method::paper)
                                 : wrench_layout(limits, polygons, surfaces);
   rules = ContactRules(surfaces, make_state_rules(), options.one_switch_per_step,
@@ -132,6 +141,9 @@ std::vector<std::vector<int>> Problem::make_ends() {
     active.push_back(static_cast<int>(e));
     surfaces.push_back(list);
     limits.push_back(limits_of(robot.end_effectors[e]));
+    if (!limits.back().limb.given()) continue;
+    jointed.ends.push_back(static_cast<int>(limits.size()) - 1);
+    jointed.nominal_sum += limits.back().nominal;
   }
   return surfaces;
 }
@@ -150,6 +162,13 @@ EndLimits Problem::limits_of(const EndEffector& end) const {
   l.half_width = l.half_size.minCoeff();
   l.pressure_half = robot.pressure_ratio * l.half_size;
   l.moment_max = end.max_moment / units.moment();
+  l.limb = end.limb;
+  for (Vector3d* length : {&l.limb.hip_B, &l.limb.ankle}) *length /= units.length;
+  for (double* length : {&l.limb.upper, &l.limb.lower, &l.limb.margin}) *length /= units.length;
+  l.limb.knee_torque /= units.moment();
+  l.limb.hip_torque /= units.moment();
+  l.limb.ankle_torque /= units.moment();
+  l.limb.knee_speed *= units.time;
   // The paper's model knows no headings of soles.
   const bool turns = model == Model::wrench;
   l.yaw_min = turns ? end.yaw_range[0] : -std::numeric_limits<double>::infinity();

@@ -52,7 +52,11 @@ struct EndLimits {
   double half_width = 0.0;                  ///< the shorter of the two
   Eigen::Vector3d moment_max;
   double yaw_min = 0.0, yaw_max = 0.0;  ///< [rad] of the sole against the base
+  LimbLimits limb;                      ///< none where the options do without
 };
+
+/// The robot that is planned for: without limb limits where the options do without joint limits.
+Robot robot_for(Robot robot, const Options& options);
 
 /// Scene, robot and options worked out for the planner: non-dimensional, by index. The end-effectors here are the
 /// `active` ones; those that may touch nothing are carried along at their nominal place and cost no variables
@@ -83,8 +87,14 @@ class Problem {
   double swing_height = 0.0;           ///< by which an end-effector is lifted usually
   std::vector<int> standing_solids;    ///< surfaces whose solids come near the reference of the CoM
   std::vector<EndLimits> limits;       ///< by active end-effector
-  Eigen::Vector3d inertia;             ///< in units of mass length^2
-  double first_duration = 0.0;         ///< what is left of the first phase when replanning, else 0
+  /// Active end-effectors with limb limits, and the sum of their nominal positions.
+  struct Jointed {
+    std::vector<int> ends;
+    Eigen::Vector3d nominal_sum = Eigen::Vector3d::Zero();
+  };
+  Jointed jointed;
+  Eigen::Vector3d inertia;      ///< in units of mass length^2
+  double first_duration = 0.0;  ///< what is left of the first phase when replanning, else 0
   double flight_duration_min = 0.0;
   double duration_min = 0.0, duration_max = 0.0, duration_initial = 0.0;
   Eigen::Vector3d base_rpy;  ///< angles of the axes that are not in the layout

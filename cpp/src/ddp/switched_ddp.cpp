@@ -165,7 +165,7 @@ void require_fit(const Plan& previous, const Knot& measured, const Robot& robot)
 }  // namespace
 
 SwitchedDdp::SwitchedDdp(const Scene& scene, const Robot& robot, const Options& options)
-    : impl_(std::make_unique<Impl>(Impl{scene, robot, options})) {
+    : impl_(std::make_unique<Impl>(Impl{scene, robot_for(robot, options), options})) {
   // Working the problem out validates everything.
   const Problem problem(scene, robot, options);
   if (!options.initial_sequence.empty()) problem.to_active(options.initial_sequence);

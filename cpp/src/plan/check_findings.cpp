@@ -31,6 +31,8 @@ std::array<Row, kConstraints> rows(const Tolerances& t, const Similarity& s) {
            {"pull", "N", t.force},
            {"friction", "-", t.friction},
            {"force_cap", "-", t.force_cap},
+           {"joint_torque", "-", t.joint},
+           {"joint_speed", "-", t.joint},
            {"com_speed", "m/s", t.boundary * s.velocity()},
            {"moment", "N m", t.moment},
            {"angular_momentum", "-", t.force_cap},

@@ -31,6 +31,8 @@ enum class Constraint {
   pull,
   friction,
   force_cap,
+  joint_torque,
+  joint_speed,
   com_speed,
   moment,
   angular_momentum,
@@ -265,6 +267,21 @@ class Limbs {
   std::vector<Worst> worst_;                ///< per surface
   Eigen::Vector3d looked_at_W_;             ///< where the CoM was
   double next_s_ = 0.0;
+};
+
+/// check_joints.cpp: torques and speeds of the joints of legs in contact.
+class Joints {
+ public:
+  void check(const Problem& problem, const Sample& sample, Findings& findings);
+
+ private:
+  static constexpr double kMinLeverRatio = 0.15;  ///< of the shorter link: legs are no longer than with such a lever
+
+  struct Seen {
+    int phase = -1;
+    double since_start_s = 0.0, length = 0.0;
+  };
+  std::vector<Seen> last_;  ///< per end-effector
 };
 
 /// check_sequence.cpp

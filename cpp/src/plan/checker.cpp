@@ -79,6 +79,7 @@ struct Memory {
   Travel travel;
   Surroundings surroundings;
   Limbs limbs;
+  Joints joints;
 };
 
 void check_sample(const Problem& problem, const Sample& sample, Memory& memory, Findings& findings) {
@@ -88,6 +89,7 @@ void check_sample(const Problem& problem, const Sample& sample, Memory& memory, 
   check_pull(problem, sample, findings);
   check_friction(problem, sample, findings);
   check_force_cap(problem, sample, findings);
+  memory.joints.check(problem, sample, findings);
   check_momentum(problem, sample, findings);
   with_law(problem, sample.phase, [&](auto law) { law.check_bounds(problem, sample, findings); });
   check_reach(problem, sample, findings);

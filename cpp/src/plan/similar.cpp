@@ -27,6 +27,12 @@ void scale(EndEffector& end, const Similarity& by) {
   end.max_moment *= by.moment();
   end.com_reach.b *= by.length;
   for (auto& partner : end.partner_reach) partner.second.b *= by.length;
+  for (Vector3d* length : {&end.limb.hip_B, &end.limb.ankle}) *length *= by.length;
+  for (double* length : {&end.limb.upper, &end.limb.lower, &end.limb.margin}) *length *= by.length;
+  end.limb.knee_torque *= by.moment();
+  end.limb.hip_torque *= by.moment();
+  end.limb.ankle_torque *= by.moment();
+  end.limb.knee_speed /= by.time;
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ struct Fields<Tolerances> {
       field("force", &Tolerances::force, "N", "Pull of a contact, or force of a free end-effector.").or_infinite(),
       field("force_cap", &Tolerances::force_cap, "-", "Relative excess over max_force, or over a claimed momentum_max.")
           .or_infinite(),
+      field("joint", &Tolerances::joint, "-", "Relative excess over torque and speed limits of joints.").or_infinite(),
       field("moment", &Tolerances::moment, "N m", "Excess over max_moment or the torsion the contact can give.")
           .or_infinite(),
       field("reach", &Tolerances::reach, "m", "Outside the reach box.").or_infinite(),

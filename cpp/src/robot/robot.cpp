@@ -71,6 +71,20 @@ void validate_reach(const Robot& robot, const EndEffector& e, const std::string&
   }
 }
 
+/// The nominal stance must bend the knee, by more than the margin.
+void require_limb(const EndEffector& e, const std::string& field) {
+  const LimbLimits& limb = e.limb;
+  const bool has_sole = e.half_size.maxCoeff() > 0.0;
+  if (!has_sole && !limb.ankle.isZero(0.0))
+    throw InvalidRobot(field + ".ankle", "must be zero for an end-effector without a sole", text(limb.ankle));
+  const double length = (limb.hip_B - e.nominal_B - limb.ankle).norm();
+  const double min = std::abs(limb.upper - limb.lower) + limb.margin, max = limb.upper + limb.lower - limb.margin;
+  if (!(length > min && length < max))
+    throw InvalidRobot(field,
+                       "must be a leg that is bent in the nominal stance, " + text(min) + " to " + text(max) + " m",
+                       text(length) + " m from hip to ankle");
+}
+
 }  // namespace
 
 int Robot::end_effector_index(const std::string& end_effector_name) const {
@@ -95,6 +109,9 @@ void model::relations(const Robot& robot, Findings& found) {
     const std::string field = field_of(l);
     found.check({field + ".nominal", field + ".reach_min", field + ".reach_max"}, [&] { require_box(e, field); });
     found.check({field + ".yaw_range"}, [&] { require_yaw_range(e, field); });
+    if (e.limb.given())
+      found.check({field + ".limb", field + ".half_size", field + ".nominal"},
+                  [&] { require_limb(e, field + ".limb"); });
     found.check({field + ".name"}, [&] {
       if (!names.insert(e.name).second) throw InvalidRobot(field + ".name", "must be unique", text(e.name));
     });

@@ -42,6 +42,39 @@ struct Fields<PolytopeTable> {
 };
 
 template <>
+struct Fields<LimbLimits> {
+  static constexpr const char* name = "LimbLimits";
+  static constexpr const char* meaning =
+      "What the main joints of a leg can do: a virtual leg of two links between hip and ankle that bend in the plane "
+      "in "
+      "which the sole heads.";
+  static constexpr auto all = std::make_tuple(
+      field("hip_B", &LimbLimits::hip_B, "m", "Hip relative to the CoM in the nominal stance, axes of the base.")
+          .in_files("hip")
+          .required(),
+      field("hip_shift", &LimbLimits::hip_shift, "-",
+            "Motion of the hip against the CoM over that of each end-effector with limits against it.")
+          .above(-1.0)
+          .at_most(0.0),
+      field("upper", &LimbLimits::upper, "m", "Length from hip to knee; 0 in memory: no limits.").required().positive(),
+      field("lower", &LimbLimits::lower, "m", "Length from knee to ankle.").required().positive(),
+      field("ankle", &LimbLimits::ankle, "m", "From the end-effector to the ankle, axes of the sole."),
+      field("bends_backward", &LimbLimits::bends_backward, "",
+            "Whether the knee is behind the line from hip to ankle."),
+      field("margin", &LimbLimits::margin, "m",
+            "By how much the hip may be elsewhere: levers are those of the worse leg.")
+          .not_negative(),
+      field("knee_torque", &LimbLimits::knee_torque, "N m", "Largest torque of the knee.").positive().or_infinite(),
+      field("knee_speed", &LimbLimits::knee_speed, "rad/s", "Largest speed of the knee.").positive().or_infinite(),
+      field("hip_torque", &LimbLimits::hip_torque, "N m", "Largest torque of the hip about its roll and pitch axes.")
+          .positive()
+          .or_infinite(),
+      field("ankle_torque", &LimbLimits::ankle_torque, "N m", "Largest torque of the ankle, likewise.")
+          .positive()
+          .or_infinite());
+};
+
+template <>
 struct Fields<EndEffector> {
   static constexpr const char* name = "EndEffector";
   static constexpr const char* meaning =
@@ -73,7 +106,8 @@ struct Fields<EndEffector> {
       field("com_reach", &EndEffector::com_reach, "m",
             "Where the CoM may be relative to the sole's centre. Axes: level, x along the heading."),
       field("partner_reach", &EndEffector::partner_reach, "m",
-            "Where other end-effectors may stand relative to it, by name. Same axes. Assign a dict to change it."));
+            "Where other end-effectors may stand relative to it, by name. Same axes. Assign a dict to change it."),
+      field("limb", &EndEffector::limb, "", "Joint limits of the leg that carries it, where given."));
 };
 
 template <>

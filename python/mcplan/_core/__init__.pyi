@@ -27,6 +27,7 @@ __all__: list[str] = [
     "ForceLaw",
     "Iteration",
     "Knot",
+    "LimbLimits",
     "LogLevel",
     "Phase",
     "Plan",
@@ -550,6 +551,116 @@ class Polytope:
         Whether it has rows.
         """
 
+class LimbLimits:
+    """
+    What the main joints of a leg can do: a virtual leg of two links between hip and ankle that bend in the plane in which the sole heads.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __copy__(self) -> LimbLimits: ...
+    def __deepcopy__(self, memo: dict) -> LimbLimits: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        *,
+        hip_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        hip_shift: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        upper: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        lower: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        ankle: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        bends_backward: bool = False,
+        margin: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        knee_torque: typing.SupportsFloat | typing.SupportsIndex = ...,
+        knee_speed: typing.SupportsFloat | typing.SupportsIndex = ...,
+        hip_torque: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
+        ankle_torque: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def ankle(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m] From the end-effector to the ankle, axes of the sole.
+        """
+    @ankle.setter
+    def ankle(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def ankle_torque(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [N m] Largest torque of the ankle, likewise.
+        """
+    @ankle_torque.setter
+    def ankle_torque(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
+    @property
+    def bends_backward(self) -> bool:
+        """
+        Whether the knee is behind the line from hip to ankle.
+        """
+    @bends_backward.setter
+    def bends_backward(self, arg0: bool) -> None: ...
+    @property
+    def given(self) -> bool:
+        """
+        Whether limits are given.
+        """
+    @property
+    def hip_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        [m] Hip relative to the CoM in the nominal stance, axes of the base.
+        """
+    @hip_B.setter
+    def hip_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"]) -> None: ...
+    @property
+    def hip_shift(self) -> float:
+        """
+        [-] Motion of the hip against the CoM over that of each end-effector with limits against it.
+        """
+    @hip_shift.setter
+    def hip_shift(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def hip_torque(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [N m] Largest torque of the hip about its roll and pitch axes.
+        """
+    @hip_torque.setter
+    def hip_torque(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
+    @property
+    def knee_speed(self) -> float:
+        """
+        [rad/s] Largest speed of the knee.
+        """
+    @knee_speed.setter
+    def knee_speed(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def knee_torque(self) -> float:
+        """
+        [N m] Largest torque of the knee.
+        """
+    @knee_torque.setter
+    def knee_torque(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def lower(self) -> float:
+        """
+        [m] Length from knee to ankle.
+        """
+    @lower.setter
+    def lower(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def margin(self) -> float:
+        """
+        [m] By how much the hip may be elsewhere: levers are those of the worse leg.
+        """
+    @margin.setter
+    def margin(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def upper(self) -> float:
+        """
+        [m] Length from hip to knee; 0 in memory: no limits.
+        """
+    @upper.setter
+    def upper(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
 class EndEffector:
     """
     A contact link. Positions relative to the CoM, in axes that turn with the base (x forward, y left, z up).
@@ -576,6 +687,7 @@ class EndEffector:
         yaw_range: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
         com_reach: Polytope = ...,
         partner_reach: collections.abc.Mapping[str, Polytope] = {},
+        limb: LimbLimits = ...,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
@@ -614,6 +726,13 @@ class EndEffector:
         """
     @kind.setter
     def kind(self, arg0: str) -> None: ...
+    @property
+    def limb(self) -> LimbLimits:
+        """
+        Joint limits of the leg that carries it, where given.
+        """
+    @limb.setter
+    def limb(self, arg1: LimbLimits) -> None: ...
     @property
     def max_force(self) -> float:
         """
@@ -1668,6 +1787,7 @@ class Tolerances:
         friction: typing.SupportsFloat | typing.SupportsIndex = 0.001,
         force: typing.SupportsFloat | typing.SupportsIndex = 1e-06,
         force_cap: typing.SupportsFloat | typing.SupportsIndex = 0.001,
+        joint: typing.SupportsFloat | typing.SupportsIndex = 0.02,
         moment: typing.SupportsFloat | typing.SupportsIndex = 1e-06,
         reach: typing.SupportsFloat | typing.SupportsIndex = 0.001,
         yaw: typing.SupportsFloat | typing.SupportsIndex = 0.01,
@@ -1740,6 +1860,13 @@ class Tolerances:
         """
     @friction.setter
     def friction(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def joint(self) -> float:
+        """
+        [-] Relative excess over torque and speed limits of joints.
+        """
+    @joint.setter
+    def joint(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def moment(self) -> float:
         """

@@ -126,7 +126,7 @@ class StiffnessInput:
 
 class Polish:
     """
-    What finds the motion of a contact sequence that is given.
+    What finds the motion of a contact sequence that is given; with joint limits always the penalty.
 
     Members:
 
@@ -398,6 +398,7 @@ class Options:
         sole_inside: typing.SupportsFloat | typing.SupportsIndex = -1.0,
         friction: bool = True,
         friction_sides: typing.SupportsInt | typing.SupportsIndex = 0,
+        joint_limits: bool = True,
         whole_sequence_moves: bool = True,
         stepping_guesses: bool = True,
         allow_flight: bool = True,
@@ -493,6 +494,13 @@ class Options:
         """
     @interior_points.setter
     def interior_points(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def joint_limits(self) -> bool:
+        """
+        Hold the joint limits of legs for which the robot has them; False: the plan's robot is one without.
+        """
+    @joint_limits.setter
+    def joint_limits(self, arg0: bool) -> None: ...
     @property
     def logger(self) -> collections.abc.Callable[[mcplan._core.LogLevel, str], None]:
         """

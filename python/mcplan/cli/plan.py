@@ -33,6 +33,9 @@ MinFlightOption = Annotated[
 NoFlightOption = Annotated[
     bool, typer.Option("--no-flight", help="Plan no phase without contacts, not even where steps do not lead.")
 ]
+NoJointLimitsOption = Annotated[
+    bool, typer.Option("--no-joint-limits", help="Plan as if the robot's legs had no joint limits.")
+]
 PhasesOption = Annotated[
     int | None,
     typer.Option("--phases", metavar="N", help="Number of phases; default: by the distance to the goal, at least 18."),
@@ -84,6 +87,7 @@ def plan(
     sole_inside: SoleInsideOption = None,
     min_flight: MinFlightOption = None,
     no_flight: NoFlightOption = False,
+    no_joint_limits: NoJointLimitsOption = False,
     phases: PhasesOption = None,
     model: ModelOption = None,
     method: MethodOption = None,
@@ -115,6 +119,8 @@ def plan(
     options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if no_flight:
         options["allow_flight"] = False
+    if no_joint_limits:
+        options["joint_limits"] = False
     if plots is not None:
         options["record_history"] = True
     if verbose:

@@ -22,6 +22,8 @@ from mcplan._core import EndEffector, Robot
 from mcplan.errors import InvalidInput, did_you_mean, shown, written
 from mcplan.extras import require
 from mcplan.files.builtin import exists
+from mcplan.files.leg_geometry import legs_of
+from mcplan.files.limb_limits import add_limb_limits
 from mcplan.files.reach import HEADING_MAX, Limb, explore, headings_reached, largest_box
 from mcplan.files.strength import POINTS, strengths_in_box
 from mcplan.files.urdf_reading import build_model, read_urdf, read_xml
@@ -107,7 +109,7 @@ def robot_from_urdf(
     shared = {end.name: _same_box(boxes, end, com_height) for end in ends}
     able = {end.name: _with_strength(limbs[end.name], shared[end.name], end.kind == "foot", seed) for end in ends}
     weight = mass * GRAVITY
-    return Robot(
+    robot = Robot(
         name=Path(source).stem,
         description=setup.description if setup else "",
         mass=round(mass, 3),
@@ -119,6 +121,10 @@ def robot_from_urdf(
         posture=_posture_of(model, nominal),
         **(_SOLED if any(any(end.half_size) for end in ends) else {}),
     )
+    legs = legs_of(model, nominal, ends, limbs)
+    if legs is not None:
+        add_limb_limits(robot, legs, ends, seed)
+    return robot
 
 
 def _centroidal(model: Any, nominal: np.ndarray, ends: tuple[End, ...], source: str) -> tuple[float, np.ndarray, float]:

@@ -52,7 +52,7 @@ TEST_CASE("checker accepts a step with forces at the corners of the feet") {
   const CheckResult result = check(step_on_corners());
   INFO(result.to_string());
   CHECK(result.ok());
-  CHECK(result.constraints.size() == 28);
+  CHECK(result.constraints.size() == 30);
   CHECK(value(result, "dynamics") < 1e-12);
   CHECK(value(result, "at_consistency") < 1e-12);
   CHECK(value(result, "anchor") < 1e-12);

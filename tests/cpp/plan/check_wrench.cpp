@@ -66,7 +66,7 @@ TEST_CASE("checker accepts a walk whose feet turn the base, and replays it to 1e
   const CheckResult result = check(wrench_walk());
   INFO(result.to_string());
   CHECK(result.ok());
-  CHECK(result.constraints.size() == 28);
+  CHECK(result.constraints.size() == 30);
   CHECK(find(result, "dynamics").value < 1e-11);
   CHECK(find(result, "at_consistency").value < 1e-11);
   CHECK(find(result, "orientation").value < 1e-5);

@@ -14,7 +14,7 @@ TEST_CASE("checker accepts a walk made by hand and reports every constraint once
   CHECK(result.ok());
   CHECK(result.violations().empty());
   CHECK(result.to_string() == "ok");
-  CHECK(result.constraints.size() == 28);
+  CHECK(result.constraints.size() == 30);
   CHECK(find(result, "dynamics").value < 1e-11);
   CHECK(find(result, "at_consistency").value < 1e-11);
   CHECK(find(result, "friction").value < -0.3);

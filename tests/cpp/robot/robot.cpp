@@ -221,3 +221,32 @@ TEST_CASE("stances that the robot cannot take are named") {
   stance.contacts = {{"foot", "wall"}};
   CHECK(stance_field(stance) == "goal.contacts.left");
 }
+
+TEST_CASE("limits of a limb are refused where the nominal stance does not bend its knee") {
+  const auto with = [](const std::function<void(mcplan::EndEffector&)>& set) {
+    Robot robot = hopper();
+    mcplan::EndEffector& foot = robot.end_effectors[0];
+    foot.limb.hip_B = {0.1, 0.2, -0.1};
+    foot.limb.upper = foot.limb.lower = 0.25;
+    set(foot);
+    robot.validate();
+  };
+  CHECK_NOTHROW(with([](auto&) {}));
+  const auto message = [&](const std::function<void(mcplan::EndEffector&)>& set) -> std::string {
+    try {
+      with(set);
+    } catch (const mcplan::InvalidRobot& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(message([](auto& foot) { foot.limb.upper = 0.1; }).find("end_effectors[0].limb: must be a leg that is bent") !=
+        std::string::npos);
+  CHECK(message([](auto& foot) { foot.limb.margin = 0.2; }).find("end_effectors[0].limb: must be a leg that is bent") !=
+        std::string::npos);
+  CHECK(message([](auto& foot) { foot.limb.lower = 0.0; }).find("end_effectors[0].limb.lower") != std::string::npos);
+  CHECK(message([](auto& foot) { foot.limb.knee_torque = -1.0; }).find("end_effectors[0].limb.knee_torque") !=
+        std::string::npos);
+  CHECK(message([](auto& foot) { foot.limb.ankle.z() = 0.05; }).find("end_effectors[0].limb.ankle: must be zero") !=
+        std::string::npos);
+}

@@ -21,6 +21,7 @@ struct Tolerances {
   double friction = 1e-3;                     ///< [-] tangential over normal force, beyond the coefficient
   double force = 1e-6;                        ///< [N] pull of a contact, or force of a free end-effector
   double force_cap = 1e-3;                    ///< [-] relative excess over max_force, or over momentum_max
+  double joint = 0.02;                        ///< [-] relative excess over torque and speed limits of joints
   double moment = 1e-6;                       ///< [N m] excess over max_moment or the torsion the contact can give
   double reach = 1e-3;                        ///< [m] outside the reach box
   double yaw = 1e-2;                          ///< [rad] heading of a sole outside its range
@@ -59,6 +60,8 @@ struct Tolerances {
 ///     friction           |tangential force| / (n . f) <= friction coefficient, at every point (grasp surfaces
 ///                        excepted)
 ///     force_cap          |f_l| <= max_force, f_l the sum over its points
+///     joint_torque       torque of knee, hip or ankle of a leg in contact over its limit, for robots with limb limits
+///     joint_speed        speed of its knee over its limit, likewise
 ///     com_speed          |v| of the CoM beyond max_com_speed
 ///     moment             contact moment within max_moment and within what the sole can give (not of forces at points,
 ///                        which `anchor`, `pull` and `friction` hold); of contact wrenches: none along the surface

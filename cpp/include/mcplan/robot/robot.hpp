@@ -18,6 +18,27 @@ struct Polytope {
   bool given() const { return A.rows() > 0; }
 };
 
+/// What the main joints of a leg can do, as functions of where its end-effector and hip are: a virtual leg of two links
+/// that bend in the plane of the hip, the ankle and the direction in which the sole heads (without a sole, in which the
+/// base does). Torques are those of the contact force alone, at rest. Theory: docs/theory/ddp.md, "Joint limits".
+struct LimbLimits {
+  Eigen::Vector3d hip_B = Eigen::Vector3d::Zero();  ///< [m] hip relative to the CoM, nominal stance
+  double hip_shift = 0.0;  ///< [-] motion of the hip against the CoM over that of an end-effector with limits against
+                           ///< both: what moves the CoM in the base
+  double upper = 0.0;      ///< [m] from the hip to the knee; 0: no limits are given
+  double lower = 0.0;      ///< [m] from the knee to the ankle
+  Eigen::Vector3d ankle = Eigen::Vector3d::Zero();  ///< [m] from the end-effector to the ankle, axes of the sole
+  bool bends_backward = false;                      ///< the knee is behind the line from hip to ankle
+  double margin = 0.0;  ///< [m] by which the hip may be elsewhere: levers are those of the worse leg
+  double knee_torque = std::numeric_limits<double>::infinity();  ///< [N m]
+  double knee_speed = std::numeric_limits<double>::infinity();   ///< [rad/s]
+  Eigen::Vector2d hip_torque =
+      Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());  ///< [N m] roll, pitch
+  Eigen::Vector2d ankle_torque = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());  ///< likewise
+
+  bool given() const { return upper > 0.0; }
+};
+
 /// A contact link of the robot. Frame B sits at the CoM and turns with the base.
 struct EndEffector {
   std::string name;           ///< e.g. "left_foot"
@@ -39,6 +60,7 @@ struct EndEffector {
   Polytope
       com_reach;  ///< where the CoM may be relative to this end-effector (its sole's centre) while it is in contact
   std::map<std::string, Polytope> partner_reach;  ///< where other end-effectors may stand relative to it, by name
+  LimbLimits limb;                                ///< of the leg that carries it, where given
 };
 
 /// What a planner needs to know of a robot: lumped inertia and where its limbs reach.
