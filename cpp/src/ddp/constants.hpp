@@ -15,6 +15,9 @@ namespace mcplan::ddp {
 constexpr double kFrictionMargin = 0.02;
 /// ... down to this ratio of the surface's coefficient. Chosen.
 constexpr double kFrictionRatioMin = 0.5;
+/// Ratio of friction that plans of robots use which are tracked on point feet, and the least load of such a foot in
+/// contact over an equal share of the weight. Measured (docs/tracking.md, "Quadrupeds").
+constexpr double kTrackedFrictionRatio = 0.8, kLoadRatio = 0.3;
 /// Footholds and centres of pressure are planned this far inside their polygon [m]. Chosen, for the same reason.
 constexpr double kEdgeMargin_m = 0.002;
 /// A sole that finds no room is kept to the middle of its surface, down to this ratio of the width from either edge,

@@ -39,6 +39,12 @@ std::vector<Vector3d> pyramid_tangents(const Vector3d& normal, int sides) {
   return out;
 }
 
+/// Whether the plan's robot balances on this end-effector alone, with nothing below it that a controller could shift its
+/// force on. The paper's model and method know forces that point at the CoM alone.
+bool is_balancing_point(const Robot& robot, const EndEffector& end, Model model) {
+  return robot.tracked && model == Model::wrench && end.kind == "foot" && end.half_size.maxCoeff() <= 0.0;
+}
+
 }  // namespace
 
 Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& options_in, const Route& route_in)
@@ -105,7 +111,15 @@ void Problem::make_durations() {
   duration_initial = (options.duration_initial_s > 0.0 ? options.duration_initial_s : middle_s) / units.time;
 }
 
+/// The ratio of friction that contacts may use.
+double Problem::friction_ratio() const {
+  if (options.friction_ratio >= 0.0) return options.friction_ratio;
+  const auto balancing = [&](const EndEffector& end) { return is_balancing_point(robot, end, model); };
+  return std::any_of(robot.end_effectors.begin(), robot.end_effectors.end(), balancing) ? kTrackedFrictionRatio : 1.0;
+}
+
 void Problem::make_surfaces() {
+  const double ratio = friction_ratio();
   for (const Surface& surface : scene.surfaces) {
     std::vector<Vector3d> scaled;
     for (const Vector3d& v : surface.vertices_W) scaled.push_back(v / units.length);
@@ -114,7 +128,8 @@ void Problem::make_surfaces() {
     keep_out_depth.push_back(kKeepOutDepth * surface.thickness / units.length);
     friction.push_back(surface.grasp
                            ? std::numeric_limits<double>::infinity()
-                           : std::max(surface.friction - kFrictionMargin, kFrictionRatioMin * surface.friction));
+                           : std::max(std::min(surface.friction - kFrictionMargin, ratio * surface.friction),
+                                      kFrictionRatioMin * surface.friction));
     pyramid.push_back(pyramid_tangents(polygons.back().normal_W(), options.friction_sides));
   }
   if (options.friction_sides > 0) pyramid_ratio = std::cos(M_PI / options.friction_sides);
@@ -132,6 +147,9 @@ std::vector<std::vector<int>> Problem::make_ends() {
     surfaces.push_back(list);
     limits.push_back(limits_of(robot.end_effectors[e]));
   }
+  const auto feet = std::count_if(limits.begin(), limits.end(), [](const EndLimits& l) { return l.balances; });
+  const double load_ratio = options.load_ratio >= 0.0 ? options.load_ratio : kLoadRatio;
+  if (feet > 0) load_min = load_ratio / static_cast<double>(feet);
   return surfaces;
 }
 
@@ -153,6 +171,7 @@ EndLimits Problem::limits_of(const EndEffector& end) const {
   const bool turns = model == Model::wrench;
   l.yaw_min = turns ? end.yaw_range[0] : -std::numeric_limits<double>::infinity();
   l.yaw_max = turns ? end.yaw_range[1] : std::numeric_limits<double>::infinity();
+  l.balances = is_balancing_point(robot, end, model);
   return l;
 }
 

@@ -51,6 +51,7 @@ struct EndLimits {
   double half_width = 0.0;                  ///< the shorter of the two
   Eigen::Vector3d moment_max;
   double yaw_min = 0.0, yaw_max = 0.0;  ///< [rad] of the sole against the base
+  bool balances = false;                ///< a point foot on which a robot that is tracked keeps its balance
 };
 
 /// Scene, robot and options worked out for the planner: non-dimensional, by index. The end-effectors here are the
@@ -77,6 +78,7 @@ class Problem {
   double pyramid_ratio = 1.0;                         ///< of the cone's opening that lies inside every side
   double edge_margin = 0.0;                           ///< footholds are planned this much inside their polygon
   double pressure_margin = 0.0;                       ///< and centres of pressure
+  double load_min = 0.0;               ///< least stiffness of point feet in contact that are `balances`
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<double> thickness;       ///< by scene surface, of the solid below it
   std::vector<int> standing_solids;    ///< surfaces whose solids come near the reference of the CoM
@@ -139,6 +141,7 @@ class Problem {
   void make_surfaces();
   std::vector<std::vector<int>> make_ends();
   EndLimits limits_of(const EndEffector& end) const;
+  double friction_ratio() const;
   std::vector<StateRule> make_state_rules() const;
   Eigen::VectorXd state_of(const ResolvedStance& stance) const;
   void make_slack();

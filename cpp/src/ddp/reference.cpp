@@ -170,6 +170,13 @@ Trajectory Problem::initial_guess(const ContactSequence& sequence, const Tuning&
       if (!sequence.empty()) mu = sequence[k][l] == kFree ? 0.0 : 1.0 / standing;
       u[layout.stiffness(l)] = options.stiffness_input == StiffnessInput::lambda ? std::sqrt(mu) : mu;
     }
+    for (int l = 0; l < layout.end_effector_count(); ++l)
+      if (limits[l].balances) {  // upright forces
+        const Vector3d away = guess.x[k].segment<3>(layout.com()) - guess.x[k].segment<3>(layout.end(l));
+        const auto& line = layout.offsets(l).force_line;
+        const int count = layout.force_line_count(l);
+        u.segment(layout.force_line(l), count) = line.transpose() * Vector3d(away.x(), away.y(), 0.0);
+      }
     u[layout.duration()] = k == 0 && first_duration > 0.0 ? first_duration : tuning.duration_initial;
     guess.u.push_back(u);
   }
