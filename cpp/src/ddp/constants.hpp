@@ -38,6 +38,9 @@ constexpr int kPaperPhases = 18, kPhasesMax = 400;
 /// Friction coefficient that stands for any larger one where a stride is judged. Chosen.
 constexpr double kStrideFrictionMax = 10.0;
 
+/// Tracked point feet are planned this far inside their surface, in CoM heights. Chosen: the radius of Go2's foot.
+constexpr double kPointMargin = 0.08;
+
 // Routes.
 
 /// Level distance from ground that a foot may have in its nominal place, as a ratio of its stride, less what its sole

@@ -69,7 +69,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
 
   const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
   const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
-  base_rpy = Vector3d(0.0, 0.0, from.yaw);
+  base_rpy = from.base_rpy;
   start_yaw.assign(layout.end_effector_count(), from.yaw);
   goal_yaw = to.yaw;
   make_foothold_margins();
@@ -203,7 +203,7 @@ VectorXd Problem::state_of(const ResolvedStance& stance) const {
   VectorXd x = VectorXd::Zero(layout.nx());
   x.segment<3>(layout.com()) = stance.com_W / units.length;
   for (int a = 0; a < layout.axis_count(); ++a)
-    if (layout.axes()[a] == 2) x[layout.angle(a)] = stance.yaw;
+    x[layout.angle(a)] = stance.base_rpy[layout.axes()[a]];
   for (int l = 0; l < layout.end_effector_count(); ++l)
     x.segment<3>(layout.end(l)) = stance.end_effectors_W[active[l]] / units.length;
   return x;

@@ -149,6 +149,7 @@ class Problem {
   int automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const;
   Eigen::Vector3d stride_of(int l) const;
   void make_reference(const Eigen::VectorXd& goal);
+  void follow_ground();
   void find_standing_solids();
   void place_footholds(const ContactSequence& sequence, Trajectory& guess) const;
 };

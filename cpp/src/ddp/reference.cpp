@@ -6,6 +6,8 @@
 #include "ddp/problem.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "plan/solid_box.hpp"
+#include "robot/ground_plane.hpp"
+#include "surface_boxes.hpp"
 
 /// What the search is to stay near, and what it begins with.
 namespace mcplan::ddp {
@@ -95,7 +97,54 @@ void Problem::make_reference(const VectorXd& goal) {
       }
     reference.x.push_back(x);
   }
+  follow_ground();
   find_standing_solids();
+}
+
+/// The trunk of a robot that balances on three point feet or more follows the ground below them: its angles, and the
+/// height of its CoM, are those of the feet's nearest ground, on the mean over a stride of every foot.
+void Problem::follow_ground() {
+  std::vector<int> feet;
+  for (int l = 0; l < layout.end_effector_count(); ++l)
+    if (limits[l].balances) feet.push_back(l);
+  if (feet.size() < 3) return;
+  const SurfaceBoxes boxes(polygons);
+  std::vector<Vector3d> angles;
+  std::vector<double> heights;
+  for (int k = 0; k <= steps; ++k) {
+    std::vector<Vector3d> ground;
+    for (int l : feet) {
+      const Vector3d above = reference.x[k].segment<3>(layout.end(l));
+      Vector3d nearest = above;
+      double least = std::numeric_limits<double>::infinity();
+      for (int surface : rules.surfaces(l)) {
+        if (boxes.min_squared_distance(surface, above) > least) continue;
+        const Vector3d here = polygons[surface].nearest(above);
+        if ((here - above).squaredNorm() >= least) continue;
+        least = (here - above).squaredNorm();
+        nearest = here;
+      }
+      ground.emplace_back(above.x(), above.y(), nearest.z());
+    }
+    angles.push_back(rpy_along_ground(ground, rpy(reference.x[k]).z()));
+    double height = 1.0;
+    for (const Vector3d& place : ground) height += place.z() / static_cast<double>(ground.size());
+    heights.push_back(height);
+  }
+  const int half = static_cast<int>(feet.size());
+  for (int k = 1; k < steps; ++k) {
+    const int first = std::max(k - half, 0), last = std::min(k + half, steps);
+    Eigen::Vector2d tilt = Eigen::Vector2d::Zero();
+    double height = 0.0;
+    for (int j = first; j <= last; ++j) {
+      tilt += angles[j].head<2>() / (last - first + 1);
+      height += heights[j] / (last - first + 1);
+    }
+    VectorXd& x = reference.x[k];
+    x[layout.com() + 2] = height;
+    for (int a = 0; a < layout.axis_count(); ++a)
+      if (layout.axes()[a] < 2) x[layout.angle(a)] = tilt[layout.axes()[a]];
+  }
 }
 
 /// Ground lies one length below the reference of the CoM: what comes nearer stands on it. Looked for along the whole

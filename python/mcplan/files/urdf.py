@@ -42,6 +42,8 @@ _SOLED: dict[str, Any] = {
     "pressure_ratio": PRESSURE_RATIO,
     "tracked": True,
 }
+#: Fields of robots on four point feet and more.
+_POINT_FEET: dict[str, Any] = {"phase_duration": (0.2, 0.5), "tracked": True}
 _MIN_STEP = 0.01  # of the grid of reach boxes, in CoM heights, so that its points can be counted
 _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
@@ -117,8 +119,15 @@ def robot_from_urdf(
         end_effectors=[_end_effector(end, _same_strength(able, end), weight) for end in ends],
         urdf=urdf,
         posture=_posture_of(model, nominal),
-        **(_SOLED if any(any(end.half_size) for end in ends) else {}),
+        **_as_tracked(ends),
     )
+
+
+def _as_tracked(ends: tuple[End, ...]) -> dict[str, Any]:
+    """Fields of robots whose plans a controller follows: those on soles, and those on four point feet and more."""
+    if any(any(end.half_size) for end in ends):
+        return _SOLED
+    return _POINT_FEET if sum(end.kind == "foot" for end in ends) >= 4 else {}
 
 
 def _centroidal(model: Any, nominal: np.ndarray, ends: tuple[End, ...], source: str) -> tuple[float, np.ndarray, float]:
