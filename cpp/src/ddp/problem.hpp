@@ -150,6 +150,7 @@ class Problem {
   Eigen::Vector3d stride_of(int l) const;
   void make_reference(const Eigen::VectorXd& goal);
   void follow_ground();
+  std::vector<double> balanced_loads(const ContactState& contacts, const Eigen::VectorXd& x) const;
   void find_standing_solids();
   void place_footholds(const ContactSequence& sequence, Trajectory& guess) const;
 };

@@ -1,3 +1,4 @@
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -205,6 +206,28 @@ void Problem::place_footholds(const ContactSequence& sequence, Trajectory& guess
   }
 }
 
+/// Of robots on point feet: loads of the feet in contact near to equal ones whose centre of pressure is below the CoM,
+/// so that upright forces turn nothing; none is negative. Empty of other robots.
+std::vector<double> Problem::balanced_loads(const ContactState& contacts, const VectorXd& x) const {
+  std::vector<int> standing;
+  for (int l = 0; l < layout.end_effector_count(); ++l)
+    if (contacts[l] != kFree) standing.push_back(l);
+  const auto balancing = [&](int l) { return limits[l].balances; };
+  if (standing.empty() || !std::all_of(standing.begin(), standing.end(), balancing)) return {};
+  const Eigen::Index count = static_cast<Eigen::Index>(standing.size());
+  Eigen::MatrixXd moments(3, count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    moments.col(i) << 1.0, (x.segment<3>(layout.end(standing[i])) - x.segment<3>(layout.com())).head<2>();
+  const VectorXd equal = VectorXd::Constant(count, 1.0 / static_cast<double>(count));
+  const Eigen::Vector3d lacking = Eigen::Vector3d::UnitX() - moments * equal;
+  VectorXd loads = (equal + moments.completeOrthogonalDecomposition().solve(lacking)).cwiseMax(0.0);
+  if (!(loads.sum() > 0.0) || !loads.allFinite()) return {};
+  loads /= loads.sum();
+  std::vector<double> out(layout.end_effector_count(), 0.0);
+  for (Eigen::Index i = 0; i < count; ++i) out[standing[i]] = loads[i];
+  return out;
+}
+
 Trajectory Problem::initial_guess(const ContactSequence& sequence, const Tuning& tuning) const {
   Trajectory guess = reference;
   if (!sequence.empty()) place_footholds(sequence, guess);
@@ -213,10 +236,12 @@ Trajectory Problem::initial_guess(const ContactSequence& sequence, const Tuning&
     int standing = 0;
     if (!sequence.empty())
       for (int contact : sequence[k]) standing += contact != kFree;
+    const std::vector<double> loads = sequence.empty() ? std::vector<double>() : balanced_loads(sequence[k], guess.x[k]);
     for (int l = 0; l < layout.end_effector_count(); ++l) {
       u.segment<3>(layout.stride(l)) = guess.x[k + 1].segment<3>(layout.end(l)) - guess.x[k].segment<3>(layout.end(l));
       double mu = 1.0 / layout.end_effector_count();
       if (!sequence.empty()) mu = sequence[k][l] == kFree ? 0.0 : 1.0 / standing;
+      if (!loads.empty()) mu = loads[l];
       u[layout.stiffness(l)] = options.stiffness_input == StiffnessInput::lambda ? std::sqrt(mu) : mu;
     }
     for (int l = 0; l < layout.end_effector_count(); ++l)

@@ -42,8 +42,8 @@ _SOLED: dict[str, Any] = {
     "pressure_ratio": PRESSURE_RATIO,
     "tracked": True,
 }
-#: Fields of robots on four point feet and more.
-_POINT_FEET: dict[str, Any] = {"phase_duration": (0.2, 0.5), "tracked": True}
+#: Shortest and longest phase of robots on four point feet and more, in sqrt(com_height / gravity).
+STEP_PHASES = (0.93, 2.3)
 _MIN_STEP = 0.01  # of the grid of reach boxes, in CoM heights, so that its points can be counted
 _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
@@ -119,15 +119,18 @@ def robot_from_urdf(
         end_effectors=[_end_effector(end, _same_strength(able, end), weight) for end in ends],
         urdf=urdf,
         posture=_posture_of(model, nominal),
-        **_as_tracked(ends),
+        **_as_tracked(ends, com_height),
     )
 
 
-def _as_tracked(ends: tuple[End, ...]) -> dict[str, Any]:
+def _as_tracked(ends: tuple[End, ...], com_height: float) -> dict[str, Any]:
     """Fields of robots whose plans a controller follows: those on soles, and those on four point feet and more."""
     if any(any(end.half_size) for end in ends):
         return _SOLED
-    return _POINT_FEET if sum(end.kind == "foot" for end in ends) >= 4 else {}
+    if sum(end.kind == "foot" for end in ends) < 4:
+        return {}
+    unit = float(np.sqrt(com_height / GRAVITY))
+    return {"phase_duration": [round(phase * unit, 2) for phase in STEP_PHASES], "tracked": True}
 
 
 def _centroidal(model: Any, nominal: np.ndarray, ends: tuple[End, ...], source: str) -> tuple[float, np.ndarray, float]:
