@@ -166,6 +166,9 @@ constexpr std::size_t kExactTrials = 8;
 
 /// Iterations of a trial, trials before a local optimum is declared, rounds. Chosen.
 constexpr int kTrialIterations = 20, kTrials = 10, kRefineRounds = 30;
+/// Trials before a local optimum is declared of robots that crawl on four point feet. Measured (docs/tracking.md,
+/// "Quadrupeds"): ten take up to twice as long for a few hundredths of the cost, which are swings that overlap.
+constexpr std::size_t kCrawlTrials = 4;
 /// Fraction by which a trial must lower the merit. Chosen.
 constexpr double kTrialGain = 2e-3;
 /// Riccati steps beyond which the whole-sequence move is left out. Chosen.
