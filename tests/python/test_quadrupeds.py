@@ -55,7 +55,9 @@ def stairs(robot: mp.Robot) -> mp.Scene:
     front, rear = lengths(robot)
     edge = front + 0.15
     treads = [
-        surface(f"tread_{k}", (edge + 0.3 * (k - 1), edge + 0.3 * k + (2.0 if k == 3 else 0.0)), (0.08 * k, 0.08 * k), 0.08)
+        surface(
+            f"tread_{k}", (edge + 0.3 * (k - 1), edge + 0.3 * k + (2.0 if k == 3 else 0.0)), (0.08 * k, 0.08 * k), 0.08
+        )
         for k in (1, 2, 3)
     ]
     return scene("stairs", [surface("ground", (-1.5, edge), (0.0, 0.0)), *treads], [edge + 0.6 + rear + 0.2, 0.0, 0.24])

@@ -58,8 +58,8 @@ double growth_to_touch(const std::vector<Vector3d>& polygon, const Vector3d& box
 /// and within c of its polygon, so within sqrt(2) c of a point y of it (`contact_distance`, `contact_polygon`), and R^T
 /// (x - p) in the reach box grown by rho (`reach`), with an R that differs from the knot's by o at most
 /// (`orientation`), about a CoM that differs from the knot's by at most the tolerance of `dynamics`. The angle between
-/// R and the stance's R* is at most 3 b_r + o, and |x - p| at most r + sqrt(3) rho with r the farthest corner of the box. So
-/// R*^T (y - p*) lies in the box grown by
+/// R and the stance's R* is at most 3 b_r + o, and |x - p| at most r + sqrt(3) rho with r the farthest corner of the
+/// box. So R*^T (y - p*) lies in the box grown by
 ///
 ///     rho + sqrt(2) c + b + (3 b_r + o) (r + sqrt(3) rho)
 ///

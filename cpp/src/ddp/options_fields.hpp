@@ -128,9 +128,10 @@ struct Fields<ddp::Options> {
           .at_most(2.0)
           .or_infinite(),
       field("friction", &Options::friction, "", "Hold the friction cones."),
-      field("friction_ratio", &Options::friction_ratio, "-",
-            "Ratio of each surface's friction that contacts use; at least half of it is left to them. Negative: 0.8 for "
-            "tracked robots on point feet, else 1.")
+      field(
+          "friction_ratio", &Options::friction_ratio, "-",
+          "Ratio of each surface's friction that contacts use; at least half of it is left to them. Negative: 0.8 for "
+          "tracked robots on point feet, else 1.")
           .at_most(1.0)
           .or_infinite(),
       field("load_ratio", &Options::load_ratio, "-",

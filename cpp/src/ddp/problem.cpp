@@ -39,8 +39,8 @@ std::vector<Vector3d> pyramid_tangents(const Vector3d& normal, int sides) {
   return out;
 }
 
-/// Whether the plan's robot balances on this end-effector alone, with nothing below it that a controller could shift its
-/// force on. The paper's model and method know forces that point at the CoM alone.
+/// Whether the plan's robot balances on this end-effector alone, with nothing below it that a controller could shift
+/// its force on. The paper's model and method know forces that point at the CoM alone.
 bool is_balancing_point(const Robot& robot, const EndEffector& end, Model model) {
   return robot.tracked && model == Model::wrench && end.kind == "foot" && end.half_size.maxCoeff() <= 0.0;
 }
@@ -126,10 +126,9 @@ void Problem::make_surfaces() {
     polygons.emplace_back(scaled);
     thickness.push_back(surface.thickness / units.length);
     keep_out_depth.push_back(kKeepOutDepth * surface.thickness / units.length);
-    friction.push_back(surface.grasp
-                           ? std::numeric_limits<double>::infinity()
-                           : std::max(std::min(surface.friction - kFrictionMargin, ratio * surface.friction),
-                                      kFrictionRatioMin * surface.friction));
+    friction.push_back(surface.grasp ? std::numeric_limits<double>::infinity()
+                                     : std::max(std::min(surface.friction - kFrictionMargin, ratio * surface.friction),
+                                                kFrictionRatioMin * surface.friction));
     pyramid.push_back(pyramid_tangents(polygons.back().normal_W(), options.friction_sides));
   }
   if (options.friction_sides > 0) pyramid_ratio = std::cos(M_PI / options.friction_sides);
@@ -202,8 +201,7 @@ std::vector<StateRule> Problem::make_state_rules() const {
 VectorXd Problem::state_of(const ResolvedStance& stance) const {
   VectorXd x = VectorXd::Zero(layout.nx());
   x.segment<3>(layout.com()) = stance.com_W / units.length;
-  for (int a = 0; a < layout.axis_count(); ++a)
-    x[layout.angle(a)] = stance.base_rpy[layout.axes()[a]];
+  for (int a = 0; a < layout.axis_count(); ++a) x[layout.angle(a)] = stance.base_rpy[layout.axes()[a]];
   for (int l = 0; l < layout.end_effector_count(); ++l)
     x.segment<3>(layout.end(l)) = stance.end_effectors_W[active[l]] / units.length;
   return x;

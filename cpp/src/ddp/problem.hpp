@@ -78,7 +78,7 @@ class Problem {
   double pyramid_ratio = 1.0;                         ///< of the cone's opening that lies inside every side
   double edge_margin = 0.0;                           ///< footholds are planned this much inside their polygon
   double pressure_margin = 0.0;                       ///< and centres of pressure
-  double load_min = 0.0;               ///< least stiffness of point feet in contact that are `balances`
+  double load_min = 0.0;                              ///< least stiffness of point feet in contact that are `balances`
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<double> thickness;       ///< by scene surface, of the solid below it
   std::vector<int> standing_solids;    ///< surfaces whose solids come near the reference of the CoM

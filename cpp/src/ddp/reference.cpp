@@ -236,7 +236,8 @@ Trajectory Problem::initial_guess(const ContactSequence& sequence, const Tuning&
     int standing = 0;
     if (!sequence.empty())
       for (int contact : sequence[k]) standing += contact != kFree;
-    const std::vector<double> loads = sequence.empty() ? std::vector<double>() : balanced_loads(sequence[k], guess.x[k]);
+    const std::vector<double> loads =
+        sequence.empty() ? std::vector<double>() : balanced_loads(sequence[k], guess.x[k]);
     for (int l = 0; l < layout.end_effector_count(); ++l) {
       u.segment<3>(layout.stride(l)) = guess.x[k + 1].segment<3>(layout.end(l)) - guess.x[k].segment<3>(layout.end(l));
       double mu = 1.0 / layout.end_effector_count();

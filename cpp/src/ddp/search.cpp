@@ -255,9 +255,7 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now, const 
 Ending Search::refine(Incumbent& now, const Tuning& tuning) {
   Ending ending = Ending::done;
   polish_proximal_ = kTrialProximal;
-  const std::size_t trials = exact_contacts()                ? kExactTrials
-                             : balances_on_points(*problem_) ? kCrawlTrials
-                                                             : kTrials;
+  const std::size_t trials = exact_contacts() ? kExactTrials : balances_on_points(*problem_) ? kCrawlTrials : kTrials;
   // The interior point ends at the optimum of a sequence from wherever it begins: no sequence is tried twice.
   std::set<ContactSequence> tried{now.sequence};
   for (int round = 0; round < kRefineRounds; ++round) {

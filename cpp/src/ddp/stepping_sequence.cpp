@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The order in which walking animals set down one foot after the other: of either side the rear one, then the one ahead
-/// of it. The three feet that stand have the CoM between them for longer than in any other order.
+/// The order in which walking animals set down one foot after the other: of either side the rear one, then the one
+/// ahead of it. The three feet that stand have the CoM between them for longer than in any other order.
 void sort_as_crawl(const Problem& problem, std::vector<int>& movers) {
   Vector3d ahead = (problem.reference.x.back() - problem.reference.x.front()).segment<3>(problem.layout.com());
   const Vector3d heading = rotation_from_rpy({0.0, 0.0, problem.base_rpy.z()}).col(0);

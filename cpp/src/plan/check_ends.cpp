@@ -8,8 +8,8 @@ namespace {
 using Eigen::Vector3d;
 
 /// p, v, heading and contacts of a knot against a stance at rest: CoM at the stance's, v = 0, roll, pitch and yaw the
-/// stance's (yaw modulo a turn), rates 0, under contact wrenches no more momentum than such rates have, every end-effector
-/// on the surface that the stance names or free like it.
+/// stance's (yaw modulo a turn), rates 0, under contact wrenches no more momentum than such rates have, every
+/// end-effector on the surface that the stance names or free like it.
 void check_stance(const Problem& problem, Constraint constraint, const ResolvedStance& stance, int k,
                   Findings& findings) {
   const Knot& knot = problem.plan.knots[k];

@@ -49,8 +49,8 @@ TEST_CASE("four point feet step as in a crawl: of either side the rear one, then
   robot.tracked = true;
   const mcplan::EndEffector foot = robot.end_effectors[0];
   robot.end_effectors.clear();
-  for (const auto& [name, x, y] : {std::tuple("rf", 0.3, -0.2), std::tuple("lf", 0.3, 0.2), std::tuple("rh", -0.3, -0.2),
-                                   std::tuple("lh", -0.3, 0.2)}) {
+  for (const auto& [name, x, y] : {std::tuple("rf", 0.3, -0.2), std::tuple("lf", 0.3, 0.2),
+                                   std::tuple("rh", -0.3, -0.2), std::tuple("lh", -0.3, 0.2)}) {
     mcplan::EndEffector& end = robot.end_effectors.emplace_back(foot);
     end.name = name;
     end.half_size.setZero();

@@ -3,9 +3,9 @@
 namespace mcplan::ddp {
 namespace {
 
-/// Point feet in contact that a controller follows bear some weight, mu_l >= load_min: a foot without load is a centre of
-/// pressure on the edge of the support polygon, from which nothing can be corrected. Stiffness times the height of the
-/// CoM is the force in weights, so the least stiffness is the least ratio of the weight. Not in the paper.
+/// Point feet in contact that a controller follows bear some weight, mu_l >= load_min: a foot without load is a centre
+/// of pressure on the edge of the support polygon, from which nothing can be corrected. Stiffness times the height of
+/// the CoM is the force in weights, so the least stiffness is the least ratio of the weight. Not in the paper.
 class Load final : public CostTerm {
  public:
   Load() : CostTerm("load", Scope::contact, 25) {}

@@ -10,7 +10,8 @@ namespace {
 class Upright final : public CostTerm {
  public:
   Upright()
-      : CostTerm("upright", Scope::contact, 12, {1.0, "On the tilt of contact forces of tracked robots' point feet."}) {}
+      : CostTerm("upright", Scope::contact, 12, {1.0, "On the tilt of contact forces of tracked robots' point feet."}) {
+  }
 
   bool applies(const StepView& step) const override { return step.u && step.problem.limits[step.l].balances; }
 
