@@ -1,8 +1,6 @@
 """A Robot from a URDF: mass, inertia, CoM height, and the reach of each limb from its kinematics.
 
     mcplan robots --from-urdf talos -o talos.toml
-    mcplan robots --from-urdf anymal -o anymal.toml
-    mcplan robots --from-urdf g1 -o g1.toml
 
 How each number comes about is written in the file's header; see also ``mcplan.files.reach`` and
 ``mcplan.files.strength``.
