@@ -108,14 +108,11 @@ def test_a_walk_leaves_friction_load_and_two_feet_to_the_controller(robot, terra
     assert str(report.status) == "solved", report.message
     assert min(sum(contact.surface >= 0 for contact in phase.contacts) for phase in plan.phases) >= 2
     assert max(report.friction_use.values()) <= FRICTION_RATIO * 0.7 + 0.02
-    weight, height = plan.robot.mass * plan.scene.gravity, plan.robot.com_height
+    weight = plan.robot.mass * plan.scene.gravity
     for time in np.linspace(0.0, plan.duration(), 300, endpoint=False):
-        now = plan.at(float(time))
-        for end in now.end_effectors:
+        for end in plan.at(float(time)).end_effectors:
             if end.surface >= 0:
-                # Of a foot that stands higher, or whose force passes above it, the same stiffness is less.
-                raised = (now.com_W[2] - end.position_W[2]) / height
-                assert end.force_W[2] > 0.75 * raised * LOAD * weight
+                assert end.force_W[2] > 0.9 * LOAD * weight  # held at the knots, the CoM falls a little between them
 
 
 @pytest.mark.slow
@@ -138,7 +135,7 @@ def test_the_trunk_is_parallel_to_the_slope_that_four_feet_stand_on():
 def test_margins_are_options():
     slope = [mp.plan("slope", "go2", friction_ratio=ratio) for ratio in (1.0, 0.6)]
     used = [max(result.report.friction_use.values()) for result in slope]
-    assert used[0] > 0.6 * 0.7 + 0.02 > used[1]
+    assert used[0] > used[1] + 0.1  # the margin is the search's, the checker asks for the cone alone
     for name in ("friction_ratio", "load_ratio"):
         with pytest.raises(mp.errors.InvalidOptions, match=name):
             mp.plan("flat", "anymal", **{name: 1.5})

@@ -3,9 +3,9 @@
 namespace mcplan::ddp {
 namespace {
 
-/// Point feet in contact that a controller follows bear some weight, mu_l >= load_min: a foot without load is a centre
-/// of pressure on the edge of the support polygon, from which nothing can be corrected. Stiffness times the height of
-/// the CoM is the force in weights, so the least stiffness is the least ratio of the weight. Not in the paper.
+/// Point feet in contact that a controller follows bear some weight: mu_l (p - s_l)_z >= load_min at the knot, in
+/// weights of the robot. A foot without load is a centre of pressure on the edge of the support polygon, from which
+/// nothing can be corrected. Not in the paper.
 class Load final : public CostTerm {
  public:
   Load() : CostTerm("load", Scope::contact, 25) {}
@@ -15,15 +15,20 @@ class Load final : public CostTerm {
   }
 
   void write(const StepView& step, Rows& rows) const override {
-    const double below = step.pendulum.mu(*step.u, step.l) - step.problem.load_min;
+    const Layout& at = step.problem.layout;
+    const double mu = step.pendulum.mu(*step.u, step.l);
+    const double height = step.x[at.com() + 2] - at.line_point(step.x, *step.u, step.l).z();
+    const double below = mu * height - step.problem.load_min;
     if (below >= 0.0) return;
     const double weight = step.schedule.tuning.limit_weight;
     if (!rows.with_gradient()) {
       rows.add_value(weight, below);
       return;
     }
-    const Layout& at = step.problem.layout;
-    rows.add_dense(weight, below)[at.nx() + at.stiffness(step.l)] = stiffness_slope(step);
+    auto g = rows.add_dense(weight, below);
+    g[at.nx() + at.stiffness(step.l)] = stiffness_slope(step) * height;
+    g[at.com() + 2] += mu;
+    at.add_along_line_point(step.l, -mu * Eigen::Vector3d::UnitZ(), g);
   }
 };
 
