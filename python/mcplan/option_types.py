@@ -63,6 +63,8 @@ class DdpWeights(TypedDict, total=False):
     """On leaving a polygon sideways, at least 1."""
     own: collections.abc.Mapping[str, float]
     """Weights of single terms by the term's name, where they are not the usual ones."""
+    upright: float
+    """On the tilt of contact forces of tracked robots' point feet."""
     flight: float
     """On every phase without any contact."""
     contact_change: float
@@ -103,6 +105,12 @@ class DdpOptions(TypedDict, total=False):
     it, where it is large enough; negative: the robot's sole_support."""
     friction: bool
     """Hold the friction cones."""
+    friction_ratio: float
+    """[-] Ratio of each surface's friction that contacts use; at least half of it is left to them. Negative: 0.8 for
+    tracked robots on point feet, else 1."""
+    load_ratio: float
+    """[-] Least load of a point foot in contact of a tracked robot, over an equal share of the weight: how far the
+    centre of pressure stays inside the support polygon. Negative: 0.3."""
     friction_sides: int
     """Sides of the pyramid inside the cone that is held instead of it; 0: the cone itself."""
     joint_limits: bool

@@ -74,7 +74,7 @@ def test_json_without_a_robot_has_no_feasibility(capsys, file):
 def test_robots_that_cannot_be_asked_are_one_line(capsys, file, tmp_path):
     assert one_line_error(run(capsys, "check", file, "--robot", "humanoid44")) == (
         "humanoid44: urdf: must name a URDF: this robot has no joints; plan for one that has, such as "
-        "anymal, g1, talos, talos_wang"
+        "anymal, g1, go2, talos, talos_wang"
     )
     assert "no robot 'tallos' and no file of that name. Did you mean 'talos'?" in one_line_error(
         run(capsys, "check", file, "--robot", "tallos")

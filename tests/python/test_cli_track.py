@@ -203,7 +203,7 @@ def test_malformed_pushes_are_one_line_that_names_the_field(capsys, file, push, 
         (("--robot", "tallos"), "no robot 'tallos' and no file of that name. Did you mean 'talos'?"),
         (
             ("--robot", "humanoid44"),
-            "this robot has no joints; plan for one that has, such as anymal, g1, talos, talos_wang",
+            "this robot has no joints; plan for one that has, such as anymal, g1, go2, talos, talos_wang",
         ),
         (("--robot", "anymal"), "must have the plan's 'right_foot', as g1, talos have, got rf_foot, "),
         (

@@ -117,7 +117,7 @@ def test_feet_stand_where_the_posture_has_them(loaded):
 
 
 @pytest.mark.parametrize(
-    "name", ["anymal", pytest.param("g1", marks=pytest.mark.slow), pytest.param("talos", marks=pytest.mark.slow)]
+    "name", ["anymal", "go2", pytest.param("g1", marks=pytest.mark.slow), pytest.param("talos", marks=pytest.mark.slow)]
 )
 def test_the_command_makes_the_robot_that_is_built_in(name):
     made, built_in = robot_to_dict(robot_from_urdf(name)), robot_to_dict(mp.load_robot(name))

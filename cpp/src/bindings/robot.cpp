@@ -38,10 +38,12 @@ void bind_resolved_stance(py::module_& m) {
   py::class_<ResolvedStance> c(m, "ResolvedStance", "A stance of a scene worked out for one robot.");
   c.def_readonly("com_W", &ResolvedStance::com_W, "[m]");
   c.def_readonly("yaw", &ResolvedStance::yaw, "[rad]");
+  c.def_readonly("base_rpy", &ResolvedStance::base_rpy,
+                 "Roll, pitch and yaw [rad]: upright, on three feet and more parallel to the ground below them.");
   c.def_readonly("contacts", &ResolvedStance::contacts, "Surface index per end-effector, -1: free.");
   def_points(c, "end_effectors_W", &ResolvedStance::end_effectors_W,
              "Nominal positions, those in contact on their surface [m].");
-  def_value(c, "ResolvedStance", {"com_W", "yaw", "contacts", "end_effectors_W"});
+  def_value(c, "ResolvedStance", {"com_W", "yaw", "base_rpy", "contacts", "end_effectors_W"});
   m.def("resolve_stance", &resolve_stance, py::arg("scene"), py::arg("robot"), py::arg("stance"),
         py::arg("field") = "stance",
         "Work out a stance for a robot. Raises InvalidScene when contacts name an end-effector that the robot does not "

@@ -175,9 +175,18 @@ std::vector<Attempts::Guess> Attempts::guesses(const Incumbent& start, const Inc
   if (!options.initial_sequence.empty()) return {{first_guess(start.sequence, first_)}};
   // Shorter and longer steps lead to other sequences; the better one goes on.
   std::vector<Guess> out{{start, options.proximal_weight}, {start, kSecondDiscovery * options.proximal_weight}};
+  const std::vector<Guess> in_turn = stepping();
+  out.insert(out.end(), in_turn.begin(), in_turn.end());
+  return out;
+}
+
+/// End-effectors in turns, begun with the first or the second of them.
+std::vector<Attempts::Guess> Attempts::stepping() const {
+  std::vector<Guess> out;
   for (int mover : {0, 1}) {
-    const ContactSequence stepping = options.stepping_guesses ? stepping_sequence(problem_, mover) : ContactSequence();
-    if (!stepping.empty()) out.push_back({first_guess(stepping, first_)});
+    const ContactSequence steps =
+        problem_.options.stepping_guesses ? stepping_sequence(problem_, mover) : ContactSequence();
+    if (!steps.empty()) out.push_back({first_guess(steps, first_)});
   }
   return out;
 }
@@ -218,8 +227,34 @@ Ending Attempts::restart(Ending ending, const ContactSequence& initial) {
   return ending;
 }
 
+/// Robots on four feet begin with a crawl and nothing else, once more with footholds further inside where a swing has
+/// caught an edge: a discovery over four feet takes several times as long, and mostly ends with no better walk.
+Ending Attempts::crawl() {
+  std::vector<Guess> steps = stepping();
+  if (steps.empty()) return Ending::done;
+  keep(steps.front().start, first_);
+  Ending ending = attempt(std::move(steps), first_);
+  Tuning tuning = first_;
+  for (int i = 0; i < problem_.options.restarts && ending == Ending::done && !best_->solved(); ++i) {
+    if (!best_->finished() || best_->finished()->worst.name != "clearance" || last_.sequence.empty()) break;
+    tuning.extra_margin += further_inside();
+    tuning.clear_swings = true;
+    ending = attempt({Guess{last_, 0.0, true}}, tuning);
+  }
+  return ending;
+}
+
 Ending Attempts::run(const Incumbent* warm) {
   Ending ending = Ending::done;
+  const bool unset = !warm && problem_.options.initial_sequence.empty();
+  if (unset && problem_.options.method == Method::standard && balances_on_points(problem_)) {
+    ending = crawl();
+    if (best_->solved() || (ending != Ending::done && ending != Ending::broke_down)) {
+      if (ending != Ending::interrupted) best_->look_back(search_, surfaces_);
+      return late(ending);
+    }
+    ending = Ending::done;
+  }
   const ContactSequence sequence = initial(ending);
   if (sequence.empty()) return ending;
   Incumbent start = first_guess({}, first_);

@@ -33,10 +33,12 @@ class Attempts {
   Incumbent first_guess(const ContactSequence& sequence, const Tuning& tuning) const;
   Incumbent at_once(const ContactSequence& sequence);
   ContactSequence initial(Ending& ending);
+  std::vector<Guess> stepping() const;
   std::vector<Guess> guesses(const Incumbent& start, const Incumbent* warm) const;
   Ending attempt(std::vector<Guess> guesses, const Tuning& tuning);
   Incumbent cheapest(const std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending);
   Ending restart(Ending ending, const ContactSequence& initial);
+  Ending crawl();
   double further_inside() const;
   Ending late(Ending ending) const;
   void keep(const Incumbent& now, const Tuning& tuning) { best_->keep(search_, surfaces_, now, tuning); }

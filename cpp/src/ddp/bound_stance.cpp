@@ -53,13 +53,13 @@ double growth_to_touch(const std::vector<Vector3d>& polygon, const Vector3d& box
 
 }  // namespace
 
-/// At its stance a plan has (`start`, `goal`) a CoM p within b of the stance's p*, roll, pitch and the difference of
-/// yaw within b_r each, and the stance's contacts. The foothold x of one of them lies within c of its surface's plane
+/// At its stance a plan has (`start`, `goal`) a CoM p within b of the stance's p*, differences of roll, pitch and yaw
+/// within b_r each, and the stance's contacts. The foothold x of one of them lies within c of its surface's plane
 /// and within c of its polygon, so within sqrt(2) c of a point y of it (`contact_distance`, `contact_polygon`), and R^T
 /// (x - p) in the reach box grown by rho (`reach`), with an R that differs from the knot's by o at most
 /// (`orientation`), about a CoM that differs from the knot's by at most the tolerance of `dynamics`. The angle between
-/// R and R_z(yaw*) is at most 3 b_r + o, and |x - p| at most r + sqrt(3) rho with r the farthest corner of the box. So
-/// R_z(yaw*)^T (y - p*) lies in the box grown by
+/// R and the stance's R* is at most 3 b_r + o, and |x - p| at most r + sqrt(3) rho with r the farthest corner of the
+/// box. So R*^T (y - p*) lies in the box grown by
 ///
 ///     rho + sqrt(2) c + b + (3 b_r + o) (r + sqrt(3) rho)
 ///
@@ -73,7 +73,7 @@ std::optional<Impossible> stance_out_of_reach(const Scene& scene, const Robot& r
   const Tolerances tolerances;
   const double length = similarity_of(robot, scene.gravity).length;
   const double turned = 3.0 * tolerances.boundary + tolerances.orientation;
-  const Eigen::Matrix3d to_base = rotation_from_rpy({0.0, 0.0, at.yaw}).transpose();
+  const Eigen::Matrix3d to_base = rotation_from_rpy(at.base_rpy).transpose();
   for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {
     const EndEffector& end = robot.end_effectors[l];
     if (at.contacts[l] < 0 || end.com_reach.given()) continue;

@@ -15,6 +15,9 @@ namespace mcplan::ddp {
 constexpr double kFrictionMargin = 0.02;
 /// ... down to this ratio of the surface's coefficient. Chosen.
 constexpr double kFrictionRatioMin = 0.5;
+/// Ratio of friction that plans of robots use which are tracked on point feet, and the least load of such a foot in
+/// contact over an equal share of the weight. Measured (docs/tracking.md, "Quadrupeds").
+constexpr double kTrackedFrictionRatio = 0.8, kLoadRatio = 0.3;
 /// Footholds and centres of pressure are planned this far inside their polygon [m]. Chosen, for the same reason.
 constexpr double kEdgeMargin_m = 0.002;
 /// A sole that finds no room is kept to the middle of its surface, down to this ratio of the width from either edge,
@@ -37,6 +40,9 @@ constexpr double kStrideFrictionMax = 10.0;
 /// So many times as many phases are tried, each over the one before, where the best plan is acceptable. Measured on 150
 /// random scenes: 7 of 10 failures were too few phases for short steps, the others jumps.
 constexpr double kMorePhases[] = {1.3};
+
+/// Tracked point feet are planned this far inside their surface, in CoM heights. Chosen: the radius of Go2's foot.
+constexpr double kPointMargin = 0.08;
 
 // Routes.
 
@@ -177,6 +183,9 @@ constexpr std::size_t kExactTrials = 8;
 
 /// Iterations of a trial, trials before a local optimum is declared, rounds. Chosen.
 constexpr int kTrialIterations = 20, kTrials = 10, kRefineRounds = 30;
+/// Trials before a local optimum is declared of robots that crawl on four point feet. Measured (docs/tracking.md,
+/// "Quadrupeds"): ten take up to twice as long for a few hundredths of the cost, which are swings that overlap.
+constexpr std::size_t kCrawlTrials = 4;
 /// Fraction by which a trial must lower the merit. Chosen.
 constexpr double kTrialGain = 2e-3;
 /// Riccati steps beyond which the whole-sequence move is left out. Chosen.

@@ -53,8 +53,8 @@ void Problem::make_foothold_margins() {
       of_surface.push_back(width);
     }
   }
-  for (int e : active) {
-    const Eigen::Vector2d half = robot.end_effectors[e].half_size / units.length;
+  for (const EndLimits& limit : limits) {
+    const Eigen::Vector2d half = limit.half_size;
     std::vector<std::vector<double>>& of_end = foothold_margins_.emplace_back();
     for (std::size_t surface = 0; surface < polygons.size(); ++surface) {
       const Polygon& polygon = polygons[surface];
@@ -73,7 +73,9 @@ void Problem::make_foothold_margins() {
           const Vector3d along = across.cross(polygon.normal_W());
           extent = std::max(extent, half[0] * std::abs(along.dot(outward)) + half[1] * std::abs(across.dot(outward)));
         }
-        of_surface.push_back(std::min(ratio * extent, std::max(kNarrow * width, width - ratio * extent)));
+        // A point foot is a ball in truth, and lands with what error a controller leaves.
+        const double inside = limit.balances ? kPointMargin : ratio * extent;
+        of_surface.push_back(std::min(inside, std::max(kNarrow * width, width - inside)));
       }
     }
   }

@@ -32,6 +32,8 @@ void require_of_paper(const Options& options, model::Findings& found) {
   number("restarts", options.restarts, usual.restarts, 0);
   number("interior_points", options.interior_points, usual.interior_points, 0);
   number("friction_sides", options.friction_sides, usual.friction_sides, 0);
+  number("friction_ratio", options.friction_ratio, usual.friction_ratio, 1.0);
+  number("load_ratio", options.load_ratio, usual.load_ratio, 0.0);
   number("reach_margin_m", options.reach_margin_m, usual.reach_margin_m, 0.0);
   number("sole_inside", options.sole_inside, usual.sole_inside, 0.0);
   const Weights &weights = options.weights, standard;

@@ -129,6 +129,17 @@ struct Fields<ddp::Options> {
           .at_most(2.0)
           .or_infinite(),
       field("friction", &Options::friction, "", "Hold the friction cones."),
+      field(
+          "friction_ratio", &Options::friction_ratio, "-",
+          "Ratio of each surface's friction that contacts use; at least half of it is left to them. Negative: 0.8 for "
+          "tracked robots on point feet, else 1.")
+          .at_most(1.0)
+          .or_infinite(),
+      field("load_ratio", &Options::load_ratio, "-",
+            "Least load of a point foot in contact of a tracked robot, over an equal share of the weight: how far the "
+            "centre of pressure stays inside the support polygon. Negative: 0.3.")
+          .at_most(1.0)
+          .or_infinite(),
       field("friction_sides", &Options::friction_sides, "",
             "Sides of the pyramid inside the cone that is held instead of it; 0: the cone itself."),
       field("joint_limits", &Options::joint_limits, "",

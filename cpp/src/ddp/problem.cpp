@@ -39,6 +39,12 @@ std::vector<Vector3d> pyramid_tangents(const Vector3d& normal, int sides) {
   return out;
 }
 
+/// Whether the plan's robot balances on this end-effector alone, with nothing below it that a controller could shift
+/// its force on. The paper's model and method know forces that point at the CoM alone.
+bool is_balancing_point(const Robot& robot, const EndEffector& end, Model model) {
+  return robot.tracked && model == Model::wrench && end.kind == "foot" && end.half_size.maxCoeff() <= 0.0;
+}
+
 }  // namespace
 
 Robot robot_for(Robot robot, const Options& options) {
@@ -73,7 +79,7 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
 
   const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
   const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
-  base_rpy = Vector3d(0.0, 0.0, from.yaw);
+  base_rpy = from.base_rpy;
   start_yaw.assign(layout.end_effector_count(), from.yaw);
   goal_yaw = to.yaw;
   make_foothold_margins();
@@ -115,16 +121,24 @@ void Problem::make_durations() {
   duration_initial = (options.duration_initial_s > 0.0 ? options.duration_initial_s : middle_s) / units.time;
 }
 
+/// The ratio of friction that contacts may use.
+double Problem::friction_ratio() const {
+  if (options.friction_ratio >= 0.0) return options.friction_ratio;
+  const auto balancing = [&](const EndEffector& end) { return is_balancing_point(robot, end, model); };
+  return std::any_of(robot.end_effectors.begin(), robot.end_effectors.end(), balancing) ? kTrackedFrictionRatio : 1.0;
+}
+
 void Problem::make_surfaces() {
+  const double ratio = friction_ratio();
   for (const Surface& surface : scene.surfaces) {
     std::vector<Vector3d> scaled;
     for (const Vector3d& v : surface.vertices_W) scaled.push_back(v / units.length);
     polygons.emplace_back(scaled);
     thickness.push_back(surface.thickness / units.length);
     keep_out_depth.push_back(kKeepOutDepth * surface.thickness / units.length);
-    friction.push_back(surface.grasp
-                           ? std::numeric_limits<double>::infinity()
-                           : std::max(surface.friction - kFrictionMargin, kFrictionRatioMin * surface.friction));
+    friction.push_back(surface.grasp ? std::numeric_limits<double>::infinity()
+                                     : std::max(std::min(surface.friction - kFrictionMargin, ratio * surface.friction),
+                                                kFrictionRatioMin * surface.friction));
     pyramid.push_back(pyramid_tangents(polygons.back().normal_W(), options.friction_sides));
   }
   if (options.friction_sides > 0) pyramid_ratio = std::cos(M_PI / options.friction_sides);
@@ -145,6 +159,9 @@ std::vector<std::vector<int>> Problem::make_ends() {
     jointed.ends.push_back(static_cast<int>(limits.size()) - 1);
     jointed.nominal_sum += limits.back().nominal;
   }
+  const auto feet = std::count_if(limits.begin(), limits.end(), [](const EndLimits& l) { return l.balances; });
+  const double load_ratio = options.load_ratio >= 0.0 ? options.load_ratio : kLoadRatio;
+  if (feet > 0) load_min = load_ratio / static_cast<double>(feet);
   return surfaces;
 }
 
@@ -173,6 +190,7 @@ EndLimits Problem::limits_of(const EndEffector& end) const {
   const bool turns = model == Model::wrench;
   l.yaw_min = turns ? end.yaw_range[0] : -std::numeric_limits<double>::infinity();
   l.yaw_max = turns ? end.yaw_range[1] : std::numeric_limits<double>::infinity();
+  l.balances = is_balancing_point(robot, end, model);
   return l;
 }
 
@@ -203,8 +221,7 @@ std::vector<StateRule> Problem::make_state_rules() const {
 VectorXd Problem::state_of(const ResolvedStance& stance) const {
   VectorXd x = VectorXd::Zero(layout.nx());
   x.segment<3>(layout.com()) = stance.com_W / units.length;
-  for (int a = 0; a < layout.axis_count(); ++a)
-    if (layout.axes()[a] == 2) x[layout.angle(a)] = stance.yaw;
+  for (int a = 0; a < layout.axis_count(); ++a) x[layout.angle(a)] = stance.base_rpy[layout.axes()[a]];
   for (int l = 0; l < layout.end_effector_count(); ++l)
     x.segment<3>(layout.end(l)) = stance.end_effectors_W[active[l]] / units.length;
   return x;

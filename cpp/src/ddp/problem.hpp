@@ -53,6 +53,7 @@ struct EndLimits {
   Eigen::Vector3d moment_max;
   double yaw_min = 0.0, yaw_max = 0.0;  ///< [rad] of the sole against the base
   LimbLimits limb;                      ///< none where the options do without
+  bool balances = false;                ///< a point foot on which a robot that is tracked keeps its balance
 };
 
 /// The robot that is planned for: without limb limits where the options do without joint limits.
@@ -82,6 +83,7 @@ class Problem {
   double pyramid_ratio = 1.0;                         ///< of the cone's opening that lies inside every side
   double edge_margin = 0.0;                           ///< footholds are planned this much inside their polygon
   double pressure_margin = 0.0;                       ///< and centres of pressure
+  double load_min = 0.0;                              ///< least stiffness of point feet in contact that are `balances`
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<double> thickness;       ///< by scene surface, of the solid below it
   double swing_height = 0.0;           ///< by which an end-effector is lifted usually
@@ -152,6 +154,7 @@ class Problem {
   void make_surfaces();
   std::vector<std::vector<int>> make_ends();
   EndLimits limits_of(const EndEffector& end) const;
+  double friction_ratio() const;
   std::vector<StateRule> make_state_rules() const;
   Eigen::VectorXd state_of(const ResolvedStance& stance) const;
   void make_slack();
@@ -159,6 +162,8 @@ class Problem {
   int automatic_steps(const ResolvedStance& from, const ResolvedStance& to) const;
   Eigen::Vector3d stride_of(int l) const;
   void make_reference(const Eigen::VectorXd& goal);
+  void follow_ground();
+  std::vector<double> balanced_loads(const ContactState& contacts, const Eigen::VectorXd& x) const;
   void find_standing_solids();
   void place_footholds(const ContactSequence& sequence, Trajectory& guess) const;
 };

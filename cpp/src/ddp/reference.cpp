@@ -1,3 +1,4 @@
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,6 +7,8 @@
 #include "ddp/problem.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "plan/solid_box.hpp"
+#include "robot/ground_plane.hpp"
+#include "surface_boxes.hpp"
 
 /// What the search is to stay near, and what it begins with.
 namespace mcplan::ddp {
@@ -102,7 +105,54 @@ void Problem::make_reference(const VectorXd& goal) {
       }
     reference.x.push_back(x);
   }
+  follow_ground();
   find_standing_solids();
+}
+
+/// The trunk of a robot that balances on three point feet or more follows the ground below them: its angles, and the
+/// height of its CoM, are those of the feet's nearest ground, on the mean over a stride of every foot.
+void Problem::follow_ground() {
+  std::vector<int> feet;
+  for (int l = 0; l < layout.end_effector_count(); ++l)
+    if (limits[l].balances) feet.push_back(l);
+  if (feet.size() < 3) return;
+  const SurfaceBoxes boxes(polygons);
+  std::vector<Vector3d> angles;
+  std::vector<double> heights;
+  for (int k = 0; k <= steps; ++k) {
+    std::vector<Vector3d> ground;
+    for (int l : feet) {
+      const Vector3d above = reference.x[k].segment<3>(layout.end(l));
+      Vector3d nearest = above;
+      double least = std::numeric_limits<double>::infinity();
+      for (int surface : rules.surfaces(l)) {
+        if (boxes.min_squared_distance(surface, above) > least) continue;
+        const Vector3d here = polygons[surface].nearest(above);
+        if ((here - above).squaredNorm() >= least) continue;
+        least = (here - above).squaredNorm();
+        nearest = here;
+      }
+      ground.emplace_back(above.x(), above.y(), nearest.z());
+    }
+    angles.push_back(rpy_along_ground(ground, rpy(reference.x[k]).z()));
+    double height = 1.0;
+    for (const Vector3d& place : ground) height += place.z() / static_cast<double>(ground.size());
+    heights.push_back(height);
+  }
+  const int half = static_cast<int>(feet.size());
+  for (int k = 1; k < steps; ++k) {
+    const int first = std::max(k - half, 0), last = std::min(k + half, steps);
+    Eigen::Vector2d tilt = Eigen::Vector2d::Zero();
+    double height = 0.0;
+    for (int j = first; j <= last; ++j) {
+      tilt += angles[j].head<2>() / (last - first + 1);
+      height += heights[j] / (last - first + 1);
+    }
+    VectorXd& x = reference.x[k];
+    x[layout.com() + 2] = height;
+    for (int a = 0; a < layout.axis_count(); ++a)
+      if (layout.axes()[a] < 2) x[layout.angle(a)] = tilt[layout.axes()[a]];
+  }
 }
 
 /// Ground lies one length below the reference of the CoM: what comes nearer stands on it. Looked for along the whole
@@ -163,6 +213,28 @@ void Problem::place_footholds(const ContactSequence& sequence, Trajectory& guess
   }
 }
 
+/// Of robots on point feet: loads of the feet in contact near to equal ones whose centre of pressure is below the CoM,
+/// so that upright forces turn nothing; none is negative. Empty of other robots.
+std::vector<double> Problem::balanced_loads(const ContactState& contacts, const VectorXd& x) const {
+  std::vector<int> standing;
+  for (int l = 0; l < layout.end_effector_count(); ++l)
+    if (contacts[l] != kFree) standing.push_back(l);
+  const auto balancing = [&](int l) { return limits[l].balances; };
+  if (standing.empty() || !std::all_of(standing.begin(), standing.end(), balancing)) return {};
+  const Eigen::Index count = static_cast<Eigen::Index>(standing.size());
+  Eigen::MatrixXd moments(3, count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    moments.col(i) << 1.0, (x.segment<3>(layout.end(standing[i])) - x.segment<3>(layout.com())).head<2>();
+  const VectorXd equal = VectorXd::Constant(count, 1.0 / static_cast<double>(count));
+  const Eigen::Vector3d lacking = Eigen::Vector3d::UnitX() - moments * equal;
+  VectorXd loads = (equal + moments.completeOrthogonalDecomposition().solve(lacking)).cwiseMax(0.0);
+  if (!(loads.sum() > 0.0) || !loads.allFinite()) return {};
+  loads /= loads.sum();
+  std::vector<double> out(layout.end_effector_count(), 0.0);
+  for (Eigen::Index i = 0; i < count; ++i) out[standing[i]] = loads[i];
+  return out;
+}
+
 Trajectory Problem::initial_guess(const ContactSequence& sequence, const Tuning& tuning) const {
   Trajectory guess = reference;
   if (!sequence.empty()) place_footholds(sequence, guess);
@@ -171,12 +243,22 @@ Trajectory Problem::initial_guess(const ContactSequence& sequence, const Tuning&
     int standing = 0;
     if (!sequence.empty())
       for (int contact : sequence[k]) standing += contact != kFree;
+    const std::vector<double> loads =
+        sequence.empty() ? std::vector<double>() : balanced_loads(sequence[k], guess.x[k]);
     for (int l = 0; l < layout.end_effector_count(); ++l) {
       u.segment<3>(layout.stride(l)) = guess.x[k + 1].segment<3>(layout.end(l)) - guess.x[k].segment<3>(layout.end(l));
       double mu = 1.0 / layout.end_effector_count();
       if (!sequence.empty()) mu = sequence[k][l] == kFree ? 0.0 : 1.0 / standing;
+      if (!loads.empty()) mu = loads[l];
       u[layout.stiffness(l)] = options.stiffness_input == StiffnessInput::lambda ? std::sqrt(mu) : mu;
     }
+    for (int l = 0; l < layout.end_effector_count(); ++l)
+      if (limits[l].balances) {  // upright forces
+        const Vector3d away = guess.x[k].segment<3>(layout.com()) - guess.x[k].segment<3>(layout.end(l));
+        const auto& line = layout.offsets(l).force_line;
+        const int count = layout.force_line_count(l);
+        u.segment(layout.force_line(l), count) = line.transpose() * Vector3d(away.x(), away.y(), 0.0);
+      }
     u[layout.duration()] = k == 0 && first_duration > 0.0 ? first_duration : tuning.duration_initial;
     guess.u.push_back(u);
   }

@@ -9,6 +9,7 @@
 #include "ddp/constants.hpp"
 #include "ddp/edits.hpp"
 #include "ddp/lanes.hpp"
+#include "ddp/stepping_sequence.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -308,7 +309,7 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now, const 
 
 Ending Search::refine(Incumbent& now, const Tuning& tuning) {
   polish_proximal_ = kTrialProximal;
-  const std::size_t trials = exact_contacts() ? kExactTrials : kTrials;
+  const std::size_t trials = exact_contacts() ? kExactTrials : balances_on_points(*problem_) ? kCrawlTrials : kTrials;
   // The interior point ends at the optimum of a sequence from wherever it begins: no sequence is tried twice.
   std::set<ContactSequence> tried{now.sequence};
   for (int round = 0; round < kRefineRounds; ++round) {

@@ -3,11 +3,35 @@
 #include <algorithm>
 #include <limits>
 
+#include "plan/clearance.hpp"
 #include "surface_boxes.hpp"
 
 namespace mcplan::ddp {
 
 using Eigen::Vector3d;
+
+namespace {
+
+/// The order in which walking animals set down one foot after the other: of either side the rear one, then the one
+/// ahead of it. The three feet that stand have the CoM between them for longer than in any other order.
+void sort_as_crawl(const Problem& problem, std::vector<int>& movers) {
+  Vector3d ahead = (problem.reference.x.back() - problem.reference.x.front()).segment<3>(problem.layout.com());
+  const Vector3d heading = rotation_from_rpy({0.0, 0.0, problem.base_rpy.z()}).col(0);
+  ahead.z() = 0.0;
+  if (ahead.norm() < 1e-6) ahead = heading;
+  const auto place = [&](int l) {
+    const Vector3d at = rotation_from_rpy({0.0, 0.0, problem.base_rpy.z()}) * problem.limits[l].nominal;
+    return std::make_pair(ahead.cross(at).z() > 0.0, ahead.dot(at));
+  };
+  std::stable_sort(movers.begin(), movers.end(), [&](int a, int b) { return place(a) < place(b); });
+}
+
+}  // namespace
+
+bool balances_on_points(const Problem& problem) {
+  const auto balancing = [](const EndLimits& limits) { return limits.balances; };
+  return std::count_if(problem.limits.begin(), problem.limits.end(), balancing) >= 4;
+}
 
 ContactSequence stepping_sequence(const Problem& problem, int first_mover) {
   const int n = problem.steps;
@@ -15,6 +39,7 @@ ContactSequence stepping_sequence(const Problem& problem, int first_mover) {
   for (int l = 0; l < problem.layout.end_effector_count(); ++l)
     if (problem.start_contacts[l] != kFree && problem.goal_contacts[l] != kFree) movers.push_back(l);
   if (movers.empty()) return {};
+  if (balances_on_points(problem)) sort_as_crawl(problem, movers);
 
   // Swings at steps 1, 3, 5, ...; each mover's stance lasts until its next turn.
   const int count = static_cast<int>(movers.size());

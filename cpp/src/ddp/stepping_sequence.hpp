@@ -11,4 +11,8 @@ namespace mcplan::ddp {
 /// ground.
 ContactSequence stepping_sequence(const Problem& problem, int first_mover);
 
+/// Whether a tracked robot walks on four point feet or more: it steps in the order of a crawl, and the search begins
+/// with that.
+bool balances_on_points(const Problem& problem);
+
 }  // namespace mcplan::ddp

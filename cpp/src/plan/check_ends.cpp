@@ -7,17 +7,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// p, v, heading and contacts of a knot against a stance at rest: CoM at the stance's, v = 0, roll = pitch = 0, yaw the
-/// stance's (modulo a turn), rates 0, under contact wrenches no more momentum than such rates have, every end-effector
-/// on the surface that the stance names or free like it.
+/// p, v, heading and contacts of a knot against a stance at rest: CoM at the stance's, v = 0, roll, pitch and yaw the
+/// stance's (yaw modulo a turn), rates 0, under contact wrenches no more momentum than such rates have, every
+/// end-effector on the surface that the stance names or free like it.
 void check_stance(const Problem& problem, Constraint constraint, const ResolvedStance& stance, int k,
                   Findings& findings) {
   const Knot& knot = problem.plan.knots[k];
   const double tolerance = problem.tolerances.boundary;
   const Similarity& size = problem.similarity;
   const Place place = problem.at_knot(k, -1);
-  Vector3d turn = knot.base_rpy;
-  turn.z() = std::remainder(turn.z() - stance.yaw, 2.0 * M_PI);
+  Vector3d turn = knot.base_rpy - stance.base_rpy;
+  turn.z() = std::remainder(knot.base_rpy.z() - stance.base_rpy.z(), 2.0 * M_PI);
   findings.offer(constraint, (knot.com_W - stance.com_W).norm(), place);
   findings.offer(constraint, knot.com_velocity_W.norm(), place, tolerance * size.velocity(), "m/s");
   findings.offer(constraint, largest(turn.cwiseAbs()), place, tolerance, "rad");

@@ -8,6 +8,7 @@
 #include "mcplan/base/rotation.hpp"
 #include "mcplan/scene/polygon.hpp"
 #include "model/read.hpp"
+#include "robot/ground_plane.hpp"
 #include "robot_fields.hpp"
 
 namespace mcplan {
@@ -132,6 +133,18 @@ bool may_touch(const Surface& surface, const EndEffector& end_effector) {
                      [&](const std::string& who) { return addresses(who, end_effector); });
 }
 
+namespace {
+
+/// A trunk that is as long as its legs does not stay level on a slope: on three feet and more it is parallel to it.
+Vector3d along_ground(const Robot& robot, const ResolvedStance& stance) {
+  std::vector<Vector3d> feet_W;
+  for (std::size_t l = 0; l < robot.end_effectors.size(); ++l)
+    if (stance.contacts[l] >= 0 && robot.end_effectors[l].kind == "foot") feet_W.push_back(stance.end_effectors_W[l]);
+  return rpy_along_ground(feet_W, stance.yaw);
+}
+
+}  // namespace
+
 ResolvedStance resolve_stance(const Scene& scene, const Robot& robot, const Stance& stance, const std::string& field) {
   const auto& end_effectors = robot.end_effectors;
   for (const auto& [who, surface] : stance.contacts)
@@ -146,11 +159,11 @@ ResolvedStance resolve_stance(const Scene& scene, const Robot& robot, const Stan
   ResolvedStance out;
   out.com_W = stance.position_W + robot.com_height * Vector3d::UnitZ();
   out.yaw = stance.yaw;
-  const Eigen::Matrix3d r_WB = rotation_from_rpy({0.0, 0.0, stance.yaw});
-  for (const EndEffector& e : end_effectors) {
+  out.base_rpy = {0.0, 0.0, stance.yaw};
+  const auto resolve = [&](const EndEffector& e) {
     auto contact = stance.contacts.find(e.name);
     if (contact == stance.contacts.end()) contact = stance.contacts.find(e.kind);
-    Vector3d position = out.com_W + r_WB * e.nominal_B;
+    Vector3d position = out.com_W + rotation_from_rpy(out.base_rpy) * e.nominal_B;
     int surface = -1;
     if (contact != stance.contacts.end()) {
       surface = scene.surface_index(contact->second);
@@ -161,9 +174,16 @@ ResolvedStance resolve_stance(const Scene& scene, const Robot& robot, const Stan
                            text(contact->second));
       position = Polygon(scene.surfaces[surface].vertices_W).nearest(position);
     }
-    out.contacts.push_back(surface);
-    out.end_effectors_W.push_back(position);
+    return std::pair(surface, position);
+  };
+  for (const EndEffector& e : end_effectors) {
+    const std::pair<int, Vector3d> resolved = resolve(e);
+    out.contacts.push_back(resolved.first);
+    out.end_effectors_W.push_back(resolved.second);
   }
+  out.base_rpy = along_ground(robot, out);
+  if (!out.base_rpy.head<2>().isZero(0.0))
+    for (std::size_t l = 0; l < end_effectors.size(); ++l) out.end_effectors_W[l] = resolve(end_effectors[l]).second;
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mcplan/base/error.hpp"
+#include "mcplan/base/rotation.hpp"
 #include "mcplan/scene/polygon.hpp"
 #include "model/text.hpp"
 
@@ -31,7 +32,7 @@ void require_upward_force(const Scene& scene, const Stance& stance, const std::s
 
 void require_within_reach(const Scene& scene, const Robot& robot, const Stance& stance, const std::string& field) {
   const ResolvedStance resolved = resolve_stance(scene, robot, stance, field);
-  const Eigen::AngleAxisd to_base(-stance.yaw, Eigen::Vector3d::UnitZ());
+  const Eigen::Matrix3d to_base = rotation_from_rpy(resolved.base_rpy).transpose();
   for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {
     const EndEffector& end_effector = robot.end_effectors[l];
     const Eigen::Vector3d place_B = to_base * (resolved.end_effectors_W[l] - resolved.com_W);

@@ -942,6 +942,11 @@ class ResolvedStance:
     def __deepcopy__(self, memo: dict) -> ResolvedStance: ...
     def __repr__(self) -> str: ...
     @property
+    def base_rpy(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        Roll, pitch and yaw [rad]: upright, on three feet and more parallel to the ground below them.
+        """
+    @property
     def com_W(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
         [m]

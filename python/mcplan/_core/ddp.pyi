@@ -355,6 +355,13 @@ class Weights:
     @stride.setter
     def stride(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def upright(self) -> float:
+        """
+        On the tilt of contact forces of tracked robots' point feet.
+        """
+    @upright.setter
+    def upright(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def velocity(self) -> float:
         """
         On the CoM's velocity.
@@ -397,6 +404,8 @@ class Options:
         reach_margin_m: typing.SupportsFloat | typing.SupportsIndex = 0.003,
         sole_inside: typing.SupportsFloat | typing.SupportsIndex = -1.0,
         friction: bool = True,
+        friction_ratio: typing.SupportsFloat | typing.SupportsIndex = -1.0,
+        load_ratio: typing.SupportsFloat | typing.SupportsIndex = -1.0,
         friction_sides: typing.SupportsInt | typing.SupportsIndex = 0,
         joint_limits: bool = True,
         whole_sequence_moves: bool = True,
@@ -472,6 +481,13 @@ class Options:
     @friction.setter
     def friction(self, arg0: bool) -> None: ...
     @property
+    def friction_ratio(self) -> float:
+        """
+        [-] Ratio of each surface's friction that contacts use; at least half of it is left to them. Negative: 0.8 for tracked robots on point feet, else 1.
+        """
+    @friction_ratio.setter
+    def friction_ratio(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def friction_sides(self) -> int:
         """
         Sides of the pyramid inside the cone that is held instead of it; 0: the cone itself.
@@ -501,6 +517,13 @@ class Options:
         """
     @joint_limits.setter
     def joint_limits(self, arg0: bool) -> None: ...
+    @property
+    def load_ratio(self) -> float:
+        """
+        [-] Least load of a point foot in contact of a tracked robot, over an equal share of the weight: how far the centre of pressure stays inside the support polygon. Negative: 0.3.
+        """
+    @load_ratio.setter
+    def load_ratio(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def logger(self) -> collections.abc.Callable[[mcplan._core.LogLevel, str], None]:
         """

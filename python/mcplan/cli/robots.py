@@ -22,7 +22,9 @@ if TYPE_CHECKING:
 NameArgument = Annotated[str | None, typer.Argument(metavar="[NAME]", help="Robot: built-in name or TOML file.")]
 FromUrdfOption = Annotated[
     str | None,
-    typer.Option("--from-urdf", metavar="URDF", help="Source of a new robot: a URDF file, or talos, anymal or g1."),
+    typer.Option(
+        "--from-urdf", metavar="URDF", help="Source of a new robot: a URDF file, or talos, anymal, go2 or g1."
+    ),
 ]
 EndOption = Annotated[
     list[str] | None,

@@ -1,8 +1,6 @@
 """A Robot from a URDF: mass, inertia, CoM height, and the reach of each limb from its kinematics.
 
     mcplan robots --from-urdf talos -o talos.toml
-    mcplan robots --from-urdf anymal -o anymal.toml
-    mcplan robots --from-urdf g1 -o g1.toml
 
 How each number comes about is written in the file's header; see also ``mcplan.files.reach`` and
 ``mcplan.files.strength``.
@@ -44,6 +42,8 @@ _SOLED: dict[str, Any] = {
     "pressure_ratio": PRESSURE_RATIO,
     "tracked": True,
 }
+#: Shortest and longest phase of robots on four point feet and more, in sqrt(com_height / gravity).
+STEP_PHASES = (0.93, 2.3)
 _MIN_STEP = 0.01  # of the grid of reach boxes, in CoM heights, so that its points can be counted
 _CONTINUOUS = 2.0 * np.pi  # a joint with limits wider than this turns freely
 _FREE_RANGE = 1.2  # [rad] about the nominal posture, kept on joints that turn freely, so that no knee flips
@@ -119,12 +119,22 @@ def robot_from_urdf(
         end_effectors=[_end_effector(end, _same_strength(able, end), weight) for end in ends],
         urdf=urdf,
         posture=_posture_of(model, nominal),
-        **(_SOLED if any(any(end.half_size) for end in ends) else {}),
+        **_as_tracked(ends, com_height),
     )
     legs = legs_of(model, nominal, ends, limbs)
     if legs is not None:
         add_limb_limits(robot, legs, ends, seed)
     return robot
+
+
+def _as_tracked(ends: tuple[End, ...], com_height: float) -> dict[str, Any]:
+    """Fields of robots whose plans a controller follows: those on soles, and those on four point feet and more."""
+    if any(any(end.half_size) for end in ends):
+        return _SOLED
+    if sum(end.kind == "foot" for end in ends) < 4:
+        return {}
+    unit = float(np.sqrt(com_height / GRAVITY))
+    return {"phase_duration": [round(phase * unit, 2) for phase in STEP_PHASES], "tracked": True}
 
 
 def _centroidal(model: Any, nominal: np.ndarray, ends: tuple[End, ...], source: str) -> tuple[float, np.ndarray, float]:

@@ -108,10 +108,18 @@ def _anymal_foot(leg: str) -> End:
     return End(f"{leg.lower()}_foot", f"{leg}_FOOT", twin=f"{twin}_foot")
 
 
+def _go2_foot(leg: str) -> End:
+    """The frame that the URDF calls the foot, taken as a point on the ground."""
+    ours = {"FR": "rf", "FL": "lf", "RR": "rh", "RL": "lh"}
+    twin = {"FR": "lf", "FL": "rf", "RR": "lh", "RL": "rh"}[leg]
+    return End(f"{ours[leg]}_foot", f"{leg}_foot", twin=f"{twin}_foot")
+
+
 SETUPS = {
     "talos": Setup(_pairs(_talos_foot, _talos_hand), 0.10, "PAL Robotics TALOS: two feet, two hands"),
     "anymal": Setup(
         tuple(_anymal_foot(leg) for leg in ("RF", "LF", "RH", "LH")), 0.07, "ANYbotics ANYmal B: four point feet"
     ),
+    "go2": Setup(tuple(_go2_foot(leg) for leg in ("FR", "FL", "RR", "RL")), 0.06, "Unitree Go2: four point feet"),
     "g1": Setup(_pairs(_g1_foot, _g1_hand), 0.08, "Unitree G1: two feet, two hands", _g1_posture(), lift=0.12),
 }

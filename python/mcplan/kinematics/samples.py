@@ -132,7 +132,7 @@ def stance_samples(scene: Scene, robot: Robot, stance: ResolvedStance) -> Sample
         com_W=np.array([stance.com_W], float),
         com_velocity_W=np.zeros((1, 3)),
         com_acceleration_W=np.zeros((1, 3)),
-        rotation_WB=rotation[None],
+        rotation_WB=from_rpy(np.asarray(stance.base_rpy))[None],
         positions_W=np.array([stance.end_effectors_W], float),
         velocities_W=np.zeros((1, count, 3)),
         rotations_W=np.array([rotations]),

@@ -103,6 +103,7 @@ class Controller:
         self.pyramids = [pyramid(n, s.friction) for n, s in zip(self.normals, scene.surfaces, strict=True)]
         self.points = [ForcePoints.of(end.half_size) for end in urdf_model.robot.end_effectors]
         self.flat = [p.count > 1 for p in self.points]
+        self.feet = [end.kind == "foot" for end in urdf_model.robot.end_effectors]
         self.contacts = [Contact() for _ in self.points]
         self.qp = QuadraticProgram()
         self.torques = np.zeros(self.nv - 6)
@@ -260,7 +261,7 @@ class Controller:
                     ]
                 )
                 desired = _follow(gains.contact_kp, error, -motion.velocity_W, 0.0)
-                weight = gains.contact_weight if self.flat[i] else gains.hand_weight
+                weight = gains.contact_weight if self.flat[i] or self.feet[i] else gains.hand_weight
             elif contact.mode is Mode.SEARCH or ref.returns[n, i]:
                 target_W, velocity_W = ref.end_effectors_W[n, i], ref.end_effector_velocities_W[n, i]
                 if contact.mode is Mode.SEARCH:

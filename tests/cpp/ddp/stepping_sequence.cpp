@@ -43,3 +43,34 @@ TEST_CASE("nobody stands at both ends, nobody steps") {
   const Problem problem(scene, scenes::humanoid44(), phases(10));
   CHECK(stepping_sequence(problem, 0).empty());
 }
+
+TEST_CASE("four point feet step as in a crawl: of either side the rear one, then the one ahead of it") {
+  mcplan::Robot robot = scenes::humanoid44();
+  robot.tracked = true;
+  const mcplan::EndEffector foot = robot.end_effectors[0];
+  robot.end_effectors.clear();
+  for (const auto& [name, x, y] : {std::tuple("rf", 0.3, -0.2), std::tuple("lf", 0.3, 0.2),
+                                   std::tuple("rh", -0.3, -0.2), std::tuple("lh", -0.3, 0.2)}) {
+    mcplan::EndEffector& end = robot.end_effectors.emplace_back(foot);
+    end.name = name;
+    end.half_size.setZero();
+    end.nominal_B = {x, y, -robot.com_height};
+    end.reach_min_B = end.nominal_B - Eigen::Vector3d(0.2, 0.1, 0.1);
+    end.reach_max_B = end.nominal_B + Eigen::Vector3d(0.2, 0.1, 0.3);
+  }
+  const Problem problem(scenes::flat(), robot, phases(30));
+  REQUIRE(balances_on_points(problem));
+  const ContactSequence sequence = stepping_sequence(problem, 0);
+  REQUIRE(!sequence.empty());
+  std::vector<int> order;
+  for (int k = 1; k <= 8; ++k)
+    for (int l = 0; l < 4; ++l)
+      if (sequence[k][l] == kFree) order.push_back(l);
+  CHECK(order == std::vector<int>{2, 0, 3, 1});
+  robot.tracked = false;
+  const Problem untracked(scenes::flat(), robot, phases(30));
+  CHECK_FALSE(balances_on_points(untracked));
+  CHECK(untracked.load_min == 0.0);
+  CHECK(problem.load_min > 0.0);
+  CHECK(problem.friction[0] < untracked.friction[0]);
+}

@@ -98,6 +98,7 @@ bool may_touch(const Surface& surface, const EndEffector& end_effector);
 struct ResolvedStance {
   Eigen::Vector3d com_W;                         ///< [m]
   double yaw;                                    ///< [rad]
+  Eigen::Vector3d base_rpy{0.0, 0.0, 0.0};       ///< [rad] upright, or on three feet and more parallel to the ground
   std::vector<int> contacts;                     ///< surface index per end-effector, -1: free
   std::vector<Eigen::Vector3d> end_effectors_W;  ///< [m] nominal positions, those in contact on their surface
 };

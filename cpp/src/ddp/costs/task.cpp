@@ -66,7 +66,10 @@ class Task final : public CostTerm {
     }
     for (int l = 0; l < at.end_effector_count(); ++l) {
       for (int i = 0; i < at.pressure_count(l); ++i) add(centred * w.center_of_pressure, at.pressure(l) + i);
-      for (int i = 0; i < at.force_line_count(l); ++i) add(stiffer * w.force_line, at.force_line(l) + i);
+      // Of point feet that a controller follows the term "upright" keeps the line vertical instead: of the level parts.
+      const int first = step.problem.limits[l].balances ? 2 : 0;
+      for (int i = 0; i < at.force_line_count(l); ++i)
+        add(i < first ? 0.0 : stiffer * w.force_line, at.force_line(l) + i);
     }
     for (int i = 0; i < at.moment_count(); ++i) add(w.moment, at.moment(i));
   }
