@@ -81,10 +81,11 @@ class Problem {
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<double> thickness;       ///< by scene surface, of the solid below it
   double swing_height = 0.0;           ///< by which an end-effector is lifted usually
-  std::vector<int> standing_solids;    ///< surfaces whose solids come near the reference of the CoM
-  std::vector<EndLimits> limits;       ///< by active end-effector
-  Eigen::Vector3d inertia;             ///< in units of mass length^2
-  double first_duration = 0.0;         ///< what is left of the first phase when replanning, else 0
+  std::vector<Eigen::Vector3d> idle_hands;  ///< nominal places of hands that may touch nothing
+  std::vector<int> standing_solids;         ///< surfaces whose solids come near the reference of the CoM
+  std::vector<EndLimits> limits;            ///< by active end-effector
+  Eigen::Vector3d inertia;                  ///< in units of mass length^2
+  double first_duration = 0.0;              ///< what is left of the first phase when replanning, else 0
   double flight_duration_min = 0.0;
   double duration_min = 0.0, duration_max = 0.0, duration_initial = 0.0;
   Eigen::Vector3d base_rpy;  ///< angles of the axes that are not in the layout
