@@ -7,7 +7,8 @@ namespace {
 using Eigen::Vector3d;
 
 /// The limbs of hands that may touch nothing, which are carried along at their nominal place, keep kSwingRoom from the
-/// solids that stand about the way (not in the paper), at the instants of a phase: the CoM gives way.
+/// solids that stand about the way and are higher than the CoM (not in the paper), at the instants of a phase: the CoM
+/// gives way.
 class IdleLimb final : public CostTerm {
  public:
   IdleLimb() : CostTerm("idle_limb", Scope::step, 41) {}
@@ -26,6 +27,7 @@ class IdleLimb final : public CostTerm {
       const Eigen::Matrix3d level = rotation_from_rpy({0.0, 0.0, instant.rpy.z()});
       for (const Vector3d& nominal : problem.idle_hands)
         for (int i : problem.standing_solids) {
+          if (!stands_beside(problem.polygons[i], instant.com)) continue;
           const LimbInside inside =
               limb_inside(problem.polygons[i], problem.thickness[i], instant.com, instant.com + level * nominal, true);
           if (!(inside.value < 0.0)) continue;

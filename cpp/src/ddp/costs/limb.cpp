@@ -7,9 +7,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The straight limb from the CoM to a free hand keeps kSwingRoom from the solids that stand about the way (not in the
-/// paper), at the instants of a phase. Of those that the hand may touch only what is higher than the CoM counts, and
-/// the hand itself does not.
+/// The straight limb from the CoM to a free hand keeps kSwingRoom from the solids that stand about the way and are
+/// higher than the CoM (not in the paper), at the instants of a phase. A hand on top of what it may touch is where it
+/// may be.
 class Limb final : public CostTerm {
  public:
   Limb() : CostTerm("limb", Scope::free, 50) {}
@@ -27,10 +27,11 @@ class Limb final : public CostTerm {
     for (int i : problem.standing_solids) {
       const bool touchable = std::find(touched.begin(), touched.end(), i) != touched.end();
       for (const Instant& instant : step.instants) {
-        if (touchable && !(problem.polygons[i].height(instant.com) < 0.0)) continue;
+        if (!stands_beside(problem.polygons[i], instant.com)) continue;
         const Vector3d hand =
             step.x.segment<3>(at.end(step.l)) + instant.fraction * step.u->segment<3>(at.stride(step.l));
-        const LimbInside inside = limb_inside(problem.polygons[i], problem.thickness[i], instant.com, hand, !touchable);
+        const bool to_the_end = !touchable || problem.polygons[i].height(hand) < -kSwingRoom;
+        const LimbInside inside = limb_inside(problem.polygons[i], problem.thickness[i], instant.com, hand, to_the_end);
         if (!(inside.value < 0.0)) continue;
         if (!rows.with_gradient()) {
           rows.add_value(weight, inside.value);

@@ -6,6 +6,9 @@
 
 namespace mcplan::ddp {
 
+/// A solid is higher than the CoM; hands reach over what is lower.
+inline bool stands_beside(const Polygon& polygon, const Eigen::Vector3d& com) { return polygon.height(com) < 0.0; }
+
 /// By how much [negative] the straight limb from the CoM to a hand is too near to a solid, at which share of it, and
 /// the direction in which that grows less; 0: far enough. The hand is drawn to the side on which the CoM is.
 struct LimbInside {
