@@ -151,7 +151,11 @@ std::vector<std::vector<int>> Problem::make_ends() {
     std::vector<int> list;
     for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
       if (may_touch(scene.surfaces[i], robot.end_effectors[e])) list.push_back(static_cast<int>(i));
-    if (list.empty() && options.method != Method::paper) continue;
+    if (list.empty() && options.method != Method::paper) {
+      const EndEffector& end = robot.end_effectors[e];
+      if (end.kind != "foot") idle_hands.push_back(end.nominal_B / units.length);
+      continue;
+    }
     active.push_back(static_cast<int>(e));
     surfaces.push_back(list);
     limits.push_back(limits_of(robot.end_effectors[e]));

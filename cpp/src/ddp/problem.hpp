@@ -87,8 +87,9 @@ class Problem {
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<double> thickness;       ///< by scene surface, of the solid below it
   double swing_height = 0.0;           ///< by which an end-effector is lifted usually
-  std::vector<int> standing_solids;    ///< surfaces whose solids come near the reference of the CoM
-  std::vector<EndLimits> limits;       ///< by active end-effector
+  std::vector<Eigen::Vector3d> idle_hands;  ///< nominal places of hands that may touch nothing
+  std::vector<int> standing_solids;         ///< surfaces whose solids come near the reference of the CoM
+  std::vector<EndLimits> limits;            ///< by active end-effector
   /// Active end-effectors with limb limits, and the sum of their nominal positions.
   struct Jointed {
     std::vector<int> ends;

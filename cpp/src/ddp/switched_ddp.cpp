@@ -11,6 +11,7 @@
 #include "ddp/impossible.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
+#include "ddp/replan_fit.hpp"
 #include "ddp/ways.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/friction_use.hpp"
@@ -136,33 +137,6 @@ std::string SwitchedDdp::Impl::message_of(Status status, int steps, const BestPl
     if (const std::string flight = flight_needed(scene, robot); !flight.empty()) message << "; " << flight;
   return message.str();
 }
-
-namespace {
-
-/// What replan() relies on beyond a plan that is valid in itself.
-void require_fit(const Plan& previous, const Knot& measured, const Robot& robot) {
-  const std::size_t end_effectors = robot.end_effectors.size();
-  const auto require_count = [end_effectors](const std::string& field, std::size_t count) {
-    if (count != end_effectors)
-      throw InvalidPlan(field, "must be one per end-effector (" + std::to_string(end_effectors) + ")",
-                        std::to_string(count));
-  };
-  require_count("previous.robot.end_effectors", previous.robot.end_effectors.size());
-  require_count("measured.end_effectors_W", measured.end_effectors_W.size());
-  if (!measured.end_effector_yaw.empty()) require_count("measured.end_effector_yaw", measured.end_effector_yaw.size());
-  const auto require_finite = [](const std::string& field, const Eigen::Ref<const Eigen::VectorXd>& value) {
-    if (!value.allFinite()) throw InvalidPlan("measured." + field, "must be finite numbers", text(value));
-  };
-  require_finite("com_W", measured.com_W);
-  require_finite("com_velocity_W", measured.com_velocity_W);
-  require_finite("base_rpy", measured.base_rpy);
-  require_finite("base_rpy_rate", measured.base_rpy_rate);
-  require_finite("angular_momentum_W", measured.angular_momentum_W);
-  for (const Eigen::Vector3d& end : measured.end_effectors_W) require_finite("end_effectors_W", end);
-  for (double yaw : measured.end_effector_yaw) require_finite("end_effector_yaw", Eigen::VectorXd::Constant(1, yaw));
-}
-
-}  // namespace
 
 SwitchedDdp::SwitchedDdp(const Scene& scene, const Robot& robot, const Options& options)
     : impl_(std::make_unique<Impl>(Impl{scene, robot_for(robot, options), options})) {

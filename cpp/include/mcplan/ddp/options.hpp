@@ -78,10 +78,10 @@ struct Options {
   double reach_margin_m = 0.003;        ///< the reach box is planned smaller by this
   double sole_inside = -1.0;            ///< ratio of a sole that footholds keep on their surface; negative: the robot's
   bool friction = true;                 ///< hold the friction cones
-  bool joint_limits = true;  ///< hold the limb limits that the robot has; without, it is planned as if it had none
-  double friction_ratio = -1.0;         ///< of the friction that plans use; negative: 0.8 on tracked point feet, else 1
-  double load_ratio = -1.0;  ///< least load of tracked point feet over an equal share of the weight; negative: 0.3
-  int friction_sides = 0;    ///< of the pyramid inside the cone that is held instead of it; 0: the cone itself
+  bool joint_limits = true;      ///< hold the limb limits that the robot has; without, it is planned as if it had none
+  double friction_ratio = -1.0;  ///< of the friction that plans use; negative: 0.8 on tracked point feet, else 1
+  double load_ratio = -1.0;      ///< least load of tracked point feet over an equal share of the weight; negative: 0.3
+  int friction_sides = 0;        ///< of the pyramid inside the cone that is held instead of it; 0: the cone itself
   bool whole_sequence_moves = true;  ///< dynamic programming over (step, contact state) where it pays
   bool stepping_guesses = true;      ///< first guesses with end-effectors that step in turn, beside those of the search
   bool allow_flight = true;          ///< phases without any contact; where steps lead to the goal, they come last

@@ -76,7 +76,7 @@ class SwingPath final : public CostTerm {
     Vector3d place = step.x.segment<3>(at.end(step.l)) + share * step.u->segment<3>(at.stride(step.l));
     double lift = kLiftMax * problem.swing_height * 16.0 * s * s * (1.0 - s) * (1.0 - s);
     const bool limited = instant && instant->com.z() + limit.reach_max.z() - place.z() < lift;
-    if (limited) lift = std::max(instant->com.z() + limit.reach_max.z() - place.z(), 0.0);
+    if (limited) lift = instant->com.z() + limit.reach_max.z() - place.z();
     const Vector3d between = (1.0 - s) * normals.lift + s * normals.land;
     if (between.norm() < 0.1) return;  // from a wall to the facing one
     const Eigen::Matrix3d sole = sole_frame(between.normalized(), step.sole_yaw);
@@ -101,7 +101,7 @@ class SwingPath final : public CostTerm {
     if (side < 0) return;
     const double up = polygon.height(corner_inside) - kPathRoom;
     const double away = polygon.overshoot(side, corner_inside) - kPathRoom;
-    const bool raise = limited && lift > 0.0 && up > away;
+    const bool raise = limited && up > away;
     const double weight = step.schedule.interior_weight, value = raise ? up : away;
     if (!rows.with_gradient()) {
       rows.add_value(weight, value);
@@ -109,8 +109,11 @@ class SwingPath final : public CostTerm {
     }
     auto g = rows.add_dense(weight, value);
     Vector3d along = raise ? polygon.normal_W() : polygon.edge_outward_W(side);
-    if (raise) instant->add_along({0.0, 0.0, along.z()}, Vector3d::Zero(), g);
-    if (limited) along.z() = 0.0;  // the lift makes up for where the foot is
+    if (limited) {  // the lift goes with the CoM, and makes up for where the foot is
+      const double along_lift = along.dot(sole.col(2));
+      instant->add_along({0.0, 0.0, along_lift}, Vector3d::Zero(), g);
+      along.z() -= along_lift;
+    }
     g.segment<3>(at.end(step.l)) += along;
     g.segment<3>(at.nx() + at.stride(step.l)) += share * along;
   }

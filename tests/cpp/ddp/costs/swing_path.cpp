@@ -1,0 +1,67 @@
+#include "check_rows.hpp"
+
+namespace {
+
+using namespace support;
+using Eigen::Vector3d;
+
+/// Level ground and a tread of 0.2 m from x = 0.5 m on.
+ddp::Problem with_tread() {
+  mcplan::Scene scene = scenes::made_of(
+      "tread", {scenes::rectangle("ground", -1, 0.5, -1, 1, 0), scenes::rectangle("tread", 0.5, 2, -1, 1, 0.2)},
+      "ground", "tread", {1.0, 0.0, 0.2});
+  for (mcplan::Surface& surface : scene.surfaces) surface.thickness = 0.2;
+  return ddp::Problem(scene, scenes::humanoid44(), phases(6));
+}
+
+About swinging() {
+  About about{2, 1, ddp::kFree, 100.0, 3.0};
+  about.clear_swings = true;
+  return about;
+}
+
+}  // namespace
+
+TEST_CASE("a swing lifts off far enough from a riser for its toe, and lands far enough behind it for its heel") {
+  const ddp::Problem problem = with_tread();
+  const ddp::Layout& at = problem.layout;
+  const auto price = [&](double from, double to, bool asked = true) {
+    About about = swinging();
+    about.clear_swings = asked;
+    const Writer path = term(problem, "swing_path", about);
+    VectorXd x = VectorXd::Zero(at.nx()), u = VectorXd::Zero(at.nu());
+    x.segment<3>(at.com()) = Vector3d(0.4, 0.0, 0.9) / 0.7;
+    x.segment<3>(at.end(1)) = Vector3d(from, 0.1, 0.0) / 0.7;
+    u.segment<3>(at.stride(1)) = Vector3d(to - from, 0.0, 0.2) / 0.7;
+    u[at.duration()] = 1.0;
+    return cost(problem, path, x, u);
+  };
+  CHECK(price(0.35, 0.7) == 0.0);
+  CHECK(price(0.45, 0.7) > 1e-3);  // the toe is 5 cm under the tread when it begins to rise
+  CHECK(price(0.48, 0.7) > price(0.45, 0.7));
+  CHECK(price(0.45, 0.7, false) == 0.0);
+  CHECK(price(0.1, 0.3) == 0.0);  // nothing lies between
+}
+
+TEST_CASE("a swing that the reach box keeps low asks the CoM to rise") {
+  const ddp::Problem problem = with_tread();
+  const ddp::Layout& at = problem.layout;
+  const Writer path = term(problem, "swing_path", swinging());
+  VectorXd x = VectorXd::Zero(at.nx()), u = VectorXd::Zero(at.nu());
+  x.segment<3>(at.end(1)) = Vector3d(0.35, 0.1, 0.0) / 0.7;
+  u.segment<3>(at.stride(1)) = Vector3d(0.5, 0.0, 0.2) / 0.7;
+  u[at.duration()] = 0.3;
+  const auto at_height = [&](double height) {
+    x.segment<3>(at.com()) = Vector3d(0.5, 0.0, height) / 0.7;
+    return cost(problem, path, x, u);
+  };
+  // The foot comes up to 0.55 m below the CoM: 0.2 m with the CoM at 0.75 m.
+  CHECK(at_height(0.72) > at_height(0.74));
+  CHECK(at_height(0.74) > 0.0);
+  CHECK(at_height(0.95) == 0.0);
+}
+
+TEST_CASE("the rows of swings have the derivatives of their values") {
+  const ddp::Problem problem = with_tread();
+  check_rows(problem, term(problem, "swing_path", swinging()), 5, 0.4, 10);
+}
