@@ -97,6 +97,10 @@ RpyTrig RpyTrig::plus(const Vector3d& by) const {
   return out;
 }
 
+Vector3d rpy_rate(const RpyTrig& trig, const Vector3d& momentum_W, const Vector3d& inertia) {
+  return rate_of(trig, momentum_W, inertia);
+}
+
 Vector3d rpy_rate(const Vector3d& rpy, const Vector3d& momentum_W, const Vector3d& inertia) {
   return rate_of(RpyTrig(rpy), momentum_W, inertia);
 }

@@ -33,23 +33,24 @@ int sample_count(const Problem& problem, int phase) {
   return pieces * std::max(1, static_cast<int>(std::ceil(p.duration / pieces / problem.tolerances.sample_s)));
 }
 
-Replay start_of(const Problem& problem, int phase) {
-  return with_law(problem, phase, [&](auto law) { return law.start(problem, phase); });
-}
-
 /// Of the quaternion where one is integrated, else of the angles.
-Eigen::Matrix3d orientation_of(const Replay& replay) {
+void set_orientation(Sample& sample) {
+  const Replay& replay = sample.replay;
+  if (!replay.has_quaternion()) {
+    sample.r_WB = rotation_from_rpy(replay.rpy);
+    sample.yaw = replay.rpy.z();
+    return;
+  }
   const Eigen::Vector4d& q = replay.quat_wxyz;
-  if (q.isZero()) return rotation_from_rpy(replay.rpy);
-  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  sample.r_WB = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  sample.yaw = std::atan2(sample.r_WB(1, 0), sample.r_WB(0, 0));
 }
 
 /// A state that has overflowed stays as it is: it violates all that asks for it, and is not worth a step.
-Replay advance(const Problem& problem, int phase, const Replay& from, double since_start, double h) {
-  const bool numbers = from.com_W.allFinite() && from.com_velocity_W.allFinite() && from.rpy.allFinite() &&
-                       from.rpy_rate.allFinite() && from.momentum_W.allFinite() && from.quat_wxyz.allFinite();
-  if (!numbers) return from;
-  return with_law(problem, phase, [&](auto law) { return law.advance(problem, phase, from, since_start, h); });
+bool has_numbers(const Replay& replay) {
+  const bool base =
+      replay.has_quaternion() ? replay.quat_wxyz.allFinite() : replay.rpy.allFinite() && replay.rpy_rate.allFinite();
+  return base && replay.com_W.allFinite() && replay.com_velocity_W.allFinite() && replay.momentum_W.allFinite();
 }
 
 void contact_forces(const Problem& problem, Sample& sample) {
