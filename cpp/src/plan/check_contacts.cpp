@@ -92,6 +92,17 @@ void Travel::check_continuity(const Problem& problem, const Sample& sample, int 
       {sample.phase, l, sample.time_s});
 }
 
+/// Whether it is told at a glance that check_continuity() would find nothing new within the phase.
+bool Travel::smooth(const Problem& problem, const Sample& sample, int l, const Findings& findings) const {
+  const double kept = std::min(findings.kept(Constraint::path_continuity), problem.tolerances.slip);
+  const EndEffectorState& end = sample.at.end_effectors[l];
+  const Seen& last = last_[l];
+  const double half = 0.5 * (sample.since_start_s - last.since_start_s);
+  return sample.phase == phase_ && kept > 0.0 &&
+         (end.position_W - last.position_W - half * (last.velocity_W + end.velocity_W)).squaredNorm() <
+             kept * kept * kBelow;
+}
+
 /// |p(b) - p(a) - (b - a) (v(a) + v(b)) / 2|: how far the path goes beyond its velocities, of the third order in b - a
 /// where it is smooth. Where that is much, the halves say whether the path bends or jumps, down to a quarter of a
 /// millisecond, or to what instants can be told apart in phases that last for ages. What is no number is no jump of any
@@ -131,7 +142,7 @@ void Travel::check(const Problem& problem, const Sample& sample, Findings& findi
       last_[l].since_start_s = sample.since_start_s;
       continue;
     }
-    if (!first) check_continuity(problem, sample, l, findings);
+    if (!first && !smooth(problem, sample, l, findings)) check_continuity(problem, sample, l, findings);
     const int surface = problem.surface(sample.phase, l);
     if (surface >= 0) {
       const double yaw = sole_yaw(problem, sample, l);

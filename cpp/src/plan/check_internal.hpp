@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -62,7 +63,10 @@ Tolerances for_size(const Tolerances& tolerances, const Similarity& similarity);
 double severity(double value, double tolerance);
 
 /// Largest entry, not a number if any is (Eigen's maxCoeff() may pass over a NaN).
-inline double largest(const Eigen::Vector3d& v) { return v.maxCoeff<Eigen::PropagateNaN>(); }
+inline double largest(const Eigen::Vector3d& v) {
+  const double most = std::max(std::max(v[0], v[1]), v[2]);
+  return v[0] == v[0] && v[1] == v[1] && v[2] == v[2] ? most : std::numeric_limits<double>::quiet_NaN();
+}
 
 /// What is less than this part of a square is less by more than rounding.
 constexpr double kBelow = 1.0 - 1e-12;
@@ -220,6 +224,7 @@ class Travel {
   void check(const Problem& problem, const Sample& sample, Findings& findings);
 
  private:
+  bool smooth(const Problem& problem, const Sample& sample, int l, const Findings& findings) const;
   void check_continuity(const Problem& problem, const Sample& sample, int l, Findings& findings);
   double jump(const Problem& problem, const Sample& sample, int l, const Seen& a, const Seen& b);
 

@@ -80,15 +80,15 @@ void check_at_consistency(const Problem& problem, const Sample& sample, Findings
                     problem.has_momentum(sample.phase) ? at.angular_momentum_W : sample.replay.momentum_W},
                    !problem.has_wrenches(sample.phase), {sample.phase, -1, sample.time_s}, problem, findings);
   with_law(problem, sample.phase, [&](auto law) { law.check_state(problem, sample, findings); });
-  const double weight = problem.robot.mass * problem.scene.gravity;
+  const double per_weight = 1.0 / (problem.robot.mass * problem.scene.gravity);
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const Place place{sample.phase, l, sample.time_s};
     const EndEffectorState& end = at.end_effectors[l];
-    findings.offer(Constraint::at_consistency, largest((end.force_W - sample.forces_W[l]).cwiseAbs()) / weight, place,
-                   problem.tolerances.dynamics, "of the weight");
+    findings.offer(Constraint::at_consistency, largest((end.force_W - sample.forces_W[l]).cwiseAbs()) * per_weight,
+                   place, problem.tolerances.dynamics, "of the weight");
     if (problem.surface(sample.phase, l) < 0) continue;
-    findings.offer(Constraint::at_consistency, largest((end.moment_W - sample.moments_W[l]).cwiseAbs()) / weight, place,
-                   problem.tolerances.dynamics * problem.similarity.length, "m of the weight");
+    findings.offer(Constraint::at_consistency, largest((end.moment_W - sample.moments_W[l]).cwiseAbs()) * per_weight,
+                   place, problem.tolerances.dynamics * problem.similarity.length, "m of the weight");
   }
 }
 

@@ -86,6 +86,8 @@ void check_reach(const Problem& problem, const Sample& sample, Findings& finding
     }
     const Eigen::AlignedBox3d& box = sample.view->reach_boxes[l];
     const Vector3d relative = sample.r_WB.transpose() * offset;
+    const double kept = findings.kept(Constraint::reach);
+    if (((box.min() - relative).array() <= kept).all() && ((relative - box.max()).array() <= kept).all()) continue;
     findings.offer(Constraint::reach, largest((box.min() - relative).cwiseMax(relative - box.max())), place);
   }
 }
@@ -130,7 +132,7 @@ void check_yaw_range(const Problem& problem, const Sample& sample, Findings& fin
 /// The end-effector's solids nearby, looked for again once it has left the ball for which they are known.
 const std::vector<Solid>& Surroundings::around(const Problem& problem, int l, const Vector3d& position_W) {
   Near& near = near_[l];
-  if (near.known && (position_W - near.center_W).norm() <= kMove) return near.solids;
+  if (near.known && (position_W - near.center_W).squaredNorm() <= kMove * kMove) return near.solids;
   const double reach = kMove + problem.robot.end_effectors[l].half_size.norm() + 1e-6;
   near.center_W = position_W;
   near.known = true;

@@ -30,7 +30,7 @@ Vector3d angular_velocity(const Vector3d& rpy, const Vector3d& rate) {
 
 /// The same of an instant, whose sines and cosines stand in the orientation unless the base's x points up or down.
 Vector3d stated_velocity(const Matrix3d& r_at_WB, const PlanState& at) {
-  const double level = std::hypot(r_at_WB(0, 0), r_at_WB(1, 0));
+  const double level = r_at_WB.col(0).head<2>().norm();
   if (!(level > 0.1)) return angular_velocity(at.base_rpy, at.base_rpy_rate);
   const double pitch = at.base_rpy_rate[1] / (std::cos(at.base_rpy[1]) < 0.0 ? -level : level);
   return at.base_rpy_rate[0] * r_at_WB.col(0) +
@@ -101,9 +101,9 @@ void check_at_wrenches(const Problem& problem, const Sample& sample, Findings& f
                  {sample.phase, -1, sample.time_s}, tolerance * problem.similarity.rate(), "rad/s");
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const Contact& contact = problem.plan.phases[sample.phase].contacts[l];
-    if (contact.surface < 0) continue;
-    const Place place{sample.phase, l, sample.time_s};
     const EndEffectorState& end = at.end_effectors[l];
+    if (contact.surface < 0 || end.center_of_pressure_W == contact.center_of_pressure_W) continue;
+    const Place place{sample.phase, l, sample.time_s};
     findings.offer(Constraint::at_consistency,
                    largest((end.center_of_pressure_W - contact.center_of_pressure_W).cwiseAbs()), place,
                    tolerance * length, "m");

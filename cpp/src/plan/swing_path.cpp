@@ -54,6 +54,11 @@ void add_clearance(const ActiveSwing& active, double since_start, EndEffectorSta
   const double s = swung(active, since_start);
   const Moving bump = bump_at(s, total);
   const Vector3d turn = swing.land_normal_W - swing.lift_normal_W;
+  if (turn.isZero(0.0) && swing.lift_normal_W.squaredNorm() == 1.0) {
+    end.position_W += swing.height * bump.value * swing.lift_normal_W;
+    end.velocity_W += swing.height * bump.rate * swing.lift_normal_W;
+    return;
+  }
   const Vector3d along = swing.lift_normal_W + s * turn;
   // Opposite normals (a hand going from one wall to the facing one) make the sum vanish half way: no bump there.
   const double length = along.norm();
