@@ -48,9 +48,14 @@ struct RatesOfAngles {
   }
 };
 
-Vector3d rate_of(const RpyTrig& trig, const Vector3d& momentum_W, const Vector3d& inverse_inertia) {
-  const RatesOfAngles angles(trig, momentum_W);
-  return angles.rates(angles.in_base.cwiseProduct(inverse_inertia));
+/// The rates alone, which are asked for most often.
+inline Vector3d rate_of(const RpyTrig& t, const Vector3d& l, const Vector3d& inverse_inertia) {
+  const double x = t.cy * l[0] + t.sy * l[1], y = t.cy * l[1] - t.sy * l[0];
+  const double along = t.cp * x - t.sp * l[2], up = t.sp * x + t.cp * l[2];
+  const double roll = along * inverse_inertia[0], pitch = (t.cr * y + t.sr * up) * inverse_inertia[1],
+               yaw = (t.cr * up - t.sr * y) * inverse_inertia[2];
+  const double level = (t.sr * pitch + t.cr * yaw) / t.cp;
+  return {roll + t.sp * level, t.cr * pitch - t.sr * yaw, level};
 }
 
 RpyRate differentiated(const RpyTrig& t, const Vector3d& momentum_W, const Vector3d& inertia) {

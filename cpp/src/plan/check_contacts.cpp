@@ -78,8 +78,9 @@ void Travel::find_still(const Problem& problem, Sample& sample) const {
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const EndEffectorState& end = sample.at.end_effectors[l];
     const Seen& last = last_[l];
-    sample.still[l] = problem.surface(sample.phase, l) >= 0 && end.position_W == last.position_W &&
-                      end.velocity_W.isZero(0.0) && last.velocity_W.isZero(0.0) && (!own_yaw || end.yaw == last.yaw);
+    const Vector3d &v = end.velocity_W, &before = last.velocity_W;
+    sample.still[l] = problem.surface(sample.phase, l) >= 0 && end.position_W == last.position_W && v.x() == 0.0 &&
+                      v.y() == 0.0 && v.z() == 0.0 && before == v && (!own_yaw || end.yaw == last.yaw);
   }
 }
 

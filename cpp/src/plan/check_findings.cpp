@@ -77,7 +77,7 @@ void Findings::compare(Constraint constraint, double value, const Place& place, 
   // Two infinite severities (tolerance 0) compare by value.
   if (worst.measured && (measure < worst.severity || (measure == worst.severity && value <= worst.value))) return;
   const double bar =
-      measure > 0.0 && std::isfinite(measure) ? measure * (1.0 - 1e-14) : -std::numeric_limits<double>::infinity();
+      std::isfinite(measure) ? measure - 1e-14 * std::abs(measure) : -std::numeric_limits<double>::infinity();
   worst = {value, tolerance, measure, unit, place, true, worst.own_tolerance, worst.own_unit, bar};
 }
 

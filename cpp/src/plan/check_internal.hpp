@@ -98,8 +98,10 @@ class Findings {
   /// need not measure it. Minus infinity where nothing is said.
   double kept(Constraint constraint) const {
     const Worst& worst = worst_[static_cast<int>(constraint)];
-    return worst.measured && worst.tolerance == worst.own_tolerance ? worst.value
-                                                                    : -std::numeric_limits<double>::infinity();
+    constexpr double kNothing = -std::numeric_limits<double>::infinity();
+    if (!worst.measured) return kNothing;
+    if (worst.tolerance == worst.own_tolerance) return worst.value;
+    return worst.own_tolerance > 0.0 ? worst.bar * worst.own_tolerance : kNothing;
   }
 
   /// The first `count` constraints, in the order of the enumeration.
@@ -113,7 +115,7 @@ class Findings {
     bool measured = false;
     double own_tolerance = 0.0;  ///< of the constraint
     const char* own_unit = "";
-    double bar = -std::numeric_limits<double>::infinity();  ///< a little less than a severity above zero
+    double bar = -std::numeric_limits<double>::infinity();  ///< a little less than the severity
   };
   void compare(Constraint constraint, double value, const Place& place, double tolerance, const char* unit);
 

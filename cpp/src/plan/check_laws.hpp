@@ -53,7 +53,7 @@ struct Wrenches {
   Wrenches(const Problem& problem, int phase);  // check_wrench.cpp
 
   double mass;
-  Eigen::Vector3d inertia, origin_W;
+  Eigen::Vector3d inverse_inertia, origin_W;
   double stiffness = 0.0;                                                                      ///< mu
   Eigen::Vector3d anchors = Eigen::Vector3d::Zero(), lines = anchors, steady = anchors, fall;  ///< s, a - s, tau/m - c,
                                                                                                ///< s + g

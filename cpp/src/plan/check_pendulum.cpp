@@ -74,6 +74,7 @@ void set_forces_that_act_at(Vector3d Contact::*place_W, const Problem& problem, 
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const Contact& contact = problem.plan.phases[sample.phase].contacts[l];
     sample.forces_W[l] = problem.robot.mass * contact.stiffness * (sample.replay.com_W - contact.anchor_W);
+    if (contact.surface < 0) continue;
     sample.cone_forces_W[l].assign(1, sample.forces_W[l]);
     const Vector3d arm = contact.*place_W - sample.at.end_effectors[l].position_W;
     sample.moments_W[l] = contact.moment_W + arm.cross(sample.forces_W[l]);

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/base_rotation.hpp"
 #include "check_laws.hpp"
-#include "mcplan/base/rotation.hpp"
 
 namespace mcplan::checks {
 namespace {
@@ -37,7 +37,7 @@ int sample_count(const Problem& problem, int phase) {
 void set_orientation(Sample& sample) {
   const Replay& replay = sample.replay;
   if (!replay.has_quaternion()) {
-    sample.r_WB = rotation_from_rpy(replay.rpy);
+    sample.r_WB = RpyTrig(replay.rpy).rotation();
     sample.yaw = replay.rpy.z();
     return;
   }
@@ -84,8 +84,9 @@ void check_at_consistency(const Problem& problem, const Sample& sample, Findings
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const Place place{sample.phase, l, sample.time_s};
     const EndEffectorState& end = at.end_effectors[l];
-    findings.offer(Constraint::at_consistency, largest((end.force_W - sample.forces_W[l]).cwiseAbs()) * per_weight,
-                   place, problem.tolerances.dynamics, "of the weight");
+    if (end.force_W != sample.forces_W[l])
+      findings.offer(Constraint::at_consistency, largest((end.force_W - sample.forces_W[l]).cwiseAbs()) * per_weight,
+                     place, problem.tolerances.dynamics, "of the weight");
     if (problem.surface(sample.phase, l) < 0) continue;
     findings.offer(Constraint::at_consistency, largest((end.moment_W - sample.moments_W[l]).cwiseAbs()) * per_weight,
                    place, problem.tolerances.dynamics * problem.similarity.length, "m of the weight");

@@ -28,11 +28,12 @@ Vector3d angular_velocity(const Vector3d& rpy, const Vector3d& rate) {
          rate[2] * Vector3d(0.0, 0.0, 1.0);
 }
 
-/// The same of an instant, whose sines and cosines stand in the orientation unless the base's x points up or down.
+/// The same of an instant, whose sines and cosines stand in the orientation, unless the base's x points about up or
+/// down.
 Vector3d stated_velocity(const Matrix3d& r_at_WB, const PlanState& at) {
   const double level = r_at_WB.col(0).head<2>().norm();
-  if (!(level > 0.1)) return angular_velocity(at.base_rpy, at.base_rpy_rate);
-  const double pitch = at.base_rpy_rate[1] / (std::cos(at.base_rpy[1]) < 0.0 ? -level : level);
+  if (!(std::abs(at.base_rpy[1]) < 1.5)) return angular_velocity(at.base_rpy, at.base_rpy_rate);
+  const double pitch = at.base_rpy_rate[1] / level;
   return at.base_rpy_rate[0] * r_at_WB.col(0) +
          Vector3d(-pitch * r_at_WB(1, 0), pitch * r_at_WB(0, 0), at.base_rpy_rate[2]);
 }
@@ -43,8 +44,9 @@ double angle_between(const Matrix3d& a, const Matrix3d& b) {
 }
 
 /// q' = (0, omega) q / 2  with  omega = R I^-1 R^T L.
-Vector4d turning_rate(const Matrix3d& r_WB, const Vector4d& q, const Vector3d& momentum_W, const Vector3d& inertia) {
-  const Vector3d omega = 0.5 * angular_velocity(r_WB, momentum_W, inertia);
+Vector4d turning_rate(const Matrix3d& r_WB, const Vector4d& q, const Vector3d& momentum_W,
+                      const Vector3d& inverse_inertia) {
+  const Vector3d omega = 0.5 * (r_WB * (r_WB.transpose() * momentum_W).cwiseProduct(inverse_inertia));
   return {-omega[0] * q[1] - omega[1] * q[2] - omega[2] * q[3], omega[0] * q[0] + omega[1] * q[3] - omega[2] * q[2],
           omega[1] * q[0] + omega[2] * q[1] - omega[0] * q[3], omega[2] * q[0] + omega[0] * q[2] - omega[1] * q[1]};
 }
@@ -56,7 +58,7 @@ Replay wrench_rate(const Wrenches& sum, const Replay& state) {
               sum.mass * (sum.lines.cross(com) + sum.steady)};
   const Vector4d& q = state.quat_wxyz;
   const Matrix3d r_WB = Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
-  rate.quat_wxyz = turning_rate(r_WB, q, state.momentum_W, sum.inertia);
+  rate.quat_wxyz = turning_rate(r_WB, q, state.momentum_W, sum.inverse_inertia);
   return rate;
 }
 
@@ -69,14 +71,16 @@ void check_orientation_at_knot(const Problem& problem, const Sample& phase_end, 
 /// What the plan says of the base at an instant is what the integration says, in angles and as a quaternion.
 void check_orientation(const Sample& sample, Findings& findings) {
   const Place place{sample.phase, -1, sample.time_s};
-  const Vector4d& q = sample.at.base_quat_wxyz;
-  const Matrix3d stated = Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
-  // As the arc sine of x is at most x + x^3, far from the worst there is no need for it.
-  const double x2 = std::max((sample.r_WB - sample.r_at_WB).squaredNorm(), (sample.r_WB - stated).squaredNorm()) / 8.0;
+  const Vector4d &q = sample.at.base_quat_wxyz, &replayed = sample.replay.quat_wxyz;
+  // Far from the worst there is no need for angles: the arc sine of x is at most x + x^3, and matrices of quaternions
+  // differ by at most 2 sqrt(8) of what these do, where that is little.
+  const double apart = std::min((q - replayed).squaredNorm(), (q + replayed).squaredNorm());
+  const double x2 = std::max((sample.r_WB - sample.r_at_WB).squaredNorm() / 8.0, 5.0 * apart);
   const double kept = findings.kept(Constraint::orientation) / (2.0 * (1.0 + x2));
-  if (kept > 0.0 && x2 < kept * kept * kBelow) return;
+  if (kept > 0.0 && x2 < 0.01 && x2 < kept * kept * kBelow) return;
   findings.offer(Constraint::orientation, angle_between(sample.r_WB, sample.r_at_WB), place);
-  findings.offer(Constraint::orientation, angle_between(sample.r_WB, stated), place);
+  findings.offer(Constraint::orientation,
+                 angle_between(sample.r_WB, Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix()), place);
 }
 
 /// The rates of the angles at the two knots of a phase are those of their momentum.
@@ -161,7 +165,9 @@ void check_center_of_pressure(const Problem& problem, const Sample& sample, Find
 }  // namespace
 
 Wrenches::Wrenches(const Problem& problem, int phase)
-    : mass(problem.robot.mass), inertia(problem.robot.inertia), origin_W(problem.plan.knots[phase].com_W) {
+    : mass(problem.robot.mass),
+      inverse_inertia(problem.robot.inertia.cwiseInverse()),
+      origin_W(problem.plan.knots[phase].com_W) {
   for (const Contact& contact : problem.plan.phases[phase].contacts) {
     const Vector3d pulled = contact.stiffness * (contact.anchor_W - origin_W);
     const Vector3d pressed = contact.center_of_pressure_W - origin_W;
@@ -195,8 +201,8 @@ Vector4d WrenchIntegration::turned_by_rk4(const Replay& from, double turning) co
 /// The base turns by h |omega|, which errs by 1e-8 rad a second at 0.02 with RK4 and by less at 0.01 without.
 void WrenchIntegration::advance(Sample& sample) {
   Replay& replay = sample.replay;
-  std::rotate(slopes_.begin(), slopes_.end() - 1, slopes_.end());
-  slopes_[0] = turning_rate(sample.r_WB, replay.quat_wxyz, replay.momentum_W, sum_.inertia);
+  for (int i : {3, 2, 1}) slopes_[i] = slopes_[i - 1];
+  slopes_[0] = turning_rate(sample.r_WB, replay.quat_wxyz, replay.momentum_W, sum_.inverse_inertia);
   ++known_;
   const double turning = replay.momentum_W.norm() / min_inertia_ * h_;
   if (known_ < 4 || !(turning <= 0.01)) {
