@@ -48,19 +48,14 @@ struct RatesOfAngles {
   }
 };
 
-/// The rates alone, which are asked for most often.
-inline Vector3d rate_of(const RpyTrig& t, const Vector3d& l, const Vector3d& inverse_inertia) {
-  const double x = t.cy * l[0] + t.sy * l[1], y = t.cy * l[1] - t.sy * l[0];
-  const double along = t.cp * x - t.sp * l[2], up = t.sp * x + t.cp * l[2];
-  const double roll = along * inverse_inertia[0], pitch = (t.cr * y + t.sr * up) * inverse_inertia[1],
-               yaw = (t.cr * up - t.sr * y) * inverse_inertia[2];
-  const double level = (t.sr * pitch + t.cr * yaw) / t.cp;
-  return {roll + t.sp * level, t.cr * pitch - t.sr * yaw, level};
+Vector3d rate_of(const RpyTrig& trig, const Vector3d& momentum_W, const Vector3d& inverse_inertia) {
+  const RatesOfAngles angles(trig, momentum_W);
+  return angles.rates(angles.in_base.cwiseProduct(inverse_inertia));
 }
 
-RpyRate differentiated(const RpyTrig& t, const Vector3d& momentum_W, const Vector3d& inertia) {
+RpyRate differentiated(const RpyTrig& t, const Vector3d& momentum_W, const Vector3d& inverse_inertia) {
   const RatesOfAngles angles(t, momentum_W);
-  const Vector3d omega = angles.in_base.cwiseQuotient(inertia);
+  const Vector3d omega = angles.in_base.cwiseProduct(inverse_inertia);
   RpyRate out;
   out.rate = angles.rates(omega);
 
@@ -68,9 +63,9 @@ RpyRate differentiated(const RpyTrig& t, const Vector3d& momentum_W, const Vecto
   const Vector3d by_roll(0.0, angles.in_base[2], -angles.in_base[1]);
   const Vector3d by_pitch = angles.rolled({-angles.after_pitch[2], 0.0, angles.after_pitch[0]});
   const Vector3d by_yaw = angles.rolled(angles.pitched({angles.after_yaw[1], -angles.after_yaw[0], 0.0}));
-  out.d_rpy.col(0) = angles.rates(by_roll.cwiseQuotient(inertia));
-  out.d_rpy.col(1) = angles.rates(by_pitch.cwiseQuotient(inertia));
-  out.d_rpy.col(2) = angles.rates(by_yaw.cwiseQuotient(inertia));
+  out.d_rpy.col(0) = angles.rates(by_roll.cwiseProduct(inverse_inertia));
+  out.d_rpy.col(1) = angles.rates(by_pitch.cwiseProduct(inverse_inertia));
+  out.d_rpy.col(2) = angles.rates(by_yaw.cwiseProduct(inverse_inertia));
   // And the rates' own dependence on roll and pitch.
   const double level = t.sr * omega[1] + t.cr * omega[2], level_by_roll = t.cr * omega[1] - t.sr * omega[2];
   out.d_rpy.col(0) += Vector3d(t.sp / t.cp * level_by_roll, -level, level_by_roll / t.cp);
@@ -79,9 +74,9 @@ RpyRate differentiated(const RpyTrig& t, const Vector3d& momentum_W, const Vecto
   const Vector3d x = angles.rolled(angles.pitched({t.cy, -t.sy, 0.0}));
   const Vector3d y = angles.rolled(angles.pitched({t.sy, t.cy, 0.0}));
   const Vector3d z = angles.rolled(angles.pitched({0.0, 0.0, 1.0}));
-  out.d_momentum.col(0) = angles.rates(x.cwiseQuotient(inertia));
-  out.d_momentum.col(1) = angles.rates(y.cwiseQuotient(inertia));
-  out.d_momentum.col(2) = angles.rates(z.cwiseQuotient(inertia));
+  out.d_momentum.col(0) = angles.rates(x.cwiseProduct(inverse_inertia));
+  out.d_momentum.col(1) = angles.rates(y.cwiseProduct(inverse_inertia));
+  out.d_momentum.col(2) = angles.rates(z.cwiseProduct(inverse_inertia));
   return out;
 }
 
@@ -112,11 +107,11 @@ Vector3d rpy_rate(const Vector3d& rpy, const Vector3d& momentum_W, const Vector3
 }
 
 RpyRate rpy_rate_derivatives(const Vector3d& rpy, const Vector3d& momentum_W, const Vector3d& inertia) {
-  return differentiated(RpyTrig(rpy), momentum_W, inertia);
+  return differentiated(RpyTrig(rpy), momentum_W, inertia.cwiseInverse());
 }
 
 BaseRotation::BaseRotation(const Vector3d& rpy, const Vector3d& begin_W, const Vector3d& inertia)
-    : rpy_(rpy), begin_W_(begin_W), inertia_(inertia), inverse_inertia_(inertia.cwiseInverse()), trig_(rpy) {
+    : rpy_(rpy), begin_W_(begin_W), inverse_inertia_(inertia.cwiseInverse()), trig_(rpy) {
   begin_rate_ = rate_of(trig_, begin_W, inverse_inertia_);
 }
 
@@ -132,7 +127,7 @@ void BaseRotation::differentiate(const Vector3d& middle_W, const Vector3d& end_W
   using Columns = Eigen::Matrix<double, 3, 13>;
   const auto stage = [&](const Vector3d& slope, const Columns& d_slope, double step, double d_step, const Vector3d& l,
                          int column, Vector3d& rate, Columns& d_rate) {
-    const RpyRate g = differentiated(trig_.plus(step * slope), l, inertia_);
+    const RpyRate g = differentiated(trig_.plus(step * slope), l, inverse_inertia_);
     Columns at = step * d_slope;
     at.leftCols<3>() += Matrix3d::Identity();
     at.col(12) += d_step * slope;

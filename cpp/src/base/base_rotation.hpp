@@ -69,7 +69,7 @@ class BaseRotation {
   void differentiate(const Eigen::Vector3d& middle_W, const Eigen::Vector3d& end_W, double h, Derivatives& out) const;
 
  private:
-  Eigen::Vector3d rpy_, begin_W_, inertia_, inverse_inertia_, begin_rate_;
+  Eigen::Vector3d rpy_, begin_W_, inverse_inertia_, begin_rate_;
   RpyTrig trig_;
 };
 
