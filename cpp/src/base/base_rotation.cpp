@@ -9,14 +9,15 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// Sine and cosine of the sum of two angles, of which the second is small as a rule.
-void add_angle(double& sine, double& cosine, double by) {
-  // Below a quarter the series to the ninth power errs by 6e-15, a twentieth of the time of the library's.
+inline void add_angle(double& sine, double& cosine, double by) {
+  // Below a quarter the series to the eleventh and twelfth power err by less than rounding, without a division.
   constexpr double kSmall = 0.25;
   double s, c;
   if (std::abs(by) < kSmall) {
     const double b = by * by;
-    s = by * (1.0 - b / 6.0 * (1.0 - b / 20.0 * (1.0 - b / 42.0 * (1.0 - b / 72.0 * (1.0 - b / 110.0)))));
-    c = 1.0 - b / 2.0 * (1.0 - b / 12.0 * (1.0 - b / 30.0 * (1.0 - b / 56.0 * (1.0 - b / 90.0 * (1.0 - b / 132.0)))));
+    s = by + by * b * (-1.0 / 6 + b * (1.0 / 120 + b * (-1.0 / 5040 + b * (1.0 / 362880 + b * (-1.0 / 39916800)))));
+    c = 1.0 + b * (-0.5 + b * (1.0 / 24 +
+                               b * (-1.0 / 720 + b * (1.0 / 40320 + b * (-1.0 / 3628800 + b * (1.0 / 479001600))))));
   } else {
     s = std::sin(by);
     c = std::cos(by);
@@ -47,14 +48,14 @@ struct RatesOfAngles {
   }
 };
 
-Vector3d rate_of(const RpyTrig& trig, const Vector3d& momentum_W, const Vector3d& inertia) {
+Vector3d rate_of(const RpyTrig& trig, const Vector3d& momentum_W, const Vector3d& inverse_inertia) {
   const RatesOfAngles angles(trig, momentum_W);
-  return angles.rates(angles.in_base.cwiseQuotient(inertia));
+  return angles.rates(angles.in_base.cwiseProduct(inverse_inertia));
 }
 
-RpyRate differentiated(const RpyTrig& t, const Vector3d& momentum_W, const Vector3d& inertia) {
+RpyRate differentiated(const RpyTrig& t, const Vector3d& momentum_W, const Vector3d& inverse_inertia) {
   const RatesOfAngles angles(t, momentum_W);
-  const Vector3d omega = angles.in_base.cwiseQuotient(inertia);
+  const Vector3d omega = angles.in_base.cwiseProduct(inverse_inertia);
   RpyRate out;
   out.rate = angles.rates(omega);
 
@@ -62,9 +63,9 @@ RpyRate differentiated(const RpyTrig& t, const Vector3d& momentum_W, const Vecto
   const Vector3d by_roll(0.0, angles.in_base[2], -angles.in_base[1]);
   const Vector3d by_pitch = angles.rolled({-angles.after_pitch[2], 0.0, angles.after_pitch[0]});
   const Vector3d by_yaw = angles.rolled(angles.pitched({angles.after_yaw[1], -angles.after_yaw[0], 0.0}));
-  out.d_rpy.col(0) = angles.rates(by_roll.cwiseQuotient(inertia));
-  out.d_rpy.col(1) = angles.rates(by_pitch.cwiseQuotient(inertia));
-  out.d_rpy.col(2) = angles.rates(by_yaw.cwiseQuotient(inertia));
+  out.d_rpy.col(0) = angles.rates(by_roll.cwiseProduct(inverse_inertia));
+  out.d_rpy.col(1) = angles.rates(by_pitch.cwiseProduct(inverse_inertia));
+  out.d_rpy.col(2) = angles.rates(by_yaw.cwiseProduct(inverse_inertia));
   // And the rates' own dependence on roll and pitch.
   const double level = t.sr * omega[1] + t.cr * omega[2], level_by_roll = t.cr * omega[1] - t.sr * omega[2];
   out.d_rpy.col(0) += Vector3d(t.sp / t.cp * level_by_roll, -level, level_by_roll / t.cp);
@@ -73,9 +74,9 @@ RpyRate differentiated(const RpyTrig& t, const Vector3d& momentum_W, const Vecto
   const Vector3d x = angles.rolled(angles.pitched({t.cy, -t.sy, 0.0}));
   const Vector3d y = angles.rolled(angles.pitched({t.sy, t.cy, 0.0}));
   const Vector3d z = angles.rolled(angles.pitched({0.0, 0.0, 1.0}));
-  out.d_momentum.col(0) = angles.rates(x.cwiseQuotient(inertia));
-  out.d_momentum.col(1) = angles.rates(y.cwiseQuotient(inertia));
-  out.d_momentum.col(2) = angles.rates(z.cwiseQuotient(inertia));
+  out.d_momentum.col(0) = angles.rates(x.cwiseProduct(inverse_inertia));
+  out.d_momentum.col(1) = angles.rates(y.cwiseProduct(inverse_inertia));
+  out.d_momentum.col(2) = angles.rates(z.cwiseProduct(inverse_inertia));
   return out;
 }
 
@@ -97,23 +98,27 @@ RpyTrig RpyTrig::plus(const Vector3d& by) const {
   return out;
 }
 
+Vector3d rpy_rate(const RpyTrig& trig, const Vector3d& momentum_W, const Vector3d& inertia) {
+  return rate_of(trig, momentum_W, inertia.cwiseInverse());
+}
+
 Vector3d rpy_rate(const Vector3d& rpy, const Vector3d& momentum_W, const Vector3d& inertia) {
-  return rate_of(RpyTrig(rpy), momentum_W, inertia);
+  return rpy_rate(RpyTrig(rpy), momentum_W, inertia);
 }
 
 RpyRate rpy_rate_derivatives(const Vector3d& rpy, const Vector3d& momentum_W, const Vector3d& inertia) {
-  return differentiated(RpyTrig(rpy), momentum_W, inertia);
+  return differentiated(RpyTrig(rpy), momentum_W, inertia.cwiseInverse());
 }
 
 BaseRotation::BaseRotation(const Vector3d& rpy, const Vector3d& begin_W, const Vector3d& inertia)
-    : rpy_(rpy), begin_W_(begin_W), inertia_(inertia), trig_(rpy) {
-  begin_rate_ = rate_of(trig_, begin_W, inertia);
+    : rpy_(rpy), begin_W_(begin_W), inverse_inertia_(inertia.cwiseInverse()), trig_(rpy) {
+  begin_rate_ = rate_of(trig_, begin_W, inverse_inertia_);
 }
 
 Vector3d BaseRotation::rpy(const Vector3d& middle_W, const Vector3d& end_W, double h) const {
-  const Vector3d b = rate_of(trig_.plus(0.5 * h * begin_rate_), middle_W, inertia_);
-  const Vector3d c = rate_of(trig_.plus(0.5 * h * b), middle_W, inertia_);
-  const Vector3d d = rate_of(trig_.plus(h * c), end_W, inertia_);
+  const Vector3d b = rate_of(trig_.plus(0.5 * h * begin_rate_), middle_W, inverse_inertia_);
+  const Vector3d c = rate_of(trig_.plus(0.5 * h * b), middle_W, inverse_inertia_);
+  const Vector3d d = rate_of(trig_.plus(h * c), end_W, inverse_inertia_);
   return rpy_ + h / 6.0 * (begin_rate_ + 2.0 * b + 2.0 * c + d);
 }
 
@@ -122,7 +127,7 @@ void BaseRotation::differentiate(const Vector3d& middle_W, const Vector3d& end_W
   using Columns = Eigen::Matrix<double, 3, 13>;
   const auto stage = [&](const Vector3d& slope, const Columns& d_slope, double step, double d_step, const Vector3d& l,
                          int column, Vector3d& rate, Columns& d_rate) {
-    const RpyRate g = differentiated(trig_.plus(step * slope), l, inertia_);
+    const RpyRate g = differentiated(trig_.plus(step * slope), l, inverse_inertia_);
     Columns at = step * d_slope;
     at.leftCols<3>() += Matrix3d::Identity();
     at.col(12) += d_step * slope;

@@ -16,9 +16,6 @@ struct RpyRate {
   Eigen::Matrix3d d_momentum;  ///< d theta' / d L
 };
 
-/// theta' alone.
-Eigen::Vector3d rpy_rate(const Eigen::Vector3d& rpy, const Eigen::Vector3d& momentum_W, const Eigen::Vector3d& inertia);
-
 /// theta' with derivatives.
 RpyRate rpy_rate_derivatives(const Eigen::Vector3d& rpy, const Eigen::Vector3d& momentum_W,
                              const Eigen::Vector3d& inertia);
@@ -29,7 +26,26 @@ struct RpyTrig {
 
   explicit RpyTrig(const Eigen::Vector3d& rpy);
   RpyTrig plus(const Eigen::Vector3d& by) const;  ///< of rpy + by, cheap where that is small
+
+  /// R = Rz(yaw) Ry(pitch) Rx(roll).
+  Eigen::Matrix3d rotation() const {
+    Eigen::Matrix3d r;
+    r << cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr,  //
+        sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr,   //
+        -sp, cp * sr, cp * cr;
+    return r;
+  }
+
+  /// Angular velocity in the world of rates of the angles: each turns about its own axis, roll about the base's x,
+  /// pitch about the level y of the heading, yaw about the vertical.
+  Eigen::Vector3d angular_velocity_W(const Eigen::Vector3d& rate) const {
+    return {rate[0] * cy * cp - rate[1] * sy, rate[0] * sy * cp + rate[1] * cy, rate[2] - rate[0] * sp};
+  }
 };
+
+/// theta' alone.
+Eigen::Vector3d rpy_rate(const RpyTrig& trig, const Eigen::Vector3d& momentum_W, const Eigen::Vector3d& inertia);
+Eigen::Vector3d rpy_rate(const Eigen::Vector3d& rpy, const Eigen::Vector3d& momentum_W, const Eigen::Vector3d& inertia);
 
 /// Where a base turns from a given state, as a function of time: theta(h) by one Runge-Kutta step of order 4 on the
 /// momentum at begin, middle and end. The momentum itself is known in closed form (docs/theory/ddp.md, "Angular
@@ -53,7 +69,7 @@ class BaseRotation {
   void differentiate(const Eigen::Vector3d& middle_W, const Eigen::Vector3d& end_W, double h, Derivatives& out) const;
 
  private:
-  Eigen::Vector3d rpy_, begin_W_, inertia_, begin_rate_;
+  Eigen::Vector3d rpy_, begin_W_, inverse_inertia_, begin_rate_;
   RpyTrig trig_;
 };
 

@@ -17,7 +17,8 @@ void offer_place(const Polygon& polygon, const Vector3d& position, const Place& 
 bool has_own_yaw(const Problem& problem, int phase) { return !problem.plan.knots[phase].end_effector_yaw.empty(); }
 
 Seen seen(const PlanState& at, double since_start_s, int l) {
-  return {since_start_s, at.end_effectors[l].position_W, at.end_effectors[l].velocity_W};
+  const EndEffectorState& end = at.end_effectors[l];
+  return {since_start_s, end.position_W, end.velocity_W, end.yaw};
 }
 
 }  // namespace
@@ -37,13 +38,13 @@ double beyond_polygon(const Polygon& polygon, const Vector3d& position) {
 }
 
 double sole_yaw(const Problem& problem, const Sample& sample, int l) {
-  return has_own_yaw(problem, sample.phase) ? sample.at.end_effectors[l].yaw : sample.replay.rpy.z();
+  return has_own_yaw(problem, sample.phase) ? sample.at.end_effectors[l].yaw : sample.yaw;
 }
 
 void check_contact_place(const Problem& problem, const Sample& sample, Findings& findings) {
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const int surface = problem.surface(sample.phase, l);
-    if (surface < 0) continue;
+    if (surface < 0 || sample.still[l]) continue;
     offer_place(problem.solids[surface].polygon, sample.at.end_effectors[l].position_W,
                 {sample.phase, l, sample.time_s}, findings);
   }
@@ -70,6 +71,19 @@ void check_contact_permission(const Problem& problem, Findings& findings) {
     }
 }
 
+void Travel::find_still(const Problem& problem, Sample& sample) const {
+  sample.still.assign(problem.end_effector_count(), 0);
+  if (sample.phase != phase_) return;
+  const bool own_yaw = has_own_yaw(problem, sample.phase);
+  for (int l = 0; l < problem.end_effector_count(); ++l) {
+    const EndEffectorState& end = sample.at.end_effectors[l];
+    const Seen& last = last_[l];
+    const Vector3d &v = end.velocity_W, &before = last.velocity_W;
+    sample.still[l] = problem.surface(sample.phase, l) >= 0 && end.position_W == last.position_W && v.x() == 0.0 &&
+                      v.y() == 0.0 && v.z() == 0.0 && before == v && (!own_yaw || end.yaw == last.yaw);
+  }
+}
+
 /// path_continuity: |p(knot, from the left) - p(knot, from the right)|; within a phase jump().
 void Travel::check_continuity(const Problem& problem, const Sample& sample, int l, Findings& findings) {
   const Seen now = seen(sample.at, sample.since_start_s, l);
@@ -77,6 +91,17 @@ void Travel::check_continuity(const Problem& problem, const Sample& sample, int 
       Constraint::path_continuity,
       sample.phase == phase_ ? jump(problem, sample, l, last_[l], now) : (now.position_W - last_[l].position_W).norm(),
       {sample.phase, l, sample.time_s});
+}
+
+/// Whether it is told at a glance that check_continuity() would find nothing new within the phase.
+bool Travel::smooth(const Problem& problem, const Sample& sample, int l, const Findings& findings) const {
+  const double kept = std::min(findings.kept(Constraint::path_continuity), problem.tolerances.slip);
+  const EndEffectorState& end = sample.at.end_effectors[l];
+  const Seen& last = last_[l];
+  const double half = 0.5 * (sample.since_start_s - last.since_start_s);
+  return sample.phase == phase_ && kept > 0.0 &&
+         (end.position_W - last.position_W - half * (last.velocity_W + end.velocity_W)).squaredNorm() <
+             kept * kept * kBelow;
 }
 
 /// |p(b) - p(a) - (b - a) (v(a) + v(b)) / 2|: how far the path goes beyond its velocities, of the third order in b - a
@@ -113,7 +138,12 @@ void Travel::check(const Problem& problem, const Sample& sample, Findings& findi
   for (int l = 0; l < n; ++l) {
     const Vector3d& position = sample.at.end_effectors[l].position_W;
     const Place place{sample.phase, l, sample.time_s};
-    if (!first) check_continuity(problem, sample, l, findings);
+    const bool turns = !has_own_yaw(problem, sample.phase) && problem.has_wrenches(sample.phase);
+    if (sample.still[l] && !turns) {
+      last_[l].since_start_s = sample.since_start_s;
+      continue;
+    }
+    if (!first && !smooth(problem, sample, l, findings)) check_continuity(problem, sample, l, findings);
     const int surface = problem.surface(sample.phase, l);
     if (surface >= 0) {
       const double yaw = sole_yaw(problem, sample, l);
@@ -123,9 +153,8 @@ void Travel::check(const Problem& problem, const Sample& sample, Findings& findi
       }
       findings.offer(Constraint::slip, (position - touched_W_[l]).norm(), place);
       const double half_diagonal = problem.robot.end_effectors[l].half_size.norm();
-      const double turn = std::abs(std::remainder(yaw - touched_yaw_[l], 2.0 * M_PI));
       if (has_own_yaw(problem, sample.phase) || problem.has_wrenches(sample.phase))
-        findings.offer(Constraint::slip, turn * half_diagonal, place);
+        findings.offer(Constraint::slip, std::abs(modulo_turn(yaw - touched_yaw_[l])) * half_diagonal, place);
     }
     surface_[l] = surface;
     last_[l] = seen(sample.at, sample.since_start_s, l);

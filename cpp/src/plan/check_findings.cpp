@@ -78,7 +78,9 @@ void Findings::compare(Constraint constraint, double value, const Place& place, 
   const double measure = severity(value, tolerance);
   // Two infinite severities (tolerance 0) compare by value.
   if (worst.measured && (measure < worst.severity || (measure == worst.severity && value <= worst.value))) return;
-  worst = {value, tolerance, measure, unit, place, true, worst.own_tolerance, worst.own_unit};
+  const double bar =
+      std::isfinite(measure) ? measure - 1e-14 * std::abs(measure) : -std::numeric_limits<double>::infinity();
+  worst = {value, tolerance, measure, unit, place, true, worst.own_tolerance, worst.own_unit, bar};
 }
 
 std::vector<Violation> Findings::violations(int count, const Robot& robot) const {

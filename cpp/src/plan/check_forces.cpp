@@ -56,8 +56,11 @@ void check_friction(const Problem& problem, const Sample& sample, Findings& find
     const Vector3d& n = problem.solids[index].polygon.normal_W();
     const double friction = problem.scene.surfaces[index].friction, min_force = problem.tolerances.force;
     for (const Vector3d& force : sample.cone_forces_W[l]) {
-      const double normal = n.dot(force), tangential = (force - normal * n).norm();
+      const double normal = n.dot(force), squared = (force - normal * n).squaredNorm();
       if (normal < -min_force) continue;
+      const double kept = friction * normal + findings.kept(Constraint::friction) * std::max(normal, unit);
+      if (normal >= min_force && kept > 0.0 && squared < kept * kept * kBelow) continue;
+      const double tangential = std::sqrt(squared);
       if (normal < min_force && tangential <= min_force) continue;
       findings.offer(Constraint::friction, (tangential - friction * normal) / std::max(normal, unit),
                      {sample.phase, l, sample.time_s});
@@ -70,6 +73,8 @@ void check_force_cap(const Problem& problem, const Sample& sample, Findings& fin
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const double cap = problem.robot.end_effectors[l].max_force;
     if (problem.surface(sample.phase, l) < 0 || !std::isfinite(cap)) continue;
+    const double kept = cap * (1.0 + findings.kept(Constraint::force_cap));
+    if (kept > 0.0 && sample.forces_W[l].squaredNorm() < kept * kept * kBelow) continue;
     findings.offer(Constraint::force_cap, sample.forces_W[l].norm() / cap - 1.0, {sample.phase, l, sample.time_s});
   }
 }

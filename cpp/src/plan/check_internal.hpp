@@ -2,7 +2,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "mcplan/plan/checker.hpp"
@@ -62,7 +65,16 @@ Tolerances for_size(const Tolerances& tolerances, const Similarity& similarity);
 double severity(double value, double tolerance);
 
 /// Largest entry, not a number if any is (Eigen's maxCoeff() may pass over a NaN).
-inline double largest(const Eigen::Vector3d& v) { return v.maxCoeff<Eigen::PropagateNaN>(); }
+inline double largest(const Eigen::Vector3d& v) {
+  const double most = std::max(std::max(v[0], v[1]), v[2]);
+  return v[0] == v[0] && v[1] == v[1] && v[2] == v[2] ? most : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// What is less than this part of a square is less by more than rounding.
+constexpr double kBelow = 1.0 - 1e-12;
+
+/// An angle less whole turns, in [-pi, pi].
+inline double modulo_turn(double angle) { return std::abs(angle) < M_PI ? angle : std::remainder(angle, 2.0 * M_PI); }
 
 class Findings {
  public:
@@ -77,8 +89,21 @@ class Findings {
   /// The same with a unit and a tolerance other than the constraint's own.
   void offer(Constraint constraint, double value, const Place& place, double tolerance, const char* unit) {
     const Worst& worst = worst_[static_cast<int>(constraint)];
-    if (worst.measured && tolerance == worst.tolerance && value <= worst.value) return;  // nearly all of them
+    // Nearly all of them are no worse; of other units the product says so up to rounding, which a division settles.
+    if (worst.measured &&
+        (tolerance == worst.tolerance ? value <= worst.value : tolerance > 0.0 && value < worst.bar * tolerance))
+      return;
     compare(constraint, value, place, tolerance, unit);
+  }
+
+  /// What a value of the constraint has to exceed to be kept, in its own unit: who can tell cheaply that his does not
+  /// need not measure it. Minus infinity where nothing is said.
+  double kept(Constraint constraint) const {
+    const Worst& worst = worst_[static_cast<int>(constraint)];
+    constexpr double kNothing = -std::numeric_limits<double>::infinity();
+    if (!worst.measured) return kNothing;
+    if (worst.tolerance == worst.own_tolerance) return worst.value;
+    return worst.own_tolerance > 0.0 ? worst.bar * worst.own_tolerance : kNothing;
   }
 
   /// The first `count` constraints, in the order of the enumeration.
@@ -92,6 +117,7 @@ class Findings {
     bool measured = false;
     double own_tolerance = 0.0;  ///< of the constraint
     const char* own_unit = "";
+    double bar = -std::numeric_limits<double>::infinity();  ///< a little less than the severity
   };
   void compare(Constraint constraint, double value, const Place& place, double tolerance, const char* unit);
 
@@ -124,11 +150,13 @@ struct Problem {
 };
 
 /// CoM, base and angular momentum, integrated by the checker itself. Under the pendulum the momentum stays zero here,
-/// since the base carries it. Under contact wrenches the base's orientation is integrated as a quaternion, from which
-/// the angles are read; their rates stay zero, and what the plan states is compared with the momentum.
+/// since the base carries it. Under contact wrenches the base's orientation is integrated as a quaternion; the angles
+/// and their rates are no numbers then, and what the plan states is compared with orientation and momentum.
 struct Replay {
   Eigen::Vector3d com_W, com_velocity_W, rpy, rpy_rate, momentum_W;
   Eigen::Vector4d quat_wxyz{0.0, 0.0, 0.0, 0.0};
+
+  bool has_quaternion() const { return !quat_wxyz.isZero(); }
 };
 
 /// What the instants of a phase share: looked up once a phase, so that a sample costs the same in long plans.
@@ -144,10 +172,13 @@ struct Sample {
   const PhaseView* view = nullptr;
   int phase = 0;
   double since_start_s = 0.0, time_s = 0.0;
-  Replay replay;                           ///< what the checker integrated
-  Eigen::Matrix3d r_WB;                    ///< of the replay
-  PlanState at;                            ///< what the plan says
-  Eigen::Matrix3d r_at_WB;                 ///< of the angles that it says
+  Replay replay;            ///< what the checker integrated
+  Eigen::Matrix3d r_WB;     ///< of the replay
+  double yaw = 0.0;         ///< of the replay's base
+  std::vector<char> still;  ///< per end-effector: in contact and, to the last bit, as at the instant before it in this
+                            ///< phase, so that what depends on its place alone has been measured
+  PlanState at;             ///< what the plan says
+  Eigen::Matrix3d r_at_WB;  ///< of the angles that it says
   std::vector<Eigen::Vector3d> forces_W;   ///< per end-effector, from replay.com_W or from its points [N]
   std::vector<Eigen::Vector3d> moments_W;  ///< per end-effector in contact, about where the plan has it [N m]
   std::vector<std::vector<Eigen::Vector3d>> cone_forces_W;  ///< per end-effector, what friction holds one by one: the
@@ -155,11 +186,10 @@ struct Sample {
 };
 
 /// check_replay.cpp: the steps in which a phase is looked at, none of which crosses an instant between two intervals of
-/// forces; one step of h [s] with RK4 (error far below 1e-9); the force of each contact.
+/// forces; orientation and heading of the replay; whether it can go on; the force of each contact.
 int sample_count(const Problem& problem, int phase);
-Replay start_of(const Problem& problem, int phase);
-Eigen::Matrix3d orientation_of(const Replay& replay);
-Replay advance(const Problem& problem, int phase, const Replay& from, double since_start, double h);
+void set_orientation(Sample& sample);
+bool has_numbers(const Replay& replay);
 void contact_forces(const Problem& problem, Sample& sample);
 void check_dynamics(const Problem& problem, const Sample& phase_end, Findings& findings);
 void check_at_consistency(const Problem& problem, const Sample& sample, Findings& findings);
@@ -187,14 +217,18 @@ double beyond_polygon(const Polygon& polygon, const Eigen::Vector3d& position_W)
 struct Seen {
   double since_start_s = 0.0;
   Eigen::Vector3d position_W, velocity_W;
+  double yaw = 0.0;
 };
 
 /// Remembers where each end-effector touched down and was last seen.
 class Travel {
  public:
+  /// Sets sample.still; before check() of that sample.
+  void find_still(const Problem& problem, Sample& sample) const;
   void check(const Problem& problem, const Sample& sample, Findings& findings);
 
  private:
+  bool smooth(const Problem& problem, const Sample& sample, int l, const Findings& findings) const;
   void check_continuity(const Problem& problem, const Sample& sample, int l, Findings& findings);
   double jump(const Problem& problem, const Sample& sample, int l, const Seen& a, const Seen& b);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <variant>
 
 #include "check_internal.hpp"
@@ -11,7 +12,7 @@ namespace mcplan::checks {
 /// What LawCheck of every force law says, of phases under that law:
 ///
 ///     Replay start(problem, phase)                             its first knot
-///     Replay advance(problem, phase, from, since_start, h)     a step of h [s]
+///     Integration(problem, phase, h).advance(sample)           the replay of the sample before, by a step of h [s]
 ///     void set_forces(problem, sample)                         and moments, from the replay
 ///     double min_normal(problem)                             [N] by which friction of a smaller force is measured
 ///     void check_numbers(problem, phase, findings)             what is constant over the phase
@@ -23,10 +24,71 @@ namespace mcplan::checks {
 template <class Law>
 struct LawCheck;
 
+/// A step of h [s] of p'' = mu p - f and of the integral P of p, mu and f constant: linear in p, v = p' and f. What RK4
+/// makes of each of the three, in as many steps as keep its error far below 1e-9, is found out once.
+class PendulumStep {
+ public:
+  PendulumStep(double stiffness, double h);  // check_pendulum.cpp
+
+  /// Replaces p and v, and returns the integral of p.
+  Eigen::Vector3d apply(Eigen::Vector3d& p, Eigen::Vector3d& v, const Eigen::Vector3d& f) const {
+    const Eigen::Vector3d from = p, speed = v;
+    p = of_[0][0] * from + of_[1][0] * speed + of_[2][0] * f;
+    v = of_[0][1] * from + of_[1][1] * speed + of_[2][1] * f;
+    return of_[0][2] * from + of_[1][2] * speed + of_[2][2] * f;
+  }
+
+ private:
+  double of_[3][3];  ///< of p, v and f: what p, v and P are in the end
+};
+
+/// Sums over the contacts of a phase, of which all of an instant's forces and moments follow:
+///
+///     sum_l f_l = m (mu p - s),   sum_l ((a_l - p) x f_l + tau_l) = m ((a - s) x p - c) + tau,
+///     mu = sum mu_l,  s = sum mu_l s_l,  a = sum mu_l a_l,  c = sum mu_l a_l x s_l,  tau = sum tau_l
+///
+/// with places counted from where the CoM is as the phase begins: kilometres from the world's origin the products would
+/// lose the digits that their difference is made of.
+struct Wrenches {
+  Wrenches(const Problem& problem, int phase);  // check_wrench.cpp
+
+  double mass;
+  Eigen::Vector3d inverse_inertia, origin_W;
+  double stiffness = 0.0;                                                                      ///< mu
+  Eigen::Vector3d anchors = Eigen::Vector3d::Zero(), lines = anchors, steady = anchors, fall;  ///< s, a - s, tau/m - c,
+                                                                                               ///< s + g
+};
+
+/// Contact wrenches step by step. CoM and momentum go by PendulumStep, the quaternion by Adams' and Bashforth's method
+/// of order 4, from one look at an instant each; the first steps and those of a base that turns fast by RK4.
+class WrenchIntegration {
+ public:
+  WrenchIntegration(const Problem& problem, int phase, double h);
+  void advance(Sample& sample);
+
+ private:
+  Eigen::Vector4d turned_by_rk4(const Replay& from, double turning) const;
+
+  Wrenches sum_;
+  double h_, min_inertia_;
+  PendulumStep step_;
+  std::array<Eigen::Vector4d, 4> slopes_;  ///< of the quaternion, at this and the instants before
+  int known_ = 0;
+};
+
 template <>
 struct LawCheck<laws::Pendulum> {  // check_pendulum.cpp
   static Replay start(const Problem& problem, int phase);
-  static Replay advance(const Problem& problem, int phase, const Replay& from, double since_start, double h);
+  class Integration {
+   public:
+    Integration(const Problem& problem, int phase, double h);
+    void advance(Sample& sample);
+
+   private:
+    double h_;
+    PendulumStep step_;
+    Eigen::Vector3d origin_W_, fall_, spin_up_;
+  };
   static void set_forces(const Problem& problem, Sample& sample);
   static double min_normal(const Problem& problem) { return problem.tolerances.force; }
   static void check_numbers(const Problem& problem, int phase, Findings& findings);
@@ -38,7 +100,7 @@ struct LawCheck<laws::Pendulum> {  // check_pendulum.cpp
 template <>
 struct LawCheck<laws::Wrench> {  // check_wrench.cpp
   static Replay start(const Problem& problem, int phase);
-  static Replay advance(const Problem& problem, int phase, const Replay& from, double since_start, double h);
+  using Integration = WrenchIntegration;
   static void set_forces(const Problem& problem, Sample& sample);
   static double min_normal(const Problem& problem) { return problem.tolerances.force; }
   static void check_numbers(const Problem& problem, int phase, Findings& findings);
@@ -51,7 +113,16 @@ struct LawCheck<laws::Wrench> {  // check_wrench.cpp
 template <class Law>
 struct PointForceCheck {
   static Replay start(const Problem& problem, int phase);
-  static Replay advance(const Problem& problem, int phase, const Replay& from, double since_start, double h);
+  class Integration {
+   public:
+    Integration(const Problem& problem, int phase, double h) : problem_(problem), phase_(phase), h_(h) {}
+    void advance(Sample& sample);
+
+   private:
+    const Problem& problem_;
+    int phase_;
+    double h_;
+  };
   static void set_forces(const Problem& problem, Sample& sample);
   static double min_normal(const Problem& problem);
   static void check_numbers(const Problem& problem, int phase, Findings& findings);
@@ -90,9 +161,6 @@ Replay rk4(const Replay& from, double h, const Slope& slope) {
   const Replay d = slope(h, add(from, h, c));
   return add(add(add(add(from, h / 6.0, a), h / 3.0, b), h / 3.0, c), h / 6.0, d);
 }
-
-/// Into how many steps h [s] has to be cut under f_l = m mu_l (p - s_l); check_pendulum.cpp.
-double stiffness_steps(const Problem& problem, int phase, double h);
 
 /// f_l = m mu_l (p - s_l) and its moment about the end-effector's own point, of forces that act at the anchor or at the
 /// centre of pressure; check_pendulum.cpp.

@@ -10,15 +10,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// p'' = sum_l f_l / m - g  with  f_l = m mu_l (p - s_l),  theta'' = I^-1 sum_l tau_l.
-Replay pendulum_rate(const Problem& problem, int phase, const Replay& state) {
-  Vector3d acceleration(0.0, 0.0, -problem.scene.gravity), moment = Vector3d::Zero();
-  for (const Contact& contact : problem.plan.phases[phase].contacts) {
-    acceleration += contact.stiffness * (state.com_W - contact.anchor_W);
-    moment += contact.moment_W;
-  }
-  return {state.com_velocity_W, acceleration, state.rpy_rate, moment.cwiseQuotient(problem.robot.inertia),
-          Vector3d::Zero()};
+double stiffness_of(const Phase& phase) {
+  double stiffness = 0.0;
+  for (const Contact& contact : phase.contacts) stiffness += contact.stiffness;
+  return stiffness;
 }
 
 /// The anchor s_l lies on the sole: |d_i| <= half_size_i along the sole and d_n = 0, d = s - p_l. Otherwise the force
@@ -60,17 +55,27 @@ void check_sole_moment(const Problem& problem, const Sample& sample, Findings& f
 }  // namespace
 
 /// A step errs by (sqrt(stiffness) h)^5 / 120 of the motion: 1e-14 at 0.004, so 1e-11 over a second of such steps.
-double stiffness_steps(const Problem& problem, int phase, double h) {
-  double stiffness = 0.0;
-  for (const Contact& contact : problem.plan.phases[phase].contacts) stiffness += std::abs(contact.stiffness);
-  return std::ceil(std::sqrt(stiffness) * h / 0.004);
+PendulumStep::PendulumStep(double stiffness, double h) {
+  const int steps = static_cast<int>(std::clamp(std::ceil(std::sqrt(std::abs(stiffness)) * h / 0.004), 1.0, 64.0));
+  for (int i = 0; i < 3; ++i) {
+    Vector3d state(i == 0, i == 1, 0.0);
+    const double f = i == 2;
+    const auto rate = [&](const Vector3d& at) { return Vector3d(at[1], stiffness * at[0] - f, at[0]); };
+    for (int k = 0; k < steps; ++k) {
+      const double t = h / steps;
+      const Vector3d a = rate(state), b = rate(state + 0.5 * t * a), c = rate(state + 0.5 * t * b);
+      state += t / 6.0 * (a + 2.0 * b + 2.0 * c + rate(state + t * c));
+    }
+    for (int j = 0; j < 3; ++j) of_[i][j] = state[j];
+  }
 }
 
 void set_forces_that_act_at(Vector3d Contact::*place_W, const Problem& problem, Sample& sample) {
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const Contact& contact = problem.plan.phases[sample.phase].contacts[l];
     sample.forces_W[l] = problem.robot.mass * contact.stiffness * (sample.replay.com_W - contact.anchor_W);
-    sample.cone_forces_W[l] = {sample.forces_W[l]};
+    if (contact.surface < 0) continue;
+    sample.cone_forces_W[l].assign(1, sample.forces_W[l]);
     const Vector3d arm = contact.*place_W - sample.at.end_effectors[l].position_W;
     sample.moments_W[l] = contact.moment_W + arm.cross(sample.forces_W[l]);
   }
@@ -90,13 +95,27 @@ Replay LawCheck<laws::Pendulum>::start(const Problem& problem, int phase) {
   return {knot.com_W, knot.com_velocity_W, knot.base_rpy, knot.base_rpy_rate, Vector3d::Zero()};
 }
 
-Replay LawCheck<laws::Pendulum>::advance(const Problem& problem, int phase, const Replay& from, double /*since_start*/,
-                                         double h) {
-  const int steps = static_cast<int>(std::clamp(stiffness_steps(problem, phase, h), 1.0, 64.0));
-  Replay state = from;
-  for (int i = 0; i < steps; ++i)
-    state = rk4(state, h / steps, [&](double, const Replay& at) { return pendulum_rate(problem, phase, at); });
-  return state;
+/// p'' = sum_l f_l / m - g  with  f_l = m mu_l (p - s_l),  theta'' = I^-1 sum_l tau_l. Places are counted from where
+/// the CoM is as the phase begins.
+LawCheck<laws::Pendulum>::Integration::Integration(const Problem& problem, int phase, double h)
+    : h_(h),
+      step_(stiffness_of(problem.plan.phases[phase]), h),
+      origin_W_(problem.plan.knots[phase].com_W),
+      fall_(0.0, 0.0, problem.scene.gravity),
+      spin_up_(Vector3d::Zero()) {
+  for (const Contact& contact : problem.plan.phases[phase].contacts) {
+    fall_ += contact.stiffness * (contact.anchor_W - origin_W_);
+    spin_up_ += contact.moment_W.cwiseQuotient(problem.robot.inertia);
+  }
+}
+
+void LawCheck<laws::Pendulum>::Integration::advance(Sample& sample) {
+  Replay& replay = sample.replay;
+  Vector3d com = replay.com_W - origin_W_;
+  step_.apply(com, replay.com_velocity_W, fall_);
+  replay.com_W = origin_W_ + com;
+  replay.rpy += h_ * (replay.rpy_rate + 0.5 * h_ * spin_up_);
+  replay.rpy_rate += h_ * spin_up_;
 }
 
 void LawCheck<laws::Pendulum>::set_forces(const Problem& problem, Sample& sample) {

@@ -71,14 +71,13 @@ Replay PointForceCheck<Law>::start(const Problem& problem, int phase) {
 /// long: the stages' own errors in p are parallel to the forces' slope and cancel. Rounding alone is left, 1e-13 kg
 /// m^2/s a step.
 template <class Law>
-Replay PointForceCheck<Law>::advance(const Problem& problem, int phase, const Replay& from, double since_start,
-                                     double h) {
-  const int interval = interval_of(problem.plan.phases[phase], since_start + 0.5 * h);
-  Replay to = rk4(from, h, [&](double t, const Replay& at) {
-    return point_force_rate<Law>(problem, phase, at, interval, since_start + t);
+void PointForceCheck<Law>::Integration::advance(Sample& sample) {
+  const double since_start = sample.since_start_s;
+  const int interval = interval_of(problem_.plan.phases[phase_], since_start + 0.5 * h_);
+  sample.replay = rk4(sample.replay, h_, [&](double t, const Replay& at) {
+    return point_force_rate<Law>(problem_, phase_, at, interval, since_start + t);
   });
-  turn_base(problem, phase, since_start + h, to);
-  return to;
+  turn_base(problem_, phase_, since_start + h_, sample.replay);
 }
 
 template <class Law>

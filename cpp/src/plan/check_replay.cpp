@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/base_rotation.hpp"
 #include "check_laws.hpp"
-#include "mcplan/base/rotation.hpp"
 
 namespace mcplan::checks {
 namespace {
@@ -33,23 +33,24 @@ int sample_count(const Problem& problem, int phase) {
   return pieces * std::max(1, static_cast<int>(std::ceil(p.duration / pieces / problem.tolerances.sample_s)));
 }
 
-Replay start_of(const Problem& problem, int phase) {
-  return with_law(problem, phase, [&](auto law) { return law.start(problem, phase); });
-}
-
 /// Of the quaternion where one is integrated, else of the angles.
-Eigen::Matrix3d orientation_of(const Replay& replay) {
+void set_orientation(Sample& sample) {
+  const Replay& replay = sample.replay;
+  if (!replay.has_quaternion()) {
+    sample.r_WB = RpyTrig(replay.rpy).rotation();
+    sample.yaw = replay.rpy.z();
+    return;
+  }
   const Eigen::Vector4d& q = replay.quat_wxyz;
-  if (q.isZero()) return rotation_from_rpy(replay.rpy);
-  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  sample.r_WB = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  sample.yaw = std::atan2(sample.r_WB(1, 0), sample.r_WB(0, 0));
 }
 
 /// A state that has overflowed stays as it is: it violates all that asks for it, and is not worth a step.
-Replay advance(const Problem& problem, int phase, const Replay& from, double since_start, double h) {
-  const bool numbers = from.com_W.allFinite() && from.com_velocity_W.allFinite() && from.rpy.allFinite() &&
-                       from.rpy_rate.allFinite() && from.momentum_W.allFinite() && from.quat_wxyz.allFinite();
-  if (!numbers) return from;
-  return with_law(problem, phase, [&](auto law) { return law.advance(problem, phase, from, since_start, h); });
+bool has_numbers(const Replay& replay) {
+  const bool base =
+      replay.has_quaternion() ? replay.quat_wxyz.allFinite() : replay.rpy.allFinite() && replay.rpy_rate.allFinite();
+  return base && replay.com_W.allFinite() && replay.com_velocity_W.allFinite() && replay.momentum_W.allFinite();
 }
 
 void contact_forces(const Problem& problem, Sample& sample) {
@@ -79,15 +80,16 @@ void check_at_consistency(const Problem& problem, const Sample& sample, Findings
                     problem.has_momentum(sample.phase) ? at.angular_momentum_W : sample.replay.momentum_W},
                    !problem.has_wrenches(sample.phase), {sample.phase, -1, sample.time_s}, problem, findings);
   with_law(problem, sample.phase, [&](auto law) { law.check_state(problem, sample, findings); });
-  const double weight = problem.robot.mass * problem.scene.gravity;
+  const double per_weight = 1.0 / (problem.robot.mass * problem.scene.gravity);
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const Place place{sample.phase, l, sample.time_s};
     const EndEffectorState& end = at.end_effectors[l];
-    findings.offer(Constraint::at_consistency, largest((end.force_W - sample.forces_W[l]).cwiseAbs()) / weight, place,
-                   problem.tolerances.dynamics, "of the weight");
+    if (end.force_W != sample.forces_W[l])
+      findings.offer(Constraint::at_consistency, largest((end.force_W - sample.forces_W[l]).cwiseAbs()) * per_weight,
+                     place, problem.tolerances.dynamics, "of the weight");
     if (problem.surface(sample.phase, l) < 0) continue;
-    findings.offer(Constraint::at_consistency, largest((end.moment_W - sample.moments_W[l]).cwiseAbs()) / weight, place,
-                   problem.tolerances.dynamics * problem.similarity.length, "m of the weight");
+    findings.offer(Constraint::at_consistency, largest((end.moment_W - sample.moments_W[l]).cwiseAbs()) * per_weight,
+                   place, problem.tolerances.dynamics * problem.similarity.length, "m of the weight");
   }
 }
 

@@ -77,7 +77,7 @@ void check_reach(const Problem& problem, const Sample& sample, Findings& finding
     const bool in_contact = problem.surface(sample.phase, l) >= 0;
     const Place place{sample.phase, l, sample.time_s};
     if (in_contact && (limits.com_reach.given() || !limits.partner_reach.empty())) {
-      const Eigen::Matrix3d level = level_frame(sample.replay.rpy.z());
+      const Eigen::Matrix3d level = level_frame(sample.yaw);
       check_partners(problem, sample, l, level, findings);
       if (limits.com_reach.given()) {
         findings.offer(Constraint::reach, beyond_polytope(limits.com_reach, level.transpose() * -offset), place);
@@ -86,6 +86,8 @@ void check_reach(const Problem& problem, const Sample& sample, Findings& finding
     }
     const Eigen::AlignedBox3d& box = sample.view->reach_boxes[l];
     const Vector3d relative = sample.r_WB.transpose() * offset;
+    const double kept = findings.kept(Constraint::reach);
+    if (((box.min() - relative).array() <= kept).all() && ((relative - box.max()).array() <= kept).all()) continue;
     findings.offer(Constraint::reach, largest((box.min() - relative).cwiseMax(relative - box.max())), place);
   }
 }
@@ -110,7 +112,10 @@ void check_reach_at_knots(const Problem& problem, Findings& findings) {
 void check_com_speed(const Problem& problem, const Sample& sample, Findings& findings) {
   const double max = problem.robot.max_com_speed;
   if (!std::isfinite(max)) return;
-  findings.offer(Constraint::com_speed, sample.replay.com_velocity_W.norm() - max, {sample.phase, -1, sample.time_s});
+  const Vector3d& velocity = sample.replay.com_velocity_W;
+  const double kept = findings.kept(Constraint::com_speed) + max;
+  if (kept > 0.0 && velocity.squaredNorm() < kept * kept * kBelow) return;
+  findings.offer(Constraint::com_speed, velocity.norm() - max, {sample.phase, -1, sample.time_s});
 }
 
 /// yaw_range: min <= yaw of the sole - yaw of the base <= max while in contact, modulo a turn.
@@ -118,7 +123,7 @@ void check_yaw_range(const Problem& problem, const Sample& sample, Findings& fin
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const Eigen::Vector2d& range = problem.robot.end_effectors[l].yaw_range;
     if (problem.surface(sample.phase, l) < 0 || !range.allFinite()) continue;
-    const double turned = std::remainder(sole_yaw(problem, sample, l) - sample.replay.rpy.z(), 2.0 * M_PI);
+    const double turned = modulo_turn(sole_yaw(problem, sample, l) - sample.yaw);
     findings.offer(Constraint::reach, std::max(range[0] - turned, turned - range[1]), {sample.phase, l, sample.time_s},
                    problem.tolerances.yaw, "rad");
   }
@@ -127,7 +132,7 @@ void check_yaw_range(const Problem& problem, const Sample& sample, Findings& fin
 /// The end-effector's solids nearby, looked for again once it has left the ball for which they are known.
 const std::vector<Solid>& Surroundings::around(const Problem& problem, int l, const Vector3d& position_W) {
   Near& near = near_[l];
-  if (near.known && (position_W - near.center_W).norm() <= kMove) return near.solids;
+  if (near.known && (position_W - near.center_W).squaredNorm() <= kMove * kMove) return near.solids;
   const double reach = kMove + problem.robot.end_effectors[l].half_size.norm() + 1e-6;
   near.center_W = position_W;
   near.known = true;

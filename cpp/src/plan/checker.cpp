@@ -110,17 +110,23 @@ bool check_motion(const Problem& problem, const StopRequest& stop, Memory& memor
     const PhaseView view = phase_view(problem, k);
     sample.view = &view;
     sample.phase = k;
-    sample.replay = start_of(problem, k);
-    for (int i = 0; i <= steps; ++i) {
-      if (stop && samples++ % kSamplesPerPoll == 0 && stop()) return false;
-      if (i > 0) sample.replay = advance(problem, k, sample.replay, sample.since_start_s, duration / steps);
-      sample.since_start_s = duration * i / steps;
-      sample.time_s = problem.knot_times[k] + sample.since_start_s;
-      sample.r_WB = orientation_of(sample.replay);
-      set_state(problem.plan, view.frame, sample.since_start_s, sample.at, sample.r_at_WB);
-      contact_forces(problem, sample);
-      check_sample(problem, sample, memory, findings);
-    }
+    const bool on = with_law(problem, k, [&](auto law) {
+      typename decltype(law)::Integration integration(problem, k, duration / steps);
+      sample.replay = law.start(problem, k);
+      for (int i = 0; i <= steps; ++i) {
+        if (stop && samples++ % kSamplesPerPoll == 0 && stop()) return false;
+        if (i > 0 && has_numbers(sample.replay)) integration.advance(sample);
+        sample.since_start_s = duration * i / steps;
+        sample.time_s = problem.knot_times[k] + sample.since_start_s;
+        set_orientation(sample);
+        set_state(problem.plan, view.frame, sample.since_start_s, sample.at, sample.r_at_WB);
+        contact_forces(problem, sample);
+        memory.travel.find_still(problem, sample);
+        check_sample(problem, sample, memory, findings);
+      }
+      return true;
+    });
+    if (!on) return false;
     check_dynamics(problem, sample, findings);
   }
   check_final_contact_place(problem, sample, findings);

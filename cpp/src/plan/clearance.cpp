@@ -48,6 +48,22 @@ double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_
   return worst;
 }
 
+/// Whether no corner of a sole about that point can be in a solid, from how far the point is from the solid's sides: a
+/// corner is half a diagonal away, of which the normals' angle leaves a part across the solid's plane. The margins are
+/// far above the rounding of a corner's place.
+static bool corners_clear(const std::vector<Solid>& solids, const Vector3d& position_W, double half_diagonal,
+                          const Vector3d& sole_normal_W) {
+  const double margin = 1e-6 * half_diagonal + 1e-12 * position_W.lpNorm<1>();
+  for (const Solid& solid : solids) {
+    const Polygon& polygon = solid.polygon;
+    const double height = polygon.height(position_W), cosine = polygon.normal_W().dot(sole_normal_W);
+    const double above = std::max(height, -solid.thickness - height) - margin;
+    if (above > 0.0 && above * above > half_diagonal * half_diagonal * (1.0 - cosine * cosine)) continue;
+    if (!(polygon.outside(position_W) > half_diagonal + margin)) return false;
+  }
+  return true;
+}
+
 std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Solid>& solids, int end_effector) {
   require_shape(plan, solids.size(), false);
   if (end_effector < 0 || end_effector >= plan.end_effector_count())
@@ -84,7 +100,10 @@ double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_
   const Vector3d normal = (1.0 - s) * stretch.lift_normal_W + s * stretch.land_normal_W;
   // Half way between opposite walls there is no normal to turn to; the point alone counts there.
   const double length = normal.norm();
-  if (!middle || length < 1e-6) return clearance_depth(solids, position_W);
+  const double half_diagonal = end_effector.half_size.norm();
+  if (!middle || length < 1e-6 || half_diagonal <= 0.0 ||
+      corners_clear(solids, position_W, half_diagonal, normal / length))
+    return clearance_depth(solids, position_W);
   return clearance_depth(solids, end_effector, position_W, sole_frame(normal / length, yaw), true);
 }
 

@@ -6,16 +6,18 @@
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/plan.hpp"
 
-namespace mcplan::laws {
+namespace mcplan {
 
 using Eigen::Vector3d;
 
-Pull::Pull(const PhaseInstant& at) : pull_W(0.0, 0.0, at.plan.scene.gravity) {
-  for (const Contact& contact : at.phase.contacts) {
+Pull::Pull(const Plan& plan, const Phase& phase) : pull_W(0.0, 0.0, plan.scene.gravity) {
+  for (const Contact& contact : phase.contacts) {
     stiffness += contact.stiffness;
     pull_W += contact.stiffness * contact.anchor_W;
   }
 }
+
+namespace laws {
 
 void set_com(const PhaseInstant& at, const Pull& pull, const EntireFunctions& f, PlanState& state) {
   const double tau = at.since_start;
@@ -55,4 +57,5 @@ void OneForce::validate_contact(const Phase& /*phase*/, const Contact& contact, 
   if (forces > 0) throw InvalidPlan(field + ".point_forces", "must be one per node and point (0)", text(forces));
 }
 
-}  // namespace mcplan::laws
+}  // namespace laws
+}  // namespace mcplan

@@ -9,7 +9,7 @@ void Pendulum::set_motion(const PhaseInstant& at, PlanState& state) {
   const Knot& from = at.from;
   const Vector3d& inertia = at.plan.robot.inertia;
   const double tau = at.since_start;
-  const Pull pull(at);
+  const Pull pull(at.plan, at.phase);
   set_com(at, pull, EntireFunctions(pull.stiffness * tau * tau), state);
 
   Vector3d moment = Vector3d::Zero();

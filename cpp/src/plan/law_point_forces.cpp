@@ -63,10 +63,8 @@ void PointForces::set_motion(const PhaseInstant& at, PlanState& state) {
   state.com_velocity_W = motion.com_velocity_W;
   state.angular_momentum_W = motion.angular_momentum_W;
 
-  const Hermite base(from.base_rpy, from.base_rpy_rate, to.base_rpy, to.base_rpy_rate, phase.duration,
-                     tau / phase.duration);
-  state.base_rpy = base.position;
-  state.base_rpy_rate = base.velocity;
+  Hermite(phase.duration, tau / phase.duration)
+      .put(from.base_rpy, from.base_rpy_rate, to.base_rpy, to.base_rpy_rate, state.base_rpy, state.base_rpy_rate);
 
   const IntervalTime within = interval_time(phase, tau);
   state.com_acceleration_W = Vector3d(0.0, 0.0, -gravity);

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "base/base_rotation.hpp"
 #include "mcplan/plan/plan.hpp"
+#include "phase_instant.hpp"
 #include "swing_path.hpp"
 
 /// What every instant of a phase shares. Plan::at_phase() looks for it along the whole plan at each call; who asks for
@@ -14,8 +14,8 @@ namespace mcplan {
 struct PhaseFrame {
   int phase = 0;
   double start_s = 0.0;
-  std::vector<ActiveSwing> swings;      ///< in the plan's order
-  std::optional<BaseRotation> turning;  ///< of laws whose momentum turns the base; without, each instant makes its own
+  std::vector<ActiveSwing> swings;   ///< in the plan's order
+  std::optional<WrenchSums> shared;  ///< of phases of contact wrenches; without, each instant makes its own
 };
 
 /// The phase must be one of the plan's, whose sizes and indices fit together.

@@ -71,8 +71,7 @@ PhaseFrame phase_frame(const Plan& plan, int phase) {
   for (const Swing& swing : plan.swings)
     if (phase >= swing.first_phase && phase < swing.end_phase) frame.swings.push_back(active_swing(plan, swing, phase));
   const Knot& from = plan.knots[phase];
-  if (plan.phases[phase].has_wrenches())
-    frame.turning.emplace(from.base_rpy, from.angular_momentum_W, plan.robot.inertia);
+  if (plan.phases[phase].has_wrenches()) frame.shared.emplace(plan, plan.phases[phase], from);
   return frame;
 }
 
@@ -99,23 +98,24 @@ void set_state(const Plan& plan, const PhaseFrame& frame, double since_start, Pl
     end.points_W.clear();  // of another law, if any
     end.point_forces_W.clear();
   }
-  const BaseRotation* turning = frame.turning ? &*frame.turning : nullptr;
-  std::visit([&](auto law) { law.set_motion({plan, phase, from, to, tau, turning}, state); }, phase.law);
-  r_WB = rotation_from_rpy(state.base_rpy);
+  const WrenchSums* shared = frame.shared ? &*frame.shared : nullptr;
+  std::visit([&](auto law) { law.set_motion({plan, phase, from, to, tau, shared}, state); }, phase.law);
+  const RpyTrig trig(state.base_rpy);
+  std::visit([&](auto law) { law.set_base_rate(trig, plan.robot.inertia, state); }, phase.law);
+  r_WB = trig.rotation();
   state.base_quat_wxyz = quat_wxyz_from_rotation(r_WB);
 
+  const Hermite path(phase.duration, tau / phase.duration);
   for (std::size_t l = 0; l < phase.contacts.size(); ++l) {
     EndEffectorState& end = state.end_effectors[l];
     end.surface = phase.contacts[l].surface;
-    const Hermite path(from.end_effectors_W[l], from.end_effector_velocities_W[l], to.end_effectors_W[l],
-                       to.end_effector_velocities_W[l], phase.duration, tau / phase.duration);
-    end.position_W = path.position;
-    end.velocity_W = path.velocity;
+    path.put(from.end_effectors_W[l], from.end_effector_velocities_W[l], to.end_effectors_W[l],
+             to.end_effector_velocities_W[l], end.position_W, end.velocity_W);
     end.yaw = sole_yaw(from, to, l, tau / phase.duration, state.base_rpy.z());
   }
   for (const ActiveSwing& active : frame.swings) {
     EndEffectorState& end = state.end_effectors[active.swing->end_effector];
-    put_on_path(active, tau, state, r_WB, end);
+    put_on_path(active, tau, state, trig, r_WB, end);
   }
   for (EndEffectorState& end : state.end_effectors)
     if (end.surface < 0) end.center_of_pressure_W = end.position_W;
@@ -144,7 +144,8 @@ std::vector<PathInstant> path_of(const Plan& plan, const Swing& swing, double sa
 EndEffectorState lifted(const PathInstant& instant) {
   const PlanState& state = instant.state;
   EndEffectorState end = state.end_effectors[instant.swing.swing->end_effector];
-  put_on_path(instant.swing, instant.since_start_s, state, rotation_from_rpy(state.base_rpy), end);
+  const RpyTrig trig(state.base_rpy);
+  put_on_path(instant.swing, instant.since_start_s, state, trig, trig.rotation(), end);
   return end;
 }
 

@@ -54,6 +54,11 @@ void add_clearance(const ActiveSwing& active, double since_start, EndEffectorSta
   const double s = swung(active, since_start);
   const Moving bump = bump_at(s, total);
   const Vector3d turn = swing.land_normal_W - swing.lift_normal_W;
+  if (turn.isZero(0.0) && swing.lift_normal_W.squaredNorm() == 1.0) {
+    end.position_W += swing.height * bump.value * swing.lift_normal_W;
+    end.velocity_W += swing.height * bump.rate * swing.lift_normal_W;
+    return;
+  }
   const Vector3d along = swing.lift_normal_W + s * turn;
   // Opposite normals (a hand going from one wall to the facing one) make the sum vanish half way: no bump there.
   const double length = along.norm();
@@ -64,24 +69,16 @@ void add_clearance(const ActiveSwing& active, double since_start, EndEffectorSta
   end.velocity_W += swing.height * (bump.rate * n + bump.value * n_rate);
 }
 
-/// Angular velocity in the world of roll-pitch-yaw rates.
-Vector3d angular_velocity(const Vector3d& rpy, const Vector3d& rate) {
-  const Eigen::Matrix3d r = rotation_from_rpy(rpy);
-  Eigen::Matrix3d spin = Eigen::Matrix3d::Zero();
-  for (int i = 0; i < 3; ++i) spin += rate[i] * rotation_derivative(rpy, i) * r.transpose();
-  return {spin(2, 1), spin(0, 2), spin(1, 0)};
-}
-
 /// The path bends within a band inside of the box's sides, so that its velocity goes on where it comes to one.
-void hold_in_reach(const ActiveSwing& active, double since_start, const PlanState& state, const Eigen::Matrix3d& r_WB,
-                   EndEffectorState& end) {
+void hold_in_reach(const ActiveSwing& active, double since_start, const PlanState& state, const RpyTrig& trig,
+                   const Eigen::Matrix3d& r_WB, EndEffectorState& end) {
   const Vector3d &low = active.reach_min_B, &high = active.reach_max_B;
   const Vector3d offset = end.position_W - state.com_W;
   Vector3d relative = r_WB.transpose() * offset;
   const Vector3d& near = active.middle_band_B;
   if ((relative.array() >= (low + near).array()).all() && (relative.array() <= (high - near).array()).all()) return;
   const double s = swung(active, since_start), total = active.total_s;
-  const Vector3d spin = angular_velocity(state.base_rpy, state.base_rpy_rate);
+  const Vector3d spin = trig.angular_velocity_W(state.base_rpy_rate);
   Vector3d rate = r_WB.transpose() * (end.velocity_W - state.com_velocity_W - spin.cross(offset));
   for (int i = 0; i < 3; ++i) {
     const int upper = relative[i] - high[i] > low[i] - relative[i];
@@ -134,10 +131,10 @@ void straighten(ActiveSwing& active) {
   }
 }
 
-void put_on_path(const ActiveSwing& active, double since_start, const PlanState& state, const Eigen::Matrix3d& r_WB,
-                 EndEffectorState& end) {
+void put_on_path(const ActiveSwing& active, double since_start, const PlanState& state, const RpyTrig& trig,
+                 const Eigen::Matrix3d& r_WB, EndEffectorState& end) {
   add_clearance(active, since_start, end);
-  hold_in_reach(active, since_start, state, r_WB, end);
+  hold_in_reach(active, since_start, state, trig, r_WB, end);
 }
 
 }  // namespace mcplan

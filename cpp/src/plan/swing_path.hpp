@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "base/base_rotation.hpp"
 #include "mcplan/plan/plan.hpp"
 
 /// How an end-effector swings: lifted off the straight way between two contacts, and held in its reach box.
@@ -24,8 +25,9 @@ ActiveSwing active_swing(const Plan& plan, const Swing& swing, int phase);
 void straighten(ActiveSwing& active);
 
 /// Moves an end-effector [m, m/s, world] from where the knots have it, `since_start` [s] in the phase, onto the swing's
-/// path; `state` has the CoM and the base with their rates, r_WB is the base's orientation.
-void put_on_path(const ActiveSwing& active, double since_start, const PlanState& state, const Eigen::Matrix3d& r_WB,
-                 EndEffectorState& end);
+/// path; `state` has the CoM and the base with their rates, trig and r_WB are of the
+/// base's angles.
+void put_on_path(const ActiveSwing& active, double since_start, const PlanState& state, const RpyTrig& trig,
+                 const Eigen::Matrix3d& r_WB, EndEffectorState& end);
 
 }  // namespace mcplan

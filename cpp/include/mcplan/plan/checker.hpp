@@ -40,7 +40,7 @@ struct Tolerances {
 ///
 ///     finite             every number of the plan is finite
 ///     phase_duration     every phase lasts longer than a microsecond
-///     dynamics           forces, gravity and moments, integrated by RK4 over a phase, end at the next knot
+///     dynamics           forces, gravity and moments, integrated over a phase, end at the next knot
 ///     at_consistency     Plan::at_phase agrees with that integration
 ///     orientation        contact wrenches: the angular momentum, integrated on the rotations, turns the base to the
 ///                        next knot and to what Plan::at_phase says

@@ -18,6 +18,7 @@ struct Contact;
 struct Phase;
 struct PhaseInstant;  // what a law is given of an instant: the plan, the phase, its knots
 struct PlanState;
+struct RpyTrig;  // sines and cosines of the base's angles
 
 namespace laws {
 
@@ -28,6 +29,9 @@ struct OneForce {
 
   /// tau_l + (a_l - p_l) x f_l about each end-effector, whose position, force and centre of pressure a_l are known.
   static void set_moments(const Phase& phase, PlanState& state);
+
+  /// Rates of the base's angles, where they follow from the angular momentum: set_motion() has set them.
+  static void set_base_rate(const RpyTrig& /*trig*/, const Eigen::Vector3d& /*inertia*/, PlanState& /*state*/) {}
 
   /// Throws InvalidPlan where what set_motion() reads does not fit together: there is nothing to fit.
   static void require_queryable(const Phase& /*phase*/, int /*k*/) {}
@@ -58,6 +62,7 @@ struct Wrench : OneForce {
   static constexpr bool has_momentum = true, has_wrenches = true;
 
   static void set_motion(const PhaseInstant& at, PlanState& state);
+  static void set_base_rate(const RpyTrig& trig, const Eigen::Vector3d& inertia, PlanState& state);
 };
 
 /// What laws share whose forces act at points, constant or linear over each of `intervals` equal intervals: the CoM is
@@ -70,6 +75,7 @@ struct PointForces {
   static void set_moments(const Phase& phase, PlanState& state);
 
   static void set_motion(const PhaseInstant& at, PlanState& state);
+  static void set_base_rate(const RpyTrig& /*trig*/, const Eigen::Vector3d& /*inertia*/, PlanState& /*state*/) {}
   static void require_queryable(const Phase& phase, int k);
   static void validate(const Phase& phase, const std::string& field);
   static void validate_contact(const Phase& phase, const Contact& contact, const std::string& field);
