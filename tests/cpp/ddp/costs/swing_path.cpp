@@ -48,8 +48,8 @@ TEST_CASE("a swing that the reach box keeps low asks the CoM to rise") {
   const ddp::Layout& at = problem.layout;
   const Writer path = term(problem, "swing_path", swinging());
   VectorXd x = VectorXd::Zero(at.nx()), u = VectorXd::Zero(at.nu());
-  x.segment<3>(at.end(1)) = Vector3d(0.35, 0.1, 0.0) / 0.7;
-  u.segment<3>(at.stride(1)) = Vector3d(0.5, 0.0, 0.2) / 0.7;
+  x.segment<3>(at.end(1)) = Vector3d(0.3, 0.1, 0.0) / 0.7;
+  u.segment<3>(at.stride(1)) = Vector3d(0.55, 0.0, 0.2) / 0.7;
   u[at.duration()] = 1e-3;
   const auto at_height = [&](double height) {
     x.segment<3>(at.com()) = Vector3d(0.5, 0.0, height) / 0.7;
