@@ -1,3 +1,5 @@
+#include <Eigen/Geometry>
+
 #include "limb_rows.hpp"
 #include "mcplan/base/rotation.hpp"
 
@@ -32,7 +34,9 @@ class IdleLimb final : public CostTerm {
               limb_inside(problem.polygons[i], problem.thickness[i], instant.com, instant.com + level * nominal, true);
           if (!(inside.value < 0.0)) continue;
           if (rows.with_gradient())
-            instant.add_along(inside.outward, Vector3d::Zero(), rows.add_dense(weight, inside.value));
+            instant.add_along(inside.outward,
+                              {0.0, 0.0, inside.share * inside.outward.dot(Vector3d::UnitZ().cross(level * nominal))},
+                              rows.add_dense(weight, inside.value));
           else
             rows.add_value(weight, inside.value);
         }
