@@ -100,8 +100,7 @@ void Problem::make_reference(const VectorXd& goal) {
           return level(yaw).transpose() * (at.segment<3>(layout.end(l)) - at.segment<3>(layout.com()));
         };
         const Vector3d from = offset(start, yaw_from), to = offset(goal, yaw_to);
-        x.segment<3>(layout.end(l)) =
-            x.segment<3>(layout.com()) + level(yaw) * (from + blend * (to - from));
+        x.segment<3>(layout.end(l)) = x.segment<3>(layout.com()) + level(yaw) * (from + blend * (to - from));
       }
     reference.x.push_back(x);
   }

@@ -40,7 +40,8 @@ struct Found {
 class WaysToGoal {
  public:
   /// Keeps references.
-  WaysToGoal(const Scene& scene, const Robot& robot, const Options& options, const Request& request, const Deadline& deadline)
+  WaysToGoal(const Scene& scene, const Robot& robot, const Options& options, const Request& request,
+             const Deadline& deadline)
       : scene_(&scene), robot_(&robot), options_(&options), request_(&request), deadline_(&deadline) {}
 
   /// Straight on; where steps do not lead along there, round what is in the way as well, and where they do, again

@@ -639,7 +639,7 @@ class Options:
     @property
     def threads(self) -> int:
         """
-        Threads that price neighbours; the result does not depend on it.
+        Threads that search ways, guesses and changes at once; the result does not depend on it.
         """
     @threads.setter
     def threads(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
