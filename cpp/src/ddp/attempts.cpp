@@ -58,7 +58,7 @@ Incumbent Attempts::cheapest(const std::vector<Guess>& guesses, const Tuning& tu
   std::set<ContactSequence> seen;
   // From another discovery of the same sequence the interior point ends at the same optimum, and how soon it gives up
   // hangs on the guesses before: other threads leave it out.
-  const bool exact = problem_.options.polish == Polish::interior_point;
+  const bool exact = search_.exact_contacts(tuning);
   std::vector<Polished> polished(guesses.size());
   const auto discovers = [&](std::size_t i) { return guesses[i].discover_with > 0.0; };
   const auto polish = [&](int i, Search& search) {
@@ -202,13 +202,18 @@ double Attempts::further_inside() const {
   return further_m / problem_.units.length;
 }
 
+/// Whether the best plan that an attempt has ended with exceeds a limb limit, and nothing else by as much.
+bool Attempts::asks_too_much_of_joints() const {
+  const auto& plan = best_->finished();
+  return plan && !plan->ok && (plan->worst.name == "joint_torque" || plan->worst.name == "joint_speed");
+}
+
 /// Other settings of what the outcome depends on most, in an order drawn from the seed, until a plan is accepted.
-Ending Attempts::restart(Ending ending, const ContactSequence& initial) {
+Ending Attempts::restart(Ending ending, const ContactSequence& initial, Tuning tuning) {
   const Problem& p = problem_;
   std::vector<RestartSetting> settings(std::begin(kRestarts), std::end(kRestarts));
   std::mt19937_64 random(p.options.seed);
   for (std::size_t i = settings.size(); i > 1; --i) std::swap(settings[i - 1], settings[random() % i]);
-  Tuning tuning = first_;
   for (int i = 0; i < p.options.restarts && !best_->solved(); ++i) {
     if (ending != Ending::done && ending != Ending::broke_down) break;
     const auto [proximal, duration_s] = settings[static_cast<std::size_t>(i) % settings.size()];
@@ -216,6 +221,7 @@ Ending Attempts::restart(Ending ending, const ContactSequence& initial) {
     Incumbent again = first_guess({}, tuning);
     again.sequence = initial;
     std::vector<Guess> others{{again, proximal}};
+    tuning.hold_joints = tuning.hold_joints || asks_too_much_of_joints();
     // A foot too close to the next step catches it with its toe: the same motion with footholds further inside.
     if (best_->finished() && best_->finished()->worst.name == "clearance" && !last_.sequence.empty()) {
       tuning.extra_margin += further_inside();
@@ -271,7 +277,15 @@ Ending Attempts::run(const Incumbent* warm) {
     return ending;
   }
   if (best_->best() && deadline_->passed()) return Ending::time_limit;
-  ending = restart(attempt(guesses(start, warm), first_), sequence);
+  Tuning tuning = first_;
+  ending = attempt(guesses(start, warm), tuning);
+  // Most plans ask no more of the joints than there is, and are found sooner where nothing looks at that.
+  if (ending == Ending::done && asks_too_much_of_joints()) {
+    tuning.hold_joints = true;
+    search_.begin_anew();
+    ending = attempt(guesses(start, warm), tuning);
+  }
+  ending = restart(ending, sequence, tuning);
   if (ending != Ending::interrupted) best_->look_back(search_, surfaces_);
   return late(ending);
 }

@@ -37,7 +37,8 @@ class Attempts {
   std::vector<Guess> guesses(const Incumbent& start, const Incumbent* warm) const;
   Ending attempt(std::vector<Guess> guesses, const Tuning& tuning);
   Incumbent cheapest(const std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending);
-  Ending restart(Ending ending, const ContactSequence& initial);
+  Ending restart(Ending ending, const ContactSequence& initial, Tuning tuning);
+  bool asks_too_much_of_joints() const;
   Ending crawl();
   double further_inside() const;
   Ending late(Ending ending) const;

@@ -69,7 +69,7 @@ Ending Search::polish_plan(Incumbent& now, const Tuning& tuning) {
 }
 
 Ending Search::polish_guess(Incumbent& now, Origin origin, double give_up_above, const Tuning& tuning) {
-  if (!exact_contacts()) return polish(now, kPolishIterations, kRoughTolerance, give_up_above, tuning);
+  if (!exact_contacts(tuning)) return polish(now, kPolishIterations, kRoughTolerance, give_up_above, tuning);
   if (origin == Origin::plan) return polish_plan(now, tuning);
   if (origin == Origin::sequence) {
     const Ending ending = polish(now, kWarmUpIterations, 0.0, give_up_above, tuning);
@@ -88,9 +88,9 @@ Ending Search::polish_guess(Incumbent& now, Origin origin, double give_up_above,
 }
 
 Ending Search::polish_trial(Incumbent& now, double give_up_above, const Tuning& tuning) {
-  const int iterations = exact_contacts() ? kWarmUpIterations : kTrialIterations;
-  const Ending ending = polish(now, iterations, exact_contacts() ? 0.0 : kRoughTolerance, give_up_above, tuning);
-  if (!exact_contacts() || ending != Ending::done) return ending;
+  const int iterations = exact_contacts(tuning) ? kWarmUpIterations : kTrialIterations;
+  const Ending ending = polish(now, iterations, exact_contacts(tuning) ? 0.0 : kRoughTolerance, give_up_above, tuning);
+  if (!exact_contacts(tuning) || ending != Ending::done) return ending;
   polish::Settings settings;
   settings.barrier = kTrialBarrier;
   settings.max_iterations = kExactTrialIterations;
@@ -103,7 +103,7 @@ Ending Search::polish_trial(Incumbent& now, double give_up_above, const Tuning& 
 }
 
 Ending Search::polish_last(Incumbent& now, const Tuning& tuning) {
-  if (!exact_contacts()) {
+  if (!exact_contacts(tuning)) {
     // Limits are penalties: harder ones at the end bring what is left of a violation below the checker's tolerance.
     Tuning hard = tuning;
     hard.limit_weight *= kHardening;

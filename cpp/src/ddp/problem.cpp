@@ -71,7 +71,6 @@ Problem::Problem(const Scene& scene_in, const Robot& robot_in, const Options& op
   make_surfaces();
   const std::vector<std::vector<int>> surfaces = make_ends();
   // The interior point has no rows for joints.
-  if (!jointed.ends.empty()) options.polish = Polish::penalty;
   layout = model == Model::lipm ? lipm_layout(limits, options.method == Method::paper)
                                 : wrench_layout(limits, polygons, surfaces);
   rules = ContactRules(surfaces, make_state_rules(), options.one_switch_per_step,

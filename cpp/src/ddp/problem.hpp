@@ -41,6 +41,7 @@ struct Tuning {
   double duration_initial = 0.0;          ///< first guess of all phases
   double extra_margin = 0.0;              ///< further margin of soles, where one has caught an edge
   bool clear_swings = false;              ///< hold swings out of solids, where one has caught an edge
+  bool hold_joints = false;               ///< hold the limb limits, where a plan has exceeded them
 };
 
 /// Limits and nominal position of an end-effector, non-dimensional.

@@ -228,7 +228,7 @@ Ending Search::discover(Incumbent& now, double proximal_weight, const Tuning& tu
   schedule.proximal_weight = proximal_weight;
   schedule.discovering = true;
   Ending ending = Ending::done;
-  const int calm = exact_contacts() ? kCalmAtFullWeight : kFreeAtFullWeight;
+  const int calm = exact_contacts(tuning) ? kCalmAtFullWeight : kFreeAtFullWeight;
   for (int at_full = 0, quiet = 0; at_full < kFreeAtFullWeight && quiet < calm;) {
     if (should_stop(ending)) return ending;
     ending = iterate(now, schedule, true);
@@ -309,7 +309,9 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now, const 
 
 Ending Search::refine(Incumbent& now, const Tuning& tuning) {
   polish_proximal_ = kTrialProximal;
-  const std::size_t trials = exact_contacts() ? kExactTrials : balances_on_points(*problem_) ? kCrawlTrials : kTrials;
+  const std::size_t trials = exact_contacts(tuning)          ? kExactTrials
+                             : balances_on_points(*problem_) ? kCrawlTrials
+                                                             : kTrials;
   // The interior point ends at the optimum of a sequence from wherever it begins: no sequence is tried twice.
   std::set<ContactSequence> tried{now.sequence};
   for (int round = 0; round < kRefineRounds; ++round) {
@@ -317,7 +319,7 @@ Ending Search::refine(Incumbent& now, const Tuning& tuning) {
     std::set<ContactSequence> fresh;
     for (ContactSequence& change : ranked_changes(now, tuning)) {
       if (changes.size() == trials) break;
-      if (!exact_contacts() || (tried.count(change) == 0 && fresh.insert(change).second))
+      if (!exact_contacts(tuning) || (tried.count(change) == 0 && fresh.insert(change).second))
         changes.push_back(std::move(change));
     }
     std::vector<Trial> made(changes.size());
@@ -334,7 +336,7 @@ Ending Search::refine(Incumbent& now, const Tuning& tuning) {
     bool improved = false;
     for (int i = 0; i < static_cast<int>(changes.size()) && !improved; ++i) {
       if (!lanes().tell(i)) attempt(i, *this);
-      if (exact_contacts()) tried.insert(changes[i]);
+      if (exact_contacts(tuning)) tried.insert(changes[i]);
       Trial& trial = made[i];
       improved = trial.improved;
       if (improved) {

@@ -111,6 +111,14 @@ class Search {
   /// limit on iterations would have cut it short.
   bool replay(Trace&& trace, int rows);
 
+  /// Whether the interior point polishes. It has no rows for limb limits.
+  bool exact_contacts(const Tuning& tuning) const {
+    return problem_->options.polish == Polish::interior_point && !tuning.hold_joints;
+  }
+
+  /// Forget what earlier attempts have left behind.
+  void begin_anew() { polish_proximal_ = kPolishProximal; }
+
   /// Every later stage ends as interrupted.
   void interrupt() { interrupted_ = true; }
 
@@ -137,7 +145,6 @@ class Search {
   bool paper_switches(Incumbent& now, Iteration& row);
   std::vector<ContactSequence> ranked_changes(const Incumbent& now, const Tuning& tuning);
   Ending polish_plan(Incumbent& now, const Tuning& tuning);
-  bool exact_contacts() const { return problem_->options.polish == Polish::interior_point; }
   bool should_stop(Ending& ending) const;
   void record(Iteration&& row, const Incumbent& now, const Schedule& schedule);
   void tell(Iteration&& row);

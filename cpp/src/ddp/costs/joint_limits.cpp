@@ -177,7 +177,7 @@ class JointLimits final : public CostTerm {
   JointLimits() : CostTerm("joint_limits", Scope::contact, 80) {}
 
   bool applies(const StepView& step) const override {
-    return step.between_knots() && step.problem.limits[step.l].limb.given();
+    return step.schedule.tuning.hold_joints && step.between_knots() && step.problem.limits[step.l].limb.given();
   }
 
   void write(const StepView& step, Rows& rows) const override {

@@ -22,7 +22,7 @@ using Writer = std::function<void(const VectorXd& x, const VectorXd& u, Rows& ro
 struct About {
   int k = 2, l = 1, surface = ddp::kFree;
   double contact_weight = 3.0, interior_weight = 0.0, sole_yaw = 0.0;
-  bool discovering = false, clear_swings = false;
+  bool discovering = false, clear_swings = false, hold_joints = true;
 };
 
 /// Writes the rows of the term of this name, where it applies. Keeps a reference to the problem. Without u it is asked
@@ -38,6 +38,7 @@ inline Writer term(const ddp::Problem& problem, const std::string& name, const A
     schedule.interior_weight = about.interior_weight;
     schedule.discovering = about.discovering;
     schedule.tuning.clear_swings = about.clear_swings;
+    schedule.tuning.hold_joints = about.hold_joints;
     std::vector<ddp::Instant> instants;
     const bool last = u.size() == 0 || about.k == problem.steps;
     const ddp::StepView step{problem,  pendulum, schedule,      about.k,       x, last ? nullptr : &u,

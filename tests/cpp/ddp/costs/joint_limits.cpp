@@ -66,7 +66,8 @@ TEST_CASE("joint limits: gradients") {
 }
 
 TEST_CASE(
-    "joint limits: nothing is written for limits that are infinite, at the knots, in discovery or without the option") {
+    "joint limits: nothing is written for limits that are infinite, at the knots, in discovery, before one is "
+    "exceeded or without the option") {
   ddp::Options options = phases(6);
   const ddp::Problem free = jointed(Low::nothing, options);
   const ddp::Problem low = jointed(Low::knee, options);
@@ -74,12 +75,15 @@ TEST_CASE(
   const ddp::Problem without = jointed(Low::knee, options);
   CHECK(without.jointed.ends.empty());
   CHECK_FALSE(without.robot.end_effectors[1].limb.given());
-  const auto price = [](const ddp::Problem& problem, double interior) {
+  const auto price = [](const ddp::Problem& problem, double interior, bool asked = true) {
     const ddp::Trajectory t = problem.initial_guess({});
-    return cost(problem, term(problem, "joint_limits", {2, 1, 0, 100.0, interior}), t.x[2], t.u[2]);
+    About about{2, 1, 0, 100.0, interior};
+    about.hold_joints = asked;
+    return cost(problem, term(problem, "joint_limits", about), t.x[2], t.u[2]);
   };
   CHECK(price(free, 3.0) == 0.0);
   CHECK(price(low, 3.0) > 0.0);
   CHECK(price(low, 0.0) == 0.0);
+  CHECK(price(low, 3.0, false) == 0.0);  // before a plan has exceeded a limit
   CHECK(price(without, 3.0) == 0.0);
 }
