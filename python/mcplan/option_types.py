@@ -136,7 +136,7 @@ class DdpOptions(TypedDict, total=False):
     time_limit: float | None
     """Short for time_limit_s; None: the default."""
     threads: int
-    """Threads that price neighbours; the result does not depend on it."""
+    """Threads that search ways, guesses and changes at once; the result does not depend on it."""
     seed: int
     """Seed of the order in which restarts vary the settings."""
     initial_sequence: collections.abc.Sequence[collections.abc.Sequence[int]]

@@ -250,6 +250,12 @@ def in_millimetres(robot: dict) -> dict:
         for key in ("nominal", "reach_min", "reach_max", "half_size"):
             if key in end:
                 end[key] = [1000.0 * value for value in end[key]]
+        for key in ("hip", "ankle"):
+            if key in end.get("limb", {}):
+                end["limb"][key] = [1000.0 * value for value in end["limb"][key]]
+        for key in ("upper", "lower", "margin"):
+            if key in end.get("limb", {}):
+                end["limb"][key] *= 1000.0
         end.pop("com_reach", None)
         end.pop("partner_reach", None)
     return data

@@ -8,7 +8,8 @@ import pytest
 import mcplan as mp
 from mcplan.files.reach import HEADING_STEP, headings_reached, share_reached
 from mcplan.files.robots import robot_to_dict
-from mcplan.files.urdf import contact_frame, limb_of, load_model, robot_from_urdf, sole_torsion
+from mcplan.files.strength import sole_torsion
+from mcplan.files.urdf import contact_frame, limb_of, load_model, robot_from_urdf
 from mcplan.files.urdf_setups import SETUPS, End
 
 pin = pytest.importorskip("pinocchio")

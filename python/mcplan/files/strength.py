@@ -89,3 +89,24 @@ def strengths_in_box(
                 q = np.concatenate([limb.base, joints])
                 forces.append(max(largest_force_N(limb.model, data, limb.frame, q, push)[0] for push in pushes))
     return np.sort(forces)
+
+
+def sole_torsion(half_size: tuple[float, float], force: float, friction: float) -> float:
+    """Moment about its normal [N m] that friction gives the largest disc in a sole, (2/3) friction force radius.
+
+    A disc pressed down evenly: integral of friction x pressure x distance from the middle.
+
+    Args:
+        half_size: Of the sole [m].
+        force: Along the normal [N].
+        friction: Coefficient [-].
+    """
+    return 2.0 / 3.0 * friction * force * min(half_size)
+
+
+def rounded_down(force: float) -> float:
+    """To two digits [N], 1 N at least: a cap is above 0."""
+    if not np.isfinite(force):
+        return force
+    digit = 10.0 ** max(0, np.floor(np.log10(max(force, 1.0))) - 1)
+    return float(max(1.0, digit * np.floor(force / digit)))

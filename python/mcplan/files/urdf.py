@@ -23,7 +23,7 @@ from mcplan.files.builtin import exists
 from mcplan.files.leg_geometry import legs_of
 from mcplan.files.limb_limits import add_limb_limits
 from mcplan.files.reach import HEADING_MAX, Limb, explore, headings_reached, largest_box
-from mcplan.files.strength import POINTS, strengths_in_box
+from mcplan.files.strength import POINTS, rounded_down, sole_torsion, strengths_in_box
 from mcplan.files.urdf_reading import build_model, read_urdf, read_xml
 from mcplan.files.urdf_setups import HEADER, SETUPS, End, Setup
 
@@ -379,28 +379,7 @@ def _end_effector(end: End, reach: _Reach, weight: float) -> EndEffector:
         nominal_B=reach.nominal,
         reach_min_B=reach.low,
         reach_max_B=reach.high,
-        max_force=_rounded_down(reach.force),
+        max_force=rounded_down(reach.force),
         max_moment=[0, 0, round(sole_torsion(end.half_size, 0.5 * weight, 0.5 * SOLE_FRICTION), 2)],
         yaw_range=EndEffector().yaw_range if reach.headings is None else reach.headings,
     )
-
-
-def sole_torsion(half_size: tuple[float, float], force: float, friction: float) -> float:
-    """Moment about its normal [N m] that friction gives the largest disc in a sole, (2/3) friction force radius.
-
-    A disc pressed down evenly: integral of friction x pressure x distance from the middle.
-
-    Args:
-        half_size: Of the sole [m].
-        force: Along the normal [N].
-        friction: Coefficient [-].
-    """
-    return 2.0 / 3.0 * friction * force * min(half_size)
-
-
-def _rounded_down(force: float) -> float:
-    """To two digits [N], 1 N at least: a cap is above 0."""
-    if not np.isfinite(force):
-        return force
-    digit = 10.0 ** max(0, np.floor(np.log10(max(force, 1.0))) - 1)
-    return float(max(1.0, digit * np.floor(force / digit)))
