@@ -212,9 +212,15 @@ double turn_on(const Route& route, double share) {
   const double before = std::max(share - kLookAlong, 0.0), after = std::min(share + kLookAlong, 1.0);
   const Vector2d here = (point_on(route, after) - point_on(route, before)).head<2>();
   if (!(straight.norm() > 0.0) || !(here.norm() > 0.0)) return 0.0;
+  double aside = 0.0;  // of the straight line, over its length
+  for (const Vector3d& at : route) {
+    const Vector2d off = (at - route.front()).head<2>();
+    aside = std::max(aside, std::abs(straight.x() * off.y() - straight.y() * off.x()) / straight.squaredNorm());
+  }
+  const double worth = std::clamp(aside / kTurnAside - 1.0, 0.0, 1.0);
   const double turn = std::atan2(straight.x() * here.y() - straight.y() * here.x(), straight.dot(here));
   const double in = std::min(std::min(share, 1.0 - share) / kTurnShare, 1.0);
-  return in * in * (3.0 - 2.0 * in) * std::clamp(turn, -0.5 * M_PI, 0.5 * M_PI);
+  return worth * in * in * (3.0 - 2.0 * in) * std::clamp(turn, -0.5 * M_PI, 0.5 * M_PI);
 }
 
 Routes find_routes(const Scene& scene, const Robot& robot, double sole_inside) {

@@ -28,7 +28,7 @@ Routes find_routes(const Scene& scene, const Robot& robot, double sole_inside = 
 Eigen::Vector3d point_on(const Route& route, double share);
 
 /// How far [rad] the base turns there from where it would look straight on: with the route, by a quarter turn at most,
-/// and not at its ends. Nothing on the straight line.
+/// and not at its ends. Nothing on the straight line or little beside it.
 double turn_on(const Route& route, double share);
 
 }  // namespace mcplan::ddp

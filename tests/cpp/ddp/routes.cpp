@@ -112,6 +112,8 @@ TEST_CASE("the base turns with a route: to its left where that goes left, back a
   CHECK(std::abs(turn_on(left, 0.5)) < 1e-9);
   CHECK(turn_on(left, 0.8) < -0.3);
   CHECK(turn_on({}, 0.5) == 0.0);
+  const Route hardly = {{0, 0, 0}, {1, 0.15, 0}, {3, -0.15, 0}, {4, 0, 0}};
+  for (int i = 0; i <= 50; ++i) CHECK(turn_on(hardly, i / 50.0) == 0.0);
   CHECK(turn_on({{0, 0, 0}, {1, 0, 0}}, 0.5) == 0.0);
   // A route that comes back turns the base by a quarter at most; one in a turned world turns it as much.
   const Route hook = {{0, 0, 0}, {0, 3, 0}, {-2, 3, 0}, {-2, 5, 0}, {1, 5, 0}};
