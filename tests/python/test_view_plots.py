@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+import mcplan as mp
 import plans_by_hand as by_hand
 import wrenches
 from mcplan.view import (
@@ -227,6 +228,13 @@ def test_a_plan_with_wrenches_gets_pressure_and_turning_too(turn, tmp_path):
     assert names == {"picture", "gait", "com", "momentum", "forces", "friction", "pressure", "turning"}
     for name in names:
         assert (pixels(tmp_path / f"{name}.png") < 250).any(axis=2).sum() > 500, name
+
+
+def test_a_plan_on_point_feet_has_every_plot_but_that_of_pressure(tmp_path):
+    result = mp.plan("flat", "go2")
+    names = {path.name for path in save_plots(result.plan, result.report, tmp_path)}
+    assert {"turning.png", "friction.png", "forces.png"} <= names and "pressure.png" not in names
+    plot_pressure(result.plan)  # asked for by itself, it is empty
 
 
 def test_planned_centres_of_pressure_are_drawn_in_parts_of_the_sole():

@@ -54,7 +54,8 @@ def plot_pressure(plan: Plan) -> Figure:
         label(chart, x="time [s]")
         chart.set_xlim(0.0, samples.times_s[-1])
     handles, names = axes[0, 0].get_legend_handles_labels()
-    legend(figure, handles=handles, labels=names, loc="outside lower center", ncol=max(len(names), 1))
+    if handles:
+        legend(figure, handles=handles, labels=names, loc="outside lower center", ncol=len(names))
     return figure
 
 

@@ -51,10 +51,15 @@ def _figures(plan: Plan, report: Report | None) -> dict[str, Figure]:
         "forces": plot_forces(plan),
         "friction": plot_friction(plan),
     }
-    if any(phase.has_points for phase in plan.phases):
-        figures |= {"pressure": plot_pressure(plan), "timing": plot_timing(plan)}
-    elif any(phase.has_wrenches for phase in plan.phases):
-        figures |= {"pressure": plot_pressure(plan), "turning": plot_turning(plan)}
+    has_points = any(phase.has_points for phase in plan.phases)
+    has_wrenches = any(phase.has_wrenches for phase in plan.phases)
+    # Forces on a point foot have one place to act.
+    if (has_points or has_wrenches) and any(end.half_size.all() for end in plan.robot.end_effectors):
+        figures["pressure"] = plot_pressure(plan)
+    if has_points:
+        figures["timing"] = plot_timing(plan)
+    elif has_wrenches:
+        figures["turning"] = plot_turning(plan)
     if report is not None and report.history:
         figures["cost"] = plot_cost(report)
         if has_sequences(report):
