@@ -267,8 +267,28 @@ constexpr double kGrace_s = 0.01;
 constexpr int kLookPause = 8;
 /// Once there is a plan that the checker accepts, only one of so much less merit is looked at. Chosen.
 constexpr double kCheaper = 0.9;
-/// With less left of a phase [s] the next one starts at once. Chosen.
-constexpr double kReplanRest_s = 0.02;
+
+// Replanning.
+
+/// Phases before and after the one under way among which measured contacts are looked for. Chosen.
+constexpr int kContactsAhead = 2;
+/// An end-effector that is late comes down at this speed [m/s] at least, and the phase put in for it takes at least and
+/// at most so long [s]. Chosen.
+constexpr double kLateDescent = 0.3, kLateMin_s = 0.02, kLateMax_s = 0.1;
+/// First guess of the phases at the end in which the robot stands [s]. Chosen.
+constexpr double kStanding_s = 0.3;
+/// Weight on the distance of footholds from where they were planned, of those that are committed and of others.
+constexpr double kCommitted = 1000.0, kKept = 3.0;
+/// First barrier parameter from a state that is not the planned one, and iterations of a sequence.
+constexpr double kReplanBarrier = 1e-3;
+constexpr int kReplanIterations = 60;
+/// What comes after the solve under a time limit [ms a phase]: exact contacts, swings, the check of the next steps.
+constexpr double kFinishing_ms = 0.15;
+/// A measured contact may lie so far off its surface [m]. Chosen: more is no noise.
+constexpr double kStandsOff_m = 0.1;
+/// A phase that ends within the committed time keeps its duration up to this ratio. Chosen.
+constexpr double kCommittedRatio = 0.02;
+
 /// Durations have a soft bound only: an iterate that is stopped early may have one below zero, which no plan can have
 /// [s]. Chosen.
 constexpr double kPhaseMin_s = 1e-3;

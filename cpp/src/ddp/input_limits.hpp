@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ddp/constants.hpp"
 #include "ddp/problem.hpp"
 
 namespace mcplan::ddp {
@@ -15,6 +16,9 @@ struct DurationLimits {
 inline DurationLimits duration_limits(const Problem& problem, int k) {
   // A phase that was under way when replanning has as long as was left of it.
   const bool under_way = k == 0 && problem.first_duration > 0.0;
+  if (under_way && problem.first_duration_kept)
+    return {(1.0 - kCommittedRatio) * problem.first_duration, problem.first_duration,
+            (1.0 + kCommittedRatio) * problem.first_duration};
   return {under_way ? std::min(problem.first_duration, problem.duration_min) : problem.duration_min,
           under_way ? problem.first_duration : 0.5 * (problem.duration_min + problem.duration_max),
           problem.duration_max};

@@ -46,7 +46,8 @@ bool in_contact(const Plan& plan, int k, int e) {
   return (k == n ? plan.final_contacts[e] : plan.phases[k].contacts[e].surface) != kFree;
 }
 
-/// Zero where a contact begins or ends, else the mean velocity between the neighbouring knots.
+/// Zero where a contact begins or ends, else the mean velocity between the neighbouring knots; at the start what was
+/// measured.
 void set_swing_velocities(const Problem& problem, Plan& plan) {
   const int n = static_cast<int>(plan.phases.size());
   for (int l = 0; l < problem.layout.end_effector_count(); ++l) {
@@ -55,6 +56,10 @@ void set_swing_velocities(const Problem& problem, Plan& plan) {
       Vector3d& velocity = plan.knots[k].end_effector_velocities_W[e];
       if (in_contact(plan, k - 1, e) || in_contact(plan, k, e)) {
         velocity.setZero();
+        continue;
+      }
+      if (k == 0 && !problem.start_end_velocities_W.empty()) {
+        velocity = problem.start_end_velocities_W[e];
         continue;
       }
       const int before = std::max(k - 1, 0), after = std::min(k + 1, n);
@@ -116,6 +121,7 @@ Plan to_plan(const Problem& problem, const Incumbent& incumbent, bool swing_heig
   plan.scene = problem.scene;
   plan.robot = problem.robot;
   plan.planner = "ddp";
+  plan.measured_start = problem.measured;
   const int end_effectors = static_cast<int>(problem.robot.end_effectors.size());
   for (int k = 0; k <= problem.steps; ++k) plan.knots.push_back(make_knot(problem, incumbent.trajectory.x[k]));
   for (int k = 0; k < problem.steps; ++k) {

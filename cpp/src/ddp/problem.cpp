@@ -300,25 +300,27 @@ void Problem::look_near(int count, double within) {
   rules.look_near(std::move(near));
 }
 
-void Problem::set_start(const Knot& measured, const ContactState& contacts) {
+void Problem::set_start(const Knot& state, const ContactState& contacts) {
   const VectorXd goal = reference.x.back();
   start.setZero();
-  start.segment<3>(layout.com()) = measured.com_W / units.length;
-  start.segment<3>(layout.velocity()) = measured.com_velocity_W / units.velocity();
-  base_rpy = measured.base_rpy;
+  start.segment<3>(layout.com()) = state.com_W / units.length;
+  start.segment<3>(layout.velocity()) = state.com_velocity_W / units.velocity();
+  base_rpy = state.base_rpy;
   // What the base's rates make of it where the momentum was not measured.
-  Vector3d momentum = measured.angular_momentum_W;
-  if (model == Model::lipm || momentum.isZero(0.0)) momentum = robot.inertia.cwiseProduct(measured.base_rpy_rate);
+  Vector3d momentum = state.angular_momentum_W;
+  if (model == Model::lipm || momentum.isZero(0.0)) momentum = robot.inertia.cwiseProduct(state.base_rpy_rate);
   for (int a = 0; a < layout.axis_count(); ++a) {
-    start[layout.angle(a)] = measured.base_rpy[layout.axes()[a]];
+    start[layout.angle(a)] = state.base_rpy[layout.axes()[a]];
     start[layout.momentum(a)] = momentum[layout.axes()[a]] / units.angular_momentum();
   }
   for (int l = 0; l < layout.end_effector_count(); ++l)
-    start_yaw[l] = static_cast<int>(measured.end_effector_yaw.size()) > active[l] ? measured.end_effector_yaw[active[l]]
-                                                                                  : measured.base_rpy.z();
+    start_yaw[l] = static_cast<int>(state.end_effector_yaw.size()) > active[l] ? state.end_effector_yaw[active[l]]
+                                                                               : state.base_rpy.z();
   for (int l = 0; l < layout.end_effector_count(); ++l)
-    start.segment<3>(layout.end(l)) = measured.end_effectors_W[active[l]] / units.length;
+    start.segment<3>(layout.end(l)) = state.end_effectors_W[active[l]] / units.length;
   start_contacts = contacts;
+  measured = true;
+  start_end_velocities_W = state.end_effector_velocities_W;
   const VectorXd measured_start = start;
   start.segment<3>(layout.velocity()).setZero();
   start.segment(layout.momentum(), layout.axis_count()).setZero();

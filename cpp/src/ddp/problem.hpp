@@ -99,6 +99,16 @@ class Problem {
   Jointed jointed;
   Eigen::Vector3d inertia;      ///< in units of mass length^2
   double first_duration = 0.0;  ///< what is left of the first phase when replanning, else 0
+  bool first_duration_kept = false;  ///< likewise: it ends when it was to end
+  /// A place where a contact begins, when replanning: the cost term "kept".
+  struct Foothold {
+    int knot = 0, l = 0;
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    double weight = 0.0;
+  };
+  std::vector<Foothold> kept;
+  bool measured = false;  ///< starts from a measured state
+  std::vector<Eigen::Vector3d> start_end_velocities_W;  ///< [m/s] by end-effector of the robot, where measured
   double flight_duration_min = 0.0;
   double duration_min = 0.0, duration_max = 0.0, duration_initial = 0.0;
   Eigen::Vector3d base_rpy;  ///< angles of the axes that are not in the layout
@@ -145,7 +155,7 @@ class Problem {
   void look_near(int count, double within = 0.0);
 
   /// Start from a measured state instead of the scene's; `contacts` by active end-effector.
-  void set_start(const Knot& measured, const ContactState& contacts);
+  void set_start(const Knot& state, const ContactState& contacts);
 
  private:
   std::vector<std::vector<std::vector<double>>> foothold_margins_;  // by active end-effector, surface, edge

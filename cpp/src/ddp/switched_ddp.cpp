@@ -11,9 +11,9 @@
 #include "ddp/impossible.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
-#include "ddp/replan_fit.hpp"
 #include "ddp/ways.hpp"
 #include "mcplan/base/error.hpp"
+#include "mcplan/ddp/replan.hpp"
 #include "mcplan/plan/friction_use.hpp"
 #include "mcplan/version.hpp"
 #include "model/text.hpp"
@@ -160,25 +160,9 @@ PlanResult SwitchedDdp::solve(const Plan& warm_start) {
 
 PlanResult SwitchedDdp::replan(const Plan& previous, double t, const Knot& measured) {
   impl_->require_warm_starts();
-  previous.validate();
-  require_fit(previous, measured, impl_->robot);
-  const PlanState now = previous.at(t);
-  const std::vector<double> times = previous.knot_times();
-  int first = now.phase;
-  double remaining = times[first + 1] - t;
-  // What is left of the phase is too short to be planned: the next one starts now.
-  const double shortest = kReplanRest_s * similarity_of(impl_->robot, impl_->scene.gravity).time;
-  const int phases = static_cast<int>(previous.phases.size());
-  if (remaining < shortest && first + 1 < phases) {
-    ++first;
-    remaining = previous.phases[first].duration;
-  }
-  Request request;
-  request.earlier = &previous;
-  request.first = first;
-  request.measured = &measured;
-  request.remaining_s = remaining;
-  return impl_->solve(request);
+  ReplanOptions with;
+  with.search = impl_->options;
+  return ddp::replan(previous, t, {measured, {}}, impl_->scene, impl_->robot, with);
 }
 
 }  // namespace mcplan::ddp

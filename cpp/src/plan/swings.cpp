@@ -63,9 +63,11 @@ void choose_swings(Plan& plan, bool heights) {
       swing.land_normal_W = stretch.land_normal_W;
       const bool leaves = in_contact(plan, stretch.first_phase - 1, e),
                  arrives = in_contact(plan, stretch.end_phase, e);
-      swing.height = leaves || arrives ? usual_height : 0.0;
+      // A swing that is measured under way has been lifted already.
+      const bool under_way = plan.measured_start && !leaves && stretch.first_phase == 0;
+      swing.height = (leaves || arrives) && !under_way ? usual_height : 0.0;
       plan.swings.push_back(swing);
-      if (swing.height == 0.0 || !heights) continue;
+      if (!(leaves || arrives) || !heights) continue;
       // The least of a few heights that clears the scene.
       const std::vector<PathInstant> path = path_of(plan, plan.swings.back(), sample_s);
       const EndEffector& end_effector = plan.robot.end_effectors[e];
@@ -73,7 +75,7 @@ void choose_swings(Plan& plan, bool heights) {
       double best_height = swing.height;
       for (double factor : {1.5, 2.0, 3.0, 4.0, 0.5}) {
         if (best_depth <= 0.0) break;
-        plan.swings.back().height = factor * swing.height;
+        plan.swings.back().height = (under_way ? factor - 0.5 : factor) * usual_height;
         const double depth = depth_on(path, solids, boxes, end_effector, stretch);
         if (depth >= best_depth) continue;
         best_depth = depth;

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "ddp/contact_sequence.hpp"
+#include "mcplan/ddp/replan.hpp"
+#include "mcplan/plan/plan.hpp"
+#include "mcplan/robot/similarity.hpp"
+
+namespace mcplan::ddp {
+
+/// What is left of a plan: phases, knots and final contacts, without swings. The first knot is the measured state.
+struct Rest {
+  Plan plan;
+  std::vector<char> planned;  ///< by phase: it was planned before, so that where contacts begin in it was chosen
+
+  int size() const { return static_cast<int>(plan.phases.size()); }
+  int surface(int k, int e) const { return k < size() ? plan.phases[k].contacts[e].surface : plan.final_contacts[e]; }
+  ContactState contacts(int k) const;
+
+  /// Put a phase in before phase k, with these contacts and the weight shared among them. Its first knot is that of
+  /// phase k, which begins at the same place; with k = size() the last knot, where the plan then stands.
+  void insert(int k, const ContactState& contacts, double duration_s);
+
+  /// Take the first `count` phases away; what comes after begins at the measured state.
+  void drop(int count);
+};
+
+/// The rest of a plan at time t [s], from the planned state.
+Rest rest_of(const Plan& previous, double t);
+
+/// A phase of the plan before its rest.
+struct Past {
+  ContactState contacts;
+  double since_s = 0.0;  ///< time since its end
+};
+
+/// Make the rest begin with the contacts that are measured: phases are left out where contacts change early, put in
+/// where they change late or other than planned, whichever is closer in time. `before`: phases before the rest, latest
+/// first. False where no order of single changes leads from the one to the other.
+bool begin_with(Rest& rest, const Measured& measured, const ContactState& contacts, const std::vector<Past>& before,
+                const Similarity& similarity);
+
+/// Phases of a plan before time t [s], latest first: as many as are looked at.
+std::vector<Past> past_of(const Plan& previous, double t);
+
+/// Standing phases at the end, so that there are at least so many phases.
+void stand_on(Rest& rest, int phases_min, const Similarity& similarity);
+
+}  // namespace mcplan::ddp

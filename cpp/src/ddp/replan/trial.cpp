@@ -1,0 +1,96 @@
+#include "ddp/replan/trial.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "ddp/best_plan.hpp"
+#include "ddp/constants.hpp"
+#include "ddp/plan_conversion.hpp"
+#include "ddp/reachable_surfaces.hpp"
+
+namespace mcplan::ddp {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The problem of a sequence from the measured state.
+Problem pose(const Now& now, const Rest& rest) {
+  Options with = now.options->search;
+  with.phases = rest.size();
+  with.initial_sequence.clear();
+  with.polish = Polish::interior_point;
+  with.threads = 1;
+  with.allow_flight = true;  // where the sequence has one, somebody has planned it
+  with.min_contacts = 0;
+  Problem problem(part_of(*now.scene, now.surfaces), *now.robot, with);
+  ContactState contacts;
+  for (int e : problem.active) {
+    const int surface = now.measured.contacts[e];
+    contacts.push_back(surface == kFree ? kFree : problem.scene.surface_index(now.scene->surfaces[surface].name));
+  }
+  problem.set_start(now.measured.state, contacts);
+  problem.first_duration = rest.plan.phases.front().duration / problem.units.time;
+  return problem;
+}
+
+/// What was planned is what the motion is to stay near, and where contacts are to begin.
+void hold_on_to(Problem& problem, const Incumbent& warm, const Rest& rest, double committed_s) {
+  std::copy(warm.trajectory.x.begin() + 1, warm.trajectory.x.end() - 1, problem.reference.x.begin() + 1);
+  const double committed = committed_s * problem.similarity.time;
+  double time_s = 0.0;
+  for (int k = 1; k <= problem.steps; ++k) {
+    time_s += rest.plan.phases[k - 1].duration;
+    const bool planned = k == problem.steps || rest.planned[k];
+    for (int l = 0; planned && l < problem.layout.end_effector_count(); ++l) {
+      const int surface = warm.sequence[k][l];
+      if (surface == kFree || warm.sequence[k - 1][l] == surface) continue;
+      const double weight = time_s <= committed ? kCommitted : kKept;
+      problem.kept.push_back({k, l, warm.trajectory.x[k].segment<3>(problem.layout.end(l)), weight});
+    }
+  }
+  problem.first_duration_kept = rest.planned.front() && rest.plan.phases.front().duration <= committed;
+}
+
+/// What the last steps after the solve take of a limit: exact contacts, conversion, a look at the next steps.
+double finishing_s(const Problem& problem) { return 1e-3 * kFinishing_ms * problem.steps; }
+
+}  // namespace
+
+std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report) {
+  Problem problem = pose(now, rest);
+  Incumbent at = from_plan(problem, rest.plan, 0);
+  if (!problem.rules.valid(at.sequence)) return std::nullopt;
+  at.trajectory.x.front() = problem.start;
+  hold_on_to(problem, at, rest, now.options->committed_s);
+  const Tuning tuning = problem.tuning();
+  const Deadline solving = now.deadline->reserving(finishing_s(problem));
+  Search search(problem, solving, report);
+  Trial trial;
+  at.evaluation = search.evaluate(at, tuning);
+  polish::Settings settings;
+  settings.barrier = at.evaluation.defect_max < kConvergedDefect ? kWarmBarrier : kReplanBarrier;
+  settings.max_iterations = kReplanIterations;
+  settings.tolerance = kRoughTolerance;
+  settings.to_the_end = false;
+  trial.ending = search.optimise(at, settings, tuning);
+  const StopRequest late = [&] { return now.deadline->passed(); };
+  trial.exact = search.make_exact(at, tuning, now.deadline->limited() ? late : StopRequest());
+  trial.evaluation = at.evaluation;
+  const Stopwatch watch(report.timing_s, "check");
+  trial.plan = to_plan(problem, at, true);
+  put_back(trial.plan, *now.scene, now.surfaces);
+  Tolerances tolerances;
+  if (!now.options->search.one_switch_per_step) tolerances.switches = std::numeric_limits<int>::max();
+  tolerances.sample_s = std::max(tolerances.sample_s, trial.plan.duration() / kFullInstantsMax);
+  trial.check =
+      check(trial.plan, *now.scene, problem.robot, tolerances, now.deadline->limited() ? late : StopRequest());
+  return trial;
+}
+
+bool better(const Trial& one, const Trial& other) {
+  if (one.ok() != other.ok()) return one.ok();
+  if (one.ok()) return one.evaluation.merit() < other.evaluation.merit();
+  return violation_ratio(one.check.worst()) < violation_ratio(other.check.worst());
+}
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "ddp/problem.hpp"
+#include "ddp/replan/rest.hpp"
+#include "ddp/search.hpp"
+#include "mcplan/base/deadline.hpp"
+#include "mcplan/plan/checker.hpp"
+
+namespace mcplan::ddp {
+
+/// What all trials of one replan share.
+struct Now {
+  const Scene* scene;  ///< with the goal that is in force
+  const Robot* robot;
+  const ReplanOptions* options;
+  const Deadline* deadline;
+  Measured measured;          ///< contacts given, on their planes
+  std::vector<int> surfaces;  ///< that are looked at, by index in the scene, ascending
+  Similarity similarity;
+};
+
+/// A sequence that was tried from the measured state, and what came of it.
+struct Trial {
+  Plan plan;
+  CheckResult check;
+  Evaluation evaluation;
+  bool exact = false;  ///< the dynamics hold to rounding
+  Ending ending = Ending::done;
+  bool ok() const { return exact && check.ok(); }
+};
+
+/// The optimum of a sequence from the measured state, as a plan, checked; none where the scene's rules do not allow it.
+std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report);
+
+/// Whether a controller rather follows the one than the other.
+bool better(const Trial& one, const Trial& other);
+
+}  // namespace mcplan::ddp
