@@ -16,21 +16,34 @@ from typing import TYPE_CHECKING
 
 from mcplan._core import Knot, Plan, Robot, Scene
 from mcplan._core import PlanResult as Result
-from mcplan._core.ddp import Method, Model, Options, Polish, StiffnessInput, SwitchedDdp, Weights
+from mcplan._core.ddp import (
+    Method,
+    Model,
+    Options,
+    Polish,
+    ReplanOptions,
+    StiffnessInput,
+    SwitchedDdp,
+    VelocityCommand,
+    Weights,
+)
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from mcplan.option_types import DdpOptions
+    from mcplan.option_types import DdpOptions, DdpReplanOptions
+    from mcplan.solve import Command, Contacts
 
 __all__ = [
     "Method",
     "Model",
     "Options",
     "Polish",
+    "ReplanOptions",
     "Result",
     "StiffnessInput",
     "SwitchedDdp",
+    "VelocityCommand",
     "Weights",
     "plan",
     "replan",
@@ -78,31 +91,44 @@ def replan(
     measured: Knot,
     options: Options | None = None,
     *,
+    contacts: Contacts | None = None,
+    command: Command | None = None,
     scene: Scene | None = None,
     robot: Robot | None = None,
-    **named: Unpack[DdpOptions],
+    **named: Unpack[DdpReplanOptions],
 ) -> Result:
-    """Plan on from a measured state.
+    """Plan on from a measured state: what a controller calls ten times a second.
+
+    The phase under way and those after it are kept where they still do; steps are put in where the measured state asks for
+    them, and phases are added at the end as the robot goes on. The report says where the plan comes from (``plan_from``),
+    until when it keeps all limits (``kept_until_s``), and what the measured state violates by itself
+    (``start_violations``). docs/replanning.md says what a controller does with which status.
 
     Args:
         previous: The plan under way.
-        t: Time in it [s]; the phase under way and those after it are the first guess.
-        measured: The state now; its end-effectors in contact stand where they are. An ``angular_momentum_W`` of zero is
-            made from ``base_rpy_rate``, an empty ``end_effector_yaw`` from the base's heading.
-        options: As for plan(); the number of phases is what is left of them.
+        t: Time in it [s].
+        measured: The state now. An ``angular_momentum_W`` of zero is made from ``base_rpy_rate``, an empty
+            ``end_effector_yaw`` from the base's heading; without ``end_effector_velocities_W`` free end-effectors move as
+            planned. What stands is put onto the plane of its surface.
+        options: As for plan(); what looks for a sequence (phases, guesses, restarts) is not used.
+        contacts: What each end-effector truly touches: surface indices of the plan's scene in the robot's order, -1 free,
+            or names of surfaces by names of end-effectors, those left out free. None: as planned at that time.
+        command: A velocity to walk on at, instead of to the scene's goal: ahead and to the left [m/s] and turning [rad/s],
+            or a ``ddp.VelocityCommand``.
         scene: None: the plan's own.
         robot: None: the plan's own.
-        **named: As for plan().
+        **named: Fields of ``ddp.Options`` and ``ddp.ReplanOptions`` by name; ``time_limit`` [s] as for plan().
 
     Returns:
-        A plan from the measured state to the goal (``plan.measured_start`` is set).
+        A plan from the measured state (``plan.measured_start`` is set). Its status is ``solved`` if the checker accepts it,
+        but for what the start itself violates and the plan makes good within ``start_slack_s``.
 
     Raises:
         InvalidArgument: An argument is of another type.
         InvalidInput: t lies outside the plan.
-        InvalidPlan: The measured state does not fit the robot.
+        InvalidPlan: The measured state or the contacts do not fit the robot or the scene.
         InvalidOptions: No such option, or its value is out of range.
     """
     from mcplan.solve import replan as solve
 
-    return solve(previous, t, measured, scene, robot, named, options)
+    return solve(previous, t, measured, contacts, command, scene, robot, named, options)

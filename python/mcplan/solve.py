@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import operator
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Union
 
 from mcplan import _core
 from mcplan._core import Knot, Plan, PlanResult, Robot, Scene
 from mcplan.arguments import named_by_file, require, require_number, require_or_path
+from mcplan.errors import InvalidArgument, InvalidPlan, did_you_mean, shown
 from mcplan.files.meeting import warn_of_names
-from mcplan.options import fill, start
+from mcplan.options import fill, option_names, start
+
+#: Surfaces by end-effector: indices in the robot's order, -1 free, or names.
+Contacts = Union[Sequence[int], Mapping[str, Union[str, None]]]
+#: A velocity to walk at: ahead and to the left [m/s], turning [rad/s].
+Command = Union[_core.ddp.VelocityCommand, Sequence[float]]
 
 
 def plan(
@@ -34,6 +41,8 @@ def replan(
     previous: Plan,
     t: float,
     measured: Knot,
+    contacts: Contacts | None,
+    command: Command | None,
     scene: Scene | None,
     robot: Robot | None,
     named: Mapping[str, Any],
@@ -45,8 +54,76 @@ def replan(
     require("scene", scene, Scene, optional=True)
     require("robot", robot, Robot, optional=True)
     t = require_number("t", t)
-    world, body = scene or previous.scene, robot or previous.robot
-    return _core.ddp.SwitchedDdp(world, body, make_options(named, options)).replan(previous, t, measured)
+    own = set(option_names(_core.ddp.ReplanOptions))
+    how = fill(_core.ddp.ReplanOptions(), {name: value for name, value in named.items() if name in own})
+    search = make_options({name: value for name, value in named.items() if name not in own}, options)
+    return _core.ddp.replan(
+        previous,
+        t,
+        measured,
+        contact_indices(contacts, previous),
+        scene or previous.scene,
+        robot or previous.robot,
+        how,
+        search,
+        command_of(command),
+    )
+
+
+def contact_indices(contacts: Contacts | None, plan: Plan) -> list[int]:
+    """Surface index by end-effector, from indices or from names.
+
+    Args:
+        contacts: A sequence of indices, -1 free; or surfaces by end-effector, names both, where those left out are free;
+            or None: empty, as planned.
+        plan: Whose scene and robot are named.
+
+    Raises:
+        InvalidPlan: No such end-effector or surface.
+        InvalidArgument: Something else.
+    """
+    if contacts is None:
+        return []
+    if not isinstance(contacts, Mapping):
+        try:
+            return [operator.index(surface) for surface in contacts]
+        except TypeError:
+            raise InvalidArgument(
+                "contacts", "must be indices of surfaces, or a mapping from end-effectors to surfaces", shown(contacts)
+            ) from None
+    ends = [end.name for end in plan.robot.end_effectors]
+    surfaces = [surface.name for surface in plan.scene.surfaces]
+    out = [-1] * len(ends)
+    for end, surface in contacts.items():
+        if end not in ends:
+            raise InvalidPlan("measured.contacts", f"must name end-effectors: {', '.join(ends)}", shown(end))
+        if surface is None:
+            continue
+        if surface not in surfaces:
+            raise InvalidPlan(
+                f"measured.contacts.{end}",
+                f"must be a surface of the plan's scene. {did_you_mean(str(surface), surfaces)}".rstrip(),
+                shown(surface),
+            )
+        out[ends.index(end)] = surfaces.index(surface)
+    return out
+
+
+def command_of(command: Command | None) -> _core.ddp.VelocityCommand | None:
+    """The velocity to walk at, from three numbers or as it is.
+
+    Raises:
+        InvalidArgument: It is neither.
+    """
+    if command is None or isinstance(command, _core.ddp.VelocityCommand):
+        return command
+    try:
+        ahead, left, yaw_rate = (float(number) for number in command)
+    except (TypeError, ValueError):
+        raise InvalidArgument(
+            "command", "must be a ddp.VelocityCommand or three numbers: ahead, left [m/s], yaw rate [rad/s]", shown(command)
+        ) from None
+    return _core.ddp.VelocityCommand(velocity_B=[ahead, left], yaw_rate=yaw_rate)
 
 
 def make_options(values: Mapping[str, Any], base: _core.ddp.Options | None = None) -> _core.ddp.Options:

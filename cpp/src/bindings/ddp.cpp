@@ -3,7 +3,6 @@
 #include "ddp/cost_terms.hpp"
 #include "ddp/options_fields.hpp"
 #include "fields.hpp"
-#include "mcplan/ddp/replan.hpp"
 #include "mcplan/ddp/switched_ddp.hpp"
 #include "signals.hpp"
 
@@ -63,15 +62,7 @@ void bind_ddp(py::module_& parent) {
       },
       py::arg("previous"), py::arg("t"), py::arg("measured"),
       "Plan on from a measured state at time t [s] of an earlier plan.");
-  m.def(
-      "replan_new",
-      [](const Plan& previous, double t, const Knot& state, std::vector<int> contacts, const ddp::Options& options) {
-        ddp::ReplanOptions with;
-        with.search = watched(options);
-        return interruptible([&] { return ddp::replan(previous, t, {state, contacts}, with); });
-      },
-      py::arg("previous"), py::arg("t"), py::arg("state"), py::arg("contacts") = std::vector<int>(),
-      py::arg_v("options", ddp::Options(), "Options()"));
+  bind_ddp_replan(m);
 }
 
 }  // namespace mcplan::bindings

@@ -138,6 +138,7 @@ void bind_violation(py::module_& m) {
 }
 
 void bind_report(py::module_& m) {
+  bind_enum<PlanFrom>(m);
   py::class_<Iteration> row(m, "Iteration", "One row of the iteration table.");
   row.def_readonly("index", &Iteration::index);
   row.def_readonly("cost", &Iteration::cost, "Total, at the weight of this iteration.");
@@ -168,6 +169,11 @@ void bind_report(py::module_& m) {
                       "Largest tangential over normal force by end-effector, grasps included.");
   report.def_readonly("worst_violation", &Report::worst_violation, "Largest value / tolerance over all constraints.");
   def_items(report, "warnings", &Report::warnings, "Tuple of Violation: warnings of the checker about the plan.");
+  report.def_readonly("plan_from", &Report::plan_from, "Of a replan: where its plan comes from.");
+  report.def_readonly("kept_until_s", &Report::kept_until_s,
+                      "Of a replan: time [s] until which its plan keeps all limits.");
+  def_items(report, "start_violations", &Report::start_violations,
+            "Tuple of Violation: of a replan, what the measured state violates by itself, worst first.");
   report.def_readonly("seed", &Report::seed);
   report.def_readonly("threads", &Report::threads);
   report.def_readonly("parallel_loops", &Report::parallel_loops,

@@ -284,6 +284,12 @@ constexpr double kReplanBarrier = 1e-3;
 constexpr int kReplanIterations = 60;
 /// What comes after the solve under a time limit [ms a phase]: exact contacts, swings, the check of the next steps.
 constexpr double kFinishing_ms = 0.15;
+/// Swings of steps that are put in last so much of the way from the shortest to the longest phase. Chosen.
+constexpr double kAddedSwing = 0.6;
+/// Under a velocity command the robot stops within so long at the end of the horizon [s]; ground there may lie so far
+/// from where a foot is due, in heights of the CoM; and strides take at most so much of the length of a reach box.
+/// Chosen.
+constexpr double kCommandStop_s = 0.8, kCommandOff = 0.15, kCommandStride = 0.85;
 /// A measured contact may lie so far off its surface [m]. Chosen: more is no noise.
 constexpr double kStandsOff_m = 0.1;
 /// A phase that ends within the committed time keeps its duration up to this ratio. Chosen.

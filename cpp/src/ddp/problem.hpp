@@ -109,6 +109,7 @@ class Problem {
   std::vector<Foothold> kept;
   bool measured = false;  ///< starts from a measured state
   std::vector<Eigen::Vector3d> start_end_velocities_W;  ///< [m/s] by end-effector of the robot, where measured
+  double start_slack = 0.0;  ///< time within which what a measured start violates by itself is made good
   double flight_duration_min = 0.0;
   double duration_min = 0.0, duration_max = 0.0, duration_initial = 0.0;
   Eigen::Vector3d base_rpy;  ///< angles of the axes that are not in the layout
@@ -144,6 +145,12 @@ class Problem {
   /// finds the hands of gap_with_rail); with one it rests on those in contact.
   Trajectory initial_guess(const ContactSequence& sequence, const Tuning& tuning) const;
   Trajectory initial_guess(const ContactSequence& sequence) const { return initial_guess(sequence, tuning()); }
+
+  /// Velocity of end-effector l at the start, non-dimensional; zero where it was not measured.
+  Eigen::Vector3d start_end_velocity(int l) const {
+    if (start_end_velocities_W.empty()) return Eigen::Vector3d::Zero();
+    return start_end_velocities_W[active[l]] / units.velocity();
+  }
 
   /// A sequence given by all end-effectors of the robot, for the active ones. Throws InvalidOptions when it does not
   /// fit: steps + 1 rows, valid, from the start's contacts to the goal's.

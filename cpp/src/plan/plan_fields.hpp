@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mcplan/plan/plan.hpp"
+#include "mcplan/plan/report.hpp"
 #include "model/fields.hpp"
 #include "robot/robot_fields.hpp"
 #include "scene/scene_fields.hpp"
@@ -65,6 +66,18 @@ struct Fields<Knot> {
             "About the CoM; not looked at under ForceLaw.pendulum, whose base carries it."),
       field("end_effector_yaw", &Knot::end_effector_yaw, "rad",
             "Heading of each sole; empty: all head where the base does."));
+};
+
+template <>
+struct Names<PlanFrom> {
+  static constexpr const char* name = "PlanFrom";
+  static constexpr const char* meaning = "Where the plan of a replan comes from.";
+  static constexpr Choice<PlanFrom> all[] = {
+      {"search", PlanFrom::search, "It is no replan."},
+      {"same_sequence", PlanFrom::same_sequence, "The contacts of the plan under way, with what was added at its end."},
+      {"other_sequence", PlanFrom::other_sequence, "Another step was put in."},
+      {"previous_plan", PlanFrom::previous_plan,
+       "What is left of the plan under way, as it was planned: nothing better was found in time."}};
 };
 
 template <>

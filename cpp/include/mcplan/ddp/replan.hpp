@@ -42,8 +42,8 @@ struct ReplanOptions {
 
   int phases_min = 6;  ///< the horizon never gets shorter than this: at its end the robot stands
 
-  std::optional<VelocityCommand> command;  ///< walk on so instead of to the goal, for `phases` phases at any time
-  int phases = 12;                         ///< length of the horizon under a command
+  std::optional<VelocityCommand> command;  ///< walk on so instead of to the goal
+  int horizon = 12;                        ///< number of phases that are planned ahead under a command
   bool other_sequences = true;             ///< where the plan's own sequence does not do, try others near to it
 
   /// Throws InvalidOptions naming all that is out of its range.

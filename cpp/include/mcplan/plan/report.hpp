@@ -39,6 +39,14 @@ struct Iteration {
   std::vector<std::vector<int>> sequence;  ///< after this iteration (steps x end-effectors), if history is recorded
 };
 
+/// Where the plan of a replan comes from.
+enum class PlanFrom {
+  search,          ///< no replan
+  same_sequence,   ///< the contacts of the plan under way, as measured, with what was added at its end
+  other_sequence,  ///< another step was put in
+  previous_plan,   ///< what is left of the plan under way, as it was planned: nothing better was found in time
+};
+
 /// How a solve went.
 struct Report {
   Status status = Status::numerical_failure;
@@ -56,6 +64,9 @@ struct Report {
   std::uint64_t seed = 0;
   int threads = 1;
   int parallel_loops = 0;     ///< loops over neighbours that were shared out over threads
+  PlanFrom plan_from = PlanFrom::search;    ///< of a replan: where its plan comes from
+  double kept_until_s = 0.0;                ///< of a replan: time until which its plan keeps all limits
+  std::vector<Violation> start_violations;  ///< of a replan: what the measured state violates by itself, worst first
   std::string paper_verdict;  ///< Method::paper: how the published algorithm ended by its own measures; else empty
   double paper_cost = 0.0;    ///< Method::paper: its objective at its last iterate, before contacts are made exact
   std::string version;

@@ -156,6 +156,7 @@ bool InteriorPoint::begin(const Trajectory& trajectory, const Settings& settings
   if (!motion_.evaluate(pendulum_)) return false;
   max_defect_ = std::max(motion_.defect_sum(), kDefectMax);
   limits_.head(motion_.trajectory);
+  limits_.relax(motion_);
   limits_.values(motion_, r_);
   barrier_.start(r_, mu_);
   cost_ = costs_.value(motion_);

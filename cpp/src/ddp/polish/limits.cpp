@@ -7,10 +7,20 @@
 #include "ddp/input_limits.hpp"
 #include "ddp/moment_limits.hpp"
 #include "ddp/polish/limit_rows.hpp"
+#include "ddp/polish/start_slack.hpp"
 
 namespace mcplan::ddp::polish {
 
 using Eigen::Vector3d;
+
+namespace {
+
+/// Rows of visit_forces() at an instant.
+int force_rows(const OfContact& c) {
+  return (c.sides > 0 ? c.sides : c.sides == 0 ? 1 : 0) + (c.force_max > 0.0 ? 1 : 0) + 2 * c.moments;
+}
+
+}  // namespace
 
 Limits::Limits(const FixedSequence& fixed, const Pendulum& pendulum, const Tuning& tuning)
     : fixed_(&fixed), pendulum_(&pendulum), tuning_(tuning), phases_(fixed.steps() + 1) {
@@ -34,7 +44,7 @@ Limits::Limits(const FixedSequence& fixed, const Pendulum& pendulum, const Tunin
       c.torsion_arm = torsion_arm(problem, s.l, s.surface);
       c.moments = std::isinf(c.torsion_arm) ? 0 : static_cast<int>(s.moments.size());
       c.yaw = std::isfinite(limit.yaw_min) && std::isfinite(limit.yaw_max);
-      const int forces = (c.sides > 0 ? c.sides : c.sides == 0 ? 1 : 0) + (c.force_max > 0.0 ? 1 : 0) + 2 * c.moments;
+      const int forces = force_rows(c);
       c.first = push(instants * (forces + (c.yaw ? 2 : 0)) + 6 * (instants - 2), tuning.limit_weight);
       of.contacts.push_back(c);
     }
@@ -159,6 +169,41 @@ void Limits::values(const Motion& motion, RowArray& r) const {
           row += 2;
         }
         if (i > 0 && i + 1 < motion.instants()) visit_reach(pose, end, problem.limits[s.l], row, box);
+      }
+    }
+  }
+  if (slack_.size() > 0) r -= slack_;
+}
+
+void Limits::relax(const Motion& motion) {
+  slack_.resize(0);
+  const StartSlack slack(*fixed_, motion);
+  if (!slack.any()) return;
+  slack_.setZero(count());
+  const auto relax_reach = [&](int l, double t, int& row) {
+    for (int i = 0; i < 3; ++i, row += 2) {
+      slack_[row] = slack.reach(l, i, true, t);
+      slack_[row + 1] = slack.reach(l, i, false, t);
+    }
+  };
+  for (int k = 0; k <= fixed_->steps(); ++k) {
+    const OfPhase& of = phases_[k];
+    if (int row = of.reach; row >= 0)
+      for (int l = 0; l < fixed_->problem().layout.end_effector_count(); ++l) relax_reach(l, slack.knot_time(k), row);
+    if (k == fixed_->steps()) break;
+    const double h = slack.knot_time(k + 1) - slack.knot_time(k);
+    for (std::size_t c = 0; c < of.contacts.size(); ++c) {
+      const int l = fixed_->phase(k).standing[c].l;
+      int row = of.contacts[c].first;
+      for (int i = 0; i < motion.instants(); ++i) {
+        const double t = slack.knot_time(k) + h * i / (motion.instants() - 1);
+        row += force_rows(of.contacts[c]);
+        if (of.contacts[c].yaw) {
+          slack_[row] = slack.yaw(l, true, t);
+          slack_[row + 1] = slack.yaw(l, false, t);
+          row += 2;
+        }
+        if (i > 0 && i + 1 < motion.instants()) relax_reach(l, t, row);
       }
     }
   }

@@ -28,6 +28,9 @@ class Limits {
   /// The headings of the soles, which the rectangles of the centres of pressure follow.
   void head(const Trajectory& trajectory);
 
+  /// What a measured start violates by itself is forgiven for a while, from a first guess on: see StartSlack.
+  void relax(const Motion& motion);
+
   /// r of all rows.
   void values(const Motion& motion, RowArray& r) const;
 
@@ -79,6 +82,7 @@ class Limits {
   Tuning tuning_;
   std::vector<double> weights_;  ///< while rows are made
   RowArray precision_;
+  RowArray slack_;  ///< taken off r; empty: none
   std::vector<OfPhase> phases_;
   std::vector<Sole> soles_;
   // Scratch.

@@ -1,89 +1,121 @@
 #include "mcplan/ddp/replan.hpp"
 
 #include <algorithm>
-#include <set>
+#include <optional>
 #include <sstream>
 #include <utility>
 
 #include "ddp/best_plan.hpp"
 #include "ddp/constants.hpp"
-#include "ddp/reachable_surfaces.hpp"
+#include "ddp/problem.hpp"
+#include "ddp/replan/given.hpp"
+#include "ddp/replan/other_steps.hpp"
+#include "ddp/replan/replan_fields.hpp"
 #include "ddp/replan/trial.hpp"
+#include "ddp/replan/walk_on.hpp"
 #include "ddp/replan_fit.hpp"
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/friction_use.hpp"
 #include "mcplan/version.hpp"
+#include "model/read.hpp"
+#include "model/text.hpp"
 
 namespace mcplan::ddp {
 namespace {
 
-using Eigen::Vector3d;
-
-/// The measured state with what it leaves out, by the contacts that are given or else planned; what stands is put onto
-/// its plane, since a contact knows more than a measurement of its place.
-Measured completed(const Measured& measured, const Plan& previous, double t, const Scene& scene, const Robot& robot) {
-  Measured out = measured;
-  const PlanState planned = previous.at(t);
-  const std::size_t count = robot.end_effectors.size();
-  Knot& state = out.state;
-  if (out.contacts.empty())
-    for (const EndEffectorState& end : planned.end_effectors) out.contacts.push_back(end.surface);
-  if (state.end_effector_yaw.empty()) state.end_effector_yaw.assign(count, state.base_rpy.z());
-  if (state.end_effector_velocities_W.empty())
-    for (const EndEffectorState& end : planned.end_effectors) state.end_effector_velocities_W.push_back(end.velocity_W);
-  const double off_max = kStandsOff_m * similarity_of(robot, scene.gravity).length;
-  for (std::size_t e = 0; e < count; ++e) {
-    int& contact = out.contacts[e];
-    if (contact == kFree) continue;
-    contact = scene.surface_index(previous.scene.surfaces[contact].name);
-    const Polygon polygon(scene.surfaces[contact].vertices_W);
-    Vector3d& place = state.end_effectors_W[e];
-    const double height = polygon.height(place), off = std::max(std::abs(height), polygon.outside(place));
-    if (!(off <= off_max))
-      throw InvalidPlan("measured.end_effectors_W[" + std::to_string(e) + "]",
-                        "must lie within " + text(off_max) + " m of the surface " + scene.surfaces[contact].name +
-                            ", on which the end-effector stands",
-                        text(place));
-    place -= height * polygon.normal_W();
-    state.end_effector_velocities_W[e].setZero();
-  }
-  return out;
-}
-
-void require_contacts(const std::vector<int>& contacts, const Plan& previous) {
-  const int surfaces = static_cast<int>(previous.scene.surfaces.size());
-  if (contacts.empty()) return;
-  if (static_cast<int>(contacts.size()) != previous.end_effector_count())
-    throw InvalidPlan("measured.contacts", "must be one per end-effector (" + text(previous.end_effector_count()) + ")",
-                      text(static_cast<int>(contacts.size())));
-  for (std::size_t e = 0; e < contacts.size(); ++e)
-    if (contacts[e] < kFree || contacts[e] >= surfaces)
-      throw InvalidPlan("measured.contacts[" + std::to_string(e) + "]",
-                        "must be -1 or the index of a surface (below " + text(surfaces) + ")", text(contacts[e]));
-}
-
-/// Surfaces that matter: those of the plan, of the robot's feet, and those near the way to the goal.
-std::vector<int> surfaces_of(const Scene& scene, const Robot& robot, const Measured& measured, const Rest& rest) {
-  std::set<int> needed;
-  for (const Stance* stance : {&scene.start, &scene.goal})
-    for (const auto& [who, surface] : stance->contacts) needed.insert(scene.surface_index(surface));
-  for (int k = 0; k <= rest.size(); ++k)
-    for (int surface : rest.contacts(k))
-      if (surface != kFree) needed.insert(scene.surface_index(rest.plan.scene.surfaces[surface].name));
-  for (int surface : measured.contacts)
-    if (surface != kFree) needed.insert(surface);
-  needed.erase(-1);
-  const ResolvedStance goal = resolve_stance(scene, robot, scene.goal, "goal");
-  return surfaces_near_way(scene, measured.state.end_effectors_W, goal.end_effectors_W,
-                           outlook(0).reach * reach_of(robot), needed);
-}
-
-Status status_of(const Trial& trial, Ending ending) {
+Status status_of(const Trial& trial) {
   if (trial.ok()) return Status::solved;
-  if (ending == Ending::time_limit) return Status::time_limit;
-  if (ending == Ending::interrupted) return Status::interrupted;
-  if (ending == Ending::iteration_limit) return Status::iteration_limit;
-  return violation_ratio(trial.check.worst()) <= kAcceptable ? Status::acceptable : Status::infeasible;
+  if (trial.ending == Ending::time_limit || !trial.check.complete) return Status::time_limit;
+  if (trial.ending == Ending::interrupted) return Status::interrupted;
+  if (trial.ending == Ending::iteration_limit) return Status::iteration_limit;
+  return trial.exact && violation_ratio(trial.check.worst()) <= kAcceptable ? Status::acceptable : Status::infeasible;
+}
+
+const char* name_of(PlanFrom from) {
+  if (from == PlanFrom::same_sequence) return "the plan's own sequence";
+  return from == PlanFrom::other_sequence ? "another step put in" : "the plan as it was planned";
+}
+
+/// The trials of one replan, best first, and what is told of them.
+class Trials {
+ public:
+  Trials(const Now& now, Report& report) : now_(&now), report_(&report) {}
+
+  /// Whether there is no need, or no time, for another one.
+  bool done() const {
+    return (best_ && (best_->ok() || best_->ending == Ending::interrupted)) || now_->deadline->passed() ||
+           (now_->deadline->limited() && now_->deadline->remaining_s() < longest_s_);
+  }
+
+  void make(const Rest& rest, PlanFrom from) {
+    const double begin_s = now_->deadline->elapsed_s();
+    take(try_out(*now_, rest, *report_), from);
+    longest_s_ = std::max(longest_s_, now_->deadline->elapsed_s() - begin_s);
+  }
+
+  void take(std::optional<Trial> trial, PlanFrom from) {
+    tell(trial, from);
+    if (!trial || (best_ && !better(*trial, *best_))) return;
+    best_ = std::move(trial);
+    report_->plan_from = from;
+  }
+
+  std::optional<Trial>& best() { return best_; }
+
+ private:
+  /// A line of the log: why it was refused, or that it was not.
+  void tell(const std::optional<Trial>& trial, PlanFrom from) const {
+    const Logger& logger = now_->options->search.logger;
+    if (!logger) return;
+    std::ostringstream line;
+    line << "replan, " << name_of(from) << ": ";
+    if (!trial)
+      line << "the scene's rules do not allow it";
+    else
+      line << trial->plan.phases.size() << " phases, cost " << model::digits(trial->evaluation.cost, "%.4g") << ", "
+           << (trial->ok() ? std::string("accepted") : trial->check.worst().to_string());
+    logger(LogLevel::info, line.str());
+  }
+
+  const Now* now_;
+  Report* report_;
+  std::optional<Trial> best_;
+  double longest_s_ = 0.0;
+};
+
+std::string message_of(const Trial& best, const Report& report) {
+  std::ostringstream message;
+  if (report.plan_from == PlanFrom::previous_plan)
+    message << "nothing better than the plan as it was planned was found in time";
+  else if (best.ok())
+    message << "the checker accepts the plan (" << name_of(report.plan_from) << ")";
+  else if (!best.exact)
+    message << "the contacts could not be made exact";
+  else if (!best.check.complete)
+    message << "stopped before the checker had seen the plan in full";
+  else
+    message << "the best plan violates " << report.worst_violation.to_string();
+  if (!report.start_violations.empty())
+    message << "; the measured state violates " << report.start_violations.front().to_string();
+  if (!best.ok()) message << "; all limits are kept until " << model::digits(report.kept_until_s, "%.3g") << " s";
+  return message.str();
+}
+
+void conclude(Trials& trials, Report& report, PlanResult& out) {
+  std::optional<Trial>& best = trials.best();
+  if (!best) {
+    report.status = Status::no_sequence;
+    report.message = "the scene's rules allow no sequence that goes on from the measured contacts";
+    return;
+  }
+  report.status = status_of(*best);
+  report.worst_violation = best->check.worst();
+  report.start_violations = best->check.start;
+  report.kept_until_s = best->exact ? best->check.kept_until_s : 0.0;
+  report.warnings = best->check.warnings;
+  report.cost = best->evaluation.cost;
+  report.message = message_of(*best, report);
+  out.plan = std::move(best->plan);
 }
 
 }  // namespace
@@ -98,34 +130,39 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
   const Robot robot = robot_for(robot_in, options.search);
   require_fit(previous, given.state, robot);
   require_contacts(given.contacts, previous);
-  Report report;
+  PlanResult out;
+  Report& report = out.report;
   report.seed = options.search.seed;
   report.threads = options.search.threads;
   report.version = MCPLAN_VERSION;
   Now now{&scene_in, &robot, &options, &deadline, {}, {}, similarity_of(robot, scene_in.gravity)};
   now.measured = completed(given, previous, t, scene_in, robot);
-  Rest rest = rest_of(previous, t);
-  // Contacts of the rest are named by the plan's scene, those measured by the present one.
-  if (!begin_with(rest, now.measured, now.measured.contacts, past_of(previous, t), now.similarity)) {
-    report.status = Status::no_sequence;
-    report.message = "no single changes of contacts lead from those measured to those planned";
-    return {Plan(), std::move(report)};
+  const Rest planned = rest_of(previous, t);
+  Rest rest = planned;
+  rename(rest, scene_in);
+  Trials trials(now, report);
+  Scene ahead;  // with another goal
+  if (begin_with(rest, now.measured, now.measured.contacts, past_of(previous, t), now.similarity)) {
+    if (options.command) {
+      ahead = scene_in;
+      walk_on(rest, ahead, robot, *options.command, options.horizon);
+      now.scene = &ahead;
+    } else {
+      stand_on(rest, options.phases_min, now.similarity);
+    }
+    now.surfaces = surfaces_of(*now.scene, robot, now.measured, rest);
+    trials.make(rest, PlanFrom::same_sequence);
+    if (options.other_sequences && !trials.done())
+      for (const Rest& other : other_steps(rest, robot, now.similarity)) {
+        trials.make(other, PlanFrom::other_sequence);
+        if (trials.done()) break;
+      }
   }
-  stand_on(rest, options.phases_min, now.similarity);
-  now.surfaces = surfaces_of(scene_in, robot, now.measured, rest);
-  std::optional<Trial> best = try_out(now, rest, report);
-  PlanResult out;
-  if (best) {
-    report.status = status_of(*best, best->ending);
-    report.worst_violation = best->check.worst();
-    report.warnings = best->check.warnings;
-    report.cost = best->evaluation.cost;
-    out.plan = std::move(best->plan);
-  } else {
-    report.status = Status::no_sequence;
-  }
+  // Out of time, what was planned is better than what cannot be followed.
+  if (deadline.passed() && !(trials.best() && can_be_followed(*trials.best())))
+    trials.take(as_planned(planned, now), PlanFrom::previous_plan);
+  conclude(trials, report, out);
   report.time_s = deadline.elapsed_s();
-  out.report = std::move(report);
   return out;
 }
 
@@ -133,6 +170,14 @@ PlanResult replan(const Plan& previous, double t, const Measured& measured, cons
   return replan(previous, t, measured, previous.scene, previous.robot, options);
 }
 
-void ReplanOptions::validate() const { search.validate(); }
+void ReplanOptions::validate() const {
+  model::Findings found;
+  model::check_struct(*this, model::Place(), found);
+  if (command) model::check_struct(*command, model::Place(model::Place(), "command"), found);
+  if (search.method == Method::paper)
+    found.add("method", "must be standard to start from a plan: the published algorithm does not", "paper");
+  found.raise<InvalidOptions>();
+  search.validate();
+}
 
 }  // namespace mcplan::ddp

@@ -27,19 +27,6 @@ Knot knot_of(const PlanState& state) {
   return knot;
 }
 
-/// The weight shared among contacts whose forces act at the end-effectors and point at the CoM.
-void share_weight(const Plan& plan, const Knot& knot, const ContactState& contacts, Phase& phase) {
-  const double standing =
-      static_cast<double>(std::count_if(contacts.begin(), contacts.end(), [](int c) { return c != kFree; }));
-  phase.contacts.assign(contacts.size(), {});
-  for (std::size_t e = 0; e < contacts.size(); ++e) {
-    Contact& contact = phase.contacts[e];
-    contact.surface = contacts[e];
-    contact.anchor_W = contact.center_of_pressure_W = knot.end_effectors_W[e];
-    if (contacts[e] != kFree) contact.stiffness = plan.scene.gravity / plan.robot.com_height / standing;
-  }
-}
-
 /// Until an end-effector that is late touches the plane below it [s].
 double late_s(const Plan& plan, const Knot& now, int e, int surface, const Similarity& similarity) {
   const Polygon polygon(plan.scene.surfaces[surface].vertices_W);
@@ -75,11 +62,27 @@ void Rest::insert(int k, const ContactState& contacts, double duration_s) {
   Phase phase;
   phase.law = plan.phases.front().law;
   phase.duration = duration_s;
-  share_weight(plan, plan.knots[k], contacts, phase);
+  phase.contacts.assign(contacts.size(), {});
+  for (std::size_t e = 0; e < contacts.size(); ++e) phase.contacts[e].surface = contacts[e];
   plan.phases.insert(plan.phases.begin() + k, phase);
   const Knot knot = plan.knots[k];
   plan.knots.insert(plan.knots.begin() + k, knot);
   planned.insert(planned.begin() + k, 0);
+  share_weight(k);
+}
+
+void Rest::share_weight(int k) {
+  std::vector<Contact>& contacts = plan.phases[k].contacts;
+  const auto standing =
+      std::count_if(contacts.begin(), contacts.end(), [](const Contact& c) { return c.surface != kFree; });
+  for (std::size_t e = 0; e < contacts.size(); ++e) {
+    const int surface = contacts[e].surface;
+    contacts[e] = Contact();
+    contacts[e].surface = surface;
+    contacts[e].anchor_W = contacts[e].center_of_pressure_W = plan.knots[k].end_effectors_W[e];
+    if (surface != kFree)
+      contacts[e].stiffness = plan.scene.gravity / plan.robot.com_height / static_cast<double>(standing);
+  }
 }
 
 void Rest::drop(int count) {
@@ -88,6 +91,10 @@ void Rest::drop(int count) {
   plan.knots.erase(plan.knots.begin(), plan.knots.begin() + count);
   planned.erase(planned.begin(), planned.begin() + count);
   plan.knots.front() = now;
+}
+
+double swing_duration_of(const Eigen::Vector2d& phase_duration_s) {
+  return phase_duration_s[0] + kAddedSwing * (phase_duration_s[1] - phase_duration_s[0]);
 }
 
 Rest rest_of(const Plan& previous, double t) {

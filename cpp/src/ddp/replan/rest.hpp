@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "ddp/contact_sequence.hpp"
@@ -13,6 +14,8 @@ namespace mcplan::ddp {
 struct Rest {
   Plan plan;
   std::vector<char> planned;  ///< by phase: it was planned before, so that where contacts begin in it was chosen
+  int kept = std::numeric_limits<int>::max();  ///< what is planned up to this phase keeps its footholds
+  std::vector<Knot> desired;                   ///< what the motion is to stay near; empty: what was planned
 
   int size() const { return static_cast<int>(plan.phases.size()); }
   int surface(int k, int e) const { return k < size() ? plan.phases[k].contacts[e].surface : plan.final_contacts[e]; }
@@ -22,9 +25,15 @@ struct Rest {
   /// phase k, which begins at the same place; with k = size() the last knot, where the plan then stands.
   void insert(int k, const ContactState& contacts, double duration_s);
 
+  /// Share the weight among the contacts of a phase, with forces that act at the end-effectors and point at the CoM.
+  void share_weight(int k);
+
   /// Take the first `count` phases away; what comes after begins at the measured state.
   void drop(int count);
 };
+
+/// First guess of the duration of a swing that is put in, from the shortest and longest phase [s].
+double swing_duration_of(const Eigen::Vector2d& phase_duration_s);
 
 /// The rest of a plan at time t [s], from the planned state.
 Rest rest_of(const Plan& previous, double t);

@@ -1,12 +1,14 @@
 #include "ddp/replan/trial.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "ddp/best_plan.hpp"
 #include "ddp/constants.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
+#include "plan/swings.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -29,18 +31,25 @@ Problem pose(const Now& now, const Rest& rest) {
     contacts.push_back(surface == kFree ? kFree : problem.scene.surface_index(now.scene->surfaces[surface].name));
   }
   problem.set_start(now.measured.state, contacts);
+  problem.start_slack = now.options->start_slack_s * now.similarity.time / problem.units.time;
   problem.first_duration = rest.plan.phases.front().duration / problem.units.time;
   return problem;
 }
 
 /// What was planned is what the motion is to stay near, and where contacts are to begin.
 void hold_on_to(Problem& problem, const Incumbent& warm, const Rest& rest, double committed_s) {
-  std::copy(warm.trajectory.x.begin() + 1, warm.trajectory.x.end() - 1, problem.reference.x.begin() + 1);
+  std::vector<Eigen::VectorXd> desired = warm.trajectory.x;
+  if (!rest.desired.empty()) {
+    Plan follow = rest.plan;
+    follow.knots = rest.desired;
+    desired = from_plan(problem, follow, 0).trajectory.x;
+  }
+  std::copy(desired.begin() + 1, desired.end() - 1, problem.reference.x.begin() + 1);
   const double committed = committed_s * problem.similarity.time;
   double time_s = 0.0;
   for (int k = 1; k <= problem.steps; ++k) {
     time_s += rest.plan.phases[k - 1].duration;
-    const bool planned = k == problem.steps || rest.planned[k];
+    const bool planned = k <= rest.kept && (k == problem.steps || rest.planned[k]);
     for (int l = 0; planned && l < problem.layout.end_effector_count(); ++l) {
       const int surface = warm.sequence[k][l];
       if (surface == kFree || warm.sequence[k - 1][l] == surface) continue;
@@ -49,6 +58,25 @@ void hold_on_to(Problem& problem, const Incumbent& warm, const Rest& rest, doubl
     }
   }
   problem.first_duration_kept = rest.planned.front() && rest.plan.phases.front().duration <= committed;
+}
+
+/// Time [s] of the second touchdown of a plan, or its end.
+double two_steps_s(const Plan& plan) {
+  const std::vector<double> times = plan.knot_times();
+  int touchdowns = 0;
+  for (std::size_t k = 1; k < plan.phases.size(); ++k)
+    for (std::size_t e = 0; e < plan.phases[k].contacts.size(); ++e)
+      if (plan.phases[k - 1].contacts[e].surface < 0 && plan.phases[k].contacts[e].surface >= 0 && ++touchdowns == 2)
+        return times[k];
+  return times.back();
+}
+
+/// The checker's word on a plan until then.
+CheckResult look(const Plan& plan, const Now& now, double until_s, const StopRequest& stop) {
+  Tolerances tolerances;
+  if (!now.options->search.one_switch_per_step) tolerances.switches = std::numeric_limits<int>::max();
+  tolerances.sample_s = std::max(tolerances.sample_s, plan.duration() / kFullInstantsMax);
+  return check(plan, plan.scene, *now.robot, tolerances, stop, until_s);
 }
 
 /// What the last steps after the solve take of a limit: exact contacts, conversion, a look at the next steps.
@@ -73,21 +101,41 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report) {
   settings.tolerance = kRoughTolerance;
   settings.to_the_end = false;
   trial.ending = search.optimise(at, settings, tuning);
-  const StopRequest late = [&] { return now.deadline->passed(); };
-  trial.exact = search.make_exact(at, tuning, now.deadline->limited() ? late : StopRequest());
-  trial.evaluation = at.evaluation;
+  const StopRequest late =
+      now.deadline->limited() ? StopRequest([&] { return now.deadline->passed(); }) : StopRequest();
+  trial.exact = search.make_exact(at, tuning, late);
+  trial.evaluation = search.evaluate(at, tuning);
   const Stopwatch watch(report.timing_s, "check");
   trial.plan = to_plan(problem, at, true);
+  trial.plan.start_slack_s = now.options->start_slack_s * now.similarity.time;
   put_back(trial.plan, *now.scene, now.surfaces);
-  Tolerances tolerances;
-  if (!now.options->search.one_switch_per_step) tolerances.switches = std::numeric_limits<int>::max();
-  tolerances.sample_s = std::max(tolerances.sample_s, trial.plan.duration() / kFullInstantsMax);
-  trial.check =
-      check(trial.plan, *now.scene, problem.robot, tolerances, now.deadline->limited() ? late : StopRequest());
+  // In time or not, the next two steps are looked at; a limit leaves the rest of them to the next call.
+  trial.check = look(trial.plan, now, late ? two_steps_s(trial.plan) : std::numeric_limits<double>::infinity(), {});
+  if (late && trial.check.ok() && !late()) {
+    CheckResult whole = look(trial.plan, now, std::numeric_limits<double>::infinity(), late);
+    if (whole.complete) trial.check = std::move(whole);
+  }
   return trial;
 }
 
+Trial as_planned(const Rest& planned, const Now& now) {
+  Trial trial;
+  trial.plan = planned.plan;
+  trial.plan.measured_start = true;
+  choose_swings(trial.plan);
+  trial.exact = true;
+  trial.ending = Ending::time_limit;
+  trial.check = look(trial.plan, now, two_steps_s(trial.plan), {});
+  trial.planned = true;
+  return trial;
+}
+
+bool can_be_followed(const Trial& trial) {
+  return trial.exact && trial.check.kept_until_s >= std::min(two_steps_s(trial.plan), trial.check.checked_until_s);
+}
+
 bool better(const Trial& one, const Trial& other) {
+  if (can_be_followed(one) != can_be_followed(other)) return can_be_followed(one);
   if (one.ok() != other.ok()) return one.ok();
   if (one.ok()) return one.evaluation.merit() < other.evaluation.merit();
   return violation_ratio(one.check.worst()) < violation_ratio(other.check.worst());

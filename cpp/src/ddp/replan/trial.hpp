@@ -27,13 +27,21 @@ struct Trial {
   Plan plan;
   CheckResult check;
   Evaluation evaluation;
-  bool exact = false;  ///< the dynamics hold to rounding
+  bool exact = false;    ///< the dynamics hold to rounding
+  bool planned = false;  ///< nothing was solved: what was planned
   Ending ending = Ending::done;
-  bool ok() const { return exact && check.ok(); }
+  /// The checker has seen all of it and accepts it.
+  bool ok() const { return exact && !planned && check.ok() && !(check.checked_until_s < plan.duration()); }
 };
 
 /// The optimum of a sequence from the measured state, as a plan, checked; none where the scene's rules do not allow it.
 std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report);
+
+/// What is left of the plan under way, as it was planned, from the planned state: looked at for the next two steps.
+Trial as_planned(const Rest& planned, const Now& now);
+
+/// Whether the next two steps keep all limits.
+bool can_be_followed(const Trial& trial);
 
 /// Whether a controller rather follows the one than the other.
 bool better(const Trial& one, const Trial& other);

@@ -1,0 +1,51 @@
+#include "ddp/polish/start_slack.hpp"
+
+#include <algorithm>
+
+#include "mcplan/base/rotation.hpp"
+
+namespace mcplan::ddp::polish {
+
+using Eigen::Vector3d;
+
+StartSlack::StartSlack(const FixedSequence& fixed, const Motion& motion) {
+  const Problem& problem = fixed.problem();
+  horizon_ = problem.start_slack;
+  if (!(horizon_ > 0.0)) return;
+  const Layout& at = problem.layout;
+  const Eigen::VectorXd& x = motion.trajectory.x.front();
+  times_.push_back(0.0);
+  for (int k = 0; k < fixed.steps(); ++k) times_.push_back(times_.back() + motion.trajectory.u[k][at.duration()]);
+  const Vector3d com = x.segment<3>(at.com()), velocity = x.segment<3>(at.velocity());
+  Vector3d momentum = Vector3d::Zero();
+  for (int a = 0; a < at.axis_count(); ++a) momentum[at.axes()[a]] = x[at.momentum(a)];
+  const Eigen::Matrix3d rotation = rotation_from_rpy(problem.rpy(x));
+  const Vector3d spin = rotation * (rotation.transpose() * momentum).cwiseQuotient(problem.inertia);
+  for (int l = 0; l < at.end_effector_count(); ++l) {
+    const EndLimits& limit = problem.limits[l];
+    const Vector3d offset = x.segment<3>(at.end(l)) - com;
+    const Vector3d moving =
+        fixed.contacts().front()[l] == kFree ? problem.start_end_velocity(l) : Vector3d(0.0, 0.0, 0.0);
+    const Vector3d place = rotation.transpose() * offset;
+    const Vector3d rate = rotation.transpose() * (moving - velocity - spin.cross(offset));
+    auto& rows = reach_.emplace_back();
+    for (int i = 0; i < 3; ++i) {
+      rows[2 * i] = {place[i] - limit.reach_max[i], std::max(rate[i], 0.0)};
+      rows[2 * i + 1] = {limit.reach_min[i] - place[i], std::max(-rate[i], 0.0)};
+    }
+    const double yaw = motion.trajectory.sole_yaw.front()[l] - problem.rpy(x).z();
+    yaw_.push_back(
+        {Row{yaw - limit.yaw_max, std::max(-spin.z(), 0.0)}, Row{limit.yaw_min - yaw, std::max(spin.z(), 0.0)}});
+  }
+  // Any row that may be beyond its bound before the slack is used up.
+  const auto beyond = [&](const Row& row) { return row.value + row.rate * horizon_ > 0.0; };
+  for (const auto& rows : reach_) any_ = any_ || std::any_of(rows.begin(), rows.end(), beyond);
+  for (const auto& rows : yaw_) any_ = any_ || std::any_of(rows.begin(), rows.end(), beyond);
+}
+
+double StartSlack::amount(const Row& row, double t) const {
+  if (!(t < horizon_)) return 0.0;
+  return std::max(row.value + row.rate * t, 0.0) * (1.0 - t / horizon_);
+}
+
+}  // namespace mcplan::ddp::polish

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "ddp/polish/fixed_sequence.hpp"
+#include "ddp/polish/motion.hpp"
+
+namespace mcplan::ddp::polish {
+
+/// What a measured start violates by itself, and how long that is forgiven. A row r <= 0 of the limits that follow from
+/// the state has the value v_0 at the start, where it changes at the rate w_0 if nothing intervenes. At time t it is
+/// relaxed to
+///
+///     r <= max(0, v_0 + max(0, w_0) t) max(0, 1 - t / T),
+///
+/// which the checker forgives, too (Plan::start_slack_s). Of limits on where end-effectors are relative to the base and
+/// on headings of soles; what stands does not move. Times are those of the first guess: the rows' gradients do not know
+/// of them.
+class StartSlack {
+ public:
+  /// Without Problem::start_slack there is none.
+  StartSlack(const FixedSequence& fixed, const Motion& motion);
+
+  bool any() const { return any_; }
+
+  /// Amount by which a side of an axis of an end-effector's reach box is relaxed at time t, and of its range of yaw.
+  double reach(int l, int axis, bool upper, double t) const { return amount(reach_[l][2 * axis + (upper ? 0 : 1)], t); }
+  double yaw(int l, bool upper, double t) const { return amount(yaw_[l][upper ? 0 : 1], t); }
+
+  double knot_time(int k) const { return times_[k]; }
+
+ private:
+  struct Row {
+    double value, rate;
+  };
+  double amount(const Row& row, double t) const;
+
+  double horizon_ = 0.0;
+  bool any_ = false;
+  std::vector<std::array<Row, 6>> reach_;
+  std::vector<std::array<Row, 2>> yaw_;
+  std::vector<double> times_;
+};
+
+}  // namespace mcplan::ddp::polish

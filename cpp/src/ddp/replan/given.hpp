@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "ddp/replan/rest.hpp"
+#include "mcplan/ddp/replan.hpp"
+#include "mcplan/plan/plan.hpp"
+#include "mcplan/robot/robot.hpp"
+#include "mcplan/scene/scene.hpp"
+
+/// What a replan is given, as the planner takes it.
+namespace mcplan::ddp {
+
+/// Throws InvalidPlan where the contacts are not one surface of the plan's scene, or -1, for each end-effector.
+void require_contacts(const std::vector<int>& contacts, const Plan& previous);
+
+/// The measured state with what it leaves out, by the contacts that are given or else planned, as indices into the
+/// scene; what stands is put onto its plane, since a contact knows more than a measurement of its place. Throws
+/// InvalidPlan where that is far away.
+Measured completed(const Measured& measured, const Plan& previous, double t, const Scene& scene, const Robot& robot);
+
+/// The rest on another scene than the plan's, by the names of surfaces. Throws InvalidScene where one is missing.
+void rename(Rest& rest, const Scene& scene);
+
+/// Surfaces that matter, by index: those of the rest, those measured, and those near the way to the goal.
+std::vector<int> surfaces_of(const Scene& scene, const Robot& robot, const Measured& measured, const Rest& rest);
+
+}  // namespace mcplan::ddp

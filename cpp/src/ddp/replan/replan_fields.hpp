@@ -1,0 +1,43 @@
+#pragma once
+
+#include "mcplan/ddp/replan.hpp"
+#include "model/fields.hpp"
+
+namespace mcplan::model {
+
+template <>
+struct Fields<ddp::VelocityCommand> {
+  using Command = ddp::VelocityCommand;
+  static constexpr const char* name = "VelocityCommand";
+  static constexpr const char* meaning = "A velocity to walk at, instead of the scene's goal.";
+  static constexpr auto all = std::make_tuple(
+      field("velocity_B", &Command::velocity_B, "m/s", "Of the CoM: ahead and to the left of the heading."),
+      field("yaw_rate", &Command::yaw_rate, "rad/s", "Of the base, to the left."));
+};
+
+template <>
+struct Fields<ddp::ReplanOptions> {
+  using Options = ddp::ReplanOptions;
+  static constexpr const char* name = "ReplanOptions";
+  static constexpr const char* meaning = "How to plan on from a measured state, beside the options of the search.";
+  static constexpr auto all = std::make_tuple(
+      field("committed_s", &Options::committed_s, "s",
+            "Contacts that are due within this time are made and broken as planned, when and where. The default goes "
+            "with the size of the robot.")
+          .not_negative(),
+      field("start_slack_s", &Options::start_slack_s, "s",
+            "Time within which what the measured state itself violates has to be made good. The default goes with the "
+            "size of the robot.")
+          .not_negative(),
+      field("phases_min", &Options::phases_min, "",
+            "The horizon never gets shorter than this: at its end the robot stands.")
+          .at_least(1)
+          .at_most(400),
+      field("horizon", &Options::horizon, "", "Number of phases that are planned ahead under a velocity command.")
+          .at_least(3)
+          .at_most(400),
+      field("other_sequences", &Options::other_sequences, "",
+            "Try sequences near to the plan's own where that does not do."));
+};
+
+}  // namespace mcplan::model
