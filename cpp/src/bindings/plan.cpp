@@ -202,6 +202,13 @@ void bind_checker(py::module_& m) {
   def_items(result, "constraints", &CheckResult::constraints, "Tuple of Violation, violated or not.");
   result.def_readonly("complete", &CheckResult::complete, "False: interrupted; what was found by then is listed.");
   def_items(result, "warnings", &CheckResult::warnings, "Tuple of Violation that ok() does not ask for.");
+  def_items(result, "start", &CheckResult::start,
+            "Tuple of Violation: what the measured start violates by itself, of which ok() does not ask; worst first.");
+  result.def_readonly("kept_until_s", &CheckResult::kept_until_s,
+                      "Time of the earliest violation [s]; checked_until_s where there is none, 0 where the plan could "
+                      "not be evaluated.");
+  result.def_readonly("checked_until_s", &CheckResult::checked_until_s, "How far the plan was looked at [s].");
+  result.def_readonly("start_slack_s", &CheckResult::start_slack_s, "The plan's [s].");
   result.def("ok", &CheckResult::ok);
   result.def("violations", &CheckResult::violations, "Those beyond their tolerance, worst first.");
   result.def(
@@ -220,15 +227,15 @@ void bind_checker(py::module_& m) {
 
   m.def(
       "check",
-      [](Plan plan, const Scene* own_scene, const Robot* own_robot, Tolerances tolerances) {
+      [](Plan plan, const Scene* own_scene, const Robot* own_robot, Tolerances tolerances, double until_s) {
         const Scene scene = own_scene ? *own_scene : plan.scene;
         const Robot robot = own_robot ? *own_robot : plan.robot;
-        return interruptible([&] { return check(plan, scene, robot, tolerances, SignalWatch::stop); });
+        return interruptible([&] { return check(plan, scene, robot, tolerances, SignalWatch::stop, until_s); });
       },
       py::arg("plan"), py::arg("scene") = py::none(), py::arg("robot") = py::none(),
-      py::arg("tolerances") = Tolerances(),
+      py::arg("tolerances") = Tolerances(), py::arg("until_s") = std::numeric_limits<double>::infinity(),
       "Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons "
-      "alone. "
+      "alone; before its end up to until_s [s]. "
       "Raises InvalidPlan when its arrays do not fit together, and Interrupted with what was found by then.");
 }
 

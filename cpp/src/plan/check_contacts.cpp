@@ -9,9 +9,12 @@ namespace {
 using Eigen::Vector3d;
 
 /// contact_distance: |n . (p - v)|.  contact_polygon: distance of p's projection beyond the boundary (negative inside).
-void offer_place(const Polygon& polygon, const Vector3d& position, const Place& place, Findings& findings) {
-  findings.offer(Constraint::contact_distance, std::abs(polygon.height(position)), place);
-  findings.offer(Constraint::contact_polygon, beyond_polygon(polygon, position), place);
+/// Each of them a Constraint or a StateLimit, for which the slack of a measured start counts.
+template <class Limit>
+void offer_place(Limit distance, Limit beyond, const Polygon& polygon, const Vector3d& position, const Place& place,
+                 Findings& findings) {
+  findings.offer(distance, std::abs(polygon.height(position)), place);
+  findings.offer(beyond, beyond_polygon(polygon, position), place);
 }
 
 bool has_own_yaw(const Problem& problem, int phase) { return !problem.plan.knots[phase].end_effector_yaw.empty(); }
@@ -45,24 +48,29 @@ void check_contact_place(const Problem& problem, const Sample& sample, Findings&
   for (int l = 0; l < problem.end_effector_count(); ++l) {
     const int surface = problem.surface(sample.phase, l);
     if (surface < 0 || sample.still[l]) continue;
-    offer_place(problem.solids[surface].polygon, sample.at.end_effectors[l].position_W,
-                {sample.phase, l, sample.time_s}, findings);
+    offer_place(StateLimit::contact_distance, StateLimit::contact_polygon, problem.solids[surface].polygon,
+                sample.at.end_effectors[l].position_W, {sample.phase, l, sample.time_s}, findings);
   }
 }
 
-/// What touches down at the very end of the plan has no phase of its own.
-void check_final_contact_place(const Problem& problem, const Sample& last, Findings& findings) {
+/// What touches down at the very end has no phase of its own that is looked at.
+void check_contact_place_at_end(const Problem& problem, const Sample& last, Findings& findings) {
   for (int l = 0; l < problem.end_effector_count(); ++l) {
-    const int surface = problem.plan.final_contacts[l];
+    const int surface = problem.surface(last.phase + 1, l);
     if (surface < 0) continue;
-    offer_place(problem.solids[surface].polygon, last.at.end_effectors[l].position_W, {last.phase, l, last.time_s},
-                findings);
+    const Polygon& polygon = problem.solids[surface].polygon;
+    const Vector3d& position = last.at.end_effectors[l].position_W;
+    const Place place{last.phase, l, last.time_s};
+    if (surface == problem.surface(last.phase, l))
+      offer_place(StateLimit::contact_distance, StateLimit::contact_polygon, polygon, position, place, findings);
+    else
+      offer_place(Constraint::contact_distance, Constraint::contact_polygon, polygon, position, place, findings);
   }
 }
 
 /// The surface admits the end-effector.
 void check_contact_permission(const Problem& problem, Findings& findings) {
-  for (int k = 0; k <= problem.phase_count(); ++k)
+  for (int k = 0; k <= problem.last_knot; ++k)
     for (int l = 0; l < problem.end_effector_count(); ++l) {
       const int surface = problem.surface(k, l);
       if (surface < 0) continue;

@@ -45,7 +45,7 @@ void check_start(const Problem& problem, Findings& findings) {
 }
 
 void check_goal(const Problem& problem, Findings& findings) {
-  if (problem.plan.open_end) return;
+  if (problem.plan.open_end || problem.last_knot < problem.phase_count()) return;
   const ResolvedStance stance = resolve_stance(problem.scene, problem.robot, problem.scene.goal, "goal");
   check_stance(problem, Constraint::goal, stance, problem.phase_count(), findings);
 }

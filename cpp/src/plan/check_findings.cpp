@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "check_internal.hpp"
+#include "start_slack.hpp"
 
 namespace mcplan::checks {
 namespace {
@@ -74,6 +75,7 @@ Findings::Findings(const Tolerances& tolerances, const Similarity& similarity) {
 
 void Findings::compare(Constraint constraint, double value, const Place& place, double tolerance, const char* unit) {
   if (!std::isfinite(value)) value = std::numeric_limits<double>::max();
+  if (value > tolerance) kept_until_s_ = std::min(kept_until_s_, place.time_s);
   Worst& worst = worst_[static_cast<int>(constraint)];
   const double measure = severity(value, tolerance);
   // Two infinite severities (tolerance 0) compare by value.
@@ -82,6 +84,18 @@ void Findings::compare(Constraint constraint, double value, const Place& place, 
       std::isfinite(measure) ? measure - 1e-14 * std::abs(measure) : -std::numeric_limits<double>::infinity();
   worst = {value, tolerance, measure, unit, place, true, worst.own_tolerance, worst.own_unit, bar};
 }
+
+double Findings::less_slack(StateLimit limit, double value, const Place& place, double tolerance,
+                            const char* unit) const {
+  return slack_->beyond(limit, value, place, tolerance, unit);
+}
+
+/// While slack is measured all is kept: what is worst at one end-effector is not at another.
+double Findings::plus_slack(StateLimit limit, double kept, const Place& place) const {
+  return slack_->measured() ? kept + slack_->left(limit, place) : -std::numeric_limits<double>::infinity();
+}
+
+const char* name_of(Constraint constraint) { return rows({}, {})[static_cast<int>(constraint)].name; }
 
 std::vector<Violation> Findings::violations(int count, const Robot& robot) const {
   const auto table = rows({}, {});

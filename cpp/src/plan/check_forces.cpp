@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 /// as the force it gives at the CoM height, the moment as it is. Where forces act at points, mu_l and tau_l would be
 /// forces that move nothing: they are held to zero at contacts as well.
 void check_free_force(const Problem& problem, Findings& findings) {
-  for (int k = 0; k < problem.phase_count(); ++k)
+  for (int k = 0; k < problem.end_phase; ++k)
     for (int l = 0; l < problem.end_effector_count(); ++l) {
       const Contact& contact = problem.plan.phases[k].contacts[l];
       const bool free = contact.surface < 0;
@@ -27,7 +27,7 @@ void check_free_force(const Problem& problem, Findings& findings) {
 
 /// mu_l >= 0: a negative stiffness would pull.
 void check_stiffness_sign(const Problem& problem, Findings& findings) {
-  for (int k = 0; k < problem.phase_count(); ++k)
+  for (int k = 0; k < problem.end_phase; ++k)
     for (int l = 0; l < problem.end_effector_count(); ++l)
       findings.offer(Constraint::stiffness_sign, 0.0 - problem.plan.phases[k].contacts[l].stiffness,
                      problem.at_knot(k, l));

@@ -57,9 +57,24 @@ struct Place {
   double time_s = 0.0;
 };
 
+/// Limits that follow from the state at an instant alone, which a measured start may violate by itself.
+enum class StateLimit { reach, yaw_range, com_speed, clearance, limb, trunk, contact_distance, contact_polygon };
+constexpr int kStateLimits = static_cast<int>(StateLimit::contact_polygon) + 1;
+
+constexpr Constraint constraint_of(StateLimit limit) {
+  constexpr Constraint all[kStateLimits] = {
+      Constraint::reach, Constraint::reach, Constraint::com_speed,        Constraint::clearance,
+      Constraint::limb,  Constraint::trunk, Constraint::contact_distance, Constraint::contact_polygon};
+  return all[static_cast<int>(limit)];
+}
+
+class StartSlack;  // start_slack.hpp
+
 /// Tolerances times the factors of their units; but `dynamics` and `boundary`, which have several, stay as they are,
 /// for the caller to multiply.
 Tolerances for_size(const Tolerances& tolerances, const Similarity& similarity);
+
+const char* name_of(Constraint constraint);
 
 /// value / tolerance, the measure by which two findings compare; a tolerance of 0 makes any excess infinite.
 double severity(double value, double tolerance);
@@ -91,19 +106,48 @@ class Findings {
     const Worst& worst = worst_[static_cast<int>(constraint)];
     // Nearly all of them are no worse; of other units the product says so up to rounding, which a division settles.
     if (worst.measured &&
-        (tolerance == worst.tolerance ? value <= worst.value : tolerance > 0.0 && value < worst.bar * tolerance))
+        (tolerance == worst.tolerance ? value <= worst.value : tolerance > 0.0 && value < worst.bar * tolerance)) {
+      // Not all constraints are looked at in the order of time: what is no worse may be earlier.
+      if (value > tolerance && place.time_s < kept_until_s_) kept_until_s_ = place.time_s;
       return;
+    }
     compare(constraint, value, place, tolerance, unit);
   }
 
+  /// The same of a limit of the state: what is beyond it, less the slack of the measured start.
+  void offer(StateLimit limit, double value, const Place& place) {
+    const Worst& own = worst_[static_cast<int>(constraint_of(limit))];
+    offer(limit, value, place, own.own_tolerance, own.own_unit);
+  }
+  void offer(StateLimit limit, double value, const Place& place, double tolerance, const char* unit) {
+    offer(constraint_of(limit), slack_ ? less_slack(limit, value, place, tolerance, unit) : value, place, tolerance,
+          unit);
+  }
+
+  /// Slack to measure, or to give; null: none.
+  void set_slack(StartSlack* slack) { slack_ = slack; }
+
+  /// Time of the earliest measurement beyond its tolerance; infinite: there is none.
+  double kept_until_s() const { return kept_until_s_; }
+
   /// What a value of the constraint has to exceed to be kept, in its own unit: who can tell cheaply that his does not
-  /// need not measure it. Minus infinity where nothing is said.
+  /// need not measure it. Minus infinity where nothing is said. Of what is looked at in the order of time.
   double kept(Constraint constraint) const {
     const Worst& worst = worst_[static_cast<int>(constraint)];
     constexpr double kNothing = -std::numeric_limits<double>::infinity();
     if (!worst.measured) return kNothing;
     if (worst.tolerance == worst.own_tolerance) return worst.value;
     return worst.own_tolerance > 0.0 ? worst.bar * worst.own_tolerance : kNothing;
+  }
+
+  /// The same of a limit of the state, in any order of time: where there may be slack, and where a violation before
+  /// the earliest one so far counts, too.
+  double kept(StateLimit limit, const Place& place) const {
+    const Constraint constraint = constraint_of(limit);
+    const double value = place.time_s < kept_until_s_
+                             ? std::min(kept(constraint), worst_[static_cast<int>(constraint)].own_tolerance)
+                             : kept(constraint);
+    return slack_ ? plus_slack(limit, value, place) : value;
   }
 
   /// The first `count` constraints, in the order of the enumeration.
@@ -120,8 +164,12 @@ class Findings {
     double bar = -std::numeric_limits<double>::infinity();  ///< a little less than the severity
   };
   void compare(Constraint constraint, double value, const Place& place, double tolerance, const char* unit);
+  double less_slack(StateLimit limit, double value, const Place& place, double tolerance, const char* unit) const;
+  double plus_slack(StateLimit limit, double kept, const Place& place) const;
 
   std::array<Worst, kConstraints> worst_;
+  double kept_until_s_ = std::numeric_limits<double>::infinity();
+  StartSlack* slack_ = nullptr;
 };
 
 struct Problem {
@@ -134,6 +182,14 @@ struct Problem {
   std::vector<std::vector<FreeStretch>> stretches;  ///< per end-effector
   std::vector<double> knot_times;
 
+  // How far the plan is looked at: phases that begin before until_s, knots that come no later.
+  double until_s = std::numeric_limits<double>::infinity();
+  int end_phase = 0;  ///< the phase after the last of them
+  int last_knot = 0;
+
+  /// Of knot_times and until_s.
+  void set_end();
+
   bool has_points(int k) const { return plan.phases[k].has_points(); }
   bool has_wrenches(int k) const { return plan.phases[k].has_wrenches(); }
   bool has_momentum(int k) const { return plan.phases[k].has_momentum(); }
@@ -145,8 +201,8 @@ struct Problem {
     return k < phase_count() ? plan.phases[k].contacts[l].surface : plan.final_contacts[l];
   }
 
-  /// The start of phase k; the end of the last phase for k = phases.
-  Place at_knot(int k, int l) const { return {k < phase_count() ? k : k - 1, l, knot_times[k]}; }
+  /// The start of phase k; the end of the last phase that is looked at for k = end_phase.
+  Place at_knot(int k, int l) const { return {k < end_phase ? k : k - 1, l, knot_times[k]}; }
 };
 
 /// CoM, base and angular momentum, integrated by the checker itself. Under the pendulum the momentum stays zero here,
@@ -200,7 +256,7 @@ bool check_phase_duration(const Problem& problem, Findings& findings);
 
 /// check_contacts.cpp
 void check_contact_place(const Problem& problem, const Sample& sample, Findings& findings);
-void check_final_contact_place(const Problem& problem, const Sample& last, Findings& findings);
+void check_contact_place_at_end(const Problem& problem, const Sample& last, Findings& findings);
 void check_contact_permission(const Problem& problem, Findings& findings);
 
 /// Heading of a sole: its own where the knots say it, otherwise the base's.

@@ -77,7 +77,7 @@ void Joints::check(const Problem& problem, const Sample& sample, Findings& findi
 
     const double max_length = std::sqrt(limb.upper * limb.upper - min_lever * min_lever) +
                               std::sqrt(limb.lower * limb.lower - min_lever * min_lever);
-    findings.offer(Constraint::reach, length + limb.margin - max_length, place);
+    findings.offer(StateLimit::reach, length + limb.margin - max_length, place);
     Seen& last = last_[l];
     const double since = sample.since_start_s - last.since_start_s;
     if (last.phase == sample.phase && since > 0.0 && std::isfinite(limb.knee_speed)) {

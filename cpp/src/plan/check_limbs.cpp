@@ -101,7 +101,7 @@ void Limbs::look(const Problem& problem, const Sample& sample, Findings& finding
       if (surface == problem.surface(sample.phase, l) || !boxes_[surface].intersects(around)) continue;
       const double length = length_inside(problem.solids[surface], com, end);
       if (length > 0.0)
-        findings.offer(Constraint::limb,
+        findings.offer(StateLimit::limb,
                        std::max(depth_of(problem.solids[surface], com, end) - kBent * problem.similarity.length,
                                 length - kInside * problem.similarity.length),
                        {sample.phase, l, sample.time_s});
@@ -116,7 +116,7 @@ void Limbs::check_trunk(const Problem& problem, const Sample& sample, Findings& 
   const Vector3d& com = sample.replay.com_W;
   for (int surface : near_) {
     if (!(boxes_[surface].squaredExteriorDistance(com) < radius * radius)) continue;
-    findings.offer(Constraint::trunk, radius - distance_outside(problem.solids[surface], com),
+    findings.offer(StateLimit::trunk, radius - distance_outside(problem.solids[surface], com),
                    {sample.phase, -1, sample.time_s});
   }
 }

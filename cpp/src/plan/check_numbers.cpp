@@ -31,16 +31,17 @@ bool check_finite(const Problem& problem, Findings& findings) {
     }
     offer(bad, k);
   }
+  if (!std::isfinite(plan.start_slack_s)) offer(1, -1);
   for (const Swing& swing : plan.swings)
     offer(!std::isfinite(swing.height) + count(swing.lift_normal_W) + count(swing.land_normal_W), swing.first_phase);
   return all;
 }
 
-/// h_k > 0, where a microsecond counts as nothing.
+/// h_k > 0 of the phases that are looked at, where a microsecond counts as nothing.
 bool check_phase_duration(const Problem& problem, Findings& findings) {
   const double shortest = 1e-6 * problem.similarity.time;
   bool all = true;
-  for (int k = 0; k < problem.phase_count(); ++k) {
+  for (int k = 0; k < problem.end_phase; ++k) {
     const double missing = shortest - problem.plan.phases[k].duration;
     all = all && missing <= 0.0;
     findings.offer(Constraint::phase_duration, missing, {k, -1, 0.0});

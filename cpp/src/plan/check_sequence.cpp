@@ -36,7 +36,7 @@ int missing(const Problem& problem, int k, const std::vector<std::string>& who) 
 /// sum_l |sigma_{k+1,l} - sigma_{k,l}| <= 1 (Tazaki, eq. 32): one end-effector makes or breaks contact in a step, the
 /// step to the final contacts included. From surface to surface is a break and a make.
 void check_sequence_switch(const Problem& problem, Findings& findings) {
-  for (int k = 1; k <= problem.phase_count(); ++k) {
+  for (int k = 1; k <= problem.last_knot; ++k) {
     int switches = 0, last = -1;
     for (int l = 0; l < problem.end_effector_count(); ++l) {
       const int before = problem.surface(k - 1, l), after = problem.surface(k, l);
@@ -52,7 +52,7 @@ void check_sequence_switch(const Problem& problem, Findings& findings) {
 /// have asks for nothing.
 void check_sequence_rule(const Problem& problem, Findings& findings) {
   for (const ContactRule& rule : problem.scene.rules)
-    for (int k = 0; k <= problem.phase_count(); ++k) {
+    for (int k = 0; k <= problem.last_knot; ++k) {
       bool addressed = false;
       const bool touching = any_in_contact(problem, k, rule.when_free, &addressed);
       const int lacking = addressed && !touching ? missing(problem, k, rule.require) : 0;

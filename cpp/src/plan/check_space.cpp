@@ -47,7 +47,7 @@ void check_partners(const Problem& problem, const Sample& sample, int l, const E
     const int m = problem.robot.end_effector_index(name);
     if (m < 0 || m == l || !polytope.given() || problem.surface(sample.phase, m) < 0) continue;
     const Vector3d between = sample.at.end_effectors[m].position_W - sample.at.end_effectors[l].position_W;
-    findings.offer(Constraint::reach, beyond_polytope(polytope, level.transpose() * between),
+    findings.offer(StateLimit::reach, beyond_polytope(polytope, level.transpose() * between),
                    {sample.phase, l, sample.time_s});
   }
 }
@@ -80,15 +80,15 @@ void check_reach(const Problem& problem, const Sample& sample, Findings& finding
       const Eigen::Matrix3d level = level_frame(sample.yaw);
       check_partners(problem, sample, l, level, findings);
       if (limits.com_reach.given()) {
-        findings.offer(Constraint::reach, beyond_polytope(limits.com_reach, level.transpose() * -offset), place);
+        findings.offer(StateLimit::reach, beyond_polytope(limits.com_reach, level.transpose() * -offset), place);
         continue;
       }
     }
     const Eigen::AlignedBox3d& box = sample.view->reach_boxes[l];
     const Vector3d relative = sample.r_WB.transpose() * offset;
-    const double kept = findings.kept(Constraint::reach);
+    const double kept = findings.kept(StateLimit::reach, place);
     if (((box.min() - relative).array() <= kept).all() && ((relative - box.max()).array() <= kept).all()) continue;
-    findings.offer(Constraint::reach, largest((box.min() - relative).cwiseMax(relative - box.max())), place);
+    findings.offer(StateLimit::reach, largest((box.min() - relative).cwiseMax(relative - box.max())), place);
   }
 }
 
@@ -98,11 +98,11 @@ void check_reach_at_knots(const Problem& problem, Findings& findings) {
   for (int l = 0; l < problem.end_effector_count(); ++l)
     for (const FreeStretch& stretch : problem.stretches[l]) {
       const Eigen::AlignedBox3d box = reach_box(problem, &stretch, l);
-      for (int k = stretch.first_phase; k <= stretch.end_phase; ++k) {
+      for (int k = stretch.first_phase; k <= std::min(stretch.end_phase, problem.last_knot); ++k) {
         if (problem.surface(k, l) >= 0) continue;
         const Knot& knot = problem.plan.knots[k];
         const Vector3d relative = rotation_from_rpy(knot.base_rpy).transpose() * (knot.end_effectors_W[l] - knot.com_W);
-        findings.offer(Constraint::reach, largest((box.min() - relative).cwiseMax(relative - box.max())),
+        findings.offer(StateLimit::reach, largest((box.min() - relative).cwiseMax(relative - box.max())),
                        problem.at_knot(k, l));
       }
     }
@@ -113,9 +113,10 @@ void check_com_speed(const Problem& problem, const Sample& sample, Findings& fin
   const double max = problem.robot.max_com_speed;
   if (!std::isfinite(max)) return;
   const Vector3d& velocity = sample.replay.com_velocity_W;
-  const double kept = findings.kept(Constraint::com_speed) + max;
+  const Place place{sample.phase, -1, sample.time_s};
+  const double kept = findings.kept(StateLimit::com_speed, place) + max;
   if (kept > 0.0 && velocity.squaredNorm() < kept * kept * kBelow) return;
-  findings.offer(Constraint::com_speed, velocity.norm() - max, {sample.phase, -1, sample.time_s});
+  findings.offer(StateLimit::com_speed, velocity.norm() - max, place);
 }
 
 /// yaw_range: min <= yaw of the sole - yaw of the base <= max while in contact, modulo a turn.
@@ -124,8 +125,8 @@ void check_yaw_range(const Problem& problem, const Sample& sample, Findings& fin
     const Eigen::Vector2d& range = problem.robot.end_effectors[l].yaw_range;
     if (problem.surface(sample.phase, l) < 0 || !range.allFinite()) continue;
     const double turned = modulo_turn(sole_yaw(problem, sample, l) - sample.yaw);
-    findings.offer(Constraint::reach, std::max(range[0] - turned, turned - range[1]), {sample.phase, l, sample.time_s},
-                   problem.tolerances.yaw, "rad");
+    findings.offer(StateLimit::yaw_range, std::max(range[0] - turned, turned - range[1]),
+                   {sample.phase, l, sample.time_s}, problem.tolerances.yaw, "rad");
   }
 }
 
@@ -154,7 +155,7 @@ void Surroundings::check_clearance(const Problem& problem, const Sample& sample,
     const double depth = clearance_depth(around(problem, l, end.position_W), problem.robot.end_effectors[l], *stretch,
                                          (sample.time_s - stretch->start_s) / stretch->duration_s, end.position_W,
                                          sole_yaw(problem, sample, l));
-    findings.offer(Constraint::clearance, depth, {sample.phase, l, sample.time_s});
+    findings.offer(StateLimit::clearance, depth, {sample.phase, l, sample.time_s});
   }
 }
 

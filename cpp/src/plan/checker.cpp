@@ -2,14 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
 
 #include "check_laws.hpp"
 #include "mcplan/base/error.hpp"
 #include "model/read.hpp"
 #include "plan_shape.hpp"
+#include "report_text.hpp"
+#include "start_slack.hpp"
 #include "tolerances_fields.hpp"
 
 namespace mcplan {
+
+void checks::Problem::set_end() {
+  const int n = phase_count();
+  end_phase = std::isinf(until_s) ? n : 1;
+  while (end_phase < n && knot_times[end_phase] < until_s) ++end_phase;
+  last_knot = knot_times[end_phase] <= until_s ? end_phase : end_phase - 1;
+}
+
 namespace {
 
 using namespace checks;
@@ -42,6 +55,7 @@ void require_points(const Phase& phase, const std::string& field) {
 void require_shape(const Plan& plan, const Scene& scene, const Robot& robot) {
   const std::size_t n = plan.phases.size(), end_effectors = robot.end_effectors.size();
   if (n == 0) throw InvalidPlan("phases", "needs at least one phase", "none");
+  if (std::isfinite(plan.start_slack_s)) require_start_slack(plan);
   require_size("knots", plan.knots.size(), n + 1);
   require_size("robot.end_effectors", plan.robot.end_effectors.size(), end_effectors);
   require_size("final_contacts", plan.final_contacts.size(), end_effectors);
@@ -65,10 +79,14 @@ void require_shape(const Plan& plan, const Scene& scene, const Robot& robot) {
       throw InvalidPlan("swings", "must name an end-effector and a range of phases", text(swing.end_effector));
 }
 
-void require_samples(const Plan& plan, const Tolerances& tolerances) {
+void require_until(double until_s) {
+  if (!(until_s > 0.0)) throw InvalidOptions("until_s", "must be a positive number", text(until_s));
+}
+
+void require_samples(double duration, const Tolerances& tolerances) {
   model::require_ranges<InvalidOptions>(tolerances, "tolerances");
   constexpr double kMax = 2e6;
-  const double samples = plan.duration() / tolerances.sample_s;
+  const double samples = duration / tolerances.sample_s;
   if (samples > kMax)
     throw InvalidOptions("tolerances.sample_s", "must cut the plan into at most 2e6 samples",
                          text(samples) + " samples");
@@ -99,12 +117,20 @@ void check_sample(const Problem& problem, const Sample& sample, Memory& memory, 
   memory.limbs.look(problem, sample, findings);
 }
 
-/// Each phase is integrated from its own knot, in equal steps no longer than sample_s, and looked at after each.
-/// Returns false where it was asked to stop.
-bool check_motion(const Problem& problem, const StopRequest& stop, Memory& memory, Findings& findings) {
+/// Whether the motion was looked at as far as it was to be, or up to when.
+struct Looked {
+  bool complete = true;
+  double until_s = 0.0;
+};
+
+/// Each phase is integrated from its own knot, in equal steps no longer than sample_s, and looked at after each, as
+/// long as these do not come after until_s or it is asked to stop.
+Looked check_motion(const Problem& problem, const StopRequest& stop, Memory& memory, Findings& findings) {
   Sample sample;
   int samples = 0;
-  for (int k = 0; k < problem.phase_count(); ++k) {
+  double looked_s = 0.0;
+  for (int k = 0; k < problem.end_phase; ++k) {
+    const double last_s = k < problem.last_knot ? std::numeric_limits<double>::infinity() : problem.until_s;
     const double duration = problem.plan.phases[k].duration;
     const int steps = sample_count(problem, k);
     const PhaseView view = phase_view(problem, k);
@@ -115,9 +141,11 @@ bool check_motion(const Problem& problem, const StopRequest& stop, Memory& memor
       sample.replay = law.start(problem, k);
       for (int i = 0; i <= steps; ++i) {
         if (stop && samples++ % kSamplesPerPoll == 0 && stop()) return false;
+        const double since_start_s = duration * i / steps, time_s = problem.knot_times[k] + since_start_s;
+        if (time_s > last_s) return true;
         if (i > 0 && has_numbers(sample.replay)) integration.advance(sample);
-        sample.since_start_s = duration * i / steps;
-        sample.time_s = problem.knot_times[k] + sample.since_start_s;
+        sample.since_start_s = since_start_s;
+        sample.time_s = looked_s = time_s;
         set_orientation(sample);
         set_state(problem.plan, view.frame, sample.since_start_s, sample.at, sample.r_at_WB);
         contact_forces(problem, sample);
@@ -126,11 +154,25 @@ bool check_motion(const Problem& problem, const StopRequest& stop, Memory& memor
       }
       return true;
     });
-    if (!on) return false;
-    check_dynamics(problem, sample, findings);
+    if (!on) return {false, looked_s};
+    if (k < problem.last_knot) check_dynamics(problem, sample, findings);
   }
-  check_final_contact_place(problem, sample, findings);
-  return true;
+  if (problem.last_knot == problem.end_phase) check_contact_place_at_end(problem, sample, findings);
+  return {true, std::min(problem.knot_times.back(), problem.until_s)};
+}
+
+/// What does not depend on the instant.
+void check_sequence_and_knots(const Problem& problem, Findings& findings) {
+  check_contact_permission(problem, findings);
+  check_free_force(problem, findings);
+  check_stiffness_sign(problem, findings);
+  for (int k = 0; k < problem.end_phase; ++k)
+    with_law(problem, k, [&](auto law) { law.check_numbers(problem, k, findings); });
+  check_sequence_switch(problem, findings);
+  check_sequence_rule(problem, findings);
+  check_reach_at_knots(problem, findings);
+  check_start(problem, findings);
+  check_goal(problem, findings);
 }
 
 }  // namespace
@@ -138,7 +180,8 @@ bool check_motion(const Problem& problem, const StopRequest& stop, Memory& memor
 void Tolerances::validate() const { model::require_ranges<InvalidOptions>(*this); }
 
 CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, const Tolerances& tolerances,
-                  const StopRequest& stop) {
+                  const StopRequest& stop, double until_s) {
+  require_until(until_s);
   scene.validate();
   robot.validate();
   require_shape(plan, scene, robot);
@@ -148,28 +191,29 @@ CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, cons
   Problem problem{plan, scene, robot, own, similarity, {}, {}, {}};
   Findings findings(own, similarity);
   if (!check_finite(problem, findings)) return {findings.violations(static_cast<int>(Constraint::finite) + 1, robot)};
+  problem.knot_times = plan.knot_times();
+  problem.until_s = until_s;
+  problem.set_end();
   if (!check_phase_duration(problem, findings))
     return {findings.violations(static_cast<int>(Constraint::phase_duration) + 1, robot)};
-  require_samples(plan, own);
+  require_samples(std::min(plan.duration(), until_s), own);
 
   problem.solids = solids_of(scene);
-  problem.knot_times = plan.knot_times();
   for (int l = 0; l < problem.end_effector_count(); ++l)
     problem.stretches.push_back(free_stretches(plan, problem.solids, l));
 
-  check_contact_permission(problem, findings);
-  check_free_force(problem, findings);
-  check_stiffness_sign(problem, findings);
-  for (int k = 0; k < problem.phase_count(); ++k)
-    with_law(problem, k, [&](auto law) { law.check_numbers(problem, k, findings); });
-  check_sequence_switch(problem, findings);
-  check_sequence_rule(problem, findings);
-  check_reach_at_knots(problem, findings);
-  check_start(problem, findings);
-  check_goal(problem, findings);
+  std::optional<StartSlack> slack;
+  if (plan.start_slack_s > 0.0) findings.set_slack(&slack.emplace(problem, findings));
+  check_sequence_and_knots(problem, findings);
   Memory memory;
-  const bool complete = check_motion(problem, stop, memory, findings);
-  return {findings.violations(kConstraints, robot), complete, memory.limbs.warnings(problem)};
+  const Looked looked = check_motion(problem, stop, memory, findings);
+  return {findings.violations(kConstraints, robot),
+          looked.complete,
+          memory.limbs.warnings(problem),
+          slack ? slack->violations(robot) : std::vector<Violation>(),
+          std::min(findings.kept_until_s(), looked.until_s),
+          looked.until_s,
+          plan.start_slack_s};
 }
 
 bool CheckResult::ok() const {
@@ -195,11 +239,28 @@ const Violation& CheckResult::worst() const {
   });
 }
 
+namespace {
+
+/// What becomes of an excess of the start: a sole stays where it stands; of the rest the checker has seen that it is
+/// made good in time if it accepts the plan and has looked that far.
+std::string made_good(const CheckResult& result, const Violation& excess) {
+  if (excess.name == name_of(Constraint::contact_distance) || excess.name == name_of(Constraint::contact_polygon))
+    return "as long as it stands";
+  std::ostringstream out;
+  out.precision(3);
+  const bool seen = result.ok() && result.checked_until_s >= result.start_slack_s;
+  out << (seen ? "made good within " : "to be made good within ") << result.start_slack_s << " s";
+  return out.str();
+}
+
+}  // namespace
+
 std::string CheckResult::to_string() const {
   std::string out;
   for (const Violation& v : violations()) out += (out.empty() ? "" : "\n") + v.to_string();
   if (!complete) out += (out.empty() ? "" : "\n") + std::string("stopped before the end: the rest is not checked");
   if (out.empty()) out = "ok";
+  for (const Violation& v : start) out += "\nat the start: " + excess_text(v) + " over (" + made_good(*this, v) + ")";
   for (const Violation& v : warnings) out += "\nwarning: " + v.to_string();
   return out;
 }

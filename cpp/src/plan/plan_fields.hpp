@@ -103,6 +103,10 @@ struct Fields<Plan> {
       field("planner", &Plan::planner, "", "Which planner made it, e.g. ddp.").always_written(),
       field("measured_start", &Plan::measured_start, "", "Starts from a measured state, not from the scene's start."),
       field("open_end", &Plan::open_end, "", "Ends on the way, not at the scene's goal."),
+      field("start_slack_s", &Plan::start_slack_s, "s",
+            "Time within which what the measured start violates by itself has to be made good; above zero with "
+            "measured_start alone.")
+          .not_negative(),
       field(
           "momentum_max", &Plan::momentum_max, "kg m^2/s",
           "Largest component of the angular momentum about the CoM that it claims to keep, in the axes of the start's "

@@ -109,4 +109,12 @@ int samples_of(const Phase& phase, double sample_s) {
   return std::max(1, static_cast<int>(samples));
 }
 
+void require_start_slack(const Plan& plan) {
+  const double slack_s = plan.start_slack_s;
+  if (!(std::isfinite(slack_s) && slack_s >= 0.0))
+    throw InvalidPlan("start_slack_s", "must lie in [0, inf) s", text(slack_s));
+  if (slack_s > 0.0 && !plan.measured_start)
+    throw InvalidPlan("start_slack_s", "must be 0 without measured_start", text(slack_s));
+}
+
 }  // namespace mcplan

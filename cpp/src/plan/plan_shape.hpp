@@ -29,4 +29,7 @@ void require_queryable(const Plan& plan, int k, double since_start);
 /// InvalidInput for a sampling that is not positive or cuts the phase into more than 1e7.
 int samples_of(const Phase& phase, double sample_s);
 
+/// Throws InvalidPlan unless start_slack_s is finite, not negative and, without a measured start, zero.
+void require_start_slack(const Plan& plan);
+
 }  // namespace mcplan

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "report_text.hpp"
+
 namespace mcplan {
 namespace {
 
@@ -46,24 +48,42 @@ void write_tolerance(std::ostringstream& out, double tolerance, Prefix prefix, c
   if (shared != 0.0 && prefix.factor != 1.0) out << " " << prefix.letters << unit;
 }
 
+void write_place(std::ostringstream& out, const Violation& v) {
+  out << v.name;
+  if (!v.end_effector.empty()) out << " at " << v.end_effector;
+  if (v.phase >= 0) out << " in phase " << v.phase << " (t = " << v.time_s << " s)";
+  if (!v.surface.empty()) out << " in the solid of '" << v.surface << "'";
+  out << ": ";
+}
+
+/// Returns the prefix of the unit.
+Prefix write_amount(std::ostringstream& out, const Violation& v) {
+  const double amount = std::abs(v.value);
+  const Prefix prefix = prefix_of(amount, v.unit);
+  out << amount / prefix.factor;
+  if (!v.unit.empty() && v.unit != "-") out << " " << prefix.letters << v.unit;
+  return prefix;
+}
+
 }  // namespace
+
+std::string excess_text(const Violation& violation) {
+  std::ostringstream out;
+  out.precision(3);
+  write_place(out, violation);
+  write_amount(out, violation);
+  return out.str();
+}
 
 std::string Violation::to_string() const {
   std::ostringstream out;
   out.precision(3);
-  out << name;
-  if (!end_effector.empty()) out << " at " << end_effector;
-  if (phase >= 0) out << " in phase " << phase << " (t = " << time_s << " s)";
-  if (!surface.empty()) out << " in the solid of '" << surface << "'";
-  out << ": ";
+  write_place(out, *this);
   if (value == 0.0) {
     out << "at the limit";
     return out.str();
   }
-  const double amount = std::abs(value);
-  const Prefix prefix = prefix_of(amount, unit);
-  out << amount / prefix.factor;
-  if (!unit.empty() && unit != "-") out << " " << prefix.letters << unit;
+  const Prefix prefix = write_amount(out, *this);
   if (value < 0.0) {
     out << " below the limit";
     return out.str();

@@ -83,6 +83,7 @@ Plan scaled_motion(const Plan& plan, const Similarity& by) {
     for (Contact& contact : phase.contacts) scale(contact, by);
   }
   for (Swing& swing : out.swings) swing.height *= by.length;
+  out.start_slack_s *= by.time;
   out.momentum_max *= by.angular_momentum();
   out.momentum_rate_max *= by.moment();
   return out;

@@ -4,6 +4,7 @@
 
 #include "mcplan/base/error.hpp"
 #include "mcplan/plan/plan.hpp"
+#include "plan_shape.hpp"
 
 namespace mcplan {
 namespace {
@@ -69,6 +70,7 @@ void Plan::validate() const {
   const int end_effectors = end_effector_count();
   const int surfaces = static_cast<int>(scene.surfaces.size());
   if (n == 0) throw InvalidPlan("phases", "needs at least one phase", "none");
+  require_start_slack(*this);
   if (static_cast<int>(knots.size()) != n + 1)
     throw InvalidPlan("knots", "must be one more than the phases (" + text(n + 1) + ")",
                       text(static_cast<int>(knots.size())));

@@ -59,7 +59,10 @@ bool swings(const PlanarPhase& phase, int end_effector) {
 void SolidDepths::look(const Sample& sample) {
   const PlanarTask& task = sample.plan.task;
   const std::size_t surfaces = task.surfaces.size();
-  if (worst_.empty()) worst_.resize(task.robot.end_effectors.size() * surfaces);
+  if (worst_.empty()) {
+    worst_.resize(task.robot.end_effectors.size() * surfaces);
+    beyond_since_s_.assign(worst_.size(), std::numeric_limits<double>::infinity());
+  }
   for (std::size_t e = 0; e < task.robot.end_effectors.size(); ++e) {
     if (!swings(task.phases[sample.phase], static_cast<int>(e))) continue;
     const Sole sole = sole_of(sample, task.robot.end_effectors[e]);
@@ -67,6 +70,8 @@ void SolidDepths::look(const Sample& sample) {
       SolidDepth& worst = worst_[e * surfaces + s];
       double value = depth(task.surfaces[s], sole);
       if (std::isnan(value)) value = std::numeric_limits<double>::max();
+      double& since_s = beyond_since_s_[e * surfaces + s];
+      if (value > tolerance_) since_s = std::min(since_s, sample.time_s);
       if (worst.phase >= 0 && value <= worst.depth_m) continue;
       worst = {static_cast<int>(e), static_cast<int>(s), value, sample.phase, sample.time_s, true};
     }
@@ -83,12 +88,21 @@ std::vector<SolidDepth> SolidDepths::all(const PlanarTask& task) const {
   return out;
 }
 
+double SolidDepths::beyond_since_s(const PlanarTask& task) const {
+  double out = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < worst_.size(); ++i)
+    if (worst_[i].phase >= 0 && task.keeps_clear(worst_[i].end_effector, worst_[i].surface))
+      out = std::min(out, beyond_since_s_[i]);
+  return out;
+}
+
 void check_solids(const PlanarTask& task, const SolidDepths& depths, Findings& findings) {
   for (const SolidDepth& depth : depths.all(task))
     if (depth.asked)
       findings.offer(Constraint::clearance, depth.depth_m,
                      {depth.phase, &task.robot.end_effectors[depth.end_effector].name,
                       &task.surfaces[depth.surface].name, depth.time_s});
+  findings.note_beyond(depths.beyond_since_s(task));
 }
 
 /// Heights of the points of swinging end-effectors at the begin of interval n / 2, wherever they are along the surface.

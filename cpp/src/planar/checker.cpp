@@ -31,23 +31,24 @@ std::array<PlanarConstraintInfo, kPlanarConstraints> planar_constraints(const Pl
 
 namespace planar {
 
-Findings::Findings(const PlanarTolerances& tolerances) : tolerances_(tolerances) {}
+Findings::Findings(const PlanarTolerances& tolerances) : table_(planar_constraints(tolerances)) {}
 
 void Findings::offer(Constraint constraint, double value, const Place& place) {
   Worst& worst = worst_[static_cast<int>(constraint)];
   if (!std::isfinite(value)) value = std::numeric_limits<double>::max();
+  if (value > table_[static_cast<int>(constraint)].tolerance) note_beyond(place.time_s);
   if (worst.measured && value <= worst.value) return;
   worst = {value, place, true};
 }
 
 std::vector<Violation> Findings::violations(int count) const {
-  const auto table = planar_constraints(tolerances_);
   std::vector<Violation> out;
   for (int i = 0; i < count; ++i) {
     const Place& place = worst_[i].place;
     std::string who = place.who ? *place.who : "";
     if (place.other) who += " and " + *place.other;
-    out.push_back({table[i].name, place.phase, who, place.time_s, worst_[i].value, table[i].tolerance, table[i].unit});
+    out.push_back(
+        {table_[i].name, place.phase, who, place.time_s, worst_[i].value, table_[i].tolerance, table_[i].unit});
   }
   return out;
 }
@@ -126,8 +127,10 @@ CheckResult check(const PlanarPlan& plan, const PlanarTolerances& tolerances, bo
   check_continuity(splines, plan.task.robot, findings);
   check_rest(splines, plan.task.robot, findings);
   check_poses(plan, findings);
-  SolidDepths depths;
+  SolidDepths depths(tolerances.clearance);
+  double checked_until_s = 0.0;
   const bool complete = for_each_sample(plan, splines, tolerances.sample_s, stop, [&](const Sample& sample) {
+    checked_until_s = sample.time_s;
     check_joints(sample, findings);
     check_drift(sample, findings);
     check_balance(sample, findings);
@@ -137,7 +140,13 @@ CheckResult check(const PlanarPlan& plan, const PlanarTolerances& tolerances, bo
     if (self_collision) check_collision(sample, findings);
   });
   check_solids(plan.task, depths, findings);
-  return {findings.violations(kPlanarConstraints), complete};
+  if (complete) checked_until_s = plan.duration();
+  return {findings.violations(kPlanarConstraints),
+          complete,
+          {},
+          {},
+          std::min(findings.kept_until_s(), checked_until_s),
+          checked_until_s};
 }
 
 std::vector<SolidDepth> solid_depths(const PlanarPlan& plan, double sample_s) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,12 @@ class Findings {
   /// Keep this measurement if it is the worst of its constraint. Not a number counts as the largest number.
   void offer(Constraint constraint, double value, const Place& place);
 
+  /// Time of the earliest measurement beyond its tolerance; infinite: there is none.
+  double kept_until_s() const { return kept_until_s_; }
+
+  /// Something is beyond its tolerance from that time on, of which the worst alone is offered.
+  void note_beyond(double time_s) { kept_until_s_ = std::min(kept_until_s_, time_s); }
+
   /// The first `count` constraints, in the order of the enumeration.
   std::vector<Violation> violations(int count) const;
 
@@ -38,7 +46,8 @@ class Findings {
     bool measured = false;
   };
   std::array<Worst, kPlanarConstraints> worst_;
-  PlanarTolerances tolerances_;
+  std::array<PlanarConstraintInfo, kPlanarConstraints> table_;
+  double kept_until_s_ = std::numeric_limits<double>::infinity();
 };
 
 /// An instant of a plan, evaluated.
@@ -68,11 +77,19 @@ void check_collision(const Sample& sample, Findings& findings);
 /// How deep every swinging end-effector goes into the solid of every surface, over the instants that it looked at.
 class SolidDepths {
  public:
+  /// `tolerance` [m]: beyond which it remembers since when.
+  explicit SolidDepths(double tolerance = std::numeric_limits<double>::infinity()) : tolerance_(tolerance) {}
+
   void look(const Sample& sample);
   std::vector<SolidDepth> all(const PlanarTask& task) const;
 
+  /// When a pair that the task keeps clear of each other was first beyond the tolerance [s]; infinite: never.
+  double beyond_since_s(const PlanarTask& task) const;
+
  private:
+  double tolerance_;
   std::vector<SolidDepth> worst_;
+  std::vector<double> beyond_since_s_;  ///< like worst_
 };
 void check_solids(const PlanarTask& task, const SolidDepths& depths, Findings& findings);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -88,23 +89,44 @@ struct Tolerances {
 ///     that
 ///                        this end-effector does not touch; the worst place of each surface, where it is more than the
 ///                        tolerance of clearance
+///
+/// With Plan::start_slack_s T > 0 what the measured start violates by itself is forgiven for a while. v_0 is what
+/// the state at t = 0 is beyond the limit, of reach (its parts together, but yaw_range apart), com_speed, clearance,
+/// limb, trunk, contact_distance and contact_polygon, each of each end-effector; 0 within the limit. At time t their
+/// value is what is beyond the limit, less
+///
+///     v_0 max(0, 1 - t / T);
+///
+/// of contact_distance and contact_polygon less v_0 as long as a contact of the start stands, since a sole does not
+/// move. All other constraints are as they are.
 struct CheckResult {
   std::vector<Violation> constraints;
   bool complete = true;  ///< false: stopped by the caller; what was looked at by then is listed, and ok() is false
   std::vector<Violation> warnings = {};  ///< longest first
+  std::vector<Violation> start = {};     ///< v_0 above the tolerance, worst first: ok() does not ask for it
+
+  /// Time [s] of the earliest violation of any constraint, up to when the plan may be followed; checked_until_s where
+  /// there is none, 0 where the plan could not be evaluated.
+  double kept_until_s = 0.0;
+  double checked_until_s = 0.0;  ///< how far the plan was looked at [s]: what ok() says is about that
+  double start_slack_s = 0.0;    ///< the plan's
 
   bool ok() const;
   std::vector<Violation> violations() const;  ///< those beyond their tolerance, worst first
   const Violation& worst() const;             ///< largest value / tolerance, violated or not
-  std::string to_string() const;              ///< one line a violation, or "ok"; then one line a warning
+  std::string to_string() const;  ///< a line a violation, or "ok"; then a line for each entry of start and warnings
 };
 
 /// Check a plan against a scene and a robot, from its positions, forces and polygons alone.
 /// Throws InvalidPlan when the plan's arrays do not fit together or do not fit the scene and the robot, InvalidScene
 /// and InvalidRobot when these are malformed, InvalidOptions when a tolerance is no number, sample_s is not positive or
-/// the plan too long for it. `stop` is polled every few hundred instants, about once a millisecond; null: never. It
-/// serves deadlines, too.
+/// the plan too long for it, or until_s is not positive. `stop` is polled every few hundred instants, about once a
+/// millisecond; null: never. It serves deadlines, too.
+///
+/// With `until_s` [s], above zero, before the plan's end only what comes no later is looked at: phases that begin
+/// before it, instants and knots up to it, the contacts after a knot at that very time. `goal` is not, and `finite` is
+/// of the whole plan all the same.
 CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, const Tolerances& tolerances = {},
-                  const StopRequest& stop = {});
+                  const StopRequest& stop = {}, double until_s = std::numeric_limits<double>::infinity());
 
 }  // namespace mcplan

@@ -120,6 +120,10 @@ class Plan {
   bool measured_start = false;  ///< starts from a measured state, not from the scene's start
   bool open_end = false;        ///< ends on the way, not at the scene's goal: a piece of a receding horizon
 
+  /// Time [s] within which what the measured start violates by itself has to be made good; above zero with
+  /// measured_start alone. Which limits that is about, and how the checker forgives them: checker.hpp.
+  double start_slack_s = 0.0;
+
   /// Largest component of the angular momentum about the CoM [kg m^2/s], in the axes of the start's heading, and of its
   /// rate [N m], that the plan claims to keep at all times; infinite: it claims nothing.
   double momentum_max = std::numeric_limits<double>::infinity();

@@ -1,0 +1,89 @@
+#include "start_slack.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "check_laws.hpp"
+
+namespace mcplan::checks {
+namespace {
+
+bool is_of_contact(StateLimit limit) {
+  return limit == StateLimit::contact_distance || limit == StateLimit::contact_polygon;
+}
+
+/// Phases from the start in which an end-effector is on the surface on which it is at the start.
+int held_phases(const Problem& problem, int l) {
+  const int surface = problem.surface(0, l);
+  int k = 0;
+  while (surface >= 0 && k < problem.phase_count() && problem.surface(k, l) == surface) ++k;
+  return k;
+}
+
+std::size_t index_of(const Place& place, std::size_t end_effectors) {
+  return place.end_effector < 0 ? end_effectors : static_cast<std::size_t>(place.end_effector);
+}
+
+}  // namespace
+
+StartSlack::StartSlack(const Problem& problem, const Findings& empty) : start_slack_s_(problem.plan.start_slack_s) {
+  for (int l = 0; l < problem.end_effector_count(); ++l) held_phases_.push_back(held_phases(problem, l));
+  for (std::vector<Excess>& of_limit : excess_) of_limit.resize(problem.end_effector_count() + 1);
+  measure(problem, empty);
+  measured_ = true;
+}
+
+/// The checks of limits of the state, at t = 0, into findings that nobody asks for.
+void StartSlack::measure(const Problem& problem, Findings findings) {
+  findings.set_slack(this);
+  const PhaseView view = phase_view(problem, 0);
+  Sample start;
+  start.view = &view;
+  start.replay = with_law(problem, 0, [&](auto law) { return law.start(problem, 0); });
+  set_orientation(start);
+  set_state(problem.plan, view.frame, 0.0, start.at, start.r_at_WB);
+  contact_forces(problem, start);
+  start.still.assign(problem.end_effector_count(), 0);
+  check_contact_place(problem, start, findings);
+  Joints().check(problem, start, findings);
+  check_reach(problem, start, findings);
+  check_yaw_range(problem, start, findings);
+  check_com_speed(problem, start, findings);
+  Surroundings().check_clearance(problem, start, findings);
+  Limbs().look(problem, start, findings);
+}
+
+double StartSlack::beyond(StateLimit limit, double value, const Place& place, double tolerance, const char* unit) {
+  if (measured_) return value - left(limit, place);
+  std::vector<Excess>& of_limit = excess_[static_cast<int>(limit)];
+  Excess& excess = of_limit[index_of(place, of_limit.size() - 1)];
+  if (std::isfinite(value) && value > excess.value) excess = {value, tolerance, unit};
+  return value;
+}
+
+double StartSlack::left(StateLimit limit, const Place& place) const {
+  const std::vector<Excess>& of_limit = excess_[static_cast<int>(limit)];
+  const double excess = of_limit[index_of(place, of_limit.size() - 1)].value;
+  if (!(excess > 0.0)) return 0.0;
+  if (is_of_contact(limit)) return place.phase < held_phases_[place.end_effector] ? excess : 0.0;
+  return excess * std::max(0.0, 1.0 - place.time_s / start_slack_s_);
+}
+
+std::vector<Violation> StartSlack::violations(const Robot& robot) const {
+  std::vector<Violation> out;
+  for (int i = 0; i < kStateLimits; ++i)
+    for (std::size_t l = 0; l < excess_[i].size(); ++l) {
+      const Excess& excess = excess_[i][l];
+      // A negative tolerance asks for as much to spare, which is no excess: nothing is forgiven of it.
+      if (!(excess.value > std::max(excess.tolerance, 0.0))) continue;
+      out.push_back({name_of(constraint_of(static_cast<StateLimit>(i))), 0,
+                     l < robot.end_effectors.size() ? robot.end_effectors[l].name : "", 0.0, excess.value,
+                     excess.tolerance, excess.unit});
+    }
+  std::stable_sort(out.begin(), out.end(), [](const Violation& a, const Violation& b) {
+    return severity(a.value, a.tolerance) > severity(b.value, b.tolerance);
+  });
+  return out;
+}
+
+}  // namespace mcplan::checks
