@@ -146,12 +146,6 @@ class Problem {
   Trajectory initial_guess(const ContactSequence& sequence, const Tuning& tuning) const;
   Trajectory initial_guess(const ContactSequence& sequence) const { return initial_guess(sequence, tuning()); }
 
-  /// Velocity of end-effector l at the start, non-dimensional; zero where it was not measured.
-  Eigen::Vector3d start_end_velocity(int l) const {
-    if (start_end_velocities_W.empty()) return Eigen::Vector3d::Zero();
-    return start_end_velocities_W[active[l]] / units.velocity();
-  }
-
   /// A sequence given by all end-effectors of the robot, for the active ones. Throws InvalidOptions when it does not
   /// fit: steps + 1 rows, valid, from the start's contacts to the goal's.
   ContactSequence to_active(const ContactSequence& sequence) const;

@@ -58,13 +58,24 @@ struct Place {
 };
 
 /// Limits that follow from the state at an instant alone, which a measured start may violate by itself.
-enum class StateLimit { reach, yaw_range, com_speed, clearance, limb, trunk, contact_distance, contact_polygon };
+enum class StateLimit {
+  reach,
+  yaw_range,
+  com_speed,
+  joint_speed,
+  clearance,
+  limb,
+  trunk,
+  contact_distance,
+  contact_polygon
+};
 constexpr int kStateLimits = static_cast<int>(StateLimit::contact_polygon) + 1;
 
 constexpr Constraint constraint_of(StateLimit limit) {
   constexpr Constraint all[kStateLimits] = {
-      Constraint::reach, Constraint::reach, Constraint::com_speed,        Constraint::clearance,
-      Constraint::limb,  Constraint::trunk, Constraint::contact_distance, Constraint::contact_polygon};
+      Constraint::reach,          Constraint::reach, Constraint::com_speed, Constraint::joint_speed,
+      Constraint::clearance,      Constraint::limb,  Constraint::trunk,     Constraint::contact_distance,
+      Constraint::contact_polygon};
   return all[static_cast<int>(limit)];
 }
 

@@ -83,7 +83,7 @@ void Joints::check(const Problem& problem, const Sample& sample, Findings& findi
     if (last.phase == sample.phase && since > 0.0 && std::isfinite(limb.knee_speed)) {
       const double middle = 0.5 * (length + last.length) + limb.margin;
       const double lever = std::max(limb.lower * std::sin(angle_at_ankle(limb, middle)), min_lever);
-      findings.offer(Constraint::joint_speed, std::abs(length - last.length) / since / lever / limb.knee_speed - 1.0,
+      findings.offer(StateLimit::joint_speed, std::abs(length - last.length) / since / lever / limb.knee_speed - 1.0,
                      place);
     }
     last = {sample.phase, sample.since_start_s, length};

@@ -1,8 +1,10 @@
 #include "start_slack.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "base/base_rotation.hpp"
 #include "check_laws.hpp"
 
 namespace mcplan::checks {
@@ -33,7 +35,28 @@ StartSlack::StartSlack(const Problem& problem, const Findings& empty) : start_sl
   measured_ = true;
 }
 
-/// The checks of limits of the state, at t = 0, into findings that nobody asks for.
+namespace {
+
+/// The state after it has moved on straight for a while.
+Sample moved_on(const Problem& problem, const Sample& start, double by_s) {
+  Sample out = start;
+  out.since_start_s = out.time_s = by_s;
+  out.replay.com_W += by_s * out.replay.com_velocity_W;
+  const Eigen::Vector3d turn = by_s * RpyTrig(start.at.base_rpy).angular_velocity_W(start.at.base_rpy_rate);
+  if (const double angle = turn.norm(); angle > 0.0)
+    out.r_WB = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() * start.r_WB;
+  out.yaw = std::atan2(out.r_WB(1, 0), out.r_WB(0, 0));
+  for (int l = 0; l < problem.end_effector_count(); ++l) {
+    if (problem.surface(0, l) >= 0) continue;
+    Eigen::Vector3d& place = out.at.end_effectors[l].position_W;
+    place = out.replay.com_W + out.r_WB * (start.r_WB.transpose() * (place - start.replay.com_W));
+  }
+  return out;
+}
+
+}  // namespace
+
+/// The checks of limits of the state into findings that nobody asks for.
 void StartSlack::measure(const Problem& problem, Findings findings) {
   findings.set_slack(this);
   const PhaseView view = phase_view(problem, 0);
@@ -45,28 +68,45 @@ void StartSlack::measure(const Problem& problem, Findings findings) {
   contact_forces(problem, start);
   start.still.assign(problem.end_effector_count(), 0);
   check_contact_place(problem, start, findings);
-  Joints().check(problem, start, findings);
-  check_reach(problem, start, findings);
-  check_yaw_range(problem, start, findings);
   check_com_speed(problem, start, findings);
   Surroundings().check_clearance(problem, start, findings);
   Limbs().look(problem, start, findings);
+  // The speed of a knee is what two instants tell.
+  Joints speeds;
+  speeds.check(problem, start, findings);
+  speeds.check(problem, moved_on(problem, start, problem.tolerances.sample_s), findings);
+  for (auto& of_limit : excess_)
+    for (Excess& excess : of_limit) excess.value.fill(excess.value.front());
+  for (now_ = 0; now_ < kTimes; ++now_) {
+    for (Excess& excess : excess_[static_cast<int>(StateLimit::reach)]) excess.value[now_] = 0.0;
+    const Sample then = moved_on(problem, start, start_slack_s_ * now_ / (kTimes - 1));
+    Joints().check(problem, then, findings);
+    check_reach(problem, then, findings);
+    check_yaw_range(problem, then, findings);
+  }
 }
 
 double StartSlack::beyond(StateLimit limit, double value, const Place& place, double tolerance, const char* unit) {
   if (measured_) return value - left(limit, place);
   std::vector<Excess>& of_limit = excess_[static_cast<int>(limit)];
   Excess& excess = of_limit[index_of(place, of_limit.size() - 1)];
-  if (std::isfinite(value) && value > excess.value) excess = {value, tolerance, unit};
+  if (std::isfinite(value) && value > excess.value[now_]) {
+    excess.value[now_] = value;
+    excess.tolerance = tolerance;
+    excess.unit = unit;
+  }
   return value;
 }
 
 double StartSlack::left(StateLimit limit, const Place& place) const {
   const std::vector<Excess>& of_limit = excess_[static_cast<int>(limit)];
-  const double excess = of_limit[index_of(place, of_limit.size() - 1)].value;
-  if (!(excess > 0.0)) return 0.0;
-  if (is_of_contact(limit)) return place.phase < held_phases_[place.end_effector] ? excess : 0.0;
-  return excess * std::max(0.0, 1.0 - place.time_s / start_slack_s_);
+  const std::array<double, kTimes>& value = of_limit[index_of(place, of_limit.size() - 1)].value;
+  if (is_of_contact(limit)) return place.phase < held_phases_[place.end_effector] ? value.front() : 0.0;
+  const double gone = place.time_s / start_slack_s_;
+  if (!(gone < 1.0)) return 0.0;
+  const double at = gone * (kTimes - 1);
+  const int before = std::min(static_cast<int>(at), kTimes - 2);
+  return (value[before] + (at - before) * (value[before + 1] - value[before])) * (1.0 - gone);
 }
 
 std::vector<Violation> StartSlack::violations(const Robot& robot) const {
@@ -75,10 +115,11 @@ std::vector<Violation> StartSlack::violations(const Robot& robot) const {
     for (std::size_t l = 0; l < excess_[i].size(); ++l) {
       const Excess& excess = excess_[i][l];
       // A negative tolerance asks for as much to spare, which is no excess: nothing is forgiven of it.
-      if (!(excess.value > std::max(excess.tolerance, 0.0))) continue;
+      const double value = excess.value.front();
+      if (!(value > std::max(excess.tolerance, 0.0))) continue;
       out.push_back({name_of(constraint_of(static_cast<StateLimit>(i))), 0,
-                     l < robot.end_effectors.size() ? robot.end_effectors[l].name : "", 0.0, excess.value,
-                     excess.tolerance, excess.unit});
+                     l < robot.end_effectors.size() ? robot.end_effectors[l].name : "", 0.0, value, excess.tolerance,
+                     excess.unit});
     }
   std::stable_sort(out.begin(), out.end(), [](const Violation& a, const Violation& b) {
     return severity(a.value, a.tolerance) > severity(b.value, b.tolerance);

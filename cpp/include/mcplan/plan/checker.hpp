@@ -90,20 +90,21 @@ struct Tolerances {
 ///                        this end-effector does not touch; the worst place of each surface, where it is more than the
 ///                        tolerance of clearance
 ///
-/// With Plan::start_slack_s T > 0 what the measured start violates by itself is forgiven for a while. v_0 is what
-/// the state at t = 0 is beyond the limit, of reach (its parts together, but yaw_range apart), com_speed, clearance,
-/// limb, trunk, contact_distance and contact_polygon, each of each end-effector; 0 within the limit. At time t their
-/// value is what is beyond the limit, less
+/// With Plan::start_slack_s T > 0 what the measured start violates by itself is forgiven for a while. v(t) is what the
+/// state would be beyond a limit at time t if nothing intervened: CoM and base move on straight, at their velocities,
+/// what stands stands, and what is free moves with the base. Of reach (its parts together, but yaw_range apart),
+/// com_speed, joint_speed, clearance, limb, trunk, contact_distance and contact_polygon, each of each end-effector, the
+/// value at time t is what is beyond the limit, less
 ///
-///     v_0 max(0, 1 - t / T);
+///     v(t) max(0, 1 - t / T);
 ///
-/// of contact_distance and contact_polygon less v_0 as long as a contact of the start stands, since a sole does not
-/// move. All other constraints are as they are.
+/// v is v(0) of all but reach, and of contact_distance and contact_polygon it is forgiven as long as a contact of the
+/// start stands, since a sole does not move. All other constraints are as they are.
 struct CheckResult {
   std::vector<Violation> constraints;
   bool complete = true;  ///< false: stopped by the caller; what was looked at by then is listed, and ok() is false
   std::vector<Violation> warnings = {};  ///< longest first
-  std::vector<Violation> start = {};     ///< v_0 above the tolerance, worst first: ok() does not ask for it
+  std::vector<Violation> start = {};     ///< v(0) above the tolerance, worst first: ok() does not ask for it
 
   /// Time [s] of the earliest violation of any constraint, up to when the plan may be followed; checked_until_s where
   /// there is none, 0 where the plan could not be evaluated.

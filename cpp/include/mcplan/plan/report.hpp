@@ -63,7 +63,7 @@ struct Report {
       friction_use;  ///< largest tangential over normal force by end-effector, grasps included
   std::uint64_t seed = 0;
   int threads = 1;
-  int parallel_loops = 0;     ///< loops over neighbours that were shared out over threads
+  int parallel_loops = 0;                   ///< loops over neighbours that were shared out over threads
   PlanFrom plan_from = PlanFrom::search;    ///< of a replan: where its plan comes from
   double kept_until_s = 0.0;                ///< of a replan: time until which its plan keeps all limits
   std::vector<Violation> start_violations;  ///< of a replan: what the measured state violates by itself, worst first

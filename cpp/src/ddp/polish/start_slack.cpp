@@ -24,10 +24,11 @@ StartSlack::StartSlack(const FixedSequence& fixed, const Motion& motion) {
   for (int l = 0; l < at.end_effector_count(); ++l) {
     const EndLimits& limit = problem.limits[l];
     const Vector3d offset = x.segment<3>(at.end(l)) - com;
-    const Vector3d moving =
-        fixed.contacts().front()[l] == kFree ? problem.start_end_velocity(l) : Vector3d(0.0, 0.0, 0.0);
     const Vector3d place = rotation.transpose() * offset;
-    const Vector3d rate = rotation.transpose() * (moving - velocity - spin.cross(offset));
+    // What is free is moved by the robot, not by its inertia.
+    const bool stands = fixed.contacts().front()[l] != kFree;
+    const Vector3d rate =
+        stands ? Vector3d(rotation.transpose() * (-velocity - spin.cross(offset))) : Vector3d(0.0, 0.0, 0.0);
     auto& rows = reach_.emplace_back();
     for (int i = 0; i < 3; ++i) {
       rows[2 * i] = {place[i] - limit.reach_max[i], std::max(rate[i], 0.0)};
