@@ -71,16 +71,15 @@ void StartSlack::measure(const Problem& problem, Findings findings) {
   check_com_speed(problem, start, findings);
   Surroundings().check_clearance(problem, start, findings);
   Limbs().look(problem, start, findings);
-  // The speed of a knee is what two instants tell.
-  Joints speeds;
-  speeds.check(problem, start, findings);
-  speeds.check(problem, moved_on(problem, start, problem.tolerances.sample_s), findings);
   for (auto& of_limit : excess_)
     for (Excess& excess : of_limit) excess.value.fill(excess.value.front());
   for (now_ = 0; now_ < kTimes; ++now_) {
-    for (Excess& excess : excess_[static_cast<int>(StateLimit::reach)]) excess.value[now_] = 0.0;
-    const Sample then = moved_on(problem, start, start_slack_s_ * now_ / (kTimes - 1));
-    Joints().check(problem, then, findings);
+    const double t = start_slack_s_ * now_ / (kTimes - 1);
+    const Sample then = moved_on(problem, start, t);
+    // The speed of a knee is what two instants tell.
+    Joints joints;
+    joints.check(problem, then, findings);
+    joints.check(problem, moved_on(problem, start, t + problem.tolerances.sample_s), findings);
     check_reach(problem, then, findings);
     check_yaw_range(problem, then, findings);
   }

@@ -38,7 +38,7 @@ struct ReplanOptions {
   double committed_s = 0.1;
 
   /// Time within which what the measured state itself violates has to be made good (Plan::start_slack_s); likewise.
-  double start_slack_s = 0.4;
+  double start_slack_s = 0.6;
 
   int phases_min = 6;  ///< the horizon never gets shorter than this: at its end the robot stands
 

@@ -98,7 +98,7 @@ struct Tolerances {
 ///
 ///     v(t) max(0, 1 - t / T);
 ///
-/// v is v(0) of all but reach, and of contact_distance and contact_polygon it is forgiven as long as a contact of the
+/// v is v(0) of all but reach and joint_speed, and of contact_distance and contact_polygon it is forgiven as long as a contact of the
 /// start stands, since a sole does not move. All other constraints are as they are.
 struct CheckResult {
   std::vector<Violation> constraints;

@@ -31,7 +31,7 @@ Problem pose(const Now& now, const Rest& rest) {
     contacts.push_back(surface == kFree ? kFree : problem.scene.surface_index(now.scene->surfaces[surface].name));
   }
   problem.set_start(now.measured.state, contacts);
-  problem.start_slack = now.options->start_slack_s * now.similarity.time / problem.units.time;
+  problem.start_slack = kSlackRatio * now.options->start_slack_s * now.similarity.time / problem.units.time;
   problem.first_duration = rest.plan.phases.front().duration / problem.units.time;
   return problem;
 }
