@@ -83,6 +83,10 @@ void StartSlack::measure(const Problem& problem, Findings findings) {
     check_reach(problem, then, findings);
     check_yaw_range(problem, then, findings);
   }
+  // What moves back inside by itself need not: forces may be wanted elsewhere.
+  for (auto& of_limit : excess_)
+    for (Excess& excess : of_limit)
+      for (int i = 1; i < kTimes; ++i) excess.value[i] = std::max(excess.value[i], excess.value[i - 1]);
 }
 
 double StartSlack::beyond(StateLimit limit, double value, const Place& place, double tolerance, const char* unit) {

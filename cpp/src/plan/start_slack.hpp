@@ -11,10 +11,10 @@ namespace mcplan::checks {
 ///
 ///     beyond(t) = value(t) - v(t) max(0, 1 - t / start_slack_s)
 ///
-/// of each limit and end-effector. v(t) is what the state would violate at t if nothing intervened: CoM and base move
-/// on straight, at their velocities, what stands stands, and what is free moves with the base. Of clearance, limb,
-/// trunk and the speeds v is that at t = 0. A sole does not move: of a contact that has been held since the start, v of
-/// contact_distance and contact_polygon is forgiven in full as long as it stands, and not afterwards.
+/// of each limit and end-effector. v(t) is the most that the state would violate until t if nothing intervened: CoM and
+/// base move on straight, at their velocities, what stands stands, and what is free moves with the base. Of clearance,
+/// limb, trunk and the speeds v is that at t = 0. A sole does not move: of a contact that has been held since the
+/// start, v of contact_distance and contact_polygon is forgiven in full as long as it stands, and not afterwards.
 class StartSlack {
  public:
   /// Measures v from the first knot and the contacts of the first phase. The plan must have start_slack_s > 0.

@@ -90,8 +90,8 @@ struct Tolerances {
 ///                        this end-effector does not touch; the worst place of each surface, where it is more than the
 ///                        tolerance of clearance
 ///
-/// With Plan::start_slack_s T > 0 what the measured start violates by itself is forgiven for a while. v(t) is what the
-/// state would be beyond a limit at time t if nothing intervened: CoM and base move on straight, at their velocities,
+/// With Plan::start_slack_s T > 0 what the measured start violates by itself is forgiven for a while. v(t) is the most
+/// that the state would be beyond a limit until t if nothing intervened: CoM and base move on straight, at their velocities,
 /// what stands stands, and what is free moves with the base. Of reach (its parts together, but yaw_range apart),
 /// com_speed, joint_speed, clearance, limb, trunk, contact_distance and contact_polygon, each of each end-effector, the
 /// value at time t is what is beyond the limit, less

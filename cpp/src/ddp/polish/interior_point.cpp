@@ -156,7 +156,7 @@ bool InteriorPoint::begin(const Trajectory& trajectory, const Settings& settings
   if (!motion_.evaluate(pendulum_)) return false;
   max_defect_ = std::max(motion_.defect_sum(), kDefectMax);
   limits_.head(motion_.trajectory);
-  limits_.relax(motion_);
+  limits_.relax_from(motion_);
   limits_.values(motion_, r_);
   barrier_.start(r_, mu_);
   cost_ = costs_.value(motion_);
@@ -175,6 +175,7 @@ void InteriorPoint::take() {
   fixed_.problem().set_sole_yaw(fixed_.contacts(), motion_.trajectory);
   trial_.trajectory.sole_yaw = motion_.trajectory.sole_yaw;
   limits_.head(motion_.trajectory);
+  if (limits_.relaxed()) limits_.relax(motion_);
   limits_.values(motion_, r_);
   objective_ = cost_ + barrier_.penalty(r_);
   const double next = next_barrier(barrier_, mu_);

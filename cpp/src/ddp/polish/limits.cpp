@@ -7,7 +7,6 @@
 #include "ddp/input_limits.hpp"
 #include "ddp/moment_limits.hpp"
 #include "ddp/polish/limit_rows.hpp"
-#include "ddp/polish/start_slack.hpp"
 
 namespace mcplan::ddp::polish {
 
@@ -175,11 +174,17 @@ void Limits::values(const Motion& motion, RowArray& r) const {
   if (slack_.size() > 0) r -= slack_;
 }
 
-void Limits::relax(const Motion& motion) {
+void Limits::relax_from(const Motion& motion) {
   slack_.resize(0);
-  const StartSlack slack(*fixed_, motion);
-  if (!slack.any()) return;
+  start_slack_ = StartSlack(*fixed_, motion);
+  if (!relaxed()) return;
   slack_.setZero(count());
+  relax(motion);
+}
+
+void Limits::relax(const Motion& motion) {
+  StartSlack& slack = start_slack_;
+  slack.set_times(*fixed_, motion.trajectory);
   const auto relax_reach = [&](int l, double t, int& row) {
     for (int i = 0; i < 3; ++i, row += 2) {
       slack_[row] = slack.reach(l, i, true, t);

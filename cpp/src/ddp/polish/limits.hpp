@@ -6,6 +6,7 @@
 #include "ddp/polish/limit_rows.hpp"
 #include "ddp/polish/motion.hpp"
 #include "ddp/polish/stage_costs.hpp"
+#include "ddp/polish/start_slack.hpp"
 
 namespace mcplan::ddp::polish {
 
@@ -28,7 +29,10 @@ class Limits {
   /// The headings of the soles, which the rectangles of the centres of pressure follow.
   void head(const Trajectory& trajectory);
 
-  /// What a measured start violates by itself is forgiven for a while, from a first guess on: see StartSlack.
+  /// What a measured start violates by itself is forgiven for a while: see StartSlack. It is worked out at the begin of
+  /// a solve, and as long as there is any its times follow the motion.
+  void relax_from(const Motion& motion);
+  bool relaxed() const { return start_slack_.any(); }
   void relax(const Motion& motion);
 
   /// r of all rows.
@@ -82,6 +86,7 @@ class Limits {
   Tuning tuning_;
   std::vector<double> weights_;  ///< while rows are made
   RowArray precision_;
+  StartSlack start_slack_;
   RowArray slack_;  ///< taken off r; empty: none
   std::vector<OfPhase> phases_;
   std::vector<Sole> soles_;

@@ -14,8 +14,7 @@ StartSlack::StartSlack(const FixedSequence& fixed, const Motion& motion) {
   if (!(horizon_ > 0.0)) return;
   const Layout& at = problem.layout;
   const Eigen::VectorXd& x = motion.trajectory.x.front();
-  times_.push_back(0.0);
-  for (int k = 0; k < fixed.steps(); ++k) times_.push_back(times_.back() + motion.trajectory.u[k][at.duration()]);
+  times_.assign(fixed.steps() + 1, 0.0);
   const Vector3d com = x.segment<3>(at.com()), velocity = x.segment<3>(at.velocity());
   Vector3d momentum = Vector3d::Zero();
   for (int a = 0; a < at.axis_count(); ++a) momentum[at.axes()[a]] = x[at.momentum(a)];
@@ -42,6 +41,11 @@ StartSlack::StartSlack(const FixedSequence& fixed, const Motion& motion) {
   const auto beyond = [&](const Row& row) { return row.value + row.rate * horizon_ > 0.0; };
   for (const auto& rows : reach_) any_ = any_ || std::any_of(rows.begin(), rows.end(), beyond);
   for (const auto& rows : yaw_) any_ = any_ || std::any_of(rows.begin(), rows.end(), beyond);
+}
+
+void StartSlack::set_times(const FixedSequence& fixed, const Trajectory& trajectory) {
+  const int duration = fixed.problem().layout.duration();
+  for (int k = 0; k < fixed.steps(); ++k) times_[k + 1] = times_[k] + trajectory.u[k][duration];
 }
 
 double StartSlack::amount(const Row& row, double t) const {

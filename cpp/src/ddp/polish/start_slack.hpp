@@ -15,12 +15,17 @@ namespace mcplan::ddp::polish {
 ///     r <= max(0, v_0 + max(0, w_0) t) max(0, 1 - t / T),
 ///
 /// which the checker forgives, too (Plan::start_slack_s). Of limits on where end-effectors are relative to the base and
-/// on headings of soles; what stands does not move. Times are those of the first guess: the rows' gradients do not know
-/// of them.
+/// on headings of soles; what stands does not move. Times are those of the present iterate: the rows' gradients do not
+/// know of them.
 class StartSlack {
  public:
+  StartSlack() = default;
+
   /// Without Problem::start_slack there is none.
   StartSlack(const FixedSequence& fixed, const Motion& motion);
+
+  /// Times from now on.
+  void set_times(const FixedSequence& fixed, const Trajectory& trajectory);
 
   bool any() const { return any_; }
 

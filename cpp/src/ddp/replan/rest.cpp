@@ -37,10 +37,12 @@ double late_s(const Plan& plan, const Knot& now, int e, int surface, const Simil
   return std::clamp(height / descent, kLateMin_s * similarity.time, kLateMax_s * similarity.time);
 }
 
-/// Where an end-effector stands elsewhere than planned, it does so until it lifts off.
-void stand_elsewhere(Rest& rest, const ContactState& contacts) {
+/// Where an end-effector stands elsewhere than planned, it does so until it lifts off. One that stands where it stood
+/// before has not lifted off yet.
+void stand_elsewhere(Rest& rest, const ContactState& contacts, const std::vector<Past>& before) {
   for (std::size_t e = 0; e < contacts.size(); ++e) {
-    if (contacts[e] == kFree) continue;
+    const auto stood = [&](const Past& past) { return past.contacts[e] == contacts[e]; };
+    if (contacts[e] == kFree || std::any_of(before.begin(), before.end(), stood)) continue;
     int k = 0;
     while (k < rest.size() && rest.surface(k, static_cast<int>(e)) == kFree) ++k;
     const int planned = rest.surface(k, static_cast<int>(e));
@@ -147,7 +149,7 @@ bool begin_with(Rest& rest, const Measured& measured, const ContactState& contac
                 const Similarity& similarity) {
   const Knot planned = rest.plan.knots.front();
   rest.plan.knots.front() = measured.state;
-  stand_elsewhere(rest, contacts);
+  stand_elsewhere(rest, contacts, before);
   // Late: what was before is still there.
   const auto late =
       std::find_if(before.begin(), before.end(), [&](const Past& past) { return past.contacts == contacts; });
