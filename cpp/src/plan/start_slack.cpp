@@ -109,7 +109,7 @@ double StartSlack::left(StateLimit limit, const Place& place) const {
   if (!(gone < 1.0)) return 0.0;
   const double at = gone * (kTimes - 1);
   const int before = std::min(static_cast<int>(at), kTimes - 2);
-  return (value[before] + (at - before) * (value[before + 1] - value[before])) * (1.0 - gone);
+  return (value[before] + (at - before) * (value[before + 1] - value[before])) * (1.0 - gone * gone);
 }
 
 std::vector<Violation> StartSlack::violations(const Robot& robot) const {

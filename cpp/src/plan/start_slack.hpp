@@ -9,7 +9,7 @@ namespace mcplan::checks {
 
 /// What a measured start violates by itself, which no plan can change at once, and how much of it is forgiven:
 ///
-///     beyond(t) = value(t) - v(t) max(0, 1 - t / start_slack_s)
+///     beyond(t) = value(t) - v(t) max(0, 1 - (t / start_slack_s)^2)
 ///
 /// of each limit and end-effector. v(t) is the most that the state would violate until t if nothing intervened: CoM and
 /// base move on straight, at their velocities, what stands stands, and what is free moves with the base. Of clearance,

@@ -96,7 +96,7 @@ struct Tolerances {
 /// com_speed, joint_speed, clearance, limb, trunk, contact_distance and contact_polygon, each of each end-effector, the
 /// value at time t is what is beyond the limit, less
 ///
-///     v(t) max(0, 1 - t / T);
+///     v(t) max(0, 1 - (t / T)^2);
 ///
 /// v is v(0) of all but reach and joint_speed, and of contact_distance and contact_polygon it is forgiven as long as a contact of the
 /// start stands, since a sole does not move. All other constraints are as they are.

@@ -50,7 +50,7 @@ void StartSlack::set_times(const FixedSequence& fixed, const Trajectory& traject
 
 double StartSlack::amount(const Row& row, double t) const {
   if (!(t < horizon_)) return 0.0;
-  return std::max(row.value + row.rate * t, 0.0) * (1.0 - t / horizon_);
+  return std::max(row.value + row.rate * t, 0.0) * (1.0 - t * t / (horizon_ * horizon_));
 }
 
 }  // namespace mcplan::ddp::polish

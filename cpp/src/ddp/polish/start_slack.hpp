@@ -12,7 +12,7 @@ namespace mcplan::ddp::polish {
 /// the state has the value v_0 at the start, where it changes at the rate w_0 if nothing intervenes. At time t it is
 /// relaxed to
 ///
-///     r <= max(0, v_0 + max(0, w_0) t) max(0, 1 - t / T),
+///     r <= max(0, v_0 + max(0, w_0) t) max(0, 1 - (t / T)^2),
 ///
 /// which the checker forgives, too (Plan::start_slack_s). Of limits on where end-effectors are relative to the base and
 /// on headings of soles; what stands does not move. Times are those of the present iterate: the rows' gradients do not
