@@ -47,9 +47,9 @@ class Trials {
            (now_->deadline->limited() && now_->deadline->remaining_s() < longest_s_);
   }
 
-  void make(const Rest& rest, PlanFrom from) {
+  void make(const Now& now, const Rest& rest, PlanFrom from) {
     const double begin_s = now_->deadline->elapsed_s();
-    take(try_out(*now_, rest, *report_), from);
+    take(try_out(now, rest, *report_), from);
     longest_s_ = std::max(longest_s_, now_->deadline->elapsed_s() - begin_s);
   }
 
@@ -57,10 +57,15 @@ class Trials {
     tell(trial, from);
     if (!trial || (best_ && !better(*trial, *best_))) return;
     best_ = std::move(trial);
+    best_ratio_ = ratio_;
     report_->plan_from = from;
   }
 
   std::optional<Trial>& best() { return best_; }
+
+  /// Ratio of the velocity command that the trials from now on follow.
+  void followed(double ratio) { ratio_ = ratio; }
+  double best_ratio() const { return best_ratio_; }
 
  private:
   /// A line of the log: why it was refused, or that it was not.
@@ -80,7 +85,7 @@ class Trials {
   const Now* now_;
   Report* report_;
   std::optional<Trial> best_;
-  double longest_s_ = 0.0;
+  double longest_s_ = 0.0, ratio_ = 1.0, best_ratio_ = 1.0;
 };
 
 std::string message_of(const Trial& best, const Report& report) {
@@ -115,7 +120,46 @@ void conclude(Trials& trials, Report& report, PlanResult& out) {
   report.warnings = best->check.warnings;
   report.cost = best->evaluation.cost;
   report.message = message_of(*best, report);
+  if (trials.best_ratio() < 1.0)
+    report.message += "; " + model::digits(trials.best_ratio(), "%.2g") + " of the velocity command is followed";
   out.plan = std::move(best->plan);
+}
+
+/// To the scene's goal, by the plan's own sequence or with another step.
+void go_to_goal(Rest& rest, Now& now, Trials& trials) {
+  stand_on(rest, now.options->phases_min, now.similarity);
+  now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, rest);
+  trials.make(now, rest, PlanFrom::same_sequence);
+  if (!now.options->other_sequences) return;
+  for (const Rest& other : other_steps(rest, *now.robot, now.similarity)) {
+    if (trials.done()) return;
+    trials.make(now, other, PlanFrom::other_sequence);
+  }
+}
+
+/// At a velocity, slower where that cannot be followed, and with another step.
+void follow_command(const Rest& rest, const Now& now, Trials& trials) {
+  std::vector<double> ratios{1.0};
+  if (now.options->other_sequences) ratios = {1.0, 0.5, 0.0};
+  for (const double ratio : ratios) {
+    VelocityCommand command = *now.options->command;
+    command.velocity_B *= ratio;
+    command.yaw_rate *= ratio;
+    Rest ahead = rest;
+    Scene scene = *now.scene;
+    Now there = now;
+    there.scene = &scene;
+    trials.followed(ratio * walk_on(ahead, scene, *now.robot, command, now.options->horizon));
+    there.surfaces = surfaces_of(scene, *now.robot, now.measured, ahead);
+    trials.make(there, ahead, PlanFrom::same_sequence);
+    if (trials.done()) return;
+    const std::vector<Rest> others =
+        ratio == ratios.back() ? other_steps(ahead, *now.robot, now.similarity) : std::vector<Rest>();
+    for (const Rest& other : others) {
+      trials.make(there, other, PlanFrom::other_sequence);
+      if (trials.done()) return;
+    }
+  }
 }
 
 }  // namespace
@@ -141,22 +185,11 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
   Rest rest = planned;
   rename(rest, scene_in);
   Trials trials(now, report);
-  Scene ahead;  // with another goal
   if (begin_with(rest, now.measured, now.measured.contacts, past_of(previous, t), now.similarity)) {
-    if (options.command) {
-      ahead = scene_in;
-      walk_on(rest, ahead, robot, *options.command, options.horizon);
-      now.scene = &ahead;
-    } else {
-      stand_on(rest, options.phases_min, now.similarity);
-    }
-    now.surfaces = surfaces_of(*now.scene, robot, now.measured, rest);
-    trials.make(rest, PlanFrom::same_sequence);
-    if (options.other_sequences && !trials.done())
-      for (const Rest& other : other_steps(rest, robot, now.similarity)) {
-        trials.make(other, PlanFrom::other_sequence);
-        if (trials.done()) break;
-      }
+    if (options.command)
+      follow_command(rest, now, trials);
+    else
+      go_to_goal(rest, now, trials);
   }
   // Out of time, what was planned is better than what cannot be followed.
   if (deadline.passed() && !(trials.best() && can_be_followed(*trials.best())))

@@ -276,24 +276,32 @@ double ratio_of_strides(const Robot& robot, const VelocityCommand& command, cons
   return ratio;
 }
 
-/// A stance of the feet that stand at the end of the rest, in a pose there; false where one of them finds no ground.
-bool stance_at(const Rest& rest, const Scene& scene, const Robot& robot, const Pose& pose, Stance& stance) {
-  bool ground = true;
-  double height = 0.0;
-  int feet = 0;
+/// Whether every foot that stands at the end of the rest finds ground where it is due in a pose there.
+bool finds_ground(const Rest& rest, const Scene& scene, const Robot& robot, const Pose& pose) {
   for (int e = 0; e < static_cast<int>(robot.end_effectors.size()); ++e) {
     if (rest.plan.final_contacts[e] == kFree || !is_foot(robot, e)) continue;
     const Vector3d desired = due(robot, e, pose, rest.plan.knots.back().end_effectors_W[e].z());
-    const Found found = ground_at(scene, robot.end_effectors[e], desired);
-    ground = ground && found.distance <= kCommandOff * robot.com_height;
-    if (found.surface == kFree) continue;
-    height += found.place.z();
+    if (!(ground_at(scene, robot.end_effectors[e], desired).distance <= kCommandOff * robot.com_height)) return false;
+  }
+  return true;
+}
+
+/// The stance at the end of the rest.
+Stance stance_of(const Rest& rest, const Scene& scene, const Robot& robot, const Pose& pose) {
+  Stance stance;
+  double height = 0.0;
+  int feet = 0;
+  for (int e = 0; e < static_cast<int>(robot.end_effectors.size()); ++e) {
+    const int surface = rest.plan.final_contacts[e];
+    if (surface == kFree) continue;
+    stance.contacts[robot.end_effectors[e].name] = scene.surfaces[surface].name;
+    if (!is_foot(robot, e)) continue;
+    height += rest.desired.back().end_effectors_W[e].z();
     ++feet;
-    stance.contacts[robot.end_effectors[e].name] = scene.surfaces[found.surface].name;
   }
   stance.position_W = {pose.position.x(), pose.position.y(), feet > 0 ? height / feet : 0.0};
   stance.yaw = pose.yaw;
-  return ground;
+  return stance;
 }
 
 }  // namespace
@@ -310,10 +318,9 @@ double walk_on(Rest& rest, Scene& scene, const Robot& robot, const VelocityComma
   for (const double shorter : {1.0, 0.75, 0.5, 0.25, 0.0}) {
     const double ratio = shorter * strides;
     const Way way(pose, at_s, command, ratio, end_s, stop_s);
-    Stance stance;
-    if (!stance_at(rest, scene, robot, way.at(end_s), stance) && ratio > 0.0) continue;
-    scene.goal = stance;
+    if (ratio > 0.0 && !finds_ground(rest, scene, robot, way.at(end_s))) continue;
     Follow(rest, scene, robot, way).run();
+    scene.goal = stance_of(rest, scene, robot, way.at(end_s));
     return ratio;
   }
   return 0.0;
