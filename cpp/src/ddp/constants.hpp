@@ -270,6 +270,8 @@ constexpr double kCheaper = 0.9;
 
 // Replanning.
 
+/// The first phase lasts at least so long [s]: what is left of one may be nothing. Chosen.
+constexpr double kReplanRest_s = 0.02;
 /// Phases before and after the one under way among which measured contacts are looked for. Chosen.
 constexpr int kContactsAhead = 2;
 /// An end-effector that is late comes down at this speed [m/s] at least, and the phase put in for it takes at least and

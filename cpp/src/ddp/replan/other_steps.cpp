@@ -43,11 +43,13 @@ std::vector<Rest> other_steps(const Rest& rest, const Robot& robot, const Simila
   for (int e : feet)
     if (planned == feet.end() || e != *planned) others.push_back(e);
   if (k == 0) {
-    // All stand: another foot steps first; where nothing is planned, two steps return to where the robot stood.
-    for (int e : others) out.push_back(with_steps(rest, k, {e}, box_s));
-    for (int e : others)
+    // All stand: another foot steps first. Where nothing is planned the other one follows it.
+    for (int e : others) {
+      std::vector<int> steps{e};
       for (int f : feet)
-        if (f != e && (planned == feet.end() || f == *planned)) out.push_back(with_steps(rest, k, {f, e}, box_s));
+        if (planned == feet.end() && f != e) steps.push_back(f);
+      out.push_back(with_steps(rest, k, steps, box_s));
+    }
     return out;
   }
   // A swing is under way: after it another foot, and the same again.

@@ -143,9 +143,8 @@ std::vector<ContactState> bridge_to(const ContactState& desired, ContactState no
   return out;
 }
 
-}  // namespace
-
-bool begin_with(Rest& rest, const Measured& measured, const ContactState& contacts, const std::vector<Past>& before,
+/// begin_with(), but for the duration of what comes first.
+bool find_begin(Rest& rest, const Measured& measured, const ContactState& contacts, const std::vector<Past>& before,
                 const Similarity& similarity) {
   const Knot planned = rest.plan.knots.front();
   rest.plan.knots.front() = measured.state;
@@ -181,6 +180,16 @@ bool begin_with(Rest& rest, const Measured& measured, const ContactState& contac
     if (i + 1 == bridge.size()) rest.plan.knots[1] = planned;
   }
   rest.plan.knots.front() = measured.state;
+  return true;
+}
+
+}  // namespace
+
+bool begin_with(Rest& rest, const Measured& measured, const ContactState& contacts, const std::vector<Past>& before,
+                const Similarity& similarity) {
+  if (!find_begin(rest, measured, contacts, before, similarity)) return false;
+  double& first_s = rest.plan.phases.front().duration;
+  first_s = std::max(first_s, kReplanRest_s * similarity.time);
   return true;
 }
 

@@ -104,6 +104,7 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report) {
   const StopRequest late =
       now.deadline->limited() ? StopRequest([&] { return now.deadline->passed(); }) : StopRequest();
   trial.exact = search.make_exact(at, tuning, late);
+  if (!trial.exact && late && late()) return trial;  // there is no time to look at what nobody can follow
   trial.evaluation = search.evaluate(at, tuning);
   const Stopwatch watch(report.timing_s, "check");
   trial.plan = to_plan(problem, at, true);

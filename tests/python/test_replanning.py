@@ -1,0 +1,293 @@
+"""mcplan.replan as a controller calls it: from states that are off, with contacts early and late, on and on."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+import mcplan as mp
+from mcplan import ddp
+
+
+@pytest.fixture(scope="module")
+def flat() -> mp.Plan:
+    return mp.plan("flat").plan
+
+
+@pytest.fixture(scope="module")
+def stairs() -> mp.Plan:
+    return mp.plan("stairs").plan
+
+
+def state_at(plan: mp.Plan, t: float) -> tuple[mp.model.Knot, list[int]]:
+    """The planned state, and the planned contacts."""
+    now = plan.at(t)
+    knot = mp.model.Knot(
+        com_W=now.com_W,
+        com_velocity_W=now.com_velocity_W,
+        base_rpy=now.base_rpy,
+        base_rpy_rate=now.base_rpy_rate,
+        angular_momentum_W=now.angular_momentum_W,
+        end_effectors_W=[end.position_W for end in now.end_effectors],
+        end_effector_velocities_W=[end.velocity_W for end in now.end_effectors],
+        end_effector_yaw=[end.yaw for end in now.end_effectors],
+    )
+    return knot, [end.surface for end in now.end_effectors]
+
+
+def time_of_phase(plan: mp.Plan, free: int, fraction: float = 0.5) -> float:
+    """A time in the middle of a phase of the walk with so many feet in the air."""
+    times = plan.knot_times()
+    for k in range(4, len(plan.phases)):
+        if sum(contact.surface < 0 for contact in plan.phases[k].contacts[:2]) == free:
+            return times[k] + fraction * plan.phases[k].duration
+    raise AssertionError("no such phase")
+
+
+def footholds(plan: mp.Plan) -> list[tuple[int, int, np.ndarray]]:
+    """End-effector, surface and place of every contact that begins after the start."""
+    out = []
+    for k in range(1, len(plan.phases)):
+        for e, contact in enumerate(plan.phases[k].contacts):
+            if contact.surface >= 0 and plan.phases[k - 1].contacts[e].surface < 0:
+                out.append((e, contact.surface, np.array(plan.knots[k].end_effectors_W[e])))
+    return out
+
+
+@pytest.mark.parametrize("scene", ["flat", "stairs"])
+@pytest.mark.parametrize("fraction", [0.03, 0.21, 0.38, 0.56, 0.71, 0.88])
+def test_undisturbed_a_replan_keeps_its_sequence_and_its_footholds(scene, fraction, request):
+    plan = request.getfixturevalue(scene)
+    t = fraction * plan.duration()
+    result = mp.replan(plan, t, state_at(plan, t)[0])
+    assert result.report.status == mp.Status.solved
+    assert result.report.plan_from == mp.model.PlanFrom.same_sequence
+    assert result.report.start_violations == ()
+    planned = footholds(plan)[-len(footholds(result.plan)) or len(footholds(plan)) :]
+    for (e, surface, place), (was_e, was_surface, was_place) in zip(footholds(result.plan), planned):
+        assert (e, surface) == (was_e, was_surface)
+        assert np.linalg.norm(place - was_place) < 1e-3
+
+
+@pytest.mark.parametrize("free", [0, 1])
+def test_a_replan_begins_at_the_measured_state_and_goes_on_with_its_swing(flat, free):
+    t = time_of_phase(flat, free)
+    knot, contacts = state_at(flat, t)
+    knot.com_velocity_W = np.array(knot.com_velocity_W) + [0.05, 0.1, 0.0]
+    result = mp.replan(flat, t, knot, contacts=contacts)
+    start = result.plan.at(0.0)
+    assert result.plan.measured_start
+    assert np.allclose(start.com_W, knot.com_W, atol=1e-9)
+    assert np.allclose(start.com_velocity_W, knot.com_velocity_W, atol=1e-9)
+    for e, end in enumerate(start.end_effectors):
+        assert end.surface == contacts[e]
+        if e < 2:  # feet: the hands have nothing to touch here
+            assert np.allclose(end.position_W, knot.end_effectors_W[e], atol=1e-3)
+            assert np.allclose(end.velocity_W, knot.end_effector_velocities_W[e], atol=1e-2)
+
+
+@pytest.mark.parametrize("late_s", [-0.04, -0.02, 0.02, 0.04])
+@pytest.mark.parametrize("touchdown", [True, False])
+def test_contacts_that_are_early_or_late_are_taken_as_they_are(stairs, late_s, touchdown):
+    times, sequence = stairs.knot_times(), np.array(stairs.contact_sequence())
+    k = next(
+        k
+        for k in range(4, len(sequence))
+        if any((sequence[k - 1][e] < 0 <= sequence[k][e]) == touchdown and sequence[k - 1][e] != sequence[k][e] for e in (0, 1))
+    )
+    # At t the robot still has, or already has, the contacts of the other side of the switch.
+    t, other = times[k] + late_s, times[k] - 0.2 * late_s
+    knot, _ = state_at(stairs, t)
+    elsewhere, contacts = state_at(stairs, other)
+    knot.end_effectors_W, knot.end_effector_velocities_W = elsewhere.end_effectors_W, elsewhere.end_effector_velocities_W
+    result = mp.replan(stairs, t, knot, contacts=contacts)
+    assert result.report.status == mp.Status.solved
+    assert [end.surface for end in result.plan.at(0.0).end_effectors] == contacts
+    # No step is lost: what remains to be touched is touched, in the same order.
+    assert footholds(result.plan)[-1][:2] == footholds(stairs)[-1][:2]
+    assert abs(len(footholds(result.plan)) - sum(touched > times[k] for touched in touchdown_times(stairs))) <= 1
+
+
+def touchdown_times(plan: mp.Plan) -> list[float]:
+    times, sequence = plan.knot_times(), plan.contact_sequence()
+    return [
+        times[k]
+        for k in range(1, len(sequence))
+        for was, now in zip(sequence[k - 1], sequence[k])
+        if was < 0 <= now
+    ]
+
+
+def test_a_start_out_of_reach_is_named_and_made_good(flat):
+    t = time_of_phase(flat, 1)
+    knot, contacts = state_at(flat, t)
+    knot.com_W = np.array(knot.com_W) + [0.0, 0.06 if contacts[0] >= 0 else -0.06, 0.0]
+    result = mp.replan(flat, t, knot, contacts=contacts)
+    assert result.report.status == mp.Status.solved
+    assert result.report.start_violations[0].name == "reach"
+    assert result.plan.start_slack_s > 0.0
+    assert mp.check(result.plan).ok()
+    result.plan.start_slack_s = 0.0
+    assert "reach" in {violation.name for violation in mp.check(result.plan).violations()}
+
+
+def test_what_is_committed_is_kept_under_a_push(flat):
+    touchdown = touchdown_times(flat)[2]
+    t = touchdown - 0.06
+    knot, contacts = state_at(flat, t)
+    knot.com_velocity_W = np.array(knot.com_velocity_W) + [0.1, 0.1, 0.0]
+    result = mp.replan(flat, t, knot, contacts=contacts)
+    first = footholds(result.plan)[0]
+    planned = next(f for f, time in zip(footholds(flat), touchdown_times(flat)) if time == touchdown)
+    assert first[:2] == planned[:2]
+    assert np.linalg.norm(first[2] - planned[2]) < 1e-3
+    assert abs(touchdown_times(result.plan)[0] - 0.06) < 0.003
+    free = mp.replan(flat, t, knot, contacts=contacts, committed_s=0.0)
+    assert np.linalg.norm(footholds(free.plan)[0][2] - planned[2]) > 1e-3
+
+
+def test_the_horizon_never_gets_shorter_than_asked_and_ends_at_the_goal(flat):
+    plan, t = flat, 0.0
+    goal = np.array(flat.knots[-1].com_W)
+    for _ in range(40):
+        result = mp.replan(plan, min(t, plan.duration()), state_at(plan, min(t, plan.duration()))[0], phases_min=5)
+        assert result.report.status == mp.Status.solved
+        assert len(result.plan.phases) >= 5
+        plan, t = result.plan, 0.25
+    assert np.linalg.norm(np.array(plan.knots[0].com_W) - goal) < 0.02
+    assert np.linalg.norm(plan.knots[0].com_velocity_W) < 0.02
+
+
+@pytest.mark.parametrize(("command", "moved"), [((0.25, 0.0, 0.0), (1.0, 0.0)), ((0.0, 0.06, 0.0), (0.0, 1.0))])
+def test_a_velocity_command_is_followed_for_as_long_as_one_likes(flat, command, moved):
+    plan, t, time_s = flat, 0.1, 0.0
+    speed = math.hypot(*command[:2])
+    for i in range(70):
+        knot, contacts = state_at(plan, t)
+        if i == 30:
+            begin = np.array(knot.com_W)
+        result = mp.replan(plan, t, knot, contacts=contacts, command=command, horizon=12)
+        assert result.report.status == mp.Status.solved
+        assert 9 <= len(result.plan.phases) <= 12
+        time_s += t if i >= 30 else 0.0
+        plan = result.plan
+    went = (np.array(plan.knots[0].com_W) - begin)[:2] / time_s
+    assert went @ np.array(moved) == pytest.approx(speed, rel=0.2)
+    assert abs(went @ np.array([-moved[1], moved[0]])) < 0.2 * speed
+
+
+def test_a_command_to_turn_turns_the_base_and_the_soles(flat):
+    plan = flat
+    for i in range(70):
+        knot, contacts = state_at(plan, 0.1)
+        if i == 30:
+            begin = knot.base_rpy[2]
+        result = mp.replan(plan, 0.1, knot, contacts=contacts, command=ddp.VelocityCommand(yaw_rate=0.3))
+        assert result.report.status == mp.Status.solved
+        plan = result.plan
+    assert plan.knots[0].base_rpy[2] - begin == pytest.approx(0.3 * 4.0, rel=0.2)
+    assert all(abs(yaw - plan.knots[0].base_rpy[2]) < 0.35 for yaw in plan.knots[0].end_effector_yaw[:2])
+
+
+def test_a_command_beyond_the_robots_strides_is_followed_in_part(flat):
+    result = mp.replan(flat, 0.1, state_at(flat, 0.1)[0], command=(3.0, 0.0, 0.0))
+    assert result.report.status == mp.Status.solved
+    assert "of the velocity command is followed" in result.report.message
+
+
+def test_a_command_stops_where_the_ground_ends():
+    plan = mp.plan("gap").plan  # ground ends at the gap: no step leads over it
+    edge = max(v[0] for v in plan.scene.surfaces[plan.contact_sequence()[0][0]].vertices_W)
+    for _ in range(60):
+        knot, contacts = state_at(plan, 0.1)
+        result = mp.replan(plan, 0.1, knot, contacts=contacts, command=(0.3, 0.0, 0.0))
+        if result.report.status == mp.Status.solved:
+            plan = result.plan
+    assert plan.knots[0].com_W[0] < edge + 0.1 or plan.knots[0].com_W[0] > edge + 0.3
+
+
+def test_names_of_contacts_are_taken_as_well_as_indices(flat):
+    t = time_of_phase(flat, 1)
+    knot, contacts = state_at(flat, t)
+    ends, surfaces = flat.robot.end_effectors, flat.scene.surfaces
+    named = {ends[e].name: surfaces[surface].name for e, surface in enumerate(contacts) if surface >= 0}
+    one, other = (mp.replan(flat, t, knot, contacts=given) for given in (contacts, named))
+    assert np.array_equal(one.plan.knots[5].com_W, other.plan.knots[5].com_W)
+
+
+def test_the_result_does_not_depend_on_the_number_of_threads_or_on_what_was_replanned_before(flat):
+    knot, contacts = state_at(flat, 1.0)
+    knot.com_velocity_W = np.array(knot.com_velocity_W) + [0.1, 0.1, 0.0]
+    plans = [mp.replan(flat, 1.0, knot, contacts=contacts, threads=threads).plan for threads in (1, 2, 1)]
+    for plan in plans[1:]:
+        assert repr(list(plan.knots)) == repr(list(plans[0].knots))
+        assert repr(list(plan.phases)) == repr(list(plans[0].phases))
+
+
+@pytest.mark.parametrize(
+    ("given", "error", "message"),
+    [
+        ({"contacts": [0, 0]}, mp.errors.InvalidPlan, r"measured.contacts: must be one per end-effector \(4\), got 2"),
+        ({"contacts": [0, 7, -1, -1]}, mp.errors.InvalidPlan, r"measured.contacts\[1\]: must be -1 or the index of a surface"),
+        ({"contacts": {"left_hoof": "floor"}}, mp.errors.InvalidPlan, "measured.contacts: must name end-effectors"),
+        ({"contacts": {"left_foot": "flor"}}, mp.errors.InvalidPlan, "measured.contacts.left_foot: must be a surface"),
+        ({"contacts": 3}, mp.errors.InvalidArgument, "contacts: must be indices of surfaces, or a mapping"),
+        ({"command": (1.0, 2.0)}, mp.errors.InvalidArgument, "command: must be a ddp.VelocityCommand or three numbers"),
+        ({"command": (math.nan, 0.0, 0.0)}, mp.errors.InvalidOptions, "command.velocity_B"),
+        ({"committed_s": -1.0}, mp.errors.InvalidOptions, "committed_s: must"),
+        ({"phases_min": 0}, mp.errors.InvalidOptions, "phases_min: must"),
+        ({"horizon": 1}, mp.errors.InvalidOptions, "horizon: must"),
+        ({"method": "paper"}, mp.errors.InvalidOptions, "method: must be standard"),
+    ],
+)
+def test_what_is_wrong_is_named(flat, given: dict[str, Any], error, message):
+    with pytest.raises(error, match=message):
+        mp.replan(flat, 1.0, state_at(flat, 1.0)[0], **given)
+
+
+def test_what_stands_far_off_its_surface_is_refused(flat):
+    knot, contacts = state_at(flat, 1.0)
+    places = np.array(knot.end_effectors_W)
+    places[contacts.index(0)] += [0.0, 0.0, 0.5]
+    knot.end_effectors_W = places
+    with pytest.raises(mp.errors.InvalidPlan, match="must lie within 0.1 m of the surface"):
+        mp.replan(flat, 1.0, knot, contacts=contacts)
+
+
+def test_the_log_says_why_a_replan_was_refused(flat):
+    t = time_of_phase(flat, 1)
+    knot, contacts = state_at(flat, t)
+    knot.com_velocity_W = np.array(knot.com_velocity_W) + [0.0, 3.0, 0.0]
+    lines: list[str] = []
+    result = mp.replan(flat, t, knot, contacts=contacts, logger=lambda _, line: lines.append(line))
+    assert result.report.status in (mp.Status.infeasible, mp.Status.acceptable)
+    told = [line for line in lines if line.startswith("replan, ")]
+    assert told[0].startswith("replan, the plan's own sequence: ")
+    assert "over the limit" in told[0]
+    assert "all limits are kept until" in result.report.message
+
+
+def test_out_of_time_there_is_a_plan_whose_next_two_steps_can_be_followed(flat):
+    t = time_of_phase(flat, 0)
+    knot, contacts = state_at(flat, t)
+    result = mp.replan(flat, t, knot, contacts=contacts, time_limit=1e-4)
+    assert result.report.status == mp.Status.time_limit
+    assert result.report.plan_from == mp.model.PlanFrom.previous_plan
+    two_steps = touchdown_times(result.plan)[1]
+    assert result.report.kept_until_s >= two_steps
+    assert mp.check(result.plan, until_s=two_steps).ok()
+
+
+@pytest.mark.slow
+def test_ten_thousand_replans_take_no_more_memory(flat):
+    import resource
+
+    knot, contacts = state_at(flat, 4.0)
+    for i in range(10_000):
+        mp.replan(flat, 4.0, knot, contacts=contacts)
+        if i == 500:
+            before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 4096  # [KiB]
