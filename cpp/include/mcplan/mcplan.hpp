@@ -9,6 +9,7 @@
 #include "mcplan/base/suspicion.hpp"
 #include "mcplan/ddp/options.hpp"
 #include "mcplan/ddp/plan.hpp"
+#include "mcplan/ddp/replan.hpp"
 #include "mcplan/ddp/switched_ddp.hpp"
 #include "mcplan/ipm/solver.hpp"
 #include "mcplan/model/data.hpp"
