@@ -3385,7 +3385,7 @@ def check(
     until_s: typing.SupportsFloat | typing.SupportsIndex = ...,
 ) -> CheckResult:
     """
-    Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons alone; before its end up to until_s [s]. Raises InvalidPlan when its arrays do not fit together, and Interrupted with what was found by then.
+    Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons alone, up to until_s [s] where that is before its end. Raises InvalidPlan when its arrays do not fit together, and Interrupted with what was found by then.
     """
 
 @typing.overload
