@@ -11,14 +11,23 @@ from mcplan.errors import InvalidArgument
 from mcplan.files.meeting import warn_of_names
 
 _TAKES: dict[type, dict[str, tuple[type, ...]]] = {
-    Plan: {"scene": (Scene, type(None)), "robot": (Robot, type(None)), "tolerances": (Tolerances,)},
+    Plan: {
+        "scene": (Scene, type(None)),
+        "robot": (Robot, type(None)),
+        "tolerances": (Tolerances,),
+        "until_s": (float, int),
+    },
     PlanarPlan: {"tolerances": (PlanarTolerances,), "self_collision": (bool,)},
 }
 
 
 @overload
 def check(
-    plan: Plan, scene: Scene | None = None, robot: Robot | None = None, tolerances: Tolerances = ...
+    plan: Plan,
+    scene: Scene | None = None,
+    robot: Robot | None = None,
+    tolerances: Tolerances = ...,
+    until_s: float = ...,
 ) -> CheckResult: ...
 @overload
 def check(plan: PlanarPlan, tolerances: PlanarTolerances = ..., self_collision: bool = False) -> CheckResult: ...
@@ -32,6 +41,7 @@ def check(plan: Any, *given: Any, **named: Any) -> CheckResult:
         scene: What it is checked against; None: the plan's own. A whole-body plan takes no scene and no robot.
         robot: As `scene`.
         tolerances: Accepted amounts beyond the limits: ``Tolerances``, or ``PlanarTolerances`` of a whole-body plan.
+        until_s: Before the plan's end only what comes no later than this time [s] is looked at; not for a whole-body plan.
         self_collision: Whether the collision pairs of a whole-body plan's robot are checked, too.
 
     Returns:
@@ -40,6 +50,7 @@ def check(plan: Any, *given: Any, **named: Any) -> CheckResult:
     Raises:
         InvalidArgument: An argument is of another type, such as the result that has the plan.
         InvalidPlan: The arrays of the plan do not fit together.
+        InvalidOptions: A tolerance is no number, or until_s not above zero.
         InvalidScene, InvalidRobot, InvalidPlanarTask: What it is checked against is malformed.
         Interrupted: Ctrl-C, with what was found by then.
     """

@@ -66,9 +66,10 @@ class VerbFuzzer(Fuzzer):
             elif parameter.default is parameter.empty or self.rng.random() < 0.3:
                 given[parameter.name] = self.drawn(parameter.annotation)
         if name == "check":
-            for key in ("scene", "robot", "tolerances", "self_collision"):
+            for key in ("scene", "robot", "tolerances", "until_s", "self_collision"):
                 if self.rng.random() < 0.2:
-                    given[key] = self.drawn({"self_collision": "bool"}.get(key, key.capitalize()))
+                    annotation = {"until_s": "float", "self_collision": "bool"}.get(key, key.capitalize())
+                    given[key] = self.drawn(annotation)
         if kind is None:
             return given
         setters = {p.name: p.type for p in self.interface.properties if p.owner is kind and p.type}

@@ -150,6 +150,7 @@ def similar_plan(plan: mp.Plan, by: Factors) -> mp.Plan:
         ],
         measured_start=plan.measured_start,
         open_end=plan.open_end,
+        start_slack_s=plan.start_slack_s * by.time,
         momentum_max=plan.momentum_max * by.momentum,
         momentum_rate_max=plan.momentum_rate_max * by.moment,
     )

@@ -235,7 +235,7 @@ void bind_checker(py::module_& m) {
       py::arg("plan"), py::arg("scene") = py::none(), py::arg("robot") = py::none(),
       py::arg("tolerances") = Tolerances(), py::arg("until_s") = std::numeric_limits<double>::infinity(),
       "Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons "
-      "alone; before its end up to until_s [s]. "
+      "alone, up to until_s [s] where that is before its end. "
       "Raises InvalidPlan when its arrays do not fit together, and Interrupted with what was found by then.");
 }
 

@@ -79,10 +79,7 @@ def check(
         report = {
             "plan": str(plan),
             **carried,
-            "ok": result.ok(),
-            "violations": [violation_dict(v) for v in result.violations()],
-            "constraints": [violation_dict(v) for v in result.constraints],
-            "warnings": [warning_dict(v) for v in result.warnings],
+            **result_dict(result),
             "certified": None if certificate is None else certificate.proved(),
             "certificate": None if certificate is None else certificate_dict(certificate),
             "feasibility": None if feasibility is None else feasibility_dict(feasibility),
@@ -116,6 +113,9 @@ def _print_result(path: Path, plan: Plan | PlanarPlan, result: CheckResult, cert
     else:
         print(printable(f"{path}: {len(result.violations())} constraints violated"))
         print_table([[str(violation)] for violation in result.violations()])
+        print(f"kept until t = {result.kept_until_s:.4g} s of {plan.duration():.4g} s")
+    for line in start_lines(result):
+        print(printable(line))
     for line in warning_lines(result.warnings):
         print(printable(line))
     if isinstance(plan, Plan):
@@ -124,6 +124,11 @@ def _print_result(path: Path, plan: Plan | PlanarPlan, result: CheckResult, cert
     _print_not_asked(_solid_depths(plan, result))
     if certificate is not None:
         print("\n".join(printable(line) for line in str(certificate).rstrip().splitlines()))
+
+
+def start_lines(result: CheckResult) -> list[str]:
+    """A line for each limit that a measured start violates by itself."""
+    return [line for line in str(result).splitlines() if line.startswith("at the start: ")]
 
 
 def _solid_depths(plan: Plan | PlanarPlan, result: CheckResult) -> list[dict[str, object]]:
@@ -190,6 +195,20 @@ def feasibility_dict(feasibility: Feasibility) -> dict[str, Any]:
     for key in ("violations", "constraints"):
         data[key] = [{name: finite(value) for name, value in found.items()} for found in data[key]]
     return data
+
+
+def result_dict(result: CheckResult) -> dict[str, Any]:
+    """What the checker found as plain data."""
+    return {
+        "ok": result.ok(),
+        "violations": [violation_dict(v) for v in result.violations()],
+        "constraints": [violation_dict(v) for v in result.constraints],
+        "warnings": [warning_dict(v) for v in result.warnings],
+        "start": [violation_dict(v) for v in result.start],
+        "start_slack_s": result.start_slack_s,
+        "kept_until_s": result.kept_until_s,
+        "checked_until_s": result.checked_until_s,
+    }
 
 
 def certificate_dict(certificate: Certificate) -> dict[str, Any]:

@@ -20,6 +20,7 @@ contact wrenches, or with headings of soles, has format 3: the arrays of format 
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -98,6 +99,7 @@ def plan_to_bytes(plan: Plan) -> bytes:
         "planner": plan.planner,
         "measured_start": plan.measured_start,
         "open_end": plan.open_end,
+        **({"start_slack_s": plan.start_slack_s} if plan.start_slack_s else {}),
         **{name: getattr(plan, name) for name in _CLAIMS if np.isfinite(getattr(plan, name))},
         "scene": scene_to_dict(plan.scene),
         "robot": robot_to_dict(plan.robot),
@@ -146,6 +148,7 @@ def plan_from_bytes(data: bytes) -> Plan:
     plan = Plan(
         measured_start=header.get("measured_start", False) is True,
         open_end=header.get("open_end", False) is True,
+        start_slack_s=_slack(header.get("start_slack_s", 0.0)),
         **{name: _claim(name, header[name]) for name in _CLAIMS if name in header},
         scene=scene,
         robot=robot,
@@ -162,6 +165,12 @@ def plan_from_bytes(data: bytes) -> Plan:
 def _claim(name: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not value > 0.0:
         raise InvalidPlan(f"header.{name}", "must be a positive number", written(value))
+    return float(value)
+
+
+def _slack(value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 <= value <= sys.float_info.max:
+        raise InvalidPlan("header.start_slack_s", "must lie in [0, inf) s", written(value))
     return float(value)
 
 

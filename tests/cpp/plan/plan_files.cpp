@@ -61,6 +61,23 @@ TEST_CASE("plans of every force law survive a file to the last bit") {
   fs::remove(file);
 }
 
+TEST_CASE("slack of the start survives a file, and a file without it has none") {
+  Plan plan = noisy(fixtures::walk());
+  const std::string without = plan_to_json(plan);
+  CHECK(without.find("start_slack_s") == std::string::npos);
+  CHECK(plan_from_json(without).start_slack_s == 0.0);
+  plan.measured_start = true;
+  plan.start_slack_s = 0.1 + 0.2;
+  const std::string with = plan_to_json(plan);
+  CHECK(plan_from_json(with) == plan);
+  CHECK(plan_from_json(with).start_slack_s == 0.1 + 0.2);
+  Plan other = plan;
+  other.start_slack_s = 0.3;
+  CHECK(other != plan);
+  CHECK(field(replaced(with, "\"measured_start\": true", "\"measured_start\": false")) == "start_slack_s");
+  CHECK(field(replaced(with, "\"start_slack_s\": 0.3", "\"start_slack_s\": -0.3")) == "start_slack_s");
+}
+
 TEST_CASE("other endings and other files are refused") {
   CHECK_THROWS_AS(fixtures::walk().save("plan.npz"), InvalidInput);
   CHECK_THROWS_AS(load_plan("/nowhere/plan.json"), InvalidPlan);

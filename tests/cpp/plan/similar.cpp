@@ -79,6 +79,23 @@ TEST_CASE("the checker measures a similar motion in the same parts of its tolera
   }
 }
 
+TEST_CASE("the checker forgives a similar motion as much of its start") {
+  Plan plan = fixtures::walk();
+  plan.measured_start = true;
+  plan.start_slack_s = 0.3;
+  plan.knots[0].end_effectors_W[fixtures::right_hand].y() -= 0.23;
+  const CheckResult here = check(plan, plan.scene, plan.robot);
+  REQUIRE(here.start.size() == 1);
+  for (const Similarity& by : {kSmaller, kLarger, kSlower}) {
+    const Plan other = similar_walk(by, plan);
+    const CheckResult there = check(other, other.scene, other.robot);
+    REQUIRE(there.start.size() == 1);
+    CHECK(there.start[0].value == here.start[0].value * by.length);
+    CHECK(there.kept_until_s == here.kept_until_s * by.time);
+    CHECK(there.worst().value / there.worst().tolerance == here.worst().value / here.worst().tolerance);
+  }
+}
+
 TEST_CASE("swing heights and durations that nobody has set stay so") {
   const mcplan::Robot unset;
   CHECK(scaled(unset, kLarger).swing_height == unset.swing_height);

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "mcplan/base/error.hpp"
@@ -42,6 +43,24 @@ TEST_CASE("validate names the field that does not fit") {
   CHECK(field([](Plan& p) { p.swings[1].end_effector = 4; }) == "swings[1]");
   CHECK(field([](Plan& p) { p.swings[1].height = std::nan(""); }) == "swings[1]");
   CHECK(field([](Plan& p) { p.swings[2].lift_normal_W.z() = INFINITY; }) == "swings[2]");
+}
+
+TEST_CASE("slack of the start is a time that a measured start alone has") {
+  const auto with = [](bool measured, double slack_s) {
+    return field([&](Plan& p) { p.measured_start = measured, p.start_slack_s = slack_s; });
+  };
+  CHECK(with(true, 0.4) == "accepted");
+  CHECK(with(true, 0.0) == "accepted");
+  CHECK(with(false, 0.0) == "accepted");
+  CHECK(with(false, 0.4) == "start_slack_s");
+  for (const double bad : {-0.1, -HUGE_VAL, HUGE_VAL, std::nan("")}) CHECK(with(true, bad) == "start_slack_s");
+  Plan plan = walk();
+  plan.start_slack_s = 0.4;
+  CHECK_THROWS_WITH_AS(plan.validate(), "start_slack_s: must be 0 without measured_start, got 0.4",
+                       mcplan::InvalidPlan);
+  plan.measured_start = true;
+  plan.start_slack_s = -1.0;
+  CHECK_THROWS_WITH_AS(plan.validate(), "start_slack_s: must lie in [0, inf) s, got -1", mcplan::InvalidPlan);
 }
 
 TEST_CASE("validate names the field of forces at points that does not fit") {

@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "mcplan/planar/checker.hpp"
 #include "planar/robots.hpp"
@@ -63,12 +65,15 @@ TEST_CASE("the place and the time of the worst depth are those of the sample") {
   PlanarPlan plan = beside({0.0, 2.0}, M_PI, -INFINITY, INFINITY);  // a ceiling
   plan.control_points(planar::arm - 1, 7) = 1.2;                    // the arm swings up and back
   double highest = 0.0, when_s = 0.0;
+  std::vector<double> heights;
   for (int i = 0; i <= 4000; ++i) {
     const double time_s = plan.duration() * i / 4000.0;
     const auto frames = mcplan::planar_kinematics(plan.task.robot, plan.at(time_s).configuration);
     const auto sole = planar_point(frames[planar::arm], {0.0, -0.2}, 0.0);
+    heights.push_back(0.0);
     for (double end : {-kHalfHand, kHalfHand}) {
       const double height = planar_point(sole, {end, 0.0}).position_W.y();
+      heights.back() = std::max(heights.back(), height);
       if (height <= highest) continue;
       highest = height;
       when_s = time_s;
@@ -81,6 +86,19 @@ TEST_CASE("the place and the time of the worst depth are those of the sample") {
   CHECK(found.phase == 1);
   CHECK(clearance(check(plan)).value == found.depth_m);
   CHECK(clearance(check(plan)).time_s == found.time_s);
+
+  // The plan is kept until the hand first goes in, before it is deepest.
+  mcplan::PlanarTolerances others;  // moving the arm so needs torques and forces that the standing plan has not
+  others.limit = others.balance = others.moment = others.friction = others.pull = INFINITY;
+  const double tolerance = others.clearance;
+  const auto first =
+      std::find_if(heights.begin(), heights.end(), [&](double height) { return height > highest - 0.02 + tolerance; });
+  const double first_s = plan.duration() * (first - heights.begin()) / 4000.0;
+  CHECK(first_s < when_s - 0.02);
+  const CheckResult kept = check(plan, others);
+  REQUIRE(kept.violations().size() == 1);
+  CHECK(std::abs(kept.kept_until_s - first_s) < 2e-3);
+  CHECK(kept.checked_until_s == plan.duration());
 }
 
 TEST_CASE("a solid ends where its surface does") {

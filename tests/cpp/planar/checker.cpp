@@ -101,6 +101,12 @@ TEST_CASE("each limit of a joint is named, with the joint") {
   CHECK(velocity.worst().end_effector == "arm");
   CHECK(velocity.violations().size() == 1);
 
+  CHECK(velocity.kept_until_s > 0.0);
+  CHECK(velocity.kept_until_s < velocity.worst().time_s);
+  CHECK(velocity.checked_until_s > velocity.worst().time_s);
+  CHECK(position.kept_until_s == 0.0);
+  CHECK(checked(wave).kept_until_s == checked(wave).checked_until_s);
+
   const CheckResult torque = checked([](P& p) { p.task.robot.bodies[planar::right_leg].torque_max = 1.0; });
   CHECK(torque.worst().name == "torque");
   CHECK(torque.worst().end_effector == "right_leg");
