@@ -58,7 +58,7 @@ def draw(plan: mp.Plan, rng: random.Random) -> tuple[float, mp.model.Knot, list[
     if 0.0 <= other <= plan.duration():
         ends = np.array(knot.end_effectors_W)
         velocities = np.array(knot.end_effector_velocities_W)
-        for e, (now, then) in enumerate(zip(contacts, plan.at(other).end_effectors)):
+        for e, (now, then) in enumerate(zip(contacts, plan.at(other).end_effectors, strict=False)):
             if (now < 0) == (then.surface < 0):
                 continue
             kind = "early" if other > t else "late"

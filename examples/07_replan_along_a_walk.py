@@ -42,8 +42,8 @@ def page_of(plans: list[mp.Plan]) -> str:
         hue = 240 - 240 * i // (len(plans) - 1)
         com = " ".join(place(plan.at(t).com_W) for t in np.linspace(0.0, plan.duration(), 60))
         lines.append(f'<polyline points="{com}" fill="none" stroke="hsl({hue},80%,45%)" stroke-opacity="0.5"/>')
-        for knot, phase in zip(plan.knots, plan.phases):
-            for foot, contact in zip(knot.end_effectors_W, phase.contacts):
+        for knot, phase in zip(plan.knots, plan.phases, strict=False):
+            for foot, contact in zip(knot.end_effectors_W, phase.contacts, strict=False):
                 if contact.surface >= 0:
                     x, y = place(foot).split(",")
                     lines.append(f'<circle cx="{x}" cy="{y}" r="2" fill="hsl({hue},80%,45%)" fill-opacity="0.4"/>')
@@ -69,7 +69,9 @@ for _ in range(REPLANS):
     plans.append(plan)
 
 Path("replans.html").write_text(page_of(plans), encoding="utf-8")
-print(f"seed {SEED}: {dict(statuses)}, {statistics.median(times):.1f} ms of processor time in the median, {max(times):.1f} at most")
+print(
+    f"seed {SEED}: {dict(statuses)}, {statistics.median(times):.1f} ms of processor time in the median, {max(times):.1f} at most"
+)
 print("all plans are drawn in replans.html")
 if statuses["solved"] < 0.97 * REPLANS:
     raise SystemExit(1)

@@ -11,7 +11,7 @@ from typing import Literal, TypedDict
 from mcplan import _core
 from mcplan._core import ddp, rhp, sip
 
-__all__ = ["DdpOptions", "DdpWeights", "RhpOptions", "SipOptions"]
+__all__ = ["DdpOptions", "DdpReplanOptions", "DdpWeights", "RhpOptions", "SipOptions"]
 
 
 class DdpWeights(TypedDict, total=False):
@@ -145,6 +145,23 @@ class DdpOptions(TypedDict, total=False):
     """Keep the sequence of every iteration in the report."""
     logger: collections.abc.Callable[[_core.LogLevel, str], None] | None
     """Called with (LogLevel, line); None: silent."""
+
+
+class DdpReplanOptions(TypedDict, total=False):
+    """How to plan on from a measured state, beside the options of the search."""
+
+    committed_s: float
+    """[s] Contacts that are due within this time are made and broken as planned, when and where. The default goes with
+    the size of the robot."""
+    start_slack_s: float
+    """[s] Time within which what the measured state itself violates has to be made good. The default goes with the size
+    of the robot."""
+    phases_min: int
+    """The horizon never gets shorter than this: at its end the robot stands."""
+    horizon: int
+    """Number of phases that are planned ahead under a velocity command."""
+    other_sequences: bool
+    """Try sequences near to the plan's own where that does not do."""
 
 
 class RhpOptions(TypedDict, total=False):

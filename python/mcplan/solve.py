@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Union
+from typing import Any
 
 from mcplan import _core
 from mcplan._core import Knot, Plan, PlanResult, Robot, Scene
@@ -15,9 +15,9 @@ from mcplan.files.meeting import warn_of_names
 from mcplan.options import fill, option_names, start
 
 #: Surfaces by end-effector: indices in the robot's order, -1 free, or names.
-Contacts = Union[Sequence[int], Mapping[str, Union[str, None]]]
+Contacts = Sequence[int] | Mapping[str, str | None]
 #: A velocity to walk at: ahead and to the left [m/s], turning [rad/s].
-Command = Union[_core.ddp.VelocityCommand, Sequence[float]]
+Command = _core.ddp.VelocityCommand | Sequence[float]
 
 
 def plan(
@@ -121,7 +121,9 @@ def command_of(command: Command | None) -> _core.ddp.VelocityCommand | None:
         ahead, left, yaw_rate = (float(number) for number in command)
     except (TypeError, ValueError):
         raise InvalidArgument(
-            "command", "must be a ddp.VelocityCommand or three numbers: ahead, left [m/s], yaw rate [rad/s]", shown(command)
+            "command",
+            "must be a ddp.VelocityCommand or three numbers: ahead, left [m/s], yaw rate [rad/s]",
+            shown(command),
         ) from None
     return _core.ddp.VelocityCommand(velocity_B=[ahead, left], yaw_rate=yaw_rate)
 

@@ -67,7 +67,7 @@ def test_undisturbed_a_replan_keeps_its_sequence_and_its_footholds(scene, fracti
     assert result.report.plan_from == mp.model.PlanFrom.same_sequence
     assert result.report.start_violations == ()
     planned = footholds(plan)[-len(footholds(result.plan)) or len(footholds(plan)) :]
-    for (e, surface, place), (was_e, was_surface, was_place) in zip(footholds(result.plan), planned):
+    for (e, surface, place), (was_e, was_surface, was_place) in zip(footholds(result.plan), planned, strict=False):
         assert (e, surface) == (was_e, was_surface)
         assert np.linalg.norm(place - was_place) < 1e-3
 
@@ -96,13 +96,19 @@ def test_contacts_that_are_early_or_late_are_taken_as_they_are(stairs, late_s, t
     k = next(
         k
         for k in range(4, len(sequence))
-        if any((sequence[k - 1][e] < 0 <= sequence[k][e]) == touchdown and sequence[k - 1][e] != sequence[k][e] for e in (0, 1))
+        if any(
+            (sequence[k - 1][e] < 0 <= sequence[k][e]) == touchdown and sequence[k - 1][e] != sequence[k][e]
+            for e in (0, 1)
+        )
     )
     # At t the robot still has, or already has, the contacts of the other side of the switch.
     t, other = times[k] + late_s, times[k] - 0.2 * late_s
     knot, _ = state_at(stairs, t)
     elsewhere, contacts = state_at(stairs, other)
-    knot.end_effectors_W, knot.end_effector_velocities_W = elsewhere.end_effectors_W, elsewhere.end_effector_velocities_W
+    knot.end_effectors_W, knot.end_effector_velocities_W = (
+        elsewhere.end_effectors_W,
+        elsewhere.end_effector_velocities_W,
+    )
     result = mp.replan(stairs, t, knot, contacts=contacts)
     assert result.report.status == mp.Status.solved
     assert [end.surface for end in result.plan.at(0.0).end_effectors] == contacts
@@ -116,7 +122,7 @@ def touchdown_times(plan: mp.Plan) -> list[float]:
     return [
         times[k]
         for k in range(1, len(sequence))
-        for was, now in zip(sequence[k - 1], sequence[k])
+        for was, now in zip(sequence[k - 1], sequence[k], strict=True)
         if was < 0 <= now
     ]
 
@@ -134,6 +140,53 @@ def test_a_start_out_of_reach_is_named_and_made_good(flat):
     assert "reach" in {violation.name for violation in mp.check(result.plan).violations()}
 
 
+def beyond_reach(robot: mp.Robot, e: int, com_W, rotation_WB, end_W) -> float:
+    end = robot.end_effectors[e]
+    relative = rotation_WB.T @ (np.array(end_W) - com_W)
+    return max((np.array(end.reach_min_B) - relative).max(), (relative - np.array(end.reach_max_B)).max())
+
+
+def rotation_of(rpy) -> np.ndarray:
+    from scipy.spatial.transform import Rotation
+
+    return Rotation.from_euler("xyz", rpy).as_matrix()
+
+
+def test_what_the_checker_forgives_is_the_straight_motion_of_the_start_fading_out(flat):
+    from scipy.spatial.transform import Rotation
+
+    t0 = time_of_phase(flat, 1, 0.3)
+    knot, contacts = state_at(flat, t0)
+    e = 0 if contacts[0] >= 0 else 1
+    outward = np.array([0.0, -1.0 if e == 0 else 1.0, 0.0])
+    knot.com_W = np.array(knot.com_W) + 0.02 * outward
+    knot.com_velocity_W = np.array(knot.com_velocity_W) + 0.1 * outward
+    plan = mp.replan(flat, t0, knot, contacts=contacts).plan
+    first, slack_s = plan.knots[0], plan.start_slack_s
+    start, spin = rotation_of(first.base_rpy), np.array([0.0, 0.0, 1.0]) * first.base_rpy_rate[2]
+    times = np.arange(0.0, 0.95 * slack_s, 0.002)
+    straight, worst, outside = -1.0, -1.0, -1.0
+    for t in times:
+        com_W = np.array(first.com_W) + t * np.array(first.com_velocity_W)
+        moved = beyond_reach(
+            plan.robot, e, com_W, Rotation.from_rotvec(t * spin).as_matrix() @ start, first.end_effectors_W[e]
+        )
+        straight = max(straight, moved, 0.0)
+        now = plan.at(t)
+        if now.end_effectors[e].surface != contacts[e]:
+            break
+        value = beyond_reach(
+            plan.robot, e, np.array(now.com_W), rotation_of(now.base_rpy), now.end_effectors[e].position_W
+        )
+        outside, worst = max(outside, value), max(worst, value - straight * (1.0 - (t / slack_s) ** 2))
+    assert outside > 1.5e-3  # the push does lead out of reach
+    assert worst < 1e-3
+    assert mp.check(plan).ok()
+    plan.start_slack_s = 0.0
+    reach = next(found for found in mp.check(plan).constraints if found.name == "reach")
+    assert reach.value >= outside - 1e-6
+
+
 def test_what_is_committed_is_kept_under_a_push(flat):
     touchdown = touchdown_times(flat)[2]
     t = touchdown - 0.06
@@ -141,7 +194,7 @@ def test_what_is_committed_is_kept_under_a_push(flat):
     knot.com_velocity_W = np.array(knot.com_velocity_W) + [0.1, 0.1, 0.0]
     result = mp.replan(flat, t, knot, contacts=contacts)
     first = footholds(result.plan)[0]
-    planned = next(f for f, time in zip(footholds(flat), touchdown_times(flat)) if time == touchdown)
+    planned = next(f for f, time in zip(footholds(flat), touchdown_times(flat), strict=False) if time == touchdown)
     assert first[:2] == planned[:2]
     assert np.linalg.norm(first[2] - planned[2]) < 1e-3
     assert abs(touchdown_times(result.plan)[0] - 0.06) < 0.003
@@ -231,7 +284,11 @@ def test_the_result_does_not_depend_on_the_number_of_threads_or_on_what_was_repl
     ("given", "error", "message"),
     [
         ({"contacts": [0, 0]}, mp.errors.InvalidPlan, r"measured.contacts: must be one per end-effector \(4\), got 2"),
-        ({"contacts": [0, 7, -1, -1]}, mp.errors.InvalidPlan, r"measured.contacts\[1\]: must be -1 or the index of a surface"),
+        (
+            {"contacts": [0, 7, -1, -1]},
+            mp.errors.InvalidPlan,
+            r"measured.contacts\[1\]: must be -1 or the index of a surface",
+        ),
         ({"contacts": {"left_hoof": "floor"}}, mp.errors.InvalidPlan, "measured.contacts: must name end-effectors"),
         ({"contacts": {"left_foot": "flor"}}, mp.errors.InvalidPlan, "measured.contacts.left_foot: must be a surface"),
         ({"contacts": 3}, mp.errors.InvalidArgument, "contacts: must be indices of surfaces, or a mapping"),

@@ -84,7 +84,7 @@ def test_a_start_out_of_reach_passes_with_slack_alone_and_is_named_apart():
 def test_what_is_beyond_the_slack_is_the_value_less_the_decaying_excess(slack_s, velocity):
     plan = out_of_reach(slack_s, velocity=velocity)
     excess = beyond_reach(plan, 0.0)
-    values = [beyond_reach(plan, t) - excess * max(0.0, 1.0 - t / slack_s) for t in instants(plan)]
+    values = [beyond_reach(plan, t) - excess * max(0.0, 1.0 - (t / slack_s) ** 2) for t in instants(plan)]
     result = mp.check(plan)
     (reach,) = (found for found in result.constraints if found.name == "reach")
     if max(values) > 0.0:

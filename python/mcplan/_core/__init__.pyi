@@ -1436,7 +1436,6 @@ class Plan:
         planner: str = "",
         measured_start: bool = False,
         open_end: bool = False,
-        start_slack_s: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         momentum_max: typing.SupportsFloat | typing.SupportsIndex = ...,
         momentum_rate_max: typing.SupportsFloat | typing.SupportsIndex = ...,
         scene: Scene = ...,
@@ -1558,13 +1557,6 @@ class Plan:
         """
     @scene.setter
     def scene(self, arg1: Scene) -> None: ...
-    @property
-    def start_slack_s(self) -> float:
-        """
-        [s] Time within which what the measured start violates by itself has to be made good; above zero with measured_start alone.
-        """
-    @start_slack_s.setter
-    def start_slack_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def swings(self) -> tuple:
         """
@@ -1964,11 +1956,6 @@ class CheckResult:
         Largest value / tolerance, violated or not.
         """
     @property
-    def checked_until_s(self) -> float:
-        """
-        How far the plan was looked at [s].
-        """
-    @property
     def complete(self) -> bool:
         """
         False: interrupted; what was found by then is listed.
@@ -1980,23 +1967,6 @@ class CheckResult:
         """
     @constraints.setter
     def constraints(self, arg1: collections.abc.Sequence[Violation]) -> None: ...
-    @property
-    def kept_until_s(self) -> float:
-        """
-        Time of the earliest violation [s]; checked_until_s where there is none, 0 where the plan could not be evaluated.
-        """
-    @property
-    def start(self) -> tuple:
-        """
-        Tuple of Violation: what the measured start violates by itself, of which ok() does not ask; worst first.
-        """
-    @start.setter
-    def start(self, arg1: collections.abc.Sequence[Violation]) -> None: ...
-    @property
-    def start_slack_s(self) -> float:
-        """
-        The plan's [s].
-        """
     @property
     def warnings(self) -> tuple:
         """
@@ -3377,15 +3347,9 @@ def built_in(kind: str) -> list[str]:
     """
 
 @typing.overload
-def check(
-    plan: Plan,
-    scene: Scene = None,
-    robot: Robot = None,
-    tolerances: Tolerances = ...,
-    until_s: typing.SupportsFloat | typing.SupportsIndex = ...,
-) -> CheckResult:
+def check(plan: Plan, scene: Scene = None, robot: Robot = None, tolerances: Tolerances = ...) -> CheckResult:
     """
-    Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons alone, up to until_s [s] where that is before its end. Raises InvalidPlan when its arrays do not fit together, and Interrupted with what was found by then.
+    Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons alone. Raises InvalidPlan when its arrays do not fit together, and Interrupted with what was found by then.
     """
 
 @typing.overload

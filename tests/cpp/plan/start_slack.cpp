@@ -40,9 +40,9 @@ double beyond_reach(const Case& c, double t) {
   return std::max((end.reach_min_B - offset).maxCoeff(), (offset - end.reach_max_B).maxCoeff());
 }
 
-double decay(double t, double slack_s) { return std::max(0.0, 1.0 - t / slack_s); }
+double decay(double t, double slack_s) { return std::max(0.0, 1.0 - t * t / (slack_s * slack_s)); }
 
-/// Largest value(t) - v_0 max(0, 1 - t / T) at the instants that the checker looks at.
+/// Largest value(t) - v_0 max(0, 1 - (t / T)^2) at the instants that the checker looks at.
 template <class Value>
 double largest_beyond(const Case& c, double excess, Value value) {
   double largest = -1e9;
