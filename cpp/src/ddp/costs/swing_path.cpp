@@ -1,6 +1,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "base/base_rotation.hpp"
 #include "ddp/constants.hpp"
@@ -126,16 +128,15 @@ class SwingPath final : public CostTerm {
     Vector3d place;
     int side = -1;  ///< the nearest edge; -1: all are outside
   };
-  static Corner deepest_corner(const Problem& problem, std::size_t solid, const Eigen::Vector2d& half,
+  static Corner deepest_corner(const Polygon& polygon, double thickness, const Eigen::Vector2d& half,
                                const Vector3d& place, const Eigen::Matrix3d& sole) {
-    const Polygon& polygon = problem.polygons[solid];
     Corner out;
     double deepest = 0.0;
     for (double x : {-1.0, 1.0})
       for (double y : {-1.0, 1.0}) {
         const Vector3d corner = place + x * half.x() * sole.col(0) + y * half.y() * sole.col(1);
         const double height = polygon.height(corner), beside = polygon.outside(corner);
-        if (height < -problem.thickness[solid]) continue;
+        if (height < -thickness) continue;
         const double depth = std::min(kPathRoom - height, kPathRoom - beside);
         if (!(depth > deepest)) continue;
         deepest = depth;
@@ -145,6 +146,10 @@ class SwingPath final : public CostTerm {
           if (polygon.overshoot(e, corner) > polygon.overshoot(out.side, corner)) out.side = e;
       }
     return out;
+  }
+
+  static bool stands_on(const Polygon& polygon, const Vector3d& place) {
+    return std::abs(polygon.height(place)) < kPathRoom && polygon.outside(place) < kPathRoom;
   }
 
   /// The normal of the surface on which an end-effector stands there; up where there is none.
@@ -177,11 +182,18 @@ class SwingPath final : public CostTerm {
     Vector3d place = on.place + lift_max * 16.0 * s * s * (1.0 - s) * (1.0 - s) * sole.col(2);
     Held held;
     if (body) held.hold(*body, limit, place);
-    const Corner corner = deepest_corner(problem, solid, limit.half_size, place, sole);
+    const Vector3d from = step.x.segment<3>(at.end(step.l)), to = from + step.u->segment<3>(at.stride(step.l));
+    // Below what it leaves or reaches a foot has come through it, however thin that is.
+    const bool through =
+        (arc.before == 0.0 && stands_on(polygon, from)) || (arc.after == 0.0 && stands_on(polygon, to));
+    const double thickness = through ? std::numeric_limits<double>::infinity() : problem.thickness[solid];
+    const Corner corner = deepest_corner(polygon, thickness, limit.half_size, place, sole);
     if (corner.side < 0) return;
     const double up = polygon.height(corner.place) - kPathRoom;
     const double away = polygon.overshoot(corner.side, corner.place) - kPathRoom;
-    const bool raise = held.low && up > away;
+    // Out of that it goes up by a knot inside the swing as well.
+    const bool inside = arc.duration_before > 0.0 || arc.duration_after > 0.0;
+    const bool raise = (held.low || (through && inside)) && up > away;
     const double weight = step.schedule.interior_weight, value = raise ? up : away;
     if (!rows.with_gradient()) {
       rows.add_value(weight, value);

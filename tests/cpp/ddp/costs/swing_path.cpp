@@ -91,3 +91,26 @@ TEST_CASE("the rows of a swing of several phases have the derivatives of their v
   CHECK(cost(problem, term(problem, "swing_path", swinging()), x, u) > 1e-3);
   CHECK(cost(problem, path, x, u) == 0.0);
 }
+
+TEST_CASE("a swing does not dive through the thin floor that it leaves") {
+  const ddp::Problem problem = with_tread();
+  const ddp::Layout& at = problem.layout;
+  ddp::SwingArc arc;  // the first of two phases
+  arc.known = true;
+  arc.duration = arc.after = arc.duration_after = 1.2;
+  arc.stride_after = {0.1, 0.0, 0.6};
+  About about = swinging();
+  about.arc = &arc;
+  const auto price = [&](double down) {
+    VectorXd x = VectorXd::Zero(at.nx()), u = VectorXd::Zero(at.nu());
+    x.segment<3>(at.com()) = Vector3d(0.0, 0.0, 0.7) / 0.7;
+    x.segment<3>(at.end(1)) = Vector3d(-0.2, 0.1, 0.0) / 0.7;
+    u.segment<3>(at.stride(1)) = Vector3d(0.1, 0.0, -down) / 0.7;
+    u[at.duration()] = arc.duration;
+    u[at.stiffness(0)] = 1.0;
+    return cost(problem, term(problem, "swing_path", about), x, u);
+  };
+  CHECK(price(0.0) == 0.0);
+  CHECK(price(0.7) > 1e-3);  // below the slab of 0.2 m
+  CHECK(price(0.8) > price(0.7));
+}
