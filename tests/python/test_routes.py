@@ -97,6 +97,21 @@ def test_legs_do_not_walk_through_a_fence():
     assert "limb" in found and "trunk" not in found
 
 
+@pytest.mark.parametrize("height", [0.25, 0.3])
+@pytest.mark.parametrize("handles", [True, False])
+def test_a_high_step_is_climbed_beside_handles_and_beside_tables(height, handles):
+    low, high = patch("low", (-1.0, 0.3), (-1.0, 1.0)), patch("high", (0.3, 2.5), (-1.0, 1.0), height)
+    high.thickness = height
+    where = scene([low, high], [0.9, 0.0, height], "high")
+    outer, thickness = (0.32, 0.02) if handles else (0.55, 0.04)
+    for side, hand in ((-1, "right_hand"), (1, "left_hand")):
+        beside = patch(f"beside_{hand}", (0.2, 0.8), tuple(sorted((side * 0.24, side * outer))), 0.85, hand)
+        beside.thickness, beside.grasp = thickness, handles
+        where.surfaces = [*where.surfaces, beside]
+    result = mp.plan(where)
+    assert str(result.report.status) == "solved", result.report.message
+
+
 def test_four_legs_climb_stairs_with_two_feet_down():
     treads = [patch("ground", (-1.2, 0.45), (-1.0, 1.0))]
     for k in range(1, 4):

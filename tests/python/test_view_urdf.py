@@ -3,13 +3,16 @@
 import copy
 import gzip
 
+import numpy as np
 import pytest
 
+import mcplan as mp
 import plans_by_hand as by_hand
 from mcplan.errors import SimplerDrawing
 from mcplan.kinematics.samples import sample
+from mcplan.kinematics.urdf_model import load_model
 from mcplan.view import show
-from mcplan.view.robot_urdf import CannotFollow, urdf_robot
+from mcplan.view.robot_urdf import CannotFollow, mesh_figure, own_vertices, urdf_robot
 
 pytest.importorskip("pinocchio")
 pytest.importorskip("example_robot_data")
@@ -39,3 +42,19 @@ def test_a_plan_out_of_reach_falls_back_to_the_stick_robot(talos):
     with pytest.warns(SimplerDrawing, match="stick robot instead"):
         page = show(plan)
     assert b"robot/left_foot_upper" in gzip.decompress(page.payload)
+
+
+def test_parts_of_a_mesh_are_drawn_between_their_own_vertices():
+    square, tent = [[0, 1, 2], [2, 1, 3]], [[0, 1, 2], [0, 2, 3], [0, 3, 4]]
+    read = np.array(square + tent + square)
+    assert own_vertices(read, 13).tolist() == square + (np.array(tent) + 4).tolist() + (np.array(square) + 9).tolist()
+    for count in (4, 12, 14):  # one part alone; vertices that do not come out even
+        assert own_vertices(read, count) is read
+    assert own_vertices(np.array(square), 4).tolist() == square
+
+
+def test_no_vertex_of_go2_is_left_out():
+    model = load_model(mp.load_robot("go2"))
+    figure = mesh_figure(model, np.array([model.neutral]))
+    for part in figure.parts:
+        assert len(np.unique(part.mesh.faces)) == len(part.mesh.vertices), part.name

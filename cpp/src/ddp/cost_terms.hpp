@@ -26,6 +26,15 @@ struct StepView {
   int l = -1;                            ///< end-effector
   int surface = kFree;                   ///< that it touches
   double sole_yaw = 0.0;                 ///< [rad] heading of its sole
+  const SwingArc* arc = nullptr;         ///< of its swing, where that is known
+
+  /// Take from a trajectory what is given of the end-effector.
+  void look_at(int end_effector, int contact, const Trajectory& t) {
+    l = end_effector;
+    surface = contact;
+    sole_yaw = t.sole_yaw[k][l];
+    arc = t.swing_arcs.empty() ? nullptr : &t.swing_arcs[k][l];
+  }
 
   /// Whether there are rows inside the phase.
   bool between_knots() const { return u && schedule.interior_weight > 0.0; }

@@ -93,9 +93,7 @@ const Rows& LocalModel::block(int k, int l, int contact) {
   if (block->made != expansion_) {
     rows.clear();
     StepView about = view(k);
-    about.l = l;
-    about.surface = contact;
-    about.sole_yaw = trajectory_->sole_yaw[k][l];
+    about.look_at(l, contact, *trajectory_);
     write_terms(contact == kFree ? Scope::free : Scope::contact, about, rows);
     block->made = expansion_;
   }
@@ -157,9 +155,7 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
     write_terms(Scope::step, about, rows_);
     if (about.between_knots()) make_instants(*problem_, pendulum_, x, *u, instants_);
     for (int l = 0; l < problem_->layout.end_effector_count(); ++l) {
-      about.l = l;
-      about.surface = sequence[k][l];
-      about.sole_yaw = trajectory.sole_yaw[k][l];
+      about.look_at(l, sequence[k][l], trajectory);
       write_terms(about.surface == kFree ? Scope::free : Scope::contact, about, rows_);
     }
     if (last) break;

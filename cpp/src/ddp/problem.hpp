@@ -6,6 +6,7 @@
 #include "ddp/contact_sequence.hpp"
 #include "ddp/layout.hpp"
 #include "ddp/routes.hpp"
+#include "ddp/swing_arcs.hpp"
 #include "mcplan/ddp/options.hpp"
 #include "mcplan/plan/plan.hpp"
 #include "mcplan/robot/robot.hpp"
@@ -33,6 +34,7 @@ struct Units {
 struct Trajectory {
   std::vector<Eigen::VectorXd> x, u;
   std::vector<std::vector<double>> sole_yaw;  ///< by step and end-effector [rad]: given, not optimised; see Problem
+  SwingArcs swing_arcs;                       ///< likewise; empty: every phase is taken for a whole swing
 };
 
 /// What the attempts of one search differ in; the problem is the same for all of them.

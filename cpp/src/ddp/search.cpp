@@ -175,6 +175,7 @@ Ending Search::iterate(Incumbent& now, Schedule& schedule, bool free_sequence) {
   Iteration row;
   row.index = ++report_->iterations;
   if (problem_->model == Model::wrench) problem_->set_sole_yaw(now.sequence, now.trajectory);
+  if (schedule.tuning.clear_swings) set_swing_arcs(*problem_, now.sequence, now.trajectory);
   now.evaluation = evaluate_(now.trajectory, now.sequence, schedule);
   const double before = now.evaluation.merit();
   if (!std::isfinite(before)) return Ending::broke_down;

@@ -89,7 +89,8 @@ def _mesh(item: Any) -> Mesh | None:
     if kind.startswith("BVHModel"):
         triangles = (shape.tri_indices(i) for i in range(shape.num_tris))
         faces = np.array([(t[0], t[1], t[2]) for t in triangles], dtype=np.int64)
-        return whole(Mesh(np.asarray(shape.vertices(), float), faces))
+        vertices = np.asarray(shape.vertices(), float)
+        return whole(Mesh(vertices, own_vertices(faces, len(vertices))))
     if kind == "Box":
         x, y, z = 2.0 * np.asarray(shape.halfSide, float)
         return box((x, y, z))
@@ -104,6 +105,33 @@ def _mesh(item: Any) -> Mesh | None:
         mesh = capsule(2.0 * half, float(shape.radius), float(shape.radius))
         return replace(mesh, vertices=mesh.vertices - [0.0, 0.0, half])
     return None
+
+
+def own_vertices(faces: NDArray[np.int64], count: int) -> NDArray[np.int64]:
+    """Faces of a mesh of several materials, each with the vertices of its own part.
+
+    Pinocchio's reader of meshes puts the vertices of all materials one behind the other and lets the indices of each
+    begin with 0, so that every part but the first is drawn between the first one's vertices: the thighs of Go2 were
+    not there. A part begins with the face 0, 1, 2, since its vertices are numbered as they occur.
+
+    Args:
+        faces: (n, 3), the parts in the order of their vertices.
+        count: Number of vertices of all parts.
+
+    Returns:
+        The faces with the numbers of the vertices before their part added; as they were if these do not come out even.
+    """
+    if not len(faces) or faces.max() + 1 == count:
+        return faces
+    starts = np.flatnonzero((faces == [0, 1, 2]).all(axis=1))
+    if not len(starts) or starts[0] != 0:
+        return faces
+    parts = np.split(faces, starts[1:])
+    sizes = [int(part.max()) + 1 for part in parts]
+    if sum(sizes) != count or any(len(np.unique(part)) != size for part, size in zip(parts, sizes, strict=True)):
+        return faces
+    before = np.concatenate([[0], np.cumsum(sizes[:-1])])
+    return np.concatenate([part + first for part, first in zip(parts, before, strict=True)])
 
 
 def _colour(rgba: Array) -> str:

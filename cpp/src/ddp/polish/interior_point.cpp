@@ -147,6 +147,7 @@ bool InteriorPoint::begin(const Trajectory& trajectory, const Settings& settings
   motion_.trajectory = trajectory;
   fixed_.impose(motion_.trajectory);
   fixed_.problem().set_sole_yaw(fixed_.contacts(), motion_.trajectory);
+  set_swing_arcs(fixed_.problem(), fixed_.contacts(), motion_.trajectory);
   trial_.trajectory = motion_.trajectory;
   proximal_ = settings.proximal;
   mu_ = settings.barrier;
@@ -173,7 +174,9 @@ void InteriorPoint::take() {
   std::swap(motion_, trial_);
   barrier_.step(dr_, trial_r_);
   fixed_.problem().set_sole_yaw(fixed_.contacts(), motion_.trajectory);
+  set_swing_arcs(fixed_.problem(), fixed_.contacts(), motion_.trajectory);
   trial_.trajectory.sole_yaw = motion_.trajectory.sole_yaw;
+  trial_.trajectory.swing_arcs = motion_.trajectory.swing_arcs;
   limits_.head(motion_.trajectory);
   if (limits_.relaxed()) limits_.relax(motion_);
   limits_.values(motion_, r_);

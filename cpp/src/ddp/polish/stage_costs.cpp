@@ -113,9 +113,7 @@ Rows& StageCosts::other_rows(const Motion& motion, int k, bool with_gradient) {
   };
   write(of_step_);
   for (std::size_t l = 0; l < state.size(); ++l) {
-    view.l = static_cast<int>(l);
-    view.surface = state[l];
-    view.sole_yaw = t.sole_yaw[k][l];
+    view.look_at(static_cast<int>(l), state[l], t);
     write(state[l] == kFree ? of_free_ : of_contact_);
   }
   if (!last && in_flight(state)) write(of_flight_);

@@ -15,7 +15,7 @@ from mcplan.extras import require
 from mcplan.kinematics.rotations import pose, with_axis_z
 from mcplan.kinematics.samples import Samples, sample
 from mcplan.view.coarse import coarse
-from mcplan.view.colours import COM, FORCE, GRASP, OUTLINE, PAD, TEXT, end_effector_colours, mix, plain
+from mcplan.view.colours import COM, FORCE, GRASP, OUTLINE, PAD, TEXT, end_effector_colours, mix, plain, rgb
 from mcplan.view.extent import extent_of, require_drawable
 from mcplan.view.figure import Figure
 from mcplan.view.figure_choice import figure_of
@@ -36,6 +36,13 @@ Array = NDArray[np.float64]
 
 #: Smallest details of meshes that are drawn, in CoM heights.
 CELL = 0.012
+#: Displacement of the CoM between two postures: at least so many CoM heights, and so many lengths of the stance, that of
+#: a robot on four feet, whose trunks would cover each other otherwise.
+SPACING, SPACING_STANCE = 0.5, 1.5
+#: The lightest colour of a link, as a share of white: the paper is white, and lit from above a white link is as well.
+LIGHTEST = 0.78
+#: Share of white in the first posture, whose links are shaded as well.
+PALEST = 0.62
 #: Layers of the canvas, back to front.
 SOLIDS, LINES, MARKS, BODIES, FORCES, COM_PATH = range(1, 7)
 
@@ -84,7 +91,7 @@ def picture(
     shown = _Shown(canvas, figure, samples, robot, float(robot.mass) * float(scene.gravity))
     for rank, n in enumerate(chosen):
         # The past is pale; the last posture has full colour.
-        fade = 0.62 * (1.0 - rank / max(len(chosen) - 1, 1)) ** 0.8
+        fade = PALEST * (1.0 - rank / max(len(chosen) - 1, 1)) ** 0.8
         _paint_robot(shown, n, fade)
     sheet = _sheet(canvas, points, [drawing.mesh.vertices for drawing in drawings])
     _legend(sheet, scene, robot, colours)
@@ -118,13 +125,25 @@ def pose_indices(samples: Samples, robot: Robot, poses: int | None = None) -> li
     """Samples at which the robot is drawn: first, last, and at equal displacements of the CoM between."""
     displacement = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(samples.com_W, axis=0), axis=1))])
     if poses is None:
-        poses = int(np.clip(round(displacement[-1] / (0.5 * float(robot.com_height))) + 1, 2, 9))
+        poses = int(np.clip(round(displacement[-1] / _spacing(robot)) + 1, 2, 9))
     return sorted(
         {
             int(np.argmin(np.abs(displacement - fraction * displacement[-1])))
             for fraction in np.linspace(0.0, 1.0, poses)
         }
     )
+
+
+def _spacing(robot: Robot) -> float:
+    """Displacement [m] between two postures that can be told apart."""
+    along = [float(end.nominal_B[0]) for end in robot.end_effectors if end.kind == "foot"] or [0.0]
+    return max(SPACING * float(robot.com_height), SPACING_STANCE * (max(along) - min(along)))
+
+
+def _off_white(colour: str) -> str:
+    """The colour, or a grey as light as can be told from the paper in its place."""
+    lightness = float(np.dot(rgb(colour), [0.299, 0.587, 0.114]))
+    return mix(colour, "#000000", 1.0 - LIGHTEST / lightness) if lightness > LIGHTEST else colour
 
 
 def _figure(samples: Samples, robot: Robot, colours: list[str]) -> Figure:
@@ -183,7 +202,7 @@ def _paint_robot(shown: _Shown, n: int, fade: float) -> None:
     canvas, figure, samples, robot = shown.canvas, shown.figure, shown.samples, shown.robot
     scale = float(robot.com_height) / 0.7
     for part in figure.parts:
-        paint = Paint(part.colour, fade=fade)
+        paint = Paint(part.colour if figure.kind == "stick" else _off_white(part.colour), fade=fade)
         canvas.mesh(part.mesh.moved(part.poses[n]), paint, BODIES, whole=figure.kind == "stick")
     ball = ellipsoid((0.030 * scale,) * 3).moved(pose(np.eye(3), samples.com_W[n]))
     canvas.mesh(ball, Paint(COM), COM_PATH, whole=True, lift=0.1)

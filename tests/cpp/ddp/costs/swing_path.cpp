@@ -65,3 +65,52 @@ TEST_CASE("the rows of swings have the derivatives of their values") {
   const ddp::Problem problem = with_tread();
   check_rows(problem, term(problem, "swing_path", swinging()), 5, 0.4, 10);
 }
+
+TEST_CASE("the rows of a swing of several phases have the derivatives of their values, and know the whole arc") {
+  const ddp::Problem problem = with_tread();
+  const ddp::Layout& at = problem.layout;
+  ddp::SwingArc arc;
+  arc.known = true;
+  arc.before = arc.duration = arc.duration_before = arc.duration_after = 1.2;
+  arc.after = 2.4;
+  arc.stride_before = {0.2, 0.0, 0.1};
+  arc.stride_after = {0.3, 0.1, 0.1};
+  arc.land_normal = Vector3d(-0.2, 0.1, 1.0).normalized();
+  About about = swinging();
+  about.arc = &arc;
+  const Writer path = term(problem, "swing_path", about);
+  check_rows(problem, path, 7, 0.4, 40);
+
+  // The second of four phases begins a quarter of the arc up, where a swing of its own would begin on the ground.
+  VectorXd x = VectorXd::Zero(at.nx()), u = VectorXd::Zero(at.nu());
+  x.segment<3>(at.com()) = Vector3d(0.45, 0.0, 1.2) / 0.7;
+  x.segment<3>(at.end(1)) = Vector3d(0.42, 0.1, 0.0) / 0.7;
+  u.segment<3>(at.stride(1)) = Vector3d(0.3, 0.0, 0.2) / 0.7;
+  u[at.duration()] = arc.duration;
+  u[at.stiffness(0)] = 0.7 / 1.2;  // the CoM stays up
+  CHECK(cost(problem, term(problem, "swing_path", swinging()), x, u) > 1e-3);
+  CHECK(cost(problem, path, x, u) == 0.0);
+}
+
+TEST_CASE("a swing does not dive through the thin floor that it leaves") {
+  const ddp::Problem problem = with_tread();
+  const ddp::Layout& at = problem.layout;
+  ddp::SwingArc arc;  // the first of two phases
+  arc.known = true;
+  arc.duration = arc.after = arc.duration_after = 1.2;
+  arc.stride_after = {0.1, 0.0, 0.6};
+  About about = swinging();
+  about.arc = &arc;
+  const auto price = [&](double down) {
+    VectorXd x = VectorXd::Zero(at.nx()), u = VectorXd::Zero(at.nu());
+    x.segment<3>(at.com()) = Vector3d(0.0, 0.0, 0.7) / 0.7;
+    x.segment<3>(at.end(1)) = Vector3d(-0.2, 0.1, 0.0) / 0.7;
+    u.segment<3>(at.stride(1)) = Vector3d(0.1, 0.0, -down) / 0.7;
+    u[at.duration()] = arc.duration;
+    u[at.stiffness(0)] = 1.0;
+    return cost(problem, term(problem, "swing_path", about), x, u);
+  };
+  CHECK(price(0.0) == 0.0);
+  CHECK(price(0.7) > 1e-3);  // below the slab of 0.2 m
+  CHECK(price(0.8) > price(0.7));
+}
