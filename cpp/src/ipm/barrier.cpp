@@ -20,12 +20,17 @@ constexpr double kFirstDelta = 1e-4, kMaxDelta = 1e20, kGrowDelta = 8.0, kFirstG
 constexpr double kMinDelta = 1e-20, kDualDelta = 1e-8;
 constexpr double kProgress = 0.9999;  // of the optimality error over the last iterations
 constexpr int kHistory = 4;
-constexpr double kLeastRatio = 0.1;  // of a probed barrier parameter, over the average complementarity
-constexpr double kNearViolation = 1e-2, kLeastPart = 0.0625, kGrowPart = 4.0;  // of the blend of Hessians
+constexpr double kLeastRatio = 0.1;      // of a probed barrier parameter, over the average complementarity
+constexpr double kNearViolation = 1e-2;  // up to which multipliers say something
+constexpr double kLeastPart = 0.0625, kGrowPart = 4.0;  // of the blend of Hessians
 constexpr double kFirstDamping = 1e-2;
 constexpr int kManyTrials = 6;
 constexpr double kShortStep = 0.01;  // of the way that is looked for, where nothing but a feasible point is
 constexpr int kManyShortSteps = 15;
+// Three steps in a row cut to less than a tenth by the bounds, while mu waits for its problem's solution, say that it
+// has fallen too far ahead: iterates follow a curved valley next to their bounds. It then rises again.
+constexpr double kCutStep = 0.1, kRaise = 10.0, kMostRaised = 0.01;
+constexpr int kManyCutSteps = 3;
 
 }  // namespace
 
@@ -96,7 +101,7 @@ void Barrier::start(Point& point, const Duals* duals) {
   part_ = 1.0 / kGrowPart;
   damping_ = 0.0;
   trials_ = 0;
-  short_steps_ = 0;
+  short_steps_ = cut_steps_ = 0;
 }
 
 void Barrier::find_gaps(const Point& point) {
@@ -322,6 +327,15 @@ void Barrier::choose_mu(const Point& point, const Errors& now) {
     set(std::max(least, std::min(kLinearDecrease * mu_, std::pow(mu_, kSuperlinearDecrease))));
 }
 
+/// After steps that the bounds cut short; see kCutStep.
+void Barrier::raise_mu() {
+  cut_steps_ = fixed_mu_ && options_.adaptive_barrier && alpha_ < kCutStep ? cut_steps_ + 1 : 0;
+  if (cut_steps_ < kManyCutSteps || mu_ >= kMostRaised) return;
+  mu_ = std::min(kMostRaised, kRaise * mu_);
+  filter_.clear();
+  cut_steps_ = 0;
+}
+
 Barrier::Ending Barrier::run(Point& point, int max_iterations, const Duals* duals) {
   trial_ = point;
   header_written_ = false;
@@ -353,6 +367,7 @@ Barrier::Ending Barrier::run(Point& point, int max_iterations, const Duals* dual
                 "no further progress; the optimality error is within 100 times the tolerance"};
       return {nlp::Outcome::numerical_failure, "the steps became too small"};
     }
+    raise_mu();
     // Stuck between bounds: where such runs came to an end, it was more than a hundred steps later, and not solved.
     short_steps_ = alpha_ < kShortStep ? short_steps_ + 1 : 0;
     if (options_.kernel.feasible_is_enough && short_steps_ >= kManyShortSteps)

@@ -65,6 +65,7 @@ class Barrier {
   double max_step(const Eigen::VectorXd& d, double tau) const;
   double max_dual_step(const Step& step, double tau) const;
   void choose_mu(const Point& point, const Errors& now);
+  void raise_mu();
   double probed_mu(const Point& point, double average);
   double average_complementarity() const;
 
@@ -102,7 +103,7 @@ class Barrier {
   std::vector<double> history_;
   bool header_written_ = false;
   int trials_ = 0;
-  int short_steps_ = 0;  ///< in a row
+  int short_steps_ = 0, cut_steps_ = 0;  ///< in a row
   double alpha_ = 0.0, alpha_dual_ = 0.0, linear_solver_s_ = 0.0;
 };
 
