@@ -52,7 +52,8 @@ def walk(
     Each cycle plans `lookahead` steps and executes the first; the next cycle starts from where it ends. A cycle that
     fails ends the walk: ``walk.plan`` is what was executed until then, ``walk.cycles`` says what happened. Ctrl-C ends
     it with Interrupted, which carries the walk. A cycle that a limit cuts short executes its best point or the step that
-    the last plan predicted, where the checker finds that usable: ``cycle.step_from`` says which.
+    the last plan predicted, where the checker finds that usable: ``cycle.step_from`` says which. One that the time limit
+    cuts short without a step is gone on with in further calls, up to 50 and no longer than the step before lasts.
 
     Args:
         scene: A scene, or what load_scene takes; its ``steps`` say which foot lands on which surface.

@@ -86,7 +86,7 @@ def test_lifted_psi_is_a_larger_program_of_the_same_cost(capsys):
 
 
 def test_a_walk_out_of_time_writes_nothing_and_gives_exit_code_1(capsys, tmp_path):
-    words = ("rubbles", "--time-limit", 0.05, "-o", tmp_path / "a.npz", "--html", tmp_path / "a.html")
+    words = ("rubbles", "--time-limit", 0.002, "-o", tmp_path / "a.npz", "--html", tmp_path / "a.html")
     code, out, err = run(capsys, *words, "--plots", tmp_path / "plots")
     assert code == 1 and list(tmp_path.iterdir()) == []
     assert err.splitlines()[1].split()[:2] == ["0", "time_limit"]

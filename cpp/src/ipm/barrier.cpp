@@ -20,12 +20,17 @@ constexpr double kFirstDelta = 1e-4, kMaxDelta = 1e20, kGrowDelta = 8.0, kFirstG
 constexpr double kMinDelta = 1e-20, kDualDelta = 1e-8;
 constexpr double kProgress = 0.9999;  // of the optimality error over the last iterations
 constexpr int kHistory = 4;
-constexpr double kLeastRatio = 0.1;  // of a probed barrier parameter, over the average complementarity
-constexpr double kNearViolation = 1e-2, kLeastPart = 0.0625, kGrowPart = 4.0;  // of the blend of Hessians
+constexpr double kLeastRatio = 0.1;      // of a probed barrier parameter, over the average complementarity
+constexpr double kNearViolation = 1e-2;  // up to which multipliers say something
+constexpr double kLeastPart = 0.0625, kGrowPart = 4.0;  // of the blend of Hessians
 constexpr double kFirstDamping = 1e-2;
 constexpr int kManyTrials = 6;
 constexpr double kShortStep = 0.01;  // of the way that is looked for, where nothing but a feasible point is
 constexpr int kManyShortSteps = 15;
+// Three steps in a row cut to less than a tenth by the bounds, while mu waits for its problem's solution, say that it
+// has fallen too far ahead: iterates follow a curved valley next to their bounds. It then rises again.
+constexpr double kCutStep = 0.1, kRaise = 10.0, kMostRaised = 0.01;
+constexpr int kManyCutSteps = 3;
 
 }  // namespace
 
@@ -40,11 +45,16 @@ Barrier::Barrier(const Unknowns& unknowns, const nlp::SolverOptions& options, Fu
   const int free = unknowns.free_count(), all = static_cast<int>(unknowns.lower.size());
   gradient_ = dual_ = right_a_ = dx_ = VectorXd::Zero(free);
   lambda_ = right_b_ = corrected_equalities_ = VectorXd::Zero(unknowns.equality_count());
-  lower_dual_ = upper_dual_ = gap_lower_ = gap_upper_ = weights_ = barrier_gradient_ = VectorXd::Zero(all);
+  lower_dual_ = upper_dual_ = gap_lower_ = gap_upper_ = weights_ = VectorXd::Zero(all);
+  inverse_lower_ = inverse_upper_ = pull_ = VectorXd::Zero(all);
   slack_error_ = slack_work_ = slack_multipliers_ = corrected_slacks_ = VectorXd::Zero(unknowns.slack_count());
   for (Step* step : {&step_, &affine_, &corrected_}) {
     step->t = step->lower = step->upper = VectorXd::Zero(all);
     step->lambda = VectorXd::Zero(lambda_.size());
+  }
+  for (Kkt::Solution* solution : {&rights_[0], &rights_[1], &at_zero_, &per_mu_}) {
+    solution->dx = VectorXd::Zero(free);
+    solution->lambda = VectorXd::Zero(lambda_.size());
   }
   history_.reserve(kHistory + 1);
   mu_ = options.initial_barrier;
@@ -72,8 +82,7 @@ void Barrier::start(Point& point, const Duals* duals) {
   functions_.evaluate(point);
   for (int i = 0; i < unknowns_.slack_count(); ++i) point.t[n() + i] = inside(n() + i, point.inequalities[i]);
   functions_.derivatives(point, gradient_, kkt_);
-  gap_lower_ = point.t - unknowns_.lower;
-  gap_upper_ = unknowns_.upper - point.t;
+  find_gaps(point);
   lower_dual_ = mu_ / gap_lower_.array();
   upper_dual_ = mu_ / gap_upper_.array();
   // Not those that make the gradient of the Lagrangian smallest, as is common: on walks they cost a quarter more
@@ -92,7 +101,15 @@ void Barrier::start(Point& point, const Duals* duals) {
   part_ = 1.0 / kGrowPart;
   damping_ = 0.0;
   trials_ = 0;
-  short_steps_ = 0;
+  short_steps_ = cut_steps_ = 0;
+}
+
+void Barrier::find_gaps(const Point& point) {
+  gap_lower_ = point.t - unknowns_.lower;
+  gap_upper_ = unknowns_.upper - point.t;
+  inverse_lower_ = gap_lower_.cwiseInverse();
+  inverse_upper_ = gap_upper_.cwiseInverse();
+  pull_ = inverse_upper_ - inverse_lower_;
 }
 
 Barrier::Errors Barrier::errors(const Point& point, double mu) {
@@ -127,7 +144,7 @@ bool Barrier::factor(const Point& point) {
 }
 
 void Barrier::set_weights() {
-  weights_ = lower_dual_.array() / gap_lower_.array() + upper_dual_.array() / gap_upper_.array();
+  weights_ = lower_dual_.array() * inverse_lower_.array() + upper_dual_.array() * inverse_upper_.array();
   kkt_.set_weights(weights_.tail(unknowns_.slack_count()), weights_.head(n()));
 }
 
@@ -187,24 +204,50 @@ bool Barrier::factor_blend(const Point& point) {
   return factor_ladder();
 }
 
-void Barrier::direction(double mu, const VectorXd& c, const VectorXd& slack_error, Step& step, bool rough) {
+void Barrier::direction(double mu, const VectorXd& c, const VectorXd& slack_error, Step& step, bool given) {
   const double start_s = functions_.deadline().now_s();
   const int slacks = unknowns_.slack_count();
-  barrier_gradient_ = mu / gap_upper_.array() - mu / gap_lower_.array();
-  slack_work_ = weights_.tail(slacks).array() * slack_error.array() + barrier_gradient_.tail(slacks).array();
-  right_a_ = gradient_ + barrier_gradient_.head(n());
+  slack_work_ = weights_.tail(slacks).array() * slack_error.array() + mu * pull_.tail(slacks).array();
+  right_a_ = gradient_ + mu * pull_.head(n());
   kkt_.add_inequalities_transposed(slack_work_, right_a_);
   right_a_ = -right_a_;
   right_b_ = -c - kkt_.delta_c() * lambda_;  // the regularisation acts on what multipliers change by
-  if (rough)
-    kkt_.solve_roughly(right_a_, right_b_, dx_, step.lambda);
+  if (given)
+    kkt_.refine(right_a_, right_b_, dx_, step.lambda);
   else
     kkt_.solve(right_a_, right_b_, dx_, step.lambda);
-  kkt_.multiply_inequalities(dx_, slack_work_);
+  follow(mu, slack_error, step);
+  linear_solver_s_ += functions_.deadline().now_s() - start_s;
+}
+
+/// What slacks and multipliers of bounds do along a step of the variables, dx_.
+void Barrier::follow(double mu, const VectorXd& slack_error, Step& step) {
   step.t.head(n()) = dx_;
-  step.t.tail(slacks) = slack_work_ + slack_error;
-  step.lower = (mu - lower_dual_.array() * step.t.array()) / gap_lower_.array() - lower_dual_.array();
-  step.upper = (mu + upper_dual_.array() * step.t.array()) / gap_upper_.array() - upper_dual_.array();
+  kkt_.multiply_inequalities(dx_, slack_work_);
+  step.t.tail(unknowns_.slack_count()) = slack_work_ + slack_error;
+  step.lower = (mu - lower_dual_.array() * step.t.array()) * inverse_lower_.array() - lower_dual_.array();
+  step.upper = (mu + upper_dual_.array() * step.t.array()) * inverse_upper_.array() - upper_dual_.array();
+}
+
+/// The right side is linear in mu, and so is the step: affine_ is the one for mu = 0, and per_mu_ what each unit of mu
+/// adds to the variables and to the multipliers of equalities. Not refined.
+void Barrier::probe(const Point& point) {
+  const double start_s = functions_.deadline().now_s();
+  const int slacks = unknowns_.slack_count();
+  slack_work_ = weights_.tail(slacks).array() * slack_error_.array();
+  rights_[0].dx = gradient_;
+  kkt_.add_inequalities_transposed(slack_work_, rights_[0].dx);
+  rights_[0].dx = -rights_[0].dx;
+  rights_[0].lambda = -point.equalities - kkt_.delta_c() * lambda_;
+  slack_work_ = pull_.tail(slacks);
+  rights_[1].dx = pull_.head(n());
+  kkt_.add_inequalities_transposed(slack_work_, rights_[1].dx);
+  rights_[1].dx = -rights_[1].dx;
+  rights_[1].lambda.setZero();
+  kkt_.solve_roughly(rights_[0], rights_[1], at_zero_, per_mu_);
+  dx_ = at_zero_.dx;
+  follow(0.0, slack_error_, affine_);
+  probed_ = true;
   linear_solver_s_ += functions_.deadline().now_s() - start_s;
 }
 
@@ -241,7 +284,7 @@ double Barrier::average_complementarity() const {
 
 /// Mehrotra's: how far complementarity falls along the step to mu = 0 says how far it should be asked to fall.
 double Barrier::probed_mu(const Point& point, double average) {
-  direction(0.0, point.equalities, slack_error_, affine_, true);
+  probe(point);
   const double primal = max_step(affine_.t, 1.0), dual = max_dual_step(affine_, 1.0);
   double sum = 0.0;
   int count = 0;
@@ -284,6 +327,15 @@ void Barrier::choose_mu(const Point& point, const Errors& now) {
     set(std::max(least, std::min(kLinearDecrease * mu_, std::pow(mu_, kSuperlinearDecrease))));
 }
 
+/// After steps that the bounds cut short; see kCutStep.
+void Barrier::raise_mu() {
+  cut_steps_ = fixed_mu_ && options_.adaptive_barrier && alpha_ < kCutStep ? cut_steps_ + 1 : 0;
+  if (cut_steps_ < kManyCutSteps || mu_ >= kMostRaised) return;
+  mu_ = std::min(kMostRaised, kRaise * mu_);
+  filter_.clear();
+  cut_steps_ = 0;
+}
+
 Barrier::Ending Barrier::run(Point& point, int max_iterations, const Duals* duals) {
   trial_ = point;
   header_written_ = false;
@@ -300,8 +352,13 @@ Barrier::Ending Barrier::run(Point& point, int max_iterations, const Duals* dual
     if (functions_.iterations() >= max_iterations) return {nlp::Outcome::iteration_limit, "reached max_iterations"};
     functions_.begin_iteration();
     if (!factor(point)) return {nlp::Outcome::numerical_failure, "the linear system of a step could not be solved"};
+    probed_ = false;
     choose_mu(point, now);
-    direction(mu_, point.equalities, slack_error_, step);
+    if (probed_) {
+      dx_ = at_zero_.dx + mu_ * per_mu_.dx;
+      step.lambda = at_zero_.lambda + mu_ * per_mu_.lambda;
+    }
+    direction(mu_, point.equalities, slack_error_, step, probed_);
     if (!step.t.allFinite())
       return {nlp::Outcome::numerical_failure, "the linear system of a step could not be solved"};
     if (!search(point, step)) {
@@ -310,6 +367,7 @@ Barrier::Ending Barrier::run(Point& point, int max_iterations, const Duals* dual
                 "no further progress; the optimality error is within 100 times the tolerance"};
       return {nlp::Outcome::numerical_failure, "the steps became too small"};
     }
+    raise_mu();
     // Stuck between bounds: where such runs came to an end, it was more than a hundred steps later, and not solved.
     short_steps_ = alpha_ < kShortStep ? short_steps_ + 1 : 0;
     if (options_.kernel.feasible_is_enough && short_steps_ >= kManyShortSteps)

@@ -50,17 +50,22 @@ class Barrier {
   int n() const { return unknowns_.free_count(); }
   const Eigen::VectorXd& multipliers_of_slacks();
   void start(Point& point, const Duals* duals);
+  void find_gaps(const Point& point);
   Errors errors(const Point& point, double mu);
   bool factor(const Point& point);
   bool factor_blend(const Point& point);
   bool factor_ladder();
   void set_weights();
-  /// A step towards the solution for mu, with the violations c and slack_error; a rough one is not refined.
+  /// A step towards the solution for mu, with the violations c and slack_error. A given dx_ and multipliers of it are
+  /// but refined.
   void direction(double mu, const Eigen::VectorXd& c, const Eigen::VectorXd& slack_error, Step& step,
-                 bool rough = false);
+                 bool given = false);
+  void probe(const Point& point);
+  void follow(double mu, const Eigen::VectorXd& slack_error, Step& step);
   double max_step(const Eigen::VectorXd& d, double tau) const;
   double max_dual_step(const Step& step, double tau) const;
   void choose_mu(const Point& point, const Errors& now);
+  void raise_mu();
   double probed_mu(const Point& point, double average);
   double average_complementarity() const;
 
@@ -79,11 +84,15 @@ class Barrier {
   const bool probing_;  ///< the barrier parameter, from a start that no phase one has moved
   Filter filter_{nlp::kInfinity};
   Eigen::VectorXd gradient_, lambda_, lower_dual_, upper_dual_;
-  Eigen::VectorXd gap_lower_, gap_upper_;  ///< distances to the bounds, infinite where there is none
+  Eigen::VectorXd gap_lower_, gap_upper_;          ///< distances to the bounds, infinite where there is none
+  Eigen::VectorXd inverse_lower_, inverse_upper_;  ///< of the gaps
+  Eigen::VectorXd pull_;                           ///< gradient of the barrier's terms, over mu
   // Workspace of the iterations.
-  Eigen::VectorXd right_a_, right_b_, weights_, barrier_gradient_, slack_error_, slack_work_, slack_multipliers_;
+  Eigen::VectorXd right_a_, right_b_, weights_, slack_error_, slack_work_, slack_multipliers_;
   Eigen::VectorXd dual_, dx_, corrected_equalities_, corrected_slacks_;
   Step step_, affine_, corrected_;
+  Kkt::Solution rights_[2], at_zero_, per_mu_;  ///< right sides and solutions of probe()
+  bool probed_ = false;                         ///< in this iteration
   Point trial_;
   Eigen::VectorXd gauss_newton_, exact_, blend_;  ///< Hessians
   double part_ = 0.0;                             ///< of the exact Hessian in the blend
@@ -94,7 +103,7 @@ class Barrier {
   std::vector<double> history_;
   bool header_written_ = false;
   int trials_ = 0;
-  int short_steps_ = 0;  ///< in a row
+  int short_steps_ = 0, cut_steps_ = 0;  ///< in a row
   double alpha_ = 0.0, alpha_dual_ = 0.0, linear_solver_s_ = 0.0;
 };
 

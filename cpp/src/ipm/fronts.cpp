@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "ipm/chunk.hpp"
 #include "ipm/pivoting.hpp"
 #include "mcplan/base/error.hpp"
 
@@ -13,13 +14,54 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Block = Eigen::Map<MatrixXd>;
-using ConstBlock = Eigen::Map<const MatrixXd>;
+using Block = Eigen::Map<MatrixXd, 0, Eigen::OuterStride<>>;
 
 /// Up to this size a pivot counts as zero.
 constexpr double kLeastPivot = 1e-300;
 constexpr long kMaxEntries = std::numeric_limits<int>::max();  // places are ints
-constexpr int kPanel = 8;  // columns of what remains that are computed together, from their diagonal on
+
+/// Rows x Columns of W, from column j on: W(:, j) -= sum over k < end of W(:, k) L(j, k).
+template <int Rows, int Columns>
+void subtract_products(double* W, int width, const double* L, int stride, int j, int end) {
+  Eigen::Array<double, Rows, 1> sums[Columns];
+  for (int c = 0; c < Columns; ++c) sums[c] = Eigen::Map<Eigen::Array<double, Rows, 1>>(W + (j + c) * width);
+  for (int k = 0; k < end; ++k) {
+    const Eigen::Array<double, Rows, 1> left = Eigen::Map<const Eigen::Array<double, Rows, 1>>(W + k * width);
+    const double* factors = L + static_cast<long>(k) * stride + j;
+    for (int c = 0; c < Columns; ++c) sums[c] -= factors[c] * left;
+  }
+  for (int c = 0; c < Columns; ++c) Eigen::Map<Eigen::Array<double, Rows, 1>>(W + (j + c) * width) = sums[c];
+}
+
+/// Some rows of W become W L^-T, with the unit triangle L of m columns.
+template <int Rows>
+void solve_rows(double* W, int width, const double* L, int stride, int m) {
+  int j = 0;
+  for (; j + kChunk <= m; j += kChunk) {
+    subtract_products<Rows, kChunk>(W, width, L, stride, j, j);
+    for (int c = 1; c < kChunk; ++c)
+      for (int k = 0; k < c; ++k)
+        Eigen::Map<Eigen::Array<double, Rows, 1>>(W + (j + c) * width) -=
+            L[static_cast<long>(j + k) * stride + j + c] *
+            Eigen::Map<const Eigen::Array<double, Rows, 1>>(W + (j + k) * width);
+  }
+  for (; j < m; ++j) subtract_products<Rows, 1>(W, width, L, stride, j, j);
+}
+
+/// out = a block of Rows x kChunk of W R', sums over m columns.
+template <int Rows>
+void block_of_product(const double* W, int width, const double* R, int stride, int m, double* out, int out_stride) {
+  Eigen::Array<double, Rows, 1> sums[kChunk];
+  for (int c = 0; c < kChunk; ++c) sums[c].setZero();
+  for (int k = 0; k < m; ++k) {
+    const Eigen::Array<double, Rows, 1> left =
+        Eigen::Map<const Eigen::Array<double, Rows, 1>>(W + static_cast<long>(k) * width);
+    const double* right = R + static_cast<long>(k) * stride;
+    for (int c = 0; c < kChunk; ++c) sums[c] += right[c] * left;
+  }
+  for (int c = 0; c < kChunk; ++c)
+    Eigen::Map<Eigen::Array<double, Rows, 1>>(out + static_cast<long>(c) * out_stride) = sums[c];
+}
 
 }  // namespace
 
@@ -31,11 +73,12 @@ Fronts::Fronts(int count, std::vector<std::vector<int>> order, const std::vector
   long size = 0, scaled = 0, update = 0;
   int largest = 0;
   for (const Front& front : fronts_) {
-    const long rest = front.size() - front.own;
-    size += static_cast<long>(front.size()) * front.own;
+    const long rest = front.stride - front.own;
+    size += static_cast<long>(front.stride) * front.own;
     scaled = std::max(scaled, rest * front.own);
     update = std::max(update, rest * rest);
     largest = std::max(largest, front.size());
+    longest_ = std::max(longest_, front.stride);
   }
   if (size > kMaxEntries)
     throw InvalidInput("problem",
@@ -50,8 +93,7 @@ Fronts::Fronts(int count, std::vector<std::vector<int>> order, const std::vector
   least_pivots_ = VectorXd::Zero(count);
   scaled_.resize(scaled);
   update_.resize(update);
-  own_.resize(largest);
-  rest_.resize(largest);
+  work_ = VectorXd::Zero(2 * longest_);
 }
 
 void Fronts::find_fronts(std::vector<std::vector<int>> order, const std::vector<int>& group_of,
@@ -79,8 +121,9 @@ void Fronts::find_fronts(std::vector<std::vector<int>> order, const std::vector<
     front.unknowns.insert(front.unknowns.end(), rest.begin(), rest.end());
     front.first_column = column;
     front.offset = offset;
+    front.stride = front.own + whole_chunks(front.rest());
     column += front.own;
-    offset += static_cast<long>(front.size()) * front.own;
+    offset += static_cast<long>(front.stride) * front.own;
     // What is left of this front couples its other unknowns with each other.
     if (!rest.empty()) {
       const int parent = group_of[rest.front()];
@@ -114,10 +157,9 @@ void Fronts::find_places(const std::vector<int>& group_of, const std::vector<Pai
   std::vector<int> local(group_of.size(), -1);
   for (std::size_t g = 0; g < fronts_.size(); ++g) {
     const Front& front = fronts_[g];
-    const int n = front.size();
-    for (int i = 0; i < n; ++i) local[front.unknowns[i]] = i;
+    for (int i = 0; i < front.size(); ++i) local[front.unknowns[i]] = i;
     const auto place = [&](int a, int b) {
-      return static_cast<int>(front.offset + static_cast<long>(std::min(a, b)) * n + std::max(a, b));
+      return static_cast<int>(front.offset + static_cast<long>(std::min(a, b)) * front.stride + std::max(a, b));
     };
     for (int i = 0; i < front.own; ++i) diagonal_[front.unknowns[i]] = place(i, i);
     for (int p : pairs_of[g]) places_[p] = place(local[pairs[p].first], local[pairs[p].second]);
@@ -135,79 +177,160 @@ void Fronts::find_places(const std::vector<int>& group_of, const std::vector<Pai
 Fronts::Inertia Fronts::factor() {
   Inertia total;
   for (const Front& front : fronts_) {
-    const int n = front.size(), m = front.own, rest = n - m;
-    Block F(values_.data() + front.offset, n, m);
+    const int m = front.own;
+    Block own(values_.data() + front.offset, m, m, Eigen::OuterStride<>(front.stride));
     int* pivots = pivots_.data() + front.first_column;
     double* off_diagonal = off_diagonal_.data() + front.first_column;
-    const PivotCount count = eliminate(F, m, pivots, off_diagonal, kLeastPivot);
+    const PivotCount count = eliminate(own, m, pivots, off_diagonal, kLeastPivot);
     total.positive += count.positive;
     total.negative += count.negative;
     total.zero += count.zero;
     for (int k = 0; k < m && count.zero == 0; k += off_diagonal[k] == 0.0 ? 1 : 2)
-      if (off_diagonal[k] == 0.0 && F(k, k) < 0.0 && -F(k, k) < least_pivots_[front.unknowns[pivots[k]]]) ++total.zero;
+      if (off_diagonal[k] == 0.0 && own(k, k) < 0.0 && -own(k, k) < least_pivots_[front.unknowns[pivots[k]]])
+        ++total.zero;
     if (total.zero > 0) return total;
-    if (rest == 0) continue;
-    // What remains: F_rr - L D L', its lower triangle.
-    Block scaled(scaled_.data(), rest, m);
-    const auto L = F.bottomRows(rest);
-    for (int k = 0; k < m; ++k) {
-      if (off_diagonal[k] != 0.0) {
-        scaled.col(k) = F(k, k) * L.col(k) + off_diagonal[k] * L.col(k + 1);
-        scaled.col(k + 1) = off_diagonal[k] * L.col(k) + F(k + 1, k + 1) * L.col(k + 1);
-        ++k;
-      } else {
-        scaled.col(k) = F(k, k) * L.col(k);
-      }
-    }
-    Block update(update_.data(), rest, rest);
-    for (int j = 0; j < rest; j += kPanel) {
-      const int columns = std::min(kPanel, rest - j);
-      update.block(j, j, rest - j, columns) =
-          scaled.bottomRows(rest - j).lazyProduct(L.middleRows(j, columns).transpose());
-    }
-    const int* at = updates_.data() + front.first_update;
-    for (int j = 0; j < rest; ++j)
-      for (int i = j; i < rest; ++i) values_[*at++] -= update(i, j);
+    if (front.rest() == 0) continue;
+    eliminate_rest(front);
+    subtract_update(front);
   }
   return total;
 }
 
-void Fronts::solve(VectorXd& b) const {
-  for (const Front& front : fronts_) {
-    const int n = front.size(), m = front.own, rest = n - m;
-    const ConstBlock F(values_.data() + front.offset, n, m);
-    const int* pivots = pivots_.data() + front.first_column;
-    for (int i = 0; i < m; ++i) own_[i] = b[front.unknowns[pivots[i]]];
-    for (int k = 0; k < m; ++k) own_.segment(k + 1, m - k - 1) -= own_[k] * F.col(k).segment(k + 1, m - k - 1);
-    for (int i = 0; i < m; ++i) b[front.unknowns[i]] = own_[i];
-    if (rest == 0) continue;
-    rest_.head(rest).noalias() = F.bottomRows(rest) * own_.head(m);
-    for (int i = 0; i < rest; ++i) b[front.unknowns[m + i]] -= rest_[i];
+/// The rows below a front's own ones: of L D into scaled_, of L in place, once its own block is factorised.
+void Fronts::eliminate_rest(const Front& front) {
+  const int m = front.own, width = front.stride - m, stride = front.stride;
+  double* F = values_.data() + front.offset;
+  double* W = scaled_.data();
+  const int* pivots = pivots_.data() + front.first_column;
+  const double* off_diagonal = off_diagonal_.data() + front.first_column;
+  for (int k = 0; k < m; ++k)
+    for (int i = 0; i < width; i += kChunk)
+      ChunkAt(W + k * width + i) = ConstChunkAt(F + static_cast<long>(pivots[k]) * stride + m + i);
+  int row = 0;
+  for (; row + 2 * kChunk <= width; row += 2 * kChunk) solve_rows<2 * kChunk>(W + row, width, F, stride, m);
+  for (; row < width; row += kChunk) solve_rows<kChunk>(W + row, width, F, stride, m);
+  for (int k = 0; k < m; ++k) {
+    double* to = F + static_cast<long>(k) * stride + m;
+    const double pivot = F[static_cast<long>(k) * stride + k];
+    if (off_diagonal[k] == 0.0) {
+      const double inverse = 1.0 / pivot;
+      for (int i = 0; i < width; i += kChunk) ChunkAt(to + i) = inverse * ConstChunkAt(W + k * width + i);
+      continue;
+    }
+    // A pivot of size two, scaled by its off-diagonal entry so that nothing overflows.
+    const double c = off_diagonal[k], p = pivot / c, q = F[static_cast<long>(k + 1) * stride + k + 1] / c;
+    const double scale = 1.0 / (c * (p * q - 1.0));
+    for (int i = 0; i < width; i += kChunk) {
+      const Chunk a = ConstChunkAt(W + k * width + i), b = ConstChunkAt(W + (k + 1) * width + i);
+      ChunkAt(to + i) = scale * (q * a - b);
+      ChunkAt(to + stride + i) = scale * (p * b - a);
+    }
+    ++k;
   }
-  for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
-    const int n = front->size(), m = front->own, rest = n - m;
-    const ConstBlock F(values_.data() + front->offset, n, m);
-    const int* pivots = pivots_.data() + front->first_column;
-    const double* off_diagonal = off_diagonal_.data() + front->first_column;
+}
+
+/// What remains, F_rr - L D L': its lower triangle, from the columns of the groups whose unknowns they are.
+void Fronts::subtract_update(const Front& front) {
+  const int m = front.own, rest = front.rest(), width = front.stride - m;
+  const double* L = values_.data() + front.offset + m;
+  for (int j = 0; j < width; j += kChunk) {
+    int i = j;
+    for (; i + 2 * kChunk <= width; i += 2 * kChunk)
+      block_of_product<2 * kChunk>(scaled_.data() + i, width, L + j, front.stride, m, update_.data() + j * width + i,
+                                   width);
+    for (; i < width; i += kChunk)
+      block_of_product<kChunk>(scaled_.data() + i, width, L + j, front.stride, m, update_.data() + j * width + i,
+                               width);
+  }
+  const int* at = updates_.data() + front.first_update;
+  for (int j = 0; j < rest; ++j) {
+    const double* column = update_.data() + j * width;
+    for (int i = j; i < rest; ++i) values_[*at++] -= column[i];
+  }
+}
+
+void Fronts::solve(VectorXd& b) const { solve_all<1>({b.data()}); }
+
+void Fronts::solve(VectorXd& a, VectorXd& b) const { solve_all<2>({a.data(), b.data()}); }
+
+template <int Count>
+void Fronts::solve_all(const std::array<double*, Count>& b) const {
+  std::array<double*, Count> work;
+  for (int c = 0; c < Count; ++c) work[c] = work_.data() + c * longest_;
+  solve_forward<Count>(b, work);
+  solve_backward<Count>(b, work);
+}
+
+/// With L, from the first front to the last.
+template <int Count>
+void Fronts::solve_forward(const std::array<double*, Count>& b, const std::array<double*, Count>& y) const {
+  for (const Front& front : fronts_) {
+    const int m = front.own, rest = front.rest(), stride = front.stride;
+    const double* F = values_.data() + front.offset;
+    const int* pivots = pivots_.data() + front.first_column;
+    const int* unknowns = front.unknowns.data();
+    for (int c = 0; c < Count; ++c) {
+      for (int i = 0; i < m; ++i) y[c][i] = b[c][unknowns[pivots[i]]];
+      for (int i = m; i < stride; ++i) y[c][i] = 0.0;
+    }
     for (int k = 0; k < m; ++k) {
-      const double value = b[front->unknowns[k]];
+      const double* column = F + static_cast<long>(k) * stride;
+      for (int c = 0; c < Count; ++c) {
+        const double value = y[c][k];
+        double* out = y[c];
+        for (int i = k + 1; i < stride; ++i) out[i] -= value * column[i];
+      }
+    }
+    for (int c = 0; c < Count; ++c) {
+      for (int i = 0; i < m; ++i) b[c][unknowns[i]] = y[c][i];
+      for (int i = 0; i < rest; ++i) b[c][unknowns[m + i]] += y[c][m + i];
+    }
+  }
+}
+
+/// With D and L', from the last front to the first.
+template <int Count>
+void Fronts::solve_backward(const std::array<double*, Count>& b, const std::array<double*, Count>& y) const {
+  for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
+    const int m = front->own, rest = front->rest(), stride = front->stride;
+    const double* F = values_.data() + front->offset;
+    const int* pivots = pivots_.data() + front->first_column;
+    const int* unknowns = front->unknowns.data();
+    const double* off_diagonal = off_diagonal_.data() + front->first_column;
+    for (int c = 0; c < Count; ++c) {
+      for (int i = 0; i < rest; ++i) y[c][m + i] = b[c][unknowns[m + i]];
+      for (int i = m + rest; i < stride; ++i) y[c][i] = 0.0;
+    }
+    for (int k = 0; k < m; ++k) {
+      const double pivot = F[static_cast<long>(k) * stride + k];
       if (off_diagonal[k] == 0.0) {
-        own_[k] = value / F(k, k);
+        for (int c = 0; c < Count; ++c) y[c][k] = b[c][unknowns[k]] / pivot;
         continue;
       }
-      // A pivot of size two, scaled by its off-diagonal entry so that nothing overflows.
-      const double c = off_diagonal[k], next = b[front->unknowns[k + 1]];
-      const double p = F(k, k) / c, q = F(k + 1, k + 1) / c, determinant = p * q - 1.0;
-      own_[k] = (q * value - next) / (c * determinant);
-      own_[k + 1] = (p * next - value) / (c * determinant);
+      // A pivot of size two, as in eliminate_rest().
+      const double o = off_diagonal[k], p = pivot / o, q = F[static_cast<long>(k + 1) * stride + k + 1] / o;
+      for (int c = 0; c < Count; ++c) {
+        const double value = b[c][unknowns[k]], next = b[c][unknowns[k + 1]];
+        y[c][k] = (q * value - next) / (o * (p * q - 1.0));
+        y[c][k + 1] = (p * next - value) / (o * (p * q - 1.0));
+      }
       ++k;
     }
-    if (rest > 0) {
-      for (int i = 0; i < rest; ++i) rest_[i] = b[front->unknowns[m + i]];
-      own_.head(m).noalias() -= F.bottomRows(rest).transpose() * rest_.head(rest);
+    for (int k = m - 1; k >= 0; --k) {
+      const double* column = F + static_cast<long>(k) * stride;
+      std::array<Chunk, Count> sums;
+      for (Chunk& sum : sums) sum.setZero();
+      int i = stride;
+      for (; i - kChunk > k; i -= kChunk)
+        for (int c = 0; c < Count; ++c) sums[c] += ConstChunkAt(column + i - kChunk) * ConstChunkAt(y[c] + i - kChunk);
+      for (int c = 0; c < Count; ++c) {
+        double sum = sums[c].sum();
+        for (int j = k + 1; j < i; ++j) sum += column[j] * y[c][j];
+        y[c][k] -= sum;
+      }
     }
-    for (int k = m - 2; k >= 0; --k) own_[k] -= F.col(k).segment(k + 1, m - k - 1).dot(own_.segment(k + 1, m - k - 1));
-    for (int i = 0; i < m; ++i) b[front->unknowns[pivots[i]]] = own_[i];
+    for (int c = 0; c < Count; ++c)
+      for (int i = 0; i < m; ++i) b[c][unknowns[pivots[i]]] = y[c][i];
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -43,6 +44,9 @@ class Fronts {
   /// Replace b by the solution.
   void solve(Eigen::VectorXd& b) const;
 
+  /// The same of two right sides, which share the reading of the factor.
+  void solve(Eigen::VectorXd& a, Eigen::VectorXd& b) const;
+
   int largest_front() const;
   long entries() const { return values_.size(); }
 
@@ -52,23 +56,34 @@ class Fronts {
     int first_column = 0;       ///< of this front's own unknowns, among all
     long offset = 0;            ///< of its own columns in values_
     long first_update = 0;      ///< of its places among updates_
+    int stride = 0;             ///< from column to column: rows beyond size() are zero, so that chunks need no tails
     std::vector<int> unknowns;  ///< own ones first
     int size() const { return static_cast<int>(unknowns.size()); }
+    int rest() const { return size() - own; }
   };
 
   void find_fronts(std::vector<std::vector<int>> order, const std::vector<int>& group_of,
                    const std::vector<Pair>& pairs);
   void find_places(const std::vector<int>& group_of, const std::vector<Pair>& pairs);
+  void eliminate_rest(const Front& front);
+  void subtract_update(const Front& front);
+  template <int Count>
+  void solve_all(const std::array<double*, Count>& b) const;
+  template <int Count>
+  void solve_forward(const std::array<double*, Count>& b, const std::array<double*, Count>& y) const;
+  template <int Count>
+  void solve_backward(const std::array<double*, Count>& b, const std::array<double*, Count>& y) const;
 
   std::vector<Front> fronts_;
+  int longest_ = 0;  ///< column of a front
   std::vector<int> places_, diagonal_;
   std::vector<int> updates_;  ///< of the lower triangle of what remains of each front, column by column: its places
   Eigen::VectorXd values_;
   std::vector<int> pivots_;           ///< of every own unknown: its place within the front before pivoting
   std::vector<double> off_diagonal_;  ///< of D; other than zero at the first of two
   Eigen::VectorXd least_pivots_;
-  Eigen::VectorXd scaled_, update_;  ///< of one front: L D, and L D L'
-  mutable Eigen::VectorXd own_, rest_;
+  Eigen::VectorXd scaled_, update_;  ///< of one front: rows of L D below its own ones, and what they leave, L D L'
+  mutable Eigen::VectorXd work_;     ///< of one front, for each right side
 };
 
 }  // namespace mcplan::ipm

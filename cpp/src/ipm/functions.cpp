@@ -10,6 +10,9 @@ using Eigen::VectorXd;
 
 constexpr double kDiverged = 1e20;  // as Ipopt's diverging_iterates_tol
 
+/// Nothing times what is not finite is nan.
+bool all_finite(const VectorXd& values) { return (0.0 * values).sum() == 0.0; }
+
 double outside(double value, double lower, double upper) { return std::max({lower - value, value - upper, 0.0}); }
 
 }  // namespace
@@ -65,7 +68,7 @@ void Functions::evaluate(Point& point) {
   clocked(point.x, [&] {
     point.cost = problem_.cost(point.x);
     problem_.rows(point.x, rows_);
-    return std::isfinite(point.cost) && rows_.allFinite();
+    return std::isfinite(point.cost) && all_finite(rows_);
   });
   for (int i = 0; i < unknowns_.equality_count(); ++i)
     point.equalities[i] = rows_[unknowns_.equalities[i]] - unknowns_.right_side[i];
@@ -97,7 +100,7 @@ void Functions::derivatives(const Point& point, VectorXd& gradient, Kkt& kkt) {
   clocked(point.x, [&] {
     problem_.gradient(point.x, gradient_);
     problem_.jacobian(point.x, jacobian_);
-    return gradient_.allFinite() && jacobian_.allFinite();
+    return all_finite(gradient_) && all_finite(jacobian_);
   });
   for (int i = 0; i < unknowns_.free_count(); ++i) gradient[i] = gradient_[unknowns_.free[i]];
   if (entry_scale_.size() > 0) jacobian_.array() *= entry_scale_.array();
@@ -108,7 +111,7 @@ void Functions::gauss_newton_hessian(const Point& point, VectorXd& values) {
   values.resize(hessian_.size());
   clocked(point.x, [&] {
     problem_.gauss_newton_hessian(point.x, values);
-    return values.allFinite();
+    return all_finite(values);
   });
 }
 
@@ -119,7 +122,7 @@ const VectorXd& Functions::hessian(const Point& point, double cost_factor, const
     multipliers_[unknowns_.inequalities[i]] = unknowns_.scale[i] * inequalities[i];
   clocked(point.x, [&] {
     problem_.hessian(point.x, cost_factor, multipliers_, hessian_);
-    return hessian_.allFinite();
+    return all_finite(hessian_);
   });
   return hessian_;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ipm/chunk.hpp"
 #include "ipm/order.hpp"
 
 namespace mcplan::ipm {
@@ -14,6 +15,7 @@ using Eigen::VectorXd;
 constexpr int kMaxRefinements = 5;
 constexpr double kSmallResidual = 1e-9;  // as little as a step of the barrier method needs
 constexpr double kNoPivot = 1e-14;       // of an equality, over its size: the rounding errors of nothing
+constexpr std::size_t kSparse = 2;       // places for each entry, from which on a block is no dense one
 constexpr int kFewRows = 64;             // up to which a product is cheaper without packing its factors
 
 }  // namespace
@@ -26,19 +28,29 @@ Kkt::Kkt(const nlp::Problem& problem, const Unknowns& unknowns)
   std::size_t next = 0;
   for (Term& term : hessian_terms_) term.place = places[next++];
   for (Term& term : equality_terms_) term.place = places[next++];
-  int widest = 0, longest = 0;
+  int widest = 0, longest = 0, values = 0;
   for (Dense& block : dense_) {
     block.first_place = static_cast<int>(next);
     next += block.columns * (block.columns + 1) / 2;
-    widest = std::max(widest, block.columns);
-    longest = std::max(longest, block.rows);
+    block.first_value = values;
+    values += block.rows * block.width;
+    widest = std::max(widest, block.width);
+    if (block.rows > kFewRows) longest = std::max(longest, block.rows);
   }
-  block_ = MatrixXd::Zero(longest, widest);
+  for (Dense& block : dense_equalities_) {
+    block.first_value = values;
+    values += block.rows * block.width;
+    widest = std::max(widest, block.width);
+  }
+  dense_values_ = VectorXd::Zero(values);
+  block_ = MatrixXd::Zero(widest, longest);
   product_ = MatrixXd::Zero(widest, widest);
+  gathered_ = VectorXd::Zero(widest);
   slack_weights_ = VectorXd::Zero(unknowns.slack_count());
-  slacks_ = roots_ = slack_weights_;
+  slacks_ = slack_weights_;
   bound_weights_ = VectorXd::Zero(n_);
   right_.resize(n_ + m_);
+  other_right_.resize(n_ + m_);
   left_a_.resize(n_);
   left_b_.resize(m_);
 }
@@ -61,42 +73,99 @@ std::vector<Fronts::Pair> Kkt::structure(const nlp::Problem& problem, const Unkn
       out.equality_terms_.push_back({static_cast<int>(i), row, column, 0});
       pairs.emplace_back(column, unknowns.free_count() + row);
     }
-    if (const int row = unknowns.slack_of[entry.row]; row >= 0)
-      out.inequality_terms_.push_back({static_cast<int>(i), row, column, 0});
   }
   std::vector<int> local(problem.variable_count(), -1);
   for (const nlp::Problem::Block& block : problem.blocks()) {
     if (block.is_cost()) continue;
-    Dense dense;
-    std::vector<int> columns, local_row(block.piece->rows(), -1);
-    for (std::size_t i = 0; i < block.jacobian_at.size(); ++i) {
-      const int row = block.jacobian_from[i] % block.piece->rows();
-      const int variable = block.piece->variables()[block.jacobian_from[i] / block.piece->rows()];
-      const int slack = unknowns.slack_of[block.first_row + row], column = unknowns.index_of[variable];
-      if (slack < 0 || column < 0) continue;
-      if (local_row[row] < 0) {
-        local_row[row] = dense.rows++;
-        dense.slacks.push_back(slack);
-      }
-      if (local[variable] < 0) {
-        local[variable] = dense.columns++;
-        columns.push_back(column);
-      }
-      dense.entries.push_back({block.jacobian_at[i], local_row[row], local[variable]});
-    }
-    for (int column : columns) local[unknowns.free[column]] = -1;
+    Dense equalities = dense_block(block, unknowns.equality_of, unknowns, local);
+    const std::size_t filled = equalities.entries.size();
+    if (filled * kSparse > static_cast<std::size_t>(equalities.rows * equalities.width))
+      out.dense_equalities_.push_back(std::move(equalities));
+    else
+      for (const Dense::Entry& entry : equalities.entries)
+        out.sparse_equalities_.push_back({entry.from, equalities.targets[entry.to / equalities.width],
+                                          equalities.variables[entry.to % equalities.width], 0});
+    Dense dense = dense_block(block, unknowns.slack_of, unknowns, local);
     if (dense.rows == 0) continue;
     for (int j = 0; j < dense.columns; ++j)
-      for (int i = j; i < dense.columns; ++i) pairs.emplace_back(columns[i], columns[j]);
+      for (int i = j; i < dense.columns; ++i) pairs.emplace_back(dense.variables[i], dense.variables[j]);
     out.dense_.push_back(std::move(dense));
   }
   return pairs;
 }
 
+/// Of a piece's rows those that are among `target_of`. local: -1 for every variable of the problem, also on return.
+Kkt::Dense Kkt::dense_block(const nlp::Problem::Block& block, const std::vector<int>& target_of,
+                            const Unknowns& unknowns, std::vector<int>& local) {
+  Dense out;
+  std::vector<int> local_row(block.piece->rows(), -1), entry_column;
+  for (std::size_t i = 0; i < block.jacobian_at.size(); ++i) {
+    const int row = block.jacobian_from[i] % block.piece->rows();
+    const int variable = block.piece->variables()[block.jacobian_from[i] / block.piece->rows()];
+    const int target = target_of[block.first_row + row], column = unknowns.index_of[variable];
+    if (target < 0 || column < 0) continue;
+    if (local_row[row] < 0) {
+      local_row[row] = out.rows++;
+      out.targets.push_back(target);
+    }
+    if (local[variable] < 0) {
+      local[variable] = out.columns++;
+      out.variables.push_back(column);
+    }
+    out.entries.push_back({block.jacobian_at[i], local_row[row]});
+    entry_column.push_back(local[variable]);
+  }
+  for (int column : out.variables) local[unknowns.free[column]] = -1;
+  out.width = whole_chunks(out.columns);
+  out.constant = block.piece->linear();
+  for (std::size_t i = 0; i < out.entries.size(); ++i)
+    out.entries[i].to = out.entries[i].to * out.width + entry_column[i];
+  return out;
+}
+
 void Kkt::set_weights(const Eigen::Ref<const VectorXd>& slacks, const Eigen::Ref<const VectorXd>& bounds) {
   slack_weights_ = slacks;
-  roots_ = slacks.cwiseSqrt();
   bound_weights_ = bounds;
+}
+
+void Kkt::set_jacobian(const VectorXd& values) {
+  jacobian_ = values;
+  for (const std::vector<Dense>* blocks : {&dense_, &dense_equalities_})
+    for (const Dense& dense : *blocks) {
+      if (dense.constant && jacobian_set_) continue;
+      double* to = dense_values_.data() + dense.first_value;
+      for (const Dense::Entry& entry : dense.entries) to[entry.to] = values[entry.from];
+    }
+  jacobian_set_ = true;
+}
+
+/// A' D A of a piece's inequalities.
+void Kkt::add_condensed(const Dense& dense) {
+  const int rows = dense.rows, columns = dense.columns, width = dense.width;
+  const double* A = dense_values_.data() + dense.first_value;
+  const int* slacks = dense.targets.data();
+  const int* place = fronts_.places().data() + dense.first_place;
+  double* values = fronts_.values();
+  if (rows <= kFewRows) {
+    for (int j = 0; j < columns; ++j)
+      for (int from = j / kChunk * kChunk; from < columns; from += kChunk) {
+        Chunk sum = Chunk::Zero();
+        for (int row = 0; row < rows; ++row)
+          sum += slack_weights_[slacks[row]] * A[row * width + j] * ConstChunkAt(A + row * width + from);
+        const int end = std::min(from + kChunk, columns);
+        for (int i = std::max(from, j); i < end; ++i) values[*place++] += sum[i - from];
+      }
+    return;
+  }
+  auto weighted = block_.topLeftCorner(columns, rows);
+  for (int row = 0; row < rows; ++row)
+    weighted.col(row) = std::sqrt(slack_weights_[slacks[row]]) *
+                        Eigen::Map<const VectorXd>(A + static_cast<long>(row) * width, columns);
+  auto C = product_.topLeftCorner(columns, columns);
+  C.setZero();
+  C.selfadjointView<Eigen::Lower>().rankUpdate(weighted);
+  for (int j = 0; j < columns; ++j)
+    for (int i = j; i < columns; ++i) values[*place++] += C(i, j);
 }
 
 void Kkt::assemble(double delta, double delta_c) {
@@ -107,31 +176,15 @@ void Kkt::assemble(double delta, double delta_c) {
   const std::vector<int>& diagonal = fronts_.diagonal_places();
   for (int i = 0; i < n_; ++i) values[diagonal[i]] += bound_weights_[i] + delta;
   for (int i = 0; i < m_; ++i) values[diagonal[n_ + i]] -= delta_c;
-  for (const Dense& dense : dense_) {
-    auto A = block_.topLeftCorner(dense.rows, dense.columns);
-    auto C = product_.topLeftCorner(dense.columns, dense.columns);
-    A.setZero();
-    for (const Dense::Entry& entry : dense.entries)
-      A(entry.row, entry.column) = jacobian_[entry.from] * roots_[dense.slacks[entry.row]];
-    const int* place = fronts_.places().data() + dense.first_place;
-    if (dense.rows <= kFewRows) {
-      for (int j = 0; j < dense.columns; ++j)
-        for (int i = j; i < dense.columns; ++i) values[*place++] += A.col(i).dot(A.col(j));
-      continue;
-    }
-    C.setZero();
-    C.selfadjointView<Eigen::Lower>().rankUpdate(A.transpose());
-    for (int j = 0; j < dense.columns; ++j)
-      for (int i = j; i < dense.columns; ++i) values[*place++] += C(i, j);
-  }
+  for (const Dense& dense : dense_) add_condensed(dense);
   // An equality's pivot is a sum of squares of its coefficients, each over about the variable's diagonal entry.
   VectorXd& least = fronts_.least_pivots();
   least.tail(m_).setZero();
   if (delta_c > 0.0) return;
+  for (int i = 0; i < n_; ++i) left_a_[i] = kNoPivot / std::max(1.0, std::abs(values[diagonal[i]]));
   for (const Term& term : equality_terms_) {
-    const double square = jacobian_[term.from] * jacobian_[term.from];
     double& of_row = least[n_ + term.row];
-    of_row = std::max(of_row, kNoPivot * square / std::max(1.0, std::abs(values[diagonal[term.column]])));
+    of_row = std::max(of_row, jacobian_[term.from] * jacobian_[term.from] * left_a_[term.column]);
   }
 }
 
@@ -145,22 +198,49 @@ Kkt::Factor Kkt::factor(double delta, double delta_c) {
   return inertia.negative == m_ ? Factor::good : Factor::wrong_inertia;
 }
 
+/// out = A x, where these rows go.
+void Kkt::multiply(const Dense& dense, const VectorXd& x, VectorXd& out) const {
+  const int width = dense.width;
+  for (int j = 0; j < dense.columns; ++j) gathered_[j] = x[dense.variables[j]];
+  for (int j = dense.columns; j < width; ++j) gathered_[j] = 0.0;
+  const double* A = dense_values_.data() + dense.first_value;
+  for (int row = 0; row < dense.rows; ++row, A += width) {
+    Chunk sum = Chunk::Zero();
+    for (int j = 0; j < width; j += kChunk) sum += ConstChunkAt(A + j) * ConstChunkAt(gathered_.data() + j);
+    out[dense.targets[row]] = sum.sum();
+  }
+}
+
+/// out += A' y.
+void Kkt::add_transposed(const Dense& dense, const VectorXd& y, VectorXd& out) const {
+  const double* A = dense_values_.data() + dense.first_value;
+  for (int from = 0; from < dense.columns; from += kChunk) {
+    Chunk sum = Chunk::Zero();
+    for (int row = 0; row < dense.rows; ++row)
+      sum += y[dense.targets[row]] * ConstChunkAt(A + row * dense.width + from);
+    const int end = std::min(from + kChunk, dense.columns);
+    for (int j = from; j < end; ++j) out[dense.variables[j]] += sum[j - from];
+  }
+}
+
 void Kkt::multiply_inequalities(const VectorXd& x, VectorXd& out) const {
-  out.setZero();
-  for (const Term& term : inequality_terms_) out[term.row] += jacobian_[term.from] * x[term.column];
+  out.setZero();  // rows without unknowns, too
+  for (const Dense& dense : dense_) multiply(dense, x, out);
 }
 
 void Kkt::add_inequalities_transposed(const VectorXd& y, VectorXd& out) const {
-  for (const Term& term : inequality_terms_) out[term.column] += jacobian_[term.from] * y[term.row];
+  for (const Dense& dense : dense_) add_transposed(dense, y, out);
 }
 
 void Kkt::multiply_equalities(const VectorXd& x, VectorXd& out) const {
   out.setZero();
-  for (const Term& term : equality_terms_) out[term.row] += jacobian_[term.from] * x[term.column];
+  for (const Dense& dense : dense_equalities_) multiply(dense, x, out);
+  for (const Term& term : sparse_equalities_) out[term.row] += jacobian_[term.from] * x[term.column];
 }
 
 void Kkt::add_equalities_transposed(const VectorXd& y, VectorXd& out) const {
-  for (const Term& term : equality_terms_) out[term.column] += jacobian_[term.from] * y[term.row];
+  for (const Dense& dense : dense_equalities_) add_transposed(dense, y, out);
+  for (const Term& term : sparse_equalities_) out[term.column] += jacobian_[term.from] * y[term.row];
 }
 
 void Kkt::residual(const VectorXd& a, const VectorXd& b, const VectorXd& dx, const VectorXd& lambda) {
@@ -179,17 +259,27 @@ void Kkt::residual(const VectorXd& a, const VectorXd& b, const VectorXd& dx, con
   left_a_ = a - left_a_;
 }
 
-void Kkt::solve_roughly(const VectorXd& a, const VectorXd& b, VectorXd& dx, VectorXd& lambda) {
+void Kkt::solve_roughly(const Solution& first_right, const Solution& second_right, Solution& first, Solution& second) {
+  right_ << first_right.dx, first_right.lambda;
+  other_right_ << second_right.dx, second_right.lambda;
+  fronts_.solve(right_, other_right_);
+  first.dx = right_.head(n_);
+  first.lambda = right_.tail(m_);
+  second.dx = other_right_.head(n_);
+  second.lambda = other_right_.tail(m_);
+}
+
+void Kkt::solve(const VectorXd& a, const VectorXd& b, VectorXd& dx, VectorXd& lambda) {
   right_ << a, b;
   fronts_.solve(right_);
   dx = right_.head(n_);
   lambda = right_.tail(m_);
+  refine(a, b, dx, lambda);
 }
 
-void Kkt::solve(const VectorXd& a, const VectorXd& b, VectorXd& dx, VectorXd& lambda) {
+void Kkt::refine(const VectorXd& a, const VectorXd& b, VectorXd& dx, VectorXd& lambda) {
   const double largest_a = n_ > 0 ? a.cwiseAbs().maxCoeff() : 0.0, largest_b = m_ > 0 ? b.cwiseAbs().maxCoeff() : 0.0;
   const double size = std::max({largest_a, largest_b, 1e-300});
-  solve_roughly(a, b, dx, lambda);
   double before = nlp::kInfinity;
   for (int i = 0; i <= kMaxRefinements; ++i) {
     residual(a, b, dx, lambda);

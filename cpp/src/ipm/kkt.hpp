@@ -21,7 +21,7 @@ class Kkt {
   Kkt(const nlp::Problem& problem, const Unknowns& unknowns);
 
   /// Jacobian in the order of problem.jacobian_structure(), Hessian in that of hessian_structure().
-  void set_jacobian(const Eigen::VectorXd& values) { jacobian_ = values; }
+  void set_jacobian(const Eigen::VectorXd& values);
   void set_hessian(const Eigen::VectorXd& values) { hessian_ = values; }
   void set_weights(const Eigen::Ref<const Eigen::VectorXd>& slacks, const Eigen::Ref<const Eigen::VectorXd>& bounds);
 
@@ -32,8 +32,14 @@ class Kkt {
   /// dx and lambda, refined until the residual is small against the right side or falls no further.
   void solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& dx, Eigen::VectorXd& lambda);
 
-  /// The same without a look at the residual, for a step that is only to be looked at.
-  void solve_roughly(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& dx, Eigen::VectorXd& lambda);
+  /// The same without a look at the residual, and of two right sides at once.
+  struct Solution {
+    Eigen::VectorXd dx, lambda;
+  };
+  void solve_roughly(const Solution& first_right, const Solution& second_right, Solution& first, Solution& second);
+
+  /// dx and lambda as good as solve() makes them, from what they are.
+  void refine(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& dx, Eigen::VectorXd& lambda);
 
   /// out = J_I x, out += J_I' y, out = J_E x, out += J_E' y.
   void multiply_inequalities(const Eigen::VectorXd& x, Eigen::VectorXd& out) const;
@@ -51,31 +57,42 @@ class Kkt {
     int row = 0, column = 0;  ///< slack or equality, or the other variable; free variable
     int place = 0;            ///< in the factorisation
   };
-  /// The inequalities of a piece: a dense matrix of the variables that they see.
+  /// The inequalities or the equalities of a piece: a dense matrix of the variables that they see, in dense_values_,
+  /// row by row of `width` numbers, of which those beyond `columns` are zero.
   struct Dense {
-    int rows = 0, columns = 0;
-    std::vector<int> slacks;
+    int rows = 0, columns = 0, width = 0;
+    bool constant = false;
+    std::vector<int> targets, variables;  ///< slacks or equalities, free variables
     struct Entry {
-      int from = 0, row = 0, column = 0;
+      int from = 0, to = 0;  ///< place in the Jacobian, and among the rows
     };
     std::vector<Entry> entries;
+    int first_value = 0;  ///< in dense_values_
     int first_place = 0;  ///< of the lower triangle, column by column
   };
 
   static std::vector<Fronts::Pair> structure(const nlp::Problem& problem, const Unknowns& unknowns, Kkt& out);
   void assemble(double delta, double delta_c);
+  static Dense dense_block(const nlp::Problem::Block& block, const std::vector<int>& target_of,
+                           const Unknowns& unknowns, std::vector<int>& local);
+  void add_condensed(const Dense& dense);
+  void multiply(const Dense& dense, const Eigen::VectorXd& x, Eigen::VectorXd& out) const;
+  void add_transposed(const Dense& dense, const Eigen::VectorXd& y, Eigen::VectorXd& out) const;
   void residual(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& dx,
                 const Eigen::VectorXd& lambda);
 
   int n_, m_;
-  std::vector<Term> hessian_terms_, equality_terms_, inequality_terms_;
-  std::vector<Dense> dense_;
+  std::vector<Term> hessian_terms_, equality_terms_;
+  std::vector<Dense> dense_, dense_equalities_;
+  std::vector<Term> sparse_equalities_;  ///< those in none of these
   Fronts fronts_;
   Eigen::VectorXd jacobian_, hessian_, slack_weights_, bound_weights_;
-  Eigen::VectorXd roots_;  ///< of slack_weights_
+  Eigen::VectorXd dense_values_;
+  bool jacobian_set_ = false;  ///< so that constant entries of dense_values_ are there
   double delta_ = 0.0, delta_c_ = 0.0, residual_ = 0.0;
   Eigen::MatrixXd block_, product_;
-  Eigen::VectorXd right_, left_a_, left_b_, slacks_;
+  mutable Eigen::VectorXd gathered_;  ///< of the variables that a piece sees
+  Eigen::VectorXd right_, other_right_, left_a_, left_b_, slacks_;
 };
 
 }  // namespace mcplan::ipm

@@ -62,8 +62,7 @@ bool Barrier::search(Point& point, Step& step) {
   const double tau = std::max(kLeastTau, 1.0 - mu_);
   theta_now_ = theta(point);
   phi_now_ = barrier_cost(point, mu_);
-  barrier_gradient_ = mu_ / gap_upper_.array() - mu_ / gap_lower_.array();
-  slope_ = gradient_.dot(step.t.head(n())) + barrier_gradient_.dot(step.t);
+  slope_ = gradient_.dot(step.t.head(n())) + mu_ * pull_.dot(step.t);
   const double max_alpha = max_step(step.t, tau);
   alpha_dual_ = max_dual_step(step, tau);
   double alpha = max_alpha;
@@ -125,10 +124,9 @@ void Barrier::take(Point& point, const Step& step, double alpha, double alpha_du
   lower_dual_ += alpha_dual * step.lower;
   upper_dual_ += alpha_dual * step.upper;
   std::swap(point, trial_);
-  gap_lower_ = point.t - unknowns_.lower;
-  gap_upper_ = unknowns_.upper - point.t;
+  find_gaps(point);
   for (int i = 0; i < point.t.size(); ++i) {
-    const double low = mu_ / gap_lower_[i], high = mu_ / gap_upper_[i];
+    const double low = mu_ * inverse_lower_[i], high = mu_ * inverse_upper_[i];
     lower_dual_[i] = std::clamp(lower_dual_[i], low / kDualReset, low * kDualReset);
     upper_dual_[i] = std::clamp(upper_dual_[i], high / kDualReset, high * kDualReset);
   }

@@ -1,8 +1,11 @@
 #include "ipm/pivoting.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
+
+#include "ipm/chunk.hpp"
 
 namespace mcplan::ipm {
 namespace {
@@ -24,37 +27,49 @@ void exchange(Matrix& F, int a, int b, int* pivots) {
   std::swap(pivots[a], pivots[b]);
 }
 
-/// Place of the largest entry off the diagonal of column k, from row or column `from` on; rows beyond the own ones are
-/// eliminated later and bound no choice.
-int largest_off_diagonal(const Matrix& F, int own, int k, int from, double& size) {
-  int at = -1;
-  size = 0.0;
-  for (int j = from; j < k; ++j)
-    if (std::abs(F(k, j)) > size) size = std::abs(F(k, at = j));
-  for (int i = k + 1; i < own; ++i)
-    if (std::abs(F(i, k)) > size) size = std::abs(F(at = i, k));
-  return at;
+/// Largest entry off the diagonal of column k, from row or column `from` on; rows beyond the own ones are eliminated
+/// later and bound no choice.
+double largest_off_diagonal(const Matrix& F, int own, int k, int from) {
+  double size = 0.0;
+  for (int j = from; j < k; ++j) size = std::max(size, std::abs(F(k, j)));
+  const double* column = &F(0, k);
+  int i = k + 1;
+  Chunk sizes = Chunk::Zero();
+  for (; i + kChunk <= own; i += kChunk) sizes = sizes.max(ConstChunkAt(column + i).abs());
+  for (; i < own; ++i) size = std::max(size, std::abs(column[i]));
+  return std::max(size, sizes.maxCoeff());
 }
 
-/// Columns k + 1 ... own - 1, all rows, after a pivot of size one; column k becomes L's.
+/// The first row below the diagonal of column k whose entry has this size.
+int row_of_size(const Matrix& F, int own, int k, double size) {
+  for (int i = k + 1; i < own; ++i)
+    if (std::abs(F(i, k)) == size) return i;
+  return -1;
+}
+
+/// Columns k + 1 ... own - 1, all rows, after a pivot of size one; column k becomes L's. Above their diagonal, where
+/// nothing is read, columns get something, too: chunks begin at multiples of their length.
 void update_one(Matrix& F, int own, int k) {
   const int n = static_cast<int>(F.rows());
-  const double inverse = 1.0 / F(k, k);
+  double* pivot_column = &F(0, k);
+  const double inverse = 1.0 / pivot_column[k];
   // Two columns at a time: each reading of column k serves both.
-  int j = k + 1;
-  for (; j + 1 < own; j += 2) {
-    const double first = F(j, k) * inverse, second = F(j + 1, k) * inverse;
+  for (int j = k + 1; j < own; j += 2) {
+    const bool both = j + 1 < own;
+    const double first = pivot_column[j] * inverse, second = both ? pivot_column[j + 1] * inverse : 0.0;
     if (first == 0.0 && second == 0.0) continue;
-    F(j, j) -= first * F(j, k);
-    const auto from = F.col(k).segment(j + 1, n - j - 1);
-    auto left = F.col(j).segment(j + 1, n - j - 1);
-    auto right = F.col(j + 1).segment(j + 1, n - j - 1);
-    for (int i = 0; i < n - j - 1; ++i) {
-      left[i] -= first * from[i];
-      right[i] -= second * from[i];
+    double *left = &F(0, j), *right = both ? &F(0, j + 1) : left;
+    int i = std::max(k + 1, j / kChunk * kChunk);
+    for (; i + kChunk <= n; i += kChunk) {
+      const Chunk from = ConstChunkAt(pivot_column + i);
+      ChunkAt(left + i) -= first * from;
+      if (both) ChunkAt(right + i) -= second * from;
+    }
+    for (; i < n; ++i) {
+      left[i] -= first * pivot_column[i];
+      if (both) right[i] -= second * pivot_column[i];
     }
   }
-  if (j < own) F.col(j).segment(j, n - j) -= F(j, k) * inverse * F.col(k).segment(j, n - j);
   F.col(k).segment(k + 1, n - k - 1) *= inverse;
 }
 
@@ -76,6 +91,30 @@ void update_two(Matrix& F, int own, int k, double c) {
   F(k + 1, k) = 0.0;
 }
 
+/// All of a small matrix, in registers, as long as each diagonal entry in its turn is a good pivot; false where one is
+/// not, with F as it was.
+template <int Size>
+bool eliminate_in_order(Matrix& F, double least, PivotCount& count) {
+  std::array<Eigen::Array<double, Size, 1>, Size> columns;
+  for (int k = 0; k < Size; ++k) columns[k] = F.col(k);
+  std::array<double, Size> diagonal;
+  for (int k = 0; k < Size; ++k) {
+    double largest = 0.0;
+    for (int i = k + 1; i < Size; ++i) largest = std::max(largest, std::abs(columns[k][i]));
+    const double size = std::abs(diagonal[k] = columns[k][k]);
+    if (!(size > least && size >= kAlpha * largest)) return false;
+    const double inverse = 1.0 / diagonal[k];
+    for (int j = k + 1; j < Size; ++j) columns[j] -= columns[k][j] * inverse * columns[k];
+    columns[k] *= inverse;
+  }
+  for (int k = 0; k < Size; ++k) {
+    ++(diagonal[k] > 0.0 ? count.positive : count.negative);
+    F(k, k) = diagonal[k];
+    for (int i = k + 1; i < Size; ++i) F(i, k) = columns[k][i];
+  }
+  return true;
+}
+
 }  // namespace
 
 PivotCount eliminate(Eigen::Ref<MatrixXd> F, int own, int* pivots, double* off_diagonal, double least) {
@@ -84,13 +123,13 @@ PivotCount eliminate(Eigen::Ref<MatrixXd> F, int own, int* pivots, double* off_d
     pivots[i] = i;
     off_diagonal[i] = 0.0;
   }
+  if (own == 8 && F.rows() == 8 && eliminate_in_order<8>(F, least, count)) return count;
   for (int k = 0; k < own;) {
-    double column = 0.0, other = 0.0;
-    const double diagonal = std::abs(F(k, k));
-    const int candidate = largest_off_diagonal(F, own, k, k, column);
+    const double diagonal = std::abs(F(k, k)), column = largest_off_diagonal(F, own, k, k);
     bool two = false;
-    if (diagonal < kAlpha * column) {
-      largest_off_diagonal(F, own, candidate, k, other);
+    const int candidate = diagonal < kAlpha * column ? row_of_size(F, own, k, column) : -1;
+    if (candidate >= 0) {
+      const double other = largest_off_diagonal(F, own, candidate, k);
       if (diagonal * other >= kAlpha * column * column) {
         // The diagonal entry will do.
       } else if (std::abs(F(candidate, candidate)) >= kAlpha * other) {

@@ -79,18 +79,20 @@ class Places {
   int& find(int row, int column) {
     const std::uint64_t key = (static_cast<std::uint64_t>(row) << 32) | static_cast<std::uint32_t>(column);
     const std::size_t mask = slots_.size() - 1;
-    std::size_t at = (key * 0x9E3779B97F4A7C15ULL >> 20) & mask;
+    std::size_t at = key * 0x9E3779B97F4A7C15ULL >> shift_;  // the highest bits, on which row and column both tell
     while (slots_[at] >= 0 && (entries_[slots_[at]].row != row || entries_[slots_[at]].column != column))
       at = (at + 1) & mask;
     return slots_[at];
   }
   void grow() {
     slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), -1);
+    shift_ = slots_.size() == 64 ? 58 : shift_ - 1;
     for (std::size_t i = 0; i < entries_.size(); ++i) find(entries_[i].row, entries_[i].column) = static_cast<int>(i);
   }
 
   std::vector<Entry>& entries_;
-  std::vector<int> slots_;  ///< index of an entry, or -1
+  std::vector<int> slots_;  ///< index of an entry, or -1; a power of two, 2^(64 - shift_)
+  int shift_ = 0;
 };
 
 double violation(double value, double lower, double upper) { return std::max({lower - value, value - upper, 0.0}); }
@@ -145,7 +147,7 @@ void Problem::finish_for_values() {
 bool Problem::finish(const StopRequest& stop) {
   jacobian_.clear();
   hessian_.clear();
-  Places jacobian(jacobian_), hessian(hessian_);
+  Places hessian(hessian_);
   for (Block& block : blocks_) {
     if (stop && stop()) return false;
     const Piece& piece = *block.piece;
@@ -157,8 +159,10 @@ bool Problem::finish(const StopRequest& stop) {
     block.hessian_at.clear();
     for (int at : pattern.jacobian) {
       const int row = at % piece.rows(), column = variables[at / piece.rows()];
-      // A cost's derivatives go into the dense gradient.
-      block.jacobian_at.push_back(block.is_cost() ? column : jacobian.of(block.first_row + row, column));
+      // A cost's derivatives go into the dense gradient; of other entries none is mentioned twice, since each block has
+      // rows of its own and no variable twice.
+      block.jacobian_at.push_back(block.is_cost() ? column : static_cast<int>(jacobian_.size()));
+      if (!block.is_cost()) jacobian_.push_back({block.first_row + row, column});
     }
     for (int at : pattern.hessian) {
       const int a = variables[at % piece.size()], b = variables[at / piece.size()];

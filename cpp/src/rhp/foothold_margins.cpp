@@ -7,7 +7,6 @@
 #include "mcplan/base/error.hpp"
 #include "mcplan/ipm/solver.hpp"
 #include "mcplan/nlp/solver.hpp"
-#include "nlp/has_ipopt.hpp"
 #include "rhp/pieces/reach_rows.hpp"
 
 namespace mcplan::rhp {
@@ -41,8 +40,10 @@ bool in_reach(const Walker& walker, const Stand& a, const Stand& b) {
   }
   for (int i : {0, 1}) add_foot_reach(problem, feet[i], feet[1 - i], walker.feet[feet[i].foot].partner_reach_W);
   problem.finish();
-  const nlp::Solver solver = nlp::has_ipopt() ? nlp::Solver::ipopt : nlp::Solver::ipm;
-  const nlp::Solution solution = ipm::solve(solver, problem, Eigen::VectorXd::Zero(4));
+  nlp::SolverOptions options;
+  options.constraint_tolerance = walker.options.constraint_tolerance;
+  options.kernel.feasible_is_enough = true;
+  const nlp::Solution solution = ipm::solve(problem, Eigen::VectorXd::Zero(4), options);
   return solution.worst.value <= walker.options.constraint_tolerance;
 }
 

@@ -18,6 +18,7 @@
 #include "rhp/guess.hpp"
 #include "rhp/horizon.hpp"
 #include "rhp/human_size.hpp"
+#include "rhp/solver_options.hpp"
 #include "rhp/walker.hpp"
 
 namespace mcplan::rhp {
@@ -25,23 +26,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-nlp::SolverOptions solver_options(const Options& options, double time_left_s) {
-  nlp::SolverOptions out;
-  out.tolerance = options.tolerance;
-  out.constraint_tolerance = options.constraint_tolerance;
-  out.max_iterations = options.max_iterations;
-  out.time_limit_s = std::max(time_left_s, 1e-3);
-  out.ordering = options.automatic_ordering ? nlp::Ordering::automatic : nlp::Ordering::amd;
-  // Measured on the terrains: a high first barrier leads to the same optimum from any guess, a low one saves a seventh
-  // of the iterations where there are most of them.
-  out.initial_barrier = options.paper ? 0.3 : options.fidelity == Fidelity::single ? 0.03 : 0.1;
-  out.adaptive_barrier = options.solver != nlp::Solver::ipopt;  // a third of the kernel's iterations less
-  out.gradient_scaling = false;                                 // the variables are of the order of one as they are
-  out.stop = options.stop;
-  out.clock = options.clock;
-  return out;
-}
 
 /// The forward-Euler motion is not the integral of its forces: what the checker says of that comes with the method.
 bool only_euler_drift(const CheckResult& result) {
@@ -105,6 +89,7 @@ struct RecedingHorizon::Impl {
   int steps_left() const { return footsteps.ends() ? footsteps.count() - index : walker.options.lookahead; }
 
   Cycle run();
+  bool find_step();
   HorizonRequest request_for(int steps) const;
   CheckResult checked(const Plan& step) const;
   void accept_predicted(Cycle& cycle);
@@ -168,6 +153,20 @@ Cycle RecedingHorizon::Impl::run() {
                                        std::string(to_string(cycle.status)) + "  " + text(cycle.iterations) +
                                        " iterations, " + text(cycle.time_s) + " s");
   return cycle;
+}
+
+/// A cycle, and others that go on with it where time_limit cuts it short without a step: no longer than the step under
+/// way lasts (the first cycle's robot stands), and at most kFurtherCalls.
+bool RecedingHorizon::Impl::find_step() {
+  const double under_way_s = walked.phases.empty() ? nlp::kInfinity : executed.duration() * size.own().time;
+  double spent_s = 0.0;
+  for (int call = 0; call <= kFurtherCalls; ++call) {
+    const Cycle cycle = run();
+    if (cycle.executed) return true;
+    spent_s += cycle.time_s;
+    if (cycle.status != Status::time_limit || spent_s + cycle.time_s > under_way_s) return false;
+  }
+  return false;
 }
 
 /// Solve the horizon, from where its solve was cut short if it was; again with the faces of reach that were left out
@@ -342,10 +341,10 @@ Plan RecedingHorizon::horizon() const { return impl_->size.to_own(impl_->horizon
 Walk RecedingHorizon::walk() {
   const int cycles = impl_->footsteps.ends() ? std::min(impl_->walker.options.cycles, impl_->steps_left())
                                              : impl_->walker.options.cycles;
-  for (int i = 0; i < cycles; ++i)
-    if (!impl_->run().executed) break;
+  int steps = 0;
+  while (steps < cycles && impl_->find_step()) ++steps;
   Walk out = result();
-  out.success = static_cast<int>(impl_->cycles.size()) == cycles && out.success;
+  out.success = steps == cycles && out.success;
   return out;
 }
 
@@ -359,7 +358,9 @@ Walk RecedingHorizon::result() const {
   report.message = out.cycles.empty() ? "no cycle has run" : "";
   report.version = MCPLAN_VERSION;
   for (const Cycle& cycle : out.cycles) {
-    out.success = out.success && cycle.executed;
+    // One that was cut short without a step, and gone on with.
+    const bool continued = !cycle.executed && cut_short(cycle) && cycle.index + 1 < static_cast<int>(out.cycles.size());
+    out.success = out.success && (cycle.executed || continued);
     report.iterations += cycle.iterations;
     report.time_s += cycle.time_s;
     report.timing_s["evaluation"] += cycle.evaluation_s;
@@ -368,7 +369,7 @@ Walk RecedingHorizon::result() const {
     report.cost_terms["momentum"] += cycle.momentum_cost;
     report.cost += cycle.acceleration_cost + cycle.momentum_cost;
     report.worst_violation = cycle.worst_violation;
-    if (cycle.status == Status::solved || (report.status != Status::solved && cycle.executed)) continue;
+    if (continued || cycle.status == Status::solved || (report.status != Status::solved && cycle.executed)) continue;
     report.status = cycle.status;
     report.message = "cycle " + std::to_string(cycle.index) + ": " + cycle.message;
     if (!cycle.executed && cycle.index > 0) report.message += "; the steps before it stand";

@@ -91,6 +91,28 @@ TEST_CASE("after a cycle that was cut short without a step the next one goes on 
   }
 }
 
+TEST_CASE("a walk goes on with a cycle that the time limit cuts short without a step") {
+  Options options = kernel(Fidelity::point, 2);
+  options.cycles = 2;
+  options.time_limit_s = 0.05;
+  const SwitchedClock clock;
+  *clock.tick_s = 1e-3;
+  options.clock = clock;
+  const Walk walk = planner(options).walk();
+  CAPTURE(walk.report.message);
+  CHECK(walk.success);
+  CHECK(walk.plan.phases.size() == 6);
+  REQUIRE(walk.cycles.size() > 2);
+  CHECK_FALSE(walk.cycles.front().executed);
+  CHECK(std::count_if(walk.cycles.begin(), walk.cycles.end(), [](const Cycle& cycle) { return cycle.executed; }) == 2);
+  // No call gets anywhere.
+  *clock.tick_s = 1.0;
+  const Walk nowhere = planner(options).walk();
+  CHECK_FALSE(nowhere.success);
+  CHECK(nowhere.report.status == Status::time_limit);
+  CHECK(nowhere.cycles.size() == kFurtherCalls + 1);
+}
+
 TEST_CASE("from another state nothing is gone on with") {
   Options options = kernel(Fidelity::point, 2);
   options.max_iterations = 3;

@@ -35,6 +35,9 @@ enum class StepFrom {
 /// no violation of more than so many tolerances.
 inline constexpr double kUsableRatio = 10.0;
 
+/// How often walk() goes on with a cycle that the time limit has cut short without a step.
+inline constexpr int kFurtherCalls = 50;
+
 /// How one cycle went.
 struct Cycle {
   int index = 0;
@@ -64,7 +67,7 @@ struct Walk {
   Plan plan;      ///< the executed steps, one after the other
   Report report;  ///< of the worst cycle: status, message; times summed; of the whole plan: violation, warnings
   std::vector<Cycle> cycles;
-  bool success = false;  ///< every cycle that was asked for converged within its constraints
+  bool success = false;  ///< every step that was asked for was found
 
   double distance_m() const;      ///< travelled by the CoM along the heading
   double acc_per_m() const;       ///< integral of |acceleration|^2 per metre, executed steps
@@ -97,7 +100,8 @@ class RecedingHorizon {
   RecedingHorizon(RecedingHorizon&&) noexcept;
   RecedingHorizon& operator=(RecedingHorizon&&) noexcept;
 
-  /// Run all cycles that options ask for, or until one fails.
+  /// Run all cycles that options ask for, or until one fails. One that time_limit_s cuts short without a step has not
+  /// failed yet: step() is called again up to kFurtherCalls times, and no longer than the step before lasts.
   Walk walk();
 
   /// One cycle from where the last one ended. After one that a limit cut short without a step it goes on where that one

@@ -166,7 +166,8 @@ void MomentumSquareOverTime::hessian(const nlp::ConstVector& x, const nlp::Const
     of_L.col(3 + Within::kDuration) += ratio_ * rise;
 
     const double w = 2.0 * weights[0] * weight, factor = w * within.h;
-    H.noalias() += factor * of_L.transpose() * of_L;
+    const Eigen::Matrix<double, 3, 3 + Within::kCount> scaled = factor * of_L;
+    H += scaled.transpose().lazyProduct(of_L);
     within.add_hessian(c, L, factor * within.h, inner);
     // of L itself, h times the integral of R: its duration's row beside that of the integral
     const Eigen::Matrix<double, Within::kCount, 1> beside = factor * ratio_ * of_rate.transpose() * L;
