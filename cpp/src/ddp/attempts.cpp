@@ -175,18 +175,18 @@ std::vector<Attempts::Guess> Attempts::guesses(const Incumbent& start, const Inc
   if (!options.initial_sequence.empty()) return {{first_guess(start.sequence, first_)}};
   // Shorter and longer steps lead to other sequences; the better one goes on.
   std::vector<Guess> out{{start, options.proximal_weight}, {start, kSecondDiscovery * options.proximal_weight}};
-  const std::vector<Guess> in_turn = stepping();
+  const std::vector<Guess> in_turn = stepping(first_);
   out.insert(out.end(), in_turn.begin(), in_turn.end());
   return out;
 }
 
 /// End-effectors in turns, begun with the first or the second of them.
-std::vector<Attempts::Guess> Attempts::stepping() const {
+std::vector<Attempts::Guess> Attempts::stepping(const Tuning& tuning) const {
   std::vector<Guess> out;
   for (int mover : {0, 1}) {
     const ContactSequence steps =
         problem_.options.stepping_guesses ? stepping_sequence(problem_, mover) : ContactSequence();
-    if (!steps.empty()) out.push_back({first_guess(steps, first_)});
+    if (!steps.empty()) out.push_back({first_guess(steps, tuning)});
   }
   return out;
 }
@@ -233,10 +233,38 @@ Ending Attempts::restart(Ending ending, const ContactSequence& initial, Tuning t
   return ending;
 }
 
+/// In few phases the optimum of the sequence that was found, and from more discoveries, whatever the checker says of
+/// the plans before; then once more from the cheapest. The best of all counts. Without a plan half of the iterations
+/// are left to restarts.
+Ending Attempts::vary(Ending ending, const ContactSequence& initial, Tuning tuning) {
+  const Problem& p = problem_;
+  Incumbent lowest;
+  double merit = std::numeric_limits<double>::infinity();
+  const auto more = [&](std::vector<Guess> guesses) {
+    const bool left = best_->solved() || 2 * search_.report().iterations < p.options.max_iterations;
+    if (guesses.empty() || !left || (ending != Ending::done && ending != Ending::broke_down)) return;
+    ending = attempt(std::move(guesses), tuning);
+    if (ending != Ending::done || !(last_.evaluation.merit() < merit)) return;
+    merit = last_.evaluation.merit();
+    lowest = last_;
+  };
+  tuning.exact = true;
+  if (!last_.sequence.empty()) more({{last_, 0.0, true}});
+  for (const double share : kFewPhasesDurations) {
+    tuning.duration_initial = p.duration_min + share * (p.duration_max - p.duration_min);
+    more(stepping(tuning));
+    Incumbent again = first_guess({}, tuning);
+    again.sequence = initial;
+    for (const double proximal : kFewPhasesProximal) more({{again, proximal}});
+  }
+  if (!lowest.sequence.empty()) more({{lowest, 0.0, true}});
+  return ending;
+}
+
 /// Robots on four feet begin with a crawl and nothing else, once more with footholds further inside where a swing has
 /// caught an edge: a discovery over four feet takes several times as long, and mostly ends with no better walk.
 Ending Attempts::crawl() {
-  std::vector<Guess> steps = stepping();
+  std::vector<Guess> steps = stepping(first_);
   if (steps.empty()) return Ending::done;
   keep(steps.front().start, first_);
   Ending ending = attempt(std::move(steps), first_);
@@ -285,6 +313,8 @@ Ending Attempts::run(const Incumbent* warm) {
     search_.begin_anew();
     ending = attempt(guesses(start, warm), tuning);
   }
+  if (!warm && options.initial_sequence.empty() && options.restarts > 0 && problem_.steps <= kFewPhases)
+    ending = vary(ending, sequence, tuning);
   ending = restart(ending, sequence, tuning);
   if (ending != Ending::interrupted) best_->look_back(search_, surfaces_);
   return late(ending);

@@ -33,11 +33,12 @@ class Attempts {
   Incumbent first_guess(const ContactSequence& sequence, const Tuning& tuning) const;
   Incumbent at_once(const ContactSequence& sequence);
   ContactSequence initial(Ending& ending);
-  std::vector<Guess> stepping() const;
+  std::vector<Guess> stepping(const Tuning& tuning) const;
   std::vector<Guess> guesses(const Incumbent& start, const Incumbent* warm) const;
   Ending attempt(std::vector<Guess> guesses, const Tuning& tuning);
   Incumbent cheapest(const std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending);
   Ending restart(Ending ending, const ContactSequence& initial, Tuning tuning);
+  Ending vary(Ending ending, const ContactSequence& initial, Tuning tuning);
   bool asks_too_much_of_joints() const;
   Ending crawl();
   double further_inside() const;

@@ -44,6 +44,7 @@ struct Tuning {
   double extra_margin = 0.0;              ///< further margin of soles, where one has caught an edge
   bool clear_swings = false;              ///< hold swings out of solids, where one has caught an edge
   bool hold_joints = false;               ///< hold the limb limits, where a plan has exceeded them
+  bool exact = false;                     ///< polish by interior point whatever the options say, in few phases
 };
 
 /// Limits and nominal position of an end-effector, non-dimensional.

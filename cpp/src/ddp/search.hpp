@@ -113,7 +113,7 @@ class Search {
 
   /// Whether the interior point polishes. It has no rows for limb limits.
   bool exact_contacts(const Tuning& tuning) const {
-    return problem_->options.polish == Polish::interior_point && !tuning.hold_joints;
+    return (tuning.exact || problem_->options.polish == Polish::interior_point) && !tuning.hold_joints;
   }
 
   /// Forget what earlier attempts have left behind.

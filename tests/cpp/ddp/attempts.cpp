@@ -65,6 +65,22 @@ TEST_CASE("while the checker rejects what comes out, as many restarts follow as 
   }
 }
 
+TEST_CASE("in few phases a plan costs no more than that of a single attempt from any first guess of the durations") {
+  for (const mcplan::Scene& scene : {scenes::flat(), scenes::stairs()}) {
+    CAPTURE(scene.name);
+    const PlanResult result = solve(scene, phases(10));
+    REQUIRE(result.report.status == Status::solved);
+    for (const double duration_s : {0.0, 0.2, 0.3, 0.45}) {
+      CAPTURE(duration_s);
+      Options single = phases(10);
+      single.restarts = 0;
+      single.duration_initial_s = duration_s;
+      const PlanResult other = solve(scene, single);
+      if (other.report.status == Status::solved) CHECK(result.report.cost <= 1.001 * other.report.cost);
+    }
+  }
+}
+
 TEST_CASE("the time limit is kept, and gives a plan with its status") {
   // Every look at the clock takes 1 ms: soon after the limit the clock must no longer be looked at. Making the first
   // plan takes a dozen.
