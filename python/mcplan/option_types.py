@@ -147,7 +147,7 @@ class DdpOptions(TypedDict, total=False):
     """Called with (LogLevel, line); None: silent."""
 
 
-class DdpReplanOptions(TypedDict, total=False):
+class DdpReplanOptions(DdpOptions, total=False):
     """How to plan on from a measured state, beside the options of the search."""
 
     committed_s: float

@@ -31,6 +31,7 @@ __all__: list[str] = [
     "LogLevel",
     "Phase",
     "Plan",
+    "PlanFrom",
     "PlanLoads",
     "PlanResult",
     "PlanState",
@@ -1436,6 +1437,7 @@ class Plan:
         planner: str = "",
         measured_start: bool = False,
         open_end: bool = False,
+        start_slack_s: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         momentum_max: typing.SupportsFloat | typing.SupportsIndex = ...,
         momentum_rate_max: typing.SupportsFloat | typing.SupportsIndex = ...,
         scene: Scene = ...,
@@ -1558,6 +1560,13 @@ class Plan:
     @scene.setter
     def scene(self, arg1: Scene) -> None: ...
     @property
+    def start_slack_s(self) -> float:
+        """
+        [s] Time within which what the measured start violates by itself has to be made good; above zero with measured_start alone.
+        """
+    @start_slack_s.setter
+    def start_slack_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def swings(self) -> tuple:
         """
         Tuple: Swings.
@@ -1633,6 +1642,50 @@ class Violation:
         """
     @value.setter
     def value(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class PlanFrom:
+    """
+    Where the plan of a replan comes from.
+
+    Members:
+
+      search : It is no replan.
+
+      same_sequence : The contacts of the plan under way, with what was added at its end.
+
+      other_sequence : Another step was put in.
+
+      previous_plan : What is left of the plan under way, as it was planned: nothing better was found in time.
+    """
+
+    __members__: typing.ClassVar[dict[str, PlanFrom]]
+    other_sequence: typing.ClassVar[PlanFrom]
+    previous_plan: typing.ClassVar[PlanFrom]
+    same_sequence: typing.ClassVar[PlanFrom]
+    search: typing.ClassVar[PlanFrom]
+    @typing.overload
+    def __eq__(self, other: PlanFrom) -> bool: ...
+    @typing.overload
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> int: ...
+    def __hash__(self) -> int: ...
+    def __index__(self) -> int: ...
+    def __init__(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __int__(self) -> int: ...
+    @typing.overload
+    def __ne__(self, other: PlanFrom) -> bool: ...
+    @typing.overload
+    def __ne__(self, other: typing.Any) -> bool: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    @typing.overload
+    def __repr__(self) -> str: ...
+    def __setstate__(self, state: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def __str__(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
 
 class Iteration:
     """
@@ -1710,6 +1763,11 @@ class Report:
     @property
     def iterations(self) -> int: ...
     @property
+    def kept_until_s(self) -> float:
+        """
+        Of a replan: time [s] until which its plan keeps all limits.
+        """
+    @property
     def message(self) -> str: ...
     @property
     def paper_cost(self) -> float:
@@ -1727,7 +1785,19 @@ class Report:
         Loops over neighbours that were shared out over threads.
         """
     @property
+    def plan_from(self) -> PlanFrom:
+        """
+        Of a replan: where its plan comes from.
+        """
+    @property
     def seed(self) -> int: ...
+    @property
+    def start_violations(self) -> tuple:
+        """
+        Tuple of Violation: of a replan, what the measured state violates by itself, worst first.
+        """
+    @start_violations.setter
+    def start_violations(self, arg1: collections.abc.Sequence[Violation]) -> None: ...
     @property
     def status(self) -> Status: ...
     @property
@@ -1956,6 +2026,11 @@ class CheckResult:
         Largest value / tolerance, violated or not.
         """
     @property
+    def checked_until_s(self) -> float:
+        """
+        How far the plan was looked at [s].
+        """
+    @property
     def complete(self) -> bool:
         """
         False: interrupted; what was found by then is listed.
@@ -1967,6 +2042,23 @@ class CheckResult:
         """
     @constraints.setter
     def constraints(self, arg1: collections.abc.Sequence[Violation]) -> None: ...
+    @property
+    def kept_until_s(self) -> float:
+        """
+        Time of the earliest violation [s]; checked_until_s where there is none, 0 where the plan could not be evaluated.
+        """
+    @property
+    def start(self) -> tuple:
+        """
+        Tuple of Violation: what the measured start violates by itself, of which ok() does not ask; worst first.
+        """
+    @start.setter
+    def start(self, arg1: collections.abc.Sequence[Violation]) -> None: ...
+    @property
+    def start_slack_s(self) -> float:
+        """
+        The plan's [s].
+        """
     @property
     def warnings(self) -> tuple:
         """
@@ -3347,9 +3439,15 @@ def built_in(kind: str) -> list[str]:
     """
 
 @typing.overload
-def check(plan: Plan, scene: Scene = None, robot: Robot = None, tolerances: Tolerances = ...) -> CheckResult:
+def check(
+    plan: Plan,
+    scene: Scene = None,
+    robot: Robot = None,
+    tolerances: Tolerances = ...,
+    until_s: typing.SupportsFloat | typing.SupportsIndex = ...,
+) -> CheckResult:
     """
-    Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons alone. Raises InvalidPlan when its arrays do not fit together, and Interrupted with what was found by then.
+    Check a plan against a scene and a robot (None: those it carries), from its positions, forces and polygons alone, up to until_s [s] where that is before its end. Raises InvalidPlan when its arrays do not fit together, and Interrupted with what was found by then.
     """
 
 @typing.overload

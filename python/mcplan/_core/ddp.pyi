@@ -6,9 +6,23 @@ from __future__ import annotations
 import collections.abc
 import mcplan._core
 from mcplan._core import PlanResult as Result
+import numpy
+import numpy.typing
 import typing
 
-__all__: list[str] = ["Method", "Model", "Options", "Polish", "Result", "StiffnessInput", "SwitchedDdp", "Weights"]
+__all__: list[str] = [
+    "Method",
+    "Model",
+    "Options",
+    "Polish",
+    "ReplanOptions",
+    "Result",
+    "StiffnessInput",
+    "SwitchedDdp",
+    "VelocityCommand",
+    "Weights",
+    "replan",
+]
 
 class Method:
     """
@@ -686,3 +700,112 @@ class SwitchedDdp:
         """
         The same, starting from an earlier plan's contact sequence, motion and timing.
         """
+
+class VelocityCommand:
+    """
+    A velocity to walk at, instead of the scene's goal.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __copy__(self) -> VelocityCommand: ...
+    def __deepcopy__(self, memo: dict) -> VelocityCommand: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        *,
+        velocity_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
+        yaw_rate: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def velocity_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        [m/s] Of the CoM: ahead and to the left of the heading.
+        """
+    @velocity_B.setter
+    def velocity_B(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"]) -> None: ...
+    @property
+    def yaw_rate(self) -> float:
+        """
+        [rad/s] Of the base, to the left.
+        """
+    @yaw_rate.setter
+    def yaw_rate(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class ReplanOptions:
+    """
+    How to plan on from a measured state, beside the options of the search.
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    def __copy__(self) -> ReplanOptions: ...
+    def __deepcopy__(self, memo: dict) -> ReplanOptions: ...
+    def __eq__(self, other: typing.Any) -> bool: ...
+    def __getstate__(self) -> tuple: ...
+    def __init__(
+        self,
+        *,
+        committed_s: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        start_slack_s: typing.SupportsFloat | typing.SupportsIndex = 0.6,
+        phases_min: typing.SupportsInt | typing.SupportsIndex = 6,
+        horizon: typing.SupportsInt | typing.SupportsIndex = 12,
+        other_sequences: bool = True,
+    ) -> None: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    def validate(self) -> None:
+        """
+        Raise InvalidOptions naming all that is out of its range.
+        """
+    @property
+    def committed_s(self) -> float:
+        """
+        [s] Contacts that are due within this time are made and broken as planned, when and where. The default goes with the size of the robot.
+        """
+    @committed_s.setter
+    def committed_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def horizon(self) -> int:
+        """
+        Number of phases that are planned ahead under a velocity command.
+        """
+    @horizon.setter
+    def horizon(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def other_sequences(self) -> bool:
+        """
+        Try sequences near to the plan's own where that does not do.
+        """
+    @other_sequences.setter
+    def other_sequences(self, arg0: bool) -> None: ...
+    @property
+    def phases_min(self) -> int:
+        """
+        The horizon never gets shorter than this: at its end the robot stands.
+        """
+    @phases_min.setter
+    def phases_min(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def start_slack_s(self) -> float:
+        """
+        [s] Time within which what the measured state itself violates has to be made good. The default goes with the size of the robot.
+        """
+    @start_slack_s.setter
+    def start_slack_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+def replan(
+    previous: mcplan._core.Plan,
+    t: typing.SupportsFloat | typing.SupportsIndex,
+    state: mcplan._core.Knot,
+    contacts: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+    scene: mcplan._core.Scene,
+    robot: mcplan._core.Robot,
+    options: ReplanOptions,
+    search: Options,
+    command: VelocityCommand | None = None,
+) -> mcplan._core.PlanResult:
+    """
+    Plan on from a measured state at time t [s] of an earlier plan; see mcplan.replan. `contacts`: surface index by end-effector, -1 free; empty: as planned.
+    """
