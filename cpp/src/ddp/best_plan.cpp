@@ -26,7 +26,6 @@ BestPlan::Finished BestPlan::converted(Search& search, const std::vector<int>& s
                                        const Tuning& tuning, bool swing_heights) const {
   Finished out;
   out.plan = to_plan(search.problem(), now, swing_heights);
-  out.plan.measured_start = measured_start_;
   put_back(out.plan, *scene_, surfaces);
   out.evaluation = search.evaluate(now, tuning);
   return out;

@@ -20,8 +20,7 @@ namespace mcplan::ddp {
 class BestPlan {
  public:
   /// `scene` and `surfaces`: the user's scene, and which of its surfaces the searched problem has.
-  BestPlan(const Scene& scene, const Deadline& deadline, bool measured_start)
-      : scene_(&scene), deadline_(&deadline), measured_start_(measured_start) {}
+  BestPlan(const Scene& scene, const Deadline& deadline) : scene_(&scene), deadline_(&deadline) {}
 
   struct Finished {
     Plan plan;
@@ -75,7 +74,6 @@ class BestPlan {
 
   const Scene* scene_;
   const Deadline* deadline_;
-  bool measured_start_;
   std::optional<Finished> finished_;  ///< of the plans that attempts have ended with
   std::optional<Finished> looked_;    ///< of the iterates
   std::optional<Finished> earlier_;   ///< of those of earlier problems

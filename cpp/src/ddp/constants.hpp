@@ -298,8 +298,8 @@ constexpr double kAddedSwing = 0.6;
 /// from where a foot is due, in heights of the CoM; and strides take at most so much of the length of a reach box.
 /// Chosen.
 constexpr double kCommandStop_s = 0.8, kCommandOff = 0.15, kCommandStride = 0.85;
-/// What a start violates is made good within this ratio of the time that the checker forgives it for: limits are held at
-/// a few instants, and those move with the durations. Chosen.
+/// What a start violates is made good within this ratio of the time that the checker forgives it for: limits are held
+/// at a few instants, and those move with the durations. Chosen.
 constexpr double kSlackRatio = 0.85;
 /// A measured contact may lie so far off its surface [m]. Chosen: more is no noise.
 constexpr double kStandsOff_m = 0.1;

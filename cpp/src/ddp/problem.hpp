@@ -100,8 +100,8 @@ class Problem {
     Eigen::Vector3d nominal_sum = Eigen::Vector3d::Zero();
   };
   Jointed jointed;
-  Eigen::Vector3d inertia;      ///< in units of mass length^2
-  double first_duration = 0.0;  ///< what is left of the first phase when replanning, else 0
+  Eigen::Vector3d inertia;           ///< in units of mass length^2
+  double first_duration = 0.0;       ///< what is left of the first phase when replanning, else 0
   bool first_duration_kept = false;  ///< likewise: it ends when it was to end
   /// A place where a contact begins, when replanning: the cost term "kept".
   struct Foothold {
@@ -110,7 +110,7 @@ class Problem {
     double weight = 0.0;
   };
   std::vector<Foothold> kept;
-  bool measured = false;  ///< starts from a measured state
+  bool measured = false;                                ///< starts from a measured state
   std::vector<Eigen::Vector3d> start_end_velocities_W;  ///< [m/s] by end-effector of the robot, where measured
   double start_slack = 0.0;  ///< time within which what a measured start violates by itself is made good
   double flight_duration_min = 0.0;

@@ -57,27 +57,26 @@ struct SwitchedDdp::Impl {
       throw InvalidOptions("method", "must be standard to start from a plan: the published algorithm does not",
                            "paper");
   }
-  PlanResult solve(const Request& request);
+  PlanResult solve(const Plan* earlier);
   PlanResult conclude(Ending ending, int steps, const BestPlan& best, Report&& report, double time_s) const;
   std::string message_of(Status status, int steps, const BestPlan& kept, const Report& report) const;
   PlanResult without_plan(Report&& report) const;
 };
 
-PlanResult SwitchedDdp::Impl::solve(const Request& request) {
+PlanResult SwitchedDdp::Impl::solve(const Plan* earlier) {
   const Deadline deadline(options.time_limit_s, options.clock);
   Report report;
   report.seed = options.seed;
   report.threads = options.threads;
   report.version = MCPLAN_VERSION;
-  if (std::optional<Impossible> impossible =
-          why_impossible(scene, robot, request.measured != nullptr, options.allow_flight)) {
+  if (std::optional<Impossible> impossible = why_impossible(scene, robot, false, options.allow_flight)) {
     report.status = Status::infeasible;
     report.message = impossible->message;
     report.worst_violation = impossible->violation;
     report.time_s = deadline.elapsed_s();
     return without_plan(std::move(report));
   }
-  const Found found = WaysToGoal(scene, robot, options, request, deadline).search(report);
+  const Found found = WaysToGoal(scene, robot, options, earlier, deadline).search(report);
   return conclude(found.ending, found.steps, found.best, std::move(report), deadline.elapsed_s());
 }
 
@@ -133,7 +132,7 @@ std::string SwitchedDdp::Impl::message_of(Status status, int steps, const BestPl
     message << "stopped before the checker had seen the best plan in full; it accepts what it saw of it";
   else
     message << "the best plan violates " << report.worst_violation.to_string();
-  if (best && status != Status::solved && !best->plan.measured_start)
+  if (best && status != Status::solved)
     if (const std::string flight = flight_needed(scene, robot); !flight.empty()) message << "; " << flight;
   return message.str();
 }
@@ -148,14 +147,12 @@ SwitchedDdp::~SwitchedDdp() = default;
 SwitchedDdp::SwitchedDdp(SwitchedDdp&&) noexcept = default;
 SwitchedDdp& SwitchedDdp::operator=(SwitchedDdp&&) noexcept = default;
 
-PlanResult SwitchedDdp::solve() { return impl_->solve({}); }
+PlanResult SwitchedDdp::solve() { return impl_->solve(nullptr); }
 
 PlanResult SwitchedDdp::solve(const Plan& warm_start) {
   impl_->require_warm_starts();
   warm_start.validate();
-  Request request;
-  request.earlier = &warm_start;
-  return impl_->solve(request);
+  return impl_->solve(&warm_start);
 }
 
 PlanResult SwitchedDdp::replan(const Plan& previous, double t, const Knot& measured) {

@@ -51,10 +51,10 @@ std::vector<int> WaysToGoal::surfaces_of(const Route& route, const Outlook& outl
   for (const Stance* stance : {&scene_->start, &scene_->goal})
     for (const auto& [who, surface] : stance->contacts) needed.insert(scene_->surface_index(surface));
   for (const auto& row : options_->initial_sequence) needed.insert(row.begin(), row.end());
-  if (request_->earlier)
-    for (const auto& row : request_->earlier->contact_sequence())
+  if (earlier_)
+    for (const auto& row : earlier_->contact_sequence())
       for (int surface : row)
-        if (surface >= 0) needed.insert(scene_->surface_index(request_->earlier->scene.surfaces[surface].name));
+        if (surface >= 0) needed.insert(scene_->surface_index(earlier_->scene.surfaces[surface].name));
   const ResolvedStance from = resolve_stance(*scene_, *robot_, scene_->start, "start");
   const ResolvedStance to = resolve_stance(*scene_, *robot_, scene_->goal, "goal");
   const double near = outlook.reach * reach_of(*robot_);
@@ -65,8 +65,7 @@ std::vector<int> WaysToGoal::surfaces_of(const Route& route, const Outlook& outl
     const std::vector<int> beside = surfaces_near_way(*scene_, here, there, near, needed);
     needed.insert(beside.begin(), beside.end());
   }
-  return surfaces_near_way(*scene_, request_->measured ? request_->measured->end_effectors_W : from.end_effectors_W,
-                           to.end_effectors_W, near, needed);
+  return surfaces_near_way(*scene_, from.end_effectors_W, to.end_effectors_W, near, needed);
 }
 
 /// The problem on these surfaces, in so many phases; 0: as many as the way asks for.
@@ -80,24 +79,13 @@ Problem WaysToGoal::pose(const Way& way, int phases, const std::vector<int>& sur
     with.logger = nullptr;
     with.stop = beside->stop;
   }
-  if (request_->earlier) with.phases = static_cast<int>(request_->earlier->phases.size()) - request_->first;
-  if (request_->measured) with.initial_sequence.clear();
+  if (earlier_) with.phases = static_cast<int>(earlier_->phases.size());
   for (auto& row : with.initial_sequence)
     for (int& surface : row) {
       const auto here = std::lower_bound(surfaces.begin(), surfaces.end(), surface);
       if (here != surfaces.end() && *here == surface) surface = static_cast<int>(here - surfaces.begin());
     }
-  Problem problem(part_of(*scene_, surfaces), *robot_, with, way.route);
-  if (!request_->measured) return problem;
-  const Plan& previous = *request_->earlier;
-  ContactState contacts;
-  for (int e : problem.active) {
-    const int surface = previous.phases[request_->first].contacts[e].surface;
-    contacts.push_back(surface == kFree ? kFree : problem.scene.surface_index(previous.scene.surfaces[surface].name));
-  }
-  problem.set_start(*request_->measured, contacts);
-  problem.first_duration = request_->remaining_s / problem.units.time;
-  return problem;
+  return {part_of(*scene_, surfaces), *robot_, with, way.route};
 }
 
 /// With ever more of the scene, until there is a plan that the checker accepts.
@@ -111,13 +99,9 @@ void WaysToGoal::search_in(int phases, const Way& way, Report& report, Found& fo
     found.steps = problem.steps;
     const bool all = surfaces.size() == scene_->surfaces.size() && problem.rules.looks_everywhere();
     std::optional<Incumbent> warm;
-    if (request_->earlier) {
-      warm = from_plan(problem, *request_->earlier, request_->first);
+    if (earlier_) {
+      warm = from_plan(problem, *earlier_, 0);
       if (warm->sequence.empty() || !problem.rules.valid(warm->sequence)) warm.reset();
-    }
-    if (warm && request_->measured) {
-      warm->trajectory.x.front() = problem.start;
-      warm->trajectory.u.front()[problem.layout.duration()] = problem.first_duration;
     }
     Attempts attempts(std::move(problem), surfaces, *deadline_, found.best, report);
     found.ending = attempts.run(warm ? &*warm : nullptr);
@@ -134,7 +118,7 @@ void WaysToGoal::search_in(int phases, const Way& way, Report& report, Found& fo
 
 /// In as many phases as the way asks for.
 Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* beside) const {
-  Found found{BestPlan(*scene_, *deadline_, request_->measured != nullptr)};
+  Found found{BestPlan(*scene_, *deadline_)};
   found.way = way;
   search_in(options_->phases, way, report, found, beside);
   return found;
@@ -142,8 +126,7 @@ Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* bes
 
 /// Where a plan is nearly found, the same way in more phases: ground may ask for shorter steps than the robot can make.
 void WaysToGoal::try_more_phases(Report& report, Found& found) const {
-  if (options_->phases > 0 || request_->earlier || !options_->initial_sequence.empty() ||
-      options_->method == Method::paper)
+  if (options_->phases > 0 || earlier_ || !options_->initial_sequence.empty() || options_->method == Method::paper)
     return;
   for (const double factor : kMorePhases) {
     const auto& best = found.best.best();
@@ -202,7 +185,7 @@ std::vector<WaysToGoal::Ahead> WaysToGoal::search_ahead(const std::vector<Way>& 
 /// Straight on; where steps do not lead along there, round what is in the way as well, and where they do, again without
 /// flights if there were any. The best of what is found.
 Found WaysToGoal::search(Report& report) const {
-  const bool given = request_->earlier || !options_->initial_sequence.empty() || options_->method == Method::paper;
+  const bool given = earlier_ || !options_->initial_sequence.empty() || options_->method == Method::paper;
   const Routes routes = given || !options_->detours ? Routes() : find_routes(*scene_, *robot_, options_->sole_inside);
   std::optional<Found> best;
   const int by_feet = !given && four_feet_stand() ? 2 : 0,

@@ -13,14 +13,6 @@
 
 namespace mcplan::ddp {
 
-/// What a solve begins with: the scene's start, or an earlier plan from one of its phases on, and where it was.
-struct Request {
-  const Plan* earlier = nullptr;
-  int first = 0;                   ///< phase of the earlier plan that comes first
-  const Knot* measured = nullptr;  ///< state at the start instead of the scene's
-  double remaining_s = 0.0;        ///< of the first phase, when measured
-};
-
 /// A search of its own: along a route or straight on, with flights or without.
 struct Way {
   Route route;
@@ -39,10 +31,10 @@ struct Found {
 /// The ways from the start of a scene to its goal, and a search along each. Theory: docs/theory/ddp.md, "Routes".
 class WaysToGoal {
  public:
-  /// Keeps references.
-  WaysToGoal(const Scene& scene, const Robot& robot, const Options& options, const Request& request,
+  /// Keeps references. `earlier`: a plan to begin with, or null.
+  WaysToGoal(const Scene& scene, const Robot& robot, const Options& options, const Plan* earlier,
              const Deadline& deadline)
-      : scene_(&scene), robot_(&robot), options_(&options), request_(&request), deadline_(&deadline) {}
+      : scene_(&scene), robot_(&robot), options_(&options), earlier_(earlier), deadline_(&deadline) {}
 
   /// Straight on; where steps do not lead along there, round what is in the way as well, and where they do, again
   /// without flights if there were any. The best of what is found.
@@ -71,7 +63,7 @@ class WaysToGoal {
   const Scene* scene_;
   const Robot* robot_;
   const Options* options_;
-  const Request* request_;
+  const Plan* earlier_;
   const Deadline* deadline_;
 };
 

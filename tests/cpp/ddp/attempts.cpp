@@ -25,7 +25,7 @@ PlanResult solve(const mcplan::Scene& scene, const Options& options) {
 struct Bench {
   explicit Bench(const mcplan::Scene& scene_in, const Options& options = {})
       : scene(scene_in),
-        best(scene, deadline, false),
+        best(scene, deadline),
         attempts(Problem(scene, scenes::humanoid44(), options), all(scene), deadline, best, report) {}
   static std::vector<int> all(const mcplan::Scene& scene) {
     std::vector<int> out;

@@ -42,9 +42,8 @@ Outcome searched(int threads, int max_iterations, std::vector<std::string>* ways
   const Scene scene = bridges();
   const mcplan::Robot robot = scenes::humanoid44();
   const mcplan::Deadline deadline;
-  const Request request;
   Report report;
-  const Found found = WaysToGoal(scene, robot, options, request, deadline).search(report);
+  const Found found = WaysToGoal(scene, robot, options, nullptr, deadline).search(report);
   Outcome out;
   for (const mcplan::Iteration& row : report.history) out.rows.push_back(row.merit + row.index);
   if (found.best.best()) out.cost = found.best.best()->evaluation.cost;

@@ -7,6 +7,7 @@
 
 #include "ddp/best_plan.hpp"
 #include "ddp/constants.hpp"
+#include "ddp/impossible.hpp"
 #include "ddp/problem.hpp"
 #include "ddp/replan/given.hpp"
 #include "ddp/replan/other_steps.hpp"
@@ -179,6 +180,14 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
   report.seed = options.search.seed;
   report.threads = options.search.threads;
   report.version = MCPLAN_VERSION;
+  if (const std::optional<Impossible> impossible =
+          options.command ? std::nullopt : why_impossible(scene_in, robot, true, options.search.allow_flight)) {
+    report.status = Status::infeasible;
+    report.message = impossible->message;
+    report.worst_violation = impossible->violation;
+    report.time_s = deadline.elapsed_s();
+    return out;
+  }
   Now now{&scene_in, &robot, &options, &deadline, {}, {}, similarity_of(robot, scene_in.gravity)};
   now.measured = completed(given, previous, t, scene_in, robot);
   const Rest planned = rest_of(previous, t);
