@@ -38,7 +38,7 @@ PUBLIC = {
     "scene": "polygon scene scene_files",
     "robot": "robot robot_files similarity standing",
     "plan": "checker force_laws friction_use loads plan plan_files report",
-    "ddp": "options plan switched_ddp",
+    "ddp": "options plan replan switched_ddp",
     "nlp": "derivative_check piece problem solver",
     "ipm": "solver",
     "rhp": "options receding_horizon walk",
