@@ -69,6 +69,22 @@ def draw(plan: mp.Plan, rng: random.Random) -> tuple[float, mp.model.Knot, list[
     return t, knot, contacts, kind
 
 
+def undisturbed(plan: mp.Plan, times: int = 15) -> float:
+    """How far footholds move where the state is the planned one [m]."""
+    worst = 0.0
+    for t in np.linspace(0.0, plan.duration(), times, endpoint=False):
+        knot, contacts = planned_state(plan, t)
+        new, first = mp.replan(plan, t, knot, contacts=contacts).plan, plan.at(t).phase
+        for k in range(1, min(len(new.phases), len(plan.phases) - first)):
+            for e, contact in enumerate(plan.phases[first + k].contacts):
+                if contact.surface != new.phases[k].contacts[e].surface:
+                    return float("inf")
+                if contact.surface >= 0:
+                    off = np.array(new.knots[k].end_effectors_W[e]) - plan.knots[first + k].end_effectors_W[e]
+                    worst = max(worst, float(np.linalg.norm(off)))
+    return worst
+
+
 def run(case: str, draws: int, seed: int, options: dict) -> None:
     """Print what came of the draws of a case."""
     scene, robot = case.split("/")
@@ -90,7 +106,7 @@ def run(case: str, draws: int, seed: int, options: dict) -> None:
     print(
         f"{case:28} {len(plan.phases)} phases: {100 * solved:5.1f} % solved; "
         f"{statistics.median(times):5.1f} ms median, {times[int(0.99 * draws)]:5.1f} p99, {times[-1]:5.1f} max; "
-        f"{dict(statuses)} {dict(worst.most_common(6))}"
+        f"undisturbed: footholds {1e3 * undisturbed(plan):.2f} mm; {dict(statuses)} {dict(worst.most_common(6))}"
     )
 
 
@@ -100,9 +116,11 @@ def main() -> None:
     parser.add_argument("cases", nargs="*", default=CASES)
     parser.add_argument("--draws", type=int, default=200)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--time-limit", type=float, default=None, help="Wall clock of each replan [s].")
     arguments = parser.parse_args()
+    options = {} if arguments.time_limit is None else {"time_limit": arguments.time_limit}
     for case in arguments.cases:
-        run(case, arguments.draws, arguments.seed, {})
+        run(case, arguments.draws, arguments.seed, options)
 
 
 if __name__ == "__main__":

@@ -233,6 +233,19 @@ Ending Attempts::restart(Ending ending, const ContactSequence& initial, Tuning t
   return ending;
 }
 
+/// A plan that misses limits by little does so since penalties settle slightly outside: the interior point goes on from
+/// there, which holds them. Swings that catch edges and joints are no matter of that.
+Ending Attempts::hold_limits(Ending ending, Tuning tuning) {
+  const auto& plan = best_->finished();
+  if (ending != Ending::done || !plan || plan->ok || last_.sequence.empty()) return ending;
+  const std::string& name = plan->worst.name;
+  const bool elsewhere = name == "clearance" || name == "limb" || name == "trunk" || name.rfind("joint_", 0) == 0;
+  if (elsewhere || violation_ratio(plan->worst) > kAcceptable) return ending;
+  tuning.exact = true;
+  tuning.hold_joints = false;
+  return attempt({{last_, 0.0, true}}, tuning);
+}
+
 /// In few phases the optimum of the sequence that was found, and from more discoveries, whatever the checker says of
 /// the plans before; then once more from the cheapest. The best of all counts. Without a plan half of the iterations
 /// are left to restarts.
@@ -315,6 +328,7 @@ Ending Attempts::run(const Incumbent* warm) {
   }
   if (!warm && options.initial_sequence.empty() && options.restarts > 0 && problem_.steps <= kFewPhases)
     ending = vary(ending, sequence, tuning);
+  if (options.restarts > 0) ending = hold_limits(ending, tuning);
   ending = restart(ending, sequence, tuning);
   if (ending != Ending::interrupted) best_->look_back(search_, surfaces_);
   return late(ending);

@@ -38,6 +38,7 @@ class Attempts {
   Ending attempt(std::vector<Guess> guesses, const Tuning& tuning);
   Incumbent cheapest(const std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending);
   Ending restart(Ending ending, const ContactSequence& initial, Tuning tuning);
+  Ending hold_limits(Ending ending, Tuning tuning);
   Ending vary(Ending ending, const ContactSequence& initial, Tuning tuning);
   bool asks_too_much_of_joints() const;
   Ending crawl();

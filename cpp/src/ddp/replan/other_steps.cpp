@@ -49,6 +49,7 @@ std::vector<Rest> other_steps(const Rest& rest, const Robot& robot, const Simila
       for (int f : feet)
         if (planned == feet.end() && f != e) steps.push_back(f);
       out.push_back(with_steps(rest, k, steps, box_s));
+      if (planned != feet.end()) out.push_back(with_steps(rest, k, {*planned, e}, box_s));
     }
     return out;
   }

@@ -26,7 +26,8 @@ namespace {
 
 Status status_of(const Trial& trial) {
   if (trial.ok()) return Status::solved;
-  if (trial.ending == Ending::time_limit || !trial.check.complete) return Status::time_limit;
+  const bool seen_in_full = trial.check.complete && !(trial.check.checked_until_s < trial.plan.duration());
+  if (trial.ending == Ending::time_limit || !seen_in_full) return Status::time_limit;
   if (trial.ending == Ending::interrupted) return Status::interrupted;
   if (trial.ending == Ending::iteration_limit) return Status::iteration_limit;
   return trial.exact && violation_ratio(trial.check.worst()) <= kAcceptable ? Status::acceptable : Status::infeasible;

@@ -100,6 +100,8 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report) {
   settings.max_iterations = kReplanIterations;
   settings.tolerance = kRoughTolerance;
   settings.to_the_end = false;
+  settings.give_up_above = kHopeless;
+  settings.patience = kHopelessPatience;
   trial.ending = search.optimise(at, settings, tuning);
   const StopRequest late =
       now.deadline->limited() ? StopRequest([&] { return now.deadline->passed(); }) : StopRequest();

@@ -1,0 +1,96 @@
+#include "mcplan/ddp/replan.hpp"
+
+#include <doctest/doctest.h>
+
+#include "ddp/replan/rest.hpp"
+#include "mcplan/base/error.hpp"
+#include "mcplan/ddp/plan.hpp"
+#include "mcplan/plan/checker.hpp"
+#include "scenes.hpp"
+
+namespace {
+
+using namespace mcplan;
+using namespace mcplan::ddp;
+
+const Plan& walk() {
+  static const Plan plan = ddp::plan(scenes::flat(), scenes::humanoid44()).plan;
+  return plan;
+}
+
+Measured pushed_at(double t, const Eigen::Vector3d& velocity) {
+  Measured out;
+  out.state = rest_of(walk(), t).plan.knots.front();
+  out.state.com_velocity_W += velocity;
+  return out;
+}
+
+/// A clock that goes on by so much at every look: the deadline falls at the same instruction everywhere.
+Clock ticking(double tick_s) {
+  return [now_s = 0.0, tick_s]() mutable { return now_s += tick_s; };
+}
+
+}  // namespace
+
+TEST_CASE("a replan is what the checker accepts, and begins at the measured state") {
+  for (const double t : {0.5, 1.2, 2.4, 4.0}) {
+    CAPTURE(t);
+    const Measured measured = pushed_at(t, {0.05, 0.05, 0.0});
+    const PlanResult result = ddp::replan(walk(), t, measured);
+    INFO(result.report.message);
+    CHECK(result.report.status == Status::solved);
+    CHECK(check(result.plan, result.plan.scene, result.plan.robot).ok());
+    CHECK(result.report.kept_until_s == result.plan.duration());
+    CHECK((result.plan.at(0.0).com_velocity_W - measured.state.com_velocity_W).norm() < 1e-9);
+    CHECK(result.plan.measured_start);
+  }
+}
+
+TEST_CASE("whenever the time is up there is a plan whose next two steps keep all limits, or is said to be none") {
+  int from_previous = 0, cut_short = 0;
+  for (const double tick_s : {1e-6, 3e-5, 1e-4, 2e-4, 4e-4, 1e-3, 1e-2}) {
+    CAPTURE(tick_s);
+    ReplanOptions options;
+    options.search.time_limit_s = 0.02;
+    options.search.clock = ticking(tick_s);
+    const PlanResult result = ddp::replan(walk(), 1.2, pushed_at(1.2, {0.02, 0.02, 0.0}), options);
+    REQUIRE(!result.plan.phases.empty());
+    INFO(result.report.message);
+    if (result.report.status == Status::solved) continue;
+    CHECK(result.report.status == Status::time_limit);
+    ++cut_short;
+    from_previous += result.report.plan_from == PlanFrom::previous_plan;
+    const CheckResult again =
+        check(result.plan, result.plan.scene, result.plan.robot, {}, {}, result.report.kept_until_s);
+    CHECK(again.ok());
+    CHECK(result.report.kept_until_s > 0.5);
+  }
+  CHECK(cut_short > 0);
+  CHECK(from_previous > 0);
+}
+
+TEST_CASE("a caller that stops a replan gets the best so far") {
+  ReplanOptions options;
+  int asked = 0;
+  options.search.stop = [&] { return ++asked > 0; };
+  const PlanResult result = ddp::replan(walk(), 1.2, pushed_at(1.2, {0.2, 0.25, 0.0}), options);
+  CHECK(result.report.status == Status::interrupted);
+  CHECK(asked <= 2);
+}
+
+TEST_CASE("what is wrong with a replan is named") {
+  Measured measured = pushed_at(1.0, {0.0, 0.0, 0.0});
+  measured.contacts = {0, 0};
+  CHECK_THROWS_AS(ddp::replan(walk(), 1.0, measured), InvalidPlan);
+  measured.contacts = {0, 0, -1, 9};
+  CHECK_THROWS_AS(ddp::replan(walk(), 1.0, measured), InvalidPlan);
+  measured.contacts.clear();
+  ReplanOptions options;
+  options.committed_s = -1.0;
+  CHECK_THROWS_AS(ddp::replan(walk(), 1.0, measured, options), InvalidOptions);
+  Scene renamed = walk().scene;
+  renamed.surfaces.front().name = "other";
+  for (Stance* stance : {&renamed.start, &renamed.goal})
+    for (auto& [who, surface] : stance->contacts) surface = "other";
+  CHECK_THROWS_AS(ddp::replan(walk(), 1.0, measured, renamed, walk().robot), InvalidScene);
+}
