@@ -93,7 +93,9 @@ def test_the_checker_says_the_torques_that_the_limits_are_fitted_with():
         for end, at in zip(robot.end_effectors, state.end_effectors, strict=True):
             if end.limb.given and at.surface >= 0:
                 hip, ankle = hip_place(robot, end, state.com_W, feet), at.position_W + end.limb.ankle
-                use = leg_torques(end.limb, hip, ankle, np.eye(3)[0], at.position_W, at.force_W) / limits_of(end.limb)
+                # The force acts where the pendulum's anchor is, of which the state says the moment about the sole.
+                acting = at.position_W + np.cross(at.force_W, at.moment_W) / np.dot(at.force_W, at.force_W)
+                use = leg_torques(end.limb, hip, ankle, np.eye(3)[0], acting, at.force_W) / limits_of(end.limb)
                 largest = max(largest, np.abs(use).max())
                 longest = max(longest, np.linalg.norm(hip - ankle) + end.limb.margin - max_length(end.limb))
     found = {v.name: v for v in mp.check(plan).constraints}
