@@ -13,15 +13,21 @@ struct DurationLimits {
   double min, middle, max;
 };
 
+/// A phase that was under way when replanning has as long as was left of it.
+inline bool under_way(const Problem& problem, int k) { return k == 0 && problem.first_duration > 0.0; }
+
+/// Minimum duration of phase k where it is a flight.
+inline double min_flight_duration(const Problem& problem, int k) {
+  return under_way(problem, k) ? 0.0 : problem.flight_duration_min;
+}
+
 inline DurationLimits duration_limits(const Problem& problem, int k) {
-  // A phase that was under way when replanning has as long as was left of it.
-  const bool under_way = k == 0 && problem.first_duration > 0.0;
-  if (under_way && problem.first_duration_kept)
+  const bool begun = under_way(problem, k);
+  if (begun && problem.first_duration_kept)
     return {(1.0 - kCommittedRatio) * problem.first_duration, problem.first_duration,
             (1.0 + kCommittedRatio) * problem.first_duration};
-  return {under_way ? std::min(problem.first_duration, problem.duration_min) : problem.duration_min,
-          under_way ? problem.first_duration : 0.5 * (problem.duration_min + problem.duration_max),
-          problem.duration_max};
+  return {begun ? std::min(problem.first_duration, problem.duration_min) : problem.duration_min,
+          begun ? problem.first_duration : 0.5 * (problem.duration_min + problem.duration_max), problem.duration_max};
 }
 
 /// Largest stiffness input of an end-effector: the one at which the force cap is met in the nominal stance, at least

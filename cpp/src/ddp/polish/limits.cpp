@@ -89,7 +89,7 @@ void Limits::make_linear(int k) {
     row.touch(column, 1.0);
   };
   const DurationLimits h = duration_limits(problem, k);
-  const double flight = in_flight(fixed_->contacts()[k]) ? problem.flight_duration_min : 0.0;
+  const double flight = in_flight(fixed_->contacts()[k]) ? min_flight_duration(problem, k) : 0.0;
   box(fixed_->size(k) - 1, std::max(h.min, flight), h.max);
   for (const Standing& s : phase.standing) {
     box(phase.moving[s.stiffness], 0.0, max_stiffness_input(problem, s.l));
