@@ -72,6 +72,33 @@ def test_undisturbed_a_replan_keeps_its_sequence_and_its_footholds(scene, fracti
         assert np.linalg.norm(place - was_place) < 1e-3
 
 
+@pytest.mark.parametrize("fraction", [0.1, 0.5, 0.9])
+def test_in_flight_what_is_left_of_the_flight_may_be_as_short_as_it_is(fraction):
+    plan = mp.plan("gap").plan
+    flight = next(k for k, phase in enumerate(plan.phases) if all(contact.surface < 0 for contact in phase.contacts))
+    t = plan.knot_times()[flight] + fraction * plan.phases[flight].duration
+    knot, contacts = state_at(plan, t)
+    result = mp.replan(plan, t, knot, contacts=contacts)
+    assert result.report.status == mp.Status.solved, result.report
+    found = footholds(result.plan)
+    for (e, surface, place), planned in zip(found, footholds(plan)[-len(found) :], strict=True):
+        assert (e, surface) == planned[:2]
+        np.testing.assert_allclose(place, planned[2], atol=1e-3)
+
+
+def test_a_plan_that_asks_too_much_of_a_joint_is_solved_on_with_rows_for_it():
+    plan = mp.plan("flat", "talos").plan
+    knot, contacts = state_at(plan, 3.865)
+    knot.com_velocity_W = knot.com_velocity_W + np.array([0.109, 0.224, 0.0])
+    lines: list[str] = []
+    result = mp.replan(plan, 3.865, knot, contacts=contacts, logger=lambda _, line: lines.append(line))
+    told = [line for line in lines if line.startswith("replan, the plan's own sequence")]
+    assert len(told) == 2 and "joint_torque" in told[0] and told[1].endswith("accepted")
+    assert result.report.status == mp.Status.solved
+    torque = next(v for v in mp.check(result.plan).constraints if v.name == "joint_torque")
+    assert torque.value <= torque.tolerance
+
+
 @pytest.mark.parametrize("free", [0, 1])
 def test_a_replan_begins_at_the_measured_state_and_goes_on_with_its_swing(flat, free):
     t = time_of_phase(flat, free)

@@ -297,6 +297,12 @@ constexpr int kReplanIterations = 45;
 /// 11,000.
 constexpr double kHopeless = 300.0;
 constexpr int kHopelessPatience = 25;
+/// Another step is not tried where the plan's own sequence ends with a cost above this: none of 1,020 draws gained by
+/// it.
+constexpr double kHopelessWithMore = 100.0;
+/// The base's angle and momentum at the end of a replan weigh more than in a search by this ratio: the solve is short,
+/// and the checker asks for 0.01 rad/s. Measured.
+constexpr double kEndFirmer = 3.0;
 /// What comes after the solve under a time limit [ms a phase]: exact contacts, swings, the check of the next steps.
 constexpr double kFinishing_ms = 0.15;
 /// Swings of steps that are put in last so much of the way from the shortest to the longest phase. Chosen.

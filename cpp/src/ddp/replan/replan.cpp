@@ -51,7 +51,12 @@ class Trials {
 
   void make(const Now& now, const Rest& rest, PlanFrom from) {
     const double begin_s = now_->deadline->elapsed_s();
-    take(try_out(now, rest, *report_), from);
+    std::optional<Trial> trial = try_out(now, rest, *report_);
+    const bool again = trial && !held_joints_ && asks_too_much_of_joints(*trial);
+    const Plan found = again ? trial->plan : Plan();
+    take(std::move(trial), from);
+    held_joints_ = held_joints_ || again;
+    if (again && !done()) take(try_out(now, rest, *report_, &found), from);
     longest_s_ = std::max(longest_s_, now_->deadline->elapsed_s() - begin_s);
   }
 
@@ -87,6 +92,7 @@ class Trials {
   const Now* now_;
   Report* report_;
   std::optional<Trial> best_;
+  bool held_joints_ = false;  ///< rows for the limits of joints have been tried
   double longest_s_ = 0.0, ratio_ = 1.0, best_ratio_ = 1.0;
 };
 
@@ -132,7 +138,7 @@ void go_to_goal(Rest& rest, Now& now, Trials& trials) {
   stand_on(rest, now.options->phases_min, now.similarity);
   now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, rest);
   trials.make(now, rest, PlanFrom::same_sequence);
-  if (!now.options->other_sequences) return;
+  if (!now.options->other_sequences || (trials.best() && hopeless(*trials.best()))) return;
   for (const Rest& other : other_steps(rest, *now.robot, now.similarity)) {
     if (trials.done()) return;
     trials.make(now, other, PlanFrom::other_sequence);

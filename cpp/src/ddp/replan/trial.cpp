@@ -22,6 +22,7 @@ Problem pose(const Now& now, const Rest& rest) {
   with.initial_sequence.clear();
   with.polish = Polish::interior_point;
   with.threads = 1;
+  with.weights.rotation_end *= kEndFirmer;
   with.allow_flight = true;  // where the sequence has one, somebody has planned it
   with.min_contacts = 0;
   Problem problem(part_of(*now.scene, now.surfaces), *now.robot, with);
@@ -84,13 +85,18 @@ double finishing_s(const Problem& problem) { return 1e-3 * kFinishing_ms * probl
 
 }  // namespace
 
-std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report) {
+std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, const Plan* from) {
   Problem problem = pose(now, rest);
   Incumbent at = from_plan(problem, rest.plan, 0);
   if (!problem.rules.valid(at.sequence)) return std::nullopt;
   at.trajectory.x.front() = problem.start;
   hold_on_to(problem, at, rest, now.options->committed_s);
-  const Tuning tuning = problem.tuning();
+  Tuning tuning = problem.tuning();
+  if (from) {
+    at = from_plan(problem, *from, 0);
+    at.trajectory.x.front() = problem.start;
+    tuning.hold_joints = true;
+  }
   const Deadline solving = now.deadline->reserving(finishing_s(problem));
   Search search(problem, solving, report);
   Trial trial;
@@ -136,6 +142,12 @@ Trial as_planned(const Rest& planned, const Now& now) {
 bool can_be_followed(const Trial& trial) {
   return trial.exact && trial.check.kept_until_s >= std::min(two_steps_s(trial.plan), trial.check.checked_until_s);
 }
+
+bool asks_too_much_of_joints(const Trial& trial) {
+  return trial.exact && !trial.check.ok() && trial.check.worst().name == "joint_torque";
+}
+
+bool hopeless(const Trial& trial) { return !trial.ok() && trial.evaluation.cost > kHopelessWithMore; }
 
 bool better(const Trial& one, const Trial& other) {
   if (can_be_followed(one) != can_be_followed(other)) return can_be_followed(one);

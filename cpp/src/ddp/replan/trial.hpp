@@ -35,7 +35,15 @@ struct Trial {
 };
 
 /// The optimum of a sequence from the measured state, as a plan, checked; none where the scene's rules do not allow it.
-std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report);
+/// With `from`, a plan that was found so, from there and with rows for the limits of joints, which cost time.
+std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, const Plan* from = nullptr);
+
+/// Whether rows for the limits of joints may mend what is wrong with it. (Those of speed do not: what a start
+/// violates.)
+bool asks_too_much_of_joints(const Trial& trial);
+
+/// Whether it is so far from its limits that another step does not help either.
+bool hopeless(const Trial& trial);
 
 /// What is left of the plan under way, as it was planned, from the planned state: looked at for the next two steps.
 Trial as_planned(const Rest& planned, const Now& now);
