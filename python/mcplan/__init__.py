@@ -30,6 +30,8 @@ from mcplan import ddp, moved, rhp, sip
 from mcplan import errors as errors
 from mcplan import ipm as ipm
 from mcplan import model as model
+from mcplan import notebooks as _notebooks  # noqa: F401  _repr_html_ of plans and results
+from mcplan import samples as _samples  # noqa: F401  Plan.sample
 from mcplan._core import (
     Plan,
     PlanarPlan,

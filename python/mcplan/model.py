@@ -55,6 +55,7 @@ from mcplan._core import (
     Tolerances,
     Violation,
 )
+from mcplan.samples import PlanSamples
 
 __all__ = [
     "Capsule",
@@ -73,6 +74,7 @@ __all__ = [
     "Plan",
     "PlanFrom",
     "PlanLoads",
+    "PlanSamples",
     "PlanState",
     "PlanarBody",
     "PlanarClearance",

@@ -11,6 +11,7 @@ import numpy as np
 from mcplan import moved
 from mcplan.arguments import require
 from mcplan.errors import InvalidArgument, InvalidOptions, did_you_mean, shown
+from mcplan.logs import listen
 
 ALIASES = {"time_limit": "time_limit_s"}
 #: Names that options of rhp had until 0.1.
@@ -62,6 +63,7 @@ def fill(options: Any, values: Mapping[str, Any]) -> Any:
         else:
             _set(options, name, value)
     options.validate()
+    listen(options)
     return options
 
 

@@ -55,7 +55,7 @@ _GROUND = {"_core", "errors", "extras", "options", "arguments"}
 _ENGINES = {"solve", "walking"}
 _LOOKED_AT = {"files", "kinematics", "tracking", "view", "planar"}
 _FRONT = _ENGINES | _LOOKED_AT | {"loading", "checking", "showing", "following", "model", "option_types"}
-_FRONT |= {"ddp", "ipm", "rhp", "sip"}
+_FRONT |= {"ddp", "ipm", "rhp", "sip", "samples", "notebooks"}
 PYTHON_ROOMS = {
     "__main__": {"cli"},
     "_core": set(),
@@ -63,9 +63,11 @@ PYTHON_ROOMS = {
     "errors": {"moved"},
     "starting": set(),  # the command's first moments
     "extras": {"errors"},
-    "options": {"errors", "arguments", "moved"},
+    "logs": {"_core"},
+    "options": {"errors", "arguments", "moved", "logs"},
+    "samples": {"_core", "errors"},
     "option_types": {"_core"},  # generated
-    "model": {"_core"},
+    "model": {"_core", "samples"},
     "arguments": {"_core", "errors"},
     "refusals": {"_core", "errors", "arguments"},
     "checking": {"_core", "errors", "arguments", "files"},
@@ -82,6 +84,7 @@ PYTHON_ROOMS = {
     "view": _GROUND | {"files", "kinematics", "tracking"},
     "planar": _GROUND | {"files", "kinematics", "tracking", "view"},
     "showing": _GROUND | _LOOKED_AT,
+    "notebooks": {"_core", "errors", "showing"},
     "following": _GROUND | _LOOKED_AT - {"view"},
     "cli": _GROUND | _FRONT | {"starting", ""},
     "": _GROUND | _FRONT | {"starting", "moved"},

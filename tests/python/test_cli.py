@@ -19,6 +19,7 @@ from mcplan.files.planar_robots import list_planar_robots, load_planar_robot
 from mcplan.files.planar_tasks import list_planar_tasks, load_planar_task
 from mcplan.files.robots import list_robots, load_robot
 from mcplan.files.scenes import list_scenes, load_scene, scene_to_dict
+from mcplan.files.schema import KINDS
 from mcplan.files.terrains import random_patches
 from mcplan.files.toml import toml_text
 from standing import standing_plan
@@ -33,6 +34,7 @@ VERBS = (
     "rhp",
     "robots",
     "scenes",
+    "schema",
     "show",
     "sip",
     "tasks",
@@ -52,6 +54,16 @@ def test_every_verb_has_help_with_an_example(verb, capsys):
     code, out, err = run(capsys, verb, "--help")
     assert code == 0 and err == ""
     assert f"Example: mcplan {verb}" in out
+
+
+def test_schema_prints_where_the_schemas_are(capsys):
+    code, out, _ = run(capsys, "schema")
+    assert code == 0 and [line.split()[0] for line in out.splitlines()] == list(KINDS)
+    for kind in KINDS:
+        code, path, _ = run(capsys, "schema", kind)
+        assert code == 0 and json.loads(Path(path.strip()).read_text(encoding="utf-8"))["$schema"]
+    code, _, err = run(capsys, "schema", "scenery")
+    assert code == 2 and "must be one of scene, robot" in err
 
 
 def test_no_words_print_the_verbs(capsys):

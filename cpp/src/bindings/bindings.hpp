@@ -41,6 +41,7 @@ void bind_model(py::module_& m);
 void bind_scene(py::module_& m);
 void bind_robot(py::module_& m);
 void bind_plan(py::module_& m);
+void bind_plan_samples(py::module_& m);
 void bind_ddp(py::module_& m);
 void bind_ddp_replan(py::module_& m);
 void bind_nlp(py::module_& m);

@@ -155,6 +155,7 @@ PYBIND11_MODULE(_core, m) {
   bind_robot(m);
   bind_model(m);
   bind_plan(m);
+  bind_plan_samples(m);
   bind_planar(m);
   bind_planar_plan(m);
   bind_planar_files(m);

@@ -6,6 +6,7 @@
 #include "mcplan/plan/plan_files.hpp"
 #include "mcplan/plan/report.hpp"
 #include "named_types.hpp"
+#include "pickles.hpp"
 #include "plan/plan_fields.hpp"
 #include "plan/tolerances_fields.hpp"
 #include "signals.hpp"
@@ -135,10 +136,11 @@ void bind_violation(py::module_& m) {
   violation.def("__str__", [](const Violation& self) { return shown(self.to_string()); });
   def_value(violation, "Violation",
             {"name", "phase", "end_effector", "time_s", "value", "tolerance", "unit", "surface"});
+  def_pickle(violation, &Violation::name, &Violation::phase, &Violation::end_effector, &Violation::time_s,
+             &Violation::value, &Violation::tolerance, &Violation::unit, &Violation::surface);
 }
 
-void bind_report(py::module_& m) {
-  bind_enum<PlanFrom>(m);
+void bind_iteration(py::module_& m) {
   py::class_<Iteration> row(m, "Iteration", "One row of the iteration table.");
   row.def_readonly("index", &Iteration::index);
   row.def_readonly("cost", &Iteration::cost, "Total, at the weight of this iteration.");
@@ -154,7 +156,13 @@ void bind_report(py::module_& m) {
   def_value(
       row, "Iteration",
       {"index", "cost", "merit", "defect", "contact_weight", "proximal_weight", "step", "switches", "neighbours"});
+  def_pickle(row, &Iteration::index, &Iteration::cost, &Iteration::merit, &Iteration::defect,
+             &Iteration::contact_weight, &Iteration::proximal_weight, &Iteration::step, &Iteration::switches,
+             &Iteration::neighbours, &Iteration::sequence);
+}
 
+void bind_report(py::module_& m) {
+  bind_enum<PlanFrom>(m);
   py::class_<Report> report(m, "Report", "How a solve went; str() tells it in a few lines.");
   report.def("__str__", py::overload_cast<const Report&>(&describe));
   report.def_readonly("status", &Report::status);
@@ -187,11 +195,17 @@ void bind_report(py::module_& m) {
   def_value(report, "Report",
             {"status", "message", "iterations", "switches", "time_s", "cost", "cost_terms", "worst_violation", "seed",
              "threads", "version"});
+  def_pickle(report, &Report::status, &Report::message, &Report::iterations, &Report::switches, &Report::time_s,
+             &Report::timing_s, &Report::cost, &Report::cost_terms, &Report::worst_violation, &Report::warnings,
+             &Report::friction_use, &Report::seed, &Report::threads, &Report::parallel_loops, &Report::plan_from,
+             &Report::kept_until_s, &Report::start_violations, &Report::paper_verdict, &Report::paper_cost,
+             &Report::version, &Report::history);
 
   py::class_<PlanResult> result(m, "PlanResult", "A plan and how it was found.");
   result.def_property_readonly("plan", [](PlanResult& self) -> Plan& { return self.plan; });
   result.def_property_readonly("report", [](PlanResult& self) -> Report& { return self.report; });
   def_value(result, "PlanResult", {"plan", "report"});
+  def_pickle(result, &PlanResult::plan, &PlanResult::report);
 }
 
 void bind_checker(py::module_& m) {
@@ -224,6 +238,8 @@ void bind_checker(py::module_& m) {
       "Raise PlanViolated naming the worst violation, if there is one.");
   result.def("__str__", [](const CheckResult& self) { return shown(self.to_string()); });
   result.def("__repr__", [](const CheckResult& self) { return "<CheckResult: " + shown(self.to_string()) + ">"; });
+  def_pickle(result, &CheckResult::constraints, &CheckResult::complete, &CheckResult::warnings, &CheckResult::start,
+             &CheckResult::kept_until_s, &CheckResult::checked_until_s, &CheckResult::start_slack_s);
 
   m.def(
       "check",
@@ -261,6 +277,7 @@ void bind_plan(py::module_& m) {
   bind_state(m);
   bind_plan_class(m);
   bind_violation(m);
+  bind_iteration(m);
   bind_report(m);
   bind_checker(m);
   bind_loads(m);

@@ -2,6 +2,7 @@
 
 #include "fields.hpp"
 #include "mcplan/rhp/receding_horizon.hpp"
+#include "pickles.hpp"
 #include "rhp/options_fields.hpp"
 #include "signals.hpp"
 
@@ -69,6 +70,10 @@ void bind_results(py::module_& m) {
     return "<Cycle " + std::string(py::str(self.attr("index"))) + ": " + std::string(py::str(self.attr("status"))) +
            ", " + std::string(py::str(self.attr("iterations"))) + " iterations>";
   });
+  def_pickle(c, &Cycle::index, &Cycle::status, &Cycle::message, &Cycle::executed, &Cycle::step_from, &Cycle::solver,
+             &Cycle::iterations, &Cycle::time_s, &Cycle::evaluation_s, &Cycle::linear_solver_s, &Cycle::variables,
+             &Cycle::constraints, &Cycle::cost, &Cycle::acceleration_cost, &Cycle::momentum_cost, &Cycle::distance_m,
+             &Cycle::duration_s, &Cycle::defect, &Cycle::drift_com_m, &Cycle::drift_momentum, &Cycle::worst_violation);
 
   py::class_<Walk> w(m, "Walk", "A walk: its plan, how it was found, cycle by cycle.");
   def_member(w, "plan", &Walk::plan, "The executed steps, one after the other.");
@@ -80,6 +85,7 @@ void bind_results(py::module_& m) {
   w.def("momentum_per_m", &Walk::momentum_per_m, "Integral of |L|^2 per metre, executed steps.");
   w.def("drift_com_m", &Walk::drift_com_m, "Largest of a cycle [m].");
   w.def("drift_momentum", &Walk::drift_momentum, "Largest of a cycle [kg m^2/s].");
+  def_pickle(w, &Walk::plan, &Walk::report, &Walk::cycles, &Walk::success);
   m.attr("Result") = w;
 }
 

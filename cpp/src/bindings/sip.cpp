@@ -2,6 +2,7 @@
 
 #include "bindings.hpp"
 #include "mcplan/planar/sip/certificate.hpp"
+#include "pickles.hpp"
 #include "planar/sip/taylor_model.hpp"
 #include "signals.hpp"
 
@@ -75,6 +76,9 @@ void bind_certificate(py::module_& m) {
   c.def("__repr__", [](py::handle self) {
     return paste(self, "ProvedConstraint", {"name", "proof", "bound", "tolerance", "phase", "where", "time_s"});
   });
+  def_pickle(c, &ProvedConstraint::name, &ProvedConstraint::proof, &ProvedConstraint::bound, &ProvedConstraint::reached,
+             &ProvedConstraint::tolerance, &ProvedConstraint::unit, &ProvedConstraint::phase, &ProvedConstraint::where,
+             &ProvedConstraint::time_s);
 
   py::class_<Certificate> certificate(m, "Certificate", "What is proved of a planar plan at every instant.");
   certificate.def_property_readonly("constraints", [](const Certificate& self) { return self.constraints; });
@@ -87,6 +91,8 @@ void bind_certificate(py::module_& m) {
   certificate.def("__repr__", [](py::handle self) {
     return paste(self, "Certificate", {"constraints", "subdivisions", "rounding", "time_s"});
   });
+  def_pickle(certificate, &Certificate::constraints, &Certificate::subdivisions, &Certificate::rounding,
+             &Certificate::time_s);
 
   m.def(
       "certify",

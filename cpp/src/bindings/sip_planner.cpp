@@ -5,6 +5,7 @@
 #include "fields.hpp"
 #include "mcplan/planar/sip/certificate.hpp"
 #include "mcplan/planar/sip/planner.hpp"
+#include "pickles.hpp"
 #include "planar/sip/options_fields.hpp"
 #include "signals.hpp"
 
@@ -57,6 +58,8 @@ void bind_result(py::module_& m) {
            ", " + std::to_string(self.report.iterations) + " iterations, " + std::to_string(self.parameters) +
            " parameters, " + std::to_string(self.constraints) + " constraints>";
   });
+  def_pickle(c, &Result::plan, &Result::report, &Result::solver, &Result::parameters, &Result::constraints,
+             &Result::drift_m, &Result::drift_rad, &JudgedResult::certificate);
 }
 
 void bind_planner_class(py::module_& m) {

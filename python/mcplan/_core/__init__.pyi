@@ -4,6 +4,7 @@ The compiled part of mcplan: the C++ classes under the same names. SI units, wor
 
 from __future__ import annotations
 import collections.abc
+import mcplan.samples
 import numpy
 import numpy.typing
 import pathlib
@@ -91,6 +92,7 @@ __all__: list[str] = [
     "nlp",
     "plan_from_json",
     "plan_loads",
+    "plan_samples",
     "plan_to_json",
     "planar_inverse_dynamics",
     "planar_kinematics",
@@ -1418,6 +1420,15 @@ class Plan:
 
     __hash__: typing.ClassVar[None] = None
     @staticmethod
+    def _repr_html_(plan: typing.Any) -> str:
+        """
+        The picture of a plan of either kind in HTML, or its repr where nothing can be drawn.
+
+            Args:
+                plan: A Plan or a PlanarPlan.
+
+        """
+    @staticmethod
     def load(path: str | pathlib.Path) -> Plan:
         """
         Read a plan that was written by save(), or by save in C++.
@@ -1474,6 +1485,18 @@ class Plan:
     def knot_times(self) -> list[float]:
         """
         [s], phases + 1 entries, from 0.
+        """
+    def sample(self, times: typing.Any) -> mcplan.samples.PlanSamples:
+        """
+        States at many times, as arrays: what ``at`` says of each, in closed form.
+
+            Args:
+                times: One-dimensional [s], each in 0 to duration(), in any order.
+
+            Raises:
+                InvalidInput: A time is no number or lies outside; it is named by its index.
+                InvalidPlan: The plan's arrays do not fit together.
+
         """
     def save(self, path: str | pathlib.Path) -> None:
         """
@@ -1582,6 +1605,7 @@ class Violation:
     unit: str
     def __copy__(self) -> Violation: ...
     def __deepcopy__(self, memo: dict) -> Violation: ...
+    def __getstate__(self) -> tuple: ...
     def __init__(
         self,
         *,
@@ -1595,6 +1619,7 @@ class Violation:
         surface: str = "",
     ) -> None: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def __str__(self) -> str: ...
     @property
     def end_effector(self) -> str:
@@ -1643,6 +1668,57 @@ class Violation:
     @value.setter
     def value(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
+class Iteration:
+    """
+    One row of the iteration table.
+    """
+    def __copy__(self) -> Iteration: ...
+    def __deepcopy__(self, memo: dict) -> Iteration: ...
+    def __getstate__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def contact_weight(self) -> float: ...
+    @property
+    def cost(self) -> float:
+        """
+        Total, at the weight of this iteration.
+        """
+    @property
+    def defect(self) -> float:
+        """
+        Largest dynamics defect (non-dimensional).
+        """
+    @property
+    def index(self) -> int: ...
+    @property
+    def merit(self) -> float:
+        """
+        What the line search lowers.
+        """
+    @property
+    def neighbours(self) -> int:
+        """
+        Candidates priced.
+        """
+    @property
+    def proximal_weight(self) -> float: ...
+    @property
+    def sequence(self) -> list[list[int]]:
+        """
+        Steps x end-effectors after this iteration, if history is recorded.
+        """
+    @property
+    def step(self) -> float:
+        """
+        Accepted step length.
+        """
+    @property
+    def switches(self) -> int:
+        """
+        Contact switches accepted in this iteration.
+        """
+
 class PlanFrom:
     """
     Where the plan of a replan comes from.
@@ -1687,62 +1763,15 @@ class PlanFrom:
     @property
     def value(self) -> int: ...
 
-class Iteration:
-    """
-    One row of the iteration table.
-    """
-    def __copy__(self) -> Iteration: ...
-    def __deepcopy__(self, memo: dict) -> Iteration: ...
-    def __repr__(self) -> str: ...
-    @property
-    def contact_weight(self) -> float: ...
-    @property
-    def cost(self) -> float:
-        """
-        Total, at the weight of this iteration.
-        """
-    @property
-    def defect(self) -> float:
-        """
-        Largest dynamics defect (non-dimensional).
-        """
-    @property
-    def index(self) -> int: ...
-    @property
-    def merit(self) -> float:
-        """
-        What the line search lowers.
-        """
-    @property
-    def neighbours(self) -> int:
-        """
-        Candidates priced.
-        """
-    @property
-    def proximal_weight(self) -> float: ...
-    @property
-    def sequence(self) -> list[list[int]]:
-        """
-        Steps x end-effectors after this iteration, if history is recorded.
-        """
-    @property
-    def step(self) -> float:
-        """
-        Accepted step length.
-        """
-    @property
-    def switches(self) -> int:
-        """
-        Contact switches accepted in this iteration.
-        """
-
 class Report:
     """
     How a solve went; str() tells it in a few lines.
     """
     def __copy__(self) -> Report: ...
     def __deepcopy__(self, memo: dict) -> Report: ...
+    def __getstate__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def __str__(self) -> str: ...
     @property
     def cost(self) -> float: ...
@@ -1833,9 +1862,20 @@ class PlanResult:
     """
     A plan and how it was found.
     """
+    @staticmethod
+    def _repr_html_(result: typing.Any) -> str:
+        """
+        The report of a result and its plan in HTML.
+
+            Args:
+                result: What an engine returns: it has a plan and a report.
+
+        """
     def __copy__(self) -> PlanResult: ...
     def __deepcopy__(self, memo: dict) -> PlanResult: ...
+    def __getstate__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def plan(self) -> Plan: ...
     @property
@@ -2010,7 +2050,9 @@ class CheckResult:
     """
     The worst place of every constraint, violated or not.
     """
+    def __getstate__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def __str__(self) -> str: ...
     def ok(self) -> bool: ...
     def raise_if_violated(self) -> None:
@@ -3122,6 +3164,15 @@ class PlanarPlan:
 
     __hash__: typing.ClassVar[None] = None
     @staticmethod
+    def _repr_html_(plan: typing.Any) -> str:
+        """
+        The picture of a plan of either kind in HTML, or its repr where nothing can be drawn.
+
+            Args:
+                plan: A Plan or a PlanarPlan.
+
+        """
+    @staticmethod
     def load(path: str | pathlib.Path) -> PlanarPlan:
         """
         Read a plan that was written by save(), or by save in C++.
@@ -3520,6 +3571,11 @@ def plan_from_json(content: bytes) -> Plan:
 def plan_loads(plan: Plan, sample_s: typing.SupportsFloat | typing.SupportsIndex = 0.005) -> PlanLoads:
     """
     Largest values over the whole plan, looked at least every sample_s [s]. Raises InvalidPlan, InvalidOptions.
+    """
+
+def plan_samples(plan: Plan, times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> dict:
+    """
+    Arrays of what Plan.at says at the times [s]. Raises InvalidInput that names the time, and InvalidPlan.
     """
 
 def plan_to_json(plan: Plan) -> bytes:

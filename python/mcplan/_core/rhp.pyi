@@ -467,7 +467,9 @@ class Cycle:
     """
     How one cycle went.
     """
+    def __getstate__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def acceleration_cost(self) -> float:
         """
@@ -563,6 +565,17 @@ class Walk:
     """
     A walk: its plan, how it was found, cycle by cycle.
     """
+    @staticmethod
+    def _repr_html_(result: typing.Any) -> str:
+        """
+        The report of a result and its plan in HTML.
+
+            Args:
+                result: What an engine returns: it has a plan and a report.
+
+        """
+    def __getstate__(self) -> tuple: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def acc_per_m(self) -> float:
         """
         Integral of |a|^2 per metre, executed steps.

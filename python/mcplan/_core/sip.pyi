@@ -128,7 +128,9 @@ class ProvedConstraint:
     """
     What certify() found out about one kind of constraint.
     """
+    def __getstate__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def bound(self) -> float:
         """
@@ -173,7 +175,9 @@ class Certificate:
     """
     What is proved of a planar plan at every instant.
     """
+    def __getstate__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     def __str__(self) -> str: ...
     def proved(self) -> bool:
         """
@@ -690,7 +694,18 @@ class Result:
     """
     A planar plan and how it was found.
     """
+    @staticmethod
+    def _repr_html_(result: typing.Any) -> str:
+        """
+        The report of a result and its plan in HTML.
+
+            Args:
+                result: What an engine returns: it has a plan and a report.
+
+        """
+    def __getstate__(self) -> tuple: ...
     def __repr__(self) -> str: ...
+    def __setstate__(self, arg0: tuple) -> None: ...
     @property
     def certificate(self) -> Certificate | None:
         """

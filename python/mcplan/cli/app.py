@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mcplan.cli import check, demo, plan, rhp, robots, scenes, show, sip, tasks, track, version
+from mcplan.cli import check, demo, plan, rhp, robots, scenes, schema, show, sip, tasks, track, version
 from mcplan.errors import MissingExtra
 
 app = typer.Typer(
@@ -28,6 +28,7 @@ verbs = (
     scenes.scenes,
     robots.robots,
     tasks.tasks,
+    schema.schema,
     version.version,
 )
 for verb in verbs:

@@ -5,6 +5,8 @@ python -m mcplan.files.schema        # writes mcplan/data/schema/*.json from the
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from mcplan._core import schema_text
 from mcplan.files.builtin import DATA
 
@@ -12,9 +14,18 @@ from mcplan.files.builtin import DATA
 KINDS = ("scene", "robot", "planar_robot", "planar_task")
 
 
+def path_of(kind: str) -> Path:
+    """Where the schema of a kind of file is.
+
+    Args:
+        kind: One of KINDS.
+    """
+    return DATA / "schema" / f"{kind}.json"
+
+
 def main() -> None:
     for name in KINDS:
-        path = DATA / "schema" / f"{name}.json"
+        path = path_of(name)
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(schema_text(name), encoding="utf-8")
         print(path)
