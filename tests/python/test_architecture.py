@@ -53,7 +53,7 @@ OPENMP_ROOMS = {"ddp", "rhp", "planar/sip"}
 # front, which others import for annotations only
 _GROUND = {"_core", "errors", "extras", "options", "arguments"}
 _ENGINES = {"solve", "walking"}
-_LOOKED_AT = {"files", "kinematics", "tracking", "view", "planar"}
+_LOOKED_AT = {"files", "kinematics", "wb", "tracking", "view", "planar"}
 _FRONT = _ENGINES | _LOOKED_AT | {"loading", "checking", "showing", "following", "model", "option_types"}
 _FRONT |= {"ddp", "ipm", "rhp", "sip", "samples", "notebooks"}
 PYTHON_ROOMS = {
@@ -80,8 +80,9 @@ PYTHON_ROOMS = {
     "rhp": _GROUND | {"walking"},
     "sip": _GROUND | {"planar"},
     "kinematics": _GROUND | {"files"},
-    "tracking": _GROUND | {"files", "kinematics"},
-    "view": _GROUND | {"files", "kinematics", "tracking"},
+    "wb": _GROUND | {"files", "kinematics"},
+    "tracking": _GROUND | {"files", "kinematics", "wb"},
+    "view": _GROUND | {"files", "kinematics", "wb", "tracking"},
     "planar": _GROUND | {"files", "kinematics", "tracking", "view"},
     "showing": _GROUND | _LOOKED_AT,
     "notebooks": {"_core", "errors", "showing"},
