@@ -161,7 +161,7 @@ class Motion:
         """
         from .motion_model import motion_model
 
-        return motion_model(self.plan.robot, self.urdf, self.joints, self.locked)
+        return motion_model(self.plan, self.urdf, self.joints, self.locked)
 
     def at(self, t: float) -> MotionState:
         """The state at a time [s] in 0 to duration().

@@ -16,7 +16,7 @@ from mcplan.files.urdf_setups import SETUPS
 from mcplan.kinematics.urdf_model import UrdfModel, load_model
 
 if TYPE_CHECKING:
-    from mcplan._core import Robot
+    from mcplan._core import Plan
 
 Array = NDArray[np.float64]
 
@@ -70,11 +70,11 @@ class MotionModel:
         return full
 
 
-def motion_model(robot: Robot, urdf: str, joints: Sequence[str], locked: Mapping[str, float]) -> MotionModel:
+def motion_model(plan: Plan, urdf: str, joints: Sequence[str], locked: Mapping[str, float]) -> MotionModel:
     """The model of a motion.
 
     Args:
-        robot: Whose end-effectors have the contact frames.
+        plan: Its robot's end-effectors have the contact frames, its scene has the gravity.
         urdf: Name of a built-in setup, or as a robot names its URDF.
         joints: Those that move, in Pinocchio's order.
         locked: Positions of the others [rad or m].
@@ -84,7 +84,7 @@ def motion_model(robot: Robot, urdf: str, joints: Sequence[str], locked: Mapping
         InvalidRobot: The URDF cannot be read.
         InvalidPlan: The joints are not those of the URDF.
     """
-    robot = copy.deepcopy(robot)
+    robot = copy.deepcopy(plan.robot)
     robot.urdf = PACKAGE + urdf if urdf in SETUPS else urdf
     complete = load_model(robot)
     import pinocchio as pin  # type: ignore[import-untyped]
@@ -105,6 +105,7 @@ def motion_model(robot: Robot, urdf: str, joints: Sequence[str], locked: Mapping
         size = model.nqs[new]
         neutral[model.idx_qs[new] : model.idx_qs[new] + size] = complete.neutral[whole.idx_qs[old] :][:size]
     model.armature = armature
+    model.gravity.linear = np.array([0.0, 0.0, -plan.scene.gravity])
     frames = [model.getFrameId(f"mcplan/{end.name}") for end in robot.end_effectors]
     limits = [np.where(limit[6:] > 0.0, limit[6:], np.inf) for limit in (model.effortLimit, model.velocityLimit)]
     return MotionModel(complete, model, frames, neutral, configuration, *limits)
