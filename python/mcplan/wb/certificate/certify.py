@@ -11,7 +11,7 @@ from mcplan.extras import require
 
 from . import balance, contacts, flight, limits, terrain
 from .correction import Correction, corrected
-from .distances import self_distance
+from .distances import counted, self_distance
 from .footholds import footholds_of
 from .inputs import CertifiedMotion
 from .result import RATIO, MotionCheckResult, MotionViolation
@@ -21,6 +21,7 @@ from .tolerances import MotionTolerances
 
 #: Instants at which what the motion says of itself is compared.
 COMPARED = 50
+NO_SHAPES = "self_distance was not looked at: the URDF has no collision shapes that can be read"
 
 
 def certify(motion: CertifiedMotion, tolerances: MotionTolerances | None = None) -> MotionCheckResult:
@@ -59,10 +60,11 @@ def certify(motion: CertifiedMotion, tolerances: MotionTolerances | None = None)
         *balance.balance(states, correction, tolerances),
         *flight.landings(motion, robot, tolerances),
         *terrain.clearance(motion, states, footholds, tolerances),
-        self_distance(motion, robot, states, tolerances),
+        self_distance(robot, states, tolerances),
         *balance.off_the_plan(states, com_W, tolerances),
     ]
-    found = MotionCheckResult(tuple(constraints), {}, len(states.times), time.perf_counter() - start)
+    notes = () if counted(robot, tolerances.self_distance_m)[0] else (NO_SHAPES,)
+    found = MotionCheckResult(tuple(constraints), {}, len(states.times), time.perf_counter() - start, notes)
     return replace(found, measures=_measures(found, states, correction))
 
 

@@ -12,6 +12,7 @@ as a non-negative least-squares problem (Lawson and Hanson).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,20 +55,20 @@ def corrected(motion: CertifiedMotion, robot: CertifiedRobot, states: States) ->
     """Correct the shipped forces of each instant with contacts."""
     cones = _cones(motion, states)
     changes, left = _least(states, cones)
-    uses = np.full(len(states.times), np.nan)
-    instants, inadmissible = _Instants(motion, robot, states, cones), []
-    for k in np.flatnonzero(cones.in_contact.any(axis=(1, 2))).tolist():
-        forces_W = states.corner_forces_W[k] + changes[k]
-        uses[k] = instants.torque_use(k, forces_W)
-        shipped = float((np.abs(states.tau[k]) / robot.effort).max(initial=0.0))
-        if not cones.hold(k, forces_W) or uses[k] > max(1.0, shipped) + SLACK_RATIO:
-            inadmissible.append(k)
+    instants, forces_W = _Instants(motion, robot, states, cones), states.corner_forces_W + changes
+    uses, wrenches_S = np.full(len(states.times), np.nan), instants.wrenches(np.arange(len(states.times)), forces_W)
+    supported = np.flatnonzero(cones.in_contact.any(axis=(1, 2)))
+    for k in supported.tolist():
+        uses[k] = instants.use(k, wrenches_S[k])
+    shipped = (np.abs(states.tau) / robot.effort).max(axis=1, initial=0.0)
+    admissible = cones.hold(forces_W) & ~(uses > np.maximum(1.0, shipped) + SLACK_RATIO)
+    inadmissible = supported[~admissible[supported]].tolist()
     inadmissible.sort(key=lambda k: -float(np.abs(states.residual_W[k]).max()))
     for k in inadmissible[:MAX_SOLVED]:
         found = instants.solve(k)
         changes[k] = found - states.corner_forces_W[k]
         left[k] = states.residual_W[k] - _sum(instants.grasp(k), changes[k])
-        uses[k] = instants.torque_use(k, found)
+        uses[k] = instants.use(k, instants.wrenches([k], found[None])[0])
     return Correction(left, np.linalg.norm(changes, axis=3).max(axis=(1, 2)), uses, len(inadmissible))
 
 
@@ -80,13 +81,14 @@ class _Cones:
     frictions: Array
     in_contact: NDArray[np.bool_]
 
-    def hold(self, k: int, forces_W: Array) -> bool:
-        """Whether the forces (L, 4, 3) of an instant lie in their cones."""
-        along = np.einsum("ecj,ej->ec", forces_W, self.normals[k])
-        across = np.linalg.norm(forces_W - along[..., None] * self.normals[k][:, None], axis=2)
-        limited = self.in_contact[k] & np.isfinite(self.frictions[k])[:, None]
-        bound = np.where(limited, self.frictions[k][:, None], 0.0) * along
-        return bool(((along >= -SLACK_N) & (across <= bound + SLACK_N))[limited].all())
+    def hold(self, forces_W: Array) -> NDArray[np.bool_]:
+        """(N,) whether the forces (N, L, 4, 3) lie in their cones."""
+        along = np.einsum("kecj,kej->kec", forces_W, self.normals)
+        across = np.linalg.norm(forces_W - along[..., None] * self.normals[:, :, None], axis=3)
+        limited = self.in_contact & np.isfinite(self.frictions)[:, :, None]
+        bound = np.where(limited, self.frictions[:, :, None], 0.0) * along
+        inside = (along >= -SLACK_N) & (across <= bound + SLACK_N)
+        return np.asarray((inside | ~limited).all(axis=(1, 2)))
 
 
 def _cones(motion: CertifiedMotion, states: States) -> _Cones:
@@ -144,20 +146,24 @@ class _Instants:
         """(C, 6, 3) of all corners."""
         return _grasp(self._states.corners_W[k] - self._states.base_W[k]).reshape(-1, 6, 3)
 
-    def efforts(self, k: int, forces_W: Array) -> Array:
-        """(J,) torques under forces (L, 4, 3)."""
+    def wrenches(self, at: Any, forces_W: Array) -> Array:
+        """(k, L, 6) in the frames of soles, of forces (k, L, 4, 3) at some instants."""
+        forces_S = np.einsum("kerc,kepr->kepc", self._states.rotations_W[at], forces_W)
+        moments_S = np.cross(self._motion.corner_points_S, forces_S).sum(axis=2)
+        return np.concatenate([forces_S.sum(axis=2), moments_S], axis=2)
+
+    def efforts(self, k: int, wrenches_S: Array) -> Array:
+        """(J,) torques under wrenches (L, 6)."""
         import pinocchio as pin  # type: ignore[import-untyped]
 
         states, robot = self._states, self._robot
-        forces_S = np.einsum("erc,epr->epc", states.rotations_W[k], forces_W)
-        moments_S = np.cross(self._motion.corner_points_S, forces_S).sum(axis=1)
-        wrenches = joint_wrenches(robot, np.concatenate([forces_S.sum(axis=1), moments_S], axis=1))
-        found = pin.rnea(robot.model, self._data, states.q[k], states.v[k], states.a[k], wrenches)
+        external = joint_wrenches(robot, wrenches_S)
+        found = pin.rnea(robot.model, self._data, states.q[k], states.v[k], states.a[k], external)
         return np.asarray(found[robot.moving])
 
-    def torque_use(self, k: int, forces_W: Array) -> float:
+    def use(self, k: int, wrenches_S: Array) -> float:
         """Largest torque over its limit."""
-        return float((np.abs(self.efforts(k, forces_W)) / self._robot.effort).max(initial=0.0))
+        return float((np.abs(self.efforts(k, wrenches_S)) / self._robot.effort).max(initial=0.0))
 
     def solve(self, k: int) -> Array:
         """Forces (L, 4, 3) nearest to the shipped ones within cones and torque limits, that balance if any do."""
@@ -167,13 +173,13 @@ class _Instants:
         rays, corners = self._rays(k)  # (3, R) each, and to which corner it belongs
         weight = max(float(np.abs(states.corner_forces_W[k]).sum()), 1.0)
         none = np.zeros(shape)
-        apart = self.efforts(k, none)
+        apart = self.efforts(k, self.wrenches([k], none[None])[0])
         per_ray, on_base = np.zeros((len(apart), len(corners))), np.zeros((6, len(corners)))
         grasp, spread = self.grasp(k), np.zeros((none.size, len(corners)))
         for i, (ray, corner) in enumerate(zip(rays, corners, strict=True)):
             forces = none.reshape(-1, 3).copy()
             forces[corner] = ray * weight
-            per_ray[:, i] = self.efforts(k, forces.reshape(shape)) - apart
+            per_ray[:, i] = self.efforts(k, self.wrenches([k], forces.reshape(1, *shape))[0]) - apart
             on_base[:, i] = grasp[corner] @ ray
             spread[3 * corner : 3 * corner + 3, i] = ray
         shipped = states.corner_forces_W[k].reshape(-1) / weight

@@ -7,6 +7,7 @@ is worked out at some instants only, and the least of all is known at each of th
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,6 @@ from numpy.typing import NDArray
 from mcplan.errors import InvalidRobot
 from mcplan.files.urdf_reading import package_folders, read_xml
 
-from .inputs import CertifiedMotion
 from .result import MotionViolation
 from .robot import CertifiedRobot, configurations
 from .states import States
@@ -57,15 +57,10 @@ class Posture:
     joint_positions_W: Array
 
 
-def self_distance(
-    motion: CertifiedMotion, robot: CertifiedRobot, states: States, tolerances: MotionTolerances
-) -> MotionViolation:
+def self_distance(robot: CertifiedRobot, states: States, tolerances: MotionTolerances) -> MotionViolation:
     """The least distance of two links that count; infinite where the URDF has no collision shapes."""
     least = MotionViolation("self_distance", np.inf, tolerances.self_distance_m, "m", at_least=True)
-    shapes = shapes_of(robot, motion)
-    if not shapes:
-        return least
-    pairs = counted_pairs(motion, robot, shapes, least.limit)
+    shapes, pairs = counted(robot, least.limit)
     centers = [_centers(states, shape) for shape in shapes]
     gaps = [np.linalg.norm(centers[a] - centers[b], axis=1) - shapes[a].radius - shapes[b].radius for a, b in pairs]
     for index in np.argsort([gap.min() for gap in gaps], kind="stable"):
@@ -140,15 +135,15 @@ def _travel(states: States, pair: tuple[Shape, Shape]) -> Array:
     return np.concatenate([[0.0], np.cumsum(shifts + second.radius * chords)])
 
 
-def counted_pairs(
-    motion: CertifiedMotion, robot: CertifiedRobot, shapes: list[Shape], limit_m: float
-) -> list[tuple[int, int]]:
-    """Pairs of shapes whose distance counts.
+@lru_cache(maxsize=8)
+def counted(robot: CertifiedRobot, limit_m: float) -> tuple[list[Shape], list[tuple[int, int]]]:
+    """The collision shapes of a robot, and the pairs of them whose distance counts.
 
     Left out are shapes of one link or of links rigid with each other, of links that share a joint, and those that are
     nearer than the limit in the robot's posture.
     """
-    neutral = _neutral(motion, robot)
+    shapes = shapes_of(robot)
+    neutral = _neutral(robot)
     parents = _bodies(robot)
     found = []
     for i, first in enumerate(shapes):
@@ -159,7 +154,7 @@ def counted_pairs(
             if _ball_gaps(neutral, first, second)[0] < limit_m and distance(neutral, (first, second), 0) < limit_m:
                 continue
             found.append((i, j))
-    return found
+    return shapes, found
 
 
 def _bodies(robot: CertifiedRobot) -> dict[int, int]:
@@ -181,7 +176,7 @@ def _body_of(robot: CertifiedRobot, joint: int, moving: set[int]) -> int:
     return joint
 
 
-def _neutral(motion: CertifiedMotion, robot: CertifiedRobot) -> Posture:
+def _neutral(robot: CertifiedRobot) -> Posture:
     """The robot's posture."""
     import pinocchio as pin  # type: ignore[import-untyped]
 
@@ -192,14 +187,14 @@ def _neutral(motion: CertifiedMotion, robot: CertifiedRobot) -> Posture:
         joint = model.joints[model.getJointId(name)]
         own = posture[joint.idx_q : joint.idx_q + joint.nq]
         angles.append(own[0] if joint.nq == 1 else np.arctan2(own[1], own[0]))
-    q = configurations(robot, motion, posture[None, :7], np.array([angles]))[0]
+    q = configurations(robot, posture[None, :7], np.array([angles]))[0]
     pin.forwardKinematics(model, data, q)
     rotations = np.array([[place.rotation for place in data.oMi]])
     positions = np.array([[place.translation for place in data.oMi]])
     return Posture(rotations, positions)
 
 
-def shapes_of(robot: CertifiedRobot, motion: CertifiedMotion) -> list[Shape]:
+def shapes_of(robot: CertifiedRobot) -> list[Shape]:
     """The collision shapes of a robot; none where the URDF has none or they cannot be read."""
     import pinocchio as pin
 

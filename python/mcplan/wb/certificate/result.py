@@ -80,12 +80,14 @@ class MotionCheckResult:
         measures: By name: what the constraints are about, and what is only told, such as `torque_use`.
         samples: Instants looked at.
         time_s: What the certificate took [s].
+        notes: What could not be looked at, a sentence each.
     """
 
     constraints: tuple[MotionViolation, ...]
     measures: dict[str, float] = field(default_factory=dict)
     samples: int = 0
     time_s: float = 0.0
+    notes: tuple[str, ...] = ()
 
     def ok(self) -> bool:
         """Whether the motion keeps all of them."""
@@ -118,6 +120,7 @@ class MotionCheckResult:
             "measures": {name: _finite(value) for name, value in self.measures.items()},
             "samples": self.samples,
             "time_s": self.time_s,
+            "notes": list(self.notes),
         }
 
     def __str__(self) -> str:

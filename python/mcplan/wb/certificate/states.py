@@ -56,7 +56,7 @@ def equally_spaced(motion: CertifiedMotion, sample_s: float) -> Array:
 def states_of(motion: CertifiedMotion, robot: CertifiedRobot, times: Array) -> States:
     """States of a motion at some instants."""
     coordinates, rates, accelerations = spline_at(motion.times_s, motion.coefficients, times)
-    q, v, a = _free_flyer(motion, robot, coordinates, rates, accelerations)
+    q, v, a = _free_flyer(robot, coordinates, rates, accelerations)
     interval = np.clip(np.searchsorted(motion.times_s, times, side="right") - 1, 0, len(motion.times_s) - 2)
     forces_S = _between_nodes(motion, times, interval)
     wrenches_S = np.concatenate(
@@ -80,9 +80,7 @@ def states_of(motion: CertifiedMotion, robot: CertifiedRobot, times: Array) -> S
     )
 
 
-def _free_flyer(
-    motion: CertifiedMotion, robot: CertifiedRobot, x: Array, dx: Array, ddx: Array
-) -> tuple[Array, Array, Array]:
+def _free_flyer(robot: CertifiedRobot, x: Array, dx: Array, ddx: Array) -> tuple[Array, Array, Array]:
     """q, v and a of Pinocchio's model: of roll, pitch, yaw r the angular velocity in the base's axes is J(r) r'."""
     import pinocchio as pin  # type: ignore[import-untyped]
 
@@ -99,7 +97,7 @@ def _free_flyer(
         a[k, :3] = rotation.T @ ddx[k, :3] - np.cross(omega, linear)
         a[k, 3:6] = jacobian @ second + pin.rpy.computeRpyJacobianTimeDerivative(rpy, rate, local) @ rate
     v[:, robot.moving], a[:, robot.moving] = dx[:, 6:], ddx[:, 6:]
-    return configurations(robot, motion, base, x[:, 6:]), v, a
+    return configurations(robot, base, x[:, 6:]), v, a
 
 
 def _between_nodes(motion: CertifiedMotion, times: Array, interval: NDArray[np.int64]) -> Array:
@@ -113,8 +111,7 @@ def joint_wrenches(robot: CertifiedRobot, wrenches_S: Array) -> Any:
     import pinocchio as pin
 
     model, forces = robot.model, pin.StdVec_Force()
-    for _ in range(model.njoints):
-        forces.append(pin.Force.Zero())
+    forces.extend([pin.Force.Zero()] * model.njoints)
     for wrench, number in zip(wrenches_S, robot.urdf_model.frames, strict=True):
         if wrench.any():
             frame = model.frames[number]
