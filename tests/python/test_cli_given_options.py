@@ -61,6 +61,8 @@ BAD = {
         "--torque-delay": ("-1",),
         "--sensor-noise": ("-1",),
     },
+    "export none.npz -o out.npz": {"--to": ("nope",)},
+    "export none.npz --to mjlab -o out.npz": {"--rate": ("0", "-1", "nan", "x")},
     "robots --from-urdf g1": {
         "--end": ("foot=nowhere", "foot"),
         "--posture": ("nowhere=1", "knee"),
