@@ -19,6 +19,7 @@ class Format:
         joints: Whether it contains joint positions: a plan then needs a robot with a URDF, and inverse kinematics.
         rate_hz: Samples per second unless asked otherwise; 0: at the knots of the plan.
         holds: What is in the file.
+        planned: Whether it has the plan alone, also where a run of it is given.
     """
 
     name: str
@@ -28,10 +29,13 @@ class Format:
     joints: bool
     rate_hz: float
     holds: str
+    planned: bool = False
 
     @property
     def needs(self) -> str:
         """What it is made of."""
+        if self.planned:
+            return "plan, or that of a run"
         return "run, or plan and URDF" if self.joints else "run or plan"
 
 
@@ -41,6 +45,13 @@ _ALL = (
     Format("unitree", "unitree", (".csv",), "Unitree, LAFAN1", True, 30.0, "root position, quaternion xyzw, joints"),
     Format("contacts", "contacts", (".npz",), "learning", False, 50.0, "contact labels, surfaces, forces, positions"),
     Format("mujoco", "keyframes", (".xml",), "MuJoCo", True, 0.0, "keyframes with qpos and qvel"),
+    Format("centroidal", "centroidal", (".csv", ".json"), "any", False, 100.0, "CoM, momentum, contacts, forces", True),
+    Format(
+        "contact-sequence", "contact_sequence", (".json",), "multicontact-api", False, 50.0, "phases and curves", True
+    ),
+    Format("crocoddyl", "crocoddyl", (".py",), "Crocoddyl", True, 50.0, "script: shooting problem and warm start"),
+    Format("ocs2", "ocs2", (".info",), "OCS2", True, 20.0, "mode schedule and target trajectories"),
+    Format("ros2", "ros2", (".py",), "ROS 2", True, 50.0, "node: joint states, odometry, wrenches"),
 )
 #: By name, in the order in which they are listed.
 FORMATS: dict[str, Format] = {entry.name: entry for entry in _ALL}

@@ -50,6 +50,8 @@ class Source:
             InvalidRobot: The robot lacks an end-effector of the plan.
         """
         rate = entry.rate_hz if rate_hz is None else rate_hz
+        if entry.planned and not isinstance(what, Plan):
+            what = what.plan
         if isinstance(what, Plan):
             if not what.phases:
                 raise InvalidInput("what", "must be a plan that has phases", "none")
@@ -113,6 +115,15 @@ class Source:
         if self.recording is not None:
             return np.asarray(self.recording.forces_W[self.rows], float)
         return self.samples.forces_W
+
+    @cached_property
+    def moments_W(self) -> Array:
+        """(n, e, 3) planned contact moments on the robot about the contact points [N m]; a run records none."""
+        samples = self.samples
+        if self.recording is not None:
+            return np.zeros_like(samples.moments_W)
+        arms = samples.pressure_W - samples.positions_W
+        return np.asarray(samples.moments_W + np.cross(arms, samples.forces_W))
 
     @cached_property
     def end_effectors_W(self) -> Array:
