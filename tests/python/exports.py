@@ -51,8 +51,8 @@ def simulation(robot: str = "g1") -> Any:
     return build(mp.load_robot(robot), mp.load_scene("flat")).mj
 
 
-def mujoco_states(model: Any, qpos: np.ndarray, qvel: np.ndarray) -> dict[str, tuple[np.ndarray, ...]]:
-    """By body: position, quaternion wxyz, linear and angular velocity of its frame, in the world's axes."""
+def mujoco_states(model: Any, qpos: np.ndarray, qvel: np.ndarray, at_com: bool) -> dict[str, tuple[np.ndarray, ...]]:
+    """By body: position and quaternion wxyz of its frame, linear velocity there or at its CoM, angular velocity, world."""
     import mujoco
 
     data = mujoco.MjData(model)
@@ -60,8 +60,8 @@ def mujoco_states(model: Any, qpos: np.ndarray, qvel: np.ndarray) -> dict[str, t
     mujoco.mj_forward(model, data)
     states = {}
     for body in range(1, model.nbody):
-        velocity = np.zeros(6)
-        mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, velocity, 0)
+        velocity, kind = np.zeros(6), mujoco.mjtObj.mjOBJ_BODY if at_com else mujoco.mjtObj.mjOBJ_XBODY
+        mujoco.mj_objectVelocity(model, data, kind, body, velocity, 0)
         states[model.body(body).name] = (data.xpos[body].copy(), data.xquat[body].copy(), velocity[3:], velocity[:3])
     return states
 
@@ -72,8 +72,3 @@ def qpos_of(model: Any, base: np.ndarray, quat_wxyz: np.ndarray, joints: dict[st
     for name, angle in joints.items():
         qpos[model.joint(name).qposadr[0]] = angle
     return qpos
-
-
-def rotated(quat_wxyz: np.ndarray, vector: np.ndarray) -> np.ndarray:
-    w, x, y, z = quat_wxyz
-    return pin.Quaternion(w, x, y, z).matrix() @ vector

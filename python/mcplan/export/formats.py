@@ -41,7 +41,7 @@ class Format:
 
 _ALL = (
     Format("mjlab", "mjlab", (".npz",), "mjlab", True, 50.0, "joints, poses and velocities of bodies, depth first"),
-    Format("isaaclab", "mjlab", (".npz",), "IsaacLab", True, 50.0, "the same, breadth first"),
+    Format("isaaclab", "mjlab", (".npz",), "IsaacLab", True, 50.0, "the same, breadth first, velocities of CoMs"),
     Format("unitree", "unitree", (".csv",), "Unitree, LAFAN1", True, 30.0, "root position, quaternion xyzw, joints"),
     Format("contacts", "contacts", (".npz",), "learning", False, 50.0, "contact labels, surfaces, forces, positions"),
     Format("mujoco", "keyframes", (".xml",), "MuJoCo", True, 0.0, "keyframes with qpos and qvel"),

@@ -1,8 +1,10 @@
 """Reference motions (.npz) as the motion-tracking tasks of mjlab and IsaacLab load them.
 
 Keys and conventions are those of mjlab's csv_to_npz and BeyondMimic's whole_body_tracking: fps (1,), joint_pos and joint_vel
-(n, nj), body_pos_w (n, nb, 3), body_quat_w (n, nb, 4) wxyz, body_lin_vel_w and body_ang_vel_w (n, nb, 3): of the origins of
-the links' frames, in the world's axes. joint_names and body_names, which the loaders do not read, say the order.
+(n, nj), body_pos_w (n, nb, 3) and body_quat_w (n, nb, 4) wxyz of the links' frames, body_lin_vel_w and body_ang_vel_w (n, nb, 3)
+in the world's axes. Linear velocities are those of the origins of these frames for mjlab (its body_link_lin_vel_w), and those of
+the bodies' centres of mass for IsaacLab, whose body_lin_vel_w is body_com_lin_vel_w. joint_names and body_names, which no loader
+reads, say the order.
 """
 
 from __future__ import annotations
@@ -29,13 +31,14 @@ Array = NDArray[np.float64]
 
 def write(source: Source, path: Path) -> None:
     """Write the motion of a source, breadth first if IsaacLab is to read it."""
-    order = order_of(source.motion.urdf_model, breadth_first=source.order == "isaaclab")
+    isaac = source.order == "isaaclab"
+    order = order_of(source.motion.urdf_model, breadth_first=isaac)
     buffer = io.BytesIO()
-    np.savez(buffer, **arrays(source.motion, order, source.rate_hz))
+    np.savez(buffer, **arrays(source.motion, order, source.rate_hz, at_com=isaac))
     write_whole(buffer.getvalue(), path)
 
 
-def arrays(motion: Motion, order: Order, rate_hz: float) -> dict[str, Any]:
+def arrays(motion: Motion, order: Order, rate_hz: float, at_com: bool) -> dict[str, Any]:
     """The file's arrays.
 
     Raises:
@@ -44,7 +47,7 @@ def arrays(motion: Motion, order: Order, rate_hz: float) -> dict[str, Any]:
     if rate_hz != round(rate_hz):
         raise InvalidInput("rate_hz", "must be a whole number in this format", shown(rate_hz))
     joint_pos, joint_vel = motion.in_order(order.joints)
-    positions, quats, linear, angular = body_states(motion, order)
+    positions, quats, linear, angular = body_states(motion, order, at_com)
     return {
         "fps": np.array([round(rate_hz)]),
         "joint_pos": joint_pos,
@@ -58,13 +61,23 @@ def arrays(motion: Motion, order: Order, rate_hz: float) -> dict[str, Any]:
     }
 
 
-def body_states(motion: Motion, order: Order) -> tuple[Array, Array, Array, Array]:
-    """Positions (n, nb, 3), quaternions wxyz (n, nb, 4), linear and angular velocities (n, nb, 3) of link frames, world."""
+def body_states(motion: Motion, order: Order, at_com: bool) -> tuple[Array, Array, Array, Array]:
+    """Positions (n, nb, 3), quaternions wxyz (n, nb, 4), linear and angular velocities (n, nb, 3) of bodies, world frame.
+
+    Args:
+        motion: Joints.
+        order: Which bodies.
+        at_com: Whether linear velocities are those of centres of mass; positions are those of the links' frames.
+    """
     import pinocchio as pin  # type: ignore[import-untyped]
 
     model = motion.urdf_model.model
     data = model.createData()
     frames = [model.getBodyId(name) for name in order.bodies]
+    # In the axes of the link's frame; what hangs on it by fixed joints counts.
+    to_com = [
+        model.frames[frame].placement.actInv(model.inertias[model.frames[frame].parentJoint].lever) for frame in frames
+    ]
     shape = (len(motion.times_s), len(frames), 3)
     positions, linear, angular = np.zeros(shape), np.zeros(shape), np.zeros(shape)
     rotations = np.zeros((*shape, 3))
@@ -75,5 +88,7 @@ def body_states(motion: Motion, order: Order) -> tuple[Array, Array, Array, Arra
             velocity = pin.getFrameVelocity(model, data, frame, pin.ReferenceFrame.LOCAL_WORLD_ALIGNED)
             positions[n, b], rotations[n, b] = data.oMf[frame].translation, data.oMf[frame].rotation
             linear[n, b], angular[n, b] = velocity.linear, velocity.angular
+            if at_com:
+                linear[n, b] += np.cross(velocity.angular, rotations[n, b] @ to_com[b])
     quats = np.stack([quat_xyzw(rotations[:, b])[:, [3, 0, 1, 2]] for b in range(len(frames))], axis=1)
     return positions, quats, linear, angular
