@@ -1,0 +1,1 @@
+"""Many scenes, robots, options and seeds planned at once."""
