@@ -9,9 +9,10 @@ from dataclasses import asdict, dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+from mcplan.files.solvable_scenes import FRICTION, kind_of, solvable_scene
+
 from .contact_measures import measure_contacts
 from .processes import each
-from .solvable_scenes import FRICTION, kind_of, solvable_scene
 
 if TYPE_CHECKING:
     from mcplan import Plan, Robot

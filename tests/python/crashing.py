@@ -31,3 +31,12 @@ def slowly(task: Any) -> Any:
     """The task itself, after a while."""
     time.sleep(0.3)
     return task
+
+
+def crash_on_task_one(job: Any) -> str:
+    """A task of a sweep; number one kills its process."""
+    from mcplan.sweep.work import work
+
+    if job.task.index == 1:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return work(job)
