@@ -53,7 +53,7 @@ def sweep(
     retry_crashed: RetryOption = False,
     json: JsonOption = False,
 ) -> int:
-    """Plan scenes x robots x options x seeds, and make a table and a page of what comes of it.
+    """Plan scenes x robots x options x seeds into tables and a page.
 
     What is done stays: the same command goes on where Ctrl-C (exit code 130), a crash or the end of a machine stopped it.
     The exit code is 0 once this share is done, whether its plans are solved or not, 1 if a task crashed or the checker
