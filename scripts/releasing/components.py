@@ -52,7 +52,6 @@ COMPONENTS = (
     Component(
         "XZ Utils (liblzma)", "LicenseRef-public-domain", ("liblzma5",), ("liblzma",), (), "https://tukaani.org/xz"
     ),
-    Component("zlib", "Zlib", ("zlib1g",), ("libz",), (), "https://zlib.net"),
     Component("Eigen", "MPL-2.0", ("libeigen3-dev",), (), (), "https://eigen.tuxfamily.org"),
     Component("toml++", "MIT", ("libtomlplusplus-dev",), (), (), "https://github.com/marzer/tomlplusplus"),
     Component("JSON for Modern C++", "MIT", ("nlohmann-json3-dev",), (), (), "https://github.com/nlohmann/json"),

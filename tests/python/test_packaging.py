@@ -16,11 +16,11 @@ sys.path.insert(0, str(ROOT / "scripts"))
 
 from releasing import components, sbom, wheel  # noqa: E402
 
-#: What auditwheel copied into a wheel on Debian 12, with its hashes.
-BUNDLED = """libblas-a06d9c98.so.3.11.0 libbz2-ee6fe6ec.so.1.0.4 libdmumps_seq-5-8bba1e39.5.so libesmumps-7-0a1b2c3d.0.so
-libgfortran-1a2b3c4d.so.5.0.0 libgomp-4e5f6a7b.so.1.0.0 libipopt-19e8f7a6.so.1.9.9 liblapack-55667788.so.3.11.0
-liblzma-99aabbcc.so.5.4.1 libmumps_common_seq-5-ddeeff00.5.so libquadmath-11223344.so.0.0.0 libscotch-7-55667788.0.so
-libscotcherr-7-99aabbcc.0.so libz-ddeeff00.so.1.2.13""".split()
+#: What auditwheel copied into the wheel for Python 3.11 on Debian 12; zlib, libstdc++ and libgcc_s are the system's.
+BUNDLED = """libblas-8d5488a6.so.3.11.0 libbz2-e4f501c8.so.1.0.4 libdmumps_seq-5-14eb3711.5.0.so libesmumps-7-1ab67439.0.3.so
+libgfortran-59811b6f.so.5.0.0 libgomp-f9a9ad78.so.1.0.0 libipopt-96e13272.so.1.9.9 liblapack-72db5f4e.so.3.11.0
+liblzma-aaead752.so.5.4.1 libmumps_common_seq-5-85c35575.5.0.so libquadmath-8c3e1296.so.0.0.0
+libscotch-7-f76822b3.0.3.so libscotcherr-7-6c75d6e1.0.3.so""".split()
 
 
 def test_every_bundled_library_has_a_component() -> None:

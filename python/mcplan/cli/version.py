@@ -24,7 +24,7 @@ def version() -> None:
     print(f"Ipopt {nlp.ipopt_version()}")
     loaded = _loaded()
     for part, names in PARTS.items():
-        print(f"{part}: {_used(names, loaded)}")
+        print(f"{part}: {_used(names, loaded) if loaded else 'not known, since /proc cannot be read'}")
     for name, value in compiled_with().items():
         print(f"{name}: {value}")
 
