@@ -47,6 +47,7 @@ from mcplan._core import (
 from mcplan.checking import check
 from mcplan.ddp import plan, replan
 from mcplan.errors import Interrupted, InvalidInput, MissingExtra, PlanViolated, UnknownName
+from mcplan.export import export
 from mcplan.files import methods as _methods  # noqa: F401  Plan.save and Plan.load
 from mcplan.loading import load_planar_robot, load_planar_task, load_robot, load_scene
 from mcplan.rhp import receding_horizon, walk
@@ -103,6 +104,7 @@ __all__ = [
     "__version__",
     "check",
     "ddp",
+    "export",
     "load_planar_robot",
     "load_planar_task",
     "load_robot",

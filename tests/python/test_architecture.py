@@ -54,7 +54,7 @@ OPENMP_ROOMS = {"ddp", "rhp", "planar/sip"}
 _GROUND = {"_core", "errors", "extras", "options", "arguments"}
 _ENGINES = {"solve", "walking"}
 _LOOKED_AT = {"files", "kinematics", "tracking", "view", "planar"}
-_FRONT = _ENGINES | _LOOKED_AT | {"loading", "checking", "showing", "following", "model", "option_types"}
+_FRONT = _ENGINES | _LOOKED_AT | {"loading", "checking", "showing", "following", "export", "model", "option_types"}
 _FRONT |= {"ddp", "ipm", "rhp", "sip", "samples", "notebooks", "sweep"}
 PYTHON_ROOMS = {
     "__main__": {"cli"},
@@ -83,6 +83,7 @@ PYTHON_ROOMS = {
     "tracking": _GROUND | {"files", "kinematics"},
     "view": _GROUND | {"files", "kinematics", "tracking"},
     "planar": _GROUND | {"files", "kinematics", "tracking", "view"},
+    "export": _GROUND | {"files", "kinematics", "tracking"},
     "showing": _GROUND | _LOOKED_AT,
     "notebooks": {"_core", "errors", "showing"},
     "following": _GROUND | _LOOKED_AT - {"view"},

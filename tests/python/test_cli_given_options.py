@@ -66,6 +66,8 @@ BAD = {
         "--shard": ("3/2", "0/1", "x"),
         "--attempts": ("0",),
     },
+    "export none.npz -o out.npz": {"--to": ("nope",)},
+    "export none.npz --to mjlab -o out.npz": {"--rate": ("0", "-1", "nan", "x")},
     "robots --from-urdf g1": {
         "--end": ("foot=nowhere", "foot"),
         "--posture": ("nowhere=1", "knee"),

@@ -7,7 +7,22 @@ from typing import Annotated
 
 import typer
 
-from mcplan.cli import check, demo, plan, rhp, robots, scenes, schema, show, sip, sweep, tasks, track, version
+from mcplan.cli import (
+    check,
+    demo,
+    export,
+    plan,
+    rhp,
+    robots,
+    scenes,
+    schema,
+    show,
+    sip,
+    sweep,
+    tasks,
+    track,
+    version,
+)
 from mcplan.errors import MissingExtra
 
 app = typer.Typer(
@@ -26,6 +41,7 @@ verbs = (
     track.track,
     show.show,
     sweep.sweep,
+    export.export,
     scenes.scenes,
     robots.robots,
     tasks.tasks,
