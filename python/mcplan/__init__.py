@@ -53,6 +53,7 @@ from mcplan.loading import load_planar_robot, load_planar_task, load_robot, load
 from mcplan.rhp import receding_horizon, walk
 from mcplan.showing import show
 from mcplan.sip import whole_body
+from mcplan.sweep.results import load_sweep
 
 if TYPE_CHECKING:
     # Names that lived here until 0.1.
@@ -108,6 +109,7 @@ __all__ = [
     "load_planar_task",
     "load_robot",
     "load_scene",
+    "load_sweep",
     "plan",
     "receding_horizon",
     "replan",
