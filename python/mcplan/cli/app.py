@@ -7,7 +7,22 @@ from typing import Annotated
 
 import typer
 
-from mcplan.cli import check, demo, plan, rhp, robots, scenes, schema, show, sip, tasks, track, version
+from mcplan.cli import (
+    check,
+    demo,
+    export,
+    plan,
+    rhp,
+    robots,
+    scenes,
+    schema,
+    show,
+    sip,
+    sweep,
+    tasks,
+    track,
+    version,
+)
 from mcplan.errors import MissingExtra
 
 app = typer.Typer(
@@ -25,6 +40,8 @@ verbs = (
     check.check,
     track.track,
     show.show,
+    sweep.sweep,
+    export.export,
     scenes.scenes,
     robots.robots,
     tasks.tasks,
