@@ -42,6 +42,13 @@ wb::Node& last_node(wb::Problem& problem) {
   return problem.nodes.back();
 }
 
+Eigen::Matrix3Xd columns(const py::object& points) {
+  const std::vector<Vector3d> given = points_from(points, "points_S");
+  Eigen::Matrix3Xd out(3, given.size());
+  for (std::size_t i = 0; i < given.size(); ++i) out.col(static_cast<Eigen::Index>(i)) = given[i];
+  return out;
+}
+
 void bind_problem(py::module_& m) {
   py::class_<wb::Weights> weights(m, "Weights", "Of the cost of a motion; docs/theory/wb.md says what each is.");
   weights.def(py::init<>())
@@ -79,10 +86,7 @@ void bind_problem(py::module_& m) {
       "add_end_effector",
       [](wb::Problem& self, std::string name, int link, const Matrix3d& rotation, const Vector3d& position,
          const py::object& points) {
-        const std::vector<Vector3d> given = points_from(points, "points_S");
-        wb::EndEffector end{std::move(name), link, rotation, position, Eigen::Matrix3Xd(3, given.size())};
-        for (std::size_t i = 0; i < given.size(); ++i) end.points_S.col(static_cast<Eigen::Index>(i)) = given[i];
-        self.end_effectors.push_back(std::move(end));
+        self.end_effectors.push_back({std::move(name), link, rotation, position, columns(points)});
       },
       py::arg("name"), py::arg("link"), py::arg("rotation"), py::arg("position"), py::arg("points_S"));
   c.def(
@@ -94,11 +98,12 @@ void bind_problem(py::module_& m) {
   c.def(
       "add_contact",
       [](wb::Problem& self, int end_effector, bool carries, bool rests, double friction, const Vector3d& position_W,
-         const Matrix3d& rotation_W, const Eigen::Matrix<double, 6, 1>& wrench_S) {
-        last_node(self).contacts.push_back({end_effector, carries, rests, friction, position_W, rotation_W, wrench_S});
+         const Matrix3d& rotation_W, const Eigen::Matrix<double, 6, 1>& wrench_S, const py::object& points) {
+        last_node(self).contacts.push_back(
+            {end_effector, carries, rests, friction, position_W, rotation_W, wrench_S, columns(points)});
       },
       py::arg("end_effector"), py::arg("carries"), py::arg("rests"), py::arg("friction"), py::arg("position_W"),
-      py::arg("rotation_W"), py::arg("wrench_S"), "To the node that was added last.");
+      py::arg("rotation_W"), py::arg("wrench_S"), py::arg("points_S"), "To the node that was added last.");
   c.def(
       "add_swing",
       [](wb::Problem& self, int end_effector, const Vector3d& position_W, const Matrix3d& rotation_W, bool in_tube,

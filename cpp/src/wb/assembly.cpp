@@ -13,15 +13,15 @@ using Eigen::VectorXd;
 
 constexpr double kNoLength = 1e-12;
 
-/// Forces along the edges of the pyramids at an end-effector's points, over weight, to its wrench in S: (6, edges).
-MatrixXd generators(const EndEffector& end, double friction) {
-  const Eigen::Index points = end.points_S.cols();
+/// Forces along the edges of the pyramids at a contact's points, over weight, to its wrench in S: (6, edges).
+MatrixXd generators(const Contact& contact) {
+  const Eigen::Index points = contact.points_S.cols();
   MatrixXd out(6, kEdges * points);
   const double along[kEdges][2] = {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}};
   for (Eigen::Index p = 0; p < points; ++p)
     for (int e = 0; e < kEdges; ++e) {
-      const Vector3d force(friction * along[e][0], friction * along[e][1], 1.0);
-      out.col(kEdges * p + e) << force, Vector3d(end.points_S.col(p)).cross(force);
+      const Vector3d force(contact.friction * along[e][0], contact.friction * along[e][1], 1.0);
+      out.col(kEdges * p + e) << force, Vector3d(contact.points_S.col(p)).cross(force);
     }
   return out;
 }
@@ -70,7 +70,7 @@ Assembly::Assembly(const Problem& problem, const Layout& layout, Dynamics& dynam
     count = 0;
     for (const Contact& contact : problem.nodes[k].contacts) {
       if (!contact.carries) continue;
-      const MatrixXd G = generators(problem.end_effectors[contact.end_effector], contact.friction);
+      const MatrixXd G = generators(contact);
       out.wrench.block(count, column, 6, G.cols()) = G;
       count += 6;
       column += static_cast<int>(G.cols());

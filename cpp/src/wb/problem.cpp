@@ -43,6 +43,9 @@ void Problem::validate() const {
               std::to_string(contact.end_effector));
       require(contact.friction > 0.0, name + ".contacts.friction", "must be positive",
               std::to_string(contact.friction));
+      require(contact.points_S.cols() == end_effectors[contact.end_effector].points_S.cols(),
+              name + ".contacts.points_S", "must be as many as those of the end-effector",
+              std::to_string(contact.points_S.cols()));
     }
     for (const Swing& swing : nodes[k].swings)
       require(swing.end_effector >= 0 && swing.end_effector < ends, name + ".swings", "must be of end-effectors",

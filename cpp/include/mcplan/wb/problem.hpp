@@ -28,7 +28,7 @@ struct EndEffector {
   int link = 0;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< of S in the link
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< of S in the link [m]
-  Eigen::Matrix3Xd points_S;                               ///< where forces act [m]
+  Eigen::Matrix3Xd points_S;                               ///< kept off the ground in swings [m]
   bool is_point() const { return points_S.cols() == 1; }   ///< of no rotation of its own
 };
 
@@ -41,6 +41,7 @@ struct Contact {
   Eigen::Vector3d position_W = Eigen::Vector3d::Zero();
   Eigen::Matrix3d rotation_W = Eigen::Matrix3d::Identity();
   Eigen::Matrix<double, 6, 1> wrench_S = Eigen::Matrix<double, 6, 1>::Zero();  ///< the plan's [N, N m]
+  Eigen::Matrix3Xd points_S;  ///< where forces act, as many as the end-effector has points, on the surface [m]
 };
 
 /// An end-effector in the air at a node.
@@ -76,7 +77,7 @@ struct CapsulePair {
 /// Weights of the cost, each of half a square. A second of the motion counts as `rate` of them.
 struct Weights {
   double rate = 50.0;            ///< [1/s]
-  double com = 3e3;              ///< distance to the plan's CoM [1/m^2]
+  double com = 1e4;              ///< distance to the plan's CoM [1/m^2]
   double base = 50.0;            ///< angles of the base off the plan's [1/rad^2]
   double swing = 2e3;            ///< distance of end-effectors in the air to the plan's [1/m^2]
   double swing_rotation = 20.0;  ///< [1/rad^2]
