@@ -106,12 +106,13 @@ void bind_problem(py::module_& m) {
       py::arg("rotation_W"), py::arg("wrench_S"), py::arg("points_S"), "To the node that was added last.");
   c.def(
       "add_swing",
-      [](wb::Problem& self, int end_effector, const Vector3d& position_W, const Matrix3d& rotation_W, bool in_tube,
-         const Vector3d& tube_min_W, const Vector3d& tube_max_W) {
-        last_node(self).swings.push_back({end_effector, position_W, rotation_W, in_tube, tube_min_W, tube_max_W});
+      [](wb::Problem& self, int end_effector, const Vector3d& position_W, const Matrix3d& rotation_W, double weight,
+         bool in_tube, const Vector3d& tube_min_W, const Vector3d& tube_max_W) {
+        last_node(self).swings.push_back(
+            {end_effector, position_W, rotation_W, weight, in_tube, tube_min_W, tube_max_W});
       },
-      py::arg("end_effector"), py::arg("position_W"), py::arg("rotation_W"), py::arg("in_tube"), py::arg("tube_min_W"),
-      py::arg("tube_max_W"), "To the node that was added last.");
+      py::arg("end_effector"), py::arg("position_W"), py::arg("rotation_W"), py::arg("weight"), py::arg("in_tube"),
+      py::arg("tube_min_W"), py::arg("tube_max_W"), "To the node that was added last.");
   c.def(
       "add_capsule",
       [](wb::Problem& self, int link, const Vector3d& start, const Vector3d& end, double radius) {

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+#: Where the middle of a swing begins.
+MIDDLE = 0.4
 #: Instants so near to each other are one [s].
 SAME_S = 1e-9
 
@@ -51,6 +53,20 @@ class Nodes:
         if self.intervals[k][end] is None:
             return False
         return (not self.first[k, end] or k == 0) and (not self.last[k, end] or k == self.count - 1)
+
+    def swung(self, k: int, end: int) -> float:
+        """How far a swing has got at a node, 0 to 1; before the first contact and after the last one 0."""
+        before = next((i for i in range(k, -1, -1) if self.intervals[i][end] is not None), None)
+        after = next((i for i in range(k, self.count) if self.intervals[i][end] is not None), None)
+        if before is None or after is None or before == after:
+            return 0.0
+        start, stop = self.times_s[before], self.times_s[after]
+        return float((self.times_s[k] - start) / (stop - start))
+
+    def middle(self, k: int, end: int) -> float:
+        """1 in the middle of a swing, and nothing at its ends, where plans accelerate as no joint can follow."""
+        ratio = self.swung(k, end)
+        return float(min(1.0, min(ratio, 1.0 - ratio) / MIDDLE) ** 2)
 
     def flies(self, k: int) -> bool:
         """Whether nothing is in contact at a node."""
