@@ -18,9 +18,7 @@ Array = NDArray[np.float64]
 
 #: Farthest from the plan's place, upward, downward and sideways [m]; sideways the first that leaves this part of the
 #: height over the ground right below.
-UP_M, DOWN_M, ASIDE_M, LEAST_RATIO = 0.1, 0.1, (0.02, 0.01, 0.004, 0.0), 0.7
-#: Sideways at least, where the plan's sole passes an edge [m].
-LEAST_ASIDE_M = 0.002
+UP_M, DOWN_M, ASIDE_M, LEAST_RATIO = 0.1, 0.1, (0.02, 0.01, 0.004, 0.001), 0.7
 #: Kept over the ground from this part of a swing to its middle [m], growing from nothing in the parts before: where a sole
 #: that is to be lifted within a node asks for all the torque that there is.
 MIDDLE_M, MIDDLE, ENDS = 0.014, 0.35, 0.15
@@ -65,7 +63,7 @@ class Ground:
         samples, half = nodes.samples, np.asarray(plan.robot.end_effectors[end].half_size, float)
         x, y = (np.unique(half[i] * np.linspace(-1.0, 1.0, GRID[i])) for i in range(2))
         sole = np.array([[a, b, 0.0] for a in x for b in y])
-        swept = np.array([_swept(samples.positions_W[:, end], k, part) for part in PARTS])
+        swept = np.array([_swept(nodes.swings_W[:, end], k, part) for part in PARTS])
         points = (swept[:, None] + sole @ samples.rotations_W[k, end].T).reshape(-1, 3)
         ratio = nodes.swung(k, end)
         keep = MIDDLE_M * float(np.clip((min(ratio, 1.0 - ratio) - ENDS) / (MIDDLE - ENDS), 0.0, 1.0))
@@ -76,7 +74,6 @@ class Ground:
             if over >= LEAST_RATIO * under:
                 break
         down = max(0.0, over - min(keep, 0.5 * over))
-        aside = max(aside, LEAST_ASIDE_M)
         return np.array([-aside, -aside, -down]), np.array([aside, aside, UP_M])
 
 

@@ -54,7 +54,7 @@ def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array)
                 foot = plan.robot.end_effectors[end].kind == "foot"
                 low, high = ground.tube_W(plan, nodes, k, end)
                 in_tube = foot and not nodes.flies(k)
-                pose, weight = (samples.positions_W[k, end], samples.rotations_W[k, end]), nodes.middle(k, end)
+                pose, weight = (nodes.swings_W[k, end], samples.rotations_W[k, end]), nodes.middle(k, end)
                 problem.add_swing(end, *pose, weight, in_tube, low, high)
     return problem
 
