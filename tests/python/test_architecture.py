@@ -70,7 +70,7 @@ PYTHON_ROOMS = {
     "model": {"_core", "samples"},
     "arguments": {"_core", "errors"},
     "refusals": {"_core", "errors", "arguments"},
-    "checking": {"_core", "errors", "arguments", "files"},
+    "checking": {"_core", "errors", "arguments", "files", "wb"},
     "files": _GROUND,
     "loading": _GROUND | {"files"},
     "solve": _GROUND | {"files"},
@@ -92,6 +92,7 @@ PYTHON_ROOMS = {
 }
 # The same inside of rooms; "" is what lies in the room's own folder, except for its __init__, which may import them all.
 INNER_ROOMS = {
+    "wb": {"": {"certificate"}, "certificate": set()},
     "view": {"": set(), "pages": {""}, "pictures": {""}, "plots": {"", "pictures"}, "video": {"", "pictures"}},
     "planar": {"": set(), "tracking": set(), "view": {"tracking"}},
 }

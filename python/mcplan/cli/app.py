@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mcplan.cli import check, demo, plan, rhp, robots, scenes, schema, show, sip, tasks, track, version
+from mcplan.cli import check, demo, motion, plan, rhp, robots, scenes, schema, show, sip, tasks, track, version
 from mcplan.errors import MissingExtra
 
 app = typer.Typer(
@@ -22,6 +22,7 @@ verbs = (
     plan.plan,
     rhp.rhp,
     sip.sip,
+    motion.motion,
     check.check,
     track.track,
     show.show,
