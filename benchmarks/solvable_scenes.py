@@ -14,8 +14,8 @@ from pathlib import Path
 
 import mcplan as mp
 from mcplan.files.scenes import save_scene
+from mcplan.files.solvable_scenes import solvable_scene
 from mcplan_bench import records, solvable
-from mcplan_bench.solvable_scenes import solvable_scene
 
 
 def main() -> int:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import multiprocessing
 import os
-import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from typing import Any, TypeVar
+
+from mcplan.sweep import pool
+from mcplan.sweep.pool import Crash, Crashed, deaf_to_interrupts
 
 Task = TypeVar("Task")
 Outcome = TypeVar("Outcome")
@@ -17,57 +19,59 @@ Outcome = TypeVar("Outcome")
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 
 
-def each(function: Callable[[Task], Outcome], tasks: Sequence[Task], jobs: int) -> Iterator[tuple[int, Outcome]]:
+def each(
+    function: Callable[[Task], Outcome],
+    tasks: Sequence[Task],
+    jobs: int,
+    crashed: Callable[[Task, Crash], Outcome] | None = None,
+) -> Iterator[tuple[int, Outcome]]:
     """Index of each task and what the function makes of it, as they are done.
 
     Args:
         function: Of a module, when there are several processes: it is sent there by name.
         tasks: Its arguments.
         jobs: Processes; 1: this one.
+        crashed: What stands for the outcome of a task that kills its process again and again.
+
+    Raises:
+        Crashed: A task kills its process, and nothing stands for its outcome; all others have been done by then.
     """
     if jobs <= 1:
         for index, task in enumerate(tasks):
             yield index, function(task)
         return
-    with _pool(jobs) as pool:
-        with _deaf_to_interrupts():
-            pending = {pool.submit(function, task): index for index, task in enumerate(tasks)}
-        for future in as_completed(pending):
-            yield pending[future], future.result()
+    lost: list[str] = []
+    for index, outcome in pool.each(function, tasks, jobs):
+        if not isinstance(outcome, Crash):
+            yield index, outcome
+        elif crashed is not None:
+            yield index, crashed(tasks[index], outcome)
+        else:
+            lost.append(f"{tasks[index]}: {outcome}")
+    if lost:
+        raise Crashed("\n".join(lost))
 
 
 def apart(function: Callable[..., Outcome], *arguments: Any) -> Outcome:
     """The function's result from a new process, on one thread and, where the system can say so, one core."""
-    with environment(ONE_THREAD), _pool(1, _take_one_core) as pool:
-        with _deaf_to_interrupts():
-            future = pool.submit(function, *arguments)
+    with environment(ONE_THREAD), _single() as executor:
+        with deaf_to_interrupts():
+            future = executor.submit(function, *arguments)
         return future.result()
 
 
 @contextmanager
-def _pool(jobs: int, initializer: Callable[[], None] | None = None) -> Iterator[ProcessPoolExecutor]:
-    """Processes that end with the block, also where it is left in the middle of their work."""
-    # Spawned, not forked: a fork would copy the threads' locks of this process but not the threads.
-    pool = ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn"), initializer=initializer)
+def _single() -> Iterator[ProcessPoolExecutor]:
+    """A process on one core that ends with the block, also where it is left in the middle of its work."""
+    executor = ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn"), initializer=_take_one_core)
     try:
-        yield pool
+        yield executor
     except BaseException:
-        for process in list((pool._processes or {}).values()):
+        for process in list((executor._processes or {}).values()):
             process.terminate()
         raise
     finally:
-        pool.shutdown(cancel_futures=True)
-
-
-@contextmanager
-def _deaf_to_interrupts() -> Iterator[None]:
-    """Processes that are started meanwhile leave Ctrl-C, which a terminal sends to all, to this one; it gets its own
-    afterwards."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        executor.shutdown(cancel_futures=True)
 
 
 @contextmanager

@@ -13,6 +13,7 @@ from .processes import each
 
 if TYPE_CHECKING:
     from mcplan.ddp import Result
+    from mcplan.sweep.pool import Crash
 
 #: First weight on the change of the inputs x first guess of the phase durations [s].
 SETTINGS = tuple(
@@ -86,7 +87,7 @@ def run(tasks: Sequence[Task], jobs: int = 1, progress: Callable[[str], None] | 
         KeyboardInterrupt: Ctrl-C was pressed during a solve.
     """
     outcomes: dict[int, Outcome] = {}
-    for index, outcome in each(solve, tasks, jobs):
+    for index, outcome in each(solve, tasks, jobs, crashed):
         outcomes[index] = outcome
         if progress is not None:
             progress(f"[{len(outcomes)}/{len(tasks)}] {line(outcome)}")
@@ -139,6 +140,16 @@ def judge(task: Task, kind: str, result: Result) -> Outcome:
     )
 
 
+def crashed(task: Task, crash: Crash) -> Outcome:
+    """The outcome of a task that killed its processes."""
+    from mcplan.files.generate import KINDS
+
+    kind = task.scene or KINDS[task.seed % len(KINDS)]
+    scene = task.scene or f"random_{kind}_{task.seed}"
+    nan = float("nan")
+    return Outcome(task, scene, kind, "crashed", False, str(crash), "", nan, nan, 0, 0, nan)
+
+
 def line(outcome: Outcome) -> str:
     """An outcome on one line, with what is needed to repeat it."""
     task = outcome.task
@@ -163,6 +174,7 @@ def summary(outcomes: Iterable[Outcome]) -> list[dict[str, Any]]:
         by_kind.setdefault(outcome.kind, []).append(outcome)
     for kind, group in by_kind.items():
         good = [outcome for outcome in group if outcome.good]
+        times = [outcome.time_s for outcome in group if outcome.status != "crashed"] or [float("nan")]
         rows.append(
             {
                 "kind": kind,
@@ -170,8 +182,8 @@ def summary(outcomes: Iterable[Outcome]) -> list[dict[str, Any]]:
                 "good": len(good),
                 "statuses": dict(sorted(Counter(outcome.status for outcome in group).items())),
                 "median_cost": float(np.median([outcome.cost for outcome in good])) if good else float("nan"),
-                "median_time_s": float(np.median([outcome.time_s for outcome in group])),
-                "largest_time_s": max(outcome.time_s for outcome in group),
+                "median_time_s": float(np.median(times)),
+                "largest_time_s": max(times),
             }
         )
     return rows

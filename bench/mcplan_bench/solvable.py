@@ -9,12 +9,14 @@ from dataclasses import asdict, dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+from mcplan.files.solvable_scenes import FRICTION, kind_of, solvable_scene
+
 from .contact_measures import measure_contacts
 from .processes import each
-from .solvable_scenes import FRICTION, kind_of, solvable_scene
 
 if TYPE_CHECKING:
     from mcplan import Plan, Robot
+    from mcplan.sweep.pool import Crash
 
 #: Robots by turns of five.
 ROBOTS = ("humanoid44", "humanoid44", "talos", "humanoid44", "g1")
@@ -64,7 +66,7 @@ def tasks(count: int, seed: int = 0, robots: Sequence[str] = ROBOTS) -> list[Tas
 def run(given: Sequence[Task], jobs: int = 1, progress: Callable[[str], None] | None = None) -> list[Outcome]:
     """Plan all tasks, one thread each; outcomes in their order."""
     outcomes: dict[int, Outcome] = {}
-    for index, outcome in each(solve, given, jobs):
+    for index, outcome in each(solve, given, jobs, crashed):
         outcomes[index] = outcome
         if progress is not None:
             progress(f"[{len(outcomes)}/{len(given)}] {line(outcome)}")
@@ -101,6 +103,12 @@ def solve(task: Task) -> Outcome:
         len(result.plan.phases),
         rejection(result.plan) if solved else "",
     )
+
+
+def crashed(task: Task, crash: Crash) -> Outcome:
+    """The outcome of a task that killed its processes."""
+    kind, nan = kind_of(task.seed, _robot(task.robot)), float("nan")
+    return Outcome(task.seed, task.robot, kind, "crashed", str(crash), "crash", nan, nan, 0, "")
 
 
 def rejection(plan: Plan) -> str:
@@ -143,8 +151,8 @@ def summary(outcomes: Iterable[Outcome]) -> list[dict[str, Any]]:
             "scenes": len(group),
             "solved": sum(outcome.status == "solved" for outcome in group),
             "rejected": sum(bool(outcome.rejected) for outcome in group),
-            "median_cpu_s": float(np.median([outcome.cpu_s for outcome in group])),
-            "largest_cpu_s": max(outcome.cpu_s for outcome in group),
+            "median_cpu_s": float(np.nanmedian([outcome.cpu_s for outcome in group])),
+            "largest_cpu_s": float(np.nanmax([outcome.cpu_s for outcome in group])),
             "failures": dict(sorted(Counter(o.worst or o.status for o in group if o.status != "solved").items())),
         }
         for name, group in groups.items()

@@ -47,11 +47,13 @@ from mcplan._core import (
 from mcplan.checking import check
 from mcplan.ddp import plan, replan
 from mcplan.errors import Interrupted, InvalidInput, MissingExtra, PlanViolated, UnknownName
+from mcplan.export import export
 from mcplan.files import methods as _methods  # noqa: F401  Plan.save and Plan.load
 from mcplan.loading import load_planar_robot, load_planar_task, load_robot, load_scene
 from mcplan.rhp import receding_horizon, walk
 from mcplan.showing import show
 from mcplan.sip import whole_body
+from mcplan.sweep.results import load_sweep
 
 if TYPE_CHECKING:
     # Names that lived here until 0.1.
@@ -102,10 +104,12 @@ __all__ = [
     "__version__",
     "check",
     "ddp",
+    "export",
     "load_planar_robot",
     "load_planar_task",
     "load_robot",
     "load_scene",
+    "load_sweep",
     "plan",
     "receding_horizon",
     "replan",

@@ -21,6 +21,7 @@ __all__ = [
     "InvalidPlanarTask",
     "InvalidRobot",
     "InvalidScene",
+    "InvalidSweep",
     "MissingExtra",
     "PlanViolated",
     "SimplerDrawing",
@@ -177,6 +178,10 @@ class InvalidRobot(InvalidInput):
 
 class InvalidPlanarTask(InvalidInput):
     """A planar task is malformed."""
+
+
+class InvalidSweep(InvalidInput):
+    """The file of a sweep is malformed, or a folder holds none, or another one."""
 
 
 class InvalidOptions(InvalidInput):

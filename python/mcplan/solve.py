@@ -102,7 +102,7 @@ def contact_indices(contacts: Contacts | None, plan: Plan) -> list[int]:
         if surface not in surfaces:
             raise InvalidPlan(
                 f"measured.contacts.{end}",
-                f"must be a surface of the plan's scene. {did_you_mean(str(surface), surfaces)}".rstrip(),
+                f"must be a surface of the plan's scene. {did_you_mean(str(surface), surfaces)}".rstrip(" ."),
                 shown(surface),
             )
         out[ends.index(end)] = surfaces.index(surface)

@@ -54,8 +54,8 @@ OPENMP_ROOMS = {"ddp", "rhp", "planar/sip"}
 _GROUND = {"_core", "errors", "extras", "options", "arguments"}
 _ENGINES = {"solve", "walking"}
 _LOOKED_AT = {"files", "kinematics", "wb", "tracking", "view", "planar"}
-_FRONT = _ENGINES | _LOOKED_AT | {"loading", "checking", "showing", "following", "model", "option_types"}
-_FRONT |= {"ddp", "ipm", "rhp", "sip", "samples", "notebooks"}
+_FRONT = _ENGINES | _LOOKED_AT | {"loading", "checking", "showing", "following", "export", "model", "option_types"}
+_FRONT |= {"ddp", "ipm", "rhp", "sip", "samples", "notebooks", "sweep"}
 PYTHON_ROOMS = {
     "__main__": {"cli"},
     "_core": set(),
@@ -84,9 +84,11 @@ PYTHON_ROOMS = {
     "tracking": _GROUND | {"files", "kinematics", "wb"},
     "view": _GROUND | {"files", "kinematics", "wb", "tracking"},
     "planar": _GROUND | {"files", "kinematics", "tracking", "view"},
+    "export": _GROUND | {"files", "kinematics", "wb", "tracking"},
     "showing": _GROUND | _LOOKED_AT,
     "notebooks": {"_core", "errors", "showing"},
     "following": _GROUND | _LOOKED_AT - {"view"},
+    "sweep": _GROUND | _ENGINES | {"files", "checking", "view"},
     "cli": _GROUND | _FRONT | {"starting", ""},
     "": _GROUND | _FRONT | {"starting", "moved"},
 }
@@ -97,7 +99,7 @@ INNER_ROOMS = {
     "planar": {"": set(), "tracking": set(), "view": {"tracking"}},
 }
 HEAVY = {"crocoddyl", "example_robot_data", "imageio", "matplotlib", "meshcat", "mink", "mujoco"}
-HEAVY |= {"PIL", "pink", "pinocchio", "proxsuite", "scipy"}
+HEAVY |= {"PIL", "pink", "pinocchio", "proxsuite", "scipy", "dask", "distributed", "pandas", "pyarrow", "pydantic"}
 
 
 def cpp_room(parts: tuple[str, ...]) -> str:

@@ -1,4 +1,4 @@
-"""mcplan_bench.solvable_scenes and mcplan_bench.solvable: scenes that can be crossed, and what is made of them."""
+"""mcplan.files.solvable_scenes and mcplan_bench.solvable: scenes that can be crossed, and what is made of them."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import mcplan as mp
+from mcplan.files.solvable_scenes import FRICTION, MAX_TILT_RAD, gait_of, kind_of, lay, solvable_scene
 from mcplan_bench import solvable
-from mcplan_bench.solvable_scenes import FRICTION, MAX_TILT_RAD, gait_of, kind_of, lay, solvable_scene
 
 ROBOTS = ("humanoid44", "talos", "g1")
 

@@ -119,7 +119,10 @@ def test_verbs_of_other_distributions_are_looked_for_only_when_asked_for(capsys,
 def test_version(capsys):
     status, output, errors = run(capsys, "version")
     assert (status, errors) == (0, "")
-    assert re.fullmatch(re.escape(mp.__version__) + r"\nIpopt 3\.\d+\.\d+\n", output)
+    assert re.match(re.escape(mp.__version__) + r"\nIpopt 3\.\d+\.\d+\n", output)
+    inside = dict(line.split(": ", 1) for line in output.splitlines()[2:])
+    assert list(inside) == ["linear solver", "BLAS", "OpenMP", "compiler", "Eigen", "instructions"]
+    assert "none found" not in inside.values() and re.fullmatch(r"3\.\d+\.\d+", inside["Eigen"])
 
 
 def test_the_version_is_an_option_too(capsys):

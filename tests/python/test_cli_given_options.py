@@ -61,6 +61,13 @@ BAD = {
         "--torque-delay": ("-1",),
         "--sensor-noise": ("-1",),
     },
+    "sweep examples/sweep.toml --out none": {
+        "--jobs": ("0", "x"),
+        "--shard": ("3/2", "0/1", "x"),
+        "--attempts": ("0",),
+    },
+    "export none.npz -o out.npz": {"--to": ("nope",)},
+    "export none.npz --to mjlab -o out.npz": {"--rate": ("0", "-1", "nan", "x")},
     "robots --from-urdf g1": {
         "--end": ("foot=nowhere", "foot"),
         "--posture": ("nowhere=1", "knee"),
@@ -126,7 +133,18 @@ def test_no_help_shows_ranges_of_typer():
 def test_every_option_that_takes_a_number_or_a_choice_is_tried():
     tried = {(verb.split()[0], option) for verb, options in BAD.items() for option in options}
     texts = {"--robot", "--sequence", "--warm-start", "--from-urdf", "-o", "--free-durations"}
-    paths = {"--out", "--markdown", "--strips", "--output", "--html", "--plots", "--strip", "--video", "--save"}
+    paths = {
+        "--out",
+        "--markdown",
+        "--strips",
+        "--output",
+        "--html",
+        "--plots",
+        "--strip",
+        "--video",
+        "--save",
+        "--scheduler",
+    }
     for words, command in commands():
         if words not in {(verb,) for verb, _ in tried}:
             continue

@@ -64,6 +64,18 @@ def test_any_time_within_the_plan_has_a_result(plan, where):
         ({"end_effectors_W": np.zeros((3, 3))}, r"measured.end_effectors_W: must be one per end-effector \(4\), got 3"),
         ({"end_effectors_W": np.zeros((9, 3))}, r"measured.end_effectors_W: must be one per end-effector \(4\), got 9"),
         ({"end_effectors_W": np.full((4, 3), NAN)}, r"measured.end_effectors_W: must be finite numbers"),
+        (
+            {"end_effector_velocities_W": np.zeros((1, 3))},
+            r"measured.end_effector_velocities_W: must be one per end-effector \(4\), got 1",
+        ),
+        (
+            {"end_effector_velocities_W": np.zeros((9, 3))},
+            r"measured.end_effector_velocities_W: must be one per end-effector \(4\), got 9",
+        ),
+        (
+            {"end_effector_velocities_W": np.full((4, 3), NAN)},
+            r"measured.end_effector_velocities_W: must be finite numbers",
+        ),
         ({"end_effector_yaw": [0.0]}, r"measured.end_effector_yaw: must be one per end-effector \(4\), got 1"),
         ({"end_effector_yaw": [NAN] * 4}, r"measured.end_effector_yaw: must be finite numbers"),
     ],
@@ -100,6 +112,27 @@ def test_another_robot_is_refused_by_its_end_effectors(plan):
         mp.errors.InvalidPlan, match=r"previous.robot.end_effectors: must be one per end-effector \(2\), got 4"
     ):
         mp.replan(plan, 0.0, plan.knots[0], scene=mp.load_scene("rubbles"), robot=mp.load_robot("talos_wang"), **LIMITS)
+
+
+def test_another_robot_of_as_many_end_effectors_is_refused_by_their_names(plan):
+    with pytest.raises(
+        mp.errors.InvalidPlan, match=r"previous.robot.end_effectors\[0\].name: must be that of the robot \(rf_foot\)"
+    ):
+        mp.replan(plan, 0.0, plan.knots[0], robot=mp.load_robot("anymal"), **LIMITS)
+
+
+@pytest.mark.parametrize("time_limit", [1e-6, 1e-4])
+@pytest.mark.parametrize("left_s", [0.0, 1e-13, 1e-9])
+def test_out_of_time_at_the_end_of_the_plan_there_is_a_status(plan, time_limit, left_s):
+    result = mp.replan(plan, plan.duration() - left_s, plan.knots[-1], time_limit=time_limit)
+    assert result.report.status == mp.Status.time_limit
+    for phase in result.plan.phases:
+        assert phase.duration > 1e-6
+
+
+def test_a_surface_that_is_not_there_is_named(plan):
+    with pytest.raises(mp.errors.InvalidPlan, match=r"measured.contacts.left_foot: must be .* scene, got \"x\""):
+        mp.replan(plan, 0.0, plan.knots[0], contacts={"left_foot": "x"}, **LIMITS)
 
 
 def test_a_scene_without_the_surfaces_of_the_plan_is_refused_or_planned_in(plan):

@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <string>
 
 #include "bindings.hpp"
 #include "mcplan/planar/task.hpp"
@@ -141,6 +142,30 @@ py::array points_view(std::vector<Eigen::Vector3d>& points, py::handle owner) {
                              owner);
 }
 
+namespace {
+
+/// What the module is compiled with, by name; what is loaded beside it is known at run time alone.
+py::dict compiled_with() {
+  py::dict out;
+#if defined(__clang__)
+  out["compiler"] = "Clang " __clang_version__;
+#else
+  out["compiler"] = "GCC " __VERSION__;
+#endif
+  out["Eigen"] = std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+                 std::to_string(EIGEN_MINOR_VERSION);
+#if defined(__AVX2__)
+  out["instructions"] = "AVX2";
+#elif defined(__AVX__)
+  out["instructions"] = "AVX";
+#else
+  out["instructions"] = "baseline";
+#endif
+  return out;
+}
+
+}  // namespace
+
 }  // namespace mcplan::bindings
 
 PYBIND11_MODULE(_core, m) {
@@ -149,6 +174,7 @@ PYBIND11_MODULE(_core, m) {
 
   m.doc() = "The compiled part of mcplan: the C++ classes under the same names. SI units, world frame W with z up.";
   m.attr("__version__") = MCPLAN_VERSION;
+  m.def("compiled_with", &compiled_with, "Compiler, version of Eigen and instruction set of the module, by name.");
   py::register_exception_translator(translate);
   bind_base(m);
   bind_scene(m);

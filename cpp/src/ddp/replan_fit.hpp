@@ -17,8 +17,15 @@ inline void require_fit(const Plan& previous, const Knot& measured, const Robot&
                         std::to_string(count));
   };
   require_count("previous.robot.end_effectors", previous.robot.end_effectors.size());
+  for (std::size_t e = 0; e < end_effectors; ++e)
+    if (previous.robot.end_effectors[e].name != robot.end_effectors[e].name)
+      throw InvalidPlan("previous.robot.end_effectors[" + std::to_string(e) + "].name",
+                        "must be that of the robot (" + robot.end_effectors[e].name + ")",
+                        previous.robot.end_effectors[e].name);
   require_count("measured.end_effectors_W", measured.end_effectors_W.size());
   if (!measured.end_effector_yaw.empty()) require_count("measured.end_effector_yaw", measured.end_effector_yaw.size());
+  if (!measured.end_effector_velocities_W.empty())
+    require_count("measured.end_effector_velocities_W", measured.end_effector_velocities_W.size());
   const auto require_finite = [](const std::string& field, const Eigen::Ref<const Eigen::VectorXd>& value) {
     if (!value.allFinite()) throw InvalidPlan("measured." + field, "must be finite numbers", text(value));
   };
@@ -28,6 +35,8 @@ inline void require_fit(const Plan& previous, const Knot& measured, const Robot&
   require_finite("base_rpy_rate", measured.base_rpy_rate);
   require_finite("angular_momentum_W", measured.angular_momentum_W);
   for (const Eigen::Vector3d& end : measured.end_effectors_W) require_finite("end_effectors_W", end);
+  for (const Eigen::Vector3d& velocity : measured.end_effector_velocities_W)
+    require_finite("end_effector_velocities_W", velocity);
   for (double yaw : measured.end_effector_yaw) require_finite("end_effector_yaw", Eigen::VectorXd::Constant(1, yaw));
 }
 

@@ -77,6 +77,7 @@ __all__: list[str] = [
     "any_plan_from_json",
     "built_in",
     "check",
+    "compiled_with",
     "data_folder",
     "ddp",
     "file_kind",
@@ -3505,6 +3506,11 @@ def check(
 def check(plan: PlanarPlan, tolerances: PlanarTolerances = ..., self_collision: bool = False) -> CheckResult:
     """
     Check a planar plan from its splines with exact kinematics and dynamics. Raises InvalidPlan, InvalidPlanarTask or InvalidRobot where it is malformed, and Interrupted with what was found by then.
+    """
+
+def compiled_with() -> dict:
+    """
+    Compiler, version of Eigen and instruction set of the module, by name.
     """
 
 def data_folder() -> typing.Any:

@@ -7,7 +7,26 @@ from typing import Annotated
 
 import typer
 
+<<<<<<< HEAD
 from mcplan.cli import check, demo, motion, plan, rhp, robots, scenes, schema, show, sip, tasks, track, version
+=======
+from mcplan.cli import (
+    check,
+    demo,
+    export,
+    plan,
+    rhp,
+    robots,
+    scenes,
+    schema,
+    show,
+    sip,
+    sweep,
+    tasks,
+    track,
+    version,
+)
+>>>>>>> main
 from mcplan.errors import MissingExtra
 
 app = typer.Typer(
@@ -26,6 +45,8 @@ verbs = (
     check.check,
     track.track,
     show.show,
+    sweep.sweep,
+    export.export,
     scenes.scenes,
     robots.robots,
     tasks.tasks,

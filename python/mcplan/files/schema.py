@@ -1,6 +1,6 @@
-"""JSON schemas of scene, robot and planar task files, for editors and other programs.
+"""JSON schemas of scene, robot, planar task and sweep files, for editors and other programs.
 
-python -m mcplan.files.schema        # writes mcplan/data/schema/*.json from the tables of fields
+python -m mcplan.files.schema        # writes mcplan/data/schema/*.json from the tables of fields, and of sweeps from their models
 """
 
 from __future__ import annotations
@@ -29,6 +29,11 @@ def main() -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(schema_text(name), encoding="utf-8")
         print(path)
+    from mcplan.files.sweep_specs import schema_text as sweep_schema_text
+
+    path = DATA / "schema" / "sweep.json"
+    path.write_text(sweep_schema_text(), encoding="utf-8")
+    print(path)
 
 
 if __name__ == "__main__":

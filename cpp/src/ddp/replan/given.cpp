@@ -15,6 +15,17 @@ namespace mcplan::ddp {
 
 using Eigen::Vector3d;
 
+namespace {
+
+constexpr double kTurn = 2.0 * M_PI;
+
+/// The same heading, counted as `near` is; what no heading is stays as it is.
+double counted_as(double near, double yaw) {
+  return std::abs(yaw - near) < kTurnsMax * kTurn ? yaw + kTurn * std::round((near - yaw) / kTurn) : yaw;
+}
+
+}  // namespace
+
 Measured completed(const Measured& measured, const Plan& previous, double t, const Scene& scene, const Robot& robot) {
   Measured out = measured;
   const PlanState planned = previous.at(t);
@@ -22,6 +33,9 @@ Measured completed(const Measured& measured, const Plan& previous, double t, con
   Knot& state = out.state;
   if (out.contacts.empty())
     for (const EndEffectorState& end : planned.end_effectors) out.contacts.push_back(end.surface);
+  // Estimators wrap headings around, and plans count turns.
+  state.base_rpy.z() = counted_as(planned.base_rpy.z(), state.base_rpy.z());
+  for (double& yaw : state.end_effector_yaw) yaw = counted_as(state.base_rpy.z(), yaw);
   if (state.end_effector_yaw.empty()) state.end_effector_yaw.assign(count, state.base_rpy.z());
   if (state.end_effector_velocities_W.empty())
     for (const EndEffectorState& end : planned.end_effectors) state.end_effector_velocities_W.push_back(end.velocity_W);
@@ -45,6 +59,18 @@ Measured completed(const Measured& measured, const Plan& previous, double t, con
     state.end_effector_velocities_W[e].setZero();
   }
   return out;
+}
+
+void count_turns_as(double yaw, Rest& rest, Measured& measured) {
+  const double desired = std::abs(yaw) <= kHeadingMax ? yaw : std::remainder(yaw, kTurn);
+  const double further = kTurn * std::round((desired - measured.state.base_rpy.z()) / kTurn);
+  if (further == 0.0) return;
+  const auto turn = [further](Knot& knot) {
+    knot.base_rpy.z() += further;
+    for (double& sole : knot.end_effector_yaw) sole += further;
+  };
+  for (Knot& knot : rest.plan.knots) turn(knot);
+  turn(measured.state);
 }
 
 void require_contacts(const std::vector<int>& contacts, const Plan& previous) {

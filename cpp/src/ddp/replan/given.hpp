@@ -11,6 +11,13 @@
 /// What a replan is given, as the planner takes it.
 namespace mcplan::ddp {
 
+/// Less than this is nothing left of a plan [s]. Chosen, far below a controller's period.
+constexpr double kEnded_s = 1e-6;
+/// Headings that differ by fewer turns are of a robot that counts them otherwise. Chosen.
+constexpr double kTurnsMax = 1000.0;
+/// A heading from which a command leads on [rad], and how far it leads [rad]: a goal's is at most one turn. Chosen.
+constexpr double kHeadingMax = 1.1 * 3.14159265358979323846, kHeadingAhead = 0.85 * 3.14159265358979323846;
+
 /// Throws InvalidPlan where the contacts are not one surface of the plan's scene, or -1, for each end-effector.
 void require_contacts(const std::vector<int>& contacts, const Plan& previous);
 
@@ -18,6 +25,10 @@ void require_contacts(const std::vector<int>& contacts, const Plan& previous);
 /// scene; what stands is put onto its plane, since a contact knows more than a measurement of its place. Throws
 /// InvalidPlan where that is far away.
 Measured completed(const Measured& measured, const Plan& previous, double t, const Scene& scene, const Robot& robot);
+
+/// The rest and the measured state by as many whole turns further as it takes to count them as `yaw`, a measured
+/// heading, does; one far from 0 is taken as the same within half a turn, since a goal's is bounded.
+void count_turns_as(double yaw, Rest& rest, Measured& measured);
 
 /// The rest on another scene than the plan's, by the names of surfaces. Throws InvalidScene where one is missing.
 void rename(Rest& rest, const Scene& scene);

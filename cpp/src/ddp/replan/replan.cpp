@@ -104,7 +104,7 @@ std::string message_of(const Trial& best, const Report& report) {
     message << "the checker accepts the plan (" << name_of(report.plan_from) << ")";
   else if (!best.exact)
     message << "the contacts could not be made exact";
-  else if (!best.check.complete)
+  else if (!best.check.complete || best.check.ok())
     message << "stopped before the checker had seen the plan in full";
   else
     message << "the best plan violates " << report.worst_violation.to_string();
@@ -200,6 +200,7 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
   const Rest planned = rest_of(previous, t);
   Rest rest = planned;
   rename(rest, scene_in);
+  if (options.command) count_turns_as(given.state.base_rpy.z(), rest, now.measured);
   Trials trials(now, report);
   if (begin_with(rest, now.measured, now.measured.contacts, past_of(previous, t), now.similarity)) {
     if (options.command)
@@ -208,7 +209,8 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
       go_to_goal(rest, now, trials);
   }
   // Out of time, what was planned is better than what cannot be followed.
-  if (deadline.passed() && !(trials.best() && can_be_followed(*trials.best())))
+  const bool ended = planned.plan.duration() < kEnded_s;
+  if (!ended && deadline.passed() && !(trials.best() && can_be_followed(*trials.best())))
     trials.take(as_planned(planned, now), PlanFrom::previous_plan);
   conclude(trials, report, out);
   report.time_s = deadline.elapsed_s();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ddp/constants.hpp"
+#include "ddp/replan/given.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "mcplan/robot/similarity.hpp"
 #include "mcplan/scene/polygon.hpp"
@@ -152,7 +153,8 @@ std::pair<Pose, double> pose_of(const Rest& rest, const Robot& robot) {
   }
   if (feet == 0) return {{rest.plan.knots.front().com_W.head<2>(), rest.plan.knots.front().base_rpy.z()}, 0.0};
   pose.position /= feet;
-  pose.yaw = std::atan2(sine, cosine);
+  pose.yaw = rest.plan.knots.front().base_rpy.z();
+  pose.yaw += std::remainder(std::atan2(sine, cosine) - pose.yaw, 2.0 * M_PI);  // counts the turns that the base counts
   return {pose, at_s};
 }
 
@@ -236,11 +238,10 @@ class Follow {
       ++feet;
     }
     const Vector2d velocity = way_->velocity(times_[k]);
-    const double turn = std::remainder(pose.yaw - knot.base_rpy.z(), 2.0 * M_PI);
     knot.com_W.head<2>() = pose.position;
     if (feet > 0) knot.com_W.z() = ground / feet + robot_->com_height;
     knot.com_velocity_W = {velocity.x(), velocity.y(), 0.0};
-    knot.base_rpy.z() += turn;
+    knot.base_rpy.z() = pose.yaw;
     knot.base_rpy_rate = {0.0, 0.0, way_->yaw_rate(times_[k])};
     knot.angular_momentum_W = robot_->inertia.cwiseProduct(knot.base_rpy_rate);
     const bool added = k == rest_->size() ? !rest_->planned.back() : !rest_->planned[k];
@@ -314,7 +315,9 @@ double walk_on(Rest& rest, Scene& scene, const Robot& robot, const VelocityComma
   const auto [pose, at_s] = pose_of(rest, robot);
   const double end_s = times_of(rest).back();
   const double stop_s = std::min(kCommandStop_s * similarity.time, std::max(end_s - at_s, 0.0));
-  const double strides = ratio_of_strides(robot, command, similarity);
+  const double turn = std::abs(command.yaw_rate) * std::max(end_s - at_s, 0.0);
+  const double strides =
+      std::min(ratio_of_strides(robot, command, similarity), turn > kHeadingAhead ? kHeadingAhead / turn : 1.0);
   for (const double shorter : {1.0, 0.75, 0.5, 0.25, 0.0}) {
     const double ratio = shorter * strides;
     const Way way(pose, at_s, command, ratio, end_s, stop_s);

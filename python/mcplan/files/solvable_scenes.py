@@ -22,9 +22,8 @@ from random import Random
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan import Robot, Scene
+from mcplan._core import ContactRule, Robot, Scene, Stance, Surface
 from mcplan.files.generate import GRAVITY, moved
-from mcplan.model import ContactRule, Stance, Surface
 
 Array = NDArray[np.float64]
 

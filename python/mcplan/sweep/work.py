@@ -1,0 +1,172 @@
+"""One task: made, planned, saved, loaded again and checked. The same task gives the same files, on any worker."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import platform
+import time
+import warnings
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from mcplan._core import Plan, Robot
+from mcplan.errors import InvalidInput, SuspiciousGeometry, SuspiciousName, UnknownName
+from mcplan.sweep.tasks import Task
+
+#: Folders of a sweep's files.
+PLANS, RECORDS, TIMES = "plans", "records", "times"
+#: Endings of a task besides the statuses of a plan: the replay of the saved plan disagrees with `solved`; the task was
+#: refused, such as a scene at whose start the robot cannot stand; it killed its workers.
+REJECTED, REFUSED, CRASHED = "rejected", "refused", "crashed"
+
+
+@dataclass(frozen=True)
+class Job:
+    """A task and where its files go."""
+
+    task: Task
+    out: str
+
+
+def work(job: Job) -> str:
+    """Do a task and write its files, the record last: who finds it finds the others, too.
+
+    Returns:
+        The status.
+    """
+    out, task = Path(job.out), job.task
+    begin, begin_cpu = time.time(), time.process_time()
+    clock = time.perf_counter()
+    try:
+        with warnings.catch_warnings():
+            for told in (SuspiciousGeometry, SuspiciousName):  # once for the sweep, not for each task
+                warnings.simplefilter("ignore", told)
+            record, times = _solve(task, out)
+    except (InvalidInput, UnknownName) as refusal:
+        record, times = {"status": REFUSED, "message": str(refusal).splitlines()[0]}, {}
+    times |= {
+        "wall_s": time.perf_counter() - clock,
+        "cpu_s": time.process_time() - begin_cpu,
+        "began": begin,
+        "host": platform.node(),
+    }
+    write(out, task, TIMES, {"task": task.index, **times})
+    write(out, task, RECORDS, head(task) | record)
+    return str(record["status"])
+
+
+def head(task: Task) -> dict[str, Any]:
+    """What a record says of the task itself."""
+    return {
+        "task": task.index,
+        "entry": task.entry,
+        "robot": task.robot,
+        "engine": task.engine,
+        "seed": task.seed,
+        "parameters": dict(task.parameters),
+        "options": dict(task.options),
+    }
+
+
+def write(out: Path, task: Task, kind: str, data: Any) -> None:
+    """Write a task's record or times, complete or not at all."""
+    from mcplan.files.outputs import write_whole
+
+    path = path_of(out, task, kind, ".json")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(json.dumps(data, allow_nan=False), path)
+
+
+def path_of(out: Path, task: Task, kind: str, suffix: str) -> Path:
+    """Where a file of a task lies."""
+    return out / kind / f"{task.stem}{suffix}"
+
+
+def _solve(task: Task, out: Path) -> tuple[dict[str, Any], dict[str, Any]]:
+    from mcplan.files.sweep_terrains import make_scene
+
+    robot = _robot(task.robot_source)
+    scene = make_scene(task.generator, task.source, task.parameters, robot)
+    begin = time.process_time()
+    result = _engine(task, scene, robot)
+    planned = time.process_time() - begin
+    plan, report = result.plan, result.report
+    worst = report.worst_violation
+    record: dict[str, Any] = {
+        "scene": scene.name,
+        "status": str(report.status),
+        "message": report.message,
+        "cost": _finite(report.cost),
+        "iterations": report.iterations,
+        "switches": report.switches,
+        "phases": len(plan.phases),
+        "duration_s": plan.duration() if plan.phases else None,
+        "worst_violation": worst.name or None,
+        "worst_value": _finite(worst.value) if worst.name else None,
+        "worst_tolerance": _finite(worst.tolerance) if worst.name else None,
+        "worst_unit": worst.unit or None,
+        "worst_time_s": _finite(worst.time_s) if worst.name else None,
+        "contact_sequence": _sequence(plan),
+        "durations_s": [phase.duration for phase in plan.phases],
+    }
+    if plan.phases:
+        record |= _saved(plan, record["status"], path_of(out, task, PLANS, ".npz"), out)
+    return record, {"plan_cpu_s": planned, "plan_wall_s": report.time_s}
+
+
+def _saved(plan: Plan, status: str, path: Path, out: Path) -> dict[str, Any]:
+    """Save a plan, load what was saved, and have the checker look at that: it alone says `solved`."""
+    from mcplan.checking import check
+
+    path.parent.mkdir(parents=True, exist_ok=True)
+    plan.save(path)
+    data = path.read_bytes()
+    found = {"plan": path.relative_to(out).as_posix(), "plan_sha256": hashlib.sha256(data).hexdigest()}
+    if status == "solved":
+        again = check(type(plan).load(path))
+        if not again.ok():
+            found |= {"status": REJECTED, "message": f"called solved, but the saved plan: {again.worst()}"}
+    return found
+
+
+def _engine(task: Task, scene: Any, robot: Robot) -> Any:
+    """The planner's result."""
+    named: dict[str, Any] = {}
+    for name, value in task.options.items():
+        group, _, part = name.partition(".")
+        if part:
+            named.setdefault(group, {})[part] = value
+        else:
+            named[name] = value
+    if task.engine == "rhp":
+        from mcplan.walking import receding_horizon
+
+        return receding_horizon(scene, robot, None, named, None).walk()
+    from mcplan.solve import plan
+
+    # Sweeps use processes, not threads, and the plan does not depend on the number of threads.
+    return plan(scene, robot, {"threads": 1, **named, "seed": task.seed})
+
+
+@lru_cache(maxsize=8)
+def _robot(source: str) -> Robot:
+    from mcplan.files.robots import load_robot
+
+    return load_robot(source)
+
+
+def _sequence(plan: Plan) -> list[str]:
+    """A text for each phase: "left_foot=ground right_foot=tread_1"; "" in flight."""
+    ends = [end.name for end in plan.robot.end_effectors]
+    names = [surface.name for surface in plan.scene.surfaces]
+    return [
+        " ".join(f"{end}={names[surface]}" for end, surface in zip(ends, row, strict=True) if surface >= 0)
+        for row in plan.contact_sequence()
+    ]
+
+
+def _finite(value: float) -> float | None:
+    return float(value) if abs(value) < float("inf") else None

@@ -1,0 +1,1 @@
+"""What scripts/wheels and scripts/release do: notices and bill of materials of a wheel, and the checklist of a release."""

@@ -1,0 +1,89 @@
+"""Headings in mcplan.replan: estimators wrap them around, plans count turns, and a robot may walk in circles."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+import mcplan as mp
+
+TURN = 2.0 * math.pi
+
+
+def state_at(plan: mp.Plan, t: float) -> tuple[mp.model.Knot, list[int]]:
+    now = plan.at(t)
+    knot = mp.model.Knot(
+        com_W=now.com_W,
+        com_velocity_W=now.com_velocity_W,
+        base_rpy=now.base_rpy,
+        base_rpy_rate=now.base_rpy_rate,
+        angular_momentum_W=now.angular_momentum_W,
+        end_effectors_W=[end.position_W for end in now.end_effectors],
+        end_effector_velocities_W=[end.velocity_W for end in now.end_effectors],
+        end_effector_yaw=[end.yaw for end in now.end_effectors],
+    )
+    return knot, [end.surface for end in now.end_effectors]
+
+
+def turn(knot: mp.model.Knot, by: float) -> None:
+    knot.base_rpy = [*knot.base_rpy[:2], knot.base_rpy[2] + by]
+    knot.end_effector_yaw = [yaw + by for yaw in knot.end_effector_yaw]
+
+
+@pytest.fixture(scope="module")
+def backwards() -> mp.Plan:
+    """A short walk that heads to where headings are wrapped around."""
+    scene = mp.load_scene("flat")
+    start, goal = scene.start, scene.goal
+    start.yaw = goal.yaw = 3.0
+    goal.position_W = [start.position_W[0] - 0.3, *start.position_W[1:]]
+    scene.start, scene.goal = start, goal
+    return mp.plan(scene, "humanoid44", phases=10).plan
+
+
+@pytest.mark.parametrize("turns", [-2, -1, 1, 3])
+@pytest.mark.parametrize("command", [None, (0.1, 0.0, 0.1)])
+def test_a_heading_is_the_same_however_its_turns_are_counted(backwards, turns, command):
+    knot, contacts = state_at(backwards, 1.0)
+    as_planned = mp.replan(backwards, 1.0, knot, contacts=contacts, command=command)
+    turn(knot, turns * TURN)
+    turned = mp.replan(backwards, 1.0, knot, contacts=contacts, command=command)
+    assert as_planned.report.status == turned.report.status == mp.Status.solved
+    for t in (0.0, 0.7, 1.5):
+        was, now = as_planned.plan.at(t), turned.plan.at(t)
+        assert now.com_W == pytest.approx(was.com_W, abs=1e-4)
+        assert math.remainder(now.base_rpy[2] - was.base_rpy[2], TURN) == pytest.approx(0.0, abs=1e-4)
+
+
+def test_soles_may_be_counted_otherwise_than_the_base(backwards):
+    knot, contacts = state_at(backwards, 1.0)
+    knot.end_effector_yaw = [yaw - TURN for yaw in knot.end_effector_yaw]
+    assert mp.replan(backwards, 1.0, knot, contacts=contacts).report.status == mp.Status.solved
+
+
+@pytest.mark.parametrize("wrapped", [True, False])
+@pytest.mark.parametrize("rate", [0.3, -0.3])
+def test_a_robot_turns_on_beyond_half_a_turn(backwards, wrapped, rate):
+    plan = backwards
+    if rate < 0.0:  # the same on the other side: 3.0 rad counted as -3.28
+        knot, contacts = state_at(plan, 0.1)
+        turn(knot, -TURN)
+        plan = mp.replan(plan, 0.1, knot, contacts=contacts, command=(0.0, 0.0, rate)).plan
+    heading = turned = plan.at(0.0).base_rpy[2]
+    for i in range(40 if rate > 0.0 else 90):
+        knot, contacts = state_at(plan, 0.1)
+        if wrapped:
+            turn(knot, math.remainder(knot.base_rpy[2], TURN) - knot.base_rpy[2])
+        result = mp.replan(plan, 0.1, knot, contacts=contacts, command=(0.0, 0.0, rate))
+        assert result.report.status in (mp.Status.solved, mp.Status.acceptable), (i, result.report.message)
+        plan = result.plan
+        turned += math.remainder(plan.at(0.0).base_rpy[2] - turned, TURN)
+    assert (turned - heading) * math.copysign(1.0, rate) > 0.6
+
+
+def test_a_command_to_spin_is_slowed_down(backwards):
+    knot, contacts = state_at(backwards, 1.0)
+    result = mp.replan(backwards, 1.0, knot, contacts=contacts, command=(0.0, 0.0, 50.0))
+    assert "of the velocity command is followed" in result.report.message
+    assert abs(result.plan.scene.goal.yaw) <= TURN

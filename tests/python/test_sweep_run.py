@@ -1,0 +1,165 @@
+"""Sweeps: the same bytes whoever does them, in one go or not, and nothing lost with a worker."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+for package in ("pydantic", "pyarrow", "pandas"):
+    pytest.importorskip(package)
+
+import mcplan as mp  # noqa: E402
+from crashing import crash_on_task_one  # noqa: E402
+from mcplan.cli import main  # noqa: E402
+from mcplan.errors import InvalidSweep  # noqa: E402
+from mcplan.files.sweep_specs import sweep_spec  # noqa: E402
+from mcplan.sweep import How, load_sweep, run  # noqa: E402
+from mcplan.sweep.tasks import share_of, tasks_of  # noqa: E402
+
+SPEC = """name = "small"
+robots = ["humanoid44"]
+[options]
+phases = { grid = [10, 18] }
+max_iterations = 200
+[[scenes]]
+generator = "gap"
+samples = 2
+parameters.width_m = { uniform = [0.1, 0.3] }
+[[scenes]]
+scene = "flat"
+"""
+DATA = {
+    "name": "small",
+    "options": {"max_iterations": 50},
+    "scenes": [{"generator": "gap", "samples": 3, "parameters": {"width_m": {"uniform": [0.1, 0.3]}}}],
+}
+
+
+def content(out: Path) -> dict[str, bytes]:
+    """All files but times, by name."""
+    apart = ("times", "summary")
+    files = [path for path in sorted(out.rglob("*")) if path.is_file()]
+    return {str(p.relative_to(out)): p.read_bytes() for p in files if not str(p.relative_to(out)).startswith(apart)}
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory) -> tuple[Path, Path]:
+    """The file of a sweep and its folder, made by one process."""
+    folder = tmp_path_factory.mktemp("sweep")
+    (folder / "spec.toml").write_text(SPEC)
+    assert main(["sweep", str(folder / "spec.toml"), "--out", str(folder / "one")]) == 0
+    return folder / "spec.toml", folder / "one"
+
+
+def test_shards_part_the_tasks_and_make_the_same_bytes(done, tmp_path):
+    spec, one = done
+    for i in (2, 3, 1):
+        assert main(["sweep", str(spec), "--out", str(tmp_path / "o"), "--shard", f"{i}/3", "--jobs", "2"]) == 0
+        assert (tmp_path / "o/index.parquet").exists() == (i == 1)
+    assert content(tmp_path / "o") == content(one)
+    tasks = tasks_of(sweep_spec(DATA))
+    shares = [share_of(tasks, (i, 2)) for i in (1, 2)]
+    assert sorted(task.index for share in shares for task in share) == [0, 1, 2]
+
+
+def test_a_second_call_does_nothing(done, capsys):
+    spec, one = done
+    before = content(one)
+    assert main(["sweep", str(spec), "--out", str(one), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert (found["ran"], found["left"], found["tasks"]) == (0, 0, 6) and content(one) == before
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGKILL, -9), (signal.SIGINT, 130)])
+def test_what_is_killed_in_the_middle_goes_on_to_the_same_bytes(done, tmp_path, number, code):
+    spec, one = done
+    out = tmp_path / "killed"
+    words = [sys.executable, "-m", "mcplan", "sweep", str(spec), "--out", str(out), "--jobs", "2"]
+    started = subprocess.Popen(
+        words, start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )  # fmt: skip
+    while started.poll() is None and not list(out.glob("records/*/0*.json")):
+        time.sleep(0.01)
+    os.killpg(started.pid, number)
+    told = started.communicate()[1]
+    assert started.returncode == code and told == b""
+    assert not (out / "index.parquet").exists() and not load_sweep(out).complete
+    assert main(["sweep", str(spec), "--out", str(out)]) == 0
+    assert content(out) == content(one)
+
+
+def test_a_task_that_kills_its_workers_is_recorded_by_name_and_can_be_tried_again(tmp_path):
+    spec = sweep_spec(DATA)
+    outcome = run(spec, tmp_path / "o", how=How(jobs=2, attempts=2), function=crash_on_task_one)
+    ((name, message),) = outcome.failed
+    assert name.startswith("task 1: gap width_m=") and message.startswith("crashed: ") and outcome.crashed == 1
+    sweep = load_sweep(tmp_path / "o")
+    assert list(sweep.table.status == "crashed") == [False, True, False]
+    assert "ended by SIGKILL" in sweep.times.crash[1]
+    again = run(spec, tmp_path / "o", how=How(retry_crashed=True))
+    assert (again.ran, again.crashed) == (1, 0)
+
+
+def test_a_table_and_plans_are_loaded_and_solved_means_that_the_checker_accepts(done):
+    sweep = mp.load_sweep(done[1])
+    assert sweep.complete and len(sweep.table) == 6 and sweep.verify() == [] and len(sweep.times) == 6
+    assert (sweep.table.status == "solved").any()
+    for row in sweep.table[sweep.table.status == "solved"].itertuples():
+        assert mp.check(sweep.plans[row.task]).ok() and len(row.contact_sequence) == row.phases
+    assert "solved over width_m" in (done[1] / "summary.html").read_text()
+
+
+def test_a_folder_of_another_sweep_is_refused(done):
+    with pytest.raises(InvalidSweep, match="must be a new folder, or one of the same sweep"):
+        run(sweep_spec(DATA), done[1])
+    with pytest.raises(InvalidSweep, match="must be the folder of a sweep"):
+        load_sweep(done[0].parent)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"sceness": []}, "sceness: no such key. Did you mean 'scenes'? Keys: name, description, engine"),
+        ({"engine": "dpp"}, 'engine: must be one of ddp, rhp, got "dpp"'),
+        ({"seed": -1}, "seed: must be at least 0, got -1"),
+        ({"robots": ["taloss"]}, "robots[0]: no robot 'taloss'"),
+        ({"options": {"phases": "x"}}, 'options.phases: must be of type int, got "x"'),
+        ({"options": {"phases": {"grid": [18, -3]}}}, "options.phases: must"),
+        ({"options": {"seed": 3}}, "options.seed: is said by seeds"),
+        ({"scenes": []}, "scenes: must not be empty"),
+        ({"scenes": [{"generator": "gap", "samples": 0}]}, "scenes[0].samples: must be at least 1, got 0"),
+        ({"scenes": [{"generator": "gaps"}]}, "scenes[0].generator: must be one of gap, random"),
+        ({"scenes": [{"generator": "gap", "parameters": {"width_m": 9.0}}]},
+         "scenes[0].parameters.width_m: must lie in [0, 5], got 9.0"),
+        ({"scenes": [{"generator": "gap", "parameters": {"width_m": {"uniform": [2, 1]}}}]},
+         "scenes[0].parameters.width_m: must have the lower bound first"),
+    ],
+)  # fmt: skip
+def test_errors_name_field_rule_and_value(change, message):
+    with pytest.raises(InvalidSweep) as found:
+        sweep_spec({**DATA, **change}, "s.toml")
+    assert str(found.value).startswith(f"s.toml: {message}")
+
+
+def test_the_schema_that_is_checked_in_is_current():
+    from mcplan.files.builtin import DATA as FILES
+    from mcplan.files.sweep_specs import schema_text
+
+    assert (FILES / "schema/sweep.json").read_text() == schema_text(), "run: python -m mcplan.files.schema"
+
+
+def test_dask_workers_make_the_same_bytes(done, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    spec, one = done
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        words = ["sweep", str(spec), "--out", str(tmp_path / "o"), "--scheduler", cluster.scheduler_address]
+        assert main(words) == 0
+    assert content(tmp_path / "o") == content(one)
