@@ -7,13 +7,11 @@ from typing import Annotated
 
 import typer
 
-<<<<<<< HEAD
-from mcplan.cli import check, demo, motion, plan, rhp, robots, scenes, schema, show, sip, tasks, track, version
-=======
 from mcplan.cli import (
     check,
     demo,
     export,
+    motion,
     plan,
     rhp,
     robots,
@@ -26,7 +24,6 @@ from mcplan.cli import (
     track,
     version,
 )
->>>>>>> main
 from mcplan.errors import MissingExtra
 
 app = typer.Typer(
