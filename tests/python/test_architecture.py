@@ -70,7 +70,7 @@ PYTHON_ROOMS = {
     "model": {"_core", "samples"},
     "arguments": {"_core", "errors"},
     "refusals": {"_core", "errors", "arguments"},
-    "checking": {"_core", "errors", "arguments", "files"},
+    "checking": {"_core", "errors", "arguments", "files", "wb"},
     "files": _GROUND,
     "loading": _GROUND | {"files"},
     "solve": _GROUND | {"files"},
@@ -84,7 +84,7 @@ PYTHON_ROOMS = {
     "tracking": _GROUND | {"files", "kinematics", "wb"},
     "view": _GROUND | {"files", "kinematics", "wb", "tracking"},
     "planar": _GROUND | {"files", "kinematics", "tracking", "view"},
-    "export": _GROUND | {"files", "kinematics", "tracking"},
+    "export": _GROUND | {"files", "kinematics", "wb", "tracking"},
     "showing": _GROUND | _LOOKED_AT,
     "notebooks": {"_core", "errors", "showing"},
     "following": _GROUND | _LOOKED_AT - {"view"},
@@ -94,6 +94,7 @@ PYTHON_ROOMS = {
 }
 # The same inside of rooms; "" is what lies in the room's own folder, except for its __init__, which may import them all.
 INNER_ROOMS = {
+    "wb": {"": {"certificate"}, "certificate": set()},
     "view": {"": set(), "pages": {""}, "pictures": {""}, "plots": {"", "pictures"}, "video": {"", "pictures"}},
     "planar": {"": set(), "tracking": set(), "view": {"tracking"}},
 }

@@ -13,12 +13,15 @@ if TYPE_CHECKING:
     from mcplan._core import CheckResult, Plan, PlanarPlan, Violation
     from mcplan._core.sip import Certificate
     from mcplan.tracking.findings import Feasibility, Finding
+    from mcplan.wb.motion import Motion
 
 #: Of one kind, beside the largest, in the table of --robot; --json has all.
 OTHERS = 3
 
 
-PlanArgument = Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")]
+PlanArgument = Annotated[
+    Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp, sip or motion -o.")
+]
 CertifyOption = Annotated[
     bool,
     typer.Option("--certify", help="Prove the constraints of a whole-body plan at every instant, too."),
@@ -42,9 +45,10 @@ def check(
     robot: RobotOption = None,
     json: JsonOption = False,
 ) -> int:
-    """Check a saved plan against its own scene and robot, or task.
+    """Check a saved plan or motion against its own scene and robot, or task.
 
-    The exit code is 1 if the plan violates a constraint, with --certify also if a constraint is not proved, and with
+    Of a motion everything is worked out again at 1 kHz from its splines and forces, with the robot's URDF. The exit code is
+    1 if a constraint is violated, with --certify also if a constraint is not proved, and with
     --robot also if the robot cannot follow.
 
     Example: mcplan check plan.npz --robot talos
@@ -53,9 +57,13 @@ def check(
     from mcplan._core.sip import certify as prove
     from mcplan.checking import check as run
     from mcplan.errors import InvalidInput
-    from mcplan.files.whole_body_plans import load_any_plan
+    from mcplan.wb.loading import load_any
+    from mcplan.wb.motion import Motion
 
-    saved = load_any_plan(plan)
+    saved = load_any(plan)
+    if isinstance(saved, Motion):
+        _require_none({"--certify": certify, "--self-collision": self_collision, "--robot": robot is not None})
+        return _check_motion(plan, saved, json)
     certificate, feasibility = None, None
     if isinstance(saved, PlanarPlan):
         if robot is not None:
@@ -92,6 +100,30 @@ def check(
             _print_feasibility(feasibility)
     proved, followed = certificate is None or certificate.proved(), feasibility is None or feasibility.ok()
     return 0 if result.ok() and proved and followed else 1
+
+
+def _require_none(given: dict[str, bool]) -> None:
+    """Raises InvalidInput for an option that motions do not take."""
+    from mcplan.errors import InvalidInput
+
+    for option, present in given.items():
+        if present:
+            raise InvalidInput(option, "needs a plan; a motion has its own joints, which are always checked")
+
+
+def _check_motion(path: Path, motion: Motion, json: bool) -> int:
+    from mcplan.cli.motion_text import certificate_lines
+    from mcplan.cli.terminal import printable
+    from mcplan.wb.certificate import certify
+
+    result = certify(motion)
+    if json:
+        carried = {"motion": str(path), "scene": motion.plan.scene.name, "robot": motion.plan.robot.name}
+        print(json_module.dumps({**carried, **result.as_dict()}))
+    else:
+        for line in certificate_lines(str(path), result):
+            print(printable(line))
+    return 0 if result.ok() else 1
 
 
 def _feasibility(plan: Plan, robot: str) -> Feasibility:

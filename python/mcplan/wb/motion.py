@@ -22,6 +22,7 @@ from . import free_flyer, splines
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from .certificate import MotionCheckResult, MotionTolerances
     from .motion_model import MotionModel
 
 #: What a motion's file says that it is, and the version of its format.
@@ -209,6 +210,16 @@ class Motion:
         ratio = (asked - self.times_s[i]) / (self.times_s[i + 1] - self.times_s[i])
         ratio = ratio[:, None, None, None]
         return (1.0 - ratio) * self.corner_forces_S[i] + ratio * self.corner_forces_S[i + 1]
+
+    def check(self, tolerances: MotionTolerances | None = None) -> MotionCheckResult:
+        """Check the motion against its plan, its scene and the limits of its robot; see ``mcplan.wb.certificate``.
+
+        Args:
+            tolerances: What is accepted; None: the published ones.
+        """
+        from .certificate import certify
+
+        return certify(self, tolerances)
 
     def save(self, path: str | Path) -> None:
         """Write the motion to an .npz file, which is complete or not there at all.

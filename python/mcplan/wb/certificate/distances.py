@@ -69,6 +69,38 @@ def self_distance(robot: CertifiedRobot, states: States, tolerances: MotionToler
     return least
 
 
+def distance_curve(robot: CertifiedRobot, states: States, at: NDArray[np.int64]) -> tuple[Array, list[str]]:
+    """Distance of the nearest two links that count at some of the instants [m], and their names.
+
+    Of each pair a lower bound is known: its last distance less what it has moved since, or that of its balls. Pairs are
+    worked out in the order of their bounds until none is below the least.
+    """
+    shapes, pairs = counted(robot, MotionTolerances().self_distance_m)
+    if not pairs:
+        return np.full(len(at), np.inf), [""] * len(at)
+    centers = np.array([_centers(states, shape) for shape in shapes])[:, at]
+    first, second = np.array(pairs).T
+    radii = np.array([shape.radius for shape in shapes])
+    balls = np.linalg.norm(centers[first] - centers[second], axis=2) - (radii[first] + radii[second])[:, None]
+    bounds, last = np.full(len(pairs), -np.inf), np.full(len(pairs), -1)
+    travels: dict[int, Array] = {}
+    least, names = np.full(len(at), np.inf), [""] * len(at)
+    for n, k in enumerate(at.tolist()):
+        lower = balls[:, n].copy()
+        for pair, travel in travels.items():
+            lower[pair] = max(lower[pair], bounds[pair] - (travel[k] - travel[last[pair]]))
+        for pair in np.argsort(lower, kind="stable").tolist():
+            if lower[pair] >= least[n]:
+                break
+            both = (shapes[first[pair]], shapes[second[pair]])
+            if pair not in travels:
+                travels[pair] = _travel(states, both)
+            bounds[pair], last[pair] = distance(states, both, k), k
+            if bounds[pair] < least[n]:
+                least[n], names[n] = bounds[pair], f"{both[0].link} and {both[1].link}"
+    return least, names
+
+
 def _least_of(states: States, pair: tuple[Shape, Shape], gaps: Array, least: MotionViolation) -> MotionViolation:
     """The least distance so far, or that of a pair at some instant."""
     target = _target(least)
