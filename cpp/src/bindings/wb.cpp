@@ -1,6 +1,7 @@
 #include <pybind11/functional.h>
 
 #include <limits>
+#include <optional>
 
 #include "bindings.hpp"
 #include "mcplan/nlp/solver.hpp"
@@ -129,7 +130,7 @@ void bind_problem(py::module_& m) {
 
 wb::Solution solve(wb::Solver& self, const VectorXd& start, int max_iterations, double time_limit_s,
                    double constraint_tolerance, double cost_tolerance, double tolerance, double initial_barrier,
-                   const std::function<void(std::string)>& log) {
+                   const std::optional<std::function<void(std::string)>>& log) {
   wb::Options options;
   options.max_iterations = max_iterations;
   options.time_limit_s = time_limit_s;
@@ -137,7 +138,7 @@ wb::Solution solve(wb::Solver& self, const VectorXd& start, int max_iterations, 
   options.cost_tolerance = cost_tolerance;
   options.tolerance = tolerance;
   options.initial_barrier = initial_barrier;
-  if (log) options.logger = [&log](LogLevel, const std::string& line) { log(line); };
+  if (log) options.logger = [&log](LogLevel, const std::string& line) { (*log)(line); };
   const Alone alone(&self, "solve");
   return interruptible([&] { return self.solve(start, watched(options)); });
 }

@@ -38,7 +38,7 @@ def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array)
     problem.weight_N = mass * plan.scene.gravity
     wrenches = ramped(nodes, planned_wrenches_S(nodes) * (mass / plan.robot.mass))
     samples = nodes.samples
-    touches = (nodes.contacts >= 0).any(axis=0)
+    touches = np.asarray((nodes.contacts >= 0).any(axis=0))
     ground = Ground(plan)
     points = {id(interval): points_S(plan, interval) for interval in samples.intervals}
     for k in range(nodes.count):
