@@ -9,11 +9,12 @@
     mp.check(result.plan, scene, robot).raise_if_violated()
     result.plan.save("plan.npz")
     mp.show(result.plan, scene, robot).save_html("plan.html")
+    motion = mp.motion(mp.plan("flat", "talos").plan).motion
 
 Verbs, engines and what they are about are here; ``mcplan.model`` has what scenes, robots and plans are made of,
 ``mcplan.errors`` each error. The engines ``ddp``, ``rhp`` and ``sip`` have their options, a solve and its result: ``plan`` is
-``ddp.plan``, ``walk`` is ``rhp.walk``, ``whole_body`` is ``sip.plan``. ``mcplan.ipm`` is the solver behind them, for problems
-of one's own.
+``ddp.plan``, ``walk`` is ``rhp.walk``, ``whole_body`` is ``sip.plan``; ``mcplan.wb`` has motions of robots in space.
+``mcplan.ipm`` is the solver behind them, for problems of one's own.
 
 Importing this loads NumPy and nothing heavier; the rest comes when first used.
 """
@@ -56,6 +57,8 @@ from mcplan.sip import whole_body
 from mcplan.sweep.results import load_sweep
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     # Names that lived here until 0.1.
     from mcplan.errors import InvalidArgument as InvalidArgument
     from mcplan.errors import InvalidOptions as InvalidOptions
@@ -81,6 +84,7 @@ if TYPE_CHECKING:
     from mcplan.planar.tracking import PlanarResult
     from mcplan.rhp import Walk as Walk
     from mcplan.tracking import TrackingResult
+    from mcplan.wb.result import MotionResult
 
     PlanarMotion, WholeBodyPlan, WholeBodyTolerances = PlanarTask, PlanarPlan, PlanarTolerances
     PlanResult = ddp.Result
@@ -110,6 +114,7 @@ __all__ = [
     "load_robot",
     "load_scene",
     "load_sweep",
+    "motion",
     "plan",
     "receding_horizon",
     "replan",
@@ -143,6 +148,42 @@ if not TYPE_CHECKING:
 
     def __dir__() -> list[str]:
         return __all__
+
+
+def motion(plan: Plan | str | Path, joints: str | Sequence[str] = "default", **options: Any) -> MotionResult:
+    """Find a whole-body motion along a plan: positions and torques of all joints, and contact forces.
+
+        result = mp.motion("plan.npz")
+        print(result.report)
+        result.motion.check().raise_if_violated()
+        result.motion.save("motion.npz")
+
+    A motion that is not found is a status, not an exception. Ctrl-C ends the search with Interrupted, which carries the result.
+
+    Args:
+        plan: A plan of ddp or rhp whose robot has a URDF, or the path of one.
+        joints: Those that move: "default" (all but grippers, fingers and head), "all", "legs", or names, with commas
+            between or as a list. The others are held at the robot's posture.
+        **options: ``node_s``, the largest time between nodes [s] (0.025); ``max_iterations`` (60); ``time_limit_s``;
+            ``start``, "follow" (inverse kinematics along the plan) or "stand" (standing still); ``tolerances``,
+            ``wb.MotionTolerances`` of the certificate.
+
+    Returns:
+        ``motion``, ``status``, ``report`` and ``certificate``. The status is "solved" if and only if the certificate, which
+        works everything out again at 1 kHz, finds no violation; ``torque_infeasible``, ``speed_infeasible`` and
+        ``reach_infeasible`` come with a ``shortfall`` that names joint, time and factor.
+
+    Raises:
+        InvalidArgument: An argument is of another type.
+        InvalidOptions: A value is out of range.
+        InvalidInput: No such joint.
+        InvalidPlan: The file is no plan.
+        InvalidRobot: The robot has no URDF, or it cannot be read.
+        MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
+    """
+    from mcplan.wb.solve import motion as solve
+
+    return solve(plan, joints=joints, **options)
 
 
 def track(
