@@ -24,6 +24,7 @@ from __future__ import annotations
 from mcplan import starting as _starting  # noqa: F401  first: Ctrl-C while the command loads
 
 # isort: split
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -84,8 +85,7 @@ if TYPE_CHECKING:
     from mcplan.planar.tracking import PlanarResult
     from mcplan.rhp import Walk as Walk
     from mcplan.tracking import TrackingResult
-    from mcplan.wb.motion import Motion
-    from mcplan.wb.result import MotionResult
+    from mcplan.wb import Motion, MotionResult, MotionTolerances
 
     PlanarMotion, WholeBodyPlan, WholeBodyTolerances = PlanarTask, PlanarPlan, PlanarTolerances
     PlanResult = ddp.Result
@@ -151,40 +151,62 @@ if not TYPE_CHECKING:
         return __all__
 
 
-def motion(plan: Plan | str | Path, joints: str | Sequence[str] = "default", **options: Any) -> MotionResult:
-    """Find a whole-body motion along a plan: positions and torques of all joints, and contact forces.
+def motion(
+    plan: Plan | str | Path,
+    *,
+    joints: str | Sequence[str] = "default",
+    node_s: float = 0.025,
+    max_iterations: int = 60,
+    time_limit_s: float = float("inf"),
+    start: str = "follow",
+    tolerances: MotionTolerances | None = None,
+) -> MotionResult:
+    """Find joints, torques and contact forces with which a robot carries out a plan of contacts and CoM.
 
         result = mp.motion("plan.npz")
-        print(result.report)
-        result.motion.check().raise_if_violated()
-        result.motion.save("motion.npz")
+        print(result.report)  # solved after 2.9 s, 10 iterations
+        state = result.motion.at(0.5)  # q, v, a, tau, contact wrenches
 
-    A motion that is not found is a status, not an exception. Ctrl-C ends the search with Interrupted, which carries the result.
+    One interior-point solve: splines of base and joints, forces at the corners of soles, equations of motion, limits of
+    positions, speeds and torques, soles over the ground, all near the plan. The status is `solved` only if the certificate
+    holds, which works out all of it again at a thousand instants a second. Ctrl-C ends the solve with Interrupted, which
+    carries the result.
 
     Args:
-        plan: A plan of ddp or rhp whose robot has a URDF, or the path of one.
-        joints: Those that move: "default" (all but grippers, fingers and head), "all", "legs", or names, with commas
-            between or as a list. The others are held at the robot's posture.
-        **options: ``node_s``, the largest time between nodes [s] (0.025); ``max_iterations`` (60); ``time_limit_s``;
-            ``start``, "follow" (inverse kinematics along the plan) or "stand" (standing still); ``tolerances``,
-            ``wb.MotionTolerances`` of the certificate.
+        plan: A plan of a robot with a URDF, or the path of one.
+        joints: Those that move: "default" (all but grippers, fingers and head), "all", "legs", or names.
+        node_s: Time between two nodes, at most [s].
+        max_iterations: Of the interior-point method.
+        time_limit_s: Wall clock, without the certificate [s].
+        start: "follow": from postures along the plan by inverse kinematics; "stand": from the robot standing still.
+        tolerances: Of the certificate; None: its own.
 
     Returns:
-        ``motion``, ``status``, ``report`` and ``certificate``. The status is "solved" if and only if the certificate, which
-        works everything out again at 1 kHz, finds no violation; ``torque_infeasible``, ``speed_infeasible`` and
-        ``reach_infeasible`` come with a ``shortfall`` that names joint, time and factor.
+        A ``mcplan.wb.MotionResult`` with ``motion``, ``report`` and ``certificate``. Where the robot lacks torque, speed or
+        reach, the status says so and ``report.shortfall`` names joint, time and factor.
 
     Raises:
         InvalidArgument: An argument is of another type.
-        InvalidOptions: A value is out of range.
+        InvalidOptions: An option is out of its range.
         InvalidInput: No such joint.
         InvalidPlan: The file is no plan.
         InvalidRobot: The robot has no URDF, or it cannot be read.
         MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
     """
-    from mcplan.wb.solve import motion as solve
+    from mcplan.extras import require
 
-    return solve(plan, joints=joints, **options)
+    require("mcplan.motion", "view", "pinocchio", "scipy")
+    from mcplan.wb.solve import motion as find
+
+    return find(
+        plan,
+        joints=joints,
+        node_s=node_s,
+        max_iterations=max_iterations,
+        time_limit_s=time_limit_s,
+        start=start,
+        tolerances=tolerances,
+    )
 
 
 def track(

@@ -1,6 +1,7 @@
 #include <pybind11/functional.h>
 
 #include <limits>
+#include <optional>
 
 #include "bindings.hpp"
 #include "mcplan/nlp/solver.hpp"
@@ -106,12 +107,13 @@ void bind_problem(py::module_& m) {
       py::arg("rotation_W"), py::arg("wrench_S"), py::arg("points_S"), "To the node that was added last.");
   c.def(
       "add_swing",
-      [](wb::Problem& self, int end_effector, const Vector3d& position_W, const Matrix3d& rotation_W, bool in_tube,
-         const Vector3d& tube_min_W, const Vector3d& tube_max_W) {
-        last_node(self).swings.push_back({end_effector, position_W, rotation_W, in_tube, tube_min_W, tube_max_W});
+      [](wb::Problem& self, int end_effector, const Vector3d& position_W, const Matrix3d& rotation_W, double weight,
+         bool in_tube, const Vector3d& tube_min_W, const Vector3d& tube_max_W) {
+        last_node(self).swings.push_back(
+            {end_effector, position_W, rotation_W, weight, in_tube, tube_min_W, tube_max_W});
       },
-      py::arg("end_effector"), py::arg("position_W"), py::arg("rotation_W"), py::arg("in_tube"), py::arg("tube_min_W"),
-      py::arg("tube_max_W"), "To the node that was added last.");
+      py::arg("end_effector"), py::arg("position_W"), py::arg("rotation_W"), py::arg("weight"), py::arg("in_tube"),
+      py::arg("tube_min_W"), py::arg("tube_max_W"), "To the node that was added last.");
   c.def(
       "add_capsule",
       [](wb::Problem& self, int link, const Vector3d& start, const Vector3d& end, double radius) {
@@ -128,7 +130,7 @@ void bind_problem(py::module_& m) {
 
 wb::Solution solve(wb::Solver& self, const VectorXd& start, int max_iterations, double time_limit_s,
                    double constraint_tolerance, double cost_tolerance, double tolerance, double initial_barrier,
-                   const std::function<void(std::string)>& log) {
+                   const std::optional<std::function<void(std::string)>>& log) {
   wb::Options options;
   options.max_iterations = max_iterations;
   options.time_limit_s = time_limit_s;
@@ -136,7 +138,7 @@ wb::Solution solve(wb::Solver& self, const VectorXd& start, int max_iterations, 
   options.cost_tolerance = cost_tolerance;
   options.tolerance = tolerance;
   options.initial_barrier = initial_barrier;
-  if (log) options.logger = [&log](LogLevel, const std::string& line) { log(line); };
+  if (log) options.logger = [&log](LogLevel, const std::string& line) { (*log)(line); };
   const Alone alone(&self, "solve");
   return interruptible([&] { return self.solve(start, watched(options)); });
 }

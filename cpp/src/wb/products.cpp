@@ -47,8 +47,8 @@ NodeVector Products::cost_weights_of(int k) const {
   int row = at.poses + at.tubes + at.pairs;
   for (const Swing& swing : problem_.nodes[k].swings) {
     const int count = pose_rows(problem_.end_effectors[swing.end_effector]);
-    out.placed.segment(row, count).setConstant(weight * w.swing_rotation);
-    out.placed.segment<3>(row).setConstant(weight * w.swing);
+    out.placed.segment(row, count).setConstant(weight * swing.weight * w.swing_rotation);
+    out.placed.segment<3>(row).setConstant(weight * swing.weight * w.swing);
     row += count;
   }
   out.placed.segment<3>(row).setConstant(weight * w.com);

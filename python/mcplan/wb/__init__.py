@@ -2,12 +2,17 @@
 
 from .certificate import MotionCheckResult, MotionTolerances, MotionViolation
 from .motion import Motion, MotionSamples, MotionState
+from .result import MotionReport, MotionResult, MotionStatus, Shortfall
 
 __all__ = [
     "Motion",
     "MotionCheckResult",
+    "MotionReport",
+    "MotionResult",
     "MotionSamples",
     "MotionState",
+    "MotionStatus",
     "MotionTolerances",
     "MotionViolation",
+    "Shortfall",
 ]

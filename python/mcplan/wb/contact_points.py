@@ -22,20 +22,19 @@ CORNER_RATIO, SOLVED_RATIO = 0.9, 0.88
 EDGE_M = 2e-3
 
 
-def corners_S(end: EndEffector) -> Array:
-    """(4, 3) where a motion's forces act on an end-effector, in the frame of its sole [m]; (1, 3) without a sole."""
+def corners_S(end: EndEffector, ratio: float = CORNER_RATIO) -> Array:
+    """(4, 3) corners of a part of a sole, in its frame [m]: of that on which a motion's forces act; (1, 3) without a sole."""
     if not has_sole(end):
         return np.zeros((1, 3))
-    x, y = CORNER_RATIO * np.asarray(end.half_size, float)
+    x, y = ratio * np.asarray(end.half_size, float)
     return np.array([[x, y, 0.0], [x, -y, 0.0], [-x, -y, 0.0], [-x, y, 0.0]])
 
 
 def points_S(plan: Plan, interval: Interval) -> Array:
     """Where the solver lets forces of a contact act: corners of the sole, moved inwards onto the surface."""
-    corners = corners_S(plan.robot.end_effectors[interval.end_effector])
+    corners = corners_S(plan.robot.end_effectors[interval.end_effector], SOLVED_RATIO)
     if len(corners) == 1:
         return corners
-    corners *= SOLVED_RATIO / CORNER_RATIO
     vertices = np.asarray(plan.scene.surfaces[interval.surface].vertices_W, float)
     polygon = ((vertices - interval.position_W) @ interval.rotation_W)[:, :2]
     area = np.roll(polygon, -1, axis=0)

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan._core import wb as _core
-from mcplan.kinematics.rotations import polygon_normal
 
 from .contact_points import corners_S, points_S
 from .dynamics import SplineModel, add_links
+from .ground import Ground
 from .nodes import SAME_S
 
 if TYPE_CHECKING:
@@ -25,8 +25,6 @@ Array = NDArray[np.float64]
 RAMP_S = 0.06
 #: Of the friction that the scene has.
 FRICTION_RATIO = 0.98
-#: How far points of an end-effector in the air may be below the plan's, above, and beside them [m].
-DOWN_M, UP_M, ASIDE_M = 0.004, 0.1, 0.02
 
 
 def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array) -> _core.Problem:
@@ -34,13 +32,14 @@ def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array)
     problem = _core.Problem()
     add_links(problem, spline)
     for end, joint, placement in zip(plan.robot.end_effectors, spline.joints, spline.placements, strict=True):
-        problem.add_end_effector(end.name, joint - 1, placement.rotation, placement.translation, corners_S(end))
+        problem.add_end_effector(end.name, joint - 1, placement.rotation, placement.translation, corners_S(end, 1.0))
     problem.posture = posture
     mass = sum(inertia.mass for inertia in spline.model.inertias)
     problem.weight_N = mass * plan.scene.gravity
     wrenches = ramped(nodes, planned_wrenches_S(nodes) * (mass / plan.robot.mass))
     samples = nodes.samples
-    touches = (nodes.contacts >= 0).any(axis=0)
+    touches = np.asarray((nodes.contacts >= 0).any(axis=0))
+    ground = Ground(plan)
     points = {id(interval): points_S(plan, interval) for interval in samples.intervals}
     for k in range(nodes.count):
         problem.add_node(float(samples.times_s[k]), samples.com_W[k], nodes.base_zyx[k])
@@ -53,9 +52,10 @@ def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array)
                 problem.add_contact(end, nodes.carries(k, end), rests, friction, *pose, wrenches[k, end], own)
             elif touches[end]:
                 foot = plan.robot.end_effectors[end].kind == "foot"
-                low, high = tube_W(plan, nodes, k, end)
+                low, high = ground.tube_W(plan, nodes, k, end)
                 in_tube = foot and not nodes.flies(k)
-                problem.add_swing(end, samples.positions_W[k, end], samples.rotations_W[k, end], in_tube, low, high)
+                pose, weight = (nodes.swings_W[k, end], samples.rotations_W[k, end]), nodes.middle(k, end)
+                problem.add_swing(end, *pose, weight, in_tube, low, high)
     return problem
 
 
@@ -81,20 +81,3 @@ def ramped(nodes: Nodes, wrenches_S: Array) -> Array:
             ramp = np.minimum(ramp, (interval.end_s - times) / RAMP_S)
         out[inside, end] *= np.clip(ramp[inside], 0.0, 1.0)[:, None]
     return out
-
-
-def tube_W(plan: Plan, nodes: Nodes, k: int, end: int) -> tuple[Array, Array]:
-    """How far the points of an end-effector in the air may be from where the plan has them, at least and at most [m].
-
-    Near the ground that it leaves or comes to, less far down: half of its height above that.
-    """
-    position = nodes.samples.positions_W[k, end]
-    before = [nodes.intervals[i][end] for i in range(k) if nodes.intervals[i][end] is not None][-1:]
-    after = next((nodes.intervals[i][end] for i in range(k, nodes.count) if nodes.intervals[i][end] is not None), None)
-    heights = []
-    for interval in (*before, after):
-        if interval is not None:
-            normal = polygon_normal(np.asarray(plan.scene.surfaces[interval.surface].vertices_W))
-            heights.append(abs(float(normal @ (position - interval.position_W))))
-    down = min(DOWN_M, 0.5 * min(heights, default=2.0 * DOWN_M))
-    return np.array([-ASIDE_M, -ASIDE_M, -down]), np.array([ASIDE_M, ASIDE_M, UP_M])

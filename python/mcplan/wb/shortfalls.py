@@ -34,7 +34,7 @@ def limits_exceeded(usage: Array, nodes: Nodes, motion: Motion) -> Shortfall | N
     joints = len(motion.joints)
     for what, first in (("torque", 2 * joints), ("speed", joints)):
         used = usage[:, first : first + joints]
-        k, joint = np.unravel_index(int(np.argmax(used)), used.shape)
+        k, joint = divmod(int(np.argmax(used)), joints)
         if used[k, joint] > 1.0 + SMALL_RATIO:
             return Shortfall(what, motion.joints[joint], float(nodes.times_s[k]), float(used[k, joint]))
     beyond = usage[:, 3 * joints :]

@@ -60,7 +60,7 @@ def motion(
     began = time.perf_counter()
     plan = _plan_of(plan)
     _require_options(node_s, max_iterations, time_limit_s, start)
-    require("mcplan.motion", "sim", "pinocchio", "scipy")
+    require("mcplan.motion", "view", "pinocchio", "scipy")
     search = _Search.of(plan, joints, node_s)
     x = search.start(start)
     started = time.perf_counter()
@@ -165,7 +165,7 @@ class _Search:
 
     def motion(self, x: Array) -> Motion:
         """The motion of the solver's unknowns, forces moved to the corners of soles."""
-        ends, count = self.plan.robot.end_effectors, self.nodes.count
+        ends, nodes, count = self.plan.robot.end_effectors, self.nodes, self.nodes.count
         points = [corners_S(end) for end in ends]
         forces = np.zeros((count, len(ends), CORNERS, 3))
         given = np.asarray(self.solver.forces(x)).reshape(count, -1, 3)
@@ -173,8 +173,10 @@ class _Search:
         for end, own in enumerate(points):
             parts = given[:, first : first + len(own)]
             first += len(own)
-            for interval in {id(at[end]): at[end] for at in self.nodes.intervals if at[end] is not None}.values():
-                inside = np.array([at[end] is interval for at in self.nodes.intervals])
+            for interval in nodes.samples.intervals:
+                if interval.end_effector != end:
+                    continue
+                inside = np.array([at[end] is interval for at in nodes.intervals])
                 to = to_corners(points_S(self.plan, interval), own)
                 forces[inside, end, : len(own)] = np.einsum("cp,kpj->kcj", to, parts[inside])
         return Motion(

@@ -51,7 +51,7 @@ def posture(motion_model: MotionModel) -> Array:
 
 def _coarse(nodes: Nodes) -> Array:
     """Some of the nodes: where contacts change, and between those in equal numbers of steps of about POSTURE_S."""
-    change = (nodes.first | nodes.last).any(axis=1)
+    change = np.asarray((nodes.first | nodes.last).any(axis=1))
     change[[0, -1]] = True
     kept = [0]
     for k in np.flatnonzero(change)[1:]:

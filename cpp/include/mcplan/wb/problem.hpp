@@ -49,6 +49,7 @@ struct Swing {
   int end_effector = 0;
   Eigen::Vector3d position_W = Eigen::Vector3d::Zero();
   Eigen::Matrix3d rotation_W = Eigen::Matrix3d::Identity();
+  double weight = 1.0;   ///< of the costs of its position and rotation, beside Weights
   bool in_tube = false;  ///< its points keep within these distances of where the plan has them [m]
   Eigen::Vector3d tube_min_W = Eigen::Vector3d::Zero(), tube_max_W = Eigen::Vector3d::Zero();
 };
