@@ -66,9 +66,8 @@ def motion_references(motion: Motion, dt_s: float, hold_s: float) -> tuple[Refer
         returns=returns,
     )
     configurations = motion.model.complete_configurations(samples.q)
-    joints = JointReferences(
-        configurations[:, 7:], _of_all_joints(motion, samples.v), _of_all_joints(motion, samples.a)
-    )
+    rates, accelerations = (motion.model.complete_velocities(each)[:, 6:] for each in (samples.v, samples.a))
+    joints = JointReferences(configurations[:, 7:], rates, accelerations)
     return desired, joints, configurations[[0, -1]]
 
 
@@ -107,12 +106,3 @@ def _moving(motion: Motion, samples: MotionSamples) -> dict[str, Array]:
             found["velocities_W"][n, end] = pin.getFrameVelocity(model, data, frame, axes).vector
             found["accelerations_W"][n, end] = pin.getFrameClassicalAcceleration(model, data, frame, axes).vector
     return found
-
-
-def _of_all_joints(motion: Motion, rates: Array) -> Array:
-    """(n, nj) of all the robot's joints: zero for those that are locked."""
-    whole = motion.model.complete.model
-    full = np.zeros((len(rates), whole.nv - 6))
-    for column, name in enumerate(motion.joints):
-        full[:, whole.idx_vs[whole.getJointId(name)] - 6] = rates[:, 6 + column]
-    return full
