@@ -9,11 +9,12 @@
     mp.check(result.plan, scene, robot).raise_if_violated()
     result.plan.save("plan.npz")
     mp.show(result.plan, scene, robot).save_html("plan.html")
+    motion = mp.motion(mp.plan("flat", "talos").plan).motion
 
 Verbs, engines and what they are about are here; ``mcplan.model`` has what scenes, robots and plans are made of,
 ``mcplan.errors`` each error. The engines ``ddp``, ``rhp`` and ``sip`` have their options, a solve and its result: ``plan`` is
-``ddp.plan``, ``walk`` is ``rhp.walk``, ``whole_body`` is ``sip.plan``. ``mcplan.ipm`` is the solver behind them, for problems
-of one's own.
+``ddp.plan``, ``walk`` is ``rhp.walk``, ``whole_body`` is ``sip.plan``; ``mcplan.wb`` has motions of robots in space.
+``mcplan.ipm`` is the solver behind them, for problems of one's own.
 
 Importing this loads NumPy and nothing heavier; the rest comes when first used.
 """
@@ -57,6 +58,8 @@ from mcplan.sip import whole_body
 from mcplan.sweep.results import load_sweep
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     # Names that lived here until 0.1.
     from mcplan.errors import InvalidArgument as InvalidArgument
     from mcplan.errors import InvalidOptions as InvalidOptions
@@ -82,7 +85,7 @@ if TYPE_CHECKING:
     from mcplan.planar.tracking import PlanarResult
     from mcplan.rhp import Walk as Walk
     from mcplan.tracking import TrackingResult
-    from mcplan.wb import MotionResult, MotionTolerances
+    from mcplan.wb import Motion, MotionResult, MotionTolerances
 
     PlanarMotion, WholeBodyPlan, WholeBodyTolerances = PlanarTask, PlanarPlan, PlanarTolerances
     PlanResult = ddp.Result
@@ -207,11 +210,11 @@ def motion(
 
 
 def track(
-    plan: Plan | PlanarPlan | str | Path,
+    plan: Plan | PlanarPlan | Motion | str | Path,
     robot: Robot | str | Path | None = None,
     **options: Any,
 ) -> TrackingResult | PlanarResult:
-    """Track a plan with a simulated robot: torques alone move it, within their limits.
+    """Track a plan or a motion with a simulated robot: torques alone move it, within their limits.
 
         result = mp.track("plan.npz", "talos", mass_scale=1.1, pushes=[(40.0, 0.2, 3.0, 90.0)])
         print(result)  # a report; result.measures has the numbers, result.recording what the robot did
@@ -220,9 +223,10 @@ def track(
     A fall ends the run and is a result, not an exception. Ctrl-C ends it with Interrupted, which carries the result.
 
     Args:
-        plan: A plan of any planner, or the path of one.
+        plan: A plan of any planner, a motion, or the path of either. Of a motion all joints are tracked, with their
+            velocities and accelerations, and errors are those from the motion, not from its plan.
         robot: A robot with a URDF and the plan's end-effectors by name, or what load_robot takes. None: the plan's own.
-            A whole-body plan has its planar robot and takes no other.
+            A whole-body plan has its planar robot, a motion its joints; they take no other.
         **options: Fields of ``mcplan.tracking.Options``: ``assist``, ``mass_scale``, ``friction_scale``,
             ``ground_shift_m``, ``seed``, ``hold_s``; ``pushes``, each as ``mcplan.tracking.Push`` or as size [N],
             duration [s], time [s] and direction [deg] (0 forward, 90 to the left).

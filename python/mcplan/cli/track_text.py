@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from mcplan.planar.tracking import PlanarResult, Suitability
     from mcplan.tracking import TrackingResult
     from mcplan.tracking.findings import Feasibility
+    from mcplan.wb import MotionCheckResult
 
 #: [s] between two states of the line: in a terminal, where it is written over, and in a file.
 _TERMINAL_S, _FILE_S = 0.1, 5.0
@@ -74,7 +75,9 @@ class Progress:
 
 
 def summary(
-    result: TrackingResult | PlanarResult, plan: Path, feasibility: Feasibility | Suitability | None
+    result: TrackingResult | PlanarResult,
+    plan: Path,
+    feasibility: Feasibility | Suitability | MotionCheckResult | None,
 ) -> dict[str, Any]:
     """What ``--json`` prints: the same keys for every plan, null where a measure makes no sense, and for whole-body plans
     their own measures besides."""

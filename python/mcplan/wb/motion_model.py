@@ -69,6 +69,16 @@ class MotionModel:
             full[:, to : to + size] = q[:, at : at + size]
         return full
 
+    def complete_velocities(self, v: Array) -> Array:
+        """Velocities or accelerations (k, nv) of the complete model, zero where joints are locked."""
+        whole = self.complete.model
+        full = np.zeros((len(v), whole.nv))
+        full[:, :6] = v[:, :6]
+        for joint in range(2, self.model.njoints):
+            to = whole.idx_vs[whole.getJointId(self.model.names[joint])]
+            full[:, to] = v[:, self.model.idx_vs[joint]]
+        return full
+
 
 def motion_model(plan: Plan, urdf: str, joints: Sequence[str], locked: Mapping[str, float]) -> MotionModel:
     """The model of a motion.
