@@ -9,11 +9,12 @@
     mp.check(result.plan, scene, robot).raise_if_violated()
     result.plan.save("plan.npz")
     mp.show(result.plan, scene, robot).save_html("plan.html")
+    motion = mp.motion(mp.plan("flat", "talos").plan).motion
 
 Verbs, engines and what they are about are here; ``mcplan.model`` has what scenes, robots and plans are made of,
 ``mcplan.errors`` each error. The engines ``ddp``, ``rhp`` and ``sip`` have their options, a solve and its result: ``plan`` is
-``ddp.plan``, ``walk`` is ``rhp.walk``, ``whole_body`` is ``sip.plan``. ``mcplan.ipm`` is the solver behind them, for problems
-of one's own.
+``ddp.plan``, ``walk`` is ``rhp.walk``, ``whole_body`` is ``sip.plan``; ``mcplan.wb`` has motions of robots in space.
+``mcplan.ipm`` is the solver behind them, for problems of one's own.
 
 Importing this loads NumPy and nothing heavier; the rest comes when first used.
 """

@@ -45,11 +45,10 @@ def check(
     robot: RobotOption = None,
     json: JsonOption = False,
 ) -> int:
-    """Check a saved plan or motion against its own scene and robot, or task.
+    """Check a saved plan or motion.
 
-    Of a motion everything is worked out again at 1 kHz from its splines and forces, with the robot's URDF. The exit code is
-    1 if a constraint is violated, with --certify also if a constraint is not proved, and with
-    --robot also if the robot cannot follow.
+    Of a motion everything is worked out again at 1 kHz with the robot's URDF. The exit code is 1 if a constraint is violated,
+    with --certify also if a constraint is not proved, and with --robot also if the robot cannot follow.
 
     Example: mcplan check plan.npz --robot talos
     """
@@ -62,14 +61,12 @@ def check(
 
     saved = load_any(plan)
     if isinstance(saved, Motion):
-        _require_none({"--certify": certify, "--self-collision": self_collision, "--robot": robot is not None})
-        return _check_motion(plan, saved, json)
+        given = {"--certify": certify, "--self-collision": self_collision, "--robot": robot is not None}
+        return _check_motion(plan, saved, given, json)
     certificate, feasibility = None, None
     if isinstance(saved, PlanarPlan):
         if robot is not None:
-            raise InvalidInput(
-                "--robot", "needs a plan of mcplan plan or mcplan rhp; a whole-body plan has its own joints"
-            )
+            raise InvalidInput("--robot", "needs a plan of mcplan plan or rhp; a whole-body plan has its own joints")
         result = run(saved, self_collision=self_collision)
         if certify:
             certificate = prove(saved, self_collision=self_collision)
@@ -102,20 +99,17 @@ def check(
     return 0 if result.ok() and proved and followed else 1
 
 
-def _require_none(given: dict[str, bool]) -> None:
-    """Raises InvalidInput for an option that motions do not take."""
+def _check_motion(path: Path, motion: Motion, given: dict[str, bool], json: bool) -> int:
+    """Certify a motion; raises InvalidInput for options that motions do not take."""
+    from mcplan.cli.motion_text import certificate_lines, certificate_rows
+    from mcplan.cli.table import print_table
+    from mcplan.cli.terminal import printable
     from mcplan.errors import InvalidInput
+    from mcplan.wb.certificate import certify
 
     for option, present in given.items():
         if present:
-            raise InvalidInput(option, "needs a plan; a motion has its own joints, which are always checked")
-
-
-def _check_motion(path: Path, motion: Motion, json: bool) -> int:
-    from mcplan.cli.motion_text import certificate_lines
-    from mcplan.cli.terminal import printable
-    from mcplan.wb.certificate import certify
-
+            raise InvalidInput(option, "needs a plan; of a motion all that is known is checked")
     result = certify(motion)
     if json:
         carried = {"motion": str(path), "scene": motion.plan.scene.name, "robot": motion.plan.robot.name}
@@ -123,6 +117,9 @@ def _check_motion(path: Path, motion: Motion, json: bool) -> int:
     else:
         for line in certificate_lines(str(path), result):
             print(printable(line))
+        print()
+        head = ("constraint", "worst", "limit", "", "at", "where")
+        print_table(certificate_rows(result), head)
     return 0 if result.ok() else 1
 
 

@@ -5,8 +5,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from mcplan.wb.certificate.result import RATIO
+
 if TYPE_CHECKING:
-    from mcplan.wb import Motion, MotionCheckResult
+    from mcplan.wb import MotionCheckResult
+    from mcplan.wb.result import MotionResult
 
 #: Measures that ``mcplan motion --json`` says beside status, time and iterations.
 MEASURES = (
@@ -32,6 +35,19 @@ def certificate_lines(name: str, result: MotionCheckResult) -> list[str]:
     return [*lines, *(f"note: {note}" for note in result.notes), measures_line(result)]
 
 
+def certificate_rows(result: MotionCheckResult) -> list[list[str]]:
+    """A row for each constraint: its name, the worst value, the limit, when and where, and what is to be said of it."""
+    rows = []
+    for constraint in result.constraints:
+        unit = "" if constraint.unit == RATIO else constraint.unit
+        limit = f"{'>=' if constraint.at_least else '<='} {constraint.limit:.3g} {unit}".rstrip()
+        value = f"{constraint.value:.3g} {unit}".rstrip()
+        when = f"{constraint.time_s:.3f} s" if constraint.where or constraint.time_s > 0.0 else ""
+        verdict = "VIOLATED" if constraint.violated else "ok"
+        rows.append([constraint.name, value, limit, verdict, when, constraint.where])
+    return rows
+
+
 def measures_line(result: MotionCheckResult) -> str:
     """The main measures in a line."""
     m = result.measures
@@ -44,19 +60,53 @@ def measures_line(result: MotionCheckResult) -> str:
     )
 
 
-def motion_summary(motion: Motion, result: MotionCheckResult) -> dict[str, Any]:
-    """Measures of a motion and its worst place, for JSON; what is not known is None."""
-    worst = result.worst()
-    found = {name: _finite(result.measures[name]) for name in MEASURES}
-    place = {"name": worst.name, "joint": worst.joint, "end_effector": worst.end_effector, "links": list(worst.links)}
+def report_lines(result: MotionResult) -> list[str]:
+    """How a search for a motion ended, and what the certificate found, in lines."""
+    motion = result.motion
+    head = f"{motion.plan.scene.name}  {motion.plan.robot.name}  {result.report}"
+    length = f"motion of {motion.duration():.2f} s, {len(motion.joints)} joints"
+    return [head, *(certificate_lines(length, result.certificate) if result.certificate is not None else [])]
+
+
+def summary(result: MotionResult) -> dict[str, Any]:
+    """A search for a motion for JSON; what is not known is None."""
+    report, motion, found = result.report, result.motion, result.certificate
+    head = {
+        "scene": motion.plan.scene.name,
+        "robot": motion.plan.robot.name,
+        "status": str(report.status),
+        "message": report.message,
+        "time_s": report.time_s,
+        "iterations": report.iterations,
+    }
+    measures = {} if found is None else found.measures
     return {
-        **found,
-        "worst": {**place, "time": worst.time_s, "factor": _finite(worst.factor)},
-        "certified": result.ok(),
+        **head,
+        **{name: _finite(measures.get(name)) for name in MEASURES},
+        "worst": _worst(result),
+        "certified": found is not None and found.ok(),
+        "cost": _finite(report.cost),
         "duration_s": motion.duration(),
         "joints": list(motion.joints),
+        "times_s": {
+            "start": report.start_s,
+            "evaluation": report.evaluation_s,
+            "linear_solver": report.linear_solver_s,
+            "certificate": None if found is None else found.time_s,
+        },
     }
 
 
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None
+def _worst(result: MotionResult) -> dict[str, Any] | None:
+    """What the robot lacks for the plan, else what is nearest to its limit at 1 kHz, or farthest beyond."""
+    lack, found = result.shortfall, result.certificate
+    if lack is not None:
+        return {"name": lack.what, "joint": lack.joint, "time": lack.time_s, "factor": _finite(lack.factor)}
+    if found is None:
+        return None
+    worst = found.worst()
+    return {"name": worst.name, "joint": worst.where, "time": worst.time_s, "factor": _finite(worst.factor)}
+
+
+def _finite(value: float | None) -> float | None:
+    return value if value is not None and math.isfinite(value) else None
