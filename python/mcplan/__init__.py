@@ -58,8 +58,6 @@ from mcplan.sip import whole_body
 from mcplan.sweep.results import load_sweep
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     # Names that lived here until 0.1.
     from mcplan.errors import InvalidArgument as InvalidArgument
     from mcplan.errors import InvalidOptions as InvalidOptions
