@@ -389,7 +389,9 @@ def test_a_foot_that_is_about_to_land_is_not_swung_up_again(before_s):
         new = mp.replan(plan, touchdown - before_s, knot, contacts=contacts).plan
         states = new.sample(np.arange(0.0, 0.02, 1e-3))
         free = np.flatnonzero(states.surfaces[0, :2] < 0)
-        assert np.abs(states.end_effector_velocities_W[:, free, 2]).max() < 1.6  # the steepest arc, 1.5 m/s, and its own
+        assert (
+            np.abs(states.end_effector_velocities_W[:, free, 2]).max() < 1.6
+        )  # the steepest arc, 1.5 m/s, and its own
 
 
 @pytest.mark.slow
