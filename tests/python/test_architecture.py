@@ -90,7 +90,7 @@ PYTHON_ROOMS = {
     "showing": _GROUND | _LOOKED_AT,
     "notebooks": {"_core", "errors", "showing"},
     "following": _GROUND | _LOOKED_AT - {"view"},
-    "sweep": _GROUND | _ENGINES | {"files", "checking", "view"},
+    "sweep": _GROUND | _ENGINES | {"files", "wb", "checking", "view"},
     "cli": _GROUND | _FRONT | {"starting", ""},
     "": _GROUND | _FRONT | {"starting", "moved"},
 }

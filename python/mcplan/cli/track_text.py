@@ -21,7 +21,14 @@ _TERMINAL_S, _FILE_S = 0.1, 5.0
 #: What of a run in space has no counterpart in the plane: no such quantity is controlled, or it is measured otherwise.
 _NOT_PLANAR = (
     *("com_rms_m", "com_max_m", "orientation_rms_deg", "swing_rms_m", "final_base_error_m", "control_ms"),
-    *("torque_step_use", "self_contacts", "self_contact_N", "self_contact_m"),
+    *(
+        "torque_step_use",
+        "torque_limit_ratio",
+        "leg_torque_limit_ratio",
+        "self_contacts",
+        "self_contact_N",
+        "self_contact_m",
+    ),
     *("terrain_contacts", "terrain_contact_N", "touches"),
 )
 

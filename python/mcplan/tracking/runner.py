@@ -24,7 +24,7 @@ from .assist import assistance
 from .disturbances import disturbed
 from .interruption import Interruption
 from .joint_references import JointReferences
-from .measures import measure, with_touches
+from .measures import at_torque_limit, measure, with_touches
 from .motion_references import motion_references
 from .options import Options
 from .postures import postures_along
@@ -237,6 +237,7 @@ def _run(
         simulator_warnings=simulation.warnings,
         realtime_factor=(n + 1) * desired.dt_s / wall,
         control_ms=1e3 * control_s / (n + 1),
+        leg_torque_limit_ratio=float(at_torque_limit(recording)[:, controller.legs].any(axis=1).mean()),
     )
     return TrackingResult(recording, measures, options, stop.asked)
 
