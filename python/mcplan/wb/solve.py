@@ -23,7 +23,7 @@ from mcplan.files.robots import PACKAGE
 from mcplan.files.urdf_setups import SETUPS
 
 from . import start as starts
-from .between_nodes import balanced
+from .between_nodes import balanced, with_model
 from .contact_points import corners_S, points_S, to_corners
 from .motion import CORNERS, Motion
 from .motion_model import MotionModel, motion_model
@@ -142,8 +142,9 @@ class _Search:
 
         urdf = plan.robot.urdf.removeprefix(PACKAGE)
         urdf = urdf if urdf in SETUPS else plan.robot.urdf
-        joints, locked = moving_joints(load_model(plan.robot), which)
-        model = motion_model(plan, urdf, joints, locked)
+        complete = load_model(plan.robot)
+        joints, locked = moving_joints(complete, which)
+        model = motion_model(plan, urdf, joints, locked, complete)
         spline = spline_model(model, plan.scene.gravity)
         nodes = nodes_of(plan, node_s)
         problem = build_problem(plan, spline, nodes, starts.posture(model))
@@ -218,7 +219,7 @@ class _Search:
                 inside = np.array([at[end] is interval for at in nodes.intervals])
                 to = to_corners(points_S(self.plan, interval), own)
                 forces[inside, end, : len(own)] = np.einsum("cp,kpj->kcj", to, parts[inside])
-        return Motion(
+        found = Motion(
             plan=self.plan,
             urdf=self.urdf,
             joints=self.joints,
@@ -229,6 +230,7 @@ class _Search:
             corner_forces_S=forces,
             contacts=self.nodes.contacts,
         )
+        return with_model(found, self.model)
 
 
 def _with_status(result: MotionResult, status: MotionStatus, **changes: Any) -> MotionResult:
