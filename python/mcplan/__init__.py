@@ -83,7 +83,7 @@ if TYPE_CHECKING:
     from mcplan.planar.tracking import PlanarResult
     from mcplan.rhp import Walk as Walk
     from mcplan.tracking import TrackingResult
-    from mcplan.wb import MotionResult, MotionTolerances
+    from mcplan.wb import Motion, MotionResult, MotionTolerances
 
     PlanarMotion, WholeBodyPlan, WholeBodyTolerances = PlanarTask, PlanarPlan, PlanarTolerances
     PlanResult = ddp.Result
@@ -208,11 +208,11 @@ def motion(
 
 
 def track(
-    plan: Plan | PlanarPlan | str | Path,
+    plan: Plan | PlanarPlan | Motion | str | Path,
     robot: Robot | str | Path | None = None,
     **options: Any,
 ) -> TrackingResult | PlanarResult:
-    """Track a plan with a simulated robot: torques alone move it, within their limits.
+    """Track a plan or a motion with a simulated robot: torques alone move it, within their limits.
 
         result = mp.track("plan.npz", "talos", mass_scale=1.1, pushes=[(40.0, 0.2, 3.0, 90.0)])
         print(result)  # a report; result.measures has the numbers, result.recording what the robot did
@@ -221,9 +221,10 @@ def track(
     A fall ends the run and is a result, not an exception. Ctrl-C ends it with Interrupted, which carries the result.
 
     Args:
-        plan: A plan of any planner, or the path of one.
+        plan: A plan of any planner, a motion, or the path of either. Of a motion all joints are tracked, with their
+            velocities and accelerations, and errors are those from the motion, not from its plan.
         robot: A robot with a URDF and the plan's end-effectors by name, or what load_robot takes. None: the plan's own.
-            A whole-body plan has its planar robot and takes no other.
+            A whole-body plan has its planar robot, a motion its joints; they take no other.
         **options: Fields of ``mcplan.tracking.Options``: ``assist``, ``mass_scale``, ``friction_scale``,
             ``ground_shift_m``, ``seed``, ``hold_s``; ``pushes``, each as ``mcplan.tracking.Push`` or as size [N],
             duration [s], time [s] and direction [deg] (0 forward, 90 to the left).
