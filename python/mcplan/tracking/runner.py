@@ -98,7 +98,7 @@ def track(
     urdf_model = model.urdf_model
     simulation = Simulation(model, options.torque_delay_s, options.torque_bandwidth_hz)
     desired = references(plan, tracked_robot, options.control_step_s, options.hold_s)
-    start, end = _posture_at(urdf_model, plan, 0.0), _posture_at(urdf_model, plan, desired.duration_s)
+    start, end = posture_at(urdf_model, plan, 0.0), posture_at(urdf_model, plan, desired.duration_s)
     on_ground = start.copy()
     on_ground[2] += options.ground_shift_m
     simulation.reset(on_ground, np.zeros(urdf_model.model.nv))
@@ -151,7 +151,12 @@ def _as_plan(plan: Plan | str | Path) -> Plan:
     return any_plan
 
 
-def _posture_at(urdf_model: UrdfModel, plan: Plan, time_s: float) -> Array:
+def posture_at(urdf_model: UrdfModel, plan: Plan, time_s: float) -> Array:
+    """The configuration (nq,) in which a robot follows a plan at a time [s].
+
+    Raises:
+        InvalidInput: It cannot, by more than START_MISS.
+    """
     postures = follow(urdf_model, sample_at(plan, plan.scene, plan.robot, np.array([time_s])))
     if postures.residual > START_MISS:
         raise InvalidInput(
