@@ -33,6 +33,7 @@ VERBS = (
     "reproduce",
     "rhp",
     "robots",
+    "run",
     "scenes",
     "schema",
     "show",

@@ -19,7 +19,8 @@ class OnlineMeasures:
         replan_ms_median, replan_ms_p99: Wall clock of a computation [ms]; nan: there was none.
         latency_ms: Time from the measured state until its plan could be taken over, the mean [ms]; nan likewise.
         replans_late: Computations that took longer than the fixed latency; None: the latency was the measured one.
-        oldest_plan_s: Largest time since the state was measured from which the plan under way was made [s].
+        oldest_plan_s: Largest time since the state was measured from which the plan under way was made [s], as long as
+            steps lie ahead.
         contact_changes: Contacts that were made and that the first plan did not have: none on that surface, by that
             end-effector, within 5 cm.
         stops: How often the robot was brought to a stand since no plan came.

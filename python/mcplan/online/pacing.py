@@ -42,15 +42,24 @@ class Pace:
         self._touched |= touchdown
         if since_s < options.pause_s - 1e-9:
             return None
-        if options.at_touchdowns and self._touched:
+        # Where nothing but standing is left, replans would put in steps on the spot again and again.
+        goes_on = bool(options.command) or steps_left(plan, t)
+        if options.at_touchdowns and self._touched and goes_on:
             return "touchdown"
-        ended = t > plan.duration()
-        if since_s > options.period_s - 1e-9 and (not ended or bool(options.command)):
+        if since_s > options.period_s - 1e-9 and goes_on:
             return "period"
         com_m, capture_m = distances(plan, t, com_W, com_velocity_W)
         if com_m > options.com_margin_m:
             return "CoM"
         return "capture point" if capture_m > options.capture_margin_m else None
+
+
+def steps_left(plan: Plan, t: float) -> bool:
+    """Whether contacts change after a time [s] of a plan."""
+    if t >= plan.duration():
+        return False
+    now = [end.surface for end in plan.at(max(t, 0.0)).end_effectors]
+    return now != list(plan.final_contacts) or len(plan.phases) - 1 > plan.at(max(t, 0.0)).phase
 
 
 def distances(plan: Plan, t: float, com_W: Array, com_velocity_W: Array) -> tuple[float, float]:

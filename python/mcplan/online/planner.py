@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 #: Of the period, the time for which a plan that was cut short has to keep all limits to be worth following.
 KEPT_PERIODS = 2.0
+#: Speed at which an end-effector that is in the air is raised over its way at most [m/s], and the largest rate of
+#: 16 s^2 (1 - s)^2 over s.
+RISE_M_S, BUMP_RATE = 0.5, 3.08
 
 
 @dataclass(frozen=True)
@@ -74,10 +77,12 @@ class Planner:
         command: Velocity to walk at, ahead, to the left [m/s] and turning [rad/s]; None: to the scene's goal.
         period_s: How often states are submitted: a plan that was cut short is worth following if it is good for twice
             that.
-        time_limit_s: Wall clock of a replan; None: none.
-        scene: Instead of the plan's own; ground that was measured anew.
-        robot: Instead of the plan's own.
-        **named: Options of mcplan.replan by name.
+        **named: Options of mcplan.replan by name, among them ``time_limit`` [s].
+
+    Attributes:
+        plan, begins_s: The plan under way, and when it began.
+        command: May be changed at any time; it holds for what is computed from then on.
+        scene, robot: Instead of the plan's own, for ground that was measured anew; None: the plan's own.
     """
 
     def __init__(
@@ -87,17 +92,15 @@ class Planner:
         *,
         command: tuple[float, float, float] | None = None,
         period_s: float = 0.1,
-        time_limit_s: float | None = None,
-        scene: Scene | None = None,
-        robot: Robot | None = None,
         **named: Any,
     ) -> None:
         self.plan, self.begins_s = plan, begins_s
         self.command, self.period_s = command, period_s
-        self.scene, self.robot = scene, robot
-        self._named: Mapping[str, Any] = named if time_limit_s is None else {"time_limit": time_limit_s, **named}
+        self.scene: Scene | None = None
+        self.robot: Robot | None = None
+        self._named: Mapping[str, Any] = named
         self._lock = threading.Condition()
-        self._waiting: tuple[int, MeasuredState] | None = None
+        self._waiting: tuple[int, MeasuredState, Mapping[str, Any]] | None = None
         self._done: Update | None = None
         self._computing = False
         self._closed = False
@@ -111,8 +114,12 @@ class Planner:
         with self._lock:
             return self._computing or self._waiting is not None
 
-    def submit(self, state: MeasuredState) -> int:
+    def submit(self, state: MeasuredState, **named: Any) -> int:
         """Ask for a plan from a measured state.
+
+        Args:
+            state: The state.
+            **named: Options of mcplan.replan by name, for this time only.
 
         Returns:
             The number that the update will have, unless a later state replaces this one.
@@ -124,7 +131,7 @@ class Planner:
             if self._closed:
                 raise InvalidInput("planner", "must be open: it was closed")
             self._tickets += 1
-            self._waiting = (self._tickets, state)
+            self._waiting = (self._tickets, state, named)
             self._lock.notify_all()
             return self._tickets
 
@@ -170,28 +177,28 @@ class Planner:
                 self._lock.wait_for(lambda: self._closed or self._waiting is not None)
                 if self._closed or self._waiting is None:
                     return
-                (ticket, state), self._waiting = self._waiting, None
+                (ticket, state, named), self._waiting = self._waiting, None
                 self._computing = True
                 plan, begins_s = self.plan, self.begins_s
-            update = self._computed(ticket, state, plan, begins_s)
+            update = self._computed(ticket, state, plan, begins_s, {**self._named, **named})
             with self._lock:
                 self._done, self._computing = update, False
                 self._lock.notify_all()
 
-    def _computed(self, ticket: int, state: MeasuredState, plan: Plan, begins_s: float) -> Update:
+    def _computed(
+        self, ticket: int, state: MeasuredState, plan: Plan, begins_s: float, named: Mapping[str, Any]
+    ) -> Update:
         t = min(max(state.time_s - begins_s, 0.0), float(plan.duration()))
         began = time.perf_counter()
         try:
-            result = replan(
-                plan, t, state.knot, state.contacts, self.command, self.scene, self.robot, dict(self._named)
-            )
+            result = replan(plan, t, state.knot, state.contacts, self.command, self.scene, self.robot, dict(named))
         except Exception as error:  # a state that the planner refuses must not end the thread: the plan goes on
             took_s, text = time.perf_counter() - began, f"{type(error).__name__}: {error}"
             return Update(None, state.time_s, took_s, "error", False, state.time_s, text, "previous_plan", ticket)
         took_s, report = time.perf_counter() - began, result.report
         kept_s = float(report.kept_until_s)
         return Update(
-            plan=result.plan,
+            plan=_calmed(result.plan),
             begins_s=state.time_s,
             took_s=took_s,
             status=report.status.name,
@@ -201,6 +208,21 @@ class Planner:
             plan_from=report.plan_from.name,
             ticket=ticket,
         )
+
+
+def _calmed(plan: Plan) -> Plan:
+    """The plan with swings that are under way kept from rising fast: what is about to land lands.
+
+    The way of an end-effector in the air goes on from where it is by a spline, plus 16 s^2 (1 - s)^2 times a height that
+    takes it clear of the ground. With 50 ms to go such a height is a kick, and the ground is where it is due.
+    """
+    swings = plan.swings
+    for swing in swings:
+        if swing.first_phase == 0 and plan.phases[0].contacts[swing.end_effector].surface < 0:
+            left_s = sum(phase.duration for phase in plan.phases[: swing.end_phase])
+            swing.height = min(swing.height, RISE_M_S * left_s / BUMP_RATE)
+    plan.swings = swings
+    return plan
 
 
 def _usable(status: Status, plan_from: str, kept_s: float, period_s: float) -> bool:

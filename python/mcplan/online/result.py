@@ -20,12 +20,14 @@ class FollowedPlan:
         plan: The plan.
         begins_s: Time of the run at which it begins: that of the state from which it was made.
         from_s: Time of the run from which on it was followed.
+        took_s: Wall clock of its computation.
         message: What the planner said of it.
     """
 
     plan: Plan
     begins_s: float
     from_s: float
+    took_s: float = 0.0
     message: str = ""
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +19,7 @@ from mcplan.tracking.interruption import Interruption
 from mcplan.tracking.measures import measure, with_touches
 from mcplan.tracking.options import Options
 from mcplan.tracking.recorder import Acting, Recorder
-from mcplan.tracking.references import References, references
+from mcplan.tracking.references import references
 from mcplan.tracking.robot_dynamics import RobotDynamics
 from mcplan.tracking.runner import CONTACT_RATIO, posture_at, robot_for
 from mcplan.tracking.sensors import Sensors
@@ -28,7 +29,7 @@ from .contacts import ContactFilter
 from .followed import FollowedReferences
 from .measures import Tally
 from .options import OnlineOptions
-from .pacing import Pace
+from .pacing import Pace, steps_left
 from .planner import Planner, Update
 from .result import FollowedPlan, RunResult
 from .state import StateReader
@@ -51,7 +52,7 @@ SAME_PLACE_M = 0.05
 
 def run(
     plan: Plan,
-    robot: Robot | str | None = None,
+    robot: Robot | str | Path | None = None,
     options: Options | None = None,
     online: OnlineOptions | None = None,
     progress: Callable[[float, float], None] | None = None,
@@ -142,9 +143,7 @@ class _Loop:
         separation = Separation(simulation.model) if options.self_contacts else None
         restraints = Restraints(simulation.model.motors, separation)
         desired = references(plan, self.robot, self.dt_s, options.hold_s)
-        self.controller: Controller = Controller(
-            self.urdf_model, plan.scene, desired, start, options.gains, restraints
-        )
+        self.controller: Controller = Controller(self.urdf_model, plan.scene, desired, start, options.gains, restraints)
         self.start, self.actual = start, RobotDynamics(self.urdf_model)
         weight_N = self.actual.mass * plan.scene.gravity
         self.contact_N = CONTACT_RATIO * weight_N
@@ -159,7 +158,7 @@ class _Loop:
             plan,
             command=online.command or None,  # type: ignore[arg-type]
             period_s=online.period_s,
-            time_limit_s=None if np.isnan(limit_s) else limit_s,
+            **({} if np.isnan(limit_s) else {"time_limit": limit_s}),
         )
         self.pace, self.tally = Pace(online), Tally(online.latency_s)
         self.pending: _Pending | None = None
@@ -186,7 +185,9 @@ class _Loop:
             if stop.asked or self._over(now_s):
                 break
             if progress is not None and n % 50 == 0:
-                progress(now_s, min(self.length_s, self.plan.begins_s + self.plan.plan.duration() + self.options.hold_s))
+                progress(
+                    now_s, min(self.length_s, self.plan.begins_s + self.plan.plan.duration() + self.options.hold_s)
+                )
         return self._result(n, fell_at, time.perf_counter() - began, stop.asked)
 
     def _step(self, n: int, now_s: float) -> RobotDynamics:
@@ -213,20 +214,27 @@ class _Loop:
         push = sum((p.force_W(now_s) for p in options.pushes), np.zeros(3))
         steps = round(self.dt_s / options.simulation_step_s)
         given = simulation.advance(command.torques, np.concatenate([push, np.zeros(3)]), steps)
-        self.followed.add(n, *self.controller.live.window(n))
+        self.followed.add(n, *self.controller.row(n))
         self.recorder.add(dynamics, Acting(given, forces, in_contact, np.zeros(6), push, touches))
-        self.tally.oldest_s = max(self.tally.oldest_s, now_s - self.plan.begins_s)
+        if steps_left(self.plan.plan, now_s - self.plan.begins_s):
+            self.tally.oldest_s = max(self.tally.oldest_s, now_s - self.plan.begins_s)
         return dynamics
 
     def _ask(self, now_s: float, read: tuple[Array, Array], standing: NDArray[np.bool_], touchdown: bool) -> None:
         """Submit the state if a replan is due. The simulation waits, its clock goes on by the latency."""
-        under_way, com_W, velocity_W = self.plan, self.controller.dynamics.com_W, self.controller.dynamics.com_velocity_W
+        under_way, com_W, velocity_W = (
+            self.plan,
+            self.controller.dynamics.com_W,
+            self.controller.dynamics.com_velocity_W,
+        )
         t = now_s - under_way.begins_s
         reason = self.pace.due(now_s, touchdown, under_way.plan, t, com_W, velocity_W)
         if reason is None:
             return
         state = self.reader.read(now_s, *read, self._for_planner(standing, t), under_way.plan, t)
-        self.planner.submit(state)
+        # Near the goal the phases that are left are enough, unless the robot has to catch itself.
+        few = reason in ("period", "touchdown") and not self.online.command
+        self.planner.submit(state, **({"phases_min": 1} if few else {}))
         update = self.planner.wait()
         assert update is not None
         self.pace.asked(now_s)
@@ -250,12 +258,10 @@ class _Loop:
             return
         self.controller.set_plan(update.plan, update.begins_s)
         self.planner.take_over(update)
-        self.plans.append(FollowedPlan(update.plan, update.begins_s, now_s, update.message))
+        self.plans.append(FollowedPlan(update.plan, update.begins_s, now_s, update.took_s, update.message))
         self.tally.used += 1
 
-    def _touchdowns(
-        self, before: NDArray[np.bool_], standing: NDArray[np.bool_], dynamics: RobotDynamics
-    ) -> None:
+    def _touchdowns(self, before: NDArray[np.bool_], standing: NDArray[np.bool_], dynamics: RobotDynamics) -> None:
         """Count contacts that the first plan did not have."""
         for end in np.flatnonzero(standing & ~before):
             place = dynamics.end_effector_position_W(int(end))

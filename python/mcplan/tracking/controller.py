@@ -92,7 +92,7 @@ class Controller:
             restraints: What motors have, and links to be kept apart; None: the URDF's limits of torque and speed alone.
         """
         self.urdf_model, self.references, self.gains = urdf_model, references, gains
-        self.live = LiveReferences.of(references)
+        self._live: LiveReferences | None = None  # of a plan that was taken over
         self._last = -1
         self.dynamics = RobotDynamics(urdf_model)
         model = urdf_model.model
@@ -125,7 +125,8 @@ class Controller:
             in_contact: (e,) whether each end-effector is in contact, by the measured forces.
         """
         self._last = n
-        self.references, n = self.live.window(n)
+        if self._live is not None:
+            self.references, n = self._live.window(n)
         self.dynamics.update(configuration, velocity)
         motions = [self.dynamics.end_effector(i) for i in range(len(self.contacts))]
         for i, contact in enumerate(self.contacts):
@@ -153,7 +154,12 @@ class Controller:
             plan: The plan, of the same scene's surfaces and the same end-effectors.
             t0: Time of control step 0 plus this is the plan's start [s]: step n is at n dt - t0 of the plan.
         """
-        self.live = LiveReferences.after(self.live, self._last + 1, plan, self.urdf_model.robot, t0, self.gains)
+        before = self._live or LiveReferences.of(self.references)
+        self._live = LiveReferences.after(before, self._last + 1, plan, self.urdf_model.robot, t0, self.gains)
+
+    def row(self, n: int) -> tuple[References, int]:
+        """References that contain control step n, and its index there."""
+        return (self.references, n) if self._live is None else self._live.window(n)
 
     def _set_contact(self, n: int, end: int, position_W: Array, rotation_W: Array) -> None:
         """Set the place of an end-effector's contact, and the points at which forces act there."""

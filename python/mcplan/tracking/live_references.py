@@ -179,8 +179,10 @@ class LiveReferences:
         following = surfaces.copy()
         for end, own in enumerate(self._intervals):
             lifted = self.lifted.get(end)
-            known = [(lifted.time_s - self.t0, lifted.rotation_W, None)] if lifted is not None else []
-            known += [(i.end_s, i.rotation_W, i) for i in own]
+            known: list[tuple[float, Array]] = (
+                [(lifted.time_s - self.t0, lifted.rotation_W)] if lifted is not None else []
+            )
+            known += [(i.end_s, i.rotation_W) for i in own]
             if not own:
                 continue
             t = found.times
@@ -193,7 +195,7 @@ class LiveReferences:
                 free = (surfaces[:, end] < 0) & (t >= begin) & (t < until)
                 if not free.any():
                     continue
-                before = [(s, r) for s, r, _ in known if s <= begin + 1e-12] if n_gap else [k[:2] for k in known[:1]]
+                before = [at for at in known if at[0] <= begin + 1e-12] if n_gap else known[:1]
                 before = before if n_gap or lifted is not None else []
                 since = before[-1][0] if before else 0.0
                 after = own[n_gap] if n_gap < len(own) else None
@@ -282,7 +284,7 @@ class _Blend:
 
     def applied(self, window: References, first: int) -> References:
         """A window of the new references, which begins at a control step, with what is left of the old ones."""
-        t = (first - self.step + np.arange(window.count)) * window.dt_s
+        t = np.asarray((first - self.step + np.arange(window.count)) * window.dt_s, float)
         com, com_rate, com_acceleration = self.com.at(t)
         base, base_rate, _ = self.base.at(t)
         ends, end_rate, end_acceleration = self.ends.at(t)
