@@ -11,6 +11,7 @@ import mcplan as mp
 from mcplan.online import MeasuredState, OnlineOptions, Planner
 from mcplan.online.pacing import Pace, distances, steps_left
 from mcplan.online.planner import RISE_M_S, _calmed, _usable
+from mcplan.online.reach import widened
 
 
 @pytest.fixture(scope="module")
@@ -178,3 +179,28 @@ def test_nothing_is_replanned_where_only_standing_is_left(plan):
 def test_options_out_of_range_are_refused_by_name(name, value):
     with pytest.raises(mp.errors.InvalidOptions, match=name):
         OnlineOptions(**{name: value}).validate()
+
+
+def test_legs_that_catch_a_robot_reach_as_far_as_their_joints_let_them():
+    robot = mp.load_robot("talos")
+    before, wide = robot.__copy__(), widened(robot)
+    assert robot == before and wide != robot
+    for old, new in zip(robot.end_effectors, wide.end_effectors, strict=True):
+        if old.kind != "foot":
+            assert new == old
+            continue
+        assert (np.array(new.reach_min_B) <= old.reach_min_B).all() and (
+            np.array(new.reach_max_B) >= old.reach_max_B
+        ).all()
+        assert new.limb == old.limb  # hips, knees and ankles stay as they are
+        (row,), (bound,) = (
+            new.partner_reach[{"right_foot": "left_foot", "left_foot": "right_foot"}[new.name]].A,
+            [-0.14],
+        )
+        side = np.sign(new.nominal_B[1])
+        assert (
+            row @ [0.0, -side * 0.15, 0.0] < bound < row @ [0.0, -side * 0.13, 0.0]
+        )  # 14 cm apart, on their own sides
+    for name in ("humanoid44", "go2"):  # nothing is known of their joints, or they have four feet
+        other = mp.load_robot(name)
+        assert widened(other) is other

@@ -24,6 +24,8 @@ class OnlineOptions:
         time_limit_s: Wall clock of a replan [s]; nan: none with a fixed latency, the period without.
         command: Velocity to walk at: ahead, to the left [m/s], turning [rad/s]; empty: to the scene's goal.
         duration_s: Length of the run [s]; nan: the first plan and what the run holds it for, and 10 s under a command.
+        wide_reach: Legs may reach as far as their joints let them (see ``reach``), not only within the robot's boxes.
+        start_slack_s: Time within which what the measured state violates has to be made good, for a robot of human size.
         stop_after_s: The robot is brought to a stand if it has left its plan and no plan has come for so long.
     """
 
@@ -37,13 +39,15 @@ class OnlineOptions:
     time_limit_s: float = float("nan")
     command: tuple[float, ...] = ()
     duration_s: float = float("nan")
+    wide_reach: bool = True
+    start_slack_s: float = 1.0
     stop_after_s: float = 0.5
 
     def validate(self) -> None:
         """Raise InvalidOptions naming the first field out of its range."""
         _require("period_s", "must lie in 0.01 to 10", self.period_s, 0.01 <= self.period_s <= 10)
         _require("pause_s", "must lie in 0 to 1", self.pause_s, 0 <= self.pause_s <= 1)
-        for name in ("com_margin_m", "capture_margin_m", "stop_after_s"):
+        for name in ("com_margin_m", "capture_margin_m", "stop_after_s", "start_slack_s"):
             value = getattr(self, name)
             _require(name, "must be above 0", value, bool(value > 0))
         for name, high in (("latency_s", 1.0), ("time_limit_s", 10.0), ("duration_s", 3600.0)):

@@ -31,6 +31,7 @@ from .measures import Tally
 from .options import OnlineOptions
 from .pacing import Pace, steps_left
 from .planner import Planner, Update
+from .reach import widened
 from .result import FollowedPlan, RunResult
 from .state import StateReader
 
@@ -46,6 +47,8 @@ FALLEN_RATIO, FALLEN_RAD = 0.6, 1.0
 COMMAND_S = 10.0
 #: A run to a goal ends at the latest after this ratio of the first plan's duration, and this time more [s].
 LONGEST_RATIO, LONGEST_S = 2.0, 5.0
+#: Height of the CoM of a robot of human size [m].
+HUMAN_M = 0.88
 #: A contact is one that the first plan had if it is within this distance of it [m].
 SAME_PLACE_M = 0.05
 
@@ -158,8 +161,11 @@ class _Loop:
             plan,
             command=online.command or None,  # type: ignore[arg-type]
             period_s=online.period_s,
+            start_slack_s=online.start_slack_s * np.sqrt(plan.robot.com_height / HUMAN_M),
             **({} if np.isnan(limit_s) else {"time_limit": limit_s}),
         )
+        if online.wide_reach:
+            self.planner.robot = widened(plan.robot)
         self.pace, self.tally = Pace(online), Tally(online.latency_s)
         self.pending: _Pending | None = None
         self.plans = [FollowedPlan(plan, 0.0, 0.0)]
