@@ -188,9 +188,9 @@ class Planner:
     def _computed(
         self, ticket: int, state: MeasuredState, plan: Plan, begins_s: float, named: Mapping[str, Any]
     ) -> Update:
-        t = min(max(state.time_s - begins_s, 0.0), float(plan.duration()))
         began = time.perf_counter()
         try:
+            t = min(max(state.time_s - begins_s, 0.0), float(plan.duration()))
             result = replan(plan, t, state.knot, state.contacts, self.command, self.scene, self.robot, dict(named))
         except Exception as error:  # a state that the planner refuses must not end the thread: the plan goes on
             took_s, text = time.perf_counter() - began, f"{type(error).__name__}: {error}"
