@@ -57,6 +57,7 @@ _GROUND = {"_core", "errors", "extras", "options", "arguments"}
 _ENGINES = {"solve", "walking"}
 _LOOKED_AT = {"files", "kinematics", "wb", "tracking", "view", "planar"}
 _FRONT = _ENGINES | _LOOKED_AT | {"loading", "checking", "showing", "following", "export", "model", "option_types"}
+_FRONT |= {"online", "running"}
 _FRONT |= {"ddp", "ipm", "rhp", "sip", "samples", "notebooks", "sweep"}
 PYTHON_ROOMS = {
     "__main__": {"cli"},
@@ -82,15 +83,26 @@ PYTHON_ROOMS = {
     "rhp": _GROUND | {"walking"},
     "sip": _GROUND | {"planar"},
     "kinematics": _GROUND | {"files"},
+<<<<<<< HEAD
     "wb": _GROUND | {"files", "kinematics"},
     "tracking": _GROUND | {"files", "kinematics", "wb"},
     "view": _GROUND | {"files", "kinematics", "wb", "tracking"},
+=======
+    "tracking": _GROUND | {"files", "kinematics"},
+    "online": _GROUND | {"solve", "files", "kinematics", "tracking"},
+    "view": _GROUND | {"files", "kinematics", "tracking"},
+>>>>>>> online
     "planar": _GROUND | {"files", "kinematics", "tracking", "view"},
     "export": _GROUND | {"files", "kinematics", "wb", "tracking"},
     "showing": _GROUND | _LOOKED_AT,
     "notebooks": {"_core", "errors", "showing"},
     "following": _GROUND | _LOOKED_AT - {"view"},
+<<<<<<< HEAD
     "sweep": _GROUND | _ENGINES | {"files", "wb", "checking", "view"},
+=======
+    "running": _GROUND | {"solve", "files", "tracking", "online"},
+    "sweep": _GROUND | _ENGINES | {"files", "checking", "view"},
+>>>>>>> online
     "cli": _GROUND | _FRONT | {"starting", ""},
     "": _GROUND | _FRONT | {"starting", "moved"},
 }

@@ -102,9 +102,15 @@ def track(
 
     model = mujoco_model.build(tracked_robot, plan.scene, options)
     simulation = Simulation(model, options.torque_delay_s, options.torque_bandwidth_hz)
+<<<<<<< HEAD
     make = _plan_trial if isinstance(followed, Plan) else _motion_trial
     trial = make(followed, model.urdf_model, options)  # type: ignore[arg-type]
     on_ground = trial.start.copy()
+=======
+    desired = references(plan, tracked_robot, options.control_step_s, options.hold_s)
+    start, end = posture_at(urdf_model, plan, 0.0), posture_at(urdf_model, plan, desired.duration_s)
+    on_ground = start.copy()
+>>>>>>> online
     on_ground[2] += options.ground_shift_m
     simulation.reset(on_ground, np.zeros(model.urdf_model.model.nv))
     with Interruption() as stop:
@@ -176,7 +182,12 @@ def _loaded(plan: Plan | Motion | str | Path) -> Plan | Motion:
     return found
 
 
-def _posture_at(urdf_model: UrdfModel, plan: Plan, time_s: float) -> Array:
+def posture_at(urdf_model: UrdfModel, plan: Plan, time_s: float) -> Array:
+    """The configuration (nq,) in which a robot follows a plan at a time [s].
+
+    Raises:
+        InvalidInput: It cannot, by more than START_MISS.
+    """
     postures = follow(urdf_model, sample_at(plan, plan.scene, plan.robot, np.array([time_s])))
     if postures.residual > START_MISS:
         raise InvalidInput(
