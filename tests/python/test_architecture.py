@@ -83,26 +83,17 @@ PYTHON_ROOMS = {
     "rhp": _GROUND | {"walking"},
     "sip": _GROUND | {"planar"},
     "kinematics": _GROUND | {"files"},
-<<<<<<< HEAD
     "wb": _GROUND | {"files", "kinematics"},
     "tracking": _GROUND | {"files", "kinematics", "wb"},
-    "view": _GROUND | {"files", "kinematics", "wb", "tracking"},
-=======
-    "tracking": _GROUND | {"files", "kinematics"},
     "online": _GROUND | {"solve", "files", "kinematics", "tracking"},
-    "view": _GROUND | {"files", "kinematics", "tracking"},
->>>>>>> online
+    "view": _GROUND | {"files", "kinematics", "wb", "tracking"},
     "planar": _GROUND | {"files", "kinematics", "tracking", "view"},
     "export": _GROUND | {"files", "kinematics", "wb", "tracking"},
     "showing": _GROUND | _LOOKED_AT,
     "notebooks": {"_core", "errors", "showing"},
     "following": _GROUND | _LOOKED_AT - {"view"},
-<<<<<<< HEAD
-    "sweep": _GROUND | _ENGINES | {"files", "wb", "checking", "view"},
-=======
     "running": _GROUND | {"solve", "files", "tracking", "online"},
-    "sweep": _GROUND | _ENGINES | {"files", "checking", "view"},
->>>>>>> online
+    "sweep": _GROUND | _ENGINES | {"files", "wb", "checking", "view"},
     "cli": _GROUND | _FRONT | {"starting", ""},
     "": _GROUND | _FRONT | {"starting", "moved"},
 }

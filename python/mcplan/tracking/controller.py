@@ -23,11 +23,8 @@ from mcplan.kinematics.urdf_model import UrdfModel, leg_velocities
 from .actuators import TorqueSpeed
 from .contact_forces import SIDES, ForcePoints, pyramid
 from .contacts import Contact, Mode
-<<<<<<< HEAD
 from .joint_references import JointReferences
-=======
 from .live_references import LiveReferences
->>>>>>> online
 from .options import Gains
 from .quadratic_program import Problem, QuadraticProgram
 from .references import References
@@ -90,13 +87,8 @@ class Controller:
         Args:
             urdf_model: The robot's model.
             scene: Surfaces that the references name.
-<<<<<<< HEAD
-            references: Desired motion and forces at each control step.
-            posture: (nq,) or (n, nq) configurations near to which the joints stay, or how all joints move.
-=======
             references: Desired motion and forces at each control step, until set_plan gives others.
-            posture: (nq,) or (n, nq) configurations near to which the joints stay.
->>>>>>> online
+            posture: (nq,) or (n, nq) configurations near to which the joints stay, or how all joints move.
             gains: Weights and gains.
             restraints: What motors have, and links to be kept apart; None: the URDF's limits of torque and speed alone.
         """
@@ -163,6 +155,8 @@ class Controller:
             plan: The plan, of the same scene's surfaces and the same end-effectors.
             t0: Time of control step 0 plus this is the plan's start [s]: step n is at n dt - t0 of the plan.
         """
+        if self.joints.timed:  # joints of a motion, which the plan does not go on with
+            self.joints = JointReferences(np.atleast_2d(self.joints.at(max(self._last, 0))[0]))
         before = self._live or LiveReferences.of(self.references)
         self._live = LiveReferences.after(before, self._last + 1, plan, self.urdf_model.robot, t0, self.gains)
 

@@ -36,11 +36,8 @@ class References:
         surfaces: (n, e) surface in contact or -1.
         swing_fraction: (n, e) fraction of the swing that has passed, 0 to 1; 1 in contact.
         returns: (n, e) whether a free end-effector will be in contact later.
-<<<<<<< HEAD
         base_acceleration_W: (n, 3) angular; sole_accelerations_W: (n, e, 3) angular. None: not known, taken as zero.
-=======
         next_surfaces: (n, e) surface in contact or in contact next, -1: none; None: these instants are all that there are.
->>>>>>> online
     """
 
     dt_s: float
@@ -63,12 +60,9 @@ class References:
     surfaces: NDArray[np.int64]
     swing_fraction: Array
     returns: NDArray[np.bool_]
-<<<<<<< HEAD
     base_acceleration_W: Array | None = None
     sole_accelerations_W: Array | None = None
-=======
     next_surfaces: NDArray[np.int64] | None = None
->>>>>>> online
 
     @property
     def count(self) -> int:

@@ -102,15 +102,9 @@ def track(
 
     model = mujoco_model.build(tracked_robot, plan.scene, options)
     simulation = Simulation(model, options.torque_delay_s, options.torque_bandwidth_hz)
-<<<<<<< HEAD
     make = _plan_trial if isinstance(followed, Plan) else _motion_trial
     trial = make(followed, model.urdf_model, options)  # type: ignore[arg-type]
     on_ground = trial.start.copy()
-=======
-    desired = references(plan, tracked_robot, options.control_step_s, options.hold_s)
-    start, end = posture_at(urdf_model, plan, 0.0), posture_at(urdf_model, plan, desired.duration_s)
-    on_ground = start.copy()
->>>>>>> online
     on_ground[2] += options.ground_shift_m
     simulation.reset(on_ground, np.zeros(model.urdf_model.model.nv))
     with Interruption() as stop:
@@ -121,7 +115,7 @@ def track(
 
 def _plan_trial(plan: Plan, urdf_model: UrdfModel, options: Options) -> _Trial:
     desired = references(plan, urdf_model.robot, options.control_step_s, options.hold_s)
-    start, end = _posture_at(urdf_model, plan, 0.0), _posture_at(urdf_model, plan, desired.duration_s)
+    start, end = posture_at(urdf_model, plan, 0.0), posture_at(urdf_model, plan, desired.duration_s)
     posture = start
     if any(phase.has_points for phase in plan.phases):
         # Such plans know nothing of the base: its rotation has to suit the legs.
