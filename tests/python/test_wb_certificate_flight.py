@@ -12,7 +12,7 @@ pin = pytest.importorskip("pinocchio")
 coal = pytest.importorskip("coal")
 
 from mcplan.wb import Motion, MotionTolerances, splines  # noqa: E402
-from mcplan.wb.certificate.distances import self_distance  # noqa: E402
+from mcplan.wb.certificate.distances import counted, distance, self_distance  # noqa: E402
 from mcplan.wb.certificate.flight import _fly, flights, landings  # noqa: E402
 from mcplan.wb.certificate.robot import certified_robot  # noqa: E402
 from mcplan.wb.certificate.states import equally_spaced, states_of  # noqa: E402
@@ -157,6 +157,19 @@ def apart(geometry, data, a: int, b: int) -> float:
     shapes = [geometry.geometryObjects[i].geometry for i in (a, b)]
     result = coal.DistanceResult()
     return float(coal.distance(shapes[0], places[0], shapes[1], places[1], coal.DistanceRequest(), result))
+
+
+def test_convex_hulls_are_nearer_than_their_meshes(talos: Talos, standing: Motion) -> None:
+    motion = crossing(talos, standing, 0.02)
+    robot = certified_robot(motion)
+    states = states_of(motion, robot, np.array([0.0, 0.25]))
+    shapes, pairs = counted(robot, 0.005)
+    assert sum(shape.hull is not shape.geometry for shape in shapes) > 10
+    some = np.random.default_rng(0).choice(len(pairs), 60, replace=False)
+    for index in some:
+        pair = tuple(shapes[i] for i in pairs[index])
+        for k in range(2):
+            assert distance(states, pair, k, hulls=True) <= distance(states, pair, k) + 1e-6
 
 
 def test_legs_that_cross_are_seen(talos: Talos, standing: Motion) -> None:
