@@ -9,11 +9,12 @@
     mp.check(result.plan, scene, robot).raise_if_violated()
     result.plan.save("plan.npz")
     mp.show(result.plan, scene, robot).save_html("plan.html")
+    motion = mp.motion(mp.plan("flat", "talos").plan).motion
 
 Verbs, engines and what they are about are here; ``mcplan.model`` has what scenes, robots and plans are made of,
 ``mcplan.errors`` each error. The engines ``ddp``, ``rhp`` and ``sip`` have their options, a solve and its result: ``plan`` is
-``ddp.plan``, ``walk`` is ``rhp.walk``, ``whole_body`` is ``sip.plan``. ``mcplan.ipm`` is the solver behind them, for problems
-of one's own.
+``ddp.plan``, ``walk`` is ``rhp.walk``, ``whole_body`` is ``sip.plan``; ``mcplan.wb`` has motions of robots in space.
+``mcplan.ipm`` is the solver behind them, for problems of one's own.
 
 Importing this loads NumPy and nothing heavier; the rest comes when first used.
 """
@@ -23,6 +24,7 @@ from __future__ import annotations
 from mcplan import starting as _starting  # noqa: F401  first: Ctrl-C while the command loads
 
 # isort: split
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -82,6 +84,7 @@ if TYPE_CHECKING:
     from mcplan.planar.tracking import PlanarResult
     from mcplan.rhp import Walk as Walk
     from mcplan.tracking import TrackingResult
+    from mcplan.wb import Motion, MotionResult, MotionTolerances
 
     PlanarMotion, WholeBodyPlan, WholeBodyTolerances = PlanarTask, PlanarPlan, PlanarTolerances
     PlanResult = ddp.Result
@@ -111,6 +114,7 @@ __all__ = [
     "load_robot",
     "load_scene",
     "load_sweep",
+    "motion",
     "plan",
     "receding_horizon",
     "replan",
@@ -147,12 +151,70 @@ if not TYPE_CHECKING:
         return __all__
 
 
+def motion(
+    plan: Plan | str | Path,
+    *,
+    joints: str | Sequence[str] = "default",
+    node_s: float = 0.025,
+    max_iterations: int = 60,
+    time_limit_s: float = float("inf"),
+    start: str = "follow",
+    tolerances: MotionTolerances | None = None,
+) -> MotionResult:
+    """Find joints, torques and contact forces with which a robot carries out a plan of contacts and CoM.
+
+        result = mp.motion("plan.npz")
+        print(result.report)  # solved after 2.9 s, 10 iterations
+        state = result.motion.at(0.5)  # q, v, a, tau, contact wrenches
+
+    One interior-point solve: splines of base and joints, forces at the corners of soles, equations of motion, limits of
+    positions, speeds and torques, soles over the ground, all near the plan. The status is `solved` only if the certificate
+    holds, which works out all of it again at a thousand instants a second. Ctrl-C ends the solve with Interrupted, which
+    carries the result.
+
+    Args:
+        plan: A plan of a robot with a URDF, or the path of one.
+        joints: Those that move: "default" (all but grippers, fingers and head), "all", "legs", or names.
+        node_s: Time between two nodes, at most [s].
+        max_iterations: Of the interior-point method.
+        time_limit_s: Wall clock, without the certificate [s].
+        start: "follow": from postures along the plan by inverse kinematics; "stand": from the robot standing still.
+        tolerances: Of the certificate; None: its own.
+
+    Returns:
+        A ``mcplan.wb.MotionResult`` with ``motion``, ``report`` and ``certificate``. Where the robot lacks torque, speed or
+        reach, the status says so and ``report.shortfall`` names joint, time and factor.
+
+    Raises:
+        InvalidArgument: An argument is of another type.
+        InvalidOptions: An option is out of its range.
+        InvalidInput: No such joint.
+        InvalidPlan: The file is no plan.
+        InvalidRobot: The robot has no URDF, or it cannot be read.
+        MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
+    """
+    from mcplan.extras import require
+
+    require("mcplan.motion", "view", "pinocchio", "scipy")
+    from mcplan.wb.solve import motion as find
+
+    return find(
+        plan,
+        joints=joints,
+        node_s=node_s,
+        max_iterations=max_iterations,
+        time_limit_s=time_limit_s,
+        start=start,
+        tolerances=tolerances,
+    )
+
+
 def track(
-    plan: Plan | PlanarPlan | str | Path,
+    plan: Plan | PlanarPlan | Motion | str | Path,
     robot: Robot | str | Path | None = None,
     **options: Any,
 ) -> TrackingResult | PlanarResult:
-    """Track a plan with a simulated robot: torques alone move it, within their limits.
+    """Track a plan or a motion with a simulated robot: torques alone move it, within their limits.
 
         result = mp.track("plan.npz", "talos", mass_scale=1.1, pushes=[(40.0, 0.2, 3.0, 90.0)])
         print(result)  # a report; result.measures has the numbers, result.recording what the robot did
@@ -161,9 +223,10 @@ def track(
     A fall ends the run and is a result, not an exception. Ctrl-C ends it with Interrupted, which carries the result.
 
     Args:
-        plan: A plan of any planner, or the path of one.
+        plan: A plan of any planner, a motion, or the path of either. Of a motion all joints are tracked, with their
+            velocities and accelerations, and errors are those from the motion, not from its plan.
         robot: A robot with a URDF and the plan's end-effectors by name, or what load_robot takes. None: the plan's own.
-            A whole-body plan has its planar robot and takes no other.
+            A whole-body plan has its planar robot, a motion its joints; they take no other.
         **options: Fields of ``mcplan.tracking.Options``: ``assist``, ``mass_scale``, ``friction_scale``,
             ``ground_shift_m``, ``seed``, ``hold_s``; ``pushes``, each as ``mcplan.tracking.Push`` or as size [N],
             duration [s], time [s] and direction [deg] (0 forward, 90 to the left).

@@ -14,29 +14,21 @@ constexpr double kBoundPush = 1e-2;         // kappa_1, kappa_2: of the start, o
 constexpr double kProbingPush = 0.1;        // the same where the barrier is probed from there
 constexpr double kMultiplierScale = 100.0;  // s_max
 constexpr double kMaxMultipliers = 1e6;     // average beyond which errors are not measured by: they grow without bound
-constexpr double kBarrierTolerance = 10.0;  // kappa_epsilon
-constexpr double kLinearDecrease = 0.2, kSuperlinearDecrease = 1.5;  // kappa_mu, theta_mu
 constexpr double kFirstDelta = 1e-4, kMaxDelta = 1e20, kGrowDelta = 8.0, kFirstGrowDelta = 100.0, kShrinkDelta = 3.0;
 constexpr double kMinDelta = 1e-20, kDualDelta = 1e-8;
-constexpr double kProgress = 0.9999;  // of the optimality error over the last iterations
-constexpr int kHistory = 4;
-constexpr double kLeastRatio = 0.1;      // of a probed barrier parameter, over the average complementarity
-constexpr double kNearViolation = 1e-2;  // up to which multipliers say something
+constexpr double kNearViolation = 1e-2;                 // up to which multipliers say something
 constexpr double kLeastPart = 0.0625, kGrowPart = 4.0;  // of the blend of Hessians
 constexpr double kFirstDamping = 1e-2;
 constexpr int kManyTrials = 6;
 constexpr double kShortStep = 0.01;  // of the way that is looked for, where nothing but a feasible point is
 constexpr int kManyShortSteps = 15;
-// Three steps in a row cut to less than a tenth by the bounds, while mu waits for its problem's solution, say that it
-// has fallen too far ahead: iterates follow a curved valley next to their bounds. It then rises again.
-constexpr double kCutStep = 0.1, kRaise = 10.0, kMostRaised = 0.01;
-constexpr int kManyCutSteps = 3;
+constexpr double kLongStep = 0.5, kSmallGap = 10.0;  // of a step and of a duality gap after which a cost has settled
 
 }  // namespace
 
 double Barrier::Errors::largest() const { return std::max({dual, primal, complementarity}); }
 
-Barrier::Barrier(const Unknowns& unknowns, const nlp::SolverOptions& options, Functions& functions, Kkt& kkt)
+Barrier::Barrier(const Unknowns& unknowns, const nlp::SolverOptions& options, Oracle& functions, LinearSystem& kkt)
     : unknowns_(unknowns),
       options_(options),
       functions_(functions),
@@ -52,7 +44,7 @@ Barrier::Barrier(const Unknowns& unknowns, const nlp::SolverOptions& options, Fu
     step->t = step->lower = step->upper = VectorXd::Zero(all);
     step->lambda = VectorXd::Zero(lambda_.size());
   }
-  for (Kkt::Solution* solution : {&rights_[0], &rights_[1], &at_zero_, &per_mu_}) {
+  for (LinearSystem::Solution* solution : {&rights_[0], &rights_[1], &at_zero_, &per_mu_}) {
     solution->dx = VectorXd::Zero(free);
     solution->lambda = VectorXd::Zero(lambda_.size());
   }
@@ -156,12 +148,12 @@ bool Barrier::factor_ladder() {
   double dual_delta = 0.0;
   bool good = false;
   for (;;) {
-    const Kkt::Factor result = kkt_.factor(delta_, dual_delta);
-    if (result == Kkt::Factor::good) {
+    const LinearSystem::Factor result = kkt_.factor(delta_, dual_delta);
+    if (result == LinearSystem::Factor::good) {
       good = true;
       break;
     }
-    if (result == Kkt::Factor::singular && dual_delta == 0.0 && lambda_.size() > 0) {
+    if (result == LinearSystem::Factor::singular && dual_delta == 0.0 && lambda_.size() > 0) {
       dual_delta = kDualDelta;
       continue;
     }
@@ -194,10 +186,10 @@ bool Barrier::factor_blend(const Point& point) {
     kkt_.set_hessian(blend_);
     set_weights();
     const double start_s = functions_.deadline().now_s();
-    const Kkt::Factor result = kkt_.factor(damping_, 0.0);
+    const LinearSystem::Factor result = kkt_.factor(damping_, 0.0);
     linear_solver_s_ += functions_.deadline().now_s() - start_s;
     delta_ = damping_;
-    if (result == Kkt::Factor::good) return true;
+    if (result == LinearSystem::Factor::good) return true;
   }
   part_ = 0.0;
   kkt_.set_hessian(gauss_newton_);
@@ -272,68 +264,19 @@ double Barrier::max_dual_step(const Step& step, double tau) const {
   return alpha;
 }
 
-double Barrier::average_complementarity() const {
-  double sum = 0.0;
-  int count = 0;
+/// Within all constraints, the cost as it was before a long step, and as the barrier leaves it: what it may still fall
+/// by is the sum of all products of distances and multipliers.
+bool Barrier::cost_settled(const Point& point, const Errors& now) {
+  const double change = std::abs(point.cost - last_cost_),
+               enough = options_.kernel.cost_tolerance * std::abs(point.cost);
+  last_cost_ = point.cost;
+  if (functions_.iterations() == 0 || alpha_ < kLongStep || now.primal > options_.constraint_tolerance) return false;
+  double gap = 0.0;
   for (int i = 0; i < lower_dual_.size(); ++i) {
-    if (gap_lower_[i] < nlp::kInfinity) sum += gap_lower_[i] * lower_dual_[i], ++count;
-    if (gap_upper_[i] < nlp::kInfinity) sum += gap_upper_[i] * upper_dual_[i], ++count;
+    if (gap_lower_[i] < nlp::kInfinity) gap += gap_lower_[i] * lower_dual_[i];
+    if (gap_upper_[i] < nlp::kInfinity) gap += gap_upper_[i] * upper_dual_[i];
   }
-  return count > 0 ? sum / count : 0.0;
-}
-
-/// Mehrotra's: how far complementarity falls along the step to mu = 0 says how far it should be asked to fall.
-double Barrier::probed_mu(const Point& point, double average) {
-  probe(point);
-  const double primal = max_step(affine_.t, 1.0), dual = max_dual_step(affine_, 1.0);
-  double sum = 0.0;
-  int count = 0;
-  for (int i = 0; i < lower_dual_.size(); ++i) {
-    if (gap_lower_[i] < nlp::kInfinity)
-      sum += (gap_lower_[i] + primal * affine_.t[i]) * (lower_dual_[i] + dual * affine_.lower[i]), ++count;
-    if (gap_upper_[i] < nlp::kInfinity)
-      sum += (gap_upper_[i] - primal * affine_.t[i]) * (upper_dual_[i] + dual * affine_.upper[i]), ++count;
-  }
-  if (count == 0 || average <= 0.0) return 0.0;
-  const double ratio = std::max(0.0, sum / count) / average;
-  const double least = probing_ ? kLeastRatio : 0.0;
-  return std::clamp(ratio * ratio * ratio, least, 1.0) * average;
-}
-
-void Barrier::choose_mu(const Point& point, const Errors& now) {
-  const double least = options_.tolerance / 10.0;
-  const auto set = [&](double mu) {
-    if (mu == mu_) return;
-    mu_ = mu;
-    filter_.clear();
-  };
-  if (options_.adaptive_barrier) {
-    const double error = now.largest();
-    const double bar = history_.empty() ? nlp::kInfinity : *std::max_element(history_.begin(), history_.end());
-    const bool progress = static_cast<int>(history_.size()) < kHistory || error <= kProgress * bar;
-    if (progress) {
-      history_.push_back(error);
-      if (static_cast<int>(history_.size()) > kHistory) history_.erase(history_.begin());
-      fixed_mu_ = false;
-      set(std::max(probed_mu(point, average_complementarity()), least));
-      return;
-    }
-    if (!fixed_mu_) {
-      fixed_mu_ = true;
-      set(std::max(0.8 * average_complementarity(), least));
-    }
-  }
-  while (mu_ > least && errors(point, mu_).largest() <= kBarrierTolerance * mu_)
-    set(std::max(least, std::min(kLinearDecrease * mu_, std::pow(mu_, kSuperlinearDecrease))));
-}
-
-/// After steps that the bounds cut short; see kCutStep.
-void Barrier::raise_mu() {
-  cut_steps_ = fixed_mu_ && options_.adaptive_barrier && alpha_ < kCutStep ? cut_steps_ + 1 : 0;
-  if (cut_steps_ < kManyCutSteps || mu_ >= kMostRaised) return;
-  mu_ = std::min(kMostRaised, kRaise * mu_);
-  filter_.clear();
-  cut_steps_ = 0;
+  return change <= enough && gap <= kSmallGap * enough && functions_.violation(point) <= options_.constraint_tolerance;
 }
 
 Barrier::Ending Barrier::run(Point& point, int max_iterations, const Duals* duals) {
@@ -347,6 +290,8 @@ Barrier::Ending Barrier::run(Point& point, int max_iterations, const Duals* dual
     log(point, now, step);
     if (now.largest() <= options_.tolerance && functions_.violation(point) <= options_.constraint_tolerance)
       return {nlp::Outcome::converged, "converged"};
+    if (options_.kernel.cost_tolerance > 0.0 && cost_settled(point, now))
+      return {nlp::Outcome::converged, "the cost has settled at a point within all constraints"};
     if (options_.kernel.feasible_is_enough && functions_.violation(point) <= options_.constraint_tolerance)
       return {nlp::Outcome::converged, "a point within all constraints"};
     if (functions_.iterations() >= max_iterations) return {nlp::Outcome::iteration_limit, "reached max_iterations"};

@@ -14,13 +14,21 @@ if TYPE_CHECKING:
     from mcplan.planar.tracking import PlanarResult, Suitability
     from mcplan.tracking import TrackingResult
     from mcplan.tracking.findings import Feasibility
+    from mcplan.wb import MotionCheckResult
 
 #: [s] between two states of the line: in a terminal, where it is written over, and in a file.
 _TERMINAL_S, _FILE_S = 0.1, 5.0
 #: What of a run in space has no counterpart in the plane: no such quantity is controlled, or it is measured otherwise.
 _NOT_PLANAR = (
     *("com_rms_m", "com_max_m", "orientation_rms_deg", "swing_rms_m", "final_base_error_m", "control_ms"),
-    *("torque_step_use", "self_contacts", "self_contact_N", "self_contact_m"),
+    *(
+        "torque_step_use",
+        "torque_limit_ratio",
+        "leg_torque_limit_ratio",
+        "self_contacts",
+        "self_contact_N",
+        "self_contact_m",
+    ),
     *("terrain_contacts", "terrain_contact_N", "touches"),
 )
 
@@ -74,7 +82,9 @@ class Progress:
 
 
 def summary(
-    result: TrackingResult | PlanarResult, plan: Path | None, feasibility: Feasibility | Suitability | None
+    result: TrackingResult | PlanarResult,
+    plan: Path | None,
+    feasibility: Feasibility | Suitability | MotionCheckResult | None,
 ) -> dict[str, Any]:
     """What ``--json`` prints: the same keys for every plan, null where a measure makes no sense, and for whole-body plans
     their own measures besides."""

@@ -36,6 +36,7 @@ class References:
         surfaces: (n, e) surface in contact or -1.
         swing_fraction: (n, e) fraction of the swing that has passed, 0 to 1; 1 in contact.
         returns: (n, e) whether a free end-effector will be in contact later.
+        base_acceleration_W: (n, 3) angular; sole_accelerations_W: (n, e, 3) angular. None: not known, taken as zero.
         next_surfaces: (n, e) surface in contact or in contact next, -1: none; None: these instants are all that there are.
     """
 
@@ -59,6 +60,8 @@ class References:
     surfaces: NDArray[np.int64]
     swing_fraction: Array
     returns: NDArray[np.bool_]
+    base_acceleration_W: Array | None = None
+    sole_accelerations_W: Array | None = None
     next_surfaces: NDArray[np.int64] | None = None
 
     @property
@@ -104,7 +107,7 @@ def references(plan: Plan, robot: Robot, dt_s: float, hold_s: float) -> Referenc
     size = np.linalg.norm(end_acceleration, axis=2, keepdims=True)
     end_acceleration *= np.minimum(1.0, LARGEST_SWING_ACCELERATION / np.maximum(size, 1e-9))
     end_acceleration[surfaces >= 0] = 0.0
-    fraction, returns = _swings(surfaces)
+    fraction, returns = swings(surfaces)
     return References(
         dt_s=dt_s,
         duration_s=duration,
@@ -150,7 +153,8 @@ def angular_velocity(rotations: Array, dt_s: float) -> Array:
     return np.stack([skew[..., 2, 1], skew[..., 0, 2], skew[..., 1, 0]], axis=-1)
 
 
-def _swings(surfaces: NDArray[np.int64]) -> tuple[Array, NDArray[np.bool_]]:
+def swings(surfaces: NDArray[np.int64]) -> tuple[Array, NDArray[np.bool_]]:
+    """``swing_fraction`` and ``returns`` of References."""
     fraction = np.ones(surfaces.shape)
     returns = np.zeros(surfaces.shape, dtype=bool)
     for end in range(surfaces.shape[1]):
