@@ -2,7 +2,7 @@
 
 python benchmarks/online.py [--robot talos] [--scenes flat stairs_broad ...] [--newtons 250] [--instants 12] [--directions 8]
 
-Pushes act for 0.2 s on the base, at equally spaced instants of two steps in the middle of the walk. Every run is made with
+Pushes act for 0.2 s on the base, at equally spaced instants of the third and fourth step. Every run is made with
 and without replanning, in one process; a run ends a given time after its push. Latency is fixed, so that the outcome is the
 same on every machine; how long replans took is printed beside it.
 """
@@ -42,8 +42,8 @@ def first_plan(scene: str, robot: str) -> mp.Plan:
 
 
 def instants(plan: mp.Plan, count: int) -> list[float]:
-    """Equally spaced times over the two steps (four phases) in the middle of a walk [s]."""
-    knots, middle = list(plan.knot_times()), len(plan.phases) // 2
+    """Equally spaced times over two steps (four phases) in the middle of a walk, or its third and fourth [s]."""
+    knots, middle = list(plan.knot_times()), min(len(plan.phases) // 2, 7)
     return [float(t) for t in np.linspace(knots[middle - 2], knots[middle + 2], count, endpoint=False)]
 
 

@@ -110,12 +110,23 @@ def first_plan(scene: Scene | Plan | str | Path, robot: Robot | str | Path | Non
 def _typed(name: str, value: Any) -> Any:
     kind = type(getattr(OnlineOptions(), name))
     if kind is tuple:
-        try:
-            return tuple(float(number) for number in value)
-        except (TypeError, ValueError):
-            raise InvalidOptions(name, "must be three numbers", shown(value)) from None
+        return _commands(name, value)
     if kind is float and not isinstance(value, bool) and hasattr(value, "__float__"):
         return float(value)
     if not isinstance(value, kind):
         raise InvalidOptions(name, "must be a number" if kind is float else f"must be a {kind.__name__}", shown(value))
     return value
+
+
+def _commands(name: str, value: Any) -> tuple[tuple[float, ...], ...]:
+    """Velocities with the times from which on they hold: of one without a time, from the beginning.
+
+    Raises:
+        InvalidOptions: No numbers, or not three or four of them.
+    """
+    rows = [value] if len(value) and hasattr(value[0], "__float__") else value
+    try:
+        found = [tuple(float(number) for number in row) for row in rows]
+    except (TypeError, ValueError):
+        raise InvalidOptions(name, "must be numbers", shown(value)) from None
+    return tuple((0.0, *row) if len(row) == 3 else row for row in found)

@@ -10,7 +10,7 @@ import pytest
 import mcplan as mp
 from mcplan.online import MeasuredState, OnlineOptions, Planner
 from mcplan.online.pacing import Pace, distances, steps_left
-from mcplan.online.planner import RISE_M_S, _calmed, _usable
+from mcplan.online.planner import RISE_M_S, _calmed, follows
 from mcplan.online.reach import widened
 
 
@@ -111,15 +111,7 @@ def test_closing_ends_the_thread(plan):
     ],
 )
 def test_plans_are_followed_as_their_status_says(status, came_from, kept_s, usable):
-    assert (
-        _usable(
-            mp.Status[status] if hasattr(mp.Status, "__getitem__") else getattr(mp.Status, status),
-            came_from,
-            kept_s,
-            0.1,
-        )
-        is usable
-    )
+    assert follows(getattr(mp.Status, status), came_from, kept_s, 0.1) is usable
 
 
 def test_a_foot_that_is_about_to_land_is_not_kicked_up(plan):
@@ -174,7 +166,7 @@ def test_nothing_is_replanned_where_only_standing_is_left(plan):
 
 @pytest.mark.parametrize(
     ("name", "value"),
-    [("period_s", 0.0), ("latency_s", -0.1), ("command", (1.0,)), ("com_margin_m", 0.0), ("pause_s", 2.0)],
+    [("period_s", 0.0), ("latency_s", -0.1), ("command", ((1.0, 0.0),)), ("com_margin_m", 0.0), ("pause_s", 2.0)],
 )
 def test_options_out_of_range_are_refused_by_name(name, value):
     with pytest.raises(mp.errors.InvalidOptions, match=name):

@@ -76,6 +76,38 @@ def test_the_command_prints_what_track_prints_and_how_planning_went(plan, tmp_pa
     assert mp.track is not None and len(run.read_bytes()) > 1000
 
 
+def test_a_robot_for_which_no_plan_comes_is_brought_to_a_stand(plan, monkeypatch):
+    from mcplan.online import planner, runner
+
+    asked = []
+
+    def only_to_stand(*arguments):
+        asked.append(arguments[4])
+        if arguments[4] != runner.STAND:
+            raise mp.InvalidInput("test", "must stand")
+        return replan(*arguments)
+
+    replan = planner.replan
+    monkeypatch.setattr(planner, "replan", only_to_stand)
+    run = mp.run(plan, latency=LATENCY, duration=0.6, stop_after_s=0.25, self_contacts=False)
+    assert run.online.stops >= 1 and run.online.replans_used >= 1 and not run.measures.fell
+    assert asked[0] is None and runner.STAND in asked
+    assert run.online.statuses["error"] >= 2
+
+
+def test_commands_change_while_the_robot_walks(plan):
+    command = [(0.1, 0.0, 0.0), (0.3, 0.0, 0.05, 0.2)]
+    run = mp.run(plan, command=command, latency=LATENCY, duration=0.5, self_contacts=False)
+    assert run.online_options.command == ((0.0, 0.1, 0.0, 0.0), (0.3, 0.0, 0.05, 0.2))
+    assert run.online_options.command_at(0.2) == (0.1, 0.0, 0.0) and run.online_options.command_at(0.31) == (
+        0.0,
+        0.05,
+        0.2,
+    )
+    turns = [followed.plan.knots[-1].base_rpy[2] for followed in run.plans]
+    assert abs(turns[2]) < 0.05 < turns[-1] and not run.measures.fell
+
+
 def test_a_velocity_is_walked_at(plan):
     run = mp.run(plan, command=(0.1, 0.0, 0.0), latency=LATENCY, duration=0.4, self_contacts=False)
     assert not run.measures.fell and run.online.replans_used >= 3
@@ -88,7 +120,7 @@ def test_a_velocity_is_walked_at(plan):
         ({"latencies": 1}, "latencies: no such option"),
         ({"assist": True}, "assist: no such option"),
         ({"latency": "soon"}, "latency_s: must be a number"),
-        ({"command": (1.0, 2.0)}, "command: must be three finite numbers"),
+        ({"command": (1.0, 2.0)}, "command: must be three finite numbers, or four"),
         ({"push": (250.0, 0.2, 99.0, 0.0)}, r"pushes\[0\].at_s: must lie before the end"),
     ],
 )

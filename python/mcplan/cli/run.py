@@ -11,6 +11,7 @@ from mcplan.cli import track
 from mcplan.cli.given_options import named_as_typed
 
 if TYPE_CHECKING:
+    from mcplan.cli.track_outputs import RunOutputs
     from mcplan.online.result import RunResult
 
 
@@ -21,11 +22,11 @@ RobotOption = Annotated[
     str | None, typer.Option("--robot", metavar="R", help="Robot with a URDF: built-in name or TOML file.")
 ]
 CommandOption = Annotated[
-    str | None,
+    list[str] | None,
     typer.Option(
         "--command",
-        metavar="ahead,left,turn",
-        help="Velocity to walk at [m/s, m/s, rad/s]; default: to the scene's goal.",
+        metavar="[at,]ahead,left,turn",
+        help="Velocity to walk at [m/s, m/s, rad/s], from an instant on [s]; may be repeated. Default: to the scene's goal.",
     ),
 ]
 LatencyOption = Annotated[
@@ -95,28 +96,38 @@ def run(
 
     Example: mcplan run flat --robot talos --command 0.15,0,0.1 --duration 8 --json
     """
-    from mcplan.cli.interrupts import CODE, as_far_as_it_came
     from mcplan.cli.pushes import parse_pushes
-    from mcplan.cli.terminal import printable
     from mcplan.cli.track_outputs import RunOutputs
+
+    values: dict[str, Any] = {"pushes": parse_pushes(push or []), "seed": seed, "replanning": replanning}
+    values |= {"mass_scale": mass_scale, "friction_scale": friction, "ground_shift_m": ground_shift}
+    values |= {"torque_bandwidth_hz": torque_bandwidth, "torque_delay_s": torque_delay, "sensor_noise": sensor_noise}
+    values |= {"latency_s": latency, "period_s": period, "duration_s": duration}
+    values["command"] = [_numbers(text) for text in command or []]
+    return _run((scene, robot), values, RunOutputs(video, html, strip, plots, save, verb="run"), json, quiet)
+
+
+def _run(walk: tuple[str, str | None], values: dict[str, Any], outputs: RunOutputs, json: bool, quiet: bool) -> int:
+    """Scene and robot, options by name, and what is to be written; the exit code."""
+    from dataclasses import replace
+
+    from mcplan.cli.interrupts import CODE, as_far_as_it_came
+    from mcplan.cli.terminal import printable
     from mcplan.cli.track_text import Progress
     from mcplan.extras import require
     from mcplan.running import chosen_options, run_any
 
     require("mcplan run", "sim", "mujoco", "pinocchio", "proxsuite")
-    outputs = RunOutputs(video, html, strip, plots, save, verb="run")
     outputs.require()
-    values: dict[str, Any] = {"pushes": parse_pushes(push or []), "seed": seed, "replanning": replanning}
-    values |= {"mass_scale": mass_scale, "friction_scale": friction, "ground_shift_m": ground_shift}
-    values |= {"torque_bandwidth_hz": torque_bandwidth, "torque_delay_s": torque_delay, "sensor_noise": sensor_noise}
-    values |= {"latency_s": latency, "period_s": period, "duration_s": duration, "command": _numbers(command)}
     chosen_options(values)
     progress = Progress(quiet or json)
     progress.working("planning")
-    result, interrupted = as_far_as_it_came(lambda: run_any(scene, robot, values, progress.simulated))
+    result, interrupted = as_far_as_it_came(lambda: run_any(*walk, values, progress.simulated))
     progress.end()
     print(json_module.dumps(summary(result), allow_nan=False) if json else result, flush=True)
-    written = (RunOutputs(save=save) if interrupted else outputs).write(result, progress)
+    written = (replace(outputs, video=None, html=None, strip=None, plots=None) if interrupted else outputs).write(
+        result, progress
+    )
     if written and not json:
         print(printable(f"Saved {', '.join(written)}"))
     return CODE if interrupted else 0 if result.followed else 1
@@ -138,21 +149,19 @@ def summary(result: RunResult) -> dict[str, Any]:
     }
 
 
-def _numbers(command: str | None) -> tuple[float, ...] | None:
+def _numbers(command: str) -> tuple[float, ...]:
     """Numbers of --command.
 
     Raises:
-        InvalidOptions: Not three numbers.
+        InvalidOptions: Not three or four numbers.
     """
     from mcplan.errors import InvalidOptions, shown
 
-    if command is None:
-        return None
     words = command.split(",")
     try:
         numbers = tuple(float(word) for word in words)
     except ValueError:
         numbers = ()
-    if len(numbers) != 3:
-        raise InvalidOptions("--command", "must be ahead,left,turn, such as 0.15,0,0.1", shown(command))
+    if len(numbers) not in (3, 4):
+        raise InvalidOptions("--command", "must be [at,]ahead,left,turn, such as 0.15,0,0.1", shown(command))
     return numbers

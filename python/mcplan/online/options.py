@@ -22,9 +22,11 @@ class OnlineOptions:
         latency_s: A plan is taken over this long after the state was measured from which it was made; nan: as long as its
             computation took by the wall clock, so that runs differ with the machine.
         time_limit_s: Wall clock of a replan [s]; nan: none with a fixed latency, the period without.
-        command: Velocity to walk at: ahead, to the left [m/s], turning [rad/s]; empty: to the scene's goal.
+        command: Velocities to walk at, each from a time on: time [s], ahead, to the left [m/s], turning [rad/s]; until the
+            first of these times to the scene's goal, as without any.
         duration_s: Length of the run [s]; nan: the first plan and what the run holds it for, and 10 s under a command.
-        wide_reach: Legs may reach as far as their joints let them (see ``reach``), not only within the robot's boxes.
+        wide_reach: Where no plan keeps legs within the robot's boxes, they may reach as far as their joints let them (see
+            ``reach``).
         start_slack_s: Time within which what the measured state violates has to be made good, for a robot of human size.
         stop_after_s: The robot is brought to a stand if it has left its plan and no plan has come for so long.
     """
@@ -37,7 +39,7 @@ class OnlineOptions:
     pause_s: float = 0.03
     latency_s: float = float("nan")
     time_limit_s: float = float("nan")
-    command: tuple[float, ...] = ()
+    command: tuple[tuple[float, float, float, float], ...] = ()
     duration_s: float = float("nan")
     wide_reach: bool = True
     start_slack_s: float = 1.0
@@ -53,8 +55,20 @@ class OnlineOptions:
         for name, high in (("latency_s", 1.0), ("time_limit_s", 10.0), ("duration_s", 3600.0)):
             value = getattr(self, name)
             _require(name, f"must lie in 0 to {high:g}, or be nan", value, bool(np.isnan(value) or 0 <= value <= high))
-        ok = len(self.command) in (0, 3) and bool(np.isfinite(np.asarray(self.command, float)).all())
-        _require("command", "must be three finite numbers, or none", self.command, ok)
+        ok = all(len(row) == 4 and bool(np.isfinite(np.asarray(row, float)).all()) for row in self.command)
+        _require("command", "must be three finite numbers, or four with a time before them", self.command, ok)
+        times = [row[0] for row in self.command]
+        _require(
+            "command",
+            "must have ascending times of 0 or more",
+            self.command,
+            times == sorted(times) and min(times, default=0.0) >= 0,
+        )
+
+    def command_at(self, time_s: float) -> tuple[float, float, float] | None:
+        """The velocity to walk at at a time [s]; None: to the scene's goal."""
+        past = [row for row in self.command if row[0] <= time_s + 1e-9]
+        return past[-1][1:] if past else None
 
     @property
     def fixed_latency(self) -> bool:

@@ -20,7 +20,7 @@ class Pace:
 
     def __init__(self, options: OnlineOptions) -> None:
         self._options = options
-        self._last_s = -options.period_s if options.command else 0.0
+        self._last_s = -options.period_s if options.command_at(0.0) else 0.0
         self._touched = False
 
     def asked(self, now_s: float) -> None:
@@ -43,7 +43,7 @@ class Pace:
         if since_s < options.pause_s - 1e-9:
             return None
         # Where nothing but standing is left, replans would put in steps on the spot again and again.
-        goes_on = bool(options.command) or steps_left(plan, t)
+        goes_on = options.command_at(now_s) is not None or steps_left(plan, t)
         if options.at_touchdowns and self._touched and goes_on:
             return "touchdown"
         if since_s > options.period_s - 1e-9 and goes_on:

@@ -14,7 +14,7 @@ from mcplan.errors import InvalidInput
 from mcplan.solve import replan
 
 if TYPE_CHECKING:
-    from mcplan._core import Knot, Robot, Scene
+    from mcplan._core import Knot, PlanResult, Report, Robot, Scene
 
 #: Of the period, the time for which a plan that was cut short has to keep all limits to be worth following.
 KEPT_PERIODS = 2.0
@@ -82,7 +82,8 @@ class Planner:
     Attributes:
         plan, begins_s: The plan under way, and when it began.
         command: May be changed at any time; it holds for what is computed from then on.
-        scene, robot: Instead of the plan's own, for ground that was measured anew; None: the plan's own.
+        scene: Instead of the plan's own, for ground that was measured anew; None: the plan's own.
+        robots: Robots to plan for, one after the other until a plan is usable: after the plan's own, one with wider limits.
     """
 
     def __init__(
@@ -97,7 +98,7 @@ class Planner:
         self.plan, self.begins_s = plan, begins_s
         self.command, self.period_s = command, period_s
         self.scene: Scene | None = None
-        self.robot: Robot | None = None
+        self.robots: list[Robot] = [plan.robot]
         self._named: Mapping[str, Any] = named
         self._lock = threading.Condition()
         self._waiting: tuple[int, MeasuredState, Mapping[str, Any]] | None = None
@@ -189,21 +190,29 @@ class Planner:
         self, ticket: int, state: MeasuredState, plan: Plan, begins_s: float, named: Mapping[str, Any]
     ) -> Update:
         began = time.perf_counter()
+        found: PlanResult | None = None
         try:
             t = min(max(state.time_s - begins_s, 0.0), float(plan.duration()))
-            result = replan(plan, t, state.knot, state.contacts, self.command, self.scene, self.robot, dict(named))
+            for robot in self.robots:
+                result = replan(plan, t, state.knot, state.contacts, self.command, self.scene, robot, dict(named))
+                if found is None or _usable(result.report, self.period_s):
+                    found = result
+                if _usable(result.report, self.period_s):
+                    break
+            if found is None:
+                raise InvalidInput("robots", "must be one at least", "none")
+            new = _calmed(found.plan)
         except Exception as error:  # a state that the planner refuses must not end the thread: the plan goes on
             took_s, text = time.perf_counter() - began, f"{type(error).__name__}: {error}"
             return Update(None, state.time_s, took_s, "error", False, state.time_s, text, "previous_plan", ticket)
-        took_s, report = time.perf_counter() - began, result.report
-        kept_s = float(report.kept_until_s)
+        took_s, report = time.perf_counter() - began, found.report
         return Update(
-            plan=_calmed(result.plan),
+            plan=new,
             begins_s=state.time_s,
             took_s=took_s,
             status=report.status.name,
-            usable=_usable(report.status, report.plan_from.name, kept_s, self.period_s),
-            kept_until_s=state.time_s + kept_s,
+            usable=_usable(report, self.period_s),
+            kept_until_s=state.time_s + float(report.kept_until_s),
             message=report.message,
             plan_from=report.plan_from.name,
             ticket=ticket,
@@ -225,8 +234,13 @@ def _calmed(plan: Plan) -> Plan:
     return plan
 
 
-def _usable(status: Status, plan_from: str, kept_s: float, period_s: float) -> bool:
+def _usable(report: Report, period_s: float) -> bool:
     """Whether to follow a plan, as docs/replanning.md has it by status."""
+    return follows(report.status, report.plan_from.name, float(report.kept_until_s), period_s)
+
+
+def follows(status: Status, plan_from: str, kept_s: float, period_s: float) -> bool:
+    """Whether to follow a plan with such a status, from there, that keeps all limits for so long [s]."""
     if plan_from not in ("same_sequence", "other_sequence"):
         return False
     if status in (Status.solved, Status.acceptable):

@@ -47,6 +47,8 @@ FALLEN_RATIO, FALLEN_RAD = 0.6, 1.0
 COMMAND_S = 10.0
 #: A run to a goal ends at the latest after this ratio of the first plan's duration, and this time more [s].
 LONGEST_RATIO, LONGEST_S = 2.0, 5.0
+#: Velocity of a robot that is to stand.
+STAND = (0.0, 0.0, 0.0)
 #: Height of the CoM of a robot of human size [m].
 HUMAN_M = 0.88
 #: A contact is one that the first plan had if it is within this distance of it [m].
@@ -157,17 +159,18 @@ class _Loop:
         limit_s = online.time_limit_s
         if np.isnan(limit_s) and not online.fixed_latency:
             limit_s = online.period_s
-        self.planner = Planner(
-            plan,
-            command=online.command or None,  # type: ignore[arg-type]
-            period_s=online.period_s,
-            start_slack_s=online.start_slack_s * np.sqrt(plan.robot.com_height / HUMAN_M),
-            **({} if np.isnan(limit_s) else {"time_limit": limit_s}),
-        )
+        named = {"start_slack_s": online.start_slack_s * np.sqrt(plan.robot.com_height / HUMAN_M)}
+        if not np.isnan(limit_s):
+            named["time_limit"] = limit_s
+        self.planner = Planner(plan, 0.0, command=None, period_s=online.period_s, **named)
         if online.wide_reach:
-            self.planner.robot = widened(plan.robot)
+            self.planner.robots.append(widened(plan.robot))
         self.pace, self.tally = Pace(online), Tally(online.latency_s)
         self.pending: _Pending | None = None
+        self.failing_s, self.stopping = (
+            np.inf,
+            False,
+        )  # since when no plan could be followed; whether to come to a stand
         self.plans = [FollowedPlan(plan, 0.0, 0.0)]
         count = int(np.ceil(length_s / self.dt_s)) + 1
         self.followed = FollowedReferences(count, desired)
@@ -237,9 +240,10 @@ class _Loop:
         reason = self.pace.due(now_s, touchdown, under_way.plan, t, com_W, velocity_W)
         if reason is None:
             return
+        self.planner.command = self._command(now_s)
         state = self.reader.read(now_s, *read, self._for_planner(standing, t), under_way.plan, t)
         # Near the goal the phases that are left are enough, unless the robot has to catch itself.
-        few = reason in ("period", "touchdown") and not self.online.command
+        few = reason in ("period", "touchdown") and self.planner.command is None
         self.planner.submit(state, **({"phases_min": 1} if few else {}))
         update = self.planner.wait()
         assert update is not None
@@ -247,6 +251,13 @@ class _Loop:
         latency_s = self.online.latency_s if self.online.fixed_latency else update.took_s
         self.tally.computed(update.took_s, latency_s, update.status, reason)
         self.pending = _Pending(update, now_s + latency_s)
+
+    def _command(self, now_s: float) -> tuple[float, float, float] | None:
+        """The velocity that is asked for, or a stand where no plan has come for long."""
+        if now_s - self.failing_s > self.online.stop_after_s:
+            self.tally.stops += not self.stopping
+            self.stopping = True
+        return STAND if self.stopping else self.online.command_at(now_s)
 
     def _for_planner(self, standing: NDArray[np.bool_], t: float) -> list[bool]:
         """Contacts that the planner is told: a foot that is being lifted has left, though its force is not yet gone."""
@@ -261,7 +272,9 @@ class _Loop:
             return
         update, self.pending = self.pending.update, None
         if not update.usable or update.plan is None:
+            self.failing_s = min(self.failing_s, update.begins_s)
             return
+        self.failing_s, self.stopping = np.inf, False
         self.controller.set_plan(update.plan, update.begins_s)
         self.planner.take_over(update)
         self.plans.append(FollowedPlan(update.plan, update.begins_s, now_s, update.took_s, update.message))
@@ -281,7 +294,7 @@ class _Loop:
 
     def _over(self, now_s: float) -> bool:
         """Whether the plan under way has ended and its end was held."""
-        if self.online.command or not np.isnan(self.online.duration_s):
+        if self.online.command_at(now_s) or not np.isnan(self.online.duration_s):
             return False
         return bool(now_s - self.plan.begins_s > self.plan.plan.duration() + self.options.hold_s)
 
