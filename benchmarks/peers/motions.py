@@ -1,0 +1,42 @@
+"""Crocoddyl's FDDP, and mcplan's whole-body stage, along the same plans."""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path
+from typing import Any
+
+import mcplan as mp
+from environments import python_with, run
+
+#: Its wheel is compiled for this Pinocchio and crashes with the next.
+PACKAGES = ("crocoddyl==3.2.1", "pin==4.0.0", "numpy")
+CASES = (("flat", "talos"), ("stairs_broad", "talos"), ("flat", "g1"))
+ITERATIONS = 100
+HERE = Path(__file__).resolve().parent
+
+
+def rows(folder: Path) -> list[dict[str, Any]]:
+    """Two rows a case.
+
+    Raises:
+        Unavailable: Crocoddyl cannot be installed or fails.
+    """
+    python = python_with(folder / "venv", PACKAGES)
+    found = []
+    for scene, robot in CASES:
+        plan = mp.plan(scene, robot).plan
+        problem = folder / f"{scene}_{robot}.py"
+        mp.export(plan, "crocoddyl", str(problem))
+        peer = json.loads(run(python, HERE / "crocoddyl_inside.py", problem, str(ITERATIONS)))
+        found.append({"case": f"{scene}/{robot}", "planner": "Crocoddyl 3.2.1, FDDP", **peer})
+        found.append({"case": f"{scene}/{robot}", "planner": "mcplan motion", **ours(plan)})
+    return found
+
+
+def ours(plan: Any) -> dict[str, Any]:
+    """mcplan's motion along the plan, and what its certificate measures each millisecond."""
+    cpu = time.process_time()
+    result = mp.motion(plan)
+    return {"cpu_s": time.process_time() - cpu, "result": result}
