@@ -9,11 +9,12 @@
     mp.check(result.plan, scene, robot).raise_if_violated()
     result.plan.save("plan.npz")
     mp.show(result.plan, scene, robot).save_html("plan.html")
+    motion = mp.motion(mp.plan("flat", "talos").plan).motion
 
 Verbs, engines and what they are about are here; ``mcplan.model`` has what scenes, robots and plans are made of,
 ``mcplan.errors`` each error. The engines ``ddp``, ``rhp`` and ``sip`` have their options, a solve and its result: ``plan`` is
-``ddp.plan``, ``walk`` is ``rhp.walk``, ``whole_body`` is ``sip.plan``. ``mcplan.ipm`` is the solver behind them, for problems
-of one's own.
+``ddp.plan``, ``walk`` is ``rhp.walk``, ``whole_body`` is ``sip.plan``; ``mcplan.wb`` has motions of robots in space.
+``mcplan.ipm`` is the solver behind them, for problems of one's own.
 
 Importing this loads NumPy and nothing heavier; the rest comes when first used.
 """
@@ -23,6 +24,7 @@ from __future__ import annotations
 from mcplan import starting as _starting  # noqa: F401  first: Ctrl-C while the command loads
 
 # isort: split
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -81,6 +83,7 @@ if TYPE_CHECKING:
     from mcplan.planar.tracking import PlanarResult
     from mcplan.rhp import Walk as Walk
     from mcplan.tracking import TrackingResult
+    from mcplan.wb import MotionResult, MotionTolerances
 
     PlanarMotion, WholeBodyPlan, WholeBodyTolerances = PlanarTask, PlanarPlan, PlanarTolerances
     PlanResult = ddp.Result
@@ -110,6 +113,7 @@ __all__ = [
     "load_robot",
     "load_scene",
     "load_sweep",
+    "motion",
     "plan",
     "receding_horizon",
     "replan",
@@ -143,6 +147,64 @@ if not TYPE_CHECKING:
 
     def __dir__() -> list[str]:
         return __all__
+
+
+def motion(
+    plan: Plan | str | Path,
+    *,
+    joints: str | Sequence[str] = "default",
+    node_s: float = 0.025,
+    max_iterations: int = 60,
+    time_limit_s: float = float("inf"),
+    start: str = "follow",
+    tolerances: MotionTolerances | None = None,
+) -> MotionResult:
+    """Find joints, torques and contact forces with which a robot carries out a plan of contacts and CoM.
+
+        result = mp.motion("plan.npz")
+        print(result.report)  # solved after 2.9 s, 10 iterations
+        state = result.motion.at(0.5)  # q, v, a, tau, contact wrenches
+
+    One interior-point solve: splines of base and joints, forces at the corners of soles, equations of motion, limits of
+    positions, speeds and torques, soles over the ground, all near the plan. The status is `solved` only if the certificate
+    holds, which works out all of it again at a thousand instants a second. Ctrl-C ends the solve with Interrupted, which
+    carries the result.
+
+    Args:
+        plan: A plan of a robot with a URDF, or the path of one.
+        joints: Those that move: "default" (all but grippers, fingers and head), "all", "legs", or names.
+        node_s: Time between two nodes, at most [s].
+        max_iterations: Of the interior-point method.
+        time_limit_s: Wall clock, without the certificate [s].
+        start: "follow": from postures along the plan by inverse kinematics; "stand": from the robot standing still.
+        tolerances: Of the certificate; None: its own.
+
+    Returns:
+        A ``mcplan.wb.MotionResult`` with ``motion``, ``report`` and ``certificate``. Where the robot lacks torque, speed or
+        reach, the status says so and ``report.shortfall`` names joint, time and factor.
+
+    Raises:
+        InvalidArgument: An argument is of another type.
+        InvalidOptions: An option is out of its range.
+        InvalidInput: No such joint.
+        InvalidPlan: The file is no plan.
+        InvalidRobot: The robot has no URDF, or it cannot be read.
+        MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
+    """
+    from mcplan.extras import require
+
+    require("mcplan.motion", "view", "pinocchio", "scipy")
+    from mcplan.wb.solve import motion as find
+
+    return find(
+        plan,
+        joints=joints,
+        node_s=node_s,
+        max_iterations=max_iterations,
+        time_limit_s=time_limit_s,
+        start=start,
+        tolerances=tolerances,
+    )
 
 
 def track(

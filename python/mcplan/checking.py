@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 from mcplan import _core
 from mcplan._core import CheckResult, Plan, PlanarPlan, PlanarTolerances, Robot, Scene, Tolerances
 from mcplan.arguments import require, titled
 from mcplan.errors import InvalidArgument
 from mcplan.files.meeting import warn_of_names
+
+if TYPE_CHECKING:
+    from mcplan.wb import Motion, MotionCheckResult, MotionTolerances
 
 _TAKES: dict[type, dict[str, tuple[type, ...]]] = {
     Plan: {
@@ -31,21 +34,24 @@ def check(
 ) -> CheckResult: ...
 @overload
 def check(plan: PlanarPlan, tolerances: PlanarTolerances = ..., self_collision: bool = False) -> CheckResult: ...
-def check(plan: Any, *given: Any, **named: Any) -> CheckResult:
-    """Check a plan from its positions, forces and polygons alone, a whole-body plan from its splines.
+@overload
+def check(plan: Motion, tolerances: MotionTolerances | None = None) -> MotionCheckResult: ...
+def check(plan: Any, *given: Any, **named: Any) -> Any:
+    """Check a plan from its positions, forces and polygons alone, a whole-body plan and a motion from their splines.
 
         mp.check(result.plan, scene, robot).raise_if_violated()
 
     Args:
-        plan: The plan.
-        scene: What it is checked against; None: the plan's own. A whole-body plan takes no scene and no robot.
+        plan: The plan, or the motion.
+        scene: What it is checked against; None: the plan's own. A whole-body plan and a motion take no scene and no robot.
         robot: As `scene`.
-        tolerances: Accepted amounts beyond the limits: ``Tolerances``, or ``PlanarTolerances`` of a whole-body plan.
+        tolerances: Accepted amounts beyond the limits: ``Tolerances``, ``PlanarTolerances`` of a whole-body plan, or
+            ``wb.MotionTolerances`` of a motion.
         until_s: Before the plan's end only what comes no later than this time [s] is looked at; not for a whole-body plan.
         self_collision: Whether the collision pairs of a whole-body plan's robot are checked, too.
 
     Returns:
-        The violations, if any.
+        The violations, if any; of a motion the worst place of every constraint, with ``measures``.
 
     Raises:
         InvalidArgument: An argument is of another type, such as the result that has the plan.
@@ -54,6 +60,13 @@ def check(plan: Any, *given: Any, **named: Any) -> CheckResult:
         InvalidScene, InvalidRobot, InvalidPlanarTask: What it is checked against is malformed.
         Interrupted: Ctrl-C, with what was found by then.
     """
+    if not isinstance(plan, Plan | PlanarPlan):
+        from mcplan.wb import Motion, MotionTolerances
+        from mcplan.wb.certificate import certify
+
+        require("plan", plan, Plan, PlanarPlan, Motion)
+        require("tolerances", (tolerances := _only_tolerances(given, named)), MotionTolerances, optional=True)
+        return certify(plan, tolerances)
     try:
         found = _core.check(plan, *given, **named)
     except TypeError:  # only now is it worth a look which argument it was
@@ -65,6 +78,20 @@ def check(plan: Any, *given: Any, **named: Any) -> CheckResult:
         )
         warn_of_names(scene or plan.scene, robot or plan.robot)
     return found
+
+
+def _only_tolerances(given: tuple[Any, ...], named: dict[str, Any]) -> Any:
+    """The one argument that a motion takes, None without.
+
+    Raises:
+        InvalidArgument: There is another one.
+    """
+    others = [name for name in named if name != "tolerances"] + ["the third argument"] * (len(given) > 1)
+    if others or (given and named):
+        raise InvalidArgument(
+            others[0] if others else "tolerances", "must not be given with a Motion, which takes tolerances"
+        )
+    return given[0] if given else named.get("tolerances")
 
 
 def _require_taken(plan: Any, given: tuple[Any, ...], named: dict[str, Any]) -> None:

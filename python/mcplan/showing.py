@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from mcplan.planar.tracking import PlanarRecording, PlanarResult
     from mcplan.tracking import Recording, TrackingResult
     from mcplan.view.pages.page import Page
+    from mcplan.wb import Motion
 
 
 class AnyPlan(Protocol):
@@ -39,46 +40,51 @@ class AnyPlan(Protocol):
 
 
 Run: TypeAlias = "Recording | TrackingResult | PlanarRecording | PlanarResult"
-Shown: TypeAlias = "Plan | PlanarPlan | Run"
+Shown: TypeAlias = "Plan | PlanarPlan | Motion | Run"
 
 
-def load(path: str | Path) -> Plan | PlanarPlan | TrackingResult | PlanarResult:
-    """Read a saved plan or run of either kind.
+def load(path: str | Path) -> Plan | PlanarPlan | Motion | TrackingResult | PlanarResult:
+    """Read a saved plan or run of either kind, or a motion.
 
     Raises:
         InvalidInput: Neither, or its content does not fit together; the message names file, field and rule.
         FileNotFoundError: There is no such file.
     """
-    from mcplan.files.whole_body_plans import load_any_plan
     from mcplan.planar.tracking.result import result_from as planar_result_from
     from mcplan.tracking.result import result_from
     from mcplan.tracking.run_files import PLANAR_RUN, RUN, load_run
+    from mcplan.wb.loading import load_any
 
     makers: dict[str, Callable[..., Any]] = {RUN: result_from, PLANAR_RUN: planar_result_from}
-    saved: Plan | PlanarPlan | TrackingResult | PlanarResult = load_run(path, makers, load_any_plan)
+    saved: Plan | PlanarPlan | Motion | TrackingResult | PlanarResult = load_run(path, makers, load_any)
     return saved
 
 
 def show(plan: Shown, scene: Scene | None = None, robot: Robot | None = None, report: Report | None = None) -> Page:
-    """Draw a plan or a run in the browser; the result has ``save_html(path)``.
+    """Draw a plan, a motion or a run in the browser; the result has ``save_html(path)``.
 
     Args:
-        plan: The plan, or what track() found of one. A whole-body plan is drawn with its own task, a run with its own
-            plan; they take no scene and no robot.
+        plan: The plan, a motion, or what track() found of a plan. A whole-body plan is drawn with its own task, a motion
+            and a run with their own plan; they take no scene and no robot.
         scene: Drawn around it; None: the plan's own.
         robot: Drawn along it; None: the plan's own. With a URDF its meshes are drawn, else a stick robot.
         report: How the plan was found, for the caption.
 
     Raises:
         InvalidArgument: An argument is of another type, such as the result that has the plan.
-        InvalidInput: A scene or a robot for a whole-body plan or a run.
+        InvalidInput: A scene or a robot for a whole-body plan, a motion or a run.
         MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
     """
     from mcplan.extras import require as require_extra
 
     require_extra("mcplan.show", "view", "meshcat")
+    if is_motion(plan):
+        _require_own("a motion is drawn with its own plan", scene=scene, robot=robot)
+        from mcplan.view.pages.show_motion import show_motion
+
+        return show_motion(plan)
     if not is_run(plan):
-        require("plan", plan, Plan, PlanarPlan)
+        require("plan", plan, Plan, PlanarPlan, _motion_kind())
     require("scene", scene, Scene, optional=True)
     require("robot", robot, Robot, optional=True)
     require("report", report, Report, optional=True)
@@ -105,10 +111,10 @@ def show(plan: Shown, scene: Scene | None = None, robot: Robot | None = None, re
 
 
 def save_plots(what: Shown, report: Report | None, folder: str | Path) -> list[Path]:
-    """Write all plots of a plan or run into a folder, which is made if it does not exist.
+    """Write all plots of a plan, motion or run into a folder, which is made if it does not exist.
 
     Args:
-        what: The plan, or the run.
+        what: The plan, the motion or the run.
         report: How a plan was found, for the plots of the search; None: without them.
         folder: Where to.
 
@@ -120,6 +126,10 @@ def save_plots(what: Shown, report: Report | None, folder: str | Path) -> list[P
         InvalidPlan: The plan's arrays do not fit together.
         OSError: The folder cannot be written to.
     """
+    if is_motion(what):
+        from mcplan.view.plots.motion import save_motion_plots
+
+        return save_motion_plots(what, folder)
     if isinstance(what, PlanarPlan):
         from mcplan.planar.view.save_plots import save_whole_body_plots
 
@@ -138,11 +148,11 @@ def save_plots(what: Shown, report: Report | None, folder: str | Path) -> list[P
 
 
 def save_picture(what: Shown, path: str | Path) -> Path:
-    """Write one picture: the postures of a plan in its scene, the film strip of a whole-body plan, snapshots of a run.
+    """Write one picture: postures of a plan or a motion in its scene, the film strip of a whole-body plan, snapshots of a run.
 
     Args:
-        what: The plan, or the run.
-        path: .png, or of a plan .pdf or .svg.
+        what: The plan, the motion or the run.
+        path: .png, or of a plan or a motion .pdf or .svg.
 
     Raises:
         InvalidInput: Another ending.
@@ -154,6 +164,10 @@ def save_picture(what: Shown, path: str | Path) -> Path:
         from mcplan.view.sheets import save_figure
 
         return save_figure(film_strip(what), path)
+    if is_motion(what):
+        from mcplan.view.pictures.motion_picture import motion_picture
+
+        return motion_picture(what, path=path)
     if is_run(what):
         return save_strip(what, path)
     from mcplan.view.pictures.picture import picture
@@ -173,6 +187,17 @@ def save_video(run: Run, path: str | Path, **options: Any) -> Path:
     from mcplan.view.video.film import save_video as film
 
     return film(run, path, **_laid_out(run), **options)
+
+
+def is_motion(what: object) -> TypeIs[Motion]:
+    """Whether it is a motion."""
+    return not isinstance(what, Plan | PlanarPlan) and isinstance(what, _motion_kind())
+
+
+def _motion_kind() -> type[Motion]:
+    from mcplan.wb import Motion
+
+    return Motion
 
 
 def is_run(what: object) -> TypeIs[Run]:

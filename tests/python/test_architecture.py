@@ -53,7 +53,7 @@ OPENMP_ROOMS = {"ddp", "rhp", "planar/sip"}
 # front, which others import for annotations only
 _GROUND = {"_core", "errors", "extras", "options", "arguments"}
 _ENGINES = {"solve", "walking"}
-_LOOKED_AT = {"files", "kinematics", "tracking", "view", "planar"}
+_LOOKED_AT = {"files", "kinematics", "wb", "tracking", "view", "planar"}
 _FRONT = _ENGINES | _LOOKED_AT | {"loading", "checking", "showing", "following", "export", "model", "option_types"}
 _FRONT |= {"ddp", "ipm", "rhp", "sip", "samples", "notebooks", "sweep"}
 PYTHON_ROOMS = {
@@ -70,7 +70,7 @@ PYTHON_ROOMS = {
     "model": {"_core", "samples"},
     "arguments": {"_core", "errors"},
     "refusals": {"_core", "errors", "arguments"},
-    "checking": {"_core", "errors", "arguments", "files"},
+    "checking": {"_core", "errors", "arguments", "files", "wb"},
     "files": _GROUND,
     "loading": _GROUND | {"files"},
     "solve": _GROUND | {"files"},
@@ -80,10 +80,11 @@ PYTHON_ROOMS = {
     "rhp": _GROUND | {"walking"},
     "sip": _GROUND | {"planar"},
     "kinematics": _GROUND | {"files"},
-    "tracking": _GROUND | {"files", "kinematics"},
-    "view": _GROUND | {"files", "kinematics", "tracking"},
+    "wb": _GROUND | {"files", "kinematics"},
+    "tracking": _GROUND | {"files", "kinematics", "wb"},
+    "view": _GROUND | {"files", "kinematics", "wb", "tracking"},
     "planar": _GROUND | {"files", "kinematics", "tracking", "view"},
-    "export": _GROUND | {"files", "kinematics", "tracking"},
+    "export": _GROUND | {"files", "kinematics", "wb", "tracking"},
     "showing": _GROUND | _LOOKED_AT,
     "notebooks": {"_core", "errors", "showing"},
     "following": _GROUND | _LOOKED_AT - {"view"},
@@ -93,6 +94,7 @@ PYTHON_ROOMS = {
 }
 # The same inside of rooms; "" is what lies in the room's own folder, except for its __init__, which may import them all.
 INNER_ROOMS = {
+    "wb": {"": {"certificate"}, "certificate": set()},
     "view": {"": set(), "pages": {""}, "pictures": {""}, "plots": {"", "pictures"}, "video": {"", "pictures"}},
     "planar": {"": set(), "tracking": set(), "view": {"tracking"}},
 }

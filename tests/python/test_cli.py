@@ -29,6 +29,7 @@ VERBS = (
     "bench",
     "check",
     "demo",
+    "motion",
     "plan",
     "reproduce",
     "rhp",

@@ -8,6 +8,7 @@ from command_line import commands, one_line_error
 from mcplan.cli import main
 from mcplan.cli.given_options import named_as_typed
 from mcplan.errors import InvalidInput, InvalidOptions, InvalidScene, together
+from standing import standing_plan
 
 
 def run(capsys, *words) -> tuple[int, str, str]:
@@ -50,6 +51,13 @@ BAD = {
         "--hessian": ("x",),
         "--max-iterations": ("-1",),
         "--time-limit": ("-1",),
+    },
+    "motion PLAN": {
+        "--joints": (),
+        "--start": ("x",),
+        "--node": ("0", "1", "nan"),
+        "--max-iterations": ("-1", "x"),
+        "--time-limit": ("0", "-1", "nan"),
     },
     "track none.npz": {
         "--mass-scale": ("0",),
@@ -103,8 +111,12 @@ BAD = {
     ("verb", "option", "value"),
     [(verb, option, value) for verb, options in BAD.items() for option, values in options.items() for value in values],
 )
-def test_errors_name_the_option_that_was_typed(verb, option, value, capsys):
-    message = one_line_error(run(capsys, *verb.split(), option, value))
+def test_errors_name_the_option_that_was_typed(verb, option, value, capsys, tmp_path):
+    words = verb.split()
+    if "PLAN" in words:  # options that are judged once the plan is read
+        standing_plan().save(tmp_path / "plan.npz")
+        words = [str(tmp_path / "plan.npz") if word == "PLAN" else word for word in words]
+    message = one_line_error(run(capsys, *words, option, value))
     assert message.startswith((f"{option}: ", f"{option} ")), message
     assert "of type" not in message
 

@@ -31,12 +31,13 @@ constexpr int kManyShortSteps = 15;
 // has fallen too far ahead: iterates follow a curved valley next to their bounds. It then rises again.
 constexpr double kCutStep = 0.1, kRaise = 10.0, kMostRaised = 0.01;
 constexpr int kManyCutSteps = 3;
+constexpr double kLongStep = 0.5, kSmallGap = 10.0;  // of a step and of a duality gap after which a cost has settled
 
 }  // namespace
 
 double Barrier::Errors::largest() const { return std::max({dual, primal, complementarity}); }
 
-Barrier::Barrier(const Unknowns& unknowns, const nlp::SolverOptions& options, Functions& functions, Kkt& kkt)
+Barrier::Barrier(const Unknowns& unknowns, const nlp::SolverOptions& options, Oracle& functions, LinearSystem& kkt)
     : unknowns_(unknowns),
       options_(options),
       functions_(functions),
@@ -52,7 +53,7 @@ Barrier::Barrier(const Unknowns& unknowns, const nlp::SolverOptions& options, Fu
     step->t = step->lower = step->upper = VectorXd::Zero(all);
     step->lambda = VectorXd::Zero(lambda_.size());
   }
-  for (Kkt::Solution* solution : {&rights_[0], &rights_[1], &at_zero_, &per_mu_}) {
+  for (LinearSystem::Solution* solution : {&rights_[0], &rights_[1], &at_zero_, &per_mu_}) {
     solution->dx = VectorXd::Zero(free);
     solution->lambda = VectorXd::Zero(lambda_.size());
   }
@@ -156,12 +157,12 @@ bool Barrier::factor_ladder() {
   double dual_delta = 0.0;
   bool good = false;
   for (;;) {
-    const Kkt::Factor result = kkt_.factor(delta_, dual_delta);
-    if (result == Kkt::Factor::good) {
+    const LinearSystem::Factor result = kkt_.factor(delta_, dual_delta);
+    if (result == LinearSystem::Factor::good) {
       good = true;
       break;
     }
-    if (result == Kkt::Factor::singular && dual_delta == 0.0 && lambda_.size() > 0) {
+    if (result == LinearSystem::Factor::singular && dual_delta == 0.0 && lambda_.size() > 0) {
       dual_delta = kDualDelta;
       continue;
     }
@@ -194,10 +195,10 @@ bool Barrier::factor_blend(const Point& point) {
     kkt_.set_hessian(blend_);
     set_weights();
     const double start_s = functions_.deadline().now_s();
-    const Kkt::Factor result = kkt_.factor(damping_, 0.0);
+    const LinearSystem::Factor result = kkt_.factor(damping_, 0.0);
     linear_solver_s_ += functions_.deadline().now_s() - start_s;
     delta_ = damping_;
-    if (result == Kkt::Factor::good) return true;
+    if (result == LinearSystem::Factor::good) return true;
   }
   part_ = 0.0;
   kkt_.set_hessian(gauss_newton_);
@@ -336,6 +337,21 @@ void Barrier::raise_mu() {
   cut_steps_ = 0;
 }
 
+/// Within all constraints, the cost as it was before a long step, and as the barrier leaves it: what it may still fall
+/// by is the sum of all products of distances and multipliers.
+bool Barrier::cost_settled(const Point& point, const Errors& now) {
+  const double change = std::abs(point.cost - last_cost_),
+               enough = options_.kernel.cost_tolerance * std::abs(point.cost);
+  last_cost_ = point.cost;
+  if (functions_.iterations() == 0 || alpha_ < kLongStep || now.primal > options_.constraint_tolerance) return false;
+  double gap = 0.0;
+  for (int i = 0; i < lower_dual_.size(); ++i) {
+    if (gap_lower_[i] < nlp::kInfinity) gap += gap_lower_[i] * lower_dual_[i];
+    if (gap_upper_[i] < nlp::kInfinity) gap += gap_upper_[i] * upper_dual_[i];
+  }
+  return change <= enough && gap <= kSmallGap * enough && functions_.violation(point) <= options_.constraint_tolerance;
+}
+
 Barrier::Ending Barrier::run(Point& point, int max_iterations, const Duals* duals) {
   trial_ = point;
   header_written_ = false;
@@ -347,6 +363,8 @@ Barrier::Ending Barrier::run(Point& point, int max_iterations, const Duals* dual
     log(point, now, step);
     if (now.largest() <= options_.tolerance && functions_.violation(point) <= options_.constraint_tolerance)
       return {nlp::Outcome::converged, "converged"};
+    if (options_.kernel.cost_tolerance > 0.0 && cost_settled(point, now))
+      return {nlp::Outcome::converged, "the cost has settled at a point within all constraints"};
     if (options_.kernel.feasible_is_enough && functions_.violation(point) <= options_.constraint_tolerance)
       return {nlp::Outcome::converged, "a point within all constraints"};
     if (functions_.iterations() >= max_iterations) return {nlp::Outcome::iteration_limit, "reached max_iterations"};

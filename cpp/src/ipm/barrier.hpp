@@ -4,8 +4,9 @@
 #include <string>
 
 #include "ipm/filter.hpp"
-#include "ipm/functions.hpp"
-#include "ipm/kkt.hpp"
+#include "ipm/linear_system.hpp"
+#include "ipm/oracle.hpp"
+#include "ipm/unknowns.hpp"
 
 namespace mcplan::ipm {
 
@@ -17,7 +18,7 @@ namespace mcplan::ipm {
 /// to zero.
 class Barrier {
  public:
-  Barrier(const Unknowns& unknowns, const nlp::SolverOptions& options, Functions& functions, Kkt& kkt);
+  Barrier(const Unknowns& unknowns, const nlp::SolverOptions& options, Oracle& functions, LinearSystem& kkt);
 
   struct Ending {
     nlp::Outcome outcome = nlp::Outcome::numerical_failure;
@@ -46,6 +47,8 @@ class Barrier {
     double dual = 0.0, primal = 0.0, complementarity = 0.0;
     double largest() const;
   };
+
+  bool cost_settled(const Point& point, const Errors& now);
 
   int n() const { return unknowns_.free_count(); }
   const Eigen::VectorXd& multipliers_of_slacks();
@@ -79,8 +82,8 @@ class Barrier {
 
   const Unknowns& unknowns_;
   const nlp::SolverOptions& options_;
-  Functions& functions_;
-  Kkt& kkt_;
+  Oracle& functions_;
+  LinearSystem& kkt_;
   const bool probing_;  ///< the barrier parameter, from a start that no phase one has moved
   Filter filter_{nlp::kInfinity};
   Eigen::VectorXd gradient_, lambda_, lower_dual_, upper_dual_;
@@ -91,8 +94,8 @@ class Barrier {
   Eigen::VectorXd right_a_, right_b_, weights_, slack_error_, slack_work_, slack_multipliers_;
   Eigen::VectorXd dual_, dx_, corrected_equalities_, corrected_slacks_;
   Step step_, affine_, corrected_;
-  Kkt::Solution rights_[2], at_zero_, per_mu_;  ///< right sides and solutions of probe()
-  bool probed_ = false;                         ///< in this iteration
+  LinearSystem::Solution rights_[2], at_zero_, per_mu_;  ///< right sides and solutions of probe()
+  bool probed_ = false;                                  ///< in this iteration
   Point trial_;
   Eigen::VectorXd gauss_newton_, exact_, blend_;  ///< Hessians
   double part_ = 0.0;                             ///< of the exact Hessian in the blend
@@ -104,6 +107,7 @@ class Barrier {
   bool header_written_ = false;
   int trials_ = 0;
   int short_steps_ = 0, cut_steps_ = 0;  ///< in a row
+  double last_cost_ = 0.0;               ///< of the iteration before
   double alpha_ = 0.0, alpha_dual_ = 0.0, linear_solver_s_ = 0.0;
 };
 

@@ -94,7 +94,7 @@ double Functions::violation(const Point& point) const {
   return worst;
 }
 
-void Functions::derivatives(const Point& point, VectorXd& gradient, Kkt& kkt) {
+void Functions::derivatives(const Point& point, VectorXd& gradient, LinearSystem& system) {
   if (point.x.cwiseAbs().maxCoeff() > kDiverged)
     throw Halt{nlp::Outcome::numerical_failure, "the iterates diverge; is the cost bounded from below?"};
   clocked(point.x, [&] {
@@ -104,7 +104,7 @@ void Functions::derivatives(const Point& point, VectorXd& gradient, Kkt& kkt) {
   });
   for (int i = 0; i < unknowns_.free_count(); ++i) gradient[i] = gradient_[unknowns_.free[i]];
   if (entry_scale_.size() > 0) jacobian_.array() *= entry_scale_.array();
-  kkt.set_jacobian(jacobian_);
+  system.set_jacobian(jacobian_);
 }
 
 void Functions::gauss_newton_hessian(const Point& point, VectorXd& values) {

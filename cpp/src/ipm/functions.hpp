@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "ipm/kkt.hpp"
+#include "ipm/oracle.hpp"
 #include "ipm/unknowns.hpp"
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/nlp/problem.hpp"
@@ -11,52 +11,34 @@
 
 namespace mcplan::ipm {
 
-/// A point and the values of the problem's functions there.
-struct Point {
-  Eigen::VectorXd x;  ///< all variables of the problem
-  Eigen::VectorXd t;  ///< free variables, then slacks
-  double cost = 0.0;
-  Eigen::VectorXd equalities;    ///< minus their right side: zero where they hold
-  Eigen::VectorXd inequalities;  ///< of which the slacks are to be the values
-
-  double slack_error(int i) const { return inequalities[i] - t[x_count + i]; }
-  int x_count = 0;  ///< free variables
-};
-
-/// Why a solve has to end now.
-struct Halt {
-  nlp::Outcome outcome = nlp::Outcome::converged;
-  std::string message;
-};
-
 /// The problem's functions in terms of the unknowns, with the clock, and the best point of all that were evaluated.
 /// Throws Halt at the time limit, and where a number is not finite.
-class Functions {
+class Functions : public Oracle {
  public:
   Functions(const nlp::Problem& problem, const Unknowns& unknowns, const nlp::SolverOptions& options,
             const Deadline& deadline);
 
   /// Cost and rows at point.t, whose slacks are taken as they are.
-  void evaluate(Point& point);
+  void evaluate(Point& point) override;
 
   /// Gradient of the cost, in the free variables; the Jacobian goes to the system.
-  void derivatives(const Point& point, Eigen::VectorXd& gradient, Kkt& kkt);
+  void derivatives(const Point& point, Eigen::VectorXd& gradient, LinearSystem& system) override;
 
   /// Hessian of cost_factor * cost + equalities' + inequalities' multipliers; valid until the next call.
   const Eigen::VectorXd& hessian(const Point& point, double cost_factor, const Eigen::VectorXd& equalities,
-                                 const Eigen::VectorXd& inequalities);
-  void gauss_newton_hessian(const Point& point, Eigen::VectorXd& values);  ///< of the cost
+                                 const Eigen::VectorXd& inequalities) override;
+  void gauss_newton_hessian(const Point& point, Eigen::VectorXd& values) override;  ///< of the cost
 
   /// Largest violation of rows and bounds, slacks aside.
-  double violation(const Point& point) const;
+  double violation(const Point& point) const override;
 
   const Eigen::VectorXd& best_x() const { return best_x_; }
   double evaluation_s() const { return evaluation_s_; }
-  int iterations() const { return iterations_; }  ///< begun, of phase one and of the barrier method
-  const Deadline& deadline() const { return deadline_; }
+  int iterations() const override { return iterations_; }  ///< begun, of phase one and of the barrier method
+  const Deadline& deadline() const override { return deadline_; }
 
   /// Once an iteration, at its begin: the time that the caller needs afterwards, and whether to stop.
-  void begin_iteration();
+  void begin_iteration() override;
 
  private:
   void look_at_clock();

@@ -4,48 +4,33 @@
 #include <vector>
 
 #include "ipm/fronts.hpp"
+#include "ipm/linear_system.hpp"
 #include "ipm/unknowns.hpp"
 #include "mcplan/nlp/problem.hpp"
 
 namespace mcplan::ipm {
 
-/// The linear system of a step,
-///
-///     [ H + J_I' D J_I + diag(S) + delta I    J_E'       ] [ dx     ]   [ a ]
-///     [ J_E                                   -delta_c I ] [ lambda ] = [ b ]
-///
-/// with the Hessian H of the Lagrangian, the Jacobians J_E of the equalities and J_I of the inequalities, whose slacks
-/// are eliminated (D), and the weights S of the variables' own bounds.
-class Kkt {
+/// The linear system of a step of an nlp::Problem, factorised stage by stage.
+class Kkt : public LinearSystem {
  public:
   Kkt(const nlp::Problem& problem, const Unknowns& unknowns);
 
   /// Jacobian in the order of problem.jacobian_structure(), Hessian in that of hessian_structure().
-  void set_jacobian(const Eigen::VectorXd& values);
-  void set_hessian(const Eigen::VectorXd& values) { hessian_ = values; }
-  void set_weights(const Eigen::Ref<const Eigen::VectorXd>& slacks, const Eigen::Ref<const Eigen::VectorXd>& bounds);
-
-  enum class Factor { good, wrong_inertia, singular };
-  Factor factor(double delta, double delta_c);
-  double delta_c() const { return delta_c_; }  ///< of the last factor()
-
-  /// dx and lambda, refined until the residual is small against the right side or falls no further.
-  void solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& dx, Eigen::VectorXd& lambda);
-
-  /// The same without a look at the residual, and of two right sides at once.
-  struct Solution {
-    Eigen::VectorXd dx, lambda;
-  };
-  void solve_roughly(const Solution& first_right, const Solution& second_right, Solution& first, Solution& second);
-
-  /// dx and lambda as good as solve() makes them, from what they are.
-  void refine(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& dx, Eigen::VectorXd& lambda);
-
-  /// out = J_I x, out += J_I' y, out = J_E x, out += J_E' y.
-  void multiply_inequalities(const Eigen::VectorXd& x, Eigen::VectorXd& out) const;
-  void add_inequalities_transposed(const Eigen::VectorXd& y, Eigen::VectorXd& out) const;
-  void multiply_equalities(const Eigen::VectorXd& x, Eigen::VectorXd& out) const;
-  void add_equalities_transposed(const Eigen::VectorXd& y, Eigen::VectorXd& out) const;
+  void set_jacobian(const Eigen::VectorXd& values) override;
+  void set_hessian(const Eigen::VectorXd& values) override { hessian_ = values; }
+  void set_weights(const Eigen::Ref<const Eigen::VectorXd>& slacks,
+                   const Eigen::Ref<const Eigen::VectorXd>& bounds) override;
+  Factor factor(double delta, double delta_c) override;
+  double delta_c() const override { return delta_c_; }
+  void solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& dx, Eigen::VectorXd& lambda) override;
+  void solve_roughly(const Solution& first_right, const Solution& second_right, Solution& first,
+                     Solution& second) override;
+  void refine(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& dx,
+              Eigen::VectorXd& lambda) override;
+  void multiply_inequalities(const Eigen::VectorXd& x, Eigen::VectorXd& out) const override;
+  void add_inequalities_transposed(const Eigen::VectorXd& y, Eigen::VectorXd& out) const override;
+  void add_equalities_transposed(const Eigen::VectorXd& y, Eigen::VectorXd& out) const override;
+  void multiply_equalities(const Eigen::VectorXd& x, Eigen::VectorXd& out) const;  ///< out = J_E x
 
   int largest_front() const { return fronts_.largest_front(); }
   double residual() const { return residual_; }  ///< of the last solve, over the right side's largest entry

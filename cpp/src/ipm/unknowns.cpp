@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace mcplan::ipm {
 namespace {
@@ -54,6 +56,20 @@ Unknowns::Unknowns(const nlp::Problem& problem, bool scaled) {
     lower[free_count() + i] = scale[i] * low;
     upper[free_count() + i] = scale[i] * high;
   }
+}
+
+Unknowns::Unknowns(int count, int equality_count, Eigen::VectorXd lower_bounds, Eigen::VectorXd upper_bounds)
+    : free(count),
+      equalities(equality_count),
+      inequalities(lower_bounds.size() - count),
+      right_side(Eigen::VectorXd::Zero(equality_count)),
+      scale(Eigen::VectorXd::Ones(lower_bounds.size() - count)),
+      lower(std::move(lower_bounds)),
+      upper(std::move(upper_bounds)) {
+  std::iota(free.begin(), free.end(), 0);
+  std::iota(equalities.begin(), equalities.end(), 0);
+  std::iota(inequalities.begin(), inequalities.end(), equality_count);
+  index_of = free;
 }
 
 }  // namespace mcplan::ipm

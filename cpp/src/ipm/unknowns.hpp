@@ -14,6 +14,10 @@ struct Unknowns {
   /// scaled: rows with two limits are multiplied by 2 / (upper - lower), at most by 20.
   Unknowns(const nlp::Problem& problem, bool scaled);
 
+  /// Of what is no nlp::Problem: `count` variables, none of them fixed, so many equalities with a right side of zero,
+  /// and an inequality for each further bound.
+  Unknowns(int count, int equality_count, Eigen::VectorXd lower_bounds, Eigen::VectorXd upper_bounds);
+
   std::vector<int> free;          ///< the problem's variables that are unknowns
   std::vector<int> equalities;    ///< the problem's rows
   std::vector<int> inequalities;  ///< the problem's rows

@@ -14,6 +14,7 @@ from . import nlp
 from . import ipm
 from . import rhp
 from . import sip
+from . import wb
 
 __all__: list[str] = [
     "Capsule",
@@ -127,6 +128,7 @@ __all__: list[str] = [
     "suspicious_geometry",
     "toml_from",
     "toml_text",
+    "wb",
 ]
 
 class Status:

@@ -13,12 +13,15 @@ if TYPE_CHECKING:
     from mcplan._core import CheckResult, Plan, PlanarPlan, Violation
     from mcplan._core.sip import Certificate
     from mcplan.tracking.findings import Feasibility, Finding
+    from mcplan.wb.motion import Motion
 
 #: Of one kind, beside the largest, in the table of --robot; --json has all.
 OTHERS = 3
 
 
-PlanArgument = Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")]
+PlanArgument = Annotated[
+    Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp, sip or motion -o.")
+]
 CertifyOption = Annotated[
     bool,
     typer.Option("--certify", help="Prove the constraints of a whole-body plan at every instant, too."),
@@ -42,10 +45,10 @@ def check(
     robot: RobotOption = None,
     json: JsonOption = False,
 ) -> int:
-    """Check a saved plan against its own scene and robot, or task.
+    """Check a saved plan or motion.
 
-    The exit code is 1 if the plan violates a constraint, with --certify also if a constraint is not proved, and with
-    --robot also if the robot cannot follow.
+    Of a motion everything is worked out again at 1 kHz with the robot's URDF. The exit code is 1 if a constraint is violated,
+    with --certify also if a constraint is not proved, and with --robot also if the robot cannot follow.
 
     Example: mcplan check plan.npz --robot talos
     """
@@ -53,15 +56,17 @@ def check(
     from mcplan._core.sip import certify as prove
     from mcplan.checking import check as run
     from mcplan.errors import InvalidInput
-    from mcplan.files.whole_body_plans import load_any_plan
+    from mcplan.wb.loading import load_any
+    from mcplan.wb.motion import Motion
 
-    saved = load_any_plan(plan)
+    saved = load_any(plan)
+    if isinstance(saved, Motion):
+        given = {"--certify": certify, "--self-collision": self_collision, "--robot": robot is not None}
+        return _check_motion(plan, saved, given, json)
     certificate, feasibility = None, None
     if isinstance(saved, PlanarPlan):
         if robot is not None:
-            raise InvalidInput(
-                "--robot", "needs a plan of mcplan plan or mcplan rhp; a whole-body plan has its own joints"
-            )
+            raise InvalidInput("--robot", "needs a plan of mcplan plan or rhp; a whole-body plan has its own joints")
         result = run(saved, self_collision=self_collision)
         if certify:
             certificate = prove(saved, self_collision=self_collision)
@@ -92,6 +97,30 @@ def check(
             _print_feasibility(feasibility)
     proved, followed = certificate is None or certificate.proved(), feasibility is None or feasibility.ok()
     return 0 if result.ok() and proved and followed else 1
+
+
+def _check_motion(path: Path, motion: Motion, given: dict[str, bool], json: bool) -> int:
+    """Certify a motion; raises InvalidInput for options that motions do not take."""
+    from mcplan.cli.motion_text import certificate_lines, certificate_rows
+    from mcplan.cli.table import print_table
+    from mcplan.cli.terminal import printable
+    from mcplan.errors import InvalidInput
+    from mcplan.wb.certificate import certify
+
+    for option, present in given.items():
+        if present:
+            raise InvalidInput(option, "needs a plan; of a motion all that is known is checked")
+    result = certify(motion)
+    if json:
+        carried = {"motion": str(path), "scene": motion.plan.scene.name, "robot": motion.plan.robot.name}
+        print(json_module.dumps({**carried, **result.as_dict()}))
+    else:
+        for line in certificate_lines(str(path), result):
+            print(printable(line))
+        print()
+        head = ("constraint", "worst", "limit", "", "at", "where")
+        print_table(certificate_rows(result), head)
+    return 0 if result.ok() else 1
 
 
 def _feasibility(plan: Plan, robot: str) -> Feasibility:

@@ -14,7 +14,10 @@ if TYPE_CHECKING:
 
 def show(
     file: Annotated[
-        Path, typer.Argument(metavar="FILE", help="Plan (mcplan plan, rhp or sip -o) or run (track --save).")
+        Path,
+        typer.Argument(
+            metavar="FILE", help="Plan (mcplan plan, rhp or sip -o), motion (motion -o) or run (track --save)."
+        ),
     ],
     output: Annotated[
         list[Path] | None,
@@ -29,10 +32,10 @@ def show(
     plots: Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Folder for plots.")] = None,
     quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print no progress on stderr.")] = False,
 ) -> int:
-    """Draw a saved plan or run: a page, a picture, a video, plots.
+    """Draw a saved plan, motion or run: page, picture, video, plots.
 
-    The picture of a plan shows the robot's postures along its path, that of a whole-body plan is a film strip, and that
-    of a run are snapshots side by side.
+    The picture of a plan or motion shows the robot's postures along its path, that of a whole-body plan is a film strip, and
+    that of a run are snapshots side by side. The page of a motion has maps of its joints' torques and speeds.
 
     Example: mcplan show plan.npz -o plan.html -o plan.png
 

@@ -43,6 +43,10 @@ struct SolverOptions {
     /// Second derivatives are those of Piece::gauss_newton_hessian() while rows are violated, and then as much of the
     /// difference to the exact ones as leaves the system's inertia as it should be.
     bool blend_hessians = false;
+    /// Where the Hessian is Gauss and Newton's, steps that hardly change the cost any more may go on for long: a solve
+    /// ends, too, at a point within constraint_tolerance after a step by which the cost changed relatively by no more
+    /// than this; 0: never.
+    double cost_tolerance = 0.0;
   } kernel;
   /// Multipliers of an earlier solve of a problem like this one, with which the kernel's barrier method begins: as
   /// Solution has them, of the rows and of the variables' bounds. Empty: none. A start is then moved off its limits no

@@ -48,11 +48,32 @@ function panels() {
     set(!caption.classList.contains("folded"));
   };
   set(hash.has("folded") || window.innerWidth <= 700 || window.innerHeight <= 480);
+  const joints = jointMaps();
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
     if (event.key === "l") fold.onclick();
+    if (event.key === "j") joints();
     if (event.key === "r") { moved = false; frame(); }
   });
+}
+
+// The panel of a motion's joints, if there is one: what folds and unfolds it.
+function jointMaps() {
+  const maps = document.getElementById("maps");
+  if (!maps) return () => {};
+  const fold = document.getElementById("foldmaps");
+  const set = (folded) => {
+    maps.classList.toggle("folded", folded);
+    fold.textContent = folded ? "\u25A4" : "\u2715";
+    fold.setAttribute("aria-expanded", String(!folded));
+    frame();
+  };
+  fold.onclick = () => {
+    fold.blur();
+    set(!maps.classList.contains("folded"));
+  };
+  set(hash.has("folded") || window.innerWidth <= 1000 || window.innerHeight <= 480);
+  return fold.onclick;
 }
 
 function start() {

@@ -10,7 +10,9 @@ let moved = false; // by the user: then the window's size no longer turns the vi
 
 // Parts of the window that neither panel covers, [left, top, right, bottom] in pixels: beside the caption and below it.
 function rooms() {
-  const [w, h, gap] = [window.innerWidth, window.innerHeight, 12]; // a line of text reaches so far beyond its point
+  const [h, gap] = [window.innerHeight, 12]; // a line of text reaches so far beyond its point
+  const maps = document.getElementById("maps");
+  const w = maps ? maps.getBoundingClientRect().left : window.innerWidth;
   const bar = document.getElementById("timeline");
   const low = bar ? bar.getBoundingClientRect().top : h;
   const panel = document.getElementById("caption").getBoundingClientRect();

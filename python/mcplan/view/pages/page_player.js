@@ -6,6 +6,7 @@ function player() {
   const animator = viewer.animator;
   const [play, tracks, cursor, speed] = ["play", "tracks", "cursor", "speed"].map((id) => document.getElementById(id));
   const [clock, phase] = ["clock", "phase"].map((id) => document.getElementById(id));
+  const nows = document.querySelectorAll(".now"); // cursors of maps
   const end = settings.duration;
   const seek = (t) => {
     animator.pause();
@@ -73,6 +74,7 @@ function player() {
     const number = settings.knots.filter((k) => k <= t + 1e-9).length;
     const count = settings.knots.length - 1;
     cursor.style.left = `${(100 * t) / end}%`;
+    for (const now of nows) now.style.left = cursor.style.left;
     play.textContent = animator.playing ? "\u275A\u275A" : "\u25B6\uFE0E";
     clock.textContent = `${t.toFixed(2)} / ${end.toFixed(2)} s`;
     phase.textContent = count > 0 ? `phase ${Math.min(Math.max(number, 1), count)} of ${count}` : "";

@@ -80,6 +80,24 @@ def picture(
     plan.validate()
     colours = end_effector_colours(robot)
     samples = sample(plan, scene, robot, 60.0)
+    figure = _figure(samples, robot, colours) if meshes else stick_robot(samples, robot, colours)
+    return paint(scene, robot, samples, figure, path, poses)
+
+
+def paint(
+    scene: Scene, robot: Robot, samples: Samples, figure: Figure, path: str | Path, poses: int | None = None
+) -> Path:
+    """Write a picture of a robot in a scene.
+
+    Args:
+        scene: Its surfaces.
+        robot: Its end-effectors.
+        samples: Paths, contacts and forces.
+        figure: The robot at each sample.
+        path: File to write.
+        poses: Number of postures drawn, at equal displacements of the CoM; None: as many as there is space for.
+    """
+    colours = end_effector_colours(robot)
     extent = extent_of(scene, robot, samples, length=0.45, width=0.45)
     drawings = surface_drawings(scene, extent)
     points = view_points(drawings, samples, robot)
@@ -87,7 +105,6 @@ def picture(
     _paint_surfaces(canvas, drawings)
     _paint_plan(canvas, samples, robot, colours)
     chosen = pose_indices(samples, robot, poses)
-    figure = _figure(samples, robot, colours) if meshes else stick_robot(samples, robot, colours)
     shown = _Shown(canvas, figure, samples, robot, float(robot.mass) * float(scene.gravity))
     for rank, n in enumerate(chosen):
         # The past is pale; the last posture has full colour.
@@ -153,8 +170,11 @@ def _figure(samples: Samples, robot: Robot, colours: list[str]) -> Figure:
     except (InvalidRobot, MissingExtra) as found:
         warnings.warn(f"{found}; drawing a stick robot instead", SimplerDrawing, stacklevel=3)
         return stick_robot(samples, robot, colours)
-    if figure.kind == "stick":
-        return figure
+    return figure if figure.kind == "stick" else coarse_figure(figure, robot)
+
+
+def coarse_figure(figure: Figure, robot: Robot) -> Figure:
+    """The robot with meshes as coarse as the picture allows."""
     cell_m = CELL * float(robot.com_height)
     return replace(figure, parts=[replace(part, mesh=both_sides(coarse(part.mesh, cell_m))) for part in figure.parts])
 
