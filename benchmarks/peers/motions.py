@@ -7,8 +7,9 @@ import time
 from pathlib import Path
 from typing import Any
 
-import mcplan as mp
 from environments import python_with, run
+
+import mcplan as mp
 
 #: Its wheel is compiled for this Pinocchio and crashes with the next.
 PACKAGES = ("crocoddyl==3.2.1", "pin==4.0.0", "numpy")
@@ -30,6 +31,7 @@ def rows(folder: Path) -> list[dict[str, Any]]:
         problem = folder / f"{scene}_{robot}.py"
         mp.export(plan, "crocoddyl", str(problem))
         peer = json.loads(run(python, HERE / "crocoddyl_inside.py", problem, str(ITERATIONS)))
+        peer["answer"] = "converged" if peer.pop("converged") else "not converged"
         found.append({"case": f"{scene}/{robot}", "planner": "Crocoddyl 3.2.1, FDDP", **peer})
         found.append({"case": f"{scene}/{robot}", "planner": "mcplan motion", **ours(plan)})
     return found
@@ -39,4 +41,8 @@ def ours(plan: Any) -> dict[str, Any]:
     """mcplan's motion along the plan, and what its certificate measures each millisecond."""
     cpu = time.process_time()
     result = mp.motion(plan)
-    return {"cpu_s": time.process_time() - cpu, "result": result}
+    cpu = time.process_time() - cpu
+    measures = result.certificate.measures if result.certificate else {}
+    row = {name: measures.get(name) for name in ("torque_use", "velocity_use", "base_residual_N", "base_residual_Nm")}
+    drift = {"drift_mm": 1e3 * measures["drift_m"]} if measures else {}
+    return {"answer": str(result.status), "iterations": result.iterations, "cpu_s": cpu, **row, **drift}

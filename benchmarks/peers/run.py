@@ -3,7 +3,7 @@
 
     .venv/bin/python benchmarks/peers/run.py [--out docs/peers.md] [--only towr motions] [--sources DIR]
 
-TOWR and sl1m are cloned from GitHub and compiled, or taken from DIR/towr, DIR/ifopt and DIR/sl1m; Crocoddyl and CasADi with fatrop
+TOWR and sl1m are cloned from GitHub and compiled, or taken from DIR/towr, DIR/ifopt, DIR/sl1m; Crocoddyl and CasADi with fatrop
 come from PyPI, each into an environment of its own below build/peers. What cannot be had is said in the page.
 """
 

@@ -10,9 +10,10 @@ import json
 from pathlib import Path
 from typing import Any
 
-import mcplan as mp
 import numpy as np
 from environments import python_with, run, sources
+
+import mcplan as mp
 
 URL, COMMIT = "https://github.com/loco-3d/sl1m", "87a4af4"
 #: Versions of its time: the LP method that it names left SciPy with 1.11.

@@ -2,7 +2,7 @@
 
     python sl1m_inside.py SOURCES problem.json
 
-The problem has "surfaces", corners (4, 3) of each [m], "first" and "last", indices, "steps" and "feet", both feet at the start. Any
+The problem has "surfaces", corners (4, 3) of each [m], the index "last", "steps" and "feet", both feet at the start. Any
 step but the last two may take any surface. One JSON line: found or not, the surfaces taken, times.
 """
 

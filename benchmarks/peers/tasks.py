@@ -6,9 +6,10 @@ import time
 from dataclasses import dataclass
 from typing import Any
 
-import mcplan as mp
 import numpy as np
 from measures import Array, Limits, Samples
+
+import mcplan as mp
 
 #: Scene, robot. The ground of each changes along x only, which is what a height map for feet can say.
 TASKS = (("flat", "humanoid44"), ("stairs", "humanoid44"), ("gap", "humanoid44"), ("flat", "anymal"))
