@@ -68,7 +68,8 @@ def main() -> None:
         "fatrop": fatrop.rows,
         "motions": motions.rows,
     }
-    kept: dict[str, Any] = {}
+    rows = words.build / "rows.json"
+    kept: dict[str, Any] = json.loads(rows.read_text()) if rows.exists() else {}  # of peers that are not asked for now
     for name in words.only:
         folder = words.build.absolute() / name
         folder.mkdir(parents=True, exist_ok=True)
@@ -77,7 +78,7 @@ def main() -> None:
             kept[name] = ways[name](folder)
         except Unavailable as error:
             kept[name] = str(error)
-        (words.build / "rows.json").write_text(json.dumps(kept, indent=1) + "\n")
+        rows.write_text(json.dumps(kept, indent=1) + "\n")
     page = tables.page(
         kept, datetime.date.today().isoformat(), f"{platform.machine()}, Python {platform.python_version()}"
     )

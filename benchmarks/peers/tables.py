@@ -8,9 +8,9 @@ Row = dict[str, Any]
 
 HEAD = """# Beside other planners
 
-Made by `benchmarks/peers/run.py` on {date} ({machine}, two shared cores, CPU times of one thread). The same goals for all, in
-one run; what each planner must be told is in the tables, since that differs more than the times. `hpp-python` is on PyPI, but
-its contact planner (`hpp-rbprm`) is not; no other planner that searches a contact sequence could be installed.
+Made by `benchmarks/peers/run.py` on {date} ({machine}, two shared cores that were busy, CPU times of one thread). The
+same goals for all; what each planner must be told is in the tables, since that differs more than the times. `hpp-python` is on
+PyPI, but its contact planner (`hpp-rbprm`) is not; no other planner that searches a contact sequence could be installed.
 """
 
 SECTIONS = {
@@ -41,13 +41,15 @@ whose time.
 Both get the same plan. [Crocoddyl](https://github.com/loco-3d/crocoddyl) gets it as `mcplan export --to crocoddyl` writes it: its
 soft limits, nodes of 20 ms, a start from inverse kinematics, FDDP to its own tolerance. Its *drift* is the distance of a sole in
 contact from where it is planned, its base residual that half way between nodes with forces held. mcplan's figures are those of
-its certificate each millisecond.
+its certificate each millisecond; *check* is the certificate's time. mcplan's time has the inverse kinematics of its start in it,
+Crocoddyl's has not.
 """,
 }
 
 TITLES = {
     "cpu_s": "CPU [s]",
-    "build_s": "build [s]",
+    "mcplan_s": "mcplan [s]",
+    "certificate_s": "check [s]",
     "force_N": "Newton [N]",
     "moment_Nm": "Euler [N m]",
     "cone_N": "cone [N]",
@@ -85,6 +87,7 @@ COLUMNS = {
         "answer",
         "iterations",
         "cpu_s",
+        "certificate_s",
         "torque_use",
         "velocity_use",
         "drift_mm",
