@@ -80,10 +80,11 @@ if TYPE_CHECKING:
     from mcplan.model import Surface as Surface
     from mcplan.model import Swing as Swing
     from mcplan.model import Violation as Violation
+    from mcplan.online.result import RunResult
     from mcplan.planar.tracking import PlanarResult
     from mcplan.rhp import Walk as Walk
     from mcplan.tracking import TrackingResult
-    from mcplan.wb import MotionResult, MotionTolerances
+    from mcplan.wb import Motion, MotionResult, MotionTolerances
 
     PlanarMotion, WholeBodyPlan, WholeBodyTolerances = PlanarTask, PlanarPlan, PlanarTolerances
     PlanResult = ddp.Result
@@ -118,6 +119,7 @@ __all__ = [
     "receding_horizon",
     "replan",
     "rhp",
+    "run",
     "show",
     "sip",
     "track",
@@ -208,11 +210,11 @@ def motion(
 
 
 def track(
-    plan: Plan | PlanarPlan | str | Path,
+    plan: Plan | PlanarPlan | Motion | str | Path,
     robot: Robot | str | Path | None = None,
     **options: Any,
 ) -> TrackingResult | PlanarResult:
-    """Track a plan with a simulated robot: torques alone move it, within their limits.
+    """Track a plan or a motion with a simulated robot: torques alone move it, within their limits.
 
         result = mp.track("plan.npz", "talos", mass_scale=1.1, pushes=[(40.0, 0.2, 3.0, 90.0)])
         print(result)  # a report; result.measures has the numbers, result.recording what the robot did
@@ -221,9 +223,10 @@ def track(
     A fall ends the run and is a result, not an exception. Ctrl-C ends it with Interrupted, which carries the result.
 
     Args:
-        plan: A plan of any planner, or the path of one.
+        plan: A plan of any planner, a motion, or the path of either. Of a motion all joints are tracked, with their
+            velocities and accelerations, and errors are those from the motion, not from its plan.
         robot: A robot with a URDF and the plan's end-effectors by name, or what load_robot takes. None: the plan's own.
-            A whole-body plan has its planar robot and takes no other.
+            A whole-body plan has its planar robot, a motion its joints; they take no other.
         **options: Fields of ``mcplan.tracking.Options``: ``assist``, ``mass_scale``, ``friction_scale``,
             ``ground_shift_m``, ``seed``, ``hold_s``; ``pushes``, each as ``mcplan.tracking.Push`` or as size [N],
             duration [s], time [s] and direction [deg] (0 forward, 90 to the left).
@@ -247,3 +250,43 @@ def track(
     from mcplan.following import track_any
 
     return track_any(plan, robot, options)
+
+
+def run(
+    scene: Scene | Plan | str | Path,
+    robot: Robot | str | Path | None = None,
+    **options: Any,
+) -> RunResult:
+    """Simulate a robot that is planned for while it walks: pushed, it takes other steps.
+
+        result = mp.run("flat", "talos", push=(250.0, 0.2, 1.4, 90.0), latency=0.02)
+        print(result)  # a report; result.measures and result.online have the numbers
+
+    A fall ends the run and is a result, not an exception. Ctrl-C ends it with Interrupted, which carries the result.
+
+    Args:
+        scene: A scene, or what load_scene takes; or the plan to begin with, or the path of one (.npz, .json).
+        robot: A robot with a URDF, or what load_robot takes; None: that of the plan.
+        **options: Fields of ``mcplan.online.OnlineOptions`` and of ``mcplan.tracking.Options``, among them ``push``, one
+            or several as ``mcplan.track`` takes them; ``command``, a velocity (ahead, left [m/s], turning [rad/s]);
+            ``latency`` [s], a fixed time from measured state to plan instead of the wall clock of the computation, for
+            runs that repeat to the byte; ``period`` [s]; ``replanning=False``: the first plan is followed, for comparison.
+
+    Returns:
+        A ``mcplan.online.RunResult``: all that ``track`` returns, and how planning went in ``online``.
+
+    Raises:
+        InvalidArgument: An argument is of another type.
+        InvalidOptions: No such option, or its value is out of range.
+        InvalidScene, InvalidPlan: The scene is malformed, or the file is no plan.
+        InvalidRobot: The robot has no URDF, or it cannot be read, or it lacks an end-effector of the plan.
+        InvalidInput: No plan was found to begin with, or the robot cannot take up its first posture.
+        UnknownName: No such scene or robot, and no such file.
+        MissingExtra: The packages of ``pip install 'mcplan[sim]'`` are not installed.
+    """
+    from mcplan.extras import require
+
+    require("mcplan.run", "sim", "mujoco", "pinocchio", "proxsuite")
+    from mcplan.running import run_any
+
+    return run_any(scene, robot, options)

@@ -1,4 +1,4 @@
-"""mp.track: a plan of any planner, options by name."""
+"""mp.track: a plan of any planner, or a motion, options by name."""
 
 from __future__ import annotations
 
@@ -14,30 +14,33 @@ from mcplan.tracking.choice import make_options
 if TYPE_CHECKING:
     from mcplan.planar.tracking import PlanarResult
     from mcplan.tracking.result import TrackingResult
+    from mcplan.wb import Motion
 
 
 def track_any(
-    plan: Plan | PlanarPlan | str | Path,
+    plan: Plan | PlanarPlan | Motion | str | Path,
     robot: Robot | str | Path | None,
     values: Mapping[str, Any],
     progress: Callable[[float, float], None] | None = None,
 ) -> TrackingResult | PlanarResult:
-    """Track a plan of any planner; see mcplan.track.
+    """Track a plan of any planner, or a motion; see mcplan.track.
 
     Args:
-        plan: The plan, or the path of one.
+        plan: The plan, the motion, or the path of one.
         robot: Robot for a plan of ddp or rhp; None: the plan's own.
         values: Fields of Options by name.
         progress: Called now and then with the time simulated and the time to simulate [s].
     """
     if not isinstance(robot, Robot):
         require_or_path("robot", robot, "a Robot", "a name", optional=True)
-    if not isinstance(plan, (Plan, PlanarPlan)):
-        require_or_path("plan", plan, "a Plan", "a PlanarPlan")
-        from mcplan.files.whole_body_plans import load_any_plan
+    from mcplan.wb import Motion
 
-        plan = load_any_plan(plan)
-    if isinstance(plan, Plan):
+    if not isinstance(plan, (Plan, PlanarPlan, Motion)):
+        require_or_path("plan", plan, "a Plan", "a PlanarPlan", "a Motion")
+        from mcplan.wb.loading import load_any
+
+        plan = load_any(plan)
+    if isinstance(plan, (Plan, Motion)):
         from mcplan.tracking.runner import track
 
         return track(plan, robot, make_options(values), progress)

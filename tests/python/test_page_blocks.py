@@ -19,6 +19,7 @@ STAIRS = 'mp.plan("stairs_broad", "talos", sole_inside=1.0).plan.save("stairs.np
 BEFORE = {
     "README.md": STAIRS,
     "docs/feasibility.md": 'mp.plan("stairs", "talos", joint_limits=False).plan.save("s.npz")',
+    "docs/motion.md": 'mp.plan("stairs_broad", "talos").plan.save("stairs.npz")',
     "docs/planar_tasks.md": 'mp.files.planar_tasks.save_planar_task(mp.load_planar_task("walking"), "my_task.toml")',
     "docs/plans_and_checker.md": 'scene, robot = mp.load_scene("flat"), mp.load_robot("humanoid44")\n'
     "scenes = [scene]\nfirst = mp.plan(scene, robot)\nplan, measured = first.plan, first.plan.knots[0]",

@@ -47,3 +47,5 @@
 #include "mcplan/scene/scene.hpp"
 #include "mcplan/scene/scene_files.hpp"
 #include "mcplan/version.hpp"
+#include "mcplan/wb/problem.hpp"
+#include "mcplan/wb/solver.hpp"

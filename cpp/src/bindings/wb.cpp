@@ -50,7 +50,7 @@ Eigen::Matrix3Xd columns(const py::object& points) {
   return out;
 }
 
-void bind_problem(py::module_& m) {
+void bind_weights(py::module_& m) {
   py::class_<wb::Weights> weights(m, "Weights", "Of the cost of a motion; docs/theory/wb.md says what each is.");
   weights.def(py::init<>())
       .def_readwrite("rate", &wb::Weights::rate)
@@ -65,31 +65,9 @@ void bind_problem(py::module_& m) {
       .def_readwrite("wrench", &wb::Weights::wrench)
       .def_readwrite("force", &wb::Weights::force)
       .def_readwrite("elastic", &wb::Weights::elastic);
-  py::class_<wb::Problem> c(m, "Problem", "What mcplan.wb hands to the solver: links, nodes, limits, weights.");
-  c.def(py::init<>())
-      .def_readwrite("posture", &wb::Problem::posture)
-      .def_readwrite("weight_N", &wb::Problem::weight_N)
-      .def_readwrite("limit_ratio", &wb::Problem::limit_ratio)
-      .def_readwrite("position_margin", &wb::Problem::position_margin)
-      .def_readwrite("weights", &wb::Problem::weights);
-  c.def(
-      "add_link",
-      [](wb::Problem& self, std::string joint, int parent, bool prismatic, const Vector3d& axis,
-         const Matrix3d& rotation, const Vector3d& position, double mass, const Vector3d& center_of_mass,
-         const Eigen::Vector4d& limits) {
-        self.links.push_back({std::move(joint), parent, prismatic, axis, rotation, position, mass, center_of_mass,
-                              limits[0], limits[1], limits[2], limits[3]});
-      },
-      py::arg("joint"), py::arg("parent"), py::arg("prismatic"), py::arg("axis"), py::arg("rotation"),
-      py::arg("position"), py::arg("mass"), py::arg("center_of_mass"), py::arg("limits"),
-      "limits: position_min, position_max, velocity_max, torque_max.");
-  c.def(
-      "add_end_effector",
-      [](wb::Problem& self, std::string name, int link, const Matrix3d& rotation, const Vector3d& position,
-         const py::object& points) {
-        self.end_effectors.push_back({std::move(name), link, rotation, position, columns(points)});
-      },
-      py::arg("name"), py::arg("link"), py::arg("rotation"), py::arg("position"), py::arg("points_S"));
+}
+
+void bind_rows(py::class_<wb::Problem>& c) {
   c.def(
       "add_node",
       [](wb::Problem& self, double time_s, const Vector3d& com_W, const Vector3d& base_zyx) {
@@ -126,6 +104,35 @@ void bind_problem(py::module_& m) {
         self.pairs.push_back({first, second, distance_min});
       },
       py::arg("first"), py::arg("second"), py::arg("distance_min"));
+}
+
+void bind_problem(py::module_& m) {
+  py::class_<wb::Problem> c(m, "Problem", "What mcplan.wb hands to the solver: links, nodes, limits, weights.");
+  c.def(py::init<>())
+      .def_readwrite("posture", &wb::Problem::posture)
+      .def_readwrite("weight_N", &wb::Problem::weight_N)
+      .def_readwrite("limit_ratio", &wb::Problem::limit_ratio)
+      .def_readwrite("position_margin", &wb::Problem::position_margin)
+      .def_readwrite("weights", &wb::Problem::weights);
+  c.def(
+      "add_link",
+      [](wb::Problem& self, std::string joint, int parent, bool prismatic, const Vector3d& axis,
+         const Matrix3d& rotation, const Vector3d& position, double mass, const Vector3d& center_of_mass,
+         const Eigen::Vector4d& limits) {
+        self.links.push_back({std::move(joint), parent, prismatic, axis, rotation, position, mass, center_of_mass,
+                              limits[0], limits[1], limits[2], limits[3]});
+      },
+      py::arg("joint"), py::arg("parent"), py::arg("prismatic"), py::arg("axis"), py::arg("rotation"),
+      py::arg("position"), py::arg("mass"), py::arg("center_of_mass"), py::arg("limits"),
+      "limits: position_min, position_max, velocity_max, torque_max.");
+  c.def(
+      "add_end_effector",
+      [](wb::Problem& self, std::string name, int link, const Matrix3d& rotation, const Vector3d& position,
+         const py::object& points) {
+        self.end_effectors.push_back({std::move(name), link, rotation, position, columns(points)});
+      },
+      py::arg("name"), py::arg("link"), py::arg("rotation"), py::arg("position"), py::arg("points_S"));
+  bind_rows(c);
 }
 
 wb::Solution solve(wb::Solver& self, const VectorXd& start, int max_iterations, double time_limit_s,
@@ -206,6 +213,7 @@ void bind_solver(py::module_& m) {
 
 void bind_wb(py::module_& parent) {
   py::module_ m = parent.def_submodule("wb", "Whole-body motions in space: the solver behind mcplan.motion.");
+  bind_weights(m);
   bind_problem(m);
   bind_solver(m);
 }

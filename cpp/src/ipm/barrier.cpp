@@ -14,23 +14,14 @@ constexpr double kBoundPush = 1e-2;         // kappa_1, kappa_2: of the start, o
 constexpr double kProbingPush = 0.1;        // the same where the barrier is probed from there
 constexpr double kMultiplierScale = 100.0;  // s_max
 constexpr double kMaxMultipliers = 1e6;     // average beyond which errors are not measured by: they grow without bound
-constexpr double kBarrierTolerance = 10.0;  // kappa_epsilon
-constexpr double kLinearDecrease = 0.2, kSuperlinearDecrease = 1.5;  // kappa_mu, theta_mu
 constexpr double kFirstDelta = 1e-4, kMaxDelta = 1e20, kGrowDelta = 8.0, kFirstGrowDelta = 100.0, kShrinkDelta = 3.0;
 constexpr double kMinDelta = 1e-20, kDualDelta = 1e-8;
-constexpr double kProgress = 0.9999;  // of the optimality error over the last iterations
-constexpr int kHistory = 4;
-constexpr double kLeastRatio = 0.1;      // of a probed barrier parameter, over the average complementarity
-constexpr double kNearViolation = 1e-2;  // up to which multipliers say something
+constexpr double kNearViolation = 1e-2;                 // up to which multipliers say something
 constexpr double kLeastPart = 0.0625, kGrowPart = 4.0;  // of the blend of Hessians
 constexpr double kFirstDamping = 1e-2;
 constexpr int kManyTrials = 6;
 constexpr double kShortStep = 0.01;  // of the way that is looked for, where nothing but a feasible point is
 constexpr int kManyShortSteps = 15;
-// Three steps in a row cut to less than a tenth by the bounds, while mu waits for its problem's solution, say that it
-// has fallen too far ahead: iterates follow a curved valley next to their bounds. It then rises again.
-constexpr double kCutStep = 0.1, kRaise = 10.0, kMostRaised = 0.01;
-constexpr int kManyCutSteps = 3;
 constexpr double kLongStep = 0.5, kSmallGap = 10.0;  // of a step and of a duality gap after which a cost has settled
 
 }  // namespace
@@ -271,70 +262,6 @@ double Barrier::max_dual_step(const Step& step, double tau) const {
       alpha = -tau * upper_dual_[i] / step.upper[i];
   }
   return alpha;
-}
-
-double Barrier::average_complementarity() const {
-  double sum = 0.0;
-  int count = 0;
-  for (int i = 0; i < lower_dual_.size(); ++i) {
-    if (gap_lower_[i] < nlp::kInfinity) sum += gap_lower_[i] * lower_dual_[i], ++count;
-    if (gap_upper_[i] < nlp::kInfinity) sum += gap_upper_[i] * upper_dual_[i], ++count;
-  }
-  return count > 0 ? sum / count : 0.0;
-}
-
-/// Mehrotra's: how far complementarity falls along the step to mu = 0 says how far it should be asked to fall.
-double Barrier::probed_mu(const Point& point, double average) {
-  probe(point);
-  const double primal = max_step(affine_.t, 1.0), dual = max_dual_step(affine_, 1.0);
-  double sum = 0.0;
-  int count = 0;
-  for (int i = 0; i < lower_dual_.size(); ++i) {
-    if (gap_lower_[i] < nlp::kInfinity)
-      sum += (gap_lower_[i] + primal * affine_.t[i]) * (lower_dual_[i] + dual * affine_.lower[i]), ++count;
-    if (gap_upper_[i] < nlp::kInfinity)
-      sum += (gap_upper_[i] - primal * affine_.t[i]) * (upper_dual_[i] + dual * affine_.upper[i]), ++count;
-  }
-  if (count == 0 || average <= 0.0) return 0.0;
-  const double ratio = std::max(0.0, sum / count) / average;
-  const double least = probing_ ? kLeastRatio : 0.0;
-  return std::clamp(ratio * ratio * ratio, least, 1.0) * average;
-}
-
-void Barrier::choose_mu(const Point& point, const Errors& now) {
-  const double least = options_.tolerance / 10.0;
-  const auto set = [&](double mu) {
-    if (mu == mu_) return;
-    mu_ = mu;
-    filter_.clear();
-  };
-  if (options_.adaptive_barrier) {
-    const double error = now.largest();
-    const double bar = history_.empty() ? nlp::kInfinity : *std::max_element(history_.begin(), history_.end());
-    const bool progress = static_cast<int>(history_.size()) < kHistory || error <= kProgress * bar;
-    if (progress) {
-      history_.push_back(error);
-      if (static_cast<int>(history_.size()) > kHistory) history_.erase(history_.begin());
-      fixed_mu_ = false;
-      set(std::max(probed_mu(point, average_complementarity()), least));
-      return;
-    }
-    if (!fixed_mu_) {
-      fixed_mu_ = true;
-      set(std::max(0.8 * average_complementarity(), least));
-    }
-  }
-  while (mu_ > least && errors(point, mu_).largest() <= kBarrierTolerance * mu_)
-    set(std::max(least, std::min(kLinearDecrease * mu_, std::pow(mu_, kSuperlinearDecrease))));
-}
-
-/// After steps that the bounds cut short; see kCutStep.
-void Barrier::raise_mu() {
-  cut_steps_ = fixed_mu_ && options_.adaptive_barrier && alpha_ < kCutStep ? cut_steps_ + 1 : 0;
-  if (cut_steps_ < kManyCutSteps || mu_ >= kMostRaised) return;
-  mu_ = std::min(kMostRaised, kRaise * mu_);
-  filter_.clear();
-  cut_steps_ = 0;
 }
 
 /// Within all constraints, the cost as it was before a long step, and as the barrier leaves it: what it may still fall

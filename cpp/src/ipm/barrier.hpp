@@ -103,7 +103,8 @@ class Barrier {
   double mu_ = 0.1, delta_ = 0.0, last_delta_ = 0.0;
   double theta_now_ = 0.0, phi_now_ = 0.0, slope_ = 0.0, theta_min_ = 0.0;
   bool fixed_mu_ = false;  ///< monotone: the barrier falls when its problem is solved
-  std::vector<double> history_;
+  static constexpr int kHistory = 4;
+  std::vector<double> history_;  ///< of optimality errors, the last kHistory
   bool header_written_ = false;
   int trials_ = 0;
   int short_steps_ = 0, cut_steps_ = 0;  ///< in a row

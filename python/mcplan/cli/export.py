@@ -12,7 +12,7 @@ from mcplan.cli.given_options import named_as_typed
 
 FileArgument = Annotated[
     Path | None,
-    typer.Argument(metavar="[FILE]", help="Plan (mcplan plan or rhp -o) or run (track --save)."),
+    typer.Argument(metavar="[FILE]", help="Plan (mcplan plan or rhp -o), motion (motion -o) or run (track --save)."),
 ]
 ToOption = Annotated[
     str | None, typer.Option("--to", metavar="FORMAT", help="Name of the format; mcplan export --list prints them.")
@@ -39,9 +39,10 @@ def export(
     list_formats: ListOption = False,
     json: JsonOption = False,
 ) -> int:
-    """Write a saved plan or run in the format of another tool.
+    """Write a saved plan, motion or run in another tool's format.
 
-    Of a run the recorded joints are written; a plan gets joints by inverse kinematics where the format has them.
+    Of a run the recorded joints are written, of a motion its own; a plan gets joints by inverse kinematics where the
+    format has them.
 
     Example: mcplan export run.npz --to mjlab -o motion.npz
 

@@ -15,9 +15,12 @@ if TYPE_CHECKING:
     from mcplan._core import Plan, PlanarPlan, Robot
     from mcplan.planar.tracking import Suitability
     from mcplan.tracking.findings import Feasibility
+    from mcplan.wb import Motion, MotionCheckResult
 
 
-PlanArgument = Annotated[Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp or sip -o.")]
+PlanArgument = Annotated[
+    Path, typer.Argument(metavar="PLAN", help="File written by mcplan plan, rhp, sip or motion -o.")
+]
 RobotOption = Annotated[
     str | None,
     typer.Option("--robot", metavar="R", help="Robot with a URDF; default: the plan's own."),
@@ -71,7 +74,10 @@ NoiseOption = Annotated[
 ]
 CheckOption = Annotated[
     bool,
-    typer.Option("--check/--no-check", help="Warn before the run if the robot cannot follow the plan."),
+    typer.Option(
+        "--check/--no-check",
+        help="Warn before the run if the robot cannot follow the plan, or a motion is not certified.",
+    ),
 ]
 VideoOption = Annotated[
     Path | None, typer.Option("--video", metavar="FILE", help="File for a video of the run (.mp4, .webp, .gif).")
@@ -123,12 +129,13 @@ def track(
     json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> int:
-    """Simulate a robot that follows a plan, and measure the errors.
+    """Simulate a robot that follows a plan or motion.
 
-    Its joint torques alone drive it. The controller does not know of changed mass, friction and ground, pushes, lags and
-    noise. Whole-body plans are followed by their planar robots, without the latter three and seeds. The exit code is 0 if
-    the robot came to the end of the plan, 1 if it fell, left the plan, or followed a whole-body plan by contact forces that
-    are over a quarter off. Ctrl-C ends the run: what was simulated is saved (--save), nothing is drawn, the code is 130.
+    Its joint torques alone drive it, and errors are measured. The controller does not know of changed mass, friction and
+    ground, pushes, lags and noise. Whole-body plans are followed by their planar robots, without the latter three and seeds;
+    of a motion all joints are followed. The exit code is 0 if the robot came to the end, 1 if it fell, left the plan, or
+    followed a whole-body plan by contact forces that are over a quarter off. Ctrl-C ends the run: what was simulated is
+    saved (--save), nothing is drawn, the code is 130.
 
     Example: mcplan plan flat --robot talos --sole-inside 0.9 -o plan.npz
 
@@ -161,8 +168,8 @@ def track(
     return CODE if interrupted else 0 if result.followed else 1
 
 
-def _chosen(plan: Path, robot: str | None, values: dict[str, Any]) -> tuple[Plan | PlanarPlan, Robot | None]:
-    """The plan and the robot, if one is named.
+def _chosen(plan: Path, robot: str | None, values: dict[str, Any]) -> tuple[Plan | PlanarPlan | Motion, Robot | None]:
+    """The plan or motion and the robot, if one is named.
 
     Raises:
         InvalidInput, InvalidOptions: An option out of range, or one that does not go with the plan.
@@ -170,26 +177,32 @@ def _chosen(plan: Path, robot: str | None, values: dict[str, Any]) -> tuple[Plan
     from mcplan._core import PlanarPlan
     from mcplan.cli.pushes import require_within
     from mcplan.files.robots import load_robot
-    from mcplan.files.whole_body_plans import load_any_plan
     from mcplan.tracking.choice import make_options
+    from mcplan.wb.loading import load_any
 
     options = make_options(values)
-    chosen = load_any_plan(plan)
+    chosen = load_any(plan)
     require_within(values["pushes"], chosen.duration() + options.hold_s)
     if isinstance(chosen, PlanarPlan):
         _require_planar(robot, values)
     return chosen, None if robot is None else load_robot(robot)
 
 
-def _feasibility(plan: Plan | PlanarPlan, robot: Robot | None, silent: bool) -> Feasibility | Suitability:
+def _feasibility(
+    plan: Plan | PlanarPlan | Motion, robot: Robot | None, silent: bool
+) -> Feasibility | Suitability | MotionCheckResult:
     """What is known of a plan and a robot before simulating them; a warning where the one cannot follow the other."""
-    from mcplan._core import Plan
+    from mcplan._core import Plan, PlanarPlan
     from mcplan.cli.terminal import printable
     from mcplan.planar.tracking.suitability import suitability
     from mcplan.tracking.feasibility import assess
     from mcplan.tracking.runner import robot_for
 
-    found = assess(plan, robot_for(plan, robot)) if isinstance(plan, Plan) else suitability(plan)
+    found: Feasibility | Suitability | MotionCheckResult
+    if isinstance(plan, Plan):
+        found = assess(plan, robot_for(plan, robot))
+    else:
+        found = suitability(plan) if isinstance(plan, PlanarPlan) else plan.check()
     if not (found.ok() or silent):
         print(printable(f"warning: {found.verdict}"), file=sys.stderr)
     return found

@@ -1,4 +1,4 @@
-"""mp.export: a plan or a run, the name of a format, a path."""
+"""mp.export: a plan, a motion or a run, the name of a format, a path."""
 
 from __future__ import annotations
 
@@ -15,31 +15,33 @@ from .formats import format_of
 
 if TYPE_CHECKING:
     from mcplan.tracking import Recording, TrackingResult
+    from mcplan.wb import Motion
 
 #: Legal samples per second: at 1 kHz a minute of motion is as much as the writers are meant for.
 RATES_HZ = (1.0, 1000.0)
 
 
 def export(
-    what: Plan | Recording | TrackingResult | str | Path,
+    what: Plan | Motion | Recording | TrackingResult | str | Path,
     to: str,
     path: str | Path,
     robot: Robot | str | Path | None = None,
     rate_hz: float | None = None,
 ) -> Path:
-    """Write a plan or a run in the format of another tool.
+    """Write a plan, a motion or a run in the format of another tool.
 
         mp.export("run.npz", "mjlab", "motion.npz")
         mp.export(result.plan, "centroidal", "plan.csv", rate_hz=200)
 
-    Of a run the recorded joints are written. A plan has none: where a format needs them, inverse kinematics along the plan
-    gives them, with the end-effectors in contact exactly where the plan has them.
+    Of a run the recorded joints are written, of a motion its own. A plan has none: where a format needs them, inverse
+    kinematics along the plan gives them, with the end-effectors in contact exactly where the plan has them.
 
     Args:
-        what: A plan of ddp or rhp, a run of one, or the path of either.
+        what: A plan of ddp or rhp, a motion along one, a run, or the path of one of them.
         to: Name of the format; ``mcplan export --list`` prints them.
         path: The file, which is complete or not there at all.
-        robot: Robot with a URDF and the plan's end-effectors by name; None: the plan's own. A run has its own.
+        robot: Robot with a URDF and the plan's end-effectors by name; None: the plan's own. Runs and motions have
+            their own.
         rate_hz: Samples per second; None: what is usual for the format.
 
     Returns:
@@ -66,27 +68,31 @@ def export(
     return Path(path)
 
 
-def _loaded(what: Any) -> Plan | Recording:
-    """The plan, or the recording of the run."""
+def _loaded(what: Any) -> Plan | Motion | Recording:
+    """The plan, the motion, or the recording of the run."""
     from mcplan.tracking.recording import Recording, recording_from
     from mcplan.tracking.result import TrackingResult
 
     if isinstance(what, TrackingResult):
         return what.recording
-    if isinstance(what, (Plan, Recording)):
+    from mcplan.wb import Motion
+
+    if isinstance(what, (Plan, Motion, Recording)):
         return what
     if isinstance(what, PlanarPlan):
         raise _planar(what.task.name)
     if hasattr(what, "plan") and isinstance(what.plan, Plan):
-        raise InvalidArgument("what", "must be a Plan, a run or a path", f"a {type(what).__name__}; give its plan")
-    require_or_path("what", what, "a Plan", "a run")
-    from mcplan.files.whole_body_plans import load_any_plan
+        raise InvalidArgument(
+            "what", "must be a Plan, a Motion, a run or a path", f"a {type(what).__name__}; give its plan or motion"
+        )
+    require_or_path("what", what, "a Plan", "a Motion", "a run")
     from mcplan.tracking.run_files import PLANAR_RUN, RUN, load_run
+    from mcplan.wb.loading import load_any
 
     def refused(*_: Any) -> Any:
         raise _planar(str(what))
 
-    found: Any = load_run(what, {RUN: recording_from, PLANAR_RUN: refused}, load_any_plan)
+    found: Any = load_run(what, {RUN: recording_from, PLANAR_RUN: refused}, load_any)
     return _loaded(found)
 
 

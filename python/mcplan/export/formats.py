@@ -35,8 +35,8 @@ class Format:
     def needs(self) -> str:
         """What it is made of."""
         if self.planned:
-            return "plan, or that of a run"
-        return "run, or plan and URDF" if self.joints else "run or plan"
+            return "plan, or that of a run or motion"
+        return "run, motion, or plan and URDF" if self.joints else "run, motion or plan"
 
 
 _ALL = (

@@ -1,4 +1,4 @@
-"""Joint positions and velocities at the instants of an export: recorded ones, or postures along a plan."""
+"""Joint positions and velocities at the instants of an export: recorded ones, those of a motion, or postures along a plan."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from mcplan.kinematics.smooth_postures import smoothed
 from mcplan.kinematics.urdf_model import UrdfModel, load_model
 
 if TYPE_CHECKING:
+    from mcplan import wb
     from mcplan._core import Robot
     from mcplan.tracking import Recording
 
@@ -70,6 +71,18 @@ def planned_motion(robot: Robot, samples: Samples) -> Motion:
     return Motion(urdf_model, joints, samples.times_s, _without_jumps(configurations), velocities)
 
 
+def motion_along(motion: wb.Motion, times_s: Array) -> Motion:
+    """A whole-body motion at some instants, the joints that it holds included.
+
+    Raises:
+        InvalidInput: The robot has joints that are no angles.
+    """
+    urdf_model, joints = motion.model.complete, _joints_of(motion.model.complete)
+    q, v, _ = motion.trajectory(times_s)
+    configurations, velocities = motion.model.complete_configurations(q), motion.model.complete_velocities(v)
+    return Motion(urdf_model, joints, times_s, _without_jumps(configurations), velocities)
+
+
 def recorded_motion(recording: Recording, times_s: Array, rows: NDArray[np.int64]) -> Motion:
     """What a robot did at some instants, of which `rows` are the nearest rows of the recording."""
     urdf_model, joints = _model_of(recording.simulated_robot)
@@ -79,9 +92,13 @@ def recorded_motion(recording: Recording, times_s: Array, rows: NDArray[np.int64
 
 def _model_of(robot: Robot) -> tuple[UrdfModel, tuple[str, ...]]:
     urdf_model = load_model(robot)
+    return urdf_model, _joints_of(urdf_model)
+
+
+def _joints_of(urdf_model: UrdfModel) -> tuple[str, ...]:
     if urdf_model.model.nq - urdf_model.model.nv != 1:
-        raise InvalidInput("robot", "must have joints of one angle each", shown(robot.name))
-    return urdf_model, tuple(list(urdf_model.model.names)[2:])
+        raise InvalidInput("robot", "must have joints of one angle each", shown(urdf_model.robot.name))
+    return tuple(list(urdf_model.model.names)[2:])
 
 
 def _recorded(recording: Recording, times_s: Array, rows: NDArray[np.int64], model: Any) -> tuple[Array, Array]:

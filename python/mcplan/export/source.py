@@ -1,4 +1,4 @@
-"""What is exported: a plan or a recording, sampled at a rate, with joints where the format has them."""
+"""What is exported: a plan, a motion or a recording, sampled at a rate, with joints where the format has them."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from mcplan.errors import InvalidInput, shown
 from mcplan.kinematics.samples import Samples, sample_at
 
 if TYPE_CHECKING:
+    from mcplan import wb
     from mcplan.tracking import Recording
 
     from .formats import Format
@@ -25,11 +26,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Source:
-    """A plan, and the run of it if there is one.
+    """A plan, and the run or the motion of it if there is one.
 
     Attributes:
         plan: The plan.
-        recording: What the robot did; None: a plan is exported.
+        recording: What the robot did; None: a plan or a motion is exported.
+        along: The motion along the plan that is exported, if one is.
         robot: Whose joints are exported, with the plan's end-effectors in the plan's order.
         rate_hz: Samples per second; 0: at the knots of the plan.
         order: Name of the format.
@@ -40,13 +42,16 @@ class Source:
     robot: Robot
     rate_hz: float
     order: str
+    along: wb.Motion | None = None
 
     @staticmethod
-    def of(what: Plan | Recording, robot: Robot | str | Path | None, entry: Format, rate_hz: float | None) -> Source:
-        """The source of a plan or a recording.
+    def of(
+        what: Plan | wb.Motion | Recording, robot: Robot | str | Path | None, entry: Format, rate_hz: float | None
+    ) -> Source:
+        """The source of a plan, a motion or a recording.
 
         Raises:
-            InvalidInput: A robot is given with a run; or the plan is empty.
+            InvalidInput: A robot is given with a run or a motion; or the plan is empty.
             InvalidRobot: The robot lacks an end-effector of the plan.
         """
         rate = entry.rate_hz if rate_hz is None else rate_hz
@@ -60,7 +65,11 @@ class Source:
             return Source(what, None, robot_for(what, robot), rate, entry.name)
         if robot is not None:
             name = robot.name if isinstance(robot, Robot) else str(robot)
-            raise InvalidInput("robot", "must not be given with a run, which has its own", shown(name))
+            raise InvalidInput("robot", "must not be given with a run or a motion, which have their own", shown(name))
+        from mcplan.wb import Motion as MotionAlong
+
+        if isinstance(what, MotionAlong):
+            return Source(what.plan, None, what.model.complete.robot, rate, entry.name, what)
         return Source(what.plan, what, what.simulated_robot, rate, entry.name)
 
     @cached_property
@@ -81,8 +90,10 @@ class Source:
     @cached_property
     def motion(self) -> Motion:
         """Joints at these instants."""
-        from .motion import planned_motion, recorded_motion
+        from .motion import motion_along, planned_motion, recorded_motion
 
+        if self.along is not None:
+            return motion_along(self.along, self.times_s)
         if self.recording is not None:
             return recorded_motion(self.recording, self.times_s, self.rows)
         return planned_motion(self.robot, self.samples)
@@ -96,8 +107,14 @@ class Source:
         return np.minimum(found, len(self.recording.times_s) - 1)
 
     @cached_property
+    def states(self) -> wb.MotionSamples:
+        """Of a motion: its states at these instants."""
+        assert self.along is not None
+        return self.along.sample(self.times_s)
+
+    @cached_property
     def in_contact(self) -> NDArray[np.bool_]:
-        """(n, e): of a run by the simulator's forces, of a plan as planned."""
+        """(n, e): of a run by the simulator's forces, of a plan or a motion as planned."""
         if self.recording is not None:
             return np.asarray(self.recording.contacts[self.rows], bool)
         return self.samples.surfaces >= 0
@@ -114,14 +131,18 @@ class Source:
         """(n, e, 3) contact forces on the robot [N]."""
         if self.recording is not None:
             return np.asarray(self.recording.forces_W[self.rows], float)
+        if self.along is not None:
+            return self.states.wrenches_W[..., :3]
         return self.samples.forces_W
 
     @cached_property
     def moments_W(self) -> Array:
-        """(n, e, 3) planned contact moments on the robot about the contact points [N m]; a run records none."""
+        """(n, e, 3) contact moments of a plan or a motion on the robot about the contact points [N m]; a run records none."""
         samples = self.samples
         if self.recording is not None:
             return np.zeros_like(samples.moments_W)
+        if self.along is not None:
+            return self.states.wrenches_W[..., 3:]
         arms = samples.pressure_W - samples.positions_W
         return np.asarray(samples.moments_W + np.cross(arms, samples.forces_W))
 
@@ -130,6 +151,8 @@ class Source:
         """(n, e, 3) contact points [m]."""
         if self.recording is not None:
             return np.asarray(self.recording.end_effectors_W[self.rows], float)
+        if self.along is not None:
+            return self.states.end_effectors_W
         return self.samples.positions_W
 
     @property

@@ -65,6 +65,9 @@ class SweepSpec(Strict):
     robots: list[Name] = Field(["humanoid44"], min_length=1, description="Built-in names or paths of TOML files.")
     seeds: list[Seed] = Field([0], min_length=1, description="Seeds of the planner, which ddp alone has.")
     options: dict[str, Value] = Field({}, description="Options of the planner, for all tasks.")
+    motion: Literal["default", "all", "legs"] | None = Field(
+        None, description="Joints of the whole-body motion that is found along each solved plan; left out: no motions."
+    )
     scenes: list[SceneEntry] = Field(min_length=1, description="What is planned.")
 
     @field_validator("options", mode="before")

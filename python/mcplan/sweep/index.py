@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from mcplan.files.outputs import write_whole
 from mcplan.sweep import store
 from mcplan.sweep.tasks import Task
+from mcplan.sweep.work import MEASURES
 
 if TYPE_CHECKING:
     import pyarrow
@@ -35,6 +36,15 @@ RESULTS = {
     "plan": "string",
     "plan_sha256": "string",
 }
+#: Those of whole-body motions, in the index of sweeps that have them.
+MOTION_RESULTS = {
+    "motion_status": "string",
+    "motion_message": "string",
+    "motion_iterations": "int64",
+    **{f"motion_{name}": "double" for name in MEASURES},
+    "motion": "string",
+    "motion_sha256": "string",
+}
 #: Columns of the table of times.
 TIMES = {
     "task": "int64",
@@ -42,6 +52,7 @@ TIMES = {
     "cpu_s": "double",
     "plan_wall_s": "double",
     "plan_cpu_s": "double",
+    "motion_cpu_s": "double",
     "began": "double",
     "host": "string",
     "crash": "string",
@@ -83,7 +94,8 @@ def index_table(records: Sequence[Mapping[str, Any]]) -> pyarrow.Table:
         names = dict.fromkeys(name for record in records for name in record[group])
         for name in sorted(names):
             columns[prefix + name] = _guessed([record[group].get(name) for record in records])
-    for name, kind in RESULTS.items():
+    motions = any("motion_status" in record for record in records)
+    for name, kind in {**RESULTS, **(MOTION_RESULTS if motions else {})}.items():
         columns[name] = pa.array([record.get(name) for record in records], type_of(kind))
     return pa.table(columns)
 
@@ -128,5 +140,6 @@ def _checksums(out: Path, index: bytes, records: Sequence[Mapping[str, Any]]) ->
         f"{hashlib.sha256((out / store.MANIFEST).read_bytes()).hexdigest()}  {store.MANIFEST}",
         f"{hashlib.sha256(index).hexdigest()}  {store.INDEX}",
     ]
-    lines += [f"{record['plan_sha256']}  {record['plan']}" for record in records if record.get("plan")]
+    for kind in ("plan", "motion"):
+        lines += [f"{record[f'{kind}_sha256']}  {record[kind]}" for record in records if record.get(kind)]
     return "\n".join(lines) + "\n"

@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from mcplan._core import Plan
 from mcplan.errors import InvalidArgument, InvalidSweep, shown
@@ -17,17 +17,18 @@ if TYPE_CHECKING:
     import pandas
     import pyarrow
 
+    from mcplan.wb import Motion
 
-class Plans(Mapping[int, Plan]):
-    """Plans by the number of their task, each loaded when it is asked for; tasks without a plan are not in it."""
+T = TypeVar("T")
+
+
+class _Files(Mapping[int, T]):
+    """What files hold by the number of their task, each loaded when it is asked for; tasks without one are not in it."""
+
+    kind = ""
 
     def __init__(self, out: Path, paths: Mapping[int, str]) -> None:
         self._out, self._paths = out, dict(paths)
-
-    def __getitem__(self, task: int) -> Plan:
-        from mcplan.files.plans import load_plan
-
-        return load_plan(self._out / self._paths[task])
 
     def __iter__(self) -> Iterator[int]:
         return iter(self._paths)
@@ -36,7 +37,29 @@ class Plans(Mapping[int, Plan]):
         return len(self._paths)
 
     def __repr__(self) -> str:
-        return f"<{len(self)} plans in {self._out}>"
+        return f"<{len(self)} {self.kind} in {self._out}>"
+
+
+class Plans(_Files[Plan]):
+    """Plans by the number of their task, each loaded when it is asked for; tasks without a plan are not in it."""
+
+    kind = "plans"
+
+    def __getitem__(self, task: int) -> Plan:
+        from mcplan.files.plans import load_plan
+
+        return load_plan(self._out / self._paths[task])
+
+
+class Motions(_Files["Motion"]):
+    """Motions by the number of their task, likewise."""
+
+    kind = "motions"
+
+    def __getitem__(self, task: int) -> Motion:
+        from mcplan.wb import Motion
+
+        return Motion.load(self._out / self._paths[task])
 
 
 class Sweep:
@@ -46,6 +69,7 @@ class Sweep:
         out: The folder.
         manifest: Name, number of tasks, seeds, versions, the spec.
         plans: Plans by task.
+        motions: Whole-body motions by task; empty without ``motion`` in the spec.
     """
 
     def __init__(self, out: Path) -> None:
@@ -54,6 +78,8 @@ class Sweep:
         self._arrow = self._read()
         rows = self._arrow.select(["task", "plan"]).to_pylist()
         self.plans = Plans(out, {row["task"]: row["plan"] for row in rows if row["plan"]})
+        found = self._arrow.select(["task", "motion"]).to_pylist() if "motion" in self._arrow.column_names else []
+        self.motions = Motions(out, {row["task"]: row["motion"] for row in found if row["motion"]})
 
     @property
     def complete(self) -> bool:
@@ -121,8 +147,8 @@ def load_sweep(path: str | Path) -> Sweep:
         path: What ``mcplan sweep --out`` was given.
 
     Returns:
-        Its table (``table``, ``times``, ``to_arrow()``), plans by the number of their task (``plans``), ``manifest``, and
-        ``verify()``, which compares files with their checksums.
+        Its table (``table``, ``times``, ``to_arrow()``), plans and motions by the number of their task (``plans``,
+        ``motions``), ``manifest``, and ``verify()``, which compares files with their checksums.
 
     Raises:
         InvalidSweep: The folder is none of a sweep.

@@ -16,7 +16,7 @@ from mcplan import _core
 from mcplan.errors import InvalidSweep, shown, shown_path
 from mcplan.files.outputs import made_folder, write_whole
 from mcplan.sweep.tasks import Task
-from mcplan.sweep.work import CRASHED, PLANS, RECORDS, TIMES, path_of
+from mcplan.sweep.work import CRASHED, MOTIONS, PLANS, RECORDS, TIMES, path_of
 
 if TYPE_CHECKING:
     from mcplan.files.sweep_specs import SweepSpec
@@ -93,7 +93,9 @@ def read_record(out: Path, task_stem: str) -> dict[str, Any] | None:
         record = json.loads((out / RECORDS / f"{task_stem}.json").read_bytes())
     except (OSError, ValueError):
         return None
-    if not isinstance(record, dict) or (record.get("plan") and not (out / record["plan"]).is_file()):
+    if not isinstance(record, dict):
+        return None
+    if any(record.get(kind) and not (out / record[kind]).is_file() for kind in ("plan", "motion")):
         return None
     return record
 
@@ -111,7 +113,7 @@ def pending(out: Path, tasks: Iterable[Task], retry_crashed: bool = False) -> li
 def sweep_away(out: Path, tasks: Iterable[Task]) -> None:
     """Remove half-written files that a killed process has left of these tasks."""
     stems = {task.stem.rpartition("/")[2] for task in tasks}
-    for kind in (PLANS, RECORDS, TIMES):
+    for kind in (PLANS, MOTIONS, RECORDS, TIMES):
         for path in (out / kind).glob("*/.*"):
             if path.name[1:].partition(".")[0] in stems:
                 with suppress(OSError):

@@ -33,6 +33,7 @@ class Task:
         engine: The planner.
         options: Of the planner.
         seed: Of the planner.
+        motion: Joints of the whole-body motion that is found along a solved plan; "": none is.
     """
 
     index: int
@@ -45,6 +46,7 @@ class Task:
     engine: str
     options: Mapping[str, Any] = field(default_factory=dict)
     seed: int = 0
+    motion: str = ""
 
     @property
     def name(self) -> str:
@@ -86,7 +88,7 @@ def tasks_of(spec: SweepSpec, folder: Path = Path(".")) -> list[Task]:
             out.append(
                 Task(
                     len(out), entry.title, entry.generator, source, parameters, robot, robot_source, spec.engine,
-                    options, seed,
+                    options, seed, spec.motion or "",
                 )
             )  # fmt: skip
     return out

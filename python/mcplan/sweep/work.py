@@ -17,10 +17,12 @@ from mcplan.errors import InvalidInput, SuspiciousGeometry, SuspiciousName, Unkn
 from mcplan.sweep.tasks import Task
 
 #: Folders of a sweep's files.
-PLANS, RECORDS, TIMES = "plans", "records", "times"
+PLANS, MOTIONS, RECORDS, TIMES = "plans", "motions", "records", "times"
 #: Endings of a task besides the statuses of a plan: the replay of the saved plan disagrees with `solved`; the task was
 #: refused, such as a scene at whose start the robot cannot stand; it killed its workers.
 REJECTED, REFUSED, CRASHED = "rejected", "refused", "crashed"
+#: Measures of a motion's certificate that records have.
+MEASURES = ("torque_use", "velocity_use", "self_distance_m", "base_residual_N", "drift_m", "com_rms_m")
 
 
 @dataclass(frozen=True)
@@ -112,9 +114,14 @@ def _solve(task: Task, out: Path) -> tuple[dict[str, Any], dict[str, Any]]:
         "contact_sequence": _sequence(plan),
         "durations_s": [phase.duration for phase in plan.phases],
     }
+    times = {"plan_cpu_s": planned, "plan_wall_s": report.time_s}
     if plan.phases:
         record |= _saved(plan, record["status"], path_of(out, task, PLANS, ".npz"), out)
-    return record, {"plan_cpu_s": planned, "plan_wall_s": report.time_s}
+    if task.motion and record["status"] == "solved":
+        begin = time.process_time()
+        record |= _motion(plan, task.motion, path_of(out, task, MOTIONS, ".npz"), out)
+        times["motion_cpu_s"] = time.process_time() - begin
+    return record, times
 
 
 def _saved(plan: Plan, status: str, path: Path, out: Path) -> dict[str, Any]:
@@ -130,6 +137,29 @@ def _saved(plan: Plan, status: str, path: Path, out: Path) -> dict[str, Any]:
         if not again.ok():
             found |= {"status": REJECTED, "message": f"called solved, but the saved plan: {again.worst()}"}
     return found
+
+
+def _motion(plan: Plan, joints: str, path: Path, out: Path) -> dict[str, Any]:
+    """Find a whole-body motion along a plan and save it; its certificate alone says `solved`."""
+    from mcplan.files.outputs import write_whole
+    from mcplan.wb.solve import motion
+
+    try:
+        result = motion(plan, joints=joints)
+    except InvalidInput as refusal:  # a robot without URDF, or a plan out of the reach of its joints
+        return {"motion_status": REFUSED, "motion_message": str(refusal).splitlines()[0]}
+    path.parent.mkdir(parents=True, exist_ok=True)
+    data = result.motion.to_bytes()
+    write_whole(data, path)
+    measures = {} if result.certificate is None else result.certificate.measures
+    return {
+        "motion_status": str(result.status),
+        "motion_message": str(result.shortfall or result.report.message),
+        "motion_iterations": result.iterations,
+        **{f"motion_{name}": _finite(measures[name]) if name in measures else None for name in MEASURES},
+        "motion": path.relative_to(out).as_posix(),
+        "motion_sha256": hashlib.sha256(data).hexdigest(),
+    }
 
 
 def _engine(task: Task, scene: Any, robot: Robot) -> Any:

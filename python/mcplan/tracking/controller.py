@@ -23,6 +23,8 @@ from mcplan.kinematics.urdf_model import UrdfModel, leg_velocities
 from .actuators import TorqueSpeed
 from .contact_forces import SIDES, ForcePoints, pyramid
 from .contacts import Contact, Mode
+from .joint_references import JointReferences
+from .live_references import LiveReferences
 from .options import Gains
 from .quadratic_program import Problem, QuadraticProgram
 from .references import References
@@ -30,7 +32,7 @@ from .robot_dynamics import EndEffectorMotion, RobotDynamics
 from .separation import Separation
 
 if TYPE_CHECKING:
-    from mcplan._core import Scene
+    from mcplan._core import Plan, Scene
 
 Array = NDArray[np.float64]
 
@@ -77,7 +79,7 @@ class Controller:
         urdf_model: UrdfModel,
         scene: Scene,
         references: References,
-        posture: Array,
+        posture: Array | JointReferences,
         gains: Gains,
         restraints: Restraints | None = None,
     ) -> None:
@@ -85,19 +87,21 @@ class Controller:
         Args:
             urdf_model: The robot's model.
             scene: Surfaces that the references name.
-            references: Desired motion and forces at each control step.
-            posture: (nq,) or (n, nq) configurations near to which the joints stay.
+            references: Desired motion and forces at each control step, until set_plan gives others.
+            posture: (nq,) or (n, nq) configurations near to which the joints stay, or how all joints move.
             gains: Weights and gains.
             restraints: What motors have, and links to be kept apart; None: the URDF's limits of torque and speed alone.
         """
         self.urdf_model, self.references, self.gains = urdf_model, references, gains
+        self._live: LiveReferences | None = None  # of a plan that was taken over
+        self._last = -1
         self.dynamics = RobotDynamics(urdf_model)
         model = urdf_model.model
         self.nv, self.limits = model.nv, np.asarray(model.effortLimit[6:], float)
         restraints = restraints or Restraints(TorqueSpeed.of(self.limits, model.velocityLimit[6:]))
         self.motors, self.separation = restraints.motors, restraints.separation
         self.lower, self.upper = model.lowerPositionLimit[7:].copy(), model.upperPositionLimit[7:].copy()
-        self.posture = np.atleast_2d(posture)[:, 7:]
+        self.joints = posture if isinstance(posture, JointReferences) else JointReferences.of_posture(posture)
         self.legs = leg_velocities(urdf_model)
         self.normals = [polygon_normal(np.asarray(s.vertices_W)) for s in scene.surfaces]
         self.pyramids = [pyramid(n, s.friction) for n, s in zip(self.normals, scene.surfaces, strict=True)]
@@ -121,6 +125,9 @@ class Controller:
             configuration: (nq,) measured, Pinocchio's convention. velocity: (nv,) likewise.
             in_contact: (e,) whether each end-effector is in contact, by the measured forces.
         """
+        self._last = n
+        if self._live is not None:
+            self.references, n = self._live.window(n)
         self.dynamics.update(configuration, velocity)
         motions = [self.dynamics.end_effector(i) for i in range(len(self.contacts))]
         for i, contact in enumerate(self.contacts):
@@ -136,6 +143,26 @@ class Controller:
             tau = self.dynamics.inertia[6:] @ acceleration + self.dynamics.bias[6:] - force_map[6:] @ forces
             self.torques = np.clip(tau, *self.motors.bounds(velocity[6:]))
         return Command(self.torques, found is not None)
+
+    def set_plan(self, plan: Plan, t0: float) -> None:
+        """Follow another plan from the next control step on.
+
+        Contacts, force points and the last torques stay. References go on without a jump of position or velocity; what the
+        two plans differ by then decays as the controller makes errors decay, so that the accelerations asked for are those
+        of the new plan followed from the state that the robot is in.
+
+        Args:
+            plan: The plan, of the same scene's surfaces and the same end-effectors.
+            t0: Time of control step 0 plus this is the plan's start [s]: step n is at n dt - t0 of the plan.
+        """
+        if self.joints.timed:  # joints of a motion, which the plan does not go on with
+            self.joints = JointReferences(np.atleast_2d(self.joints.at(max(self._last, 0))[0]))
+        before = self._live or LiveReferences.of(self.references)
+        self._live = LiveReferences.after(before, self._last + 1, plan, self.urdf_model.robot, t0, self.gains)
+
+    def row(self, n: int) -> tuple[References, int]:
+        """References that contain control step n, and its index there."""
+        return (self.references, n) if self._live is None else self._live.window(n)
 
     def _set_contact(self, n: int, end: int, position_W: Array, rotation_W: Array) -> None:
         """Set the place of an end-effector's contact, and the points at which forces act there."""
@@ -155,6 +182,8 @@ class Controller:
 
     def _surface(self, n: int, end: int) -> int:
         """The surface with which an end-effector is in contact or will be next; -1: none."""
+        if self.references.next_surfaces is not None:
+            return int(self.references.next_surfaces[n, end])
         ahead = self.references.surfaces[n:, end]
         on = np.flatnonzero(ahead >= 0)
         return int(ahead[on[0]]) if len(on) else -1
@@ -172,7 +201,7 @@ class Controller:
         gradient[:nv] = -rows.T @ values
         diagonal = np.full(size, gains.force_weight)
         diagonal[:nv], diagonal[-1] = DAMPING, SLACK_WEIGHT
-        posture_weights = np.where(self.legs, gains.leg_posture_weight, gains.posture_weight)
+        posture_weights = self._joint_weights()
         diagonal[6:nv] += posture_weights
         hessian[np.diag_indices(size)] += diagonal
         gradient[6:nv] -= posture_weights * self._posture_acceleration(n)
@@ -247,7 +276,8 @@ class Controller:
         )
         add(gains.com_weight, dynamics.com_jacobian, dynamics.com_drift, desired)
         rotation = rotation_vector(ref.base_WB[n] @ dynamics.base_WB.T)
-        desired = _follow(gains.base_kp, rotation, ref.base_velocity_W[n] - dynamics.base_velocity_W, 0.0)
+        feed = 0.0 if ref.base_acceleration_W is None else ref.base_acceleration_W[n]
+        desired = _follow(gains.base_kp, rotation, ref.base_velocity_W[n] - dynamics.base_velocity_W, feed)
         add(gains.base_weight, dynamics.base_jacobian, dynamics.base_drift, desired)
         desired = ref.momentum_rate_W[n] + gains.momentum_kp * (ref.momentum_W[n] - dynamics.momentum_W)
         add(gains.momentum_weight, dynamics.momentum_map, dynamics.momentum_drift, desired)
@@ -272,7 +302,8 @@ class Controller:
                     [target_W - motion.position_W, rotation_vector(ref.soles_W[n, i] @ motion.rotation_W.T)]
                 )
                 rate = np.concatenate([velocity_W, ref.sole_velocities_W[n, i]]) - motion.velocity_W
-                feed = np.concatenate([ref.end_effector_accelerations_W[n, i], np.zeros(3)])
+                turning = np.zeros(3) if ref.sole_accelerations_W is None else ref.sole_accelerations_W[n, i]
+                feed = np.concatenate([ref.end_effector_accelerations_W[n, i], turning])
                 desired = _follow(gains.swing_kp, error, rate, feed)
                 weight = gains.swing_weight
                 if self.flat[i]:
@@ -294,10 +325,17 @@ class Controller:
         offset = self.references.pressure_W[n, end] - self.references.end_effectors_W[n, end]
         return (motion.rotation_W.T @ offset)[:2]
 
+    def _joint_weights(self) -> Array:
+        gains = self.gains
+        if self.joints.timed:
+            return np.full(self.nv - 6, gains.joint_weight)
+        return np.where(self.legs, gains.leg_posture_weight, gains.posture_weight)
+
     def _posture_acceleration(self, n: int) -> Array:
-        posture = self.posture[min(n, len(self.posture) - 1)]
-        error = posture - self.dynamics.configuration[7:]
-        return _follow(self.gains.posture_kp, error, -self.dynamics.velocity[6:], 0.0)
+        position, velocity, acceleration = self.joints.at(n)
+        kp = self.gains.joint_kp if self.joints.timed else self.gains.posture_kp
+        error, rate = position - self.dynamics.configuration[7:], velocity - self.dynamics.velocity[6:]
+        return _follow(kp, error, rate, acceleration)
 
     def _joint_bounds(self) -> tuple[Array, Array]:
         """Least and largest acceleration (nj,) that keep positions and speeds within their limits."""

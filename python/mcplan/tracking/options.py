@@ -58,6 +58,8 @@ class Gains:
     posture_kp: float = 20.0
     posture_weight: float = 0.03
     leg_posture_weight: float = 0.01  # of joints that move one foot and no other end-effector
+    joint_kp: float = 100.0  # of all joints along a motion, which has their velocities and accelerations
+    joint_weight: float = 0.3
     force_weight: float = 1e-6
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan._core import Plan, Robot
-from mcplan.errors import InvalidInput, InvalidRobot
+from mcplan.errors import InvalidInput, InvalidRobot, shown
 from mcplan.extras import require
 from mcplan.files.robots import list_robots_with
 from mcplan.kinematics.inverse_kinematics import follow
@@ -23,7 +23,9 @@ from mcplan.kinematics.urdf_model import UrdfModel
 from .assist import assistance
 from .disturbances import disturbed
 from .interruption import Interruption
-from .measures import measure, with_touches
+from .joint_references import JointReferences
+from .measures import at_torque_limit, measure, with_touches
+from .motion_references import motion_references
 from .options import Options
 from .postures import postures_along
 from .recorder import Acting, Recorder
@@ -34,6 +36,8 @@ from .sensors import Sensors
 from .separation import Separation
 
 if TYPE_CHECKING:
+    from mcplan.wb import Motion
+
     from .simulation import Simulation
 
 Array = NDArray[np.float64]
@@ -48,27 +52,28 @@ START_MISS = 0.03
 
 @dataclass(frozen=True)
 class _Trial:
-    """What is tracked by what: the plan, its references, the posture near to which joints stay, and where it ends."""
+    """What is tracked by what: the plan, its references, those of joints, the first and last configuration, options."""
 
     plan: Plan
     urdf_model: UrdfModel
     desired: References
-    posture: Array
+    joints: JointReferences
+    start: Array
     end: Array
     options: Options
 
 
 def track(
-    plan: Plan | str | Path,
+    plan: Plan | Motion | str | Path,
     robot: Robot | str | Path | None = None,
     options: Options | None = None,
     progress: Callable[[float, float], None] | None = None,
 ) -> TrackingResult:
-    """Track a plan with a simulated robot, which its torques alone move, within their limits.
+    """Track a plan or a motion with a simulated robot, which its torques alone move, within their limits.
 
     Args:
-        plan: A plan of `ddp` or `rhp`, or the path of one.
-        robot: A robot with a URDF and the plan's end-effectors by name; None: the plan's own.
+        plan: A plan of `ddp` or `rhp`, a motion along one, or the path of either.
+        robot: A robot with a URDF and the plan's end-effectors by name; None: the plan's own. A motion takes no other.
         options: Options of the run.
         progress: Called now and then with the time simulated and the time to simulate [s].
 
@@ -86,33 +91,52 @@ def track(
     require("mcplan.tracking", "sim", "mujoco", "pinocchio", "proxsuite")
     options = options or Options()
     options.validate()
-    plan = _as_plan(plan)
+    followed = _loaded(plan)
+    plan = followed if isinstance(followed, Plan) else followed.plan
     options.require_pushes_within(plan.duration() + options.hold_s)
-    tracked_robot = robot_for(plan, robot)
+    tracked_robot = robot_for(plan, robot) if isinstance(followed, Plan) else _own_robot(followed, robot)
     if options.seed:
         options = disturbed(options, options.seed, plan.duration(), tracked_robot.mass)
     from . import mujoco_model
     from .simulation import Simulation
 
     model = mujoco_model.build(tracked_robot, plan.scene, options)
-    urdf_model = model.urdf_model
     simulation = Simulation(model, options.torque_delay_s, options.torque_bandwidth_hz)
-    desired = references(plan, tracked_robot, options.control_step_s, options.hold_s)
-    start, end = _posture_at(urdf_model, plan, 0.0), _posture_at(urdf_model, plan, desired.duration_s)
-    on_ground = start.copy()
+    make = _plan_trial if isinstance(followed, Plan) else _motion_trial
+    trial = make(followed, model.urdf_model, options)  # type: ignore[arg-type]
+    on_ground = trial.start.copy()
     on_ground[2] += options.ground_shift_m
-    simulation.reset(on_ground, np.zeros(urdf_model.model.nv))
+    simulation.reset(on_ground, np.zeros(model.urdf_model.model.nv))
+    with Interruption() as stop:
+        result = _run(trial, simulation, stop, progress)
+    stop.raise_with(result)
+    return result
+
+
+def _plan_trial(plan: Plan, urdf_model: UrdfModel, options: Options) -> _Trial:
+    desired = references(plan, urdf_model.robot, options.control_step_s, options.hold_s)
+    start, end = posture_at(urdf_model, plan, 0.0), posture_at(urdf_model, plan, desired.duration_s)
     posture = start
     if any(phase.has_points for phase in plan.phases):
         # Such plans know nothing of the base: its rotation has to suit the legs.
         posture = postures_along(urdf_model, plan, desired.count, options.control_step_s)
         desired = desired.with_base(posture[:, 3:7])
         end = posture[-1]
-    trial = _Trial(plan, urdf_model, desired, posture, end, options)
-    with Interruption() as stop:
-        result = _run(trial, simulation, stop, progress)
-    stop.raise_with(result)
-    return result
+    return _Trial(plan, urdf_model, desired, JointReferences.of_posture(posture), start, end, options)
+
+
+def _motion_trial(motion: Motion, urdf_model: UrdfModel, options: Options) -> _Trial:
+    desired, joints, (start, end) = motion_references(motion, options.control_step_s, options.hold_s)
+    return _Trial(motion.plan, urdf_model, desired, joints, start, end, options)
+
+
+def _own_robot(motion: Motion, robot: Robot | str | Path | None) -> Robot:
+    """The robot of a motion's URDF, with the plan's end-effectors."""
+    if robot is not None:
+        name = robot.name if isinstance(robot, Robot) else str(robot)
+        raise InvalidInput("robot", "must not be given with a motion, which has its own joints", shown(name))
+    own: Robot = motion.model.complete.robot
+    return own
 
 
 def robot_for(plan: Plan, robot: Robot | str | Path | None) -> Robot:
@@ -140,18 +164,24 @@ def robot_for(plan: Plan, robot: Robot | str | Path | None) -> Robot:
     return ordered
 
 
-def _as_plan(plan: Plan | str | Path) -> Plan:
-    if isinstance(plan, Plan):
+def _loaded(plan: Plan | Motion | str | Path) -> Plan | Motion:
+    from mcplan.wb import Motion
+    from mcplan.wb.loading import load_any
+
+    if isinstance(plan, (Plan, Motion)):
         return plan
-    from mcplan.files.whole_body_plans import load_any_plan
-
-    any_plan = load_any_plan(Path(plan))
-    if not isinstance(any_plan, Plan):
-        raise InvalidInput("plan", "must be a plan of ddp or rhp", f"{plan}, a whole-body plan")
-    return any_plan
+    found = load_any(Path(plan))
+    if not isinstance(found, (Plan, Motion)):
+        raise InvalidInput("plan", "must be a plan of ddp or rhp, or a motion", f"{plan}, a whole-body plan")
+    return found
 
 
-def _posture_at(urdf_model: UrdfModel, plan: Plan, time_s: float) -> Array:
+def posture_at(urdf_model: UrdfModel, plan: Plan, time_s: float) -> Array:
+    """The configuration (nq,) in which a robot follows a plan at a time [s].
+
+    Raises:
+        InvalidInput: It cannot, by more than START_MISS.
+    """
     postures = follow(urdf_model, sample_at(plan, plan.scene, plan.robot, np.array([time_s])))
     if postures.residual > START_MISS:
         raise InvalidInput(
@@ -170,7 +200,7 @@ def _run(
     urdf_model, desired, options = trial.urdf_model, trial.desired, trial.options
     separation = Separation(simulation.model) if options.self_contacts else None
     restraints = Restraints(simulation.model.motors, separation)
-    controller = Controller(urdf_model, trial.plan.scene, desired, trial.posture, options.gains, restraints)
+    controller = Controller(urdf_model, trial.plan.scene, desired, trial.joints, options.gains, restraints)
     recorder = Recorder(trial.plan, urdf_model, simulation.model.joints, desired)
     sensors, actual = Sensors(options.sensor_noise, options.noise_seed), RobotDynamics(urdf_model)
     contact_N = CONTACT_RATIO * actual.mass * trial.plan.scene.gravity
@@ -212,6 +242,7 @@ def _run(
         simulator_warnings=simulation.warnings,
         realtime_factor=(n + 1) * desired.dt_s / wall,
         control_ms=1e3 * control_s / (n + 1),
+        leg_torque_limit_ratio=float(at_torque_limit(recording)[:, controller.legs].any(axis=1).mean()),
     )
     return TrackingResult(recording, measures, options, stop.asked)
 

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 #: A motion's forces act at the corners of this part of a sole; the solver holds them to a little less, which leaves room
 #: to correct them between its nodes.
-CORNER_RATIO, SOLVED_RATIO = 0.9, 0.88
+CORNER_RATIO, SOLVED_RATIO = 0.95, 0.9
 #: Points keep this distance from the edges of surfaces [m].
 EDGE_M = 2e-3
 

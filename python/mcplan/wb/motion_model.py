@@ -69,8 +69,20 @@ class MotionModel:
             full[:, to : to + size] = q[:, at : at + size]
         return full
 
+    def complete_velocities(self, v: Array) -> Array:
+        """Velocities or accelerations (k, nv) of the complete model, zero where joints are locked."""
+        whole = self.complete.model
+        full = np.zeros((len(v), whole.nv))
+        full[:, :6] = v[:, :6]
+        for joint in range(2, self.model.njoints):
+            to = whole.idx_vs[whole.getJointId(self.model.names[joint])]
+            full[:, to] = v[:, self.model.idx_vs[joint]]
+        return full
 
-def motion_model(plan: Plan, urdf: str, joints: Sequence[str], locked: Mapping[str, float]) -> MotionModel:
+
+def motion_model(
+    plan: Plan, urdf: str, joints: Sequence[str], locked: Mapping[str, float], complete: UrdfModel | None = None
+) -> MotionModel:
     """The model of a motion.
 
     Args:
@@ -78,6 +90,7 @@ def motion_model(plan: Plan, urdf: str, joints: Sequence[str], locked: Mapping[s
         urdf: Name of a built-in setup, or as a robot names its URDF.
         joints: Those that move, in Pinocchio's order.
         locked: Positions of the others [rad or m].
+        complete: The plan's robot with that URDF, read before; None: it is read.
 
     Raises:
         MissingExtra: Pinocchio is not installed.
@@ -86,7 +99,7 @@ def motion_model(plan: Plan, urdf: str, joints: Sequence[str], locked: Mapping[s
     """
     robot = copy.deepcopy(plan.robot)
     robot.urdf = PACKAGE + urdf if urdf in SETUPS else urdf
-    complete = load_model(robot)
+    complete = complete or load_model(robot)
     import pinocchio as pin  # type: ignore[import-untyped]
 
     whole = complete.model

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 #: Time in which a contact that is made takes up its planned force, and one that is broken gives it up [s].
 RAMP_S = 0.06
 #: Of the friction that the scene has.
-FRICTION_RATIO = 0.98
+FRICTION_RATIO = 0.95
 
 
 def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array) -> _core.Problem:

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from .result import Shortfall
 
 if TYPE_CHECKING:
-    from mcplan._core import wb as _core
-
     from .motion import Motion
     from .nodes import Nodes
 
@@ -78,8 +76,17 @@ def _limb(motion: Motion, q: Array, end: int) -> tuple[str, Array]:
     return str(model.names[first]), np.array(data.oMi[first].translation)
 
 
-def shortfall_of(solver: _core.Solver, solution: _core.Solution, nodes: Nodes, motion: Motion) -> Shortfall | None:
-    """What is exceeded at a solution; of one that did not converge, footholds that are missed."""
-    converged = solution.status.name == "solved"
-    found = limits_exceeded(np.asarray(solver.usage(solution.x)), nodes, motion) if converged else None
-    return found if converged else not_reached(motion, nodes)
+def shortfall_of(usage: Array, converged: bool, exceeding: bool, nodes: Nodes, motion: Motion) -> Shortfall | None:
+    """What is exceeded at the end of a search, or not reached; None: nothing that is known.
+
+    Args:
+        usage: Of limits, at the end.
+        converged: Whether the search did.
+        exceeding: Whether it converged while limits could be exceeded at a low price, and exceeded some.
+        nodes: The solver's.
+        motion: The motion.
+    """
+    found = limits_exceeded(usage, nodes, motion) if converged or exceeding else None
+    if found is None and not converged:
+        found = not_reached(motion, nodes)
+    return found

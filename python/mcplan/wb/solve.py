@@ -23,7 +23,7 @@ from mcplan.files.robots import PACKAGE
 from mcplan.files.urdf_setups import SETUPS
 
 from . import start as starts
-from .between_nodes import balanced
+from .between_nodes import balanced, with_forces, with_model
 from .contact_points import corners_S, points_S, to_corners
 from .motion import CORNERS, Motion
 from .motion_model import MotionModel, motion_model
@@ -35,12 +35,15 @@ from .shortfalls import shortfall_of
 
 if TYPE_CHECKING:
     from .certificate.tolerances import MotionTolerances
+    from .dynamics import Dynamics
 
 Array = NDArray[np.float64]
 
 #: Where the search may begin.
 STARTS = ("follow", "stand")
 #: Scaled rows within which a motion keeps its constraints: 0.03 N, 0.03 mm.
+#: Of a motion's cost what exceeded limits may cost, and by how much they are made dearer where they cost more.
+SMALL_PENALTY, DEARER = 1e-3, 30.0
 CONSTRAINT_TOLERANCE, COST_TOLERANCE, TOLERANCE, BARRIER = 3e-4, 1e-4, 1e-5, 0.1
 
 _log = logging.getLogger("mcplan.wb")
@@ -62,18 +65,26 @@ def motion(
     _require_options(node_s, max_iterations, time_limit_s, start)
     require("mcplan.motion", "view", "pinocchio", "scipy")
     search = _Search.of(plan, joints, node_s)
+    try:
+        return _searched(search, start, max_iterations, began, began + time_limit_s, tolerances)
+    finally:
+        search.dynamics.solver = None  # they hold each other
+
+
+def _searched(
+    search: _Search, start: str, max_iterations: int, began: float, until: float, tolerances: MotionTolerances | None
+) -> MotionResult:
     x = search.start(start)
     started = time.perf_counter()
-    stopped = False
     try:
-        found = search.solve(x, max_iterations, max(time_limit_s - (started - began), 1e-3))
+        found = search.solve(x, max_iterations, until)
     except Interrupted as interrupted:
-        if interrupted.result is None:
+        stopped = _Found.of(interrupted.result)
+        if stopped is None:
             raise
-        found, stopped = interrupted.result, True
-    result = search.result(found, began, started)
-    if stopped:
+        result = search.result(stopped, began, started)
         raise Interrupted(_with_status(result, MotionStatus.INTERRUPTED)) from None
+    result = search.result(found, began, started)
     return _judged(search, found, result, tolerances)
 
 
@@ -97,6 +108,18 @@ def _require_options(node_s: float, max_iterations: int, time_limit_s: float, st
         raise InvalidOptions("start", f"must be one of {', '.join(STARTS)}", shown(start))
 
 
+@dataclass(frozen=True)
+class _Found:
+    """The last solution, and all solves of which each began where the one before ended."""
+
+    last: _core.Solution
+    solves: tuple[_core.Solution, ...]
+
+    @staticmethod
+    def of(result: Any) -> _Found | None:
+        return result if isinstance(result, _Found) or result is None else _Found(result, (result,))
+
+
 @dataclass
 class _Search:
     """A plan and a robot, and the solver's problem made of them."""
@@ -108,6 +131,7 @@ class _Search:
     model: MotionModel
     nodes: Nodes
     problem: _core.Problem
+    dynamics: Dynamics
     solver: _core.Solver
 
     @staticmethod
@@ -118,15 +142,16 @@ class _Search:
 
         urdf = plan.robot.urdf.removeprefix(PACKAGE)
         urdf = urdf if urdf in SETUPS else plan.robot.urdf
-        joints, locked = moving_joints(load_model(plan.robot), which)
-        model = motion_model(plan, urdf, joints, locked)
+        complete = load_model(plan.robot)
+        joints, locked = moving_joints(complete, which)
+        model = motion_model(plan, urdf, joints, locked, complete)
         spline = spline_model(model, plan.scene.gravity)
         nodes = nodes_of(plan, node_s)
         problem = build_problem(plan, spline, nodes, starts.posture(model))
         dynamics = Dynamics(spline)
-        solver = _core.Solver(problem, dynamics)
-        dynamics.solver = solver
-        return _Search(plan, urdf, joints, locked, model, nodes, problem, solver)
+        search = _Search(plan, urdf, joints, locked, model, nodes, problem, dynamics, _core.Solver(problem, dynamics))
+        dynamics.solver = search.solver
+        return search
 
     def start(self, kind: str) -> Array:
         """Unknowns at which the search begins."""
@@ -134,12 +159,27 @@ class _Search:
         forces = starts.planned_forces_S(self.plan, self.nodes, self.problem.weight_N)
         return self.solver.unknowns(make(self.plan, self.model, self.nodes), forces)
 
-    def solve(self, x: Array, max_iterations: int, time_limit_s: float) -> _core.Solution:
+    def solve(self, x: Array, max_iterations: int, until: float) -> _Found:
+        """The solution, until a time of the performance counter. Limits that it exceeds are made dearer, from there on."""
+        first = self._solve_once(x, max_iterations, until)
+        if first.status.name != "solved" or not first.penalty > SMALL_PENALTY * first.cost:
+            return _Found(first, (first,))
+        weights = self.problem.weights
+        weights.elastic *= DEARER
+        self.problem.weights = weights
+        self.solver = self.dynamics.solver = _core.Solver(self.problem, self.dynamics)
+        try:
+            second = self._solve_once(first.x, max_iterations, until)
+        except Interrupted as interrupted:
+            raise Interrupted(_Found(interrupted.result or first, (first,))) from None
+        return _Found(second, (first, second))
+
+    def _solve_once(self, x: Array, max_iterations: int, until: float) -> _core.Solution:
         log: Callable[[str], None] | None = _log.info if _log.isEnabledFor(logging.INFO) else None
         return self.solver.solve(
             start=x,
             max_iterations=max_iterations,
-            time_limit_s=time_limit_s,
+            time_limit_s=max(until - time.perf_counter(), 1e-3),
             constraint_tolerance=CONSTRAINT_TOLERANCE,
             cost_tolerance=COST_TOLERANCE,
             tolerance=TOLERANCE,
@@ -147,19 +187,19 @@ class _Search:
             log=log,
         )
 
-    def result(self, found: _core.Solution, began: float, started: float) -> MotionResult:
+    def result(self, found: _Found, began: float, started: float) -> MotionResult:
         """The motion of a solution; its status is not decided on yet."""
-        made = balanced(self.motion(found.x))
+        made = balanced(self.motion(found.last.x))
         report = MotionReport(
             status=MotionStatus.NOT_CONVERGED,
-            message=found.message,
-            iterations=found.iterations,
+            message=found.last.message,
+            iterations=sum(one.iterations for one in found.solves),
             time_s=time.perf_counter() - began,
             start_s=started - began,
-            evaluation_s=found.evaluation_s,
-            linear_solver_s=found.linear_solver_s,
+            evaluation_s=sum(one.evaluation_s for one in found.solves),
+            linear_solver_s=sum(one.linear_solver_s for one in found.solves),
             certificate_s=0.0,
-            cost=found.cost,
+            cost=found.last.cost,
         )
         return MotionResult(made, report)
 
@@ -178,8 +218,8 @@ class _Search:
                     continue
                 inside = np.array([at[end] is interval for at in nodes.intervals])
                 to = to_corners(points_S(self.plan, interval), own)
-                forces[inside, end, : len(own)] = np.einsum("cp,kpj->kcj", to, parts[inside])
-        return Motion(
+                forces[inside, end, : len(own)] = np.einsum("cp,ij,kpj->kci", to, interval.rotation_W, parts[inside])
+        found = Motion(
             plan=self.plan,
             urdf=self.urdf,
             joints=self.joints,
@@ -187,25 +227,25 @@ class _Search:
             times_s=self.nodes.times_s,
             coefficients=np.asarray(self.solver.coefficients(x)),
             corner_points_S=np.array([np.resize(own, (CORNERS, 3)) for own in points]),
-            corner_forces_S=forces,
+            corner_forces_S=np.zeros_like(forces),
             contacts=self.nodes.contacts,
         )
+        return with_forces(found, forces, with_model(found, self.model).sample(nodes.times_s).rotations_W)
 
 
 def _with_status(result: MotionResult, status: MotionStatus, **changes: Any) -> MotionResult:
     return replace(result, report=replace(result.report, status=status, **changes))
 
 
-def _judged(
-    search: _Search, found: _core.Solution, result: MotionResult, tolerances: MotionTolerances | None
-) -> MotionResult:
+def _judged(search: _Search, found: _Found, result: MotionResult, tolerances: MotionTolerances | None) -> MotionResult:
     """With the status that the solver's end, limits that were exceeded, and the certificate amount to."""
     from .certificate import certify
 
-    ended = str(found.status.name)
+    ended = found.last.status.name
     if ended == "time_limit":
         return _with_status(result, MotionStatus.TIME_LIMIT)
-    shortfall = shortfall_of(search.solver, found, search.nodes, result.motion)
+    usage = np.asarray(search.solver.usage(found.last.x))
+    shortfall = shortfall_of(usage, ended == "solved", len(found.solves) > 1, search.nodes, result.motion)
     if shortfall is not None:
         kind = {"torque": MotionStatus.TORQUE_INFEASIBLE, "speed": MotionStatus.SPEED_INFEASIBLE}
         return _with_status(result, kind.get(shortfall.what, MotionStatus.REACH_INFEASIBLE), shortfall=shortfall)

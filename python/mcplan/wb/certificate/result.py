@@ -105,6 +105,15 @@ class MotionCheckResult:
         """The constraint of a name."""
         return next(c for c in self.constraints if c.name == name)
 
+    @property
+    def verdict(self) -> str:
+        """In a sentence."""
+        if self.ok():
+            return f"certified; closest to its limit: {self.worst()}"
+        found = self.violations()
+        more = f", and {len(found) - 1} more" * (len(found) > 1)
+        return f"not certified: {found[0]}{more}"
+
     def raise_if_violated(self) -> None:
         """Raise PlanViolated naming the worst violation, if there is one."""
         if not self.ok():

@@ -1,0 +1,200 @@
+"""Whole-body motions found for plans: derivatives, what the certificate says, starts, limits, interruption."""
+
+from __future__ import annotations
+
+import functools
+import signal
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("pinocchio")
+pytest.importorskip("scipy.optimize")
+
+import mcplan as mp  # noqa: E402
+from mcplan.errors import Interrupted, InvalidInput, InvalidOptions  # noqa: E402
+from mcplan.kinematics.urdf_model import load_model  # noqa: E402
+from mcplan.wb import MotionStatus, splines  # noqa: E402
+from mcplan.wb.contact_points import corners_S, points_S, to_corners  # noqa: E402
+from mcplan.wb.knots import subdivided, with_knots  # noqa: E402
+from mcplan.wb.moving_joints import moving_joints  # noqa: E402
+from mcplan.wb.nodes import nodes_of  # noqa: E402
+from mcplan.wb.solve import _Search  # noqa: E402
+from standing import standing_plan  # noqa: E402
+from stepping import stepping_plan  # noqa: E402
+
+
+@functools.cache
+def talos_steps() -> mp.Plan:
+    return stepping_plan(2, robot=mp.load_robot("talos"))
+
+
+@functools.cache
+def solved() -> mp.wb.MotionResult:
+    return mp.motion(talos_steps())
+
+
+def test_a_walk_of_two_steps_is_certified():
+    result = solved()
+    assert result.status is MotionStatus.SOLVED and result.certificate.ok()
+    measures = result.certificate.measures
+    assert result.iterations <= 20
+    assert measures["base_residual_N"] <= 0.5 and measures["drift_m"] <= 2e-5 and measures["com_rms_m"] <= 0.01
+    assert result.certificate.of("friction").value <= 1e-6 and measures["torque_use"] <= 0.98
+
+
+def test_standing_still_and_inverse_kinematics_lead_to_the_same_motion():
+    standing = mp.motion(talos_steps(), start="stand")
+    assert standing.status is MotionStatus.SOLVED
+    assert standing.report.cost == pytest.approx(solved().report.cost, rel=1e-3)
+    times = np.linspace(0.0, talos_steps().duration(), 50)
+    np.testing.assert_allclose(standing.motion.sample(times).com_W, solved().motion.sample(times).com_W, atol=2e-3)
+
+
+def test_a_motion_is_the_same_bytes_each_time():
+    assert mp.motion(talos_steps()).motion.to_bytes() == solved().motion.to_bytes()
+
+
+@pytest.mark.parametrize("robot", ["talos", "g1"])
+def test_derivatives_are_those_of_differences(robot: str):
+    plan = stepping_plan(1, robot=mp.load_robot(robot))
+    search = _Search.of(plan, "default", 0.1)
+    generator = np.random.default_rng(7)
+    x = search.start("follow")
+    x = x + 0.05 * generator.standard_normal(x.size)
+    for _ in range(3):
+        step = generator.standard_normal(x.size)
+        cost, equalities, inequalities = search.solver.slopes(x, step)
+        length = 1e-5
+        after, before = (search.solver.values(x + sign * length * step) for sign in (1.0, -1.0))
+        differences = [(np.asarray(a) - np.asarray(b)) / (2.0 * length) for a, b in zip(after, before, strict=True)]
+        assert cost == pytest.approx(differences[0], rel=1e-6)
+        for slopes, expected in ((equalities, differences[1]), (inequalities, differences[2])):
+            assert np.abs(slopes - expected).max() <= 1e-6 * np.abs(expected).max()
+            assert np.median(np.abs(slopes - expected)) <= 1e-7 * np.median(np.abs(expected))
+
+
+def test_a_motion_that_asks_for_more_torque_than_there_is_names_joint_time_and_factor():
+    plan = talos_steps()
+    scene = plan.scene
+    scene.gravity *= 1.5  # of which the plan's CoM, and so its horizontal forces, knows nothing
+    plan.scene = scene
+    talos_steps.cache_clear()
+    result = mp.motion(plan, max_iterations=100)
+    assert result.status is MotionStatus.TORQUE_INFEASIBLE, result.report
+    assert result.shortfall.factor > 1.05 and 0.0 < result.shortfall.time_s < plan.duration()
+    assert result.shortfall.joint in result.motion.joints
+    assert f"{result.shortfall.joint} needs {result.shortfall.factor:.2f} times its torque" in str(result.report)
+
+
+def test_an_end_of_time_and_of_iterations_are_said():
+    assert mp.motion(talos_steps(), time_limit_s=1e-3).status is MotionStatus.TIME_LIMIT
+    few = mp.motion(talos_steps(), max_iterations=2)
+    assert few.status is MotionStatus.NOT_CONVERGED and few.iterations == 2 and few.certificate is None
+
+
+def test_ctrl_c_ends_a_solve_and_carries_what_there_is(ctrl_c: None, monkeypatch: pytest.MonkeyPatch):
+    from mcplan.wb import dynamics
+
+    calls, usual = [0], dynamics.Dynamics.__call__
+
+    def interrupting(self: dynamics.Dynamics, derivatives: bool) -> None:
+        calls[0] += 1
+        if calls[0] == 5:
+            signal.raise_signal(signal.SIGINT)
+        usual(self, derivatives)
+
+    monkeypatch.setattr(dynamics.Dynamics, "__call__", interrupting)
+    with pytest.raises(Interrupted) as found:
+        mp.motion(talos_steps())
+    assert found.value.result.status is MotionStatus.INTERRUPTED and calls[0] <= 8
+    assert found.value.result.motion.duration() == talos_steps().duration()
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "message"),
+    [
+        ({"node_s": 1.0}, InvalidOptions, "node_s"),
+        ({"max_iterations": -1}, InvalidOptions, "max_iterations"),
+        ({"time_limit_s": 0.0}, InvalidOptions, "time_limit_s"),
+        ({"start": "there"}, InvalidOptions, "start"),
+        ({"joints": "knee"}, InvalidInput, "joints"),
+    ],
+)
+def test_options_are_refused_by_name(options: dict, error: type, message: str):
+    with pytest.raises(error, match=message):
+        mp.motion(talos_steps(), **options)
+
+
+def test_joints_are_chosen_by_word_or_name():
+    model = load_model(mp.load_robot("talos"))
+    everything, locked = moving_joints(model, "all")
+    assert len(everything) == 32 and not locked
+    most, locked = moving_joints(model, "default")
+    assert sorted(locked) == ["gripper_left_joint", "gripper_right_joint", "head_1_joint", "head_2_joint"]
+    legs, _ = moving_joints(model, "legs")
+    assert len(legs) == 12 and all(name.startswith("leg") for name in legs)
+    assert moving_joints(model, ",".join(reversed(legs)))[0] == legs
+
+
+def test_a_motion_of_legs_alone_is_certified():
+    result = mp.motion(standing_plan(robot=mp.load_robot("talos")), joints="legs")
+    assert result.status is MotionStatus.SOLVED and len(result.motion.joints) == 12
+
+
+def test_more_knots_leave_a_spline_as_it_is():
+    generator = np.random.default_rng(1)
+    nodes = np.cumsum(generator.uniform(0.01, 0.1, 9))
+    coefficients = generator.standard_normal((11, 3))
+    more = subdivided(nodes, 0.013)
+    assert set(nodes) <= set(more) and np.diff(more).max() <= 0.013 + 1e-12
+    times = np.linspace(nodes[0], nodes[-1], 400)
+    for one, other in zip(
+        splines.evaluate(nodes, coefficients, times),
+        splines.evaluate(more, with_knots(nodes, coefficients, more), times),
+        strict=True,
+    ):
+        np.testing.assert_allclose(other, one, atol=1e-9 * np.abs(one).max())
+
+
+def test_forces_within_a_sole_are_the_same_wrench_at_its_corners():
+    generator = np.random.default_rng(2)
+    corners = np.array([[0.1, 0.06, 0.0], [0.1, -0.06, 0.0], [-0.1, -0.06, 0.0], [-0.1, 0.06, 0.0]])
+    points = np.column_stack([generator.uniform(-1.0, 1.0, (4, 2)) * [0.1, 0.06], np.zeros(4)])
+    forces = generator.standard_normal((4, 3))
+    to = to_corners(points, corners)
+    assert (to >= 0.0).all()
+    np.testing.assert_allclose((to @ forces).sum(axis=0), forces.sum(axis=0), atol=1e-12)
+    np.testing.assert_allclose(
+        np.cross(corners, to @ forces).sum(axis=0), np.cross(points, forces).sum(axis=0), atol=1e-12
+    )
+
+
+def test_contact_points_lie_on_the_surface_under_the_sole():
+    plan = talos_steps()
+    interval = nodes_of(plan, 0.1).samples.intervals[0]
+    sole = corners_S(plan.robot.end_effectors[interval.end_effector])
+    assert (np.abs(points_S(plan, interval)) <= np.abs(sole)).all()
+    right = np.array([0.05, 0.0, 0.0])  # now the surface ends 5 cm ahead of where the sole stands
+    scene = plan.scene
+    vertices = np.array(scene.surfaces[interval.surface].vertices_W)
+    vertices[:, 0] = np.minimum(vertices[:, 0], (interval.position_W + right)[0])
+    surfaces = list(scene.surfaces)
+    surfaces[interval.surface].vertices_W = vertices
+    scene.surfaces = surfaces
+    plan.scene = scene
+    moved = points_S(plan, interval)
+    assert moved[:, 0].max() <= 0.05 and moved[:, 0].min() < -0.08
+    talos_steps.cache_clear()
+
+
+def test_a_finer_motion_leaves_less_on_the_base():
+    from mcplan.wb.between_nodes import balanced
+
+    motion = solved().motion
+    coarse = replace(motion, corner_forces_S=motion.corner_forces_S)
+    finer = balanced(coarse, 0.002)
+    times = np.linspace(0.0, motion.duration(), 700)
+    worst = [np.abs(one.sample(times).base_residual_B).max() for one in (coarse, finer)]
+    assert worst[1] < 0.5 * worst[0]
