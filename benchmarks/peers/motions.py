@@ -38,7 +38,7 @@ def rows(folder: Path) -> list[dict[str, Any]]:
 
 
 def ours(plan: Any) -> dict[str, Any]:
-    """mcplan's motion along the plan, start by inverse kinematics included, and what its certificate measures each millisecond."""
+    """mcplan's motion along the plan, start by inverse kinematics included, and what its certificate measures."""
     began = time.process_time()
     result = mp.motion(plan)
     found = time.process_time()
