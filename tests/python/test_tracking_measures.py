@@ -65,8 +65,16 @@ def test_a_perfect_run_has_no_errors(perfect):
     for name, value in found.as_dict().items():
         if value is None:
             assert name.startswith(("self_contact", "terrain_contact"))  # links make no contact in a run made by hand
-        elif name not in ("fell", "completed_s"):
+        elif name not in ("fell", "completed_s", "leg_torque_limit_ratio"):  # a URDF says which joints are legs
             assert value == pytest.approx(0.0, abs=1e-9), name
+
+
+def test_torques_at_their_limits_are_counted_by_steps(perfect):
+    torques = np.zeros((N, JOINTS))
+    limits = np.array([10.0, 20.0, 0.0])
+    torques[3, 0], torques[3, 1], torques[5, 1], torques[7, 0] = 10.0, -20.0, -19.99, 9.98
+    found = of(perfect, torques=torques, torque_limits=limits)
+    assert found.torque_limit_ratio == pytest.approx(2.0 / N)
 
 
 def test_numbers_go_into_json(perfect):

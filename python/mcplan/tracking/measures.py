@@ -37,6 +37,8 @@ class Measures:
         control_ms: Mean wall clock of a control step.
         velocity_use: Largest speed of a joint over its limit; NaN: the URDF has no such limits, or the file has none.
         torque_step_use: Largest change of a torque within 2 ms over its limit.
+        torque_limit_ratio: Fraction of control steps in which a joint has 99.9 % of its torque limit or more.
+        leg_torque_limit_ratio: The same of joints that move one foot and no other end-effector.
         self_contacts: Number of contacts of links with each other; None: they pass through each other.
         self_contact_N, self_contact_m: Largest force between them, and largest depth to which their shapes overlapped.
         terrain_contacts: Number of contacts of links other than end-effectors with the terrain; None as above.
@@ -60,6 +62,8 @@ class Measures:
     control_ms: float
     velocity_use: float = float("nan")
     torque_step_use: float = float("nan")
+    torque_limit_ratio: float = float("nan")
+    leg_torque_limit_ratio: float = float("nan")
     self_contacts: int | None = None
     self_contact_N: float | None = None
     self_contact_m: float | None = None
@@ -71,6 +75,8 @@ class Measures:
         return asdict(self)
 
 
+#: A torque of this ratio to its limit is at it.
+AT_LIMIT = 0.999
 #: After touch-down a foot settles for this long [s] before slip is measured.
 SETTLE_S = 0.02
 #: Time within which a torque changes by less than its limit [s], or the change is reported.
@@ -107,6 +113,7 @@ def measure(recording: Recording, final_configuration: Array) -> Measures:
         control_ms=0.0,
         velocity_use=float(velocity_uses(r).max(initial=np.nan if not r.velocity_limits.any() else 0.0)),
         torque_step_use=float(torque_step_uses(r).max(initial=0.0)),
+        torque_limit_ratio=float(at_torque_limit(r).any(axis=1).mean()),
     )
 
 
@@ -121,6 +128,11 @@ def with_touches(measures: Measures, touches: Sequence[Touch]) -> Measures:
         terrain_contacts=len(on_terrain),
         terrain_contact_N=max((touch.force_N for touch in on_terrain), default=0.0),
     )
+
+
+def at_torque_limit(r: Recording) -> NDArray[np.bool_]:
+    """(n, nj) whether a torque is at its limit; joints without effort in the URDF have no motor."""
+    return (np.abs(r.torques) >= AT_LIMIT * r.torque_limits) & (r.torque_limits > 0.0)
 
 
 def velocity_uses(r: Recording) -> Array:

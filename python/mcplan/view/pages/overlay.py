@@ -30,7 +30,8 @@ CONTROLS = (
         f'<option value="{s:g}"{" selected" if s == 1 else ""}>{s:g}&times;</option>' for s in (0.1, 0.25, 0.5, 1, 2)
     )
     + '</select><span id="phase"></span><span id="keys">space: play &middot; &larr; &rarr;: frames, with shift phases '
-    "&middot; + &minus;: speed &middot; l: legend &middot; r: view</span></div>"
+    '&middot; + &minus;: speed &middot; l: legend &middot; <span id="joints" hidden>j: joints &middot; </span>'
+    "r: view</span></div>"
 )
 
 

@@ -61,6 +61,7 @@ function panels() {
 function jointMaps() {
   const maps = document.getElementById("maps");
   if (!maps) return () => {};
+  document.getElementById("joints").hidden = false;
   const fold = document.getElementById("foldmaps");
   const set = (folded) => {
     maps.classList.toggle("folded", folded);

@@ -1,8 +1,9 @@
 """Contact forces changed as little as needed for the base to balance, within cones and torque limits.
 
 Corner forces f give the base the wrench G f. What is missing, r, is made up for by d with G d = r, of least
-sum_c |d_c|^2 / w_c^2: corners with a large normal force change by more. Where that leaves a cone or takes a torque over its
-limit, the problem is solved with the edges of a pyramid within the cone, lambda >= 0, and with slacks s >= 0 of torques:
+sum_c |d_c|^2 / w_c^2: corners with a large normal force change by more. Where that leaves a cone, takes a torque over its
+limit, or does not balance since corners that matter do not press, the problem is solved with the edges of a pyramid within
+the cone, lambda >= 0, and with slacks s >= 0 of torques:
 
     min |G E lambda - b|^2 + eps |lambda - lambda_0|^2    s.t.  lambda >= 0,  |tau| <= limit
 
@@ -29,9 +30,11 @@ EDGES, BALANCE, TORQUE, CHANGE = 12, 1e4, 1e4, 1e-2
 #: Singular values below this ratio of the largest are directions in which the contacts give no wrench.
 RANK = 1e-9
 #: Instants, the worst first, whose problem with inequalities is solved: of a motion with more of them much else is wrong.
-MAX_SOLVED = 400
+MAX_SOLVED = 4000
 #: Slack of a cone [N] and of a torque limit (ratio) within which the linear correction counts as admissible.
 SLACK_N, SLACK_RATIO = 1e-6, 1e-9
+#: What a linear correction may leave of a force or moment [N, N m].
+LEFT = 1e-4
 
 
 @dataclass(frozen=True)
@@ -61,7 +64,8 @@ def corrected(motion: CertifiedMotion, robot: CertifiedRobot, states: States) ->
     for k in supported.tolist():
         uses[k] = instants.use(k, wrenches_S[k])
     shipped = (np.abs(states.tau) / robot.effort).max(axis=1, initial=0.0)
-    admissible = cones.hold(forces_W) & ~(uses > np.maximum(1.0, shipped) + SLACK_RATIO)
+    balanced = np.abs(left).max(axis=1) <= LEFT
+    admissible = balanced & cones.hold(forces_W) & ~(uses > np.maximum(1.0, shipped) + SLACK_RATIO)
     inadmissible = supported[~admissible[supported]].tolist()
     inadmissible.sort(key=lambda k: -float(np.abs(states.residual_W[k]).max()))
     for k in inadmissible[:MAX_SOLVED]:
