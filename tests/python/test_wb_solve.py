@@ -96,6 +96,14 @@ def test_a_motion_that_asks_for_more_torque_than_there_is_names_joint_time_and_f
     assert f"{result.shortfall.joint} needs {result.shortfall.factor:.2f} times its torque" in str(result.report)
 
 
+def test_a_plan_whose_com_is_too_high_for_the_legs_names_one():
+    robot = mp.load_robot("talos")
+    robot.com_height += 0.15
+    result = mp.motion(stepping_plan(1, robot=robot), max_iterations=30)
+    assert result.status is MotionStatus.REACH_INFEASIBLE, result.report
+    assert result.shortfall.joint.startswith("leg") and 1.005 < result.shortfall.factor < 1.3
+
+
 def test_an_end_of_time_and_of_iterations_are_said():
     assert mp.motion(talos_steps(), time_limit_s=1e-3).status is MotionStatus.TIME_LIMIT
     few = mp.motion(talos_steps(), max_iterations=2)

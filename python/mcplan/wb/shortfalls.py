@@ -7,10 +7,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.kinematics.inverse_kinematics import follow
+from mcplan.kinematics.samples import sample_at
+
 from .result import Shortfall
+from .start import coarse_times
 
 if TYPE_CHECKING:
+    from mcplan._core import Plan
+
     from .motion import Motion
+    from .motion_model import MotionModel
     from .nodes import Nodes
 
 Array = NDArray[np.float64]
@@ -19,8 +26,8 @@ Array = NDArray[np.float64]
 SMALL_RATIO, SMALL_M = 1e-6, 1e-3
 #: Factor of a limit by which a motion that is not quite a solution tells that the robot lacks something.
 MUCH = 1.1
-#: Misses of a foothold [m, rad] that say that it is not reached.
-MISS = 1e-3
+#: Misses of a foothold by inverse kinematics that say that it is not reached [m].
+MISS_M = 5e-3
 
 
 def limits_exceeded(usage: Array, nodes: Nodes, motion: Motion) -> Shortfall | None:
@@ -46,36 +53,29 @@ def limits_exceeded(usage: Array, nodes: Nodes, motion: Motion) -> Shortfall | N
     return Shortfall("clearance", " and ".join(free) or "links", float(nodes.times_s[k]), 1.0 + float(beyond.max()))
 
 
-def not_reached(motion: Motion, nodes: Nodes) -> Shortfall | None:
-    """The foothold that is missed most: how far it is from the limb's first joint over how far the limb reaches."""
-    states = motion.sample(nodes.times_s)
-    worst, found = MISS, None
-    for k, intervals in enumerate(nodes.intervals):
-        for end, interval in enumerate(intervals):
-            if interval is None:
-                continue
-            at = states.end_effectors_W[k, end]
-            miss = float(np.linalg.norm(at - interval.position_W))
-            if miss > worst:
-                worst, found = miss, (k, end, interval.position_W)
-    if found is None:
+def not_reached(model: MotionModel, plan: Plan, nodes: Nodes) -> Shortfall | None:
+    """The foothold that inverse kinematics along the plan misses most: what its limb lacks of its length."""
+    times = coarse_times(nodes)
+    samples = sample_at(plan, plan.scene, plan.robot, times)
+    found = follow(model.complete, samples)
+    misses = np.where(samples.surfaces >= 0, found.end_misses, 0.0)
+    k, end = (int(i) for i in np.unravel_index(int(np.argmax(misses)), misses.shape))
+    if not misses[k, end] > MISS_M:
         return None
-    k, end, wanted = found
-    joint, root_W = _limb(motion, states.q[k], end)
-    reached = float(np.linalg.norm(states.end_effectors_W[k, end] - root_W))
-    factor = float(np.linalg.norm(wanted - root_W)) / max(reached, 1e-9)
-    return Shortfall("reach", joint, float(nodes.times_s[k]), factor)
+    joint, length = _limb(model, found.configurations[k], end)
+    return Shortfall("reach", joint, float(times[k]), 1.0 + float(misses[k, end]) / length)
 
 
-def _limb(motion: Motion, q: Array, end: int) -> tuple[str, Array]:
-    """First joint of the limb of an end-effector, and where it is."""
+def _limb(model: MotionModel, q: Array, end: int) -> tuple[str, float]:
+    """First joint of the limb of an end-effector, and how far that is from it [m]."""
     import pinocchio as pin  # type: ignore[import-untyped]
 
-    model, data = motion.model.model, motion.model.model.createData()
-    pin.forwardKinematics(model, data, q)
-    chain = [joint for joint in model.supports[model.frames[motion.model.frames[end]].parentJoint] if joint > 1]
-    first = chain[0] if chain else 1
-    return str(model.names[first]), np.array(data.oMi[first].translation)
+    whole, frame = model.complete.model, model.complete.frames[end]
+    data = whole.createData()
+    pin.framesForwardKinematics(whole, data, q)
+    first = next(joint for joint in whole.supports[whole.frames[frame].parentJoint] if joint > 1)
+    arm = data.oMf[frame].translation - data.oMi[first].translation
+    return str(whole.names[first]), max(float(np.linalg.norm(arm)), 1e-3)
 
 
 def shortfall_of(usage: Array, converged: bool, near: bool, nodes: Nodes, motion: Motion) -> Shortfall | None:
@@ -92,5 +92,5 @@ def shortfall_of(usage: Array, converged: bool, near: bool, nodes: Nodes, motion
     if found is not None and not converged and found.factor < MUCH:
         found = None
     if found is None and not converged:
-        found = not_reached(motion, nodes)
+        found = not_reached(motion.model, motion.plan, nodes)
     return found

@@ -28,7 +28,7 @@ POSTURE_S = 0.1
 
 def follow_plan(plan: Plan, motion_model: MotionModel, nodes: Nodes) -> Array:
     """(n + 3, nv) coefficients of splines through postures that follow the plan, not at all nodes."""
-    coarse = _coarse(nodes)
+    coarse = coarse_times(nodes)
     found = follow(motion_model.complete, sample_at(plan, plan.scene, plan.robot, coarse))
     values = coordinates(motion_model, found.configurations)
     return with_knots(coarse, splines.interpolating(coarse, values), nodes.times_s)
@@ -49,7 +49,7 @@ def posture(motion_model: MotionModel) -> Array:
     return coordinates(motion_model, motion_model.complete.neutral[None])[0, 6:]
 
 
-def _coarse(nodes: Nodes) -> Array:
+def coarse_times(nodes: Nodes) -> Array:
     """Some of the nodes: where contacts change, and between those in equal numbers of steps of about POSTURE_S."""
     change = np.asarray((nodes.first | nodes.last).any(axis=1))
     change[[0, -1]] = True
