@@ -80,6 +80,7 @@ if TYPE_CHECKING:
     from mcplan.model import Surface as Surface
     from mcplan.model import Swing as Swing
     from mcplan.model import Violation as Violation
+    from mcplan.online.result import RunResult
     from mcplan.planar.tracking import PlanarResult
     from mcplan.rhp import Walk as Walk
     from mcplan.tracking import TrackingResult
@@ -118,6 +119,7 @@ __all__ = [
     "receding_horizon",
     "replan",
     "rhp",
+    "run",
     "show",
     "sip",
     "track",
@@ -248,3 +250,43 @@ def track(
     from mcplan.following import track_any
 
     return track_any(plan, robot, options)
+
+
+def run(
+    scene: Scene | Plan | str | Path,
+    robot: Robot | str | Path | None = None,
+    **options: Any,
+) -> RunResult:
+    """Simulate a robot that is planned for while it walks: pushed, it takes other steps.
+
+        result = mp.run("flat", "talos", push=(250.0, 0.2, 1.4, 90.0), latency=0.02)
+        print(result)  # a report; result.measures and result.online have the numbers
+
+    A fall ends the run and is a result, not an exception. Ctrl-C ends it with Interrupted, which carries the result.
+
+    Args:
+        scene: A scene, or what load_scene takes; or the plan to begin with, or the path of one (.npz, .json).
+        robot: A robot with a URDF, or what load_robot takes; None: that of the plan.
+        **options: Fields of ``mcplan.online.OnlineOptions`` and of ``mcplan.tracking.Options``, among them ``push``, one
+            or several as ``mcplan.track`` takes them; ``command``, a velocity (ahead, left [m/s], turning [rad/s]);
+            ``latency`` [s], a fixed time from measured state to plan instead of the wall clock of the computation, for
+            runs that repeat to the byte; ``period`` [s]; ``replanning=False``: the first plan is followed, for comparison.
+
+    Returns:
+        A ``mcplan.online.RunResult``: all that ``track`` returns, and how planning went in ``online``.
+
+    Raises:
+        InvalidArgument: An argument is of another type.
+        InvalidOptions: No such option, or its value is out of range.
+        InvalidScene, InvalidPlan: The scene is malformed, or the file is no plan.
+        InvalidRobot: The robot has no URDF, or it cannot be read, or it lacks an end-effector of the plan.
+        InvalidInput: No plan was found to begin with, or the robot cannot take up its first posture.
+        UnknownName: No such scene or robot, and no such file.
+        MissingExtra: The packages of ``pip install 'mcplan[sim]'`` are not installed.
+    """
+    from mcplan.extras import require
+
+    require("mcplan.run", "sim", "mujoco", "pinocchio", "proxsuite")
+    from mcplan.running import run_any
+
+    return run_any(scene, robot, options)

@@ -162,6 +162,8 @@ class DdpReplanOptions(DdpOptions, total=False):
     """Number of phases that are planned ahead under a velocity command."""
     other_sequences: bool
     """Try sequences near to the plan's own where that does not do."""
+    max_work: int
+    """Iterations times phases, over all sequences, after which no other one is tried: 1000 take about 30 ms."""
 
 
 class RhpOptions(TypedDict, total=False):

@@ -57,6 +57,7 @@ _GROUND = {"_core", "errors", "extras", "options", "arguments"}
 _ENGINES = {"solve", "walking"}
 _LOOKED_AT = {"files", "kinematics", "wb", "tracking", "view", "planar"}
 _FRONT = _ENGINES | _LOOKED_AT | {"loading", "checking", "showing", "following", "export", "model", "option_types"}
+_FRONT |= {"online", "running"}
 _FRONT |= {"ddp", "ipm", "rhp", "sip", "samples", "notebooks", "sweep"}
 PYTHON_ROOMS = {
     "__main__": {"cli"},
@@ -84,12 +85,14 @@ PYTHON_ROOMS = {
     "kinematics": _GROUND | {"files"},
     "wb": _GROUND | {"files", "kinematics"},
     "tracking": _GROUND | {"files", "kinematics", "wb"},
+    "online": _GROUND | {"solve", "files", "kinematics", "tracking"},
     "view": _GROUND | {"files", "kinematics", "wb", "tracking"},
     "planar": _GROUND | {"files", "kinematics", "tracking", "view"},
     "export": _GROUND | {"files", "kinematics", "wb", "tracking"},
     "showing": _GROUND | _LOOKED_AT,
     "notebooks": {"_core", "errors", "showing"},
     "following": _GROUND | _LOOKED_AT - {"view"},
+    "running": _GROUND | {"solve", "files", "tracking", "online"},
     "sweep": _GROUND | _ENGINES | {"files", "wb", "checking", "view"},
     "cli": _GROUND | _FRONT | {"starting", ""},
     "": _GROUND | _FRONT | {"starting", "moved"},

@@ -34,6 +34,7 @@ VERBS = (
     "reproduce",
     "rhp",
     "robots",
+    "run",
     "scenes",
     "schema",
     "show",

@@ -322,6 +322,8 @@ def test_the_result_does_not_depend_on_the_number_of_threads_or_on_what_was_repl
         ({"command": (1.0, 2.0)}, mp.errors.InvalidArgument, "command: must be a ddp.VelocityCommand or three numbers"),
         ({"command": (math.nan, 0.0, 0.0)}, mp.errors.InvalidOptions, "command.velocity_B"),
         ({"committed_s": -1.0}, mp.errors.InvalidOptions, "committed_s: must"),
+        ({"start_slack_s": 6.0}, mp.errors.InvalidOptions, "start_slack_s: must be at most 5, got 6"),
+        ({"max_work": -1}, mp.errors.InvalidOptions, "max_work: must"),
         ({"phases_min": 0}, mp.errors.InvalidOptions, "phases_min: must"),
         ({"horizon": 1}, mp.errors.InvalidOptions, "horizon: must"),
         ({"method": "paper"}, mp.errors.InvalidOptions, "method: must be standard"),
@@ -363,6 +365,33 @@ def test_out_of_time_there_is_a_plan_whose_next_two_steps_can_be_followed(flat):
     two_steps = touchdown_times(result.plan)[1]
     assert result.report.kept_until_s >= two_steps
     assert mp.check(result.plan, until_s=two_steps).ok()
+
+
+def test_without_work_for_them_no_other_sequences_are_tried(flat):
+    t = time_of_phase(flat, 0)
+    knot, contacts = state_at(flat, t)
+    knot.com_velocity_W = np.array(knot.com_velocity_W) + [0.0, 0.4, 0.0]
+
+    def tried(**options: Any) -> int:
+        lines: list[str] = []
+        mp.replan(flat, t, knot, contacts=contacts, logger=lambda _, line: lines.append(line), **options)
+        return sum(line.startswith("replan, ") for line in lines)
+
+    assert tried(max_work=0) == 1 < tried(max_work=100_000)
+
+
+@pytest.mark.parametrize("before_s", [0.003, 0.008, 0.015])
+def test_a_foot_that_is_about_to_land_is_not_swung_up_again(before_s):
+    """A phase gets 20 ms at least, so that the foot lands late: it may sink a little, and not fly about."""
+    plan = mp.plan("flat", "talos").plan
+    for touchdown in touchdown_times(plan)[:6]:
+        knot, contacts = state_at(plan, touchdown - before_s)
+        new = mp.replan(plan, touchdown - before_s, knot, contacts=contacts).plan
+        states = new.sample(np.arange(0.0, 0.02, 1e-3))
+        free = np.flatnonzero(states.surfaces[0, :2] < 0)
+        assert (
+            np.abs(states.end_effector_velocities_W[:, free, 2]).max() < 1.6
+        )  # the steepest arc, 1.5 m/s, and its own
 
 
 @pytest.mark.slow

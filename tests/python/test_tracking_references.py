@@ -8,7 +8,7 @@ import mcplan as mp
 import tracked
 import wrenches
 from mcplan.kinematics.rotations import from_rpy
-from mcplan.tracking.references import LARGEST_SWING_ACCELERATION, _angular_velocity, references
+from mcplan.tracking.references import LARGEST_SWING_ACCELERATION, angular_velocity, references
 from stepping import stepping_plan
 
 DT, HOLD = 0.002, 0.3
@@ -119,9 +119,9 @@ def test_angular_velocities_are_those_of_a_known_turn():
     start = Rotation.random(random_state=2)
     turn = np.array([(Rotation.from_rotvec(a * axis) * start).as_matrix() for a in angle])
     rate = (2.4 * np.cos(3.0 * times))[:, None] * axis
-    np.testing.assert_allclose(_angular_velocity(turn, DT)[1:-1], rate[1:-1], atol=2e-4)
-    stacked = _angular_velocity(np.stack([turn, turn], axis=1), DT)
-    np.testing.assert_allclose(stacked[:, 1], _angular_velocity(turn, DT), atol=1e-12)
+    np.testing.assert_allclose(angular_velocity(turn, DT)[1:-1], rate[1:-1], atol=2e-4)
+    stacked = angular_velocity(np.stack([turn, turn], axis=1), DT)
+    np.testing.assert_allclose(stacked[:, 1], angular_velocity(turn, DT), atol=1e-12)
 
 
 def test_another_base_brings_its_own_rate(desired):

@@ -303,8 +303,11 @@ constexpr double kHopelessWithMore = 100.0;
 /// The base's angle and momentum at the end of a replan weigh more than in a search by this ratio: the solve is short,
 /// and the checker asks for 0.01 rad/s. Measured.
 constexpr double kEndFirmer = 3.0;
-/// What comes after the solve under a time limit [ms a phase]: exact contacts, swings, the check of the next steps.
-constexpr double kFinishing_ms = 0.15;
+/// What comes after the solve under a time limit [ms a phase]: exact contacts, swings, the check of the next steps, and
+/// where that finds them wanting, the check of those that were planned. Measured.
+constexpr double kFinishing_ms = 0.2;
+/// Fewer iterations than these are not worth a sequence. Chosen.
+constexpr int kWorthwhile = 10;
 /// Swings of steps that are put in last so much of the way from the shortest to the longest phase. Chosen.
 constexpr double kAddedSwing = 0.6;
 /// Under a velocity command the robot stops within so long at the end of the horizon [s]; ground there may lie so far

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "mcplan/robot/similarity.hpp"
 #include "phase_state.hpp"
@@ -11,6 +12,13 @@
 
 namespace mcplan {
 namespace {
+
+/// An end-effector that is on its way is lifted no faster [m/s, of a robot of human size]. Chosen: feet of humanoids
+/// swing at up to 2 m/s.
+constexpr double kLiftSpeed = 1.5;
+/// Heights that are tried, in usual ones: added to an end-effector on its way, which may sink a little where it lands
+/// later than planned, and instead of the usual one. Chosen.
+const std::vector<double> kMoreLift{0.05, 0.25, 1.0, 1.5, 2.5, 3.5}, kOtherLifts{1.5, 2.0, 3.0, 4.0, 0.5};
 
 bool in_contact(const Plan& plan, int k, int end_effector) {
   const int n = static_cast<int>(plan.phases.size());
@@ -73,9 +81,12 @@ void choose_swings(Plan& plan, bool heights) {
       const EndEffector& end_effector = plan.robot.end_effectors[e];
       double best_depth = depth_on(path, solids, boxes, end_effector, stretch);
       double best_height = swing.height;
-      for (double factor : {1.5, 2.0, 3.0, 4.0, 0.5}) {
+      // What is left of a swing may be too short to be lifted in: an arc rises and falls by its height twice as fast as
+      // a triangle at its steepest, 4 h / T.
+      const double most = under_way ? kLiftSpeed * similarity.velocity() * stretch.duration_s / 4.0 : HUGE_VAL;
+      for (double factor : under_way ? kMoreLift : kOtherLifts) {
         if (best_depth <= 0.0) break;
-        plan.swings.back().height = (under_way ? factor - 0.5 : factor) * usual_height;
+        plan.swings.back().height = std::min(factor * usual_height, most);
         const double depth = depth_on(path, solids, boxes, end_effector, stretch);
         if (depth >= best_depth) continue;
         best_depth = depth;

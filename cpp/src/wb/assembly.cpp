@@ -53,6 +53,7 @@ Assembly::Assembly(const Problem& problem, const Layout& layout, Dynamics& dynam
   for (int i = 6; i < nv; ++i) moving_scale_[i] = 1.0 / problem.links[i].torque_max;
   jacobian_ = other_ = MatrixXd::Zero(3, nv);
   pose_ = local_ = MatrixXd::Zero(6, nv);
+  turning_ = MatrixXd::Zero(nv, nv);
   terms_.resize(layout.nodes);
   for (int k = 0; k < layout.nodes; ++k) {
     NodeTerms& out = terms_[k];
@@ -100,10 +101,16 @@ void Assembly::spread(const VectorXd& x) {
     out.wrench_error.noalias() = out.wrench * x.segment(layout_.node[k].first_force, layout_.node[k].forces);
     d.wrenches_S.row(k).setZero();
     int row = 0;
+    kinematics_.update(d.q.row(k).transpose());
     for (const Contact& contact : problem_.nodes[k].contacts) {
       if (!contact.carries) continue;
       auto wrench = out.wrench_error.segment<6>(row);
-      d.wrenches_S.row(k).segment<6>(6 * contact.end_effector) = problem_.weight_N * wrench.transpose();
+      auto given = d.wrenches_S.row(k).segment<6>(6 * contact.end_effector).transpose();
+      given = problem_.weight_N * wrench;
+      if (const EndEffector& end = problem_.end_effectors[contact.end_effector]; end.is_point())
+        given.head<3>() = problem_.weight_N *
+                          ((kinematics_.rotation(end.link) * end.rotation).transpose() * contact.rotation_W) *
+                          wrench.head<3>();
       wrench -= contact.wrench_S / problem_.weight_N;
       row += 6;
     }
@@ -169,11 +176,13 @@ void Assembly::fill_forces(int k) {
   for (const Contact& contact : problem_.nodes[k].contacts) {
     if (!contact.carries) continue;
     const EndEffector& end = problem_.end_effectors[contact.end_effector];
-    const Matrix3d to_S = (kinematics_.rotation(end.link) * end.rotation).transpose();
+    Matrix3d to_S = contact.rotation_W.transpose();
+    if (!end.is_point()) to_S = (kinematics_.rotation(end.link) * end.rotation).transpose();
     kinematics_.point_jacobian(end.link, kinematics_.point(end.link, end.position), jacobian_);
     local_.topRows<3>().noalias() = to_S * jacobian_;
     kinematics_.rotation_jacobian(end.link, jacobian_);
     local_.bottomRows<3>().noalias() = to_S * jacobian_;
+    if (end.is_point()) add_turning(k, row, contact);
     const Eigen::Index edges = kEdges * end.points_S.cols();
     auto to = out.moving_force.middleCols(column, edges);
     to.noalias() = -problem_.weight_N * local_.transpose() * out.wrench.block(row, column, 6, edges);
@@ -181,6 +190,20 @@ void Assembly::fill_forces(int k) {
     row += 6;
     column += static_cast<int>(edges);
   }
+}
+
+/// Dynamics hold forces in frames that turn with links. That of a point is held in its contact's frame, and turns the
+/// other way in the link's: -J_p' [f] J_r. `local_` has both Jacobians in the contact's axes.
+void Assembly::add_turning(int k, int row, const Contact& contact) {
+  NodeTerms& out = terms_[k];
+  const Vector3d f =
+      problem_.weight_N * (out.wrench_error.segment<3>(row) + contact.wrench_S.head<3>() / problem_.weight_N);
+  Matrix3d cross;
+  cross << 0.0, -f.z(), f.y(), f.z(), 0.0, -f.x(), -f.y(), f.x(), 0.0;
+  pose_.topRows<3>().noalias() = cross * local_.bottomRows<3>();
+  const int nv = layout_.velocities;
+  turning_.noalias() = local_.topRows<3>().transpose() * pose_.topRows<3>();
+  out.moving_q.topRows(nv).noalias() -= moving_scale_.asDiagonal() * turning_;
 }
 
 /// Distance to a pose and rotation off it, in the pose's own axes, over a scale.

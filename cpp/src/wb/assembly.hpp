@@ -46,6 +46,7 @@ class Assembly {
   void fill_moving(int k, bool derivatives);
   void fill_still(int k, bool derivatives);
   void fill_forces(int k);
+  void add_turning(int k, int row, const Contact& contact);
   void fill_contacts(int k, int& row, bool derivatives);
   void fill_tubes(int k, int& row, bool derivatives);
   void fill_pairs(int k, int& row, bool derivatives);
@@ -59,8 +60,8 @@ class Assembly {
   Dynamics::Callback callback_;
   Kinematics kinematics_;
   std::vector<NodeTerms> terms_;
-  Eigen::VectorXd moving_scale_;                     ///< of the generalised forces
-  Eigen::MatrixXd jacobian_, other_, pose_, local_;  ///< workspace
+  Eigen::VectorXd moving_scale_;                               ///< of the generalised forces
+  Eigen::MatrixXd jacobian_, other_, pose_, local_, turning_;  ///< workspace
 };
 
 /// Points nearest to each other of two segments, as parts 0 to 1 of their lengths.

@@ -752,6 +752,7 @@ class ReplanOptions:
         phases_min: typing.SupportsInt | typing.SupportsIndex = 6,
         horizon: typing.SupportsInt | typing.SupportsIndex = 12,
         other_sequences: bool = True,
+        max_work: typing.SupportsInt | typing.SupportsIndex = 1100,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
@@ -773,6 +774,13 @@ class ReplanOptions:
         """
     @horizon.setter
     def horizon(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def max_work(self) -> int:
+        """
+        Iterations times phases, over all sequences, after which no other one is tried: 1000 take about 30 ms.
+        """
+    @max_work.setter
+    def max_work(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def other_sequences(self) -> bool:
         """

@@ -21,6 +21,7 @@ class RunOutputs:
     strip: Path | None = None
     plots: Path | None = None
     save: Path | None = None
+    verb: str = "track"
 
     def require(self) -> None:
         """Say what cannot be written before simulating, not after.
@@ -35,7 +36,7 @@ class RunOutputs:
 
         require_target("--save", self.save, ARCHIVE)
         require_target("--strip", self.strip, (".png",))
-        require_outputs("track", None, self.html, self.plots)
+        require_outputs(self.verb, None, self.html, self.plots)
         if self.video is not None:
             from mcplan.view.video.files import SUFFIXES, check_target
 
@@ -43,7 +44,7 @@ class RunOutputs:
             check_target(self.video)
         for option, path in (("--video", self.video), ("--strip", self.strip)):
             if path is not None:
-                require_rendering(f"mcplan track {option}")
+                require_rendering(f"mcplan {self.verb} {option}")
 
     def write(self, result: TrackingResult | PlanarResult, progress: Progress) -> list[str]:
         """Write what was asked for, the quick ones first.

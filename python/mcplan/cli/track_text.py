@@ -83,7 +83,7 @@ class Progress:
 
 def summary(
     result: TrackingResult | PlanarResult,
-    plan: Path,
+    plan: Path | None,
     feasibility: Feasibility | Suitability | MotionCheckResult | None,
 ) -> dict[str, Any]:
     """What ``--json`` prints: the same keys for every plan, null where a measure makes no sense, and for whole-body plans
@@ -104,17 +104,17 @@ def summary(
 
         recording = result.recording
         return {
-            "plan": str(plan),
+            "plan": None if plan is None else str(plan),
             "scene": recording.plan.scene.name,
             "robot": recording.simulated_robot.name,
             "duration_s": recording.plan.duration(),
-            **_finite(result.measures.as_dict()),
+            **finite_items(result.measures.as_dict()),
             "torque_joint": nearest_to_torque_limit(recording)[0],
             **_fastest(*nearest_to_velocity_limit(recording)),
             "touches": [asdict(touch) for touch in recording.touches] if result.options.self_contacts else None,
             **common,
         }
-    return {"plan": str(plan), **_planar(result), **common}
+    return {"plan": None if plan is None else str(plan), **_planar(result), **common}
 
 
 def _planar(result: PlanarResult) -> dict[str, Any]:
@@ -131,7 +131,7 @@ def _planar(result: PlanarResult) -> dict[str, Any]:
         "assist_force_rms_N": 0.0,
         "assist_moment_rms_Nm": 0.0,
         "qp_failures": 0,
-        **_finite(measures.as_dict()),
+        **finite_items(measures.as_dict()),
         "torque_joint": nearest_to_torque_limit(result.recording)[0],
         **_fastest(*nearest_to_velocity_limit(result.recording)),
     }
@@ -146,7 +146,8 @@ def _fastest(joint: str, time_s: float) -> dict[str, Any]:
     }
 
 
-def _finite(data: dict[str, Any]) -> dict[str, Any]:
+def finite_items(data: dict[str, Any]) -> dict[str, Any]:
+    """With null for numbers that JSON cannot represent."""
     from mcplan.cli.check import finite
 
     return {

@@ -24,6 +24,7 @@ from .actuators import TorqueSpeed
 from .contact_forces import SIDES, ForcePoints, pyramid
 from .contacts import Contact, Mode
 from .joint_references import JointReferences
+from .live_references import LiveReferences
 from .options import Gains
 from .quadratic_program import Problem, QuadraticProgram
 from .references import References
@@ -31,7 +32,7 @@ from .robot_dynamics import EndEffectorMotion, RobotDynamics
 from .separation import Separation
 
 if TYPE_CHECKING:
-    from mcplan._core import Scene
+    from mcplan._core import Plan, Scene
 
 Array = NDArray[np.float64]
 
@@ -86,12 +87,14 @@ class Controller:
         Args:
             urdf_model: The robot's model.
             scene: Surfaces that the references name.
-            references: Desired motion and forces at each control step.
+            references: Desired motion and forces at each control step, until set_plan gives others.
             posture: (nq,) or (n, nq) configurations near to which the joints stay, or how all joints move.
             gains: Weights and gains.
             restraints: What motors have, and links to be kept apart; None: the URDF's limits of torque and speed alone.
         """
         self.urdf_model, self.references, self.gains = urdf_model, references, gains
+        self._live: LiveReferences | None = None  # of a plan that was taken over
+        self._last = -1
         self.dynamics = RobotDynamics(urdf_model)
         model = urdf_model.model
         self.nv, self.limits = model.nv, np.asarray(model.effortLimit[6:], float)
@@ -122,6 +125,9 @@ class Controller:
             configuration: (nq,) measured, Pinocchio's convention. velocity: (nv,) likewise.
             in_contact: (e,) whether each end-effector is in contact, by the measured forces.
         """
+        self._last = n
+        if self._live is not None:
+            self.references, n = self._live.window(n)
         self.dynamics.update(configuration, velocity)
         motions = [self.dynamics.end_effector(i) for i in range(len(self.contacts))]
         for i, contact in enumerate(self.contacts):
@@ -137,6 +143,26 @@ class Controller:
             tau = self.dynamics.inertia[6:] @ acceleration + self.dynamics.bias[6:] - force_map[6:] @ forces
             self.torques = np.clip(tau, *self.motors.bounds(velocity[6:]))
         return Command(self.torques, found is not None)
+
+    def set_plan(self, plan: Plan, t0: float) -> None:
+        """Follow another plan from the next control step on.
+
+        Contacts, force points and the last torques stay. References go on without a jump of position or velocity; what the
+        two plans differ by then decays as the controller makes errors decay, so that the accelerations asked for are those
+        of the new plan followed from the state that the robot is in.
+
+        Args:
+            plan: The plan, of the same scene's surfaces and the same end-effectors.
+            t0: Time of control step 0 plus this is the plan's start [s]: step n is at n dt - t0 of the plan.
+        """
+        if self.joints.timed:  # joints of a motion, which the plan does not go on with
+            self.joints = JointReferences(np.atleast_2d(self.joints.at(max(self._last, 0))[0]))
+        before = self._live or LiveReferences.of(self.references)
+        self._live = LiveReferences.after(before, self._last + 1, plan, self.urdf_model.robot, t0, self.gains)
+
+    def row(self, n: int) -> tuple[References, int]:
+        """References that contain control step n, and its index there."""
+        return (self.references, n) if self._live is None else self._live.window(n)
 
     def _set_contact(self, n: int, end: int, position_W: Array, rotation_W: Array) -> None:
         """Set the place of an end-effector's contact, and the points at which forces act there."""
@@ -156,6 +182,8 @@ class Controller:
 
     def _surface(self, n: int, end: int) -> int:
         """The surface with which an end-effector is in contact or will be next; -1: none."""
+        if self.references.next_surfaces is not None:
+            return int(self.references.next_surfaces[n, end])
         ahead = self.references.surfaces[n:, end]
         on = np.flatnonzero(ahead >= 0)
         return int(ahead[on[0]]) if len(on) else -1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,6 @@ from mcplan.kinematics.rotations import quat_xyzw
 from mcplan.kinematics.urdf_model import UrdfModel
 
 from .recording import Recording
-from .references import References
 from .robot_dynamics import RobotDynamics
 from .touches import Touch, TouchLog
 
@@ -44,10 +43,31 @@ class Acting:
     touches: Sequence[Touch] = ()
 
 
+class Desired(Protocol):
+    """What is recorded of references, and for how many control steps there is room at most."""
+
+    @property
+    def count(self) -> int: ...
+    @property
+    def dt_s(self) -> float: ...
+    @property
+    def com_W(self) -> Array: ...
+    @property
+    def momentum_W(self) -> Array: ...
+    @property
+    def base_WB(self) -> Array: ...
+    @property
+    def end_effectors_W(self) -> Array: ...
+    @property
+    def forces_W(self) -> Array: ...
+    @property
+    def surfaces(self) -> NDArray[np.int64]: ...
+
+
 class Recorder:
     """Arrays for a whole run, filled one control step after the other."""
 
-    def __init__(self, plan: Plan, urdf_model: UrdfModel, joints: tuple[str, ...], desired: References) -> None:
+    def __init__(self, plan: Plan, urdf_model: UrdfModel, joints: tuple[str, ...], desired: Desired) -> None:
         n, e, nj = desired.count, len(urdf_model.robot.end_effectors), len(joints)
         self.plan, self.urdf_model, self.joints, self.desired = plan, urdf_model, joints, desired
         self.count = 0

@@ -37,6 +37,7 @@ class References:
         swing_fraction: (n, e) fraction of the swing that has passed, 0 to 1; 1 in contact.
         returns: (n, e) whether a free end-effector will be in contact later.
         base_acceleration_W: (n, 3) angular; sole_accelerations_W: (n, e, 3) angular. None: not known, taken as zero.
+        next_surfaces: (n, e) surface in contact or in contact next, -1: none; None: these instants are all that there are.
     """
 
     dt_s: float
@@ -61,6 +62,7 @@ class References:
     returns: NDArray[np.bool_]
     base_acceleration_W: Array | None = None
     sole_accelerations_W: Array | None = None
+    next_surfaces: NDArray[np.int64] | None = None
 
     @property
     def count(self) -> int:
@@ -69,7 +71,7 @@ class References:
     def with_base(self, quats_xyzw: Array) -> References:
         """The same with other orientations of the base, (n, 4)."""
         base_WB = rotations_of(quats_xyzw)
-        return replace(self, base_WB=base_WB, base_velocity_W=_angular_velocity(base_WB, self.dt_s))
+        return replace(self, base_WB=base_WB, base_velocity_W=angular_velocity(base_WB, self.dt_s))
 
 
 def references(plan: Plan, robot: Robot, dt_s: float, hold_s: float) -> References:
@@ -100,7 +102,7 @@ def references(plan: Plan, robot: Robot, dt_s: float, hold_s: float) -> Referenc
         momentum_rate = scale * moment_about_com(samples)
         momentum_rate[over] = 0.0
     forces, moments = samples.forces_W * scale, samples.moments_W * scale
-    forces[over], moments[over] = _standing(plan, robot), 0.0
+    forces[over], moments[over] = standing_forces(plan, robot), 0.0
     end_acceleration = np.gradient(velocities, dt_s, axis=0)
     size = np.linalg.norm(end_acceleration, axis=2, keepdims=True)
     end_acceleration *= np.minimum(1.0, LARGEST_SWING_ACCELERATION / np.maximum(size, 1e-9))
@@ -115,12 +117,12 @@ def references(plan: Plan, robot: Robot, dt_s: float, hold_s: float) -> Referenc
         momentum_W=momentum,
         momentum_rate_W=momentum_rate,
         base_WB=samples.rotation_WB,
-        base_velocity_W=_angular_velocity(samples.rotation_WB, dt_s),
+        base_velocity_W=angular_velocity(samples.rotation_WB, dt_s),
         end_effectors_W=samples.positions_W,
         end_effector_velocities_W=velocities,
         end_effector_accelerations_W=end_acceleration,
         soles_W=samples.rotations_W,
-        sole_velocities_W=_angular_velocity(samples.rotations_W, dt_s),
+        sole_velocities_W=angular_velocity(samples.rotations_W, dt_s),
         forces_W=forces,
         pressure_W=samples.pressure_W,
         moments_W=moments,
@@ -136,7 +138,7 @@ def moment_about_com(samples: Samples) -> Array:
     return np.asarray((np.cross(arms, samples.forces_W) + samples.moments_W).sum(axis=1))
 
 
-def _standing(plan: Plan, robot: Robot) -> Array:
+def standing_forces(plan: Plan, robot: Robot) -> Array:
     """(e, 3) the weight, distributed to the end-effectors in contact at the end [N]."""
     down = [surface >= 0 for surface in plan.final_contacts]
     forces = np.zeros((len(down), 3))
@@ -144,7 +146,7 @@ def _standing(plan: Plan, robot: Robot) -> Array:
     return forces
 
 
-def _angular_velocity(rotations: Array, dt_s: float) -> Array:
+def angular_velocity(rotations: Array, dt_s: float) -> Array:
     """World-frame rates (n, ..., 3) of rotations (n, ..., 3, 3), by central differences: vee(dR R^T)."""
     rate = np.gradient(rotations, dt_s, axis=0) @ np.swapaxes(rotations, -1, -2)
     skew = 0.5 * (rate - np.swapaxes(rate, -1, -2))

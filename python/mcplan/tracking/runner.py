@@ -115,7 +115,7 @@ def track(
 
 def _plan_trial(plan: Plan, urdf_model: UrdfModel, options: Options) -> _Trial:
     desired = references(plan, urdf_model.robot, options.control_step_s, options.hold_s)
-    start, end = _posture_at(urdf_model, plan, 0.0), _posture_at(urdf_model, plan, desired.duration_s)
+    start, end = posture_at(urdf_model, plan, 0.0), posture_at(urdf_model, plan, desired.duration_s)
     posture = start
     if any(phase.has_points for phase in plan.phases):
         # Such plans know nothing of the base: its rotation has to suit the legs.
@@ -176,7 +176,12 @@ def _loaded(plan: Plan | Motion | str | Path) -> Plan | Motion:
     return found
 
 
-def _posture_at(urdf_model: UrdfModel, plan: Plan, time_s: float) -> Array:
+def posture_at(urdf_model: UrdfModel, plan: Plan, time_s: float) -> Array:
+    """The configuration (nq,) in which a robot follows a plan at a time [s].
+
+    Raises:
+        InvalidInput: It cannot, by more than START_MISS.
+    """
     postures = follow(urdf_model, sample_at(plan, plan.scene, plan.robot, np.array([time_s])))
     if postures.residual > START_MISS:
         raise InvalidInput(

@@ -1,23 +1,25 @@
 """Contact forces between the solver's nodes: corrected at many instants, so that what is linear in between balances.
 
 Forces f at corners that balance at the nodes leave a wrench r on the base between them. At a finer set of nodes the forces are
-changed by d with G d = r, of least sum |d_c|^2 / s_c^2, where s_c = mu f_z - |(f_x, f_y)| says how far a force is inside of
-its cone: those at its edge hardly change. Where the change would leave a cone, a part of it is made.
+changed by d with G d = r, of least sum |d_c|^2 / s_c^2, where s_c = mu f_n - |f_t| says how far a force is inside of its
+cone: those at its edge hardly change. Where the change would leave a cone, a part of it is made.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.kinematics.rotations import polygon_normal
+
 from .free_flyer import rotations
 from .knots import subdivided, with_knots
 
 if TYPE_CHECKING:
-    from .motion import Motion
+    from .motion import Motion, MotionSamples
     from .motion_model import MotionModel
 
 Array = NDArray[np.float64]
@@ -40,11 +42,29 @@ def balanced(motion: Motion, step_s: float = STEP_S) -> Motion:
         motion,
         times_s=times,
         coefficients=with_knots(motion.times_s, motion.coefficients, times),
-        corner_forces_S=motion.forces(times),
+        corner_forces_S=np.zeros((len(times), *motion.corner_forces_S.shape[1:])),
         contacts=motion.contacts[interval],
     )
-    finer = with_model(finer, motion.model)
-    return with_model(replace(finer, corner_forces_S=finer.corner_forces_S + _changes(finer)), motion.model)
+    at_nodes = np.searchsorted(times, motion.times_s)
+    rotations_W = with_model(finer, motion.model).sample(times).rotations_W
+    # Forces of points are linear in the world between nodes: their frames turn, and the solver's cones do not.
+    forces_W = np.einsum("keij,kepj->kepi", rotations_W[at_nodes], motion.corner_forces_S)
+    finer = with_forces(finer, _linear(motion.times_s, forces_W, times), rotations_W)
+    states = finer.sample(times)
+    forces_W = np.einsum("keij,kepj->kepi", rotations_W, finer.corner_forces_S)
+    return with_forces(finer, forces_W + _changes(finer, states, forces_W), rotations_W)
+
+
+def with_forces(motion: Motion, forces_W: Array, rotations_W: Array) -> Motion:
+    """The motion with forces (n + 1, L, 4, 3) that the world's axes have, and soles rotated so (n + 1, L, 3, 3)."""
+    forces_S = np.einsum("keji,kepj->kepi", rotations_W, forces_W)
+    return with_model(replace(motion, corner_forces_S=forces_S), motion.model)
+
+
+def _linear(nodes: Array, values: Array, times: Array) -> Array:
+    i = np.clip(np.searchsorted(nodes, times, side="right") - 1, 0, len(nodes) - 2)
+    ratio = ((times - nodes[i]) / (nodes[i + 1] - nodes[i])).reshape(-1, *(1,) * (values.ndim - 1))
+    return np.asarray((1.0 - ratio) * values[i] + ratio * values[i + 1])
 
 
 def with_model(motion: Motion, model: MotionModel) -> Motion:
@@ -53,46 +73,52 @@ def with_model(motion: Motion, model: MotionModel) -> Motion:
     return motion
 
 
-def _changes(motion: Motion) -> Array:
-    """(n + 1, L, 4, 3) by which the forces at the nodes are changed, in the frames of soles."""
-    states, forces_S = motion.sample(motion.times_s), motion.corner_forces_S
-    count = len(states)
+def _changes(motion: Motion, states: MotionSamples, forces_W: Array) -> Array:
+    """(n + 1, L, 4, 3) by which the forces at the nodes are changed."""
     base = rotations(motion.coordinates(motion.times_s)[0][:, 3:6])
-    turned = np.einsum("kji,kejl->keil", base, states.rotations_W)  # soles in the axes of the base
-    ends_B = np.einsum("kji,kej->kei", base, states.end_effectors_W - states.q[:, None, :3])
-    corners_B = ends_B[:, :, None] + np.einsum("keij,epj->kepi", turned, motion.corner_points_S)
-    skew = np.zeros((*corners_B.shape, 3))
-    x, y, z = np.moveaxis(corners_B, -1, 0)
-    skew[..., 0, 1], skew[..., 0, 2], skew[..., 1, 2] = -z, y, -x
-    skew[..., 1, 0], skew[..., 2, 0], skew[..., 2, 1] = z, -y, x
-    grasp = np.concatenate([np.broadcast_to(turned[:, :, None], skew.shape), skew @ turned[:, :, None]], axis=-2)
-    frictions = _friction(motion)[:, :, None]
-    room = np.maximum(_room(forces_S, frictions), 0.0)
+    missing = np.einsum("kij,khj->khi", base, states.base_residual_B.reshape(-1, 2, 3)).reshape(-1, 6)
+    arms = np.einsum("keij,epj->kepi", states.rotations_W, motion.corner_points_S)
+    arms += (states.end_effectors_W - states.q[:, None, :3])[:, :, None]
+    grasp = np.zeros((*arms.shape[:3], 6, 3))
+    x, y, z = np.moveaxis(arms, -1, 0)
+    grasp[..., :3, :] = np.eye(3)
+    grasp[..., 3, 1], grasp[..., 3, 2], grasp[..., 4, 2] = -z, y, -x
+    grasp[..., 4, 0], grasp[..., 5, 0], grasp[..., 5, 1] = z, -y, x
+    cones = _Cones.of(motion)
+    room = np.maximum(cones.room(forces_W), 0.0)
     weights = (room / np.maximum(room.max(axis=(1, 2)), 1e-9)[:, None, None]) ** 2
     gram = np.einsum("kec,kecij,keclj->kil", weights, grasp, grasp)
-    multipliers = np.einsum("kij,kj->ki", np.linalg.pinv(gram, rcond=RANK, hermitian=True), states.base_residual_B)
-    changes = (weights[..., None] * np.einsum("kecij,ki->kecj", grasp, multipliers)).reshape(count, *forces_S.shape[1:])
-    return np.asarray(_within(forces_S, changes, frictions) * changes)
+    multipliers = np.einsum("kij,kj->ki", np.linalg.pinv(gram, rcond=RANK, hermitian=True), missing)
+    changes = weights[..., None] * np.einsum("kecij,ki->kecj", grasp, multipliers)
+    return cones.part(forces_W, changes) * changes
 
 
-def _room(forces_S: Array, frictions: Array) -> Array:
-    """(..., 4) mu f_z - |(f_x, f_y)|."""
-    return np.asarray(frictions * forces_S[..., 2] - np.linalg.norm(forces_S[..., :2], axis=-1))
+@dataclass(frozen=True)
+class _Cones:
+    """Friction (n + 1, L) and normals (n + 1, L, 3) of the surfaces in contact at the nodes."""
 
+    frictions: Array
+    normals: Array
 
-def _within(forces_S: Array, changes: Array, frictions: Array) -> Array:
-    """(n + 1, 1, 1, 1) the largest of some parts of all changes at a node with which all forces are in their cones."""
-    parts = np.zeros(len(forces_S))
-    for part in np.linspace(0.05, 1.0, 20):
-        inside = (_room(forces_S + part * changes, frictions) >= -SMALL_N).all(axis=(1, 2))
-        parts = np.where(inside, part, parts)
-    return parts[:, None, None, None]
+    @staticmethod
+    def of(motion: Motion) -> _Cones:
+        surfaces = motion.plan.scene.surfaces
+        frictions = np.array([min(float(surface.friction), MOST_FRICTION) for surface in surfaces] + [1.0])
+        normals = np.array([polygon_normal(np.asarray(surface.vertices_W)) for surface in surfaces] + [[0.0, 0.0, 1.0]])
+        before = np.vstack([motion.contacts[:1], motion.contacts])
+        touched = np.where(before >= 0, before, np.vstack([motion.contacts, motion.contacts[-1:]]))
+        return _Cones(frictions[touched], normals[touched])
 
+    def room(self, forces_W: Array) -> Array:
+        """(n + 1, L, 4) how far forces are inside of their cones: friction times the normal force, less the tangential."""
+        along = np.einsum("kepj,kej->kep", forces_W, self.normals)
+        across = np.linalg.norm(forces_W - along[..., None] * self.normals[:, :, None], axis=-1)
+        return np.asarray(self.frictions[:, :, None] * along - across)
 
-def _friction(motion: Motion) -> Array:
-    """(n + 1, L) friction of the surfaces in contact at the nodes; where one is made or broken there is no force."""
-    frictions = np.array(
-        [min(float(surface.friction), MOST_FRICTION) for surface in motion.plan.scene.surfaces] + [1.0]
-    )
-    touched = frictions[motion.contacts]
-    return np.asarray(np.vstack([touched[:1], np.minimum(touched[:-1], touched[1:]), touched[-1:]]))
+    def part(self, forces_W: Array, changes: Array) -> Array:
+        """(n + 1, 1, 1, 1) the largest of some parts of all changes at a node with which all forces are in their cones."""
+        parts = np.zeros(len(forces_W))
+        for part in np.linspace(0.05, 1.0, 20):
+            inside = (self.room(forces_W + part * changes) >= -SMALL_N).all(axis=(1, 2))
+            parts = np.where(inside, part, parts)
+        return parts[:, None, None, None]

@@ -23,7 +23,7 @@ from mcplan.files.robots import PACKAGE
 from mcplan.files.urdf_setups import SETUPS
 
 from . import start as starts
-from .between_nodes import balanced, with_model
+from .between_nodes import balanced, with_forces, with_model
 from .contact_points import corners_S, points_S, to_corners
 from .motion import CORNERS, Motion
 from .motion_model import MotionModel, motion_model
@@ -218,7 +218,7 @@ class _Search:
                     continue
                 inside = np.array([at[end] is interval for at in nodes.intervals])
                 to = to_corners(points_S(self.plan, interval), own)
-                forces[inside, end, : len(own)] = np.einsum("cp,kpj->kcj", to, parts[inside])
+                forces[inside, end, : len(own)] = np.einsum("cp,ij,kpj->kci", to, interval.rotation_W, parts[inside])
         found = Motion(
             plan=self.plan,
             urdf=self.urdf,
@@ -227,10 +227,10 @@ class _Search:
             times_s=self.nodes.times_s,
             coefficients=np.asarray(self.solver.coefficients(x)),
             corner_points_S=np.array([np.resize(own, (CORNERS, 3)) for own in points]),
-            corner_forces_S=forces,
+            corner_forces_S=np.zeros_like(forces),
             contacts=self.nodes.contacts,
         )
-        return with_model(found, self.model)
+        return with_forces(found, forces, with_model(found, self.model).sample(nodes.times_s).rotations_W)
 
 
 def _with_status(result: MotionResult, status: MotionStatus, **changes: Any) -> MotionResult:

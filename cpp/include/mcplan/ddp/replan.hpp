@@ -46,6 +46,10 @@ struct ReplanOptions {
   int horizon = 12;                        ///< number of phases that are planned ahead under a command
   bool other_sequences = true;             ///< where the plan's own sequence does not do, try others near to it
 
+  /// Iterations times phases, over all sequences, after which no other one is tried: a bound of the time of a call
+  /// that, unlike time_limit_s, gives the same plan on any machine. The plan's own sequence gets its iterations anyway.
+  int max_work = 1100;
+
   /// Throws InvalidOptions naming all that is out of its range.
   void validate() const;
 };

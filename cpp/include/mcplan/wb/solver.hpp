@@ -50,8 +50,8 @@ class Solver {
   int equalities() const;
   int rows() const;
 
-  /// Unknowns out of spline coefficients (n + 2, nv) and forces on the end-effectors' points, in frames S [N],
-  /// (n, 3 * points of all end-effectors); rows that are exceeded there are given elastic variables that large.
+  /// Unknowns out of spline coefficients (n + 2, nv) and forces on the end-effectors' points, in their contacts' frames
+  /// [N], (n, 3 * points of all end-effectors); rows that are exceeded there are given elastic variables that large.
   Eigen::VectorXd unknowns(const Dynamics::Rows& coefficients, const Dynamics::Rows& forces_S);
   Dynamics::Rows coefficients(const Eigen::VectorXd& x) const;
   Dynamics::Rows forces(const Eigen::VectorXd& x) const;

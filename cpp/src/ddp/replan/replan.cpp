@@ -46,17 +46,23 @@ class Trials {
   /// Whether there is no need, or no time, for another one.
   bool done() const {
     return (best_ && (best_->ok() || best_->ending == Ending::interrupted)) || now_->deadline->passed() ||
-           (now_->deadline->limited() && now_->deadline->remaining_s() < longest_s_);
+           (now_->deadline->limited() && now_->deadline->remaining_s() < longest_s_) ||
+           (best_ && iterations_left(best_->plan) < kWorthwhile);
   }
 
   void make(const Now& now, const Rest& rest, PlanFrom from) {
     const double begin_s = now_->deadline->elapsed_s();
-    std::optional<Trial> trial = try_out(now, rest, *report_);
+    std::optional<Trial> trial = try_out(now, rest, *report_, best_ ? iterations_left(best_->plan) : kReplanIterations);
+    if (trial) work_ += trial->work;
     const bool again = trial && !held_joints_ && asks_too_much_of_joints(*trial);
     const Plan found = again ? trial->plan : Plan();
     take(std::move(trial), from);
     held_joints_ = held_joints_ || again;
-    if (again && !done()) take(try_out(now, rest, *report_, &found), from);
+    if (again && !done()) {
+      trial = try_out(now, rest, *report_, iterations_left(found), &found);
+      if (trial) work_ += trial->work;
+      take(std::move(trial), from);
+    }
     longest_s_ = std::max(longest_s_, now_->deadline->elapsed_s() - begin_s);
   }
 
@@ -89,9 +95,16 @@ class Trials {
     logger(LogLevel::info, line.str());
   }
 
+  /// Iterations that the work which is left allows a sequence about as long as this plan's.
+  int iterations_left(const Plan& plan) const {
+    const int left = now_->options->max_work - work_;
+    return std::clamp(left / std::max(1, static_cast<int>(plan.phases.size())), 0, kReplanIterations);
+  }
+
   const Now* now_;
   Report* report_;
   std::optional<Trial> best_;
+  int work_ = 0;              ///< iterations times phases
   bool held_joints_ = false;  ///< rows for the limits of joints have been tried
   double longest_s_ = 0.0, ratio_ = 1.0, best_ratio_ = 1.0;
 };

@@ -28,7 +28,8 @@ struct Fields<ddp::ReplanOptions> {
       field("start_slack_s", &Options::start_slack_s, "s",
             "Time within which what the measured state itself violates has to be made good. The default goes with the "
             "size of the robot.")
-          .not_negative(),
+          .not_negative()
+          .at_most(5.0),
       field("phases_min", &Options::phases_min, "",
             "The horizon never gets shorter than this: at its end the robot stands.")
           .at_least(1)
@@ -37,7 +38,10 @@ struct Fields<ddp::ReplanOptions> {
           .at_least(3)
           .at_most(400),
       field("other_sequences", &Options::other_sequences, "",
-            "Try sequences near to the plan's own where that does not do."));
+            "Try sequences near to the plan's own where that does not do."),
+      field("max_work", &Options::max_work, "",
+            "Iterations times phases, over all sequences, after which no other one is tried: 1000 take about 30 ms.")
+          .not_negative());
 };
 
 }  // namespace mcplan::model

@@ -85,7 +85,7 @@ double finishing_s(const Problem& problem) { return 1e-3 * kFinishing_ms * probl
 
 }  // namespace
 
-std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, const Plan* from) {
+std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, int iterations, const Plan* from) {
   Problem problem = pose(now, rest);
   Incumbent at = from_plan(problem, rest.plan, 0);
   if (!problem.rules.valid(at.sequence)) return std::nullopt;
@@ -103,12 +103,14 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, c
   at.evaluation = search.evaluate(at, tuning);
   polish::Settings settings;
   settings.barrier = at.evaluation.defect_max < kConvergedDefect ? kWarmBarrier : kReplanBarrier;
-  settings.max_iterations = kReplanIterations;
+  settings.max_iterations = iterations;
   settings.tolerance = kRoughTolerance;
   settings.to_the_end = false;
   settings.give_up_above = kHopeless;
   settings.patience = kHopelessPatience;
+  const int before = report.iterations;
   trial.ending = search.optimise(at, settings, tuning);
+  trial.work = (report.iterations - before) * problem.steps;
   const StopRequest late =
       now.deadline->limited() ? StopRequest([&] { return now.deadline->passed(); }) : StopRequest();
   trial.exact = search.make_exact(at, tuning, late);

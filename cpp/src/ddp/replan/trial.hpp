@@ -30,13 +30,16 @@ struct Trial {
   bool exact = false;    ///< the dynamics hold to rounding
   bool planned = false;  ///< nothing was solved: what was planned
   Ending ending = Ending::done;
+  int work = 0;  ///< iterations times phases
   /// The checker has seen all of it and accepts it.
   bool ok() const { return exact && !planned && check.ok() && !(check.checked_until_s < plan.duration()); }
 };
 
-/// The optimum of a sequence from the measured state, as a plan, checked; none where the scene's rules do not allow it.
-/// With `from`, a plan that was found so, from there and with rows for the limits of joints, which cost time.
-std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, const Plan* from = nullptr);
+/// The optimum of a sequence from the measured state after so many iterations at most, as a plan, checked; none where
+/// the scene's rules do not allow it. With `from`, a plan that was found so, from there and with rows for the limits of
+/// joints, which cost time.
+std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, int iterations,
+                             const Plan* from = nullptr);
 
 /// Whether rows for the limits of joints may mend what is wrong with it. (Those of speed do not: what a start
 /// violates.)

@@ -15,6 +15,7 @@ from mcplan.view.runs import Run, recording_of
 from mcplan.view.sheets import QUIET, label, legend, save_figures, sheet
 
 from .run_axes import finish, shade_run
+from .run_footholds import plot_run_footholds
 from .run_forces import plot_run_forces, plot_run_torques
 
 if TYPE_CHECKING:
@@ -27,8 +28,8 @@ PLATE = {"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 1.5}
 
 
 def save_run_plots(run: Run, folder: str | Path) -> list[Path]:
-    """Write the plots of a run: com.png, errors.png, forces.png, torques.png, momentum.png, and assist.png if there was
-    any assistance.
+    """Write the plots of a run: com.png, errors.png, forces.png, torques.png, momentum.png, footholds.png if
+    the robot was planned for while it walked, and assist.png if there was any assistance.
 
     Args:
         run: A recording, or the result of tracking.
@@ -49,6 +50,8 @@ def save_run_plots(run: Run, folder: str | Path) -> list[Path]:
         "torques": plot_run_torques(recording),
         "momentum": plot_run_momentum(recording),
     }
+    if len(getattr(run, "plans", ())) > 1:  # replanned while walking
+        figures["footholds"] = plot_run_footholds(recording)
     if recording.assist.any():
         figures["assist"] = plot_run_assist(recording)
     return save_figures(figures, folder)

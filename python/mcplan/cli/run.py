@@ -1,0 +1,167 @@
+"""mcplan run"""
+
+from __future__ import annotations
+
+import json as json_module
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from mcplan.cli import track
+from mcplan.cli.given_options import named_as_typed
+
+if TYPE_CHECKING:
+    from mcplan.cli.track_outputs import RunOutputs
+    from mcplan.online.result import RunResult
+
+
+SceneArgument = Annotated[
+    str, typer.Argument(metavar="SCENE", help="Scene: built-in name or TOML file; or a plan to begin with (.npz).")
+]
+RobotOption = Annotated[
+    str | None, typer.Option("--robot", metavar="R", help="Robot with a URDF: built-in name or TOML file.")
+]
+CommandOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--command",
+        metavar="[at,]ahead,left,turn",
+        help="Velocity to walk at [m/s, m/s, rad/s], from an instant on [s]; may be repeated. Default: to the scene's goal.",
+    ),
+]
+LatencyOption = Annotated[
+    float | None,
+    typer.Option(
+        "--latency",
+        metavar="S",
+        help="Time from a measured state to its plan [s]; default: what the computation takes.",
+    ),
+]
+PeriodOption = Annotated[float, typer.Option("--period", metavar="S", help="Time between two replans [s].")]
+DurationOption = Annotated[
+    float | None, typer.Option("--duration", metavar="S", help="Length of the run [s]; default: to the goal.")
+]
+ReplanningOption = Annotated[
+    bool, typer.Option("--replanning/--no-replanning", help="Replan while walking; off: follow the first plan.")
+]
+
+
+@named_as_typed(
+    "robot",
+    "command",
+    "mass_scale",
+    "sensor_noise",
+    "seed",
+    pushes="--push",
+    latency_s="--latency",
+    period_s="--period",
+    duration_s="--duration",
+    friction_scale="--friction",
+    ground_shift_m="--ground-shift",
+    torque_bandwidth_hz="--torque-bandwidth",
+    torque_delay_s="--torque-delay",
+)
+def run(
+    scene: SceneArgument,
+    robot: RobotOption = None,
+    push: track.PushOption = None,
+    command: CommandOption = None,
+    latency: LatencyOption = None,
+    period: PeriodOption = 0.1,
+    duration: DurationOption = None,
+    replanning: ReplanningOption = True,
+    mass_scale: track.MassScaleOption = 1.0,
+    friction: track.FrictionOption = 1.0,
+    ground_shift: track.GroundShiftOption = 0.0,
+    torque_bandwidth: track.BandwidthOption = 0.0,
+    torque_delay: track.DelayOption = 0.0,
+    sensor_noise: track.NoiseOption = 0.0,
+    seed: track.SeedOption = 0,
+    video: track.VideoOption = None,
+    html: track.HtmlOption = None,
+    strip: track.StripOption = None,
+    plots: track.PlotsOption = None,
+    save: track.SaveOption = None,
+    json: track.JsonOption = False,
+    quiet: track.QuietOption = False,
+) -> int:
+    """Simulate a robot that is planned for while it walks.
+
+    A plan leads to the scene's goal, or on at a velocity (--command). While the robot follows it, a planner makes the next
+    one from the measured state: every --period, at touchdowns, and when the robot has left the plan, as after a push. The
+    simulated clock goes on while the planner computes; with --latency the same run is the same on every machine. The exit
+    code is 0 if the robot came to the end without a fall, 1 if it fell. Ctrl-C ends the run, the code is 130.
+
+    Example: mcplan run flat --robot talos --push 250,0.2,1.4,90 --latency 0.02 --html run.html
+
+    Example: mcplan run flat --robot talos --command 0.15,0,0.1 --duration 8 --json
+    """
+    from mcplan.cli.pushes import parse_pushes
+    from mcplan.cli.track_outputs import RunOutputs
+
+    values: dict[str, Any] = {"pushes": parse_pushes(push or []), "seed": seed, "replanning": replanning}
+    values |= {"mass_scale": mass_scale, "friction_scale": friction, "ground_shift_m": ground_shift}
+    values |= {"torque_bandwidth_hz": torque_bandwidth, "torque_delay_s": torque_delay, "sensor_noise": sensor_noise}
+    values |= {"latency_s": latency, "period_s": period, "duration_s": duration}
+    values["command"] = [_numbers(text) for text in command or []]
+    return _run((scene, robot), values, RunOutputs(video, html, strip, plots, save, verb="run"), json, quiet)
+
+
+def _run(walk: tuple[str, str | None], values: dict[str, Any], outputs: RunOutputs, json: bool, quiet: bool) -> int:
+    """Scene and robot, options by name, and what is to be written; the exit code."""
+    from dataclasses import replace
+
+    from mcplan.cli.interrupts import CODE, as_far_as_it_came
+    from mcplan.cli.terminal import printable
+    from mcplan.cli.track_text import Progress
+    from mcplan.extras import require
+    from mcplan.running import chosen_options, run_any
+
+    require("mcplan run", "sim", "mujoco", "pinocchio", "proxsuite")
+    outputs.require()
+    chosen_options(values)
+    progress = Progress(quiet or json)
+    progress.working("planning")
+    result, interrupted = as_far_as_it_came(lambda: run_any(*walk, values, progress.simulated))
+    progress.end()
+    print(json_module.dumps(summary(result), allow_nan=False) if json else result, flush=True)
+    written = (replace(outputs, video=None, html=None, strip=None, plots=None) if interrupted else outputs).write(
+        result, progress
+    )
+    if written and not json:
+        print(printable(f"Saved {', '.join(written)}"))
+    return CODE if interrupted else 0 if result.followed else 1
+
+
+def summary(result: RunResult) -> dict[str, Any]:
+    """What ``--json`` prints: the keys of ``mcplan track --json``, and those of replanning."""
+    from dataclasses import asdict
+
+    from mcplan.cli.track_text import finite_items
+    from mcplan.cli.track_text import summary as track_summary
+
+    data = track_summary(result, None, None)
+    data["duration_s"] = result.plans[-1].begins_s + result.plans[-1].plan.duration()
+    return {
+        **data,
+        **finite_items(result.online.as_dict()),
+        "online_options": finite_items(asdict(result.online_options)),
+    }
+
+
+def _numbers(command: str) -> tuple[float, ...]:
+    """Numbers of --command.
+
+    Raises:
+        InvalidOptions: Not three or four numbers.
+    """
+    from mcplan.errors import InvalidOptions, shown
+
+    words = command.split(",")
+    try:
+        numbers = tuple(float(word) for word in words)
+    except ValueError:
+        numbers = ()
+    if len(numbers) not in (3, 4):
+        raise InvalidOptions("--command", "must be [at,]ahead,left,turn, such as 0.15,0,0.1", shown(command))
+    return numbers

@@ -1,0 +1,47 @@
+"""Planning while the robot walks: measured states in, plans and references out.
+
+    from mcplan.online import Planner, StateReader
+
+    reader = StateReader(plan)
+    with Planner(plan) as planner:
+        planner.submit(reader.read(time_s, configuration, velocity, forces_W))
+        update = planner.poll()
+
+``Planner`` needs nothing but mcplan; ``StateReader`` needs Pinocchio, and ``run`` a simulator, the extra `sim`.
+docs/online.md says how to wire it to a robot.
+"""
+
+from __future__ import annotations
+
+from .contacts import ContactFilter
+from .measures import OnlineMeasures
+from .options import OnlineOptions
+from .planner import MeasuredState, Planner, Update
+
+__all__ = [
+    "ContactFilter",
+    "MeasuredState",
+    "OnlineMeasures",
+    "OnlineOptions",
+    "Planner",
+    "RunResult",
+    "StateReader",
+    "Update",
+    "run",
+]
+
+
+def __getattr__(name: str) -> object:
+    if name == "StateReader":
+        from .state import StateReader
+
+        return StateReader
+    if name == "RunResult":
+        from .result import RunResult
+
+        return RunResult
+    if name == "run":
+        from .runner import run
+
+        return run
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

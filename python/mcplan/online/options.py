@@ -1,0 +1,86 @@
+"""How a robot is planned for while it walks: plain data with defaults."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from mcplan.errors import InvalidOptions
+
+
+@dataclass(frozen=True)
+class OnlineOptions:
+    """When to replan, and when a new plan is taken over.
+
+    Attributes:
+        replanning: False: the first plan is followed to its end.
+        period_s: A replan is asked for this long after the last one.
+        at_touchdowns: And whenever an end-effector has come into contact.
+        com_margin_m, capture_margin_m: And when the CoM, or the capture point p + v / omega, is farther from the plan's.
+        pause_s: Least time between two that are not due by the period.
+        latency_s: A plan is taken over this long after the state was measured from which it was made; nan: as long as its
+            computation took by the wall clock, so that runs differ with the machine.
+        time_limit_s: Wall clock of a replan [s]; nan: none with a fixed latency, the period without.
+        command: Velocities to walk at, each from a time on: time [s], ahead, to the left [m/s], turning [rad/s]; until the
+            first of these times to the scene's goal, as without any.
+        duration_s: Length of the run [s]; nan: the first plan and what the run holds it for, and 10 s under a command.
+        wide_reach: Where no plan keeps legs within the robot's boxes, they may reach as far as their joints let them (see
+            ``reach``).
+        start_slack_s: Time within which what the measured state violates has to be made good, for a robot of human size.
+        stop_after_s: The robot is brought to a stand if it has left its plan and no plan has come for so long.
+    """
+
+    replanning: bool = True
+    period_s: float = 0.1
+    at_touchdowns: bool = True
+    com_margin_m: float = 0.02
+    capture_margin_m: float = 0.04
+    pause_s: float = 0.03
+    latency_s: float = float("nan")
+    time_limit_s: float = float("nan")
+    command: tuple[tuple[float, float, float, float], ...] = ()
+    duration_s: float = float("nan")
+    wide_reach: bool = True
+    start_slack_s: float = 1.0
+    stop_after_s: float = 0.5
+
+    def validate(self) -> None:
+        """Raise InvalidOptions naming the first field out of its range."""
+        _require("period_s", "must lie in 0.01 to 10", self.period_s, 0.01 <= self.period_s <= 10)
+        _require("pause_s", "must lie in 0 to 1", self.pause_s, 0 <= self.pause_s <= 1)
+        for name in ("com_margin_m", "capture_margin_m", "stop_after_s", "start_slack_s"):
+            value = getattr(self, name)
+            _require(name, "must be above 0", value, bool(value > 0))
+        for name, high in (("latency_s", 1.0), ("time_limit_s", 10.0), ("duration_s", 3600.0)):
+            value = getattr(self, name)
+            _require(name, f"must lie in 0 to {high:g}, or be nan", value, bool(np.isnan(value) or 0 <= value <= high))
+        ok = all(len(row) == 4 and bool(np.isfinite(np.asarray(row, float)).all()) for row in self.command)
+        _require("command", "must be three finite numbers, or four with a time before them", self.command, ok)
+        times = [row[0] for row in self.command]
+        _require(
+            "command",
+            "must have ascending times of 0 or more",
+            self.command,
+            times == sorted(times) and min(times, default=0.0) >= 0,
+        )
+
+    def command_at(self, time_s: float) -> tuple[float, float, float] | None:
+        """The velocity to walk at at a time [s]; None: to the scene's goal."""
+        past = [row for row in self.command if row[0] <= time_s + 1e-9]
+        return past[-1][1:] if past else None
+
+    @property
+    def fixed_latency(self) -> bool:
+        """Whether plans are taken over after a fixed time."""
+        return not np.isnan(self.latency_s)
+
+
+def option_names() -> list[str]:
+    """Names of the fields."""
+    return [item.name for item in fields(OnlineOptions)]
+
+
+def _require(field_name: str, rule: str, value: object, holds: bool) -> None:
+    if not holds:
+        raise InvalidOptions(field_name, rule, str(value))

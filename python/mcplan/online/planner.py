@@ -1,0 +1,248 @@
+"""A planner beside a controller: measured states go in, plans come out, in a thread of its own."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import TracebackType
+from typing import TYPE_CHECKING, Any
+
+from mcplan._core import Plan, Status
+from mcplan.errors import InvalidInput
+from mcplan.solve import replan
+
+if TYPE_CHECKING:
+    from mcplan._core import Knot, PlanResult, Report, Robot, Scene
+
+#: Of the period, the time for which a plan that was cut short has to keep all limits to be worth following.
+KEPT_PERIODS = 2.0
+#: Speed at which an end-effector that is in the air is raised over its way at most [m/s], and the largest rate of
+#: 16 s^2 (1 - s)^2 over s.
+RISE_M_S, BUMP_RATE = 0.5, 3.08
+
+
+@dataclass(frozen=True)
+class MeasuredState:
+    """What a state estimator says at an instant.
+
+    Attributes:
+        time_s: On the clock of the controller.
+        knot: CoM, base, momentum and end-effectors.
+        contacts: Surface that each end-effector touches, -1: none; indices into the plan's scene.
+    """
+
+    time_s: float
+    knot: Knot
+    contacts: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Update:
+    """What came of a replan.
+
+    Attributes:
+        plan: The new plan; its time begins when the state was measured. None: there was an error, `message` says which.
+        begins_s: Time of the clock at which the plan begins: that of the measured state.
+        took_s: Wall clock of the computation.
+        status: The planner's.
+        usable: Whether it is better to follow it than to stay with the plan under way.
+        kept_until_s: Time of the clock until which all limits are kept.
+        message: What the planner says.
+        plan_from: Where the plan comes from.
+        ticket: Number of the submitted state, counted from 1.
+    """
+
+    plan: Plan | None
+    begins_s: float
+    took_s: float
+    status: str
+    usable: bool
+    kept_until_s: float
+    message: str
+    plan_from: str
+    ticket: int
+
+
+class Planner:
+    """Replans from measured states in a thread of its own; the GIL is released meanwhile.
+
+    A state that is submitted while the planner computes waits, and replaces one that waits already. Plans are made from
+    the plan under way, which is what ``take_over`` said last.
+
+    Args:
+        plan: The plan under way.
+        begins_s: Time of the clock at which it began.
+        command: Velocity to walk at, ahead, to the left [m/s] and turning [rad/s]; None: to the scene's goal.
+        period_s: How often states are submitted: a plan that was cut short is worth following if it is good for twice
+            that.
+        **named: Options of mcplan.replan by name, among them ``time_limit`` [s].
+
+    Attributes:
+        plan, begins_s: The plan under way, and when it began.
+        command: May be changed at any time; it holds for what is computed from then on.
+        scene: Instead of the plan's own, for ground that was measured anew; None: the plan's own.
+        robots: Robots to plan for, one after the other until a plan is usable: after the plan's own, one with wider limits.
+    """
+
+    def __init__(
+        self,
+        plan: Plan,
+        begins_s: float = 0.0,
+        *,
+        command: tuple[float, float, float] | None = None,
+        period_s: float = 0.1,
+        **named: Any,
+    ) -> None:
+        self.plan, self.begins_s = plan, begins_s
+        self.command, self.period_s = command, period_s
+        self.scene: Scene | None = None
+        self.robots: list[Robot] = [plan.robot]
+        self._named: Mapping[str, Any] = named
+        self._lock = threading.Condition()
+        self._waiting: tuple[int, MeasuredState, Mapping[str, Any]] | None = None
+        self._done: Update | None = None
+        self._computing = False
+        self._closed = False
+        self._tickets = 0
+        self._thread = threading.Thread(target=self._work, name="mcplan.online", daemon=True)
+        self._thread.start()
+
+    @property
+    def busy(self) -> bool:
+        """Whether a state waits or is computed from."""
+        with self._lock:
+            return self._computing or self._waiting is not None
+
+    def submit(self, state: MeasuredState, **named: Any) -> int:
+        """Ask for a plan from a measured state.
+
+        Args:
+            state: The state.
+            **named: Options of mcplan.replan by name, for this time only.
+
+        Returns:
+            The number that the update will have, unless a later state replaces this one.
+
+        Raises:
+            InvalidInput: The planner is closed.
+        """
+        with self._lock:
+            if self._closed:
+                raise InvalidInput("planner", "must be open: it was closed")
+            self._tickets += 1
+            self._waiting = (self._tickets, state, named)
+            self._lock.notify_all()
+            return self._tickets
+
+    def poll(self) -> Update | None:
+        """The latest update that has not been handed out yet; None: there is none. Returns at once."""
+        with self._lock:
+            done, self._done = self._done, None
+            return done
+
+    def wait(self, timeout_s: float | None = None) -> Update | None:
+        """The same, after whatever was submitted is computed, or the time is over."""
+        with self._lock:
+            self._lock.wait_for(lambda: not (self._computing or self._waiting), timeout_s)
+        return self.poll()
+
+    def take_over(self, update: Update) -> None:
+        """The controller follows this update from now on: the next plans are made from it.
+
+        Raises:
+            InvalidInput: It has no plan.
+        """
+        if update.plan is None:
+            raise InvalidInput("update", "must have a plan", update.message)
+        with self._lock:
+            self.plan, self.begins_s = update.plan, update.begins_s
+
+    def close(self) -> None:
+        """End the thread after what it computes now."""
+        with self._lock:
+            self._closed, self._waiting = True, None
+            self._lock.notify_all()
+        self._thread.join()
+
+    def __enter__(self) -> Planner:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
+        self.close()
+
+    def _work(self) -> None:
+        while True:
+            with self._lock:
+                self._lock.wait_for(lambda: self._closed or self._waiting is not None)
+                if self._closed or self._waiting is None:
+                    return
+                (ticket, state, named), self._waiting = self._waiting, None
+                self._computing = True
+                plan, begins_s = self.plan, self.begins_s
+            update = self._computed(ticket, state, plan, begins_s, {**self._named, **named})
+            with self._lock:
+                self._done, self._computing = update, False
+                self._lock.notify_all()
+
+    def _computed(
+        self, ticket: int, state: MeasuredState, plan: Plan, begins_s: float, named: Mapping[str, Any]
+    ) -> Update:
+        began = time.perf_counter()
+        found: PlanResult | None = None
+        try:
+            t = min(max(state.time_s - begins_s, 0.0), float(plan.duration()))
+            for robot in self.robots:
+                result = replan(plan, t, state.knot, state.contacts, self.command, self.scene, robot, dict(named))
+                if found is None or _usable(result.report, self.period_s):
+                    found = result
+                if _usable(result.report, self.period_s):
+                    break
+            if found is None:
+                raise InvalidInput("robots", "must be one at least", "none")
+            new = _calmed(found.plan)
+        except Exception as error:  # a state that the planner refuses must not end the thread: the plan goes on
+            took_s, text = time.perf_counter() - began, f"{type(error).__name__}: {error}"
+            return Update(None, state.time_s, took_s, "error", False, state.time_s, text, "previous_plan", ticket)
+        took_s, report = time.perf_counter() - began, found.report
+        return Update(
+            plan=new,
+            begins_s=state.time_s,
+            took_s=took_s,
+            status=report.status.name,
+            usable=_usable(report, self.period_s),
+            kept_until_s=state.time_s + float(report.kept_until_s),
+            message=report.message,
+            plan_from=report.plan_from.name,
+            ticket=ticket,
+        )
+
+
+def _calmed(plan: Plan) -> Plan:
+    """The plan with swings that are under way kept from rising fast: what is about to land lands.
+
+    The way of an end-effector in the air goes on from where it is by a spline, plus 16 s^2 (1 - s)^2 times a height that
+    takes it clear of the ground. With 50 ms to go such a height is a kick, and the ground is where it is due.
+    """
+    swings = plan.swings
+    for swing in swings:
+        if swing.first_phase == 0 and plan.phases[0].contacts[swing.end_effector].surface < 0:
+            left_s = sum(phase.duration for phase in plan.phases[: swing.end_phase])
+            swing.height = min(swing.height, RISE_M_S * left_s / BUMP_RATE)
+    plan.swings = swings
+    return plan
+
+
+def _usable(report: Report, period_s: float) -> bool:
+    """Whether to follow a plan, as docs/replanning.md has it by status."""
+    return follows(report.status, report.plan_from.name, float(report.kept_until_s), period_s)
+
+
+def follows(status: Status, plan_from: str, kept_s: float, period_s: float) -> bool:
+    """Whether to follow a plan with such a status, from there, that keeps all limits for so long [s]."""
+    if plan_from not in ("same_sequence", "other_sequence"):
+        return False
+    if status in (Status.solved, Status.acceptable):
+        return True
+    return status in (Status.time_limit, Status.infeasible) and kept_s >= KEPT_PERIODS * period_s

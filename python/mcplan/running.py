@@ -1,0 +1,132 @@
+"""mp.run: a plan to begin with, a simulation with replanning, options by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mcplan._core import Plan, Robot, Scene, Status
+from mcplan.arguments import require_or_path
+from mcplan.errors import InvalidInput, InvalidOptions, did_you_mean, shown
+from mcplan.online.options import OnlineOptions, option_names
+from mcplan.solve import plan as solve
+from mcplan.tracking.choice import make_options
+from mcplan.tracking.options import Options, Push
+
+if TYPE_CHECKING:
+    from mcplan.online.result import RunResult
+
+#: Short names of options.
+SHORT = {"push": "pushes", "latency": "latency_s", "period": "period_s", "duration": "duration_s"}
+#: Options of a tracked run that a run with replanning has not: help for the base that would hide what replanning does.
+WITHOUT = ("assist",)
+
+
+def run_any(
+    scene: Scene | Plan | str | Path,
+    robot: Robot | str | Path | None,
+    values: Mapping[str, Any],
+    progress: Callable[[float, float], None] | None = None,
+) -> RunResult:
+    """Walk with replanning; see mcplan.run.
+
+    Args:
+        scene: Where to walk, or the plan to begin with.
+        robot: None: that of the plan.
+        values: Options by name.
+        progress: Called now and then with the time simulated and the time to simulate [s].
+    """
+    if not isinstance(robot, Robot):
+        require_or_path("robot", robot, "a Robot", "a name", optional=True)
+    if not isinstance(scene, (Scene, Plan)):
+        require_or_path("scene", scene, "a Scene", "a Plan", "a name")
+    options, online = chosen_options(values)
+    from mcplan.online.runner import run
+
+    return run(first_plan(scene, robot), robot if isinstance(scene, Plan) else None, options, online, progress)
+
+
+def chosen_options(values: Mapping[str, Any]) -> tuple[Options, OnlineOptions]:
+    """Options of the simulation and of planning, from one set of names.
+
+    Raises:
+        InvalidOptions: No such option, a wrong type, or out of range.
+    """
+    given = {SHORT.get(name, name): value for name, value in values.items() if value is not None}
+    own = option_names()
+    known = [name for name in Options.__dataclass_fields__ if name not in WITHOUT]
+    for name in given:
+        if name not in own and name not in known:
+            legal = sorted([*own, *known])
+            raise InvalidOptions(name, f"no such option. {did_you_mean(name, legal)}Options: {', '.join(legal)}")
+    if "pushes" in given and _is_single(given["pushes"]):
+        given["pushes"] = [given["pushes"]]
+    options = make_options({name: value for name, value in given.items() if name not in own})
+    online = replace(OnlineOptions(), **{name: _typed(name, given[name]) for name in own if name in given})
+    online.validate()
+    return options, online
+
+
+def _is_single(pushes: Any) -> bool:
+    """Whether it is one push, not a list of some."""
+    return isinstance(pushes, Push) or (
+        isinstance(pushes, Sequence) and len(pushes) > 0 and hasattr(pushes[0], "__float__")
+    )
+
+
+def first_plan(scene: Scene | Plan | str | Path, robot: Robot | str | Path | None) -> Plan:
+    """The plan to begin with: given, loaded, or found for a scene.
+
+    Raises:
+        InvalidInput: No plan was found, or no robot was named.
+    """
+    if isinstance(scene, Plan):
+        return scene
+    if not isinstance(scene, Scene):
+        if Path(scene).suffix in (".npz", ".json"):
+            from mcplan.files.whole_body_plans import load_any_plan
+
+            plan = load_any_plan(Path(scene))
+            if not isinstance(plan, Plan):
+                raise InvalidInput("scene", "must be a scene or a plan of ddp", f"{scene}, a whole-body plan")
+            return plan
+        from mcplan.files.scenes import load_scene
+
+        scene = load_scene(scene)
+    if robot is None:
+        raise InvalidInput("robot", "must be given with a scene")
+    if not isinstance(robot, Robot):
+        from mcplan.files.robots import load_robot
+
+        robot = load_robot(robot)
+    result = solve(scene, robot, {})
+    if result.report.status not in (Status.solved, Status.acceptable):
+        raise InvalidInput("scene", "must have a plan to begin with", f"{scene.name}: {result.report.message}")
+    return result.plan
+
+
+def _typed(name: str, value: Any) -> Any:
+    kind = type(getattr(OnlineOptions(), name))
+    if kind is tuple:
+        return _commands(name, value)
+    if kind is float and not isinstance(value, bool) and hasattr(value, "__float__"):
+        return float(value)
+    if not isinstance(value, kind):
+        raise InvalidOptions(name, "must be a number" if kind is float else f"must be a {kind.__name__}", shown(value))
+    return value
+
+
+def _commands(name: str, value: Any) -> tuple[tuple[float, ...], ...]:
+    """Velocities with the times from which on they hold: of one without a time, from the beginning.
+
+    Raises:
+        InvalidOptions: No numbers, or not three or four of them.
+    """
+    rows = [value] if len(value) and hasattr(value[0], "__float__") else value
+    try:
+        found = [tuple(float(number) for number in row) for row in rows]
+    except (TypeError, ValueError):
+        raise InvalidOptions(name, "must be numbers", shown(value)) from None
+    return tuple((0.0, *row) if len(row) == 3 else row for row in found)

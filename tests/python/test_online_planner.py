@@ -1,0 +1,198 @@
+"""The planner beside a controller: what is submitted comes back as a plan, in a thread, without a simulator."""
+
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+import mcplan as mp
+from mcplan.online import MeasuredState, OnlineOptions, Planner
+from mcplan.online.pacing import Pace, distances, steps_left
+from mcplan.online.planner import RISE_M_S, _calmed, follows
+from mcplan.online.reach import widened
+
+
+@pytest.fixture(scope="module")
+def plan():
+    return mp.plan("flat", "humanoid44").plan
+
+
+def state(plan: mp.Plan, t: float, clock_s: float | None = None, push=(0.0, 0.0, 0.0)) -> MeasuredState:
+    """The planned state, the CoM's velocity off by a push [m/s]."""
+    now = plan.at(t)
+    knot = mp.model.Knot(
+        com_W=now.com_W,
+        com_velocity_W=now.com_velocity_W + np.array(push),
+        base_rpy=now.base_rpy,
+        base_rpy_rate=now.base_rpy_rate,
+        angular_momentum_W=now.angular_momentum_W,
+        end_effectors_W=[e.position_W for e in now.end_effectors],
+        end_effector_velocities_W=[e.velocity_W for e in now.end_effectors],
+        end_effector_yaw=[e.yaw for e in now.end_effectors],
+    )
+    return MeasuredState(t if clock_s is None else clock_s, knot, tuple(e.surface for e in now.end_effectors))
+
+
+def test_planning_needs_neither_a_simulator_nor_a_urdf():
+    heavy = ("mujoco", "pinocchio", "proxsuite", "scipy")
+    script = f"import sys, mcplan.online; print([m for m in {heavy} if m in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_what_is_submitted_comes_back_as_the_plan_that_replan_makes(plan):
+    measured = state(plan, 1.0, push=(0.0, 0.1, 0.0))
+    with Planner(plan) as planner:
+        assert planner.poll() is None
+        ticket = planner.submit(measured)
+        update = planner.wait()
+        assert planner.poll() is None and not planner.busy  # handed out once
+    expected = mp.replan(plan, 1.0, measured.knot, contacts=list(measured.contacts))
+    assert update.ticket == ticket == 1 and update.usable and update.begins_s == 1.0
+    assert update.status == expected.report.status.name and update.plan.knots == expected.plan.knots
+    assert update.kept_until_s == 1.0 + expected.report.kept_until_s and update.took_s > 0.0
+
+
+def test_the_next_plan_is_made_from_the_one_taken_over(plan):
+    with Planner(plan, begins_s=-0.5) as planner:  # the plan began half a second before the clock
+        planner.submit(state(plan, 1.0, clock_s=0.5))
+        first = planner.wait()
+        planner.take_over(first)
+        assert planner.plan is first.plan and planner.begins_s == 0.5
+        planner.submit(state(first.plan, 0.2, clock_s=0.7))
+        second = planner.wait()
+    assert second.usable and second.begins_s == 0.7
+    assert second.plan.duration() == pytest.approx(plan.duration() - 1.2, abs=0.4)
+
+
+def test_a_state_that_waits_is_replaced_by_a_later_one(plan):
+    with Planner(plan) as planner:
+        for t in (0.5, 0.6, 0.7, 0.8):
+            last = planner.submit(state(plan, t))
+        update = planner.wait()
+    assert update.ticket == last and update.begins_s == 0.8
+
+
+def test_a_state_that_is_refused_leaves_the_plan_and_the_thread_alone(plan):
+    bad = state(plan, 1.0)
+    bad.knot.com_W = [np.nan, 0.0, 0.8]
+    with Planner(plan) as planner:
+        planner.submit(bad)
+        update = planner.wait()
+        assert not update.usable and update.plan is None and "com_W" in update.message
+        with pytest.raises(mp.InvalidInput, match="must have a plan"):
+            planner.take_over(update)
+        planner.submit(state(plan, 1.0))
+        assert planner.wait().usable and planner.plan is plan
+
+
+def test_closing_ends_the_thread(plan):
+    before = threading.active_count()
+    planner = Planner(plan)
+    planner.close()
+    assert threading.active_count() == before
+    with pytest.raises(mp.InvalidInput, match="must be open"):
+        planner.submit(state(plan, 1.0))
+
+
+@pytest.mark.parametrize(
+    ("status", "came_from", "kept_s", "usable"),
+    [
+        ("solved", "same_sequence", 0.0, True),
+        ("acceptable", "other_sequence", 0.0, True),
+        ("solved", "previous_plan", 9.0, False),
+        ("infeasible", "same_sequence", 0.1, False),
+        ("infeasible", "same_sequence", 0.3, True),
+        ("time_limit", "same_sequence", 0.3, True),
+        ("time_limit", "previous_plan", 9.0, False),
+        ("no_sequence", "search", 9.0, False),
+    ],
+)
+def test_plans_are_followed_as_their_status_says(status, came_from, kept_s, usable):
+    assert follows(getattr(mp.Status, status), came_from, kept_s, 0.1) is usable
+
+
+def test_a_foot_that_is_about_to_land_is_not_kicked_up(plan):
+    t = next(
+        t
+        for t in np.arange(0.3, 3.0, 0.01)
+        if plan.at(t).end_effectors[0].surface < 0 or plan.at(t).end_effectors[1].surface < 0
+    )
+    foot = next(i for i in (0, 1) if plan.at(t).end_effectors[i].surface < 0)
+    lands = next(s for s in np.arange(t, 5.0, 0.002) if plan.at(s).end_effectors[foot].surface >= 0)
+    measured = state(plan, lands - 0.05)
+    result = mp.replan(plan, lands - 0.05, measured.knot, contacts=list(measured.contacts)).plan
+    swings = result.swings
+    for swing in swings:
+        swing.height = 0.1
+    result.swings = swings
+    kicked = max(abs(result.at(s).end_effectors[foot].velocity_W[2]) for s in np.arange(0.0, 0.045, 0.002))
+    calm = max(abs(_calmed(result).at(s).end_effectors[foot].velocity_W[2]) for s in np.arange(0.0, 0.045, 0.002))
+    assert kicked > 3.0 and calm < RISE_M_S + 0.6
+    assert all(s.height == 0.1 for s in result.swings if s.first_phase > 0)
+
+
+def test_replans_are_due_by_the_period_at_touchdowns_and_off_the_plan(plan):
+    pace, now = Pace(OnlineOptions(period_s=0.1, pause_s=0.03)), plan.at(1.0)
+    com, velocity = np.array(now.com_W), np.array(now.com_velocity_W)
+    assert pace.due(0.05, False, plan, 1.0, com, velocity) is None
+    assert pace.due(0.1, False, plan, 1.0, com, velocity) == "period"
+    assert pace.due(0.05, True, plan, 1.0, com, velocity) == "touchdown"
+    pace.asked(0.05)
+    assert pace.due(0.06, True, plan, 1.0, com, velocity) is None  # too soon, but not forgotten
+    assert pace.due(0.08, False, plan, 1.0, com, velocity) == "touchdown"
+    pace.asked(0.08)
+    assert pace.due(0.12, False, plan, 1.0, com + [0.0, 0.03, 0.0], velocity) == "CoM"
+    assert pace.due(0.12, False, plan, 1.0, com, velocity + [0.0, 0.2, 0.0]) == "capture point"
+
+
+def test_the_capture_point_is_that_of_the_pendulum(plan):
+    now = plan.at(1.0)
+    off, speed = np.array([0.01, -0.02, 0.0]), np.array([0.1, 0.2, 0.0])
+    com_m, capture_m = distances(plan, 1.0, now.com_W + off, now.com_velocity_W + speed)
+    time_s = np.sqrt(plan.robot.com_height / plan.scene.gravity)
+    assert com_m == pytest.approx(np.linalg.norm(off)) and capture_m == pytest.approx(
+        np.linalg.norm(off + time_s * speed)
+    )
+    assert distances(plan, plan.duration() + 5.0, plan.at(plan.duration()).com_W, np.zeros(3)) == (0.0, 0.0)
+
+
+def test_nothing_is_replanned_where_only_standing_is_left(plan):
+    assert steps_left(plan, 0.0) and not steps_left(plan, plan.duration() - 0.01)
+    assert not steps_left(plan, plan.duration() + 1.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("period_s", 0.0), ("latency_s", -0.1), ("command", ((1.0, 0.0),)), ("com_margin_m", 0.0), ("pause_s", 2.0)],
+)
+def test_options_out_of_range_are_refused_by_name(name, value):
+    with pytest.raises(mp.errors.InvalidOptions, match=name):
+        OnlineOptions(**{name: value}).validate()
+
+
+def test_legs_that_catch_a_robot_reach_as_far_as_their_joints_let_them():
+    robot = mp.load_robot("talos")
+    before, wide = robot.__copy__(), widened(robot)
+    assert robot == before and wide != robot
+    for old, new in zip(robot.end_effectors, wide.end_effectors, strict=True):
+        if old.kind != "foot":
+            assert new == old
+            continue
+        assert (np.array(new.reach_min_B) <= old.reach_min_B).all() and (
+            np.array(new.reach_max_B) >= old.reach_max_B
+        ).all()
+        assert new.limb == old.limb  # hips, knees and ankles stay as they are
+        (row,), (bound,) = (
+            new.partner_reach[{"right_foot": "left_foot", "left_foot": "right_foot"}[new.name]].A,
+            [-0.14],
+        )
+        side = np.sign(new.nominal_B[1])
+        assert (
+            row @ [0.0, -side * 0.15, 0.0] < bound < row @ [0.0, -side * 0.13, 0.0]
+        )  # 14 cm apart, on their own sides
+    for name in ("humanoid44", "go2"):  # nothing is known of their joints, or they have four feet
+        other = mp.load_robot(name)
+        assert widened(other) is other

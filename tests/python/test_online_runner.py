@@ -1,0 +1,134 @@
+"""Walking with replanning in simulation: time is honest, runs repeat, and pushes that were falls are survived."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+import mcplan as mp
+
+for name in ("mujoco", "pinocchio", "proxsuite", "example_robot_data"):
+    pytest.importorskip(name)
+
+from mcplan.cli import main  # noqa: E402
+from mcplan.tracking import Measures  # noqa: E402
+
+LATENCY = 0.02
+
+
+@pytest.fixture(scope="module")
+def plan():
+    return mp.plan("flat", "talos").plan
+
+
+def test_runs_with_a_fixed_latency_are_the_same_to_the_byte(plan):
+    first, second = (mp.run(plan, latency=LATENCY, duration=0.4, self_contacts=False) for _ in range(2))
+    for item in dataclasses.fields(first.recording):
+        value = getattr(first.recording, item.name)
+        if isinstance(value, np.ndarray):
+            assert value.tobytes() == getattr(second.recording, item.name).tobytes(), item.name
+    assert first.online.replans == second.online.replans >= 3
+    assert [f.plan.knots for f in first.plans] == [f.plan.knots for f in second.plans]
+
+
+def test_no_plan_is_followed_before_its_computation_would_have_ended(plan):
+    fixed = mp.run(plan, latency=LATENCY, duration=0.4, self_contacts=False)
+    assert len(fixed.plans) > 2
+    for followed in fixed.plans[1:]:
+        assert followed.from_s >= followed.begins_s + LATENCY - 1e-9
+    assert fixed.online.latency_ms == pytest.approx(1e3 * LATENCY)
+    true = mp.run(plan, duration=0.4, self_contacts=False)
+    for followed in true.plans[1:]:
+        assert followed.from_s >= followed.begins_s + followed.took_s - 1e-9
+    assert true.online.replans_late is None and true.online.latency_ms > 0.0
+
+
+def test_references_go_on_without_jumps(plan):
+    run = mp.run(plan, latency=LATENCY, duration=0.6, self_contacts=False).recording
+    step = run.times_s[1]
+    fastest = np.linalg.norm(np.diff(run.com_plan_W, axis=0), axis=1).max() / step
+    assert fastest < 0.5  # a jump of 2 mm would be 1 m/s
+    assert np.linalg.norm(np.diff(run.com_plan_W, n=2, axis=0), axis=1).max() / step**2 < 50.0
+
+
+def test_a_push_that_is_a_fall_open_loop_is_survived(plan):
+    """250 N to the left for 0.2 s as the left foot has left the ground."""
+    told = {"push": (250.0, 0.2, 1.4, 90.0), "latency": LATENCY, "self_contacts": False, "duration": 3.2}
+    followed = mp.run(plan, replanning=False, **told)
+    assert followed.measures.fell and followed.online.replans == 0
+    replanned = mp.run(plan, **told)
+    assert not replanned.measures.fell and replanned.online.contact_changes > 0
+    assert replanned.online.replans_used > 20 and replanned.online.oldest_plan_s < 0.5
+
+
+def test_the_command_prints_what_track_prints_and_how_planning_went(plan, tmp_path, capsys):
+    file, run = tmp_path / "plan.npz", tmp_path / "run.npz"
+    plan.save(file)
+    words = ["run", file, "--latency", LATENCY, "--duration", 0.3, "--push", "50,0.1,0.1,90", "--json", "--save", run]
+    code = main([str(word) for word in words])
+    out = json.loads(capsys.readouterr().out)
+    assert code == 0 and out["followed"] and out["options"]["pushes"][0]["force_N"] == 50.0
+    keys = {"replans", "replans_used", "replan_ms_median", "replan_ms_p99", "latency_ms", "oldest_plan_s"}
+    assert keys | {"contact_changes", "replans_late"} <= set(out)
+    assert {item.name for item in dataclasses.fields(Measures)} <= set(out)
+    assert out["latency_ms"] == pytest.approx(20.0) and out["replans"] >= 2
+    assert mp.track is not None and len(run.read_bytes()) > 1000
+
+
+def test_a_robot_for_which_no_plan_comes_is_brought_to_a_stand(plan, monkeypatch):
+    from mcplan.online import planner, runner
+
+    asked = []
+
+    def only_to_stand(*arguments):
+        asked.append(arguments[4])
+        if arguments[4] != runner.STAND:
+            raise mp.InvalidInput("test", "must stand")
+        return replan(*arguments)
+
+    replan = planner.replan
+    monkeypatch.setattr(planner, "replan", only_to_stand)
+    run = mp.run(plan, latency=LATENCY, duration=0.6, stop_after_s=0.25, self_contacts=False)
+    assert run.online.stops >= 1 and run.online.replans_used >= 1 and not run.measures.fell
+    assert asked[0] is None and runner.STAND in asked
+    assert run.online.statuses["error"] >= 2
+
+
+def test_commands_change_while_the_robot_walks(plan):
+    command = [(0.1, 0.0, 0.0), (0.3, 0.0, 0.05, 0.2)]
+    run = mp.run(plan, command=command, latency=LATENCY, duration=0.5, self_contacts=False)
+    assert run.online_options.command == ((0.0, 0.1, 0.0, 0.0), (0.3, 0.0, 0.05, 0.2))
+    assert run.online_options.command_at(0.2) == (0.1, 0.0, 0.0) and run.online_options.command_at(0.31) == (
+        0.0,
+        0.05,
+        0.2,
+    )
+    turns = [followed.plan.knots[-1].base_rpy[2] for followed in run.plans]
+    assert abs(turns[2]) < 0.05 < turns[-1] and not run.measures.fell
+
+
+def test_a_velocity_is_walked_at(plan):
+    run = mp.run(plan, command=(0.1, 0.0, 0.0), latency=LATENCY, duration=0.4, self_contacts=False)
+    assert not run.measures.fell and run.online.replans_used >= 3
+    assert all("m/s" in followed.message or followed.message for followed in run.plans[1:])
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"latencies": 1}, "latencies: no such option"),
+        ({"assist": True}, "assist: no such option"),
+        ({"latency": "soon"}, "latency_s: must be a number"),
+        ({"command": (1.0, 2.0)}, "command: must be three finite numbers, or four"),
+        ({"push": (250.0, 0.2, 99.0, 0.0)}, r"pushes\[0\].at_s: must lie before the end"),
+    ],
+)
+def test_wrong_options_are_named(plan, options, message):
+    with pytest.raises(mp.InvalidInput, match=message):
+        mp.run(plan, **options)
+
+
+def test_a_scene_needs_a_robot():
+    with pytest.raises(mp.InvalidInput, match="robot: must be given with a scene"):
+        mp.run("flat")
