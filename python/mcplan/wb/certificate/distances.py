@@ -7,7 +7,7 @@ and found a hundred times faster than that of meshes.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -123,12 +123,10 @@ def _least_of(states: States, pair: tuple[Shape, Shape], gaps: Array, least: Mot
         value = distance(states, pair, k, hulls=True)
         if value < target:
             value = distance(states, pair, k)
-        if value < least.value:
-            links = (pair[0].link, pair[1].link)
-            least = MotionViolation(
-                "self_distance", value, least.limit, "m", float(states.times[k]), "", "", links, True
-            )
-            target = _target(least)
+            if value < least.value:
+                links, time_s = (pair[0].link, pair[1].link), float(states.times[k])
+                least = replace(least, value=value, time_s=time_s, links=links)
+                target = _target(least)
         k = max(k + 1, int(np.searchsorted(travel, travel[k] + value - target, side="right")))
     return least
 
