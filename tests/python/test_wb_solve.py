@@ -16,6 +16,8 @@ import mcplan as mp  # noqa: E402
 from mcplan.errors import Interrupted, InvalidInput, InvalidOptions  # noqa: E402
 from mcplan.kinematics.urdf_model import load_model  # noqa: E402
 from mcplan.wb import MotionStatus, splines  # noqa: E402
+from mcplan.wb.capsules import keep_apart, link_capsules  # noqa: E402
+from mcplan.wb.certificate import MotionViolation  # noqa: E402
 from mcplan.wb.contact_points import corners_S, points_S, to_corners  # noqa: E402
 from mcplan.wb.knots import subdivided, with_knots  # noqa: E402
 from mcplan.wb.moving_joints import moving_joints  # noqa: E402
@@ -56,10 +58,16 @@ def test_a_motion_is_the_same_bytes_each_time():
     assert mp.motion(talos_steps()).motion.to_bytes() == solved().motion.to_bytes()
 
 
-@pytest.mark.parametrize("robot", ["talos", "g1"])
+@pytest.mark.parametrize("robot", ["talos", "g1", "go2"])
 def test_derivatives_are_those_of_differences(robot: str):
-    plan = stepping_plan(1, robot=mp.load_robot(robot))
+    make = standing_plan if robot == "go2" else lambda robot: stepping_plan(1, robot=robot)
+    plan = make(robot=mp.load_robot(robot))
     search = _Search.of(plan, "default", 0.1)
+    capsules = list(link_capsules(search.model).values())
+    numbers = [search.problem.add_capsule(own.joint + 4, own.start, own.end, own.radius) for own in capsules]
+    for first, second in ((0, 5), (3, -1), (9, 12)):
+        search.problem.add_pair(numbers[first], numbers[second], 0.01)
+    search.renew()
     generator = np.random.default_rng(7)
     x = search.start("follow")
     x = x + 0.05 * generator.standard_normal(x.size)
@@ -187,6 +195,53 @@ def test_contact_points_lie_on_the_surface_under_the_sole():
     moved = points_S(plan, interval)
     assert moved[:, 0].max() <= 0.05 and moved[:, 0].min() < -0.08
     talos_steps.cache_clear()
+
+
+def test_links_that_are_too_near_are_moved_apart():
+    """Arms are asked to stay 3 cm farther from the thighs than they are: a motion that does so is found and certified."""
+    search = _Search.of(talos_steps(), "default", 0.025)
+    q = solved().motion.sample([1.5]).q[0]
+    capsules = link_capsules(search.model)
+    near = MotionViolation(
+        "self_distance", -0.02, 0.005, "m", 1.5, "", "", ("arm_left_7_link", "leg_left_3_link"), True
+    )
+    assert keep_apart(search.problem, search.model, capsules, near, q)
+    search.renew()
+    from mcplan.wb.solve import _Found
+
+    found = _Found()
+    search.solve(found, search.start("follow"), 60, np.inf)
+    assert found.last.status == mp.Status.solved and found.last.penalty < 0.1
+    moved, still = search.motion(found.last.x), solved().motion
+    apart = [_distance(search, motion, capsules, "arm_left_7_link", "leg_left_3_link") for motion in (moved, still)]
+    assert apart[0] >= apart[1] + 0.029
+    assert moved.check().of("torque").value <= 1.0
+
+
+def _distance(search: _Search, motion: mp.wb.Motion, capsules: dict, first: str, second: str) -> float:
+    from mcplan.wb.capsules import _apart
+
+    return _apart(search.model, motion.sample([1.5]).q[0], capsules[first], capsules[second])
+
+
+def test_capsules_contain_their_links():
+    import pinocchio as pin
+
+    search = _Search.of(talos_steps(), "all", 0.1)
+    capsules, path = link_capsules(search.model), search.model.complete.path
+    from mcplan.files.urdf_reading import package_folders
+
+    model = search.model.complete.model
+    shapes = pin.buildGeomFromUrdf(model, str(path), pin.GeometryType.COLLISION, None, package_folders(path))
+    assert len(capsules) >= 40
+    for shape in shapes.geometryObjects:
+        own = capsules[shape.name.rpartition("_")[0]]
+        points = np.array(shape.geometry.vertices()) @ shape.placement.rotation.T + shape.placement.translation
+        along = own.end - own.start
+        part = np.clip((points - own.start) @ along / max(along @ along, 1e-12), 0.0, 1.0)
+        off = np.linalg.norm(points - own.start - part[:, None] * along, axis=1)
+        assert off.max() <= own.radius + 1e-5, shape.name
+        assert off.max() >= own.radius - 1e-3, shape.name
 
 
 def test_a_finer_motion_leaves_less_on_the_base():

@@ -96,6 +96,7 @@ void bind_rows(py::class_<wb::Problem>& c) {
       "add_capsule",
       [](wb::Problem& self, int link, const Vector3d& start, const Vector3d& end, double radius) {
         self.capsules.push_back({link, start, end, radius});
+        return self.capsules.size() - 1;
       },
       py::arg("link"), py::arg("start"), py::arg("end"), py::arg("radius"));
   c.def(

@@ -78,7 +78,7 @@ class Problem:
         start: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
         end: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
         radius: typing.SupportsFloat | typing.SupportsIndex,
-    ) -> None: ...
+    ) -> int: ...
     def add_contact(
         self,
         end_effector: typing.SupportsInt | typing.SupportsIndex,

@@ -17,6 +17,8 @@ Array = NDArray[np.float64]
 
 #: Beyond a limit by less [ratio; m], a motion is left to its certificate.
 SMALL_RATIO, SMALL_M = 1e-6, 1e-3
+#: Factor of a limit by which a motion that is not quite a solution tells that the robot lacks something.
+MUCH = 1.1
 #: Misses of a foothold [m, rad] that say that it is not reached.
 MISS = 1e-3
 
@@ -76,17 +78,19 @@ def _limb(motion: Motion, q: Array, end: int) -> tuple[str, Array]:
     return str(model.names[first]), np.array(data.oMi[first].translation)
 
 
-def shortfall_of(usage: Array, converged: bool, exceeding: bool, nodes: Nodes, motion: Motion) -> Shortfall | None:
+def shortfall_of(usage: Array, converged: bool, near: bool, nodes: Nodes, motion: Motion) -> Shortfall | None:
     """What is exceeded at the end of a search, or not reached; None: nothing that is known.
 
     Args:
         usage: Of limits, at the end.
         converged: Whether the search did.
-        exceeding: Whether it converged while limits could be exceeded at a low price, and exceeded some.
+        near: Whether, though it did not, all else than limits holds nearly, so that what exceeds them by much is lacking.
         nodes: The solver's.
         motion: The motion.
     """
-    found = limits_exceeded(usage, nodes, motion) if converged or exceeding else None
+    found = limits_exceeded(usage, nodes, motion) if converged or near else None
+    if found is not None and not converged and found.factor < MUCH:
+        found = None
     if found is None and not converged:
         found = not_reached(motion, nodes)
     return found

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +24,7 @@ from mcplan.files.urdf_setups import SETUPS
 
 from . import start as starts
 from .between_nodes import balanced, with_forces, with_model
+from .capsules import LinkCapsule, keep_apart, link_capsules
 from .contact_points import corners_S, points_S, to_corners
 from .motion import CORNERS, Motion
 from .motion_model import MotionModel, motion_model
@@ -44,6 +45,10 @@ STARTS = ("follow", "stand")
 #: Scaled rows within which a motion keeps its constraints: 0.03 N, 0.03 mm.
 #: Of a motion's cost what exceeded limits may cost, and by how much they are made dearer where they cost more.
 SMALL_PENALTY, DEARER = 1e-3, 30.0
+#: Times at most that links are told to keep a distance, and solves are repeated.
+ROUNDS = 4
+#: Violation of scaled rows (1 N, 1 mm) with which a search that has not converged says by what a motion exceeds limits.
+NEARLY = 1e-2
 CONSTRAINT_TOLERANCE, COST_TOLERANCE, TOLERANCE, BARRIER = 3e-4, 1e-4, 1e-5, 0.1
 
 _log = logging.getLogger("mcplan.wb")
@@ -76,16 +81,24 @@ def _searched(
 ) -> MotionResult:
     x = search.start(start)
     started = time.perf_counter()
-    try:
-        found = search.solve(x, max_iterations, until)
-    except Interrupted as interrupted:
-        stopped = _Found.of(interrupted.result)
-        if stopped is None:
-            raise
-        result = search.result(stopped, began, started)
-        raise Interrupted(_with_status(result, MotionStatus.INTERRUPTED)) from None
-    result = search.result(found, began, started)
-    return _judged(search, found, result, tolerances)
+    found, certified_s, result = _Found(), 0.0, None
+    while True:
+        try:
+            search.solve(found, x, max_iterations, until)
+        except Interrupted:
+            if not found.solves:
+                raise
+            stopped = search.result(found, began, started, certified_s)
+            raise Interrupted(_with_status(stopped, MotionStatus.INTERRUPTED)) from None
+        before, certified_before, result = result, certified_s, search.result(found, began, started, certified_s)
+        result = _judged(search, found, result, tolerances)
+        certified_s = result.report.certificate_s
+        if result.certificate is None and before is not None:
+            return _with_status(before, before.status, iterations=result.iterations, certificate_s=certified_s)
+        if not search.keep_apart(result):
+            return result
+        x = search.again(found.last.x)
+        until += certified_s - certified_before
 
 
 def _plan_of(plan: Plan | str | Path) -> Plan:
@@ -108,16 +121,21 @@ def _require_options(node_s: float, max_iterations: int, time_limit_s: float, st
         raise InvalidOptions("start", f"must be one of {', '.join(STARTS)}", shown(start))
 
 
-@dataclass(frozen=True)
+@dataclass
 class _Found:
-    """The last solution, and all solves of which each began where the one before ended."""
+    """All solves so far, of which each began where the one before ended.
 
-    last: _core.Solution
-    solves: tuple[_core.Solution, ...]
+    Attributes:
+        solves: They.
+        exceeding: Whether one converged while it exceeded limits, which are made dearer then.
+    """
 
-    @staticmethod
-    def of(result: Any) -> _Found | None:
-        return result if isinstance(result, _Found) or result is None else _Found(result, (result,))
+    solves: list[_core.Solution] = field(default_factory=list)
+    exceeding: bool = False
+
+    @property
+    def last(self) -> _core.Solution:
+        return self.solves[-1]
 
 
 @dataclass
@@ -133,6 +151,8 @@ class _Search:
     problem: _core.Problem
     dynamics: Dynamics
     solver: _core.Solver
+    capsules: dict[str, LinkCapsule] = field(default_factory=dict)
+    rounds: int = 0
 
     @staticmethod
     def of(plan: Plan, which: str | Sequence[str], node_s: float) -> _Search:
@@ -159,46 +179,69 @@ class _Search:
         forces = starts.planned_forces_S(self.plan, self.nodes, self.problem.weight_N)
         return self.solver.unknowns(make(self.plan, self.model, self.nodes), forces)
 
-    def solve(self, x: Array, max_iterations: int, until: float) -> _Found:
-        """The solution, until a time of the performance counter. Limits that it exceeds are made dearer, from there on."""
-        first = self._solve_once(x, max_iterations, until)
-        if first.status.name != "solved" or not first.penalty > SMALL_PENALTY * first.cost:
-            return _Found(first, (first,))
+    def solve(self, found: _Found, x: Array, max_iterations: int, until: float) -> None:
+        """Solve, until a time of the performance counter. Limits that are exceeded are made dearer, from there on."""
+        self._solve_once(found, x, max_iterations, until)
+        first = found.last
+        if first.status.name != "solved" or not first.penalty > SMALL_PENALTY * first.cost or found.exceeding:
+            return
+        found.exceeding = True
         weights = self.problem.weights
         weights.elastic *= DEARER
         self.problem.weights = weights
+        self.renew()
+        self._solve_once(found, first.x, max_iterations, until)
+
+    def renew(self) -> None:
+        """Make the solver of the problem as it is now."""
         self.solver = self.dynamics.solver = _core.Solver(self.problem, self.dynamics)
-        try:
-            second = self._solve_once(first.x, max_iterations, until)
-        except Interrupted as interrupted:
-            raise Interrupted(_Found(interrupted.result or first, (first,))) from None
-        return _Found(second, (first, second))
 
-    def _solve_once(self, x: Array, max_iterations: int, until: float) -> _core.Solution:
+    def keep_apart(self, result: MotionResult) -> bool:
+        """Let the links that a certificate finds nearest keep a distance; False: none are, or it was tried enough."""
+        near = result.certificate.of("self_distance") if result.certificate else None
+        if near is None or not near.violated or self.rounds == ROUNDS:
+            return False
+        self.rounds += 1
+        self.capsules = self.capsules or link_capsules(self.model)
+        return keep_apart(self.problem, self.model, self.capsules, near, result.motion.sample([near.time_s]).q[0])
+
+    def again(self, x: Array) -> Array:
+        """Unknowns of the problem with the rows that it has now, from those of the solver before."""
+        coefficients, forces = self.solver.coefficients(x), self.solver.forces(x)
+        self.renew()
+        return self.solver.unknowns(coefficients, forces)
+
+    def _solve_once(self, found: _Found, x: Array, max_iterations: int, until: float) -> None:
         log: Callable[[str], None] | None = _log.info if _log.isEnabledFor(logging.INFO) else None
-        return self.solver.solve(
-            start=x,
-            max_iterations=max_iterations,
-            time_limit_s=max(until - time.perf_counter(), 1e-3),
-            constraint_tolerance=CONSTRAINT_TOLERANCE,
-            cost_tolerance=COST_TOLERANCE,
-            tolerance=TOLERANCE,
-            initial_barrier=BARRIER,
-            log=log,
-        )
+        try:
+            solution = self.solver.solve(
+                start=x,
+                max_iterations=max_iterations,
+                time_limit_s=max(until - time.perf_counter(), 1e-3),
+                constraint_tolerance=CONSTRAINT_TOLERANCE,
+                cost_tolerance=COST_TOLERANCE,
+                tolerance=TOLERANCE,
+                initial_barrier=BARRIER,
+                log=log,
+            )
+        except Interrupted as interrupted:
+            if interrupted.result is not None:
+                found.solves.append(interrupted.result)
+            raise
+        found.solves.append(solution)
 
-    def result(self, found: _Found, began: float, started: float) -> MotionResult:
+    def result(self, found: _Found, began: float, started: float, certified_s: float) -> MotionResult:
         """The motion of a solution; its status is not decided on yet."""
         made = balanced(self.motion(found.last.x))
         report = MotionReport(
             status=MotionStatus.NOT_CONVERGED,
             message=found.last.message,
             iterations=sum(one.iterations for one in found.solves),
-            time_s=time.perf_counter() - began,
+            time_s=time.perf_counter() - began - certified_s,
             start_s=started - began,
             evaluation_s=sum(one.evaluation_s for one in found.solves),
             linear_solver_s=sum(one.linear_solver_s for one in found.solves),
-            certificate_s=0.0,
+            certificate_s=certified_s,
             cost=found.last.cost,
         )
         return MotionResult(made, report)
@@ -245,7 +288,8 @@ def _judged(search: _Search, found: _Found, result: MotionResult, tolerances: Mo
     if ended == "time_limit":
         return _with_status(result, MotionStatus.TIME_LIMIT)
     usage = np.asarray(search.solver.usage(found.last.x))
-    shortfall = shortfall_of(usage, ended == "solved", len(found.solves) > 1, search.nodes, result.motion)
+    near = found.exceeding or found.last.violation <= NEARLY
+    shortfall = shortfall_of(usage, ended == "solved", near, search.nodes, result.motion)
     if shortfall is not None:
         kind = {"torque": MotionStatus.TORQUE_INFEASIBLE, "speed": MotionStatus.SPEED_INFEASIBLE}
         return _with_status(result, kind.get(shortfall.what, MotionStatus.REACH_INFEASIBLE), shortfall=shortfall)
@@ -254,5 +298,6 @@ def _judged(search: _Search, found: _Found, result: MotionResult, tolerances: Mo
     certificate = certify(result.motion, tolerances)
     status = MotionStatus.SOLVED if certificate.ok() else MotionStatus.NOT_CERTIFIED
     message = "the certificate holds" if certificate.ok() else str(certificate.violations()[0])
-    judged = _with_status(result, status, message=message, certificate_s=certificate.time_s)
+    spent = result.report.certificate_s + certificate.time_s
+    judged = _with_status(result, status, message=message, certificate_s=spent)
     return replace(judged, certificate=certificate)
