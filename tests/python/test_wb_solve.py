@@ -227,6 +227,8 @@ def _distance(search: _Search, motion: mp.wb.Motion, capsules: dict, first: str,
 def test_capsules_contain_their_links():
     import pinocchio as pin
 
+    from mcplan.wb.capsules import _points
+
     search = _Search.of(talos_steps(), "all", 0.1)
     capsules, path = link_capsules(search.model), search.model.complete.path
     from mcplan.files.urdf_reading import package_folders
@@ -236,7 +238,7 @@ def test_capsules_contain_their_links():
     assert len(capsules) >= 40
     for shape in shapes.geometryObjects:
         own = capsules[shape.name.rpartition("_")[0]]
-        points = np.array(shape.geometry.vertices()) @ shape.placement.rotation.T + shape.placement.translation
+        points = _points(shape.geometry) @ shape.placement.rotation.T + shape.placement.translation
         along = own.end - own.start
         part = np.clip((points - own.start) @ along / max(along @ along, 1e-12), 0.0, 1.0)
         off = np.linalg.norm(points - own.start - part[:, None] * along, axis=1)

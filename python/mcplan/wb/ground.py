@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 #: Farthest from the plan's place, upward, downward and sideways [m]; sideways the first that leaves this part of the
 #: height over the ground right below.
 UP_M, DOWN_M, ASIDE_M, LEAST_RATIO = 0.1, 0.1, (0.02, 0.01, 0.004, 0.001), 0.7
+#: Likewise sideways and upward in flights [m].
+FLIGHT_M = 0.3
 #: Kept over the ground from this part of a swing to its middle [m], growing from nothing in the parts before: where a sole
 #: that is to be lifted within a node asks for all the torque that there is.
 MIDDLE_M, MIDDLE, ENDS = 0.014, 0.35, 0.15
@@ -74,6 +76,8 @@ class Ground:
             if over >= LEAST_RATIO * under:
                 break
         down = max(0.0, over - min(keep, 0.5 * over))
+        if nodes.flies(k):  # where the whole robot goes is for its CoM to say
+            return np.array([-FLIGHT_M, -FLIGHT_M, -down]), np.array([FLIGHT_M, FLIGHT_M, FLIGHT_M])
         return np.array([-aside, -aside, -down]), np.array([aside, aside, UP_M])
 
 

@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan.kinematics.samples import Interval, Samples, knots_and_between, sample_at
+from mcplan.kinematics.samples import Interval, Samples, sample_at
 
 if TYPE_CHECKING:
     from mcplan._core import Plan
 
 Array = NDArray[np.float64]
 
+#: Steps in flights and in the phases beside them [s].
+FLIGHT_S = 0.01
 #: Parts of a swing at its begin and end in which feet go up and down alone.
 UPRIGHT = 0.06
 #: Where the middle of a swing begins.
@@ -83,8 +85,8 @@ class Nodes:
 
 
 def nodes_of(plan: Plan, step_s: float) -> Nodes:
-    """Nodes at all knots of a plan and in equal steps of at most step_s between them."""
-    times = knots_and_between(plan, 1.0 / step_s)
+    """Nodes at all knots of a plan and in equal steps of at most step_s between them, in and beside flights of FLIGHT_S."""
+    times = _times(plan, step_s)
     times = times[np.concatenate([[True], np.diff(times) > SAME_S])]
     times[-1] = plan.duration()
     samples = sample_at(plan, plan.scene, plan.robot, times)
@@ -104,6 +106,19 @@ def nodes_of(plan: Plan, step_s: float) -> Nodes:
     nodes = Nodes(samples, zyx, contacts, intervals, first, last, samples.positions_W.copy())
     _go_upright(plan, nodes)
     return nodes
+
+
+def _times(plan: Plan, step_s: float) -> Array:
+    knots = np.array(plan.knot_times(), float)
+    flies = np.array([all(contact.surface < 0 for contact in phase.contacts) for phase in plan.phases])
+    beside = flies.copy()
+    beside[1:] |= flies[:-1]
+    beside[:-1] |= flies[1:]
+    parts = [knots[:1]]
+    for start, end, fine in zip(knots[:-1], knots[1:], beside, strict=True):
+        step = min(step_s, FLIGHT_S) if fine else step_s
+        parts.append(np.linspace(start, end, max(1, int(np.ceil((end - start) / step - SAME_S))) + 1)[1:])
+    return np.concatenate(parts)
 
 
 def _go_upright(plan: Plan, nodes: Nodes) -> None:

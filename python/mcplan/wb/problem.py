@@ -53,9 +53,8 @@ def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array)
             elif touches[end]:
                 foot = plan.robot.end_effectors[end].kind == "foot"
                 low, high = ground.tube_W(plan, nodes, k, end)
-                in_tube = foot and not nodes.flies(k)
                 pose, weight = (nodes.swings_W[k, end], samples.rotations_W[k, end]), nodes.middle(k, end)
-                problem.add_swing(end, *pose, weight, in_tube, low, high)
+                problem.add_swing(end, *pose, weight, foot, low, high)
     return problem
 
 
