@@ -35,9 +35,10 @@ mcplan::ddp::Measured measure(const mcplan::Plan& plan, double t, std::mt19937& 
 /// The CoM of every plan from above, from blue (first) to red (last), and where the feet stand.
 void write_page(const std::vector<mcplan::Plan>& plans, const char* path) {
   std::ofstream page(path);
-  page << "<!doctype html><meta charset='utf-8'><title>100 replans of a walk</title><p>CoM (lines) and footholds (dots) "
-          "of every plan from above, from the first (blue) to the last (red).</p><svg viewBox='40 130 720 140' "
-          "width='100%'>";
+  page
+      << "<!doctype html><meta charset='utf-8'><title>100 replans of a walk</title><p>CoM (lines) and footholds (dots) "
+         "of every plan from above, from the first (blue) to the last (red).</p><svg viewBox='40 130 720 140' "
+         "width='100%'>";
   const auto x = [](const Eigen::Vector3d& point_W) { return 60.0 + 300.0 * point_W.x(); };
   const auto y = [](const Eigen::Vector3d& point_W) { return 200.0 - 300.0 * point_W.y(); };
   for (std::size_t i = 0; i < plans.size(); ++i) {

@@ -8,9 +8,10 @@ Row = dict[str, Any]
 
 HEAD = """# Beside other planners
 
-Made by `benchmarks/peers/run.py` on {date} ({machine}, two shared cores that were busy, CPU times of one thread). The
-same goals for all; what each planner must be told is in the tables, since that differs more than the times. `hpp-python` is on
-PyPI, but its contact planner (`hpp-rbprm`) is not; no other planner that searches a contact sequence could be installed.
+Made by `benchmarks/peers/run.py` on {date} ({machine}, two shared cores that were busy, CPU times of
+one thread). The same goals for all; what each planner must be told is in the tables, since that differs more than the times.
+`hpp-python` is on PyPI, but its contact planner (`hpp-rbprm`) is not; no other planner that searches a contact sequence could be
+installed.
 """
 
 SECTIONS = {
@@ -58,8 +59,8 @@ TITLES = {
     "beside_mm": "beside [mm]",
     "median_ms": "CPU [ms]",
     "max_ms": "most [ms]",
-    "torque_use": "torque / limit",
-    "velocity_use": "speed / limit",
+    "torque_use": "torque use",
+    "velocity_use": "speed use",
     "drift_mm": "drift [mm]",
     "base_residual_N": "base [N]",
     "base_residual_Nm": "base [N m]",

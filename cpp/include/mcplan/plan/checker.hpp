@@ -91,15 +91,15 @@ struct Tolerances {
 ///                        tolerance of clearance
 ///
 /// With Plan::start_slack_s T > 0 what the measured start violates by itself is forgiven for a while. v(t) is the most
-/// that the state would be beyond a limit until t if nothing intervened: CoM and base move on straight, at their velocities,
-/// what stands stands, and what is free moves with the base. Of reach (its parts together, but yaw_range apart),
-/// com_speed, joint_speed, clearance, limb, trunk, contact_distance and contact_polygon, each of each end-effector, the
-/// value at time t is what is beyond the limit, less
+/// that the state would be beyond a limit until t if nothing intervened: CoM and base move on straight, at their
+/// velocities, what stands stands, and what is free moves with the base. Of reach (its parts together, but yaw_range
+/// apart), com_speed, joint_speed, clearance, limb, trunk, contact_distance and contact_polygon, each of each
+/// end-effector, the value at time t is what is beyond the limit, less
 ///
 ///     v(t) max(0, 1 - (t / T)^2);
 ///
-/// v is v(0) of all but reach and joint_speed, and of contact_distance and contact_polygon it is forgiven as long as a contact of the
-/// start stands, since a sole does not move. All other constraints are as they are.
+/// v is v(0) of all but reach and joint_speed, and of contact_distance and contact_polygon it is forgiven as long as a
+/// contact of the start stands, since a sole does not move. All other constraints are as they are.
 struct CheckResult {
   std::vector<Violation> constraints;
   bool complete = true;  ///< false: stopped by the caller; what was looked at by then is listed, and ok() is false
