@@ -132,3 +132,23 @@ def test_wrong_options_are_named(plan, options, message):
 def test_a_scene_needs_a_robot():
     with pytest.raises(mp.InvalidInput, match="robot: must be given with a scene"):
         mp.run("flat")
+
+
+def test_pages_and_plots_show_what_was_followed(plan, tmp_path):
+    """The timeline's planned contacts are those of the plans in turn; footholds are drawn as first planned and as made."""
+    pytest.importorskip("meshcat")
+    pytest.importorskip("matplotlib")
+    from mcplan.showing import save_plots
+    from mcplan.view.pages.show_run import _followed_contacts
+
+    run = mp.run(plan, latency=LATENCY, duration=0.4, push=(60.0, 0.1, 0.1, 90.0), self_contacts=False)
+    intervals = _followed_contacts(run.recording)
+    assert {i.end_effector for i in intervals} == {0, 1}
+    assert all(i.end_s == pytest.approx(0.4, abs=0.01) and i.start_s == 0.0 for i in intervals)
+    page = tmp_path / "run.html"
+    mp.show(run).save_html(page)
+    assert "as first planned: footholds" in page.read_text()
+    names = [path.name for path in save_plots(run, None, tmp_path)]
+    assert "footholds.png" in names
+    alone = mp.run(plan, replanning=False, duration=0.1, self_contacts=False)
+    assert "footholds.png" not in [path.name for path in save_plots(alone, None, tmp_path)]

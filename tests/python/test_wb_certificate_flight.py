@@ -169,7 +169,7 @@ def test_convex_hulls_are_nearer_than_their_meshes(talos: Talos, standing: Motio
     for index in some:
         pair = tuple(shapes[i] for i in pairs[index])
         for k in range(2):
-            assert distance(states, pair, k, hulls=True) <= distance(states, pair, k) + 1e-6
+            assert distance(states, pair, k, hulls=True) <= distance(states, pair, k)
 
 
 def test_legs_that_cross_are_seen(talos: Talos, standing: Motion) -> None:

@@ -291,7 +291,7 @@ constexpr double kStanding_s = 0.3;
 constexpr double kCommitted = 1000.0, kKept = 12.0, kKeptBend = 0.01;
 /// First barrier parameter from a state that is not the planned one, and iterations of a sequence.
 constexpr double kReplanBarrier = 1e-3;
-constexpr int kReplanIterations = 45;
+constexpr int kReplanIterations = 42;
 /// A sequence that is foreseen to cost more than this after so many iterations is given up. Measured on 600 draws of
 /// benchmarks/replanning.py: what was accepted cost at most 46, what was not and was given its iterations 100 to
 /// 11,000.

@@ -21,6 +21,10 @@ KEPT_PERIODS = 2.0
 #: Speed at which an end-effector that is in the air is raised over its way at most [m/s], and the largest rate of
 #: 16 s^2 (1 - s)^2 over s.
 RISE_M_S, BUMP_RATE = 0.5, 3.08
+#: Height of a swing over that of the CoM, and its duration [s], where the robot says none.
+SWING_RATIO, USUAL_S = 0.1, 0.45
+#: Share of the usual height that a swing keeps half way to its landing.
+SWING_SHARE = 0.5
 
 
 @dataclass(frozen=True)
@@ -220,16 +224,30 @@ class Planner:
 
 
 def _calmed(plan: Plan) -> Plan:
-    """The plan with swings that are under way kept from rising fast: what is about to land lands.
+    """The plan with the ways of end-effectors in the air kept from the ground, and none kicked up.
 
-    The way of an end-effector in the air goes on from where it is by a spline, plus 16 s^2 (1 - s)^2 times a height that
-    takes it clear of the ground. With 50 ms to go such a height is a kick, and the ground is where it is due.
+    The way of an end-effector in the air goes on from where it is by a spline, plus 16 s^2 (1 - s)^2 times a height. The
+    spline alone sinks at once, and replan after replan toes come to drag: half way to its landing the end-effector is to be
+    half as high as in a swing of usual duration with that much of it left. With 50 ms to go such a height is a kick: its way is
+    raised by no more than RISE_M_S.
     """
-    swings = plan.swings
+    swings, robot = plan.swings, plan.robot
+    usual_m = robot.swing_height if robot.swing_height > 0.0 else SWING_RATIO * robot.com_height
+    usual_s = 0.5 * sum(robot.phase_duration) if robot.phase_duration[1] > 0.0 else USUAL_S
     for swing in swings:
-        if swing.first_phase == 0 and plan.phases[0].contacts[swing.end_effector].surface < 0:
-            left_s = sum(phase.duration for phase in plan.phases[: swing.end_phase])
-            swing.height = min(swing.height, RISE_M_S * left_s / BUMP_RATE)
+        end = swing.end_effector
+        if (
+            swing.first_phase > 0
+            or plan.phases[0].contacts[end].surface >= 0
+            or robot.end_effectors[end].kind != "foot"
+        ):
+            continue
+        left_s = float(sum(phase.duration for phase in plan.phases[: swing.end_phase]))
+        s = 1.0 - 0.5 * min(left_s / usual_s, 1.0)  # half way
+        half, last = (plan.at(min(time_s, float(plan.duration()))) for time_s in (0.5 * left_s, left_s))
+        above_m = float(half.end_effectors[end].position_W[2] - last.end_effectors[end].position_W[2])
+        lacks_m = SWING_SHARE * 16.0 * s**2 * (1.0 - s) ** 2 * usual_m - above_m
+        swing.height = min(swing.height + max(lacks_m, 0.0), RISE_M_S * left_s / BUMP_RATE)
     plan.swings = swings
     return plan
 

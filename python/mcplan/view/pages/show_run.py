@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mcplan.extras import require
 from mcplan.kinematics.rotations import pose
-from mcplan.kinematics.samples import contact_intervals
+from mcplan.kinematics.samples import Interval, contact_intervals
 from mcplan.kinematics.urdf_model import load_model
 from mcplan.tracking import Recording, TrackingResult
 from mcplan.view.colours import ASSIST, COM, PLANNED, PUSH, TEXT, TOUCH, end_effector_colours
@@ -66,6 +66,7 @@ def show_run(run: Run) -> Page:
     measures = run.measures if isinstance(run, TrackingResult) else None
     plan = recording.plan
     scene, robot = plan.scene, recording.simulated_robot
+    replanned = len(getattr(run, "plans", ())) > 1
     colours = end_effector_colours(robot)
     urdf_model = load_model(robot)
     frames = frames_of(recording, urdf_model, FRAME_RATE)
@@ -80,10 +81,11 @@ def show_run(run: Run) -> Page:
     draw_forces(stage, samples, scene, robot, on_top=True)
     per_metre = float(robot.mass) * float(scene.gravity) / (WEIGHT_ARROW * float(robot.com_height))
     legend = plan_legend(scene, robot, colours, per_metre)
-    legend[1:1] = [entry("planned", "line", PLANNED, "as planned: paths, footholds")]
+    text = "as planned: paths; as first planned: footholds" if replanned else "as planned: paths, footholds"
+    legend[1:1] = [entry("planned", "line", PLANNED, text)]
     legend += _draw_helpers(stage, frames, robot)
     duration = float(samples.times_s[-1])
-    expected = contact_intervals(plan, scene, robot)
+    expected = _followed_contacts(recording) if replanned else contact_intervals(plan, scene, robot)
     within = [replace(i, end_s=min(i.end_s, duration)) for i in expected if i.start_s < duration]
     bars = timeline(scene, robot, Bars(samples.intervals, within, _events(recording)), colours, duration)
     direction = camera_direction(extent)
@@ -99,6 +101,19 @@ def show_run(run: Run) -> Page:
         knots_s=[t for t in plan.knot_times() if t < duration] + [duration],
         labels=labels,
     )
+
+
+def _followed_contacts(recording: Recording) -> list[Interval]:
+    """Contacts of the plans of a run with replanning, each as it was planned while it lasted."""
+    found, times = [], recording.times_s
+    for end in range(recording.contacts_plan.shape[1]):
+        planned = recording.contacts_plan[:, end]
+        for surface in np.unique(planned[planned >= 0]):
+            for start, stop in stretches_of(planned == surface):
+                until = float(times[min(stop, len(times) - 1)])
+                place = recording.end_effectors_plan_W[start, end]
+                found.append(Interval(end, int(surface), float(times[start]), until, place, np.eye(3)))
+    return found
 
 
 def _draw_com(stage: Stage, recording: Recording, frames: RunFrames, robot: Robot) -> None:

@@ -7,7 +7,7 @@ and found a hundred times faster than that of meshes.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -26,6 +26,8 @@ Array = NDArray[np.float64]
 
 #: How exactly the least distance is told where it keeps its limit [m].
 RESOLUTION_M = 5e-4
+#: By so much the distance of convex shapes, which is found by iterations, may be too large [m].
+HULL_M = 1e-5
 
 
 @dataclass(frozen=True)
@@ -121,12 +123,10 @@ def _least_of(states: States, pair: tuple[Shape, Shape], gaps: Array, least: Mot
         value = distance(states, pair, k, hulls=True)
         if value < target:
             value = distance(states, pair, k)
-        if value < least.value:
-            links = (pair[0].link, pair[1].link)
-            least = MotionViolation(
-                "self_distance", value, least.limit, "m", float(states.times[k]), "", "", links, True
-            )
-            target = _target(least)
+            if value < least.value:
+                links, time_s = (pair[0].link, pair[1].link), float(states.times[k])
+                least = replace(least, value=value, time_s=time_s, links=links)
+                target = _target(least)
         k = max(k + 1, int(np.searchsorted(travel, travel[k] + value - target, side="right")))
     return least
 
@@ -138,7 +138,14 @@ def _target(least: MotionViolation) -> float:
 
 
 def distance(states: States | Posture, pair: tuple[Shape, Shape], k: int, hulls: bool = False) -> float:
-    """Distance of two shapes, or of their convex hulls, at an instant [m]; 0 or below where they overlap."""
+    """Distance of two shapes at an instant [m]; 0 or below where they overlap.
+
+    Args:
+        states: Where the links are.
+        pair: The shapes.
+        k: The instant.
+        hulls: A lower bound instead, by the convex hulls.
+    """
     import coal  # type: ignore[import-untyped]
 
     places = []
@@ -148,7 +155,8 @@ def distance(states: States | Posture, pair: tuple[Shape, Shape], k: int, hulls:
         places.append(coal.Transform3s(rotation @ place.rotation, position + rotation @ place.translation))
     request, result = coal.DistanceRequest(), coal.DistanceResult()
     first, second = (shape.hull if hulls else shape.geometry for shape in pair)
-    return float(coal.distance(first, places[0], second, places[1], request, result))
+    found = float(coal.distance(first, places[0], second, places[1], request, result))
+    return found - HULL_M if hulls else found
 
 
 def _centers(states: States | Posture, shape: Shape) -> Array:
