@@ -13,7 +13,7 @@ pytest.importorskip("pinocchio")
 pytest.importorskip("scipy.optimize")
 
 import mcplan as mp  # noqa: E402
-from mcplan.errors import Interrupted, InvalidInput, InvalidOptions  # noqa: E402
+from mcplan.errors import Interrupted, InvalidInput, InvalidOptions, InvalidPlan  # noqa: E402
 from mcplan.kinematics.urdf_model import load_model  # noqa: E402
 from mcplan.wb import MotionStatus, splines  # noqa: E402
 from mcplan.wb.capsules import keep_apart, link_capsules  # noqa: E402
@@ -102,6 +102,16 @@ def test_a_plan_whose_com_is_too_high_for_the_legs_names_one():
     result = mp.motion(stepping_plan(1, robot=robot), max_iterations=30)
     assert result.status is MotionStatus.REACH_INFEASIBLE, result.report
     assert result.shortfall.joint.startswith("leg") and 1.005 < result.shortfall.factor < 1.3
+
+
+def test_a_base_that_lies_on_its_front_is_refused():
+    plan = standing_plan(robot=mp.load_robot("talos"))
+    knots = list(plan.knots)
+    for knot in knots:
+        knot.base_rpy = [0.0, 1.4, 0.0]
+    plan.knots = knots
+    with pytest.raises(InvalidPlan, match=r"plan.*at most 74 degrees.*got 80\.2 degrees"):
+        mp.motion(plan)
 
 
 def test_an_end_of_time_and_of_iterations_are_said():

@@ -16,7 +16,7 @@ from mcplan._core import Plan
 from mcplan._core import wb as _core
 from mcplan.arguments import require as require_type
 from mcplan.arguments import require_number, require_or_path
-from mcplan.errors import Interrupted, InvalidOptions, shown
+from mcplan.errors import Interrupted, InvalidOptions, InvalidPlan, shown
 from mcplan.extras import require
 from mcplan.files.plans import load_plan
 from mcplan.files.robots import PACKAGE
@@ -45,6 +45,8 @@ STARTS = ("follow", "stand")
 #: Scaled rows within which a motion keeps its constraints: 0.03 N, 0.03 mm.
 #: Of a motion's cost what exceeded limits may cost, and by how much they are made dearer where they cost more.
 SMALL_PENALTY, DEARER = 1e-3, 30.0
+#: Beyond which the base's angles are too near to where they are singular [rad].
+MAX_PITCH = 1.3
 #: Times at most that links are told to keep a distance, and solves are repeated.
 ROUNDS = 4
 #: Violation of scaled rows (1 N, 1 mm) with which a search that has not converged says by what a motion exceeds limits.
@@ -121,6 +123,16 @@ def _require_options(node_s: float, max_iterations: int, time_limit_s: float, st
         raise InvalidOptions("start", f"must be one of {', '.join(STARTS)}", shown(start))
 
 
+def _require_upright(nodes: Nodes) -> None:
+    pitch = np.abs(nodes.base_zyx[:, 1])
+    if pitch.max() > MAX_PITCH:
+        k = int(np.argmax(pitch))
+        rule = (
+            f"must pitch the base by at most {np.degrees(MAX_PITCH):.0f} degrees for a motion, whose angles are Z-Y-X"
+        )
+        raise InvalidPlan("plan", rule, f"{np.degrees(pitch[k]):.1f} degrees at {nodes.times_s[k]:.3f} s")
+
+
 @dataclass
 class _Found:
     """All solves so far, of which each began where the one before ended.
@@ -167,6 +179,7 @@ class _Search:
         model = motion_model(plan, urdf, joints, locked, complete)
         spline = spline_model(model, plan.scene.gravity)
         nodes = nodes_of(plan, node_s)
+        _require_upright(nodes)
         problem = build_problem(plan, spline, nodes, starts.posture(model))
         dynamics = Dynamics(spline)
         search = _Search(plan, urdf, joints, locked, model, nodes, problem, dynamics, _core.Solver(problem, dynamics))

@@ -88,7 +88,7 @@ struct Weights {
   double torque = 0.3;           ///< over its limit
   double wrench = 1.0;           ///< off the plan's, over weight, and weight times a metre
   double force = 1.0;            ///< along each edge of a friction pyramid, over weight
-  double elastic = 30.0;         ///< of a limit that is exceeded, over its scale; not squared
+  double elastic = 100.0;        ///< of a limit that is exceeded, over its scale; not squared
 };
 
 /// A whole-body motion sought for a centroidal plan: docs/theory/wb.md.
