@@ -152,3 +152,11 @@ def test_pages_and_plots_show_what_was_followed(plan, tmp_path):
     assert "footholds.png" in names
     alone = mp.run(plan, replanning=False, duration=0.1, self_contacts=False)
     assert "footholds.png" not in [path.name for path in save_plots(alone, None, tmp_path)]
+
+
+def test_plans_with_needless_steps_are_longer_than_what_is_left(plan):
+    from mcplan.online.runner import _longer
+
+    t = 0.5 * (plan.knot_times()[-4] + plan.knot_times()[-3])  # three phases are left
+    assert not _longer(plan, plan, 0.0)
+    assert _longer(plan, plan, t) and len(plan.phases) > 4

@@ -122,10 +122,20 @@ def _length(plan: Plan, options: Options, online: OnlineOptions) -> float:
 
 @dataclass
 class _Pending:
-    """An update, and when it may be taken over: its computation is over then."""
+    """An update, when it may be taken over, which is when its computation is over, and whether it has needless steps."""
 
     update: Update
     ready_s: float
+    longer: bool
+
+
+def _longer(plan: Plan, under_way: Plan, t: float) -> bool:
+    """Whether a plan has more phases than are left of the one under way, and one in which a late foot lands.
+
+    Where nothing pushes the robot, another step on the spot, put in again and again, would keep it from its goal.
+    """
+    left = len(under_way.phases) - int(under_way.at(min(t, float(under_way.duration()))).phase)
+    return len(plan.phases) > left + 1
 
 
 class _Loop:
@@ -250,7 +260,8 @@ class _Loop:
         self.pace.asked(now_s)
         latency_s = self.online.latency_s if self.online.fixed_latency else update.took_s
         self.tally.computed(update.took_s, latency_s, update.status, reason)
-        self.pending = _Pending(update, now_s + latency_s)
+        longer = few and update.usable and update.plan is not None and _longer(update.plan, under_way.plan, t)
+        self.pending = _Pending(update, now_s + latency_s, longer)
 
     def _command(self, now_s: float) -> tuple[float, float, float] | None:
         """The velocity that is asked for, or a stand where no plan has come for long."""
@@ -270,7 +281,9 @@ class _Loop:
         """Follow the update that waits, if its computation is over."""
         if self.pending is None or now_s < self.pending.ready_s - 1e-9:
             return
-        update, self.pending = self.pending.update, None
+        update, longer, self.pending = self.pending.update, self.pending.longer, None
+        if longer:
+            return
         if not update.usable or update.plan is None:
             self.failing_s = min(self.failing_s, update.begins_s)
             return
