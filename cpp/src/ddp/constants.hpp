@@ -306,6 +306,8 @@ constexpr double kEndFirmer = 3.0;
 /// What comes after the solve under a time limit [ms a phase]: exact contacts, swings, the check of the next steps, and
 /// where that finds them wanting, the check of those that were planned. Measured.
 constexpr double kFinishing_ms = 0.2;
+/// Limits shorter than so many times that are those in which the plan as it was planned is looked at first. Chosen.
+constexpr double kShortLimits = 1.5;
 /// Fewer iterations than these are not worth a sequence. Chosen.
 constexpr int kWorthwhile = 10;
 /// Swings of steps that are put in last so much of the way from the shortest to the longest phase. Chosen.

@@ -214,6 +214,11 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
   Rest rest = planned;
   rename(rest, scene_in);
   if (options.command) count_turns_as(given.state.base_rpy.z(), rest, now.measured);
+  // Out of time, what was planned is better than what cannot be followed; there may be no time then to look at it.
+  const bool ended = planned.plan.duration() < kEnded_s;
+  const double short_s = kShortLimits * 1e-3 * kFinishing_ms * static_cast<double>(planned.size());
+  std::optional<Trial> kept;
+  if (!ended && deadline.limited() && deadline.remaining_s() < short_s) kept = as_planned(planned, now);
   Trials trials(now, report);
   if (begin_with(rest, now.measured, now.measured.contacts, past_of(previous, t), now.similarity)) {
     if (options.command)
@@ -221,10 +226,8 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
     else
       go_to_goal(rest, now, trials);
   }
-  // Out of time, what was planned is better than what cannot be followed.
-  const bool ended = planned.plan.duration() < kEnded_s;
   if (!ended && deadline.passed() && !(trials.best() && can_be_followed(*trials.best())))
-    trials.take(as_planned(planned, now), PlanFrom::previous_plan);
+    trials.take(kept ? std::move(kept) : as_planned(planned, now), PlanFrom::previous_plan);
   conclude(trials, report, out);
   report.time_s = deadline.elapsed_s();
   return out;
