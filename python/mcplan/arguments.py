@@ -62,6 +62,17 @@ def require_number(name: str, value: Any) -> float:
     raise InvalidArgument(name, "must be a number", found(value))
 
 
+def require_names(name: str, value: Any) -> None:
+    """Refuse what is neither a string nor a list or tuple of strings.
+
+    Raises:
+        InvalidArgument: "joints: must be a string or a list of strings, got an ndarray".
+    """
+    if isinstance(value, str) or (isinstance(value, list | tuple) and all(isinstance(part, str) for part in value)):
+        return
+    raise InvalidArgument(name, "must be a string or a list of strings", found(value))
+
+
 @contextlib.contextmanager
 def named_by_file(scene: Any = None, robot: Any = None, plan: Any = None, plan_option: str = "") -> Iterator[None]:
     """Errors of what was read from files say which: what does not go together has been read without one.

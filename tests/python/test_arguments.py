@@ -22,7 +22,7 @@ def result() -> mp.ddp.Result:
 
 
 WRONG: list[tuple[str, Callable[[Any], Any]]] = [
-    (f"plan: must be a Plan or a PlanarPlan, {RESULT_TEXT}", lambda r: mp.check(r)),
+    (f"plan: must be a Plan, a PlanarPlan or a Motion, {RESULT_TEXT}", lambda r: mp.check(r)),
     ('scene: must be a Scene or None, got "flat"', lambda r: mp.check(r.plan, "flat")),
     ("robot: must be a Robot or None, got a Scene", lambda r: mp.check(r.plan, robot=r.plan.scene)),
     ("tolerances: must be a Tolerances, got 0.1", lambda r: mp.check(r.plan, None, None, 0.1)),
@@ -46,9 +46,13 @@ WRONG: list[tuple[str, Callable[[Any], Any]]] = [
     ("minimise: must be one of torque, time, none, got []", lambda r: mp.whole_body("chimney", minimise=[])),
     ("dynamics: must be of type bool, got array", lambda r: mp.whole_body("chimney", dynamics=np.zeros(2))),
     ("certify: must be a bool, got an ndarray", lambda r: mp.whole_body("chimney", certify=np.zeros(2))),
-    (f"plan: must be a Plan or a PlanarPlan, {RESULT_TEXT}", lambda r: mp.show(r)),
+    (f"plan: must be a Plan, a PlanarPlan or a Motion, {RESULT_TEXT}", lambda r: mp.show(r)),
+    ("joints: must be a string or a list of strings, got an ndarray", lambda r: mp.motion(r.plan, joints=np.zeros(2))),
+    ("joints: must be a string or a list of strings, got a list", lambda r: mp.motion(r.plan, joints=[3])),
+    ("start: must be one of follow, stand, got array", lambda r: mp.motion(r.plan, start=np.zeros(2))),
+    ("tolerances: must be a MotionTolerances or None, got 3", lambda r: mp.motion(r.plan, tolerances=3)),
     ('report: must be a Report or None, got "solved"', lambda r: mp.show(r.plan, report="solved")),
-    (f"plan: must be a Plan, a PlanarPlan or a path, {RESULT_TEXT}", lambda r: mp.track(r)),
+    (f"plan: must be a Plan, a PlanarPlan, a Motion or a path, {RESULT_TEXT}", lambda r: mp.track(r)),
     ("robot: must be a Robot, a name, a path or None, got 3", lambda r: mp.track(r.plan, 3)),
     ("source: must be a name or a path, got None", lambda r: mp.load_scene(None)),
     ("source: must be a name or a path, got 3", lambda r: mp.load_robot(3)),

@@ -231,7 +231,7 @@ def test_check_refuses_a_plan_with_a_control_point_moved(capsys, plan_file, tmp_
 
 def test_whole_body_plans_are_held_against_no_other_robot(capsys, plan_file):
     message = one_line_error(run(capsys, plan_file, "--robot", "talos", verb="check"))
-    assert message.startswith("--robot: needs a plan of mcplan plan or mcplan rhp")
+    assert message.startswith("--robot: needs a plan of mcplan plan or rhp")
 
 
 def test_only_whole_body_plans_are_certified(capsys, tmp_path):

@@ -136,7 +136,7 @@ def test_what_is_no_plan_is_named(plan):
     scene, robot = by_hand.stairs(), by_hand.humanoid()
     with pytest.raises(
         mp.errors.InvalidArgument,
-        match=r"plan: must be a Plan or a PlanarPlan, got a SimpleNamespace; its plan is result\.plan",
+        match=r"plan: must be a Plan, a PlanarPlan or a Motion, got a SimpleNamespace; its plan is result\.plan",
     ):
         mp.show(SimpleNamespace(plan=plan), scene, robot)
     with pytest.raises(mp.errors.InvalidArgument, match="scene: must be a Scene or None, got a Robot"):

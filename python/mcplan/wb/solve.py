@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mcplan._core import Plan
 from mcplan._core import wb as _core
 from mcplan.arguments import require as require_type
-from mcplan.arguments import require_number, require_or_path
+from mcplan.arguments import require_names, require_number, require_or_path
 from mcplan.errors import Interrupted, InvalidOptions, InvalidPlan, shown
 from mcplan.extras import require
 from mcplan.files.plans import load_plan
@@ -69,7 +69,7 @@ def motion(
     """See mcplan.motion."""
     began = time.perf_counter()
     plan = _plan_of(plan)
-    _require_options(node_s, max_iterations, time_limit_s, start)
+    _require_options(joints, node_s, max_iterations, time_limit_s, start, tolerances)
     require("mcplan.motion", "view", "pinocchio", "scipy")
     search = _Search.of(plan, joints, node_s)
     try:
@@ -112,14 +112,25 @@ def _plan_of(plan: Plan | str | Path) -> Plan:
     return found
 
 
-def _require_options(node_s: float, max_iterations: int, time_limit_s: float, start: str) -> None:
+def _require_options(
+    joints: str | Sequence[str],
+    node_s: float,
+    max_iterations: int,
+    time_limit_s: float,
+    start: str,
+    tolerances: MotionTolerances | None,
+) -> None:
+    from .certificate.tolerances import MotionTolerances
+
+    require_names("joints", joints)
+    require_type("tolerances", tolerances, MotionTolerances, optional=True)
     if not 1e-3 <= require_number("node_s", node_s) <= 0.2:
         raise InvalidOptions("node_s", "must lie in [0.001, 0.2] s", shown(node_s))
     if not require_number("time_limit_s", time_limit_s) > 0.0:
         raise InvalidOptions("time_limit_s", "must be positive", shown(time_limit_s))
     if isinstance(max_iterations, bool) or not isinstance(max_iterations, int) or max_iterations < 0:
         raise InvalidOptions("max_iterations", "must be a whole number of at least 0", shown(max_iterations))
-    if start not in STARTS:
+    if not isinstance(start, str) or start not in STARTS:
         raise InvalidOptions("start", f"must be one of {', '.join(STARTS)}", shown(start))
 
 
