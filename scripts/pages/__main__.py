@@ -5,9 +5,11 @@ from __future__ import annotations
 import argparse
 import difflib
 import sys
+from pathlib import Path
 
 from pages import commands, links, made, names, pictures, stated, tables
 from pages.page import Page, all_pages
+from pages.site.build import build
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -20,7 +22,12 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--check", action="store_true", help="Change nothing; print what is stale.")
     parser.add_argument("--slow", action="store_true", help="Also blocks marked `made slowly by`.")
     parser.add_argument("--pictures", metavar="NAME", nargs="+", help="Draw pictures again, or all.")
+    parser.add_argument("--site", metavar="DIR", nargs="?", const="build/site/html", help="Build the site into DIR.")
+    parser.add_argument("--fresh", action="store_true", help="With --site: run all notebooks and the gallery again.")
+    parser.add_argument("--quick", action="store_true", help="With --site: run no notebook and no command.")
     given = parser.parse_args(arguments)
+    if given.site:
+        return build(Path(given.site).resolve(), given.fresh, given.quick)
     if given.pictures:
         return pictures.draw(given.pictures)
     pages = all_pages()

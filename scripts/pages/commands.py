@@ -48,12 +48,17 @@ def spoken_of(page: Page) -> Iterator[tuple[int, str]]:
 def help_faults() -> list[str]:
     """Examples of help texts that the product would refuse."""
     out = []
-    for name, verb in _verbs(_root(), "mcplan"):
+    for name, verb in all_verbs():
         for example in re.findall(r"Example: (mcplan .*(?:\n .*)*)", inspect.cleandoc(verb.help or "")):
             for command in example.split(" && "):
                 if why := wrong(command):
                     out.append(f"{name} --help: `{command}`: {why}")
     return out
+
+
+def all_verbs() -> Iterator[tuple[str, Any]]:
+    """Names and commands of all verbs, the program itself first."""
+    yield from _verbs(_root(), "mcplan")
 
 
 def _verbs(verb: Any, name: str) -> Iterator[tuple[str, Any]]:
