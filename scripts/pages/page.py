@@ -64,6 +64,7 @@ class Page:
 
 
 def all_pages() -> list[Page]:
-    """Every page of the repository that speaks of the product, README first."""
+    """Every page of the repository that speaks of the product, README first; those of the site alone are for its build."""
     top = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "third_party_notes.md", "benchmarks/README.md"]
-    return [Page.read(path) for path in [*(ROOT / name for name in top), *sorted((ROOT / "docs").rglob("*.md"))]]
+    docs = [path for path in sorted((ROOT / "docs").rglob("*.md")) if path.parent.name != "site"]
+    return [Page.read(path) for path in [*(ROOT / name for name in top), *docs]]

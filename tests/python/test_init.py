@@ -251,6 +251,11 @@ def test_reprs_can_be_pasted_back():
         assert repr(eval(repr(value), names)) == repr(value)
 
 
+def test_a_walk_says_how_far_it_goes():
+    walk = mp.walk("flat", lookahead=2, cycles=2)
+    assert repr(walk) == f"<Walk of 2 cycles: {walk.distance_m():.2f} m, solved>"
+
+
 def test_status_reads_as_its_name():
     assert str(mp.Status.time_limit) == "time_limit"
     assert mp.Status.solved != mp.Status.acceptable

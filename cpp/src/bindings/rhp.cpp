@@ -85,6 +85,11 @@ void bind_results(py::module_& m) {
   w.def("momentum_per_m", &Walk::momentum_per_m, "Integral of |L|^2 per metre, executed steps.");
   w.def("drift_com_m", &Walk::drift_com_m, "Largest of a cycle [m].");
   w.def("drift_momentum", &Walk::drift_momentum, "Largest of a cycle [kg m^2/s].");
+  w.def("__repr__", [](py::handle self) {
+    return "<Walk of " + std::to_string(py::len(self.attr("cycles"))) +
+           " cycles: " + std::string(py::str(py::float_(self.attr("distance_m")()).attr("__format__")(".2f"))) +
+           " m, " + std::string(py::str(self.attr("report").attr("status"))) + ">";
+  });
   def_pickle(w, &Walk::plan, &Walk::report, &Walk::cycles, &Walk::success);
   m.attr("Result") = w;
 }

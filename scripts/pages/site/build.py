@@ -46,7 +46,20 @@ def build(out: Path, fresh: bool = False, quick: bool = False) -> int:
         "MCPLAN_NOTEBOOKS": "off" if quick else "cache",
     }
     shutil.rmtree(out, ignore_errors=True)
-    words = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-d", str(work / "doctrees"), "-b", "html", str(source), str(out)]
+    words = [
+        sys.executable,
+        "-m",
+        "sphinx",
+        "-W",
+        "--keep-going",
+        "-q",
+        "-d",
+        str(work / "doctrees"),
+        "-b",
+        "html",
+        str(source),
+        str(out),
+    ]
     code = subprocess.run(words, env=os.environ | told).returncode
     faults = local_links.faults(out) if code == 0 else []
     for fault in faults:

@@ -8,9 +8,13 @@ import shlex
 import shutil
 import subprocess
 import sys
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:  # pages are checked there, too, but no site is built
+    import tomli as tomllib
 
 from pages.page import ROOT
 
@@ -76,7 +80,12 @@ def write_gallery(source: Path, folder: Path, fresh: bool, quick: bool) -> None:
         fresh: Make them anew.
         quick: Make none, show those that are there.
     """
-    lines = ["# Gallery", "", "Pages open without a network: turn the robot with the mouse, play with the button of the page.", ""]
+    lines = [
+        "# Gallery",
+        "",
+        "Pages open without a network: turn the robot with the mouse, play with the button of the page.",
+        "",
+    ]
     lines += ["```{raw} html", '<div class="gallery">']
     for entry in entries():
         if not quick:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 import subprocess
 from pathlib import Path
-from xml.etree import ElementTree
 from typing import Any
+from xml.etree import ElementTree
 
 from pages import commands
 from pages.page import ROOT
@@ -16,7 +16,9 @@ HEADERS = "cpp/include/mcplan"
 SCHEMAS = "python/mcplan/data/schema"
 
 #: Names of `mcplan` that are described with what they belong to.
-TOLD_ELSEWHERE = "Plan, PlanarPlan, PlanarRobot, PlanarTask, PlanarTolerances, Robot, Scene, Status, Tolerances, Interrupted"
+TOLD_ELSEWHERE = (
+    "Plan, PlanarPlan, PlanarRobot, PlanarTask, PlanarTolerances, Robot, Scene, Status, Tolerances, Interrupted"
+)
 TOLD_ELSEWHERE += ", InvalidInput, MissingExtra, PlanViolated, UnknownName, ddp, rhp, sip, export, __version__"
 
 #: Modules, what they are about, and names that are described elsewhere.
@@ -99,6 +101,7 @@ def run_doxygen(folder: Path) -> None:
     """
     subprocess.run(["doxygen", "-"], input=settings, text=True, check=True, cwd=ROOT)
     _name_files_by_path(folder)
+    _silence_namespaces(folder)
 
 
 def _name_files_by_path(folder: Path) -> None:
@@ -110,6 +113,16 @@ def _name_files_by_path(folder: Path) -> None:
         assert location is not None and name is not None
         name.text = location.get("file")
     index.write(folder / "index.xml", encoding="utf-8", xml_declaration=True)
+
+
+def _silence_namespaces(folder: Path) -> None:
+    """What stands before a namespace in a header is about the header, and would stand on every page."""
+    for path in folder.glob("namespace*.xml"):
+        tree = ElementTree.parse(path)
+        for kind in ("briefdescription", "detaileddescription"):
+            for told in tree.iterfind(f"compounddef/{kind}"):
+                told.clear()
+        tree.write(path, encoding="utf-8", xml_declaration=True)
 
 
 def _write_index(page: Path, title: str, parts: dict[str, str]) -> None:
@@ -140,7 +153,11 @@ def _command_page() -> str:
 
 
 def _schemas_page(folder: Path) -> str:
-    lines = ["# Files", "", "Fields of the TOML files that the product reads. `mcplan schema scene` prints where a schema is; an"]
+    lines = [
+        "# Files",
+        "",
+        "Fields of the TOML files that the product reads. `mcplan schema scene` prints where a schema is; an",
+    ]
     lines += ["editor that knows JSON schemas completes and checks what the first line of a file names:", ""]
     lines += ["```toml", "#:schema /path/that/mcplan/schema/prints.json", "```", ""]
     for path in sorted((ROOT / SCHEMAS).glob("*.json")):
@@ -180,7 +197,12 @@ def _default_of(told: dict[str, Any]) -> str:
 
 
 def _examples_page() -> str:
-    lines = ["# Examples", "", "Each does the same in both languages where there are two; the tests run all of them.", ""]
+    lines = [
+        "# Examples",
+        "",
+        "Each does the same in both languages where there are two; the tests run all of them.",
+        "",
+    ]
     for source in sorted((ROOT / "examples").glob("*")):
         if source.suffix in (".py", ".cpp", ".toml"):
             language = {".py": "python", ".cpp": "cpp", ".toml": "toml"}[source.suffix]
