@@ -93,7 +93,7 @@ PYTHON_ROOMS = {
     "notebooks": {"_core", "errors", "showing"},
     "following": _GROUND | _LOOKED_AT - {"view"},
     "running": _GROUND | {"solve", "files", "tracking", "online"},
-    "sweep": _GROUND | _ENGINES | {"files", "wb", "checking", "view"},
+    "sweep": _GROUND | _ENGINES | {"files", "wb", "checking", "view", "export"},
     "cli": _GROUND | _FRONT | {"starting", ""},
     "": _GROUND | _FRONT | {"starting", "moved"},
 }

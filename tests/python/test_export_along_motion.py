@@ -11,7 +11,7 @@ pytest.importorskip("pinocchio")
 
 import mcplan as mp  # noqa: E402
 from mcplan.errors import InvalidInput  # noqa: E402
-from mcplan.export.formats import FORMATS  # noqa: E402
+from mcplan.files.export_formats import FORMATS  # noqa: E402
 from mcplan.wb import Motion  # noqa: E402
 from motions_by_hand import LEFT, Talos, lifting_motion  # noqa: E402
 

@@ -14,7 +14,7 @@ import mcplan as mp
 from command_line import one_line_error
 from exports import plan
 from mcplan.cli import main
-from mcplan.export.formats import FORMATS
+from mcplan.files.export_formats import FORMATS
 
 
 def test_files_of_plans_and_runs_are_taken_as_objects_are(tmp_path):

@@ -7,8 +7,8 @@ import pytest
 
 import mcplan as mp
 from exports import plan
-from mcplan.export.formats import FORMATS
 from mcplan.export.source import Source
+from mcplan.files.export_formats import FORMATS
 
 
 def motion(what, rate_hz=50.0):

@@ -11,7 +11,8 @@ Importing this loads NumPy and nothing heavier.
 
 from __future__ import annotations
 
+from mcplan.files.export_formats import FORMATS, Format
+
 from .exporting import export
-from .formats import FORMATS, Format
 
 __all__ = ["FORMATS", "Format", "export"]

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 from mcplan._core import Plan, PlanarPlan, Robot
 from mcplan.arguments import require_number, require_or_path
 from mcplan.errors import InvalidArgument, InvalidInput, shown
+from mcplan.files.export_formats import format_of
 from mcplan.files.outputs import require_target
-
-from .formats import format_of
 
 if TYPE_CHECKING:
     from mcplan.tracking import Recording, TrackingResult

@@ -16,9 +16,9 @@ from mcplan.kinematics.samples import Samples, sample_at
 
 if TYPE_CHECKING:
     from mcplan import wb
+    from mcplan.files.export_formats import Format
     from mcplan.tracking import Recording
 
-    from .formats import Format
     from .motion import Motion
 
 Array = NDArray[np.float64]

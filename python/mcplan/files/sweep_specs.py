@@ -10,7 +10,18 @@ from pydantic import Field, ValidationError, field_validator, model_validator
 from pydantic_core import ErrorDetails, PydanticCustomError
 
 from mcplan import _core
-from mcplan.errors import InvalidInput, InvalidOptions, InvalidSweep, UnknownName, did_you_mean, either, shown, together
+from mcplan.errors import (
+    InvalidArgument,
+    InvalidInput,
+    InvalidOptions,
+    InvalidSweep,
+    UnknownName,
+    did_you_mean,
+    either,
+    shown,
+    together,
+)
+from mcplan.files.export_formats import FORMATS, format_of
 from mcplan.files.robots import list_robots, load_robot
 from mcplan.files.scenes import list_scenes, load_scene
 from mcplan.files.sweep_terrains import GENERATORS, Parameter, parameters_of
@@ -68,6 +79,9 @@ class SweepSpec(Strict):
     motion: Literal["default", "all", "legs"] | None = Field(
         None, description="Joints of the whole-body motion that is found along each solved plan; left out: no motions."
     )
+    exports: list[Name] = Field(
+        [], description=f"Formats in which each solved plan, or certified motion, is exported: {either(list(FORMATS))}."
+    )
     scenes: list[SceneEntry] = Field(min_length=1, description="What is planned.")
 
     @field_validator("options", mode="before")
@@ -104,7 +118,7 @@ def sweep_spec(data: Any, source: str = "", folder: Path = Path(".")) -> SweepSp
         spec = SweepSpec.model_validate(data)
     except ValidationError as error:
         raise together([_finding(each, data) for each in error.errors()]).moved(InvalidSweep, source) from None
-    findings = [*_of_robots(spec, folder), *_of_scenes(spec, folder), *_of_options(spec)]
+    findings = [*_of_robots(spec, folder), *_of_scenes(spec, folder), *_of_options(spec), *_of_exports(spec)]
     if findings:
         raise together(findings).moved(InvalidSweep, source)
     return spec
@@ -244,6 +258,18 @@ def _of_options(spec: SweepSpec) -> list[InvalidInput]:
             if found is not None:
                 out.append(found.moved(InvalidInput, prefix="options"))
                 break
+    return out
+
+
+def _of_exports(spec: SweepSpec) -> list[InvalidInput]:
+    out = []
+    for i, name in enumerate(spec.exports):
+        try:
+            format_of(name, f"exports[{i}]")
+        except InvalidArgument as error:
+            out.append(error.moved(InvalidInput))
+        if name in spec.exports[:i]:
+            out.append(InvalidInput(f"exports[{i}]", "must differ from those before it", shown(name)))
     return out
 
 

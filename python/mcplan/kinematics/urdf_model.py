@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -73,11 +74,9 @@ def load_model(robot: Robot) -> UrdfModel:
         require(f"the joints of {robot.name}", "view", "example_robot_data")
     try:
         if source.startswith(PACKAGE):
-            import example_robot_data  # type: ignore[import-untyped]
-
-            wrapper = example_robot_data.load(source[len(PACKAGE) :])
-            model, visual, neutral = wrapper.model, wrapper.visual_model, wrapper.q0.copy()
-            path = Path(wrapper.urdf)
+            wrapper = _from_package(source[len(PACKAGE) :])
+            model, visual = pin.Model(wrapper.model), wrapper.visual_model.copy()
+            neutral, path = wrapper.q0.copy(), Path(wrapper.urdf)
         else:
             path = Path(source).resolve(strict=True)
             xml = read_urdf(path, InvalidRobot)
@@ -104,6 +103,14 @@ def load_model(robot: Robot) -> UrdfModel:
     for joint in range(1, model.njoints):
         _make_physical(model, joint)
     return UrdfModel(robot, model, visual, neutral, _contact_frames(model, neutral, robot), path)
+
+
+@lru_cache(maxsize=2)
+def _from_package(name: str) -> Any:
+    """A robot of example-robot-data, whose meshes take a second to read; what is returned is not to be changed."""
+    import example_robot_data  # type: ignore[import-untyped]
+
+    return example_robot_data.load(name)
 
 
 def _make_physical(model: Any, joint: int) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from mcplan.files.outputs import write_whole
 from mcplan.sweep import store
 from mcplan.sweep.tasks import Task
-from mcplan.sweep.work import MEASURES
+from mcplan.sweep.work import MEASURES, files_of
 
 if TYPE_CHECKING:
     import pyarrow
@@ -53,6 +53,7 @@ TIMES = {
     "plan_wall_s": "double",
     "plan_cpu_s": "double",
     "motion_cpu_s": "double",
+    "export_cpu_s": "double",
     "began": "double",
     "host": "string",
     "crash": "string",
@@ -95,7 +96,9 @@ def index_table(records: Sequence[Mapping[str, Any]]) -> pyarrow.Table:
         for name in sorted(names):
             columns[prefix + name] = _guessed([record[group].get(name) for record in records])
     motions = any("motion_status" in record for record in records)
-    for name, kind in {**RESULTS, **(MOTION_RESULTS if motions else {})}.items():
+    exports = sorted({name for record in records for name in record if name.startswith("export_")})
+    results = {**RESULTS, **(MOTION_RESULTS if motions else {}), **dict.fromkeys(exports, "string")}
+    for name, kind in results.items():
         columns[name] = pa.array([record.get(name) for record in records], type_of(kind))
     return pa.table(columns)
 
@@ -140,6 +143,7 @@ def _checksums(out: Path, index: bytes, records: Sequence[Mapping[str, Any]]) ->
         f"{hashlib.sha256((out / store.MANIFEST).read_bytes()).hexdigest()}  {store.MANIFEST}",
         f"{hashlib.sha256(index).hexdigest()}  {store.INDEX}",
     ]
-    for kind in ("plan", "motion"):
+    kinds = dict.fromkeys(kind for record in records for kind in files_of(record))
+    for kind in kinds:
         lines += [f"{record[f'{kind}_sha256']}  {record[kind]}" for record in records if record.get(kind)]
     return "\n".join(lines) + "\n"

@@ -16,7 +16,7 @@ from mcplan import _core
 from mcplan.errors import InvalidSweep, shown, shown_path
 from mcplan.files.outputs import made_folder, write_whole
 from mcplan.sweep.tasks import Task
-from mcplan.sweep.work import CRASHED, MOTIONS, PLANS, RECORDS, TIMES, path_of
+from mcplan.sweep.work import CRASHED, EXPORTS, MOTIONS, PLANS, RECORDS, TIMES, files_of, path_of
 
 if TYPE_CHECKING:
     from mcplan.files.sweep_specs import SweepSpec
@@ -95,7 +95,7 @@ def read_record(out: Path, task_stem: str) -> dict[str, Any] | None:
         return None
     if not isinstance(record, dict):
         return None
-    if any(record.get(kind) and not (out / record[kind]).is_file() for kind in ("plan", "motion")):
+    if not all((out / record[kind]).is_file() for kind in files_of(record)):
         return None
     return record
 
@@ -113,7 +113,7 @@ def pending(out: Path, tasks: Iterable[Task], retry_crashed: bool = False) -> li
 def sweep_away(out: Path, tasks: Iterable[Task]) -> None:
     """Remove half-written files that a killed process has left of these tasks."""
     stems = {task.stem.rpartition("/")[2] for task in tasks}
-    for kind in (PLANS, MOTIONS, RECORDS, TIMES):
+    for kind in (PLANS, MOTIONS, EXPORTS, RECORDS, TIMES):
         for path in (out / kind).glob("*/.*"):
             if path.name[1:].partition(".")[0] in stems:
                 with suppress(OSError):

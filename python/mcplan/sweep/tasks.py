@@ -34,6 +34,7 @@ class Task:
         options: Of the planner.
         seed: Of the planner.
         motion: Joints of the whole-body motion that is found along a solved plan; "": none is.
+        exports: Formats in which the certified motion is exported, or the solved plan of a sweep without motions.
     """
 
     index: int
@@ -47,6 +48,7 @@ class Task:
     options: Mapping[str, Any] = field(default_factory=dict)
     seed: int = 0
     motion: str = ""
+    exports: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
@@ -88,7 +90,7 @@ def tasks_of(spec: SweepSpec, folder: Path = Path(".")) -> list[Task]:
             out.append(
                 Task(
                     len(out), entry.title, entry.generator, source, parameters, robot, robot_source, spec.engine,
-                    options, seed, spec.motion or "",
+                    options, seed, spec.motion or "", tuple(spec.exports),
                 )
             )  # fmt: skip
     return out

@@ -7,6 +7,7 @@ import json
 import platform
 import time
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -17,7 +18,7 @@ from mcplan.errors import InvalidInput, SuspiciousGeometry, SuspiciousName, Unkn
 from mcplan.sweep.tasks import Task
 
 #: Folders of a sweep's files.
-PLANS, MOTIONS, RECORDS, TIMES = "plans", "motions", "records", "times"
+PLANS, MOTIONS, EXPORTS, RECORDS, TIMES = "plans", "motions", "exports", "records", "times"
 #: Endings of a task besides the statuses of a plan: the replay of the saved plan disagrees with `solved`; the task was
 #: refused, such as a scene at whose start the robot cannot stand; it killed its workers.
 REJECTED, REFUSED, CRASHED = "rejected", "refused", "crashed"
@@ -82,6 +83,11 @@ def write(out: Path, task: Task, kind: str, data: Any) -> None:
     write_whole(json.dumps(data, allow_nan=False), path)
 
 
+def files_of(record: Mapping[str, Any]) -> list[str]:
+    """Fields of a record that are paths of files which it has; the digest of each is in FIELD_sha256."""
+    return [name.removesuffix("_sha256") for name, value in record.items() if name.endswith("_sha256") and value]
+
+
 def path_of(out: Path, task: Task, kind: str, suffix: str) -> Path:
     """Where a file of a task lies."""
     return out / kind / f"{task.stem}{suffix}"
@@ -121,6 +127,11 @@ def _solve(task: Task, out: Path) -> tuple[dict[str, Any], dict[str, Any]]:
         begin = time.process_time()
         record |= _motion(plan, task.motion, path_of(out, task, MOTIONS, ".npz"), out)
         times["motion_cpu_s"] = time.process_time() - begin
+    if task.exports and record.get("motion_status", record["status"]) == "solved":
+        begin = time.process_time()
+        source = out / record["motion" if task.motion else "plan"]
+        record |= _exported(source, task.exports, out / EXPORTS / task.stem, out)
+        times["export_cpu_s"] = time.process_time() - begin
     return record, times
 
 
@@ -160,6 +171,24 @@ def _motion(plan: Plan, joints: str, path: Path, out: Path) -> dict[str, Any]:
         "motion": path.relative_to(out).as_posix(),
         "motion_sha256": hashlib.sha256(data).hexdigest(),
     }
+
+
+def _exported(source: Path, formats: tuple[str, ...], stem: Path, out: Path) -> dict[str, Any]:
+    """Write what was saved in other tools' formats; a posture that the robot cannot take up is a refusal by name."""
+    from mcplan.export import FORMATS, export
+
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    found: dict[str, Any] = {"export_message": None}
+    for name in formats:
+        path = stem.with_name(f"{stem.name}.{name}{FORMATS[name].suffix[0]}")
+        try:
+            export(source, name, path)
+        except InvalidInput as refusal:
+            found |= {"export_message": f"{name}: {str(refusal).splitlines()[0]}"}
+            continue
+        digest = hashlib.sha256(path.read_bytes()).hexdigest()
+        found |= {f"export_{name}": path.relative_to(out).as_posix(), f"export_{name}_sha256": digest}
+    return found
 
 
 def _engine(task: Task, scene: Any, robot: Robot) -> Any:

@@ -24,6 +24,11 @@ FLIGHT_M = 0.3
 #: Kept over the ground from this part of a swing to its middle [m], growing from nothing in the parts before: where a sole
 #: that is to be lifted within a node asks for all the torque that there is.
 MIDDLE_M, MIDDLE, ENDS = 0.014, 0.35, 0.15
+#: Left to a motion between what is kept and the plan, unless there is less than twice as much over the ground [m].
+ROOM_M = 0.005
+#: Kept over the ground wherever there is twice as much: a foot that is being lifted lags behind the chord between two nodes,
+#: at 20 m/s^2 and 25 ms by 1.6 mm [m].
+BETWEEN_M = 0.002
 #: Points of a sole along its sides, and parts of the way to the nodes before and after on which it is looked at as well.
 GRID, PARTS = (5, 3), (-1.0, -0.5, 0.0, 0.5, 1.0)
 #: Surfaces steeper than this cosine are walls, and those so far above a sole have it below them [m].
@@ -60,8 +65,25 @@ class Ground:
                 least = min(least, float(height[seen].min()))
         return least
 
-    def tube_W(self, plan: Plan, nodes: Nodes, k: int, end: int) -> tuple[Array, Array]:
-        """How far the points of a sole in the air may be from where the plan has them, at least and at most [m]."""
+    def tubes_W(self, plan: Plan, nodes: Nodes, end: int) -> dict[int, tuple[Array, Array]]:
+        """How far the points of a sole in the air may be from where the plan has them, at least and at most [m], by node.
+
+        Between two nodes a sole is over the ground that either of them is held over: it goes no farther sideways at any of
+        them than the other one may.
+        """
+        free = [k for k in range(nodes.count) if nodes.intervals[k][end] is None]
+        rooms = {k: self._room(plan, nodes, k, end) for k in free}
+        out = {}
+        for k, (own, down) in rooms.items():
+            aside = min(rooms[near][0] if near in rooms else own for near in (k - 1, k, k + 1))
+            if nodes.flies(k):  # where the whole robot goes is for its CoM to say
+                out[k] = np.array([-FLIGHT_M, -FLIGHT_M, -down]), np.array([FLIGHT_M, FLIGHT_M, FLIGHT_M])
+            else:
+                out[k] = np.array([-aside, -aside, -down]), np.array([aside, aside, UP_M])
+        return out
+
+    def _room(self, plan: Plan, nodes: Nodes, k: int, end: int) -> tuple[float, float]:
+        """How far a sole may go sideways, and how far down where it does [m]."""
         samples, half = nodes.samples, np.asarray(plan.robot.end_effectors[end].half_size, float)
         x, y = (np.unique(half[i] * np.linspace(-1.0, 1.0, GRID[i])) for i in range(2))
         sole = np.array([[a, b, 0.0] for a in x for b in y])
@@ -69,16 +91,14 @@ class Ground:
         points = (swept[:, None] + sole @ samples.rotations_W[k, end].T).reshape(-1, 3)
         ratio = nodes.swung(k, end)
         keep = MIDDLE_M * float(np.clip((min(ratio, 1.0 - ratio) - ENDS) / (MIDDLE - ENDS), 0.0, 1.0))
+        keep = max(keep, BETWEEN_M)
         under = min(self.clearance(points, 0.0), DOWN_M)
         over, aside = under, 0.0
         for aside in ASIDE_M:
             over = min(self.clearance(points, aside), DOWN_M)
             if over >= LEAST_RATIO * under:
                 break
-        down = max(0.0, over - min(keep, 0.5 * over))
-        if nodes.flies(k):  # where the whole robot goes is for its CoM to say
-            return np.array([-FLIGHT_M, -FLIGHT_M, -down]), np.array([FLIGHT_M, FLIGHT_M, FLIGHT_M])
-        return np.array([-aside, -aside, -down]), np.array([aside, aside, UP_M])
+        return aside, max(0.0, over - min(keep, max(0.5 * over, over - ROOM_M)))
 
 
 def _swept(positions_W: Array, k: int, part: float) -> Array:

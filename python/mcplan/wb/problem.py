@@ -40,6 +40,7 @@ def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array)
     samples = nodes.samples
     touches = np.asarray((nodes.contacts >= 0).any(axis=0))
     ground = Ground(plan)
+    tubes = {end: ground.tubes_W(plan, nodes, end) for end in np.flatnonzero(touches).tolist()}
     points = {id(interval): points_S(plan, interval) for interval in samples.intervals}
     for k in range(nodes.count):
         problem.add_node(float(samples.times_s[k]), samples.com_W[k], nodes.base_zyx[k])
@@ -52,7 +53,7 @@ def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array)
                 problem.add_contact(end, nodes.carries(k, end), rests, friction, *pose, wrenches[k, end], own)
             elif touches[end]:
                 foot = plan.robot.end_effectors[end].kind == "foot"
-                low, high = ground.tube_W(plan, nodes, k, end)
+                low, high = tubes[end][k]
                 pose, weight = (nodes.swings_W[k, end], samples.rotations_W[k, end]), nodes.middle(k, end)
                 problem.add_swing(end, *pose, weight, foot, low, high)
     return problem

@@ -13,7 +13,7 @@ class Format:
 
     Attributes:
         name: What it is asked for by.
-        module: Module of this package that writes it: ``write(source, path)``.
+        module: Module of ``mcplan.export`` that writes it: ``write(source, path)``.
         suffix: What its files end in; more than one where the ending chooses between two.
         tool: Who reads it.
         joints: Whether it contains joint positions: a plan then needs a robot with a URDF, and inverse kinematics.
