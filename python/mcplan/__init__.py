@@ -84,6 +84,7 @@ if TYPE_CHECKING:
     from mcplan.planar.tracking import PlanarResult
     from mcplan.rhp import Walk as Walk
     from mcplan.tracking import TrackingResult
+    from mcplan.tracking.options import Watch
     from mcplan.wb import Motion, MotionResult, MotionTolerances
 
     PlanarMotion, WholeBodyPlan, WholeBodyTolerances = PlanarTask, PlanarPlan, PlanarTolerances
@@ -212,6 +213,8 @@ def motion(
 def track(
     plan: Plan | PlanarPlan | Motion | str | Path,
     robot: Robot | str | Path | None = None,
+    *,
+    watch: Watch | None = None,
     **options: Any,
 ) -> TrackingResult | PlanarResult:
     """Track a plan or a motion with a simulated robot: torques alone move it, within their limits.
@@ -227,6 +230,8 @@ def track(
             velocities and accelerations, and errors are those from the motion, not from its plan.
         robot: A robot with a URDF and the plan's end-effectors by name, or what load_robot takes. None: the plan's own.
             A whole-body plan has its planar robot, a motion its joints; they take no other.
+        watch: Called at every control step with the simulated time [s], the configuration (nq,) in Pinocchio's order and
+            the plan that is followed, as ``mcplan.view.LiveView`` is.
         **options: Fields of ``mcplan.tracking.Options``: ``assist``, ``mass_scale``, ``friction_scale``,
             ``ground_shift_m``, ``seed``, ``hold_s``; ``pushes``, each as ``mcplan.tracking.Push`` or as size [N],
             duration [s], time [s] and direction [deg] (0 forward, 90 to the left).
@@ -249,12 +254,14 @@ def track(
     require("mcplan.track", "sim", "mujoco", "pinocchio", "proxsuite")
     from mcplan.following import track_any
 
-    return track_any(plan, robot, options)
+    return track_any(plan, robot, options, watch=watch)
 
 
 def run(
     scene: Scene | Plan | str | Path,
     robot: Robot | str | Path | None = None,
+    *,
+    watch: Watch | None = None,
     **options: Any,
 ) -> RunResult:
     """Simulate a robot that is planned for while it walks: pushed, it takes other steps.
@@ -267,6 +274,8 @@ def run(
     Args:
         scene: A scene, or what load_scene takes; or the plan to begin with, or the path of one (.npz, .json).
         robot: A robot with a URDF, or what load_robot takes; None: that of the plan.
+        watch: Called at every control step with the simulated time [s], the configuration (nq,) in Pinocchio's order and
+            the plan that is followed, as ``mcplan.view.LiveView`` is.
         **options: Fields of ``mcplan.online.OnlineOptions`` and of ``mcplan.tracking.Options``, among them ``push``, one
             or several as ``mcplan.track`` takes them; ``command``, a velocity (ahead, left [m/s], turning [rad/s]);
             ``latency`` [s], a fixed time from measured state to plan instead of the wall clock of the computation, for
@@ -289,4 +298,4 @@ def run(
     require("mcplan.run", "sim", "mujoco", "pinocchio", "proxsuite")
     from mcplan.running import run_any
 
-    return run_any(scene, robot, options)
+    return run_any(scene, robot, options, watch=watch)

@@ -10,6 +10,7 @@ from mcplan._core import Plan, PlanarPlan, Robot
 from mcplan.arguments import require_or_path
 from mcplan.errors import InvalidInput, shown
 from mcplan.tracking.choice import make_options
+from mcplan.tracking.options import Watch
 
 if TYPE_CHECKING:
     from mcplan.planar.tracking import PlanarResult
@@ -22,6 +23,7 @@ def track_any(
     robot: Robot | str | Path | None,
     values: Mapping[str, Any],
     progress: Callable[[float, float], None] | None = None,
+    watch: Watch | None = None,
 ) -> TrackingResult | PlanarResult:
     """Track a plan of any planner, or a motion; see mcplan.track.
 
@@ -30,6 +32,7 @@ def track_any(
         robot: Robot for a plan of ddp or rhp; None: the plan's own.
         values: Fields of Options by name.
         progress: Called now and then with the time simulated and the time to simulate [s].
+        watch: Called at every control step; see mcplan.track.
     """
     if not isinstance(robot, Robot):
         require_or_path("robot", robot, "a Robot", "a name", optional=True)
@@ -43,7 +46,9 @@ def track_any(
     if isinstance(plan, (Plan, Motion)):
         from mcplan.tracking.runner import track
 
-        return track(plan, robot, make_options(values), progress)
+        return track(plan, robot, make_options(values), progress, watch)
+    if watch is not None:
+        raise InvalidInput("watch", "must not be given with a whole-body plan, whose robot is planar")
     if robot is not None:
         name = robot if isinstance(robot, (str, Path)) else robot.name
         raise InvalidInput("robot", "must not be given with a whole-body plan, which has its own", shown(str(name)))

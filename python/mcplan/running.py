@@ -13,7 +13,7 @@ from mcplan.errors import InvalidInput, InvalidOptions, did_you_mean, shown
 from mcplan.online.options import OnlineOptions, option_names
 from mcplan.solve import plan as solve
 from mcplan.tracking.choice import make_options
-from mcplan.tracking.options import Options, Push
+from mcplan.tracking.options import Options, Push, Watch
 
 if TYPE_CHECKING:
     from mcplan.online.result import RunResult
@@ -29,6 +29,7 @@ def run_any(
     robot: Robot | str | Path | None,
     values: Mapping[str, Any],
     progress: Callable[[float, float], None] | None = None,
+    watch: Watch | None = None,
 ) -> RunResult:
     """Walk with replanning; see mcplan.run.
 
@@ -37,6 +38,7 @@ def run_any(
         robot: None: that of the plan.
         values: Options by name.
         progress: Called now and then with the time simulated and the time to simulate [s].
+        watch: Called at every control step; see mcplan.run.
     """
     if not isinstance(robot, Robot):
         require_or_path("robot", robot, "a Robot", "a name", optional=True)
@@ -45,7 +47,7 @@ def run_any(
     options, online = chosen_options(values)
     from mcplan.online.runner import run
 
-    return run(first_plan(scene, robot), robot if isinstance(scene, Plan) else None, options, online, progress)
+    return run(first_plan(scene, robot), robot if isinstance(scene, Plan) else None, options, online, progress, watch)
 
 
 def chosen_options(values: Mapping[str, Any]) -> tuple[Options, OnlineOptions]:

@@ -3,16 +3,25 @@
 from __future__ import annotations
 
 import json as json_module
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
 from mcplan.cli import track
 from mcplan.cli.given_options import named_as_typed
+from mcplan.cli.live import LiveOption, watching
 
 if TYPE_CHECKING:
     from mcplan.cli.track_outputs import RunOutputs
     from mcplan.online.result import RunResult
+
+
+class Telling(NamedTuple):
+    """What of a run is told while and after it."""
+
+    json: bool
+    quiet: bool
+    live: bool
 
 
 SceneArgument = Annotated[
@@ -77,6 +86,7 @@ def run(
     torque_delay: track.DelayOption = 0.0,
     sensor_noise: track.NoiseOption = 0.0,
     seed: track.SeedOption = 0,
+    live: LiveOption = False,
     video: track.VideoOption = None,
     html: track.HtmlOption = None,
     strip: track.StripOption = None,
@@ -104,10 +114,11 @@ def run(
     values |= {"torque_bandwidth_hz": torque_bandwidth, "torque_delay_s": torque_delay, "sensor_noise": sensor_noise}
     values |= {"latency_s": latency, "period_s": period, "duration_s": duration}
     values["command"] = [_numbers(text) for text in command or []]
-    return _run((scene, robot), values, RunOutputs(video, html, strip, plots, save, verb="run"), json, quiet)
+    outputs = RunOutputs(video, html, strip, plots, save, verb="run")
+    return _run((scene, robot), values, outputs, Telling(json, quiet, live))
 
 
-def _run(walk: tuple[str, str | None], values: dict[str, Any], outputs: RunOutputs, json: bool, quiet: bool) -> int:
+def _run(walk: tuple[str, str | None], values: dict[str, Any], outputs: RunOutputs, telling: Telling) -> int:
     """Scene and robot, options by name, and what is to be written; the exit code."""
     from dataclasses import replace
 
@@ -115,20 +126,22 @@ def _run(walk: tuple[str, str | None], values: dict[str, Any], outputs: RunOutpu
     from mcplan.cli.terminal import printable
     from mcplan.cli.track_text import Progress
     from mcplan.extras import require
-    from mcplan.running import chosen_options, run_any
+    from mcplan.running import chosen_options, first_plan, run_any
 
     require("mcplan run", "sim", "mujoco", "pinocchio", "proxsuite")
     outputs.require()
     chosen_options(values)
-    progress = Progress(quiet or json)
+    progress = Progress(telling.quiet or telling.json)
     progress.working("planning")
-    result, interrupted = as_far_as_it_came(lambda: run_any(*walk, values, progress.simulated))
+    plan = first_plan(*walk)
+    with watching(telling.live, plan, None) as watch:
+        result, interrupted = as_far_as_it_came(lambda: run_any(plan, walk[1], values, progress.simulated, watch))
     progress.end()
-    print(json_module.dumps(summary(result), allow_nan=False) if json else result, flush=True)
+    print(json_module.dumps(summary(result), allow_nan=False) if telling.json else result, flush=True)
     written = (replace(outputs, video=None, html=None, strip=None, plots=None) if interrupted else outputs).write(
         result, progress
     )
-    if written and not json:
+    if written and not telling.json:
         print(printable(f"Saved {', '.join(written)}"))
     return CODE if interrupted else 0 if result.followed else 1
 

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import json as json_module
 import sys
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from mcplan.cli.given_options import named_as_typed
+from mcplan.cli.live import LiveOption, watching
 
 if TYPE_CHECKING:
     from mcplan._core import Plan, PlanarPlan, Robot
     from mcplan.planar.tracking import Suitability
     from mcplan.tracking.findings import Feasibility
+    from mcplan.tracking.options import Watch
     from mcplan.wb import Motion, MotionCheckResult
 
 
@@ -121,6 +124,7 @@ def track(
     sensor_noise: NoiseOption = 0.0,
     seed: SeedOption = 0,
     check: CheckOption = True,
+    live: LiveOption = False,
     video: VideoOption = None,
     html: HtmlOption = None,
     strip: StripOption = None,
@@ -159,7 +163,8 @@ def track(
     chosen, own_robot = _chosen(plan, robot, values)
     feasibility = _feasibility(chosen, own_robot, quiet or json) if check else None
     progress = Progress(quiet or json)
-    result, interrupted = as_far_as_it_came(lambda: track_any(chosen, own_robot, values, progress.simulated))
+    with _watching(live, chosen, own_robot) as watch:
+        result, interrupted = as_far_as_it_came(lambda: track_any(chosen, own_robot, values, progress.simulated, watch))
     progress.end()
     print(json_module.dumps(summary(result, plan, feasibility), allow_nan=False) if json else result, flush=True)
     written = (RunOutputs(save=save) if interrupted else outputs).write(result, progress)
@@ -186,6 +191,21 @@ def _chosen(plan: Path, robot: str | None, values: dict[str, Any]) -> tuple[Plan
     if isinstance(chosen, PlanarPlan):
         _require_planar(robot, values)
     return chosen, None if robot is None else load_robot(robot)
+
+
+def _watching(
+    live: bool, plan: Plan | PlanarPlan | Motion, robot: Robot | None
+) -> AbstractContextManager[Watch | None]:
+    from mcplan._core import Plan, PlanarPlan
+    from mcplan.errors import InvalidInput
+
+    if isinstance(plan, PlanarPlan):
+        if live:
+            raise InvalidInput(
+                "--live", "needs a plan of mcplan plan or rhp, or a motion: planar robots are not shown so"
+            )
+        return nullcontext()
+    return watching(live, plan if isinstance(plan, Plan) else plan.plan, robot)
 
 
 def _feasibility(

@@ -17,7 +17,7 @@ from mcplan.extras import require
 from mcplan.tracking.disturbances import disturbed
 from mcplan.tracking.interruption import Interruption
 from mcplan.tracking.measures import measure, with_touches
-from mcplan.tracking.options import Options
+from mcplan.tracking.options import Options, Watch
 from mcplan.tracking.recorder import Acting, Recorder
 from mcplan.tracking.references import references
 from mcplan.tracking.robot_dynamics import RobotDynamics
@@ -61,6 +61,7 @@ def run(
     options: Options | None = None,
     online: OnlineOptions | None = None,
     progress: Callable[[float, float], None] | None = None,
+    watch: Watch | None = None,
 ) -> RunResult:
     """Simulate a robot that follows a plan and is planned for anew while it walks.
 
@@ -70,6 +71,8 @@ def run(
         options: Options of the simulation, as for tracking.
         online: When to replan, and when plans are taken over.
         progress: Called now and then with the time simulated and the time to simulate [s].
+        watch: Called at every control step with the simulated time [s], the configuration (nq,) in Pinocchio's order and
+            the plan that is followed, as ``mcplan.view.LiveView`` is.
 
     Returns:
         What the robot did, and how planning went. Ctrl-C ends the run with Interrupted, which carries the result.
@@ -102,6 +105,7 @@ def run(
     simulation.reset(on_ground, np.zeros(model.urdf_model.model.nv))
     with Interruption() as stop:
         loop = _Loop(plan, simulation, start, options, online, length_s)
+        loop.watch = watch
         try:
             result = loop.run(stop, progress)
         finally:
@@ -186,6 +190,7 @@ class _Loop:
         self.followed = FollowedReferences(count, desired)
         self.recorder = Recorder(plan, self.urdf_model, simulation.model.joints, self.followed)
         self.failures, self.control_s = 0, 0.0
+        self.watch: Watch | None = None
 
     @property
     def plan(self) -> FollowedPlan:
@@ -230,6 +235,8 @@ class _Loop:
         if options.sensor_noise > 0.0:  # what is recorded is what the robot does, not what the controller reads
             dynamics = self.actual
             dynamics.update(*state)
+        if self.watch is not None:
+            self.watch(now_s, state[0], self.plan.plan)
         push = sum((p.force_W(now_s) for p in options.pushes), np.zeros(3))
         steps = round(self.dt_s / options.simulation_step_s)
         given = simulation.advance(command.torques, np.concatenate([push, np.zeros(3)]), steps)

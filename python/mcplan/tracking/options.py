@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields
 
 import numpy as np
+from numpy.typing import NDArray
 
+from mcplan._core import Plan
 from mcplan.errors import InvalidOptions
+
+#: Sees a simulation: simulated time [s], configuration (nq,) in Pinocchio's order, the plan that is followed.
+Watch = Callable[[float, NDArray[np.float64], Plan], None]
 
 #: Least time step of MuJoCo [s]: 200 steps to a control step of the default length.
 SIMULATION_STEP_MIN_S = 1e-5

@@ -26,7 +26,7 @@ from .interruption import Interruption
 from .joint_references import JointReferences
 from .measures import at_torque_limit, measure, with_touches
 from .motion_references import motion_references
-from .options import Options
+from .options import Options, Watch
 from .postures import postures_along
 from .recorder import Acting, Recorder
 from .references import References, references
@@ -68,6 +68,7 @@ def track(
     robot: Robot | str | Path | None = None,
     options: Options | None = None,
     progress: Callable[[float, float], None] | None = None,
+    watch: Watch | None = None,
 ) -> TrackingResult:
     """Track a plan or a motion with a simulated robot, which its torques alone move, within their limits.
 
@@ -76,6 +77,8 @@ def track(
         robot: A robot with a URDF and the plan's end-effectors by name; None: the plan's own. A motion takes no other.
         options: Options of the run.
         progress: Called now and then with the time simulated and the time to simulate [s].
+        watch: Called at every control step with the simulated time [s], the configuration (nq,) in Pinocchio's order and
+            the plan that is followed, as ``mcplan.view.LiveView`` is.
 
     Returns:
         What the robot did, and how well. A fall ends the run and is a result, not an exception. Ctrl-C ends it with
@@ -108,7 +111,7 @@ def track(
     on_ground[2] += options.ground_shift_m
     simulation.reset(on_ground, np.zeros(model.urdf_model.model.nv))
     with Interruption() as stop:
-        result = _run(trial, simulation, stop, progress)
+        result = _run(trial, simulation, stop, progress, watch)
     stop.raise_with(result)
     return result
 
@@ -193,7 +196,11 @@ def posture_at(urdf_model: UrdfModel, plan: Plan, time_s: float) -> Array:
 
 
 def _run(
-    trial: _Trial, simulation: Simulation, stop: Interruption, progress: Callable[[float, float], None] | None
+    trial: _Trial,
+    simulation: Simulation,
+    stop: Interruption,
+    progress: Callable[[float, float], None] | None,
+    watch: Watch | None,
 ) -> TrackingResult:
     from .controller import Controller, Restraints
 
@@ -229,6 +236,8 @@ def _run(
             break
         if stop.asked:
             break
+        if watch is not None:
+            watch(now, state[0], trial.plan)
         if progress is not None and n % 50 == 0:
             progress(now, desired.count * desired.dt_s)
     wall = time.perf_counter() - began

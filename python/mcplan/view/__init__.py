@@ -6,6 +6,7 @@ Needs ``pip install 'mcplan[view]'``, and for rendering runs ``mcplan[sim]``; bo
 
 from __future__ import annotations
 
+from mcplan.view.live import LiveView
 from mcplan.view.pages.page import Page
 from mcplan.view.pages.show import show, show_scene
 from mcplan.view.pages.show_motion import show_motion
@@ -24,6 +25,7 @@ from mcplan.view.plots.save import save_plots
 from mcplan.view.video.film import save_video
 
 __all__ = [
+    "LiveView",
     "NoGraphics",
     "Page",
     "motion_picture",

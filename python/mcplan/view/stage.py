@@ -147,6 +147,11 @@ class Stage:
         packed = [self._umsgpack.packb(command) for command in commands]
         return gzip.compress(b"".join(struct.pack("<I", len(p)) + p for p in packed), compresslevel=9, mtime=0)
 
+    def taken(self) -> list[tuple[bytes, bytes, bytes]]:
+        """Type, path and packed text of each command so far, which are forgotten: for a server that shows them at once."""
+        commands, self._commands = self._commands, []
+        return [(c["type"].encode(), c["path"].encode(), self._umsgpack.packb(c)) for c in commands]
+
     def _track(self, name: str, kind: str, times_s: Array, values: Array) -> dict[str, Any]:
         if np.ptp(values, axis=0).max() < 10.0 ** (-2 - self._decimals):
             times_s, values = times_s[[0, -1]], values[[0, -1]]
