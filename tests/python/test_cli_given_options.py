@@ -169,6 +169,7 @@ def test_every_option_that_takes_a_number_or_a_choice_is_tried():
         "--strip",
         "--video",
         "--save",
+        "--motion",
         "--scheduler",
     }
     for words, command in commands():
