@@ -117,6 +117,7 @@ BAD = {
     },
     "bench contacts": {"--repeats": ("0",), "--jobs": ("0",), "--case": ("nope",)},
     "bench contacts --no-speed": {"--repeats": ("3",)},
+    "bench motion": {"--case": ("nope", "go2/")},
     "bench tracking": {"--seeds": ("0", "3"), "--jobs": ("0",), "--case": ("nope",)},
 }
 
