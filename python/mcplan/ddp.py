@@ -11,8 +11,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 from mcplan._core import Knot, Plan, Robot, Scene
 from mcplan._core import PlanResult as Result
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 
     from mcplan.option_types import DdpOptions, DdpReplanOptions
     from mcplan.solve import Command, Contacts
+    from mcplan.wb.planned import PlannedMotion
 
 __all__ = [
     "Method",
@@ -50,14 +52,39 @@ __all__ = [
 ]
 
 
+@overload
 def plan(
     scene: Scene | str | Path,
     robot: Robot | str | Path = "humanoid44",
     options: Options | None = None,
     *,
     warm_start: Plan | None = None,
+    motion: Literal[False] = False,
     **named: Unpack[DdpOptions],
-) -> Result:
+) -> Result: ...
+
+
+@overload
+def plan(
+    scene: Scene | str | Path,
+    robot: Robot | str | Path = "humanoid44",
+    options: Options | None = None,
+    *,
+    warm_start: Plan | None = None,
+    motion: Literal[True] | Mapping[str, Any],
+    **named: Unpack[DdpOptions],
+) -> PlannedMotion: ...
+
+
+def plan(
+    scene: Scene | str | Path,
+    robot: Robot | str | Path = "humanoid44",
+    options: Options | None = None,
+    *,
+    warm_start: Plan | None = None,
+    motion: bool | Mapping[str, Any] = False,
+    **named: Unpack[DdpOptions],
+) -> Result | PlannedMotion:
     """Find a contact sequence and a motion from the scene's start to its goal.
 
     Ctrl-C ends the search with Interrupted, which carries the result with the best plan so far.
@@ -67,19 +94,27 @@ def plan(
         robot: A robot, or what load_robot takes.
         options: How to search; None: the defaults.
         warm_start: An earlier plan of the same robot to start from.
+        motion: Find a whole-body motion along the plan as well (``mcplan.motion``), and search again, up to five times in
+            all, with the limits that it found missing. True, or options of ``mcplan.motion`` by name.
         **named: Fields of ``ddp.Options`` by name, which stand above those of `options`; ``time_limit`` [s] is short for
             ``time_limit_s``. ``model`` says what contacts can do: "wrench" (default), forces within soles and friction
             cones that turn the base, or "lipm", the paper's forces through the CoM.
 
     Returns:
-        The plan, with a report whose status is ``solved`` only if the checker accepts the plan.
+        The plan, with a report whose status is ``solved`` only if the checker accepts the plan. With `motion` a
+        ``mcplan.wb.PlannedMotion``, which has the motion beside plan and report, and is ``solved`` only if it is certified.
 
     Raises:
         InvalidArgument: An argument is of another type, such as the result that has the plan.
         InvalidOptions: No such option, or its value is out of range.
         InvalidScene: The scene is malformed or does not fit the robot.
         InvalidRobot: The robot is malformed.
+        MissingExtra: With `motion`, the packages of ``pip install 'mcplan[view]'`` are not installed.
     """
+    if motion is not False:
+        from mcplan.alternation import plan_with_motion
+
+        return plan_with_motion(scene, robot, named, warm_start, options, motion)
     from mcplan.solve import plan as solve
 
     return solve(scene, robot, named, warm_start, options)

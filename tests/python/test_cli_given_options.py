@@ -117,6 +117,7 @@ BAD = {
     },
     "bench contacts": {"--repeats": ("0",), "--jobs": ("0",), "--case": ("nope",)},
     "bench contacts --no-speed": {"--repeats": ("3",)},
+    "bench motion": {"--case": ("nope", "go2/")},
     "bench tracking": {"--seeds": ("0", "3"), "--jobs": ("0",), "--case": ("nope",)},
 }
 
@@ -169,6 +170,7 @@ def test_every_option_that_takes_a_number_or_a_choice_is_tried():
         "--strip",
         "--video",
         "--save",
+        "--motion",
         "--scheduler",
     }
     for words, command in commands():

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import functools
+import re
 import signal
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -94,6 +96,52 @@ def test_a_motion_that_asks_for_more_torque_than_there_is_names_joint_time_and_f
     assert result.shortfall.factor > 1.05 and 0.0 < result.shortfall.time_s < plan.duration()
     assert result.shortfall.joint in result.motion.joints
     assert f"{result.shortfall.joint} needs {result.shortfall.factor:.2f} times its torque" in str(result.report)
+
+
+def with_limits(tmp_path: Path, **factors: float) -> mp.Robot:
+    """Talos with the limits of all its joints times factors, such as velocity=0.5; without shapes."""
+    robot = mp.load_robot("talos")
+    text = re.sub(r"<(visual|collision)>.*?</\1>", "", load_model(robot).path.read_text(), flags=re.DOTALL)
+    for name, factor in factors.items():
+        text = re.sub(rf'{name}="([^"]+)"', lambda found, n=name, f=factor: f'{n}="{f * float(found[1])}"', text)
+    (tmp_path / "talos.urdf").write_text(text)
+    robot.urdf = str(tmp_path / "talos.urdf")
+    return robot
+
+
+def test_joints_that_are_too_slow_are_named_with_time_and_factor(tmp_path: Path):
+    plan = stepping_plan(2, robot=with_limits(tmp_path, velocity=0.02))
+    result = mp.motion(plan)
+    assert result.status is MotionStatus.SPEED_INFEASIBLE, result.report
+    assert result.shortfall.what == "speed" and result.shortfall.joint.startswith("leg_")
+    assert result.shortfall.factor > 1.1 and 0.0 < result.shortfall.time_s < plan.duration()
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.03])
+def test_joints_that_are_too_weak_are_named_though_the_search_does_not_end(tmp_path: Path, ratio: float):
+    """At 0.03 what is left on the base is not small either, but no less than the torque that is lacking."""
+    result = mp.motion(stepping_plan(2, robot=with_limits(tmp_path, effort=ratio)))
+    assert result.status is MotionStatus.TORQUE_INFEASIBLE, result.report
+    assert result.shortfall.factor > 2.0 and result.shortfall.joint in result.motion.joints
+    assert result.iterations == 60 and "max_iterations" in result.report.message
+
+
+def test_few_iterations_do_not_say_that_a_torque_is_lacking(tmp_path: Path):
+    weak = stepping_plan(2, robot=with_limits(tmp_path, effort=0.5))
+    assert mp.motion(weak, max_iterations=8).status is MotionStatus.NOT_CONVERGED
+    assert mp.motion(weak).status is MotionStatus.SOLVED
+
+
+@pytest.mark.parametrize(("gravity", "effort"), [(2.0, 1.0), (2.0, 4.0)])
+def test_a_walk_planned_for_twice_the_gravity_is_certified(tmp_path: Path, gravity: float, effort: float):
+    """Legs that are nearly straight carry twice the weight; with stronger joints the motion is nearer to its plan."""
+    scene = mp.load_scene("flat")
+    scene.gravity *= gravity
+    result = mp.motion(stepping_plan(2, scene=scene, robot=with_limits(tmp_path, effort=effort)))
+    assert result.status is MotionStatus.SOLVED, result.report
+    measures = result.certificate.measures
+    assert measures["com_max_m"] <= 0.03
+    assert (measures["torque_use"] > 0.9) == (effort == 1.0)
 
 
 def test_a_plan_whose_com_is_too_high_for_the_legs_names_one():

@@ -13,6 +13,7 @@ from mcplan_bench.cli.output import say
 
 from .contacts import contacts
 from .deadlines import deadlines
+from .motion import motion
 from .tracking import tracking
 
 app = typer.Typer(
@@ -21,6 +22,7 @@ app = typer.Typer(
 )
 app.command()(contacts)
 app.command()(deadlines)
+app.command()(motion)
 app.command()(tracking)
 
 _OUT = typer.Option("--out", metavar="DIR", help="Folder for JSON and CSV.")

@@ -114,6 +114,7 @@ void bind_problem(py::module_& m) {
       .def_readwrite("weight_N", &wb::Problem::weight_N)
       .def_readwrite("limit_ratio", &wb::Problem::limit_ratio)
       .def_readwrite("position_margin", &wb::Problem::position_margin)
+      .def_readwrite("point_load_min", &wb::Problem::point_load_min)
       .def_readwrite("weights", &wb::Problem::weights);
   c.def(
       "add_link",

@@ -14,6 +14,14 @@ ipm::Unknowns unknowns_of(const Problem& problem, const Layout& layout) {
   const int joints = layout.joints;
   for (int k = 0; k < layout.nodes; ++k) {
     const NodeLayout& at = layout.node[k];
+    int force = at.first_force;
+    for (const Contact& contact : problem.nodes[k].contacts) {
+      if (!contact.carries) continue;
+      const EndEffector& end = problem.end_effectors[contact.end_effector];
+      const int edges = kEdges * static_cast<int>(end.points_S.cols());
+      if (end.is_point()) lower.segment(force, edges).setConstant(problem.point_load_min / kEdges);
+      force += edges;
+    }
     int row = layout.variables + at.first_row;
     for (int i = 0; i < joints; ++i, ++row) {  // rows of positions are off the posture
       const Link& link = problem.links[6 + i];

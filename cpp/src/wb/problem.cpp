@@ -20,6 +20,8 @@ void Problem::validate() const {
   require(posture.size() == joint_count(), "posture", "must have " + std::to_string(joint_count()) + " values",
           std::to_string(posture.size()));
   require(weight_N > 0.0 && std::isfinite(weight_N), "weight_N", "must be positive", std::to_string(weight_N));
+  require(point_load_min >= 0.0 && point_load_min < 0.25, "point_load_min", "must lie in [0, 0.25)",
+          std::to_string(point_load_min));
   for (int i = 0; i < count; ++i) {
     const std::string name = "links[" + std::to_string(i) + "]";
     const Link& link = links[i];

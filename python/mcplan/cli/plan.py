@@ -14,6 +14,8 @@ from mcplan.cli.given_options import named_as_typed
 
 if TYPE_CHECKING:
     from mcplan._core import PlanResult
+    from mcplan.cli.outputs import Outputs
+    from mcplan.wb import PlannedMotion
 
 
 SceneArgument = Annotated[str, typer.Argument(metavar="SCENE", help="Scene: built-in name or TOML file.")]
@@ -70,6 +72,14 @@ OutputOption = Annotated[
     Path | None, typer.Option("-o", "--output", metavar="FILE", help="File for the plan (.npz, .json).")
 ]
 HtmlOption = Annotated[Path | None, typer.Option("--html", metavar="FILE", help="File for a page that shows the plan.")]
+MotionOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--motion",
+        metavar="FILE",
+        help="Find joints and torques too, search again where the robot lacks something; file for the motion (.npz).",
+    ),
+]
 PlotsOption = Annotated[Path | None, typer.Option("--plots", metavar="DIR", help="Folder for plots.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 VerboseOption = Annotated[bool, typer.Option("-v", "--verbose", help="Print the table of iterations on stderr.")]
@@ -96,6 +106,7 @@ def plan(
     threads: ThreadsOption = None,
     seed: SeedOption = None,
     output: OutputOption = None,
+    motion: MotionOption = None,
     html: HtmlOption = None,
     plots: PlotsOption = None,
     json: JsonOption = False,
@@ -103,26 +114,25 @@ def plan(
 ) -> int:
     """Plan a contact sequence and a motion through a scene.
 
-    The exit code is 0 only if the plan is solved, 1 otherwise. Ctrl-C ends the search: the best plan so far is saved
-    (-o), nothing is drawn, and the exit code is 130.
+    The exit code is 0 only if the plan is solved (and its motion, with --motion), 1 otherwise. Ctrl-C ends the search: the
+    best plan so far is saved (-o), nothing is drawn, and the exit code is 130.
 
     Example: mcplan plan stepping_stones --robot g1 --scale 0.8 -o plan.npz --html plan.html
     """
     from mcplan.arguments import named_by_file
     from mcplan.cli.interrupts import CODE, as_far_as_it_came
-    from mcplan.cli.outputs import Outputs, require_outputs, write_outputs
-    from mcplan.cli.terminal import printable, say
+    from mcplan.cli.outputs import Outputs, require_outputs
+    from mcplan.cli.terminal import printable
+    from mcplan.files.outputs import ARCHIVE, require_target
 
+    require_target("--motion", motion, ARCHIVE)
     require_outputs("plan", output, html, plots)
-    given = {"phases": phases, "method": method, "time_limit": time_limit, "threads": threads, "seed": seed}
-    given |= {"model": model, "polish": polish, "sole_inside": sole_inside, "flight_duration_min_s": min_flight}
+    given: dict[str, Any] = {"phases": phases, "method": method, "time_limit": time_limit, "threads": threads}
+    given |= {"seed": seed, "model": model, "polish": polish}
+    given |= {"sole_inside": sole_inside, "flight_duration_min_s": min_flight}
+    given |= {"allow_flight": False if no_flight else None, "joint_limits": False if no_joint_limits else None}
+    given |= {"record_history": None if plots is None else True, "motion": None if motion is None else True}
     options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
-    if no_flight:
-        options["allow_flight"] = False
-    if no_joint_limits:
-        options["joint_limits"] = False
-    if plots is not None:
-        options["record_history"] = True
     if verbose:
         options["logger"] = lambda level, line: print(printable(line), file=sys.stderr)
 
@@ -132,17 +142,28 @@ def plan(
     ground = scene if scale == 1.0 else scaled(mcplan.load_scene(scene), scale)
     with named_by_file(scene, robot):
         result, interrupted = as_far_as_it_came(lambda: mcplan.plan(ground, robot, **options))
-    written = write_outputs(result.plan, result.report, Outputs(output, html, plots), drawn=not interrupted)
-    print(json_module.dumps(summary(result)) if json else report_text(result, written))
-    asked = [path for path in (output, html, plots) if path is not None]
-    if asked and not written and not (json or interrupted):
-        say(f"Not written, since there is no plan: {', '.join(map(str, asked))}")
+    _tell(result, Outputs(output, html, plots), motion, json, interrupted)
     if interrupted:
         return CODE
-    return 0 if str(result.report.status) == "solved" else 1
+    return 0 if (str(result.report.status) == "solved" if motion is None else result.solved) else 1
 
 
-def summary(result: PlanResult) -> dict[str, Any]:
+def _tell(result: Any, outputs: Outputs, motion: Path | None, json: bool, interrupted: bool) -> None:
+    """Write what was asked for, and print what was found."""
+    from mcplan.cli.outputs import write_outputs
+    from mcplan.cli.terminal import say
+
+    written = write_outputs(result.plan, result.report, outputs, drawn=not interrupted)
+    if motion is not None and result.motion is not None:
+        result.motion.save(motion)
+        written.append(motion)
+    print(json_module.dumps(summary(result)) if json else report_text(result, written))
+    asked = [path for path in (outputs.output, outputs.html, outputs.plots, motion) if path is not None]
+    if asked and not written and not (json or interrupted):
+        say(f"Not written, since there is no plan: {', '.join(map(str, asked))}")
+
+
+def summary(result: PlanResult | PlannedMotion) -> dict[str, Any]:
     """What ``--json`` prints."""
     from mcplan.cli.check import finite, violation_dict, warning_dict
     from mcplan.cli.loads_text import load_dict
@@ -180,7 +201,31 @@ def summary(result: PlanResult) -> dict[str, Any]:
         "threads": report.threads,
         "parallel_loops": report.parallel_loops,
         "version": report.version,
+        **_motion_dict(result),
     }
+
+
+def _motion_dict(result: PlanResult | PlannedMotion) -> dict[str, Any]:
+    """The motion and the rounds of ``--motion``; nothing without it."""
+    rounds = getattr(result, "rounds", None)
+    if rounds is None:
+        return {}
+    from mcplan.cli.motion_text import summary as motion_summary
+
+    found = getattr(result, "motion_result", None)
+    return {"motion": found and motion_summary(found), "rounds": [str(one) for one in rounds]}
+
+
+def _motion_lines(result: PlanResult | PlannedMotion) -> list[str]:
+    """The motion and the rounds of ``--motion``, in lines; none without it."""
+    rounds = getattr(result, "rounds", None)
+    if rounds is None:
+        return []
+    from mcplan.cli.motion_text import report_lines
+
+    lines = [f"round {number}: {one}" for number, one in enumerate(rounds, 1)] if len(rounds) > 1 else []
+    found = getattr(result, "motion_result", None)
+    return [*lines, *(report_lines(found) if found is not None else [])]
 
 
 def flight_phases(sequence: list[list[int]]) -> int:
@@ -188,7 +233,7 @@ def flight_phases(sequence: list[list[int]]) -> int:
     return sum(all(surface < 0 for surface in row) for row in sequence)
 
 
-def report_text(result: PlanResult, written: list[Path]) -> str:
+def report_text(result: PlanResult | PlannedMotion, written: list[Path]) -> str:
     """What is printed without ``--json``: how it ended, the steps, what was saved."""
     from mcplan.cli.check import warning_lines
     from mcplan.cli.loads_text import friction_lines, load_lines
@@ -216,6 +261,7 @@ def report_text(result: PlanResult, written: list[Path]) -> str:
     if report.friction_use:
         lines += friction_lines(report.friction_use)
     lines += load_lines(plan)
+    lines += _motion_lines(result)
     if written:
         lines.append(f"Saved {', '.join(map(str, written))}" + ("" if solved else f", with status {report.status}"))
     return "\n".join(printable(line) for line in lines)

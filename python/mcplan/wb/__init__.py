@@ -2,6 +2,7 @@
 
 from .certificate import MotionCheckResult, MotionTolerances, MotionViolation
 from .motion import Motion, MotionSamples, MotionState
+from .planned import PlannedMotion, Round
 from .result import MotionReport, MotionResult, MotionStatus, Shortfall
 
 __all__ = [
@@ -14,5 +15,7 @@ __all__ = [
     "MotionStatus",
     "MotionTolerances",
     "MotionViolation",
+    "PlannedMotion",
+    "Round",
     "Shortfall",
 ]

@@ -26,12 +26,14 @@ Array = NDArray[np.float64]
 SMALL_RATIO, SMALL_M = 1e-6, 1e-3
 #: Factor of a limit by which a motion that is not quite a solution tells that the robot lacks something.
 MUCH = 1.1
+#: Lever of what is left on the base [m].
+ARM_M = 1.0
 #: Misses of a foothold by inverse kinematics that say that it is not reached [m].
 MISS_M = 5e-3
 
 
 def limits_exceeded(usage: Array, nodes: Nodes, motion: Motion) -> Shortfall | None:
-    """The torque or speed that is exceeded most at the nodes, else a swing that is not clear of the ground.
+    """The torque or speed that is exceeded most at the nodes, by its factor, else a swing that is not clear of the ground.
 
     Args:
         usage: (n + 1, rows) of the solver: positions, speeds, torques, then distances.
@@ -39,11 +41,11 @@ def limits_exceeded(usage: Array, nodes: Nodes, motion: Motion) -> Shortfall | N
         motion: The motion.
     """
     joints = len(motion.joints)
-    for what, first in (("torque", 2 * joints), ("speed", joints)):
-        used = usage[:, first : first + joints]
-        k, joint = divmod(int(np.argmax(used)), joints)
-        if used[k, joint] > 1.0 + SMALL_RATIO:
-            return Shortfall(what, motion.joints[joint], float(nodes.times_s[k]), float(used[k, joint]))
+    used = usage[:, joints : 3 * joints]
+    k, column = divmod(int(np.argmax(used)), 2 * joints)
+    if used[k, column] > 1.0 + SMALL_RATIO:
+        what, joint = ("speed", column) if column < joints else ("torque", column - joints)
+        return Shortfall(what, motion.joints[joint], float(nodes.times_s[k]), float(used[k, column]))
     beyond = usage[:, 3 * joints :]
     if beyond.size == 0 or not beyond.max() > SMALL_M:
         return None
@@ -78,7 +80,9 @@ def _limb(model: MotionModel, q: Array, end: int) -> tuple[str, float]:
     return str(whole.names[first]), max(float(np.linalg.norm(arm)), 1e-3)
 
 
-def shortfall_of(usage: Array, converged: bool, near: bool, nodes: Nodes, motion: Motion) -> Shortfall | None:
+def shortfall_of(
+    usage: Array, converged: bool, near: bool, nodes: Nodes, motion: Motion, left: float = float("inf")
+) -> Shortfall | None:
     """What is exceeded at the end of a search, or not reached; None: nothing that is known.
 
     Args:
@@ -87,10 +91,21 @@ def shortfall_of(usage: Array, converged: bool, near: bool, nodes: Nodes, motion
         near: Whether, though it did not, all else than limits holds nearly, so that what exceeds them by much is lacking.
         nodes: The solver's.
         motion: The motion.
+        left: Force [N] or moment [N m] on the base that a search that is not near has not balanced.
     """
-    found = limits_exceeded(usage, nodes, motion) if converged or near else None
+    found = limits_exceeded(usage, nodes, motion)
     if found is not None and not converged and found.factor < MUCH:
+        found = None
+    if found is not None and not (converged or near) and not _beyond(found, motion, left):
         found = None
     if found is None and not converged:
         found = not_reached(motion.model, motion.plan, nodes)
     return found
+
+
+def _beyond(found: Shortfall, motion: Motion, left: float) -> bool:
+    """Whether a torque is lacking even if all that is left on the base acted on the joint, a metre away from it."""
+    if found.what != "torque":
+        return False
+    explained = left * ARM_M / float(motion.model.effort[motion.joints.index(found.joint)])
+    return found.factor > MUCH * (1.0 + explained)

@@ -51,6 +51,8 @@ MAX_PITCH = 1.3
 ROUNDS = 4
 #: Violation of scaled rows (1 N, 1 mm) with which a search that has not converged says by what a motion exceeds limits.
 NEARLY = 1e-2
+#: Scale of the base's rows [N, N m], and iterations after which a search that is not near still says what is lacking.
+BASE_SCALE, TRIED = 100.0, 40
 CONSTRAINT_TOLERANCE, COST_TOLERANCE, TOLERANCE, BARRIER = 3e-4, 1e-4, 1e-5, 0.1
 
 _log = logging.getLogger("mcplan.wb")
@@ -313,7 +315,9 @@ def _judged(search: _Search, found: _Found, result: MotionResult, tolerances: Mo
         return _with_status(result, MotionStatus.TIME_LIMIT)
     usage = np.asarray(search.solver.usage(found.last.x))
     near = found.exceeding or found.last.violation <= NEARLY
-    shortfall = shortfall_of(usage, ended == "solved", near, search.nodes, result.motion)
+    tried = result.report.iterations >= TRIED
+    left = BASE_SCALE * found.last.violation if tried else float("inf")
+    shortfall = shortfall_of(usage, ended == "solved", near, search.nodes, result.motion, left)
     if shortfall is not None:
         kind = {"torque": MotionStatus.TORQUE_INFEASIBLE, "speed": MotionStatus.SPEED_INFEASIBLE}
         return _with_status(result, kind.get(shortfall.what, MotionStatus.REACH_INFEASIBLE), shortfall=shortfall)

@@ -102,6 +102,7 @@ struct Problem {
   double weight_N = 0.0;          ///< m g
   double limit_ratio = 0.97;      ///< of velocity and torque limits, for what happens between nodes
   double position_margin = 1e-3;  ///< inside of the joints' limits [rad, m]
+  double point_load_min = 0.01;   ///< normal force of a point that carries, over weight_N: room to correct it
   Weights weights;
 
   int velocity_count() const { return static_cast<int>(links.size()); }

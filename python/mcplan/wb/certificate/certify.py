@@ -6,6 +6,7 @@ import time
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mcplan.extras import require
 
@@ -16,8 +17,11 @@ from .footholds import footholds_of
 from .inputs import CertifiedMotion
 from .result import RATIO, MotionCheckResult, MotionViolation
 from .robot import CertifiedRobot, certified_robot
+from .stances import about_lines, rotations_at_ends, stances
 from .states import States, equally_spaced, states_of
 from .tolerances import MotionTolerances
+
+Array = NDArray[np.float64]
 
 #: Instants at which what the motion says of itself is compared.
 COMPARED = 50
@@ -46,7 +50,9 @@ def certify(motion: CertifiedMotion, tolerances: MotionTolerances | None = None)
     robot = certified_robot(motion)
     states = states_of(motion, robot, equally_spaced(motion, tolerances.sample_s))
     footholds = footholds_of(motion.plan)
-    correction = corrected(motion, robot, states)
+    on_lines = stances(motion, robot)
+    about_W = about_lines(motion, states, on_lines)
+    correction = corrected(motion, robot, states, states.residual_W - about_W)
     com_W = np.asarray(motion.plan.sample(states.times).com_W)
     plan = motion.plan
     constraints = [
@@ -58,14 +64,14 @@ def certify(motion: CertifiedMotion, tolerances: MotionTolerances | None = None)
         *contacts.pressure(motion, states, tolerances),
         *contacts.drift(motion, states, footholds, tolerances),
         *balance.balance(states, correction, tolerances),
-        *flight.landings(motion, robot, tolerances),
+        *rotations_at_ends(motion, robot, on_lines, flight.landings(motion, robot, tolerances)),
         *terrain.clearance(motion, states, footholds, tolerances),
         self_distance(robot, states, tolerances),
         *balance.off_the_plan(states, com_W, tolerances),
     ]
     notes = () if counted(robot, tolerances.self_distance_m)[0] else (NO_SHAPES,)
     found = MotionCheckResult(tuple(constraints), {}, len(states.times), time.perf_counter() - start, notes)
-    return replace(found, measures=_measures(found, states, correction))
+    return replace(found, measures=_measures(found, states, correction, about_W))
 
 
 def consistency(
@@ -93,7 +99,7 @@ def consistency(
     return worst
 
 
-def _measures(found: MotionCheckResult, states: States, correction: Correction) -> dict[str, float]:
+def _measures(found: MotionCheckResult, states: States, correction: Correction, about_W: Array) -> dict[str, float]:
     value = {constraint.name: constraint.value for constraint in found.constraints}
     free = ~(states.contacts >= 0).any(axis=1)
     in_flight = np.linalg.norm(states.residual_W[free, :3], axis=1)
@@ -105,6 +111,7 @@ def _measures(found: MotionCheckResult, states: States, correction: Correction) 
         "correction_N": float(correction.change_N.max(initial=0.0)),
         "corrected_torque_use": float(np.nanmax(correction.torque_use, initial=0.0)),
         "corrected_by_solver": float(correction.solved),
+        "line_residual_Nm": float(np.linalg.norm(about_W, axis=1).max(initial=0.0)),
         "flight_residual_N": float(in_flight.max(initial=0.0)),
         "drift_m": value["drift"],
         "drift_deg": value["drift_angle"],

@@ -54,11 +54,11 @@ class Correction:
     solved: int
 
 
-def corrected(motion: CertifiedMotion, robot: CertifiedRobot, states: States) -> Correction:
-    """Correct the shipped forces of each instant with contacts."""
+def corrected(motion: CertifiedMotion, robot: CertifiedRobot, states: States, missing_W: Array) -> Correction:
+    """Correct the shipped forces of each instant with contacts, where they leave (N, 6) on the base."""
     cones = _cones(motion, states)
-    changes, left = _least(states, cones)
-    instants, forces_W = _Instants(motion, robot, states, cones), states.corner_forces_W + changes
+    changes, left = _least(states, cones, missing_W)
+    instants, forces_W = _Instants(motion, robot, states, cones, missing_W), states.corner_forces_W + changes
     uses, wrenches_S = np.full(len(states.times), np.nan), instants.wrenches(np.arange(len(states.times)), forces_W)
     supported = np.flatnonzero(cones.in_contact.any(axis=(1, 2)))
     for k in supported.tolist():
@@ -67,11 +67,11 @@ def corrected(motion: CertifiedMotion, robot: CertifiedRobot, states: States) ->
     balanced = np.abs(left).max(axis=1) <= LEFT
     admissible = balanced & cones.hold(forces_W) & ~(uses > np.maximum(1.0, shipped) + SLACK_RATIO)
     inadmissible = supported[~admissible[supported]].tolist()
-    inadmissible.sort(key=lambda k: -float(np.abs(states.residual_W[k]).max()))
+    inadmissible.sort(key=lambda k: -float(np.abs(missing_W[k]).max()))
     for k in inadmissible[:MAX_SOLVED]:
         found = instants.solve(k)
         changes[k] = found - states.corner_forces_W[k]
-        left[k] = states.residual_W[k] - _sum(instants.grasp(k), changes[k])
+        left[k] = missing_W[k] - _sum(instants.grasp(k), changes[k])
         uses[k] = instants.use(k, instants.wrenches([k], found[None])[0])
     return Correction(left, np.linalg.norm(changes, axis=3).max(axis=(1, 2)), uses, len(inadmissible))
 
@@ -110,7 +110,7 @@ def _cones(motion: CertifiedMotion, states: States) -> _Cones:
     return _Cones(normals, frictions, (states.contacts >= 0)[:, :, None] & new)
 
 
-def _least(states: States, cones: _Cones) -> tuple[Array, Array]:
+def _least(states: States, cones: _Cones, missing_W: Array) -> tuple[Array, Array]:
     """Changes (N, L, 4, 3) of least weighted norm, and what they leave (N, 6), NaN without contacts."""
     count = len(states.times)
     grasp = _grasp(states.corners_W - states.base_W[:, None, None]).reshape(count, -1, 6, 3)
@@ -119,9 +119,9 @@ def _least(states: States, cones: _Cones) -> tuple[Array, Array]:
     weights = np.where(cones.in_contact, (pushes / scale) ** 2, 0.0).reshape(count, -1)
     gram = np.einsum("kc,kcij,kclj->kil", weights, grasp, grasp)
     inverse = np.linalg.pinv(gram, rcond=RANK, hermitian=True)
-    multipliers = np.einsum("kij,kj->ki", inverse, states.residual_W)
+    multipliers = np.einsum("kij,kj->ki", inverse, missing_W)
     changes = weights[:, :, None] * np.einsum("kcij,ki->kcj", grasp, multipliers)
-    left = states.residual_W - np.einsum("kcij,kcj->ki", grasp, changes)
+    left = missing_W - np.einsum("kcij,kcj->ki", grasp, changes)
     left[~cones.in_contact.any(axis=(1, 2))] = np.nan
     return changes.reshape(states.corner_forces_W.shape), left
 
@@ -142,8 +142,11 @@ def _sum(grasp: Array, forces_W: Array) -> Array:
 class _Instants:
     """Torques and balance as functions of the corner forces at an instant."""
 
-    def __init__(self, motion: CertifiedMotion, robot: CertifiedRobot, states: States, cones: _Cones) -> None:
+    def __init__(
+        self, motion: CertifiedMotion, robot: CertifiedRobot, states: States, cones: _Cones, missing_W: Array
+    ) -> None:
         self._motion, self._robot, self._states, self._cones = motion, robot, states, cones
+        self._missing_W = missing_W
         self._data = robot.model.createData()
 
     def grasp(self, k: int) -> Array:
@@ -187,7 +190,7 @@ class _Instants:
             on_base[:, i] = grasp[corner] @ ray
             spread[3 * corner : 3 * corner + 3, i] = ray
         shipped = states.corner_forces_W[k].reshape(-1) / weight
-        needed = _sum(grasp, shipped) + states.residual_W[k] / weight
+        needed = _sum(grasp, shipped) + self._missing_W[k] / weight
         bounded = np.isfinite(self._robot.effort) & (np.abs(per_ray).max(axis=1, initial=0.0) > 1e-9)
         slope = per_ray[bounded] / self._robot.effort[bounded, None]
         start, size = apart[bounded] / self._robot.effort[bounded], int(bounded.sum())

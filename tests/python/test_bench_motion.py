@@ -1,0 +1,23 @@
+"""mcplan bench motion."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+pytest.importorskip("pinocchio")
+pytest.importorskip("scipy.optimize")
+
+from mcplan.cli import main
+from mcplan_bench import motion
+
+
+def test_a_row_says_what_the_certificate_measures(capsys, tmp_path):
+    assert main(["bench", "motion", "--case", "talos/turn", "--out", str(tmp_path), "--json"]) == 0
+    (row,) = json.loads(capsys.readouterr().out)["motions"]
+    assert row["certified"] and row["status"] == "solved" and row["reason"] == ""
+    assert row["iterations"] > 0 and row["cpu_per_s"] > 0.0
+    assert 0.0 < row["torque_use"] <= 1.0 and row["drift_m"] <= 1e-4 and row["com_rms_m"] <= 0.01
+    assert set(motion.MEASURES) < set(row)
+    assert (tmp_path / "motion.csv").read_text().startswith("robot,scene,plan,")
