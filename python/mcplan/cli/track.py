@@ -154,8 +154,7 @@ def track(
     from mcplan.following import track_any
 
     require("mcplan track", "sim", "mujoco", "pinocchio", "proxsuite")
-    outputs = RunOutputs(video, html, strip, plots, save)
-    outputs.require()
+    (outputs := RunOutputs(video, html, strip, plots, save)).require()
     values: dict[str, Any] = {"assist": assist, "pushes": parse_pushes(push or []), "seed": seed}
     values |= {"mass_scale": mass_scale, "friction_scale": friction, "ground_shift_m": ground_shift}
     values |= {"speed_limits": speed_limits, "self_contacts": self_contacts, "sensor_noise": sensor_noise}
@@ -167,8 +166,7 @@ def track(
         result, interrupted = as_far_as_it_came(lambda: track_any(chosen, own_robot, values, progress.simulated, watch))
     progress.end()
     print(json_module.dumps(summary(result, plan, feasibility), allow_nan=False) if json else result, flush=True)
-    written = (RunOutputs(save=save) if interrupted else outputs).write(result, progress)
-    if written and not json:
+    if (written := (RunOutputs(save=save) if interrupted else outputs).write(result, progress)) and not json:
         print(printable(f"Saved {', '.join(written)}"))
     return CODE if interrupted else 0 if result.followed else 1
 
