@@ -112,7 +112,7 @@ def first_plan(scene: Scene | Plan | str | Path, robot: Robot | str | Path | Non
 def _typed(name: str, value: Any) -> Any:
     kind = type(getattr(OnlineOptions(), name))
     if kind is tuple:
-        return _commands(name, value)
+        return _goals(name, value) if name == "goal" else _commands(name, value)
     if kind is float and not isinstance(value, bool) and hasattr(value, "__float__"):
         return float(value)
     if not isinstance(value, kind):
@@ -126,9 +126,30 @@ def _commands(name: str, value: Any) -> tuple[tuple[float, ...], ...]:
     Raises:
         InvalidOptions: No numbers, or not three or four of them.
     """
-    rows = [value] if len(value) and hasattr(value[0], "__float__") else value
+    return tuple((0.0, *row) if len(row) == 3 else row for row in _rows(name, value))
+
+
+def _goals(name: str, value: Any) -> tuple[tuple[float, ...], ...]:
+    """Times, places and headings, from x, y, heading and time: the last two are 0 unless they are given.
+
+    Raises:
+        InvalidOptions: No numbers, or not two to four of them.
+    """
+    rows = _rows(name, value)
+    if any(len(row) not in (2, 3, 4) for row in rows):
+        raise InvalidOptions(name, "must be two to four numbers: x, y, heading, from a time on", shown(value))
+    full = [(*row, *(0.0, 0.0)[len(row) - 2 :]) for row in rows]
+    return tuple((row[3], *row[:3]) for row in full)
+
+
+def _rows(name: str, value: Any) -> list[tuple[float, ...]]:
+    """Rows of numbers, from one or several.
+
+    Raises:
+        InvalidOptions: No numbers.
+    """
     try:
-        found = [tuple(float(number) for number in row) for row in rows]
+        rows = [value] if len(value) and hasattr(value[0], "__float__") else value
+        return [tuple(float(number) for number in row) for row in rows]
     except (TypeError, ValueError):
         raise InvalidOptions(name, "must be numbers", shown(value)) from None
-    return tuple((0.0, *row) if len(row) == 3 else row for row in found)

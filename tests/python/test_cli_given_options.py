@@ -72,6 +72,7 @@ BAD = {
     "run flat --robot talos": {
         "--push": ("40",),
         "--command": ("x", "1,2"),
+        "--goal": ("x", "1", "1,2,3,-4", "nan,0"),
         "--latency": ("-1", "x"),
         "--period": ("0",),
         "--duration": ("-1",),

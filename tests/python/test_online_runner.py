@@ -76,6 +76,43 @@ def test_the_command_prints_what_track_prints_and_how_planning_went(plan, tmp_pa
     assert mp.track is not None and len(run.read_bytes()) > 1000
 
 
+def test_a_goal_that_changes_while_walking_is_planned_to_from_its_time_on(plan):
+    run = mp.run(plan, goal=(1.2, 0.3, 0.0, 0.5), latency=LATENCY, self_contacts=False, duration=1.2)
+    assert not run.measures.fell and run.online.reasons["goal"] >= 1 and run.online.stops == 0
+    for followed in run.plans:
+        goal = (1.2, 0.3) if followed.begins_s >= 0.5 - 1e-9 else plan.scene.goal.position_W[:2]
+        assert followed.plan.scene.goal.position_W[:2] == pytest.approx(goal)
+        end = followed.plan.at(followed.plan.duration())
+        assert end.com_W[:2] == pytest.approx(goal, abs=0.02)
+    assert {tuple(f.plan.scene.goal.position_W[:2]) for f in run.plans} == {(2.0, 0.0), (1.2, 0.3)}
+
+
+@pytest.mark.parametrize(
+    ("told", "field"),
+    [
+        ({"goal": (1.0,)}, "goal"),
+        ({"goal": (1.0, np.nan)}, "goal"),
+        ({"goal": 3.0}, "goal"),
+        ({"goal": "here"}, "goal"),
+        ({"goal": [(1.0, 0.0, 0.0, 2.0), (1.0, 0.0, 0.0, 1.0)]}, "goal"),
+        ({"goal": (1.0, 0.0, 0.0, -1.0)}, "goal"),
+        ({"goal": (1.0, 0.0), "command": (0.1, 0.0, 0.0)}, "goal"),
+    ],
+)
+def test_wrong_goals_are_refused_by_name(plan, told, field):
+    with pytest.raises(mp.errors.InvalidOptions, match=field):
+        mp.run(plan, **told)
+
+
+def test_of_goals_and_commands_what_began_last_holds():
+    from mcplan.online import OnlineOptions
+
+    options = OnlineOptions(command=((1.0, 0.1, 0.0, 0.0),), goal=((0.0, 1.0, 0.0, 0.0), (2.0, 1.5, 0.3, 0.5)))
+    options.validate()
+    assert [options.command_at(t) for t in (0.5, 1.5, 2.5)] == [None, (0.1, 0.0, 0.0), None]
+    assert options.goal_at(0.5) == (1.0, 0.0, 0.0) and options.goal_at(2.0) == (1.5, 0.3, 0.5)
+
+
 def test_a_robot_for_which_no_plan_comes_is_brought_to_a_stand(plan, monkeypatch):
     from mcplan.online import planner, runner
 

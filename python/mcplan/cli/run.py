@@ -38,6 +38,14 @@ CommandOption = Annotated[
         help="Velocity to walk at [m/s, m/s, rad/s], from an instant on [s]; may be repeated. Default: to the scene's goal.",
     ),
 ]
+GoalOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--goal",
+        metavar="x,y[,yaw[,at]]",
+        help="Goal instead of the scene's [m, m, rad], from an instant on [s]; may be repeated.",
+    ),
+]
 LatencyOption = Annotated[
     float | None,
     typer.Option(
@@ -58,6 +66,7 @@ ReplanningOption = Annotated[
 @named_as_typed(
     "robot",
     "command",
+    "goal",
     "mass_scale",
     "sensor_noise",
     "seed",
@@ -75,6 +84,7 @@ def run(
     robot: RobotOption = None,
     push: track.PushOption = None,
     command: CommandOption = None,
+    goal: GoalOption = None,
     latency: LatencyOption = None,
     period: PeriodOption = 0.1,
     duration: DurationOption = None,
@@ -114,6 +124,7 @@ def run(
     values |= {"torque_bandwidth_hz": torque_bandwidth, "torque_delay_s": torque_delay, "sensor_noise": sensor_noise}
     values |= {"latency_s": latency, "period_s": period, "duration_s": duration}
     values["command"] = [_numbers(text) for text in command or []]
+    values["goal"] = [_numbers(text, "--goal", (2, 3, 4), "x,y[,yaw[,at]], such as 1.5,0.3") for text in goal or []]
     outputs = RunOutputs(video, html, strip, plots, save, verb="run")
     return _run((scene, robot), values, outputs, Telling(json, quiet, live))
 
@@ -162,19 +173,24 @@ def summary(result: RunResult) -> dict[str, Any]:
     }
 
 
-def _numbers(command: str) -> tuple[float, ...]:
-    """Numbers of --command.
+def _numbers(
+    text: str,
+    option: str = "--command",
+    counts: tuple[int, ...] = (3, 4),
+    form: str = "[at,]ahead,left,turn, such as 0.15,0,0.1",
+) -> tuple[float, ...]:
+    """Numbers of --command or --goal.
 
     Raises:
-        InvalidOptions: Not three or four numbers.
+        InvalidOptions: Not so many numbers.
     """
     from mcplan.errors import InvalidOptions, shown
 
-    words = command.split(",")
+    words = text.split(",")
     try:
         numbers = tuple(float(word) for word in words)
     except ValueError:
         numbers = ()
-    if len(numbers) not in (3, 4):
-        raise InvalidOptions("--command", "must be [at,]ahead,left,turn, such as 0.15,0,0.1", shown(command))
+    if len(numbers) not in counts:
+        raise InvalidOptions(option, f"must be {form}", shown(text))
     return numbers

@@ -24,6 +24,8 @@ class OnlineOptions:
         time_limit_s: Wall clock of a replan [s]; nan: none with a fixed latency, the period without.
         command: Velocities to walk at, each from a time on: time [s], ahead, to the left [m/s], turning [rad/s]; until the
             first of these times to the scene's goal, as without any.
+        goal: Goals to walk to instead of the scene's, each from a time on: time [s], x, y in the world [m], heading [rad].
+            Of commands and goals, what began last holds.
         duration_s: Length of the run [s]; nan: the first plan and what the run holds it for, and 10 s under a command.
         wide_reach: Where no plan keeps legs within the robot's boxes, they may reach as far as their joints let them (see
             ``reach``).
@@ -40,6 +42,7 @@ class OnlineOptions:
     latency_s: float = float("nan")
     time_limit_s: float = float("nan")
     command: tuple[tuple[float, float, float, float], ...] = ()
+    goal: tuple[tuple[float, float, float, float], ...] = ()
     duration_s: float = float("nan")
     wide_reach: bool = True
     start_slack_s: float = 1.0
@@ -55,25 +58,43 @@ class OnlineOptions:
         for name, high in (("latency_s", 1.0), ("time_limit_s", 10.0), ("duration_s", 3600.0)):
             value = getattr(self, name)
             _require(name, f"must lie in 0 to {high:g}, or be nan", value, bool(np.isnan(value) or 0 <= value <= high))
-        ok = all(len(row) == 4 and bool(np.isfinite(np.asarray(row, float)).all()) for row in self.command)
-        _require("command", "must be three finite numbers, or four with a time before them", self.command, ok)
-        times = [row[0] for row in self.command]
-        _require(
-            "command",
-            "must have ascending times of 0 or more",
-            self.command,
-            times == sorted(times) and min(times, default=0.0) >= 0,
-        )
+        for name, rule in (
+            ("command", "must be three finite numbers, or four with a time before them"),
+            ("goal", "must be two to four finite numbers: x, y, heading, and the time from which on it holds"),
+        ):
+            rows = getattr(self, name)
+            ok = all(len(row) == 4 and bool(np.isfinite(np.asarray(row, float)).all()) for row in rows)
+            _require(name, rule, rows, ok)
+            times = [row[0] for row in rows]
+            ascending = times == sorted(times) and min(times, default=0.0) >= 0
+            _require(name, "must have ascending times of 0 or more", rows, ascending)
+        both = {row[0] for row in self.command} & {row[0] for row in self.goal}
+        _require("goal", "must not begin when a command does", self.goal, not both)
 
     def command_at(self, time_s: float) -> tuple[float, float, float] | None:
-        """The velocity to walk at at a time [s]; None: to the scene's goal."""
-        past = [row for row in self.command if row[0] <= time_s + 1e-9]
-        return past[-1][1:] if past else None
+        """The velocity to walk at at a time [s]; None: to a goal."""
+        command, goal = _last(self.command, time_s), _last(self.goal, time_s)
+        if command is None or (goal is not None and goal[0] > command[0]):
+            return None
+        return command[1:]
+
+    def goal_at(self, time_s: float) -> tuple[float, float, float] | None:
+        """Place and heading to walk to at a time [s], unless a command holds; None: the scene's goal."""
+        goal = _last(self.goal, time_s)
+        return None if goal is None else goal[1:]
 
     @property
     def fixed_latency(self) -> bool:
         """Whether plans are taken over after a fixed time."""
         return not np.isnan(self.latency_s)
+
+
+def _last(
+    rows: tuple[tuple[float, float, float, float], ...], time_s: float
+) -> tuple[float, float, float, float] | None:
+    """The row that began last at a time [s]; None: none has begun."""
+    past = [row for row in rows if row[0] <= time_s + 1e-9]
+    return past[-1] if past else None
 
 
 def option_names() -> list[str]:

@@ -16,12 +16,17 @@ Array = NDArray[np.float64]
 
 
 class Pace:
-    """Says when to replan: by the period, at touchdowns, and when the robot leaves its plan."""
+    """Says when to replan: by the period, at touchdowns, and when the robot leaves its plan.
+
+    Attributes:
+        new_goal: No plan leads to the present goal yet.
+    """
 
     def __init__(self, options: OnlineOptions) -> None:
         self._options = options
         self._last_s = -options.period_s if options.command_at(0.0) else 0.0
         self._touched = False
+        self.new_goal = False
 
     def asked(self, now_s: float) -> None:
         """A replan was asked for."""
@@ -43,11 +48,11 @@ class Pace:
         if since_s < options.pause_s - 1e-9:
             return None
         # Where nothing but standing is left, replans would put in steps on the spot again and again.
-        goes_on = options.command_at(now_s) is not None or steps_left(plan, t)
+        goes_on = options.command_at(now_s) is not None or steps_left(plan, t) or self.new_goal
         if options.at_touchdowns and self._touched and goes_on:
             return "touchdown"
         if since_s > options.period_s - 1e-9 and goes_on:
-            return "period"
+            return "goal" if self.new_goal else "period"
         com_m, capture_m = distances(plan, t, com_W, com_velocity_W)
         if com_m > options.com_margin_m:
             return "CoM"

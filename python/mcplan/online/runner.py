@@ -27,6 +27,7 @@ from mcplan.tracking.separation import Separation
 
 from .contacts import ContactFilter
 from .followed import FollowedReferences
+from .goals import phases_to, with_goal
 from .measures import Tally
 from .options import OnlineOptions
 from .pacing import Pace, steps_left
@@ -118,9 +119,12 @@ def _length(plan: Plan, options: Options, online: OnlineOptions) -> float:
     """The longest that the run may take [s]."""
     if not np.isnan(online.duration_s):
         return online.duration_s
+    planned_s = float(plan.duration()) + options.hold_s
+    if online.goal and online.replanning:
+        begins_s = max(row[0] for row in (*online.goal, *online.command))
+        return begins_s + LONGEST_RATIO * planned_s + LONGEST_S
     if online.command:
         return COMMAND_S
-    planned_s = float(plan.duration()) + options.hold_s
     return LONGEST_RATIO * planned_s + LONGEST_S if online.replanning else planned_s
 
 
@@ -185,6 +189,8 @@ class _Loop:
             np.inf,
             False,
         )  # since when no plan could be followed; whether to come to a stand
+        self.goal: tuple[float, float, float] | None = None  # what is walked to instead of the scene's goal
+        self.goal_open = False  # whether no plan leads there yet
         self.plans = [FollowedPlan(plan, 0.0, 0.0)]
         count = int(np.ceil(length_s / self.dt_s)) + 1
         self.followed = FollowedReferences(count, desired)
@@ -254,14 +260,19 @@ class _Loop:
             self.controller.dynamics.com_velocity_W,
         )
         t = now_s - under_way.begins_s
+        self._set_goal(now_s)
+        self.pace.new_goal = self.goal_open
         reason = self.pace.due(now_s, touchdown, under_way.plan, t, com_W, velocity_W)
         if reason is None:
             return
         self.planner.command = self._command(now_s)
         state = self.reader.read(now_s, *read, self._for_planner(standing, t), under_way.plan, t)
         # Near the goal the phases that are left are enough, unless the robot has to catch itself.
-        few = reason in ("period", "touchdown") and self.planner.command is None
-        self.planner.submit(state, **({"phases_min": 1} if few else {}))
+        few = reason in ("period", "touchdown") and self.planner.command is None and not self.goal_open
+        named = {"phases_min": 1} if few else {}
+        if self.goal_open and self.goal is not None:
+            named = {"phases_min": phases_to(self.goal, com_W, float(state.knot.base_rpy[2]), self.robot)}
+        self.planner.submit(state, **named)
         update = self.planner.wait()
         assert update is not None
         self.pace.asked(now_s)
@@ -269,6 +280,13 @@ class _Loop:
         self.tally.computed(update.took_s, latency_s, update.status, reason)
         longer = few and update.usable and update.plan is not None and _longer(update.plan, under_way.plan, t)
         self.pending = _Pending(update, now_s + latency_s, longer)
+
+    def _set_goal(self, now_s: float) -> None:
+        """Plan to another goal if one holds by now and no command does."""
+        goal = self.online.goal_at(now_s)
+        if goal is not None and goal != self.goal and self.online.command_at(now_s) is None:
+            self.goal, self.goal_open = goal, True
+            self.planner.scene = with_goal(self.first_plan.scene, goal)
 
     def _command(self, now_s: float) -> tuple[float, float, float] | None:
         """The velocity that is asked for, or a stand where no plan has come for long."""
@@ -297,6 +315,8 @@ class _Loop:
         self.failing_s, self.stopping = np.inf, False
         self.controller.set_plan(update.plan, update.begins_s)
         self.planner.take_over(update)
+        if self.planner.command is None and update.status in ("solved", "acceptable"):
+            self.goal_open = False
         self.plans.append(FollowedPlan(update.plan, update.begins_s, now_s, update.took_s, update.message))
         self.tally.used += 1
 
@@ -315,6 +335,8 @@ class _Loop:
     def _over(self, now_s: float) -> bool:
         """Whether the plan under way has ended and its end was held."""
         if self.online.command_at(now_s) or not np.isnan(self.online.duration_s):
+            return False
+        if self.goal_open or any(row[0] > now_s for row in (*self.online.goal, *self.online.command)):
             return False
         return bool(now_s - self.plan.begins_s > self.plan.plan.duration() + self.options.hold_s)
 
