@@ -87,3 +87,19 @@ def test_a_command_to_spin_is_slowed_down(backwards):
     result = mp.replan(backwards, 1.0, knot, contacts=contacts, command=(0.0, 0.0, 50.0))
     assert "of the velocity command is followed" in result.report.message
     assert abs(result.plan.scene.goal.yaw) <= TURN
+
+
+@pytest.mark.parametrize("off", [-0.2, 0.15])
+def test_a_sole_in_the_air_goes_on_from_its_own_heading(backwards, off):
+    t = next(t / 10 for t in range(5, 40) if state_at(backwards, t / 10)[1][:2].count(-1) == 1)
+    knot, contacts = state_at(backwards, t)
+    foot = contacts.index(-1)
+    headings = list(knot.end_effector_yaw)
+    headings[foot] += off
+    knot.end_effector_yaw = headings
+    result = mp.replan(backwards, t, knot, contacts=contacts)
+    assert result.report.status == mp.Status.solved
+    assert result.plan.at(0.0).end_effectors[foot].yaw == pytest.approx(headings[foot], abs=1e-9)
+    landed = next(k for k in range(1, 6) if result.plan.contact_sequence()[k][foot] >= 0)
+    end = result.plan.at(result.plan.knot_times()[landed]).end_effectors[foot].yaw
+    assert abs(end - knot.base_rpy[2]) < abs(off)

@@ -178,6 +178,8 @@ void Problem::set_sole_yaw(const ContactSequence& sequence, Trajectory& t) const
   for (int l = 0; l < layout.end_effector_count(); ++l)
     for (int k = 0; k <= steps; ++k) {
       t.sole_yaw[k][l] = rpy(t.x[k]).z();
+      if (k == 0 && measured)
+        t.sole_yaw[k][l] = start_yaw[l];  // also of a foot in the air, whose swing goes on from there
       if (sequence[k][l] == kFree) continue;
       // Phases first..k are one contact, which holds the knots first..last_knot.
       const int first = k;

@@ -33,7 +33,8 @@ StartSlack::StartSlack(const FixedSequence& fixed, const Motion& motion) {
       rows[2 * i] = {place[i] - limit.reach_max[i], std::max(rate[i], 0.0)};
       rows[2 * i + 1] = {limit.reach_min[i] - place[i], std::max(-rate[i], 0.0)};
     }
-    const double yaw = motion.trajectory.sole_yaw.front()[l] - problem.rpy(x).z();
+    // In the air a sole may head anywhere: only contacts have a range.
+    const double yaw = stands ? motion.trajectory.sole_yaw.front()[l] - problem.rpy(x).z() : 0.0;
     yaw_.push_back(
         {Row{yaw - limit.yaw_max, std::max(-spin.z(), 0.0)}, Row{limit.yaw_min - yaw, std::max(spin.z(), 0.0)}});
   }
