@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from mcplan.kinematics.rotations import polygon_normal
 
+from .nodes import UPRIGHT
+
 if TYPE_CHECKING:
     from mcplan._core import Plan
 
@@ -26,8 +28,8 @@ FLIGHT_M = 0.3
 MIDDLE_M, MIDDLE, ENDS = 0.014, 0.35, 0.15
 #: Left to a motion between what is kept and the plan, unless there is less than twice as much over the ground [m].
 ROOM_M = 0.005
-#: Kept over the ground wherever there is twice as much: a foot that is being lifted lags behind the chord between two nodes,
-#: at 20 m/s^2 and 25 ms by 1.6 mm [m].
+#: Kept over the ground wherever there is twice as much, but where feet go up and down alone: a foot that is being lifted lags
+#: behind the chord between two nodes, at 20 m/s^2 and 25 ms by 1.6 mm [m].
 BETWEEN_M = 0.002
 #: Points of a sole along its sides, and parts of the way to the nodes before and after on which it is looked at as well.
 GRID, PARTS = (5, 3), (-1.0, -0.5, 0.0, 0.5, 1.0)
@@ -91,7 +93,7 @@ class Ground:
         points = (swept[:, None] + sole @ samples.rotations_W[k, end].T).reshape(-1, 3)
         ratio = nodes.swung(k, end)
         keep = MIDDLE_M * float(np.clip((min(ratio, 1.0 - ratio) - ENDS) / (MIDDLE - ENDS), 0.0, 1.0))
-        keep = max(keep, BETWEEN_M)
+        keep = max(keep, BETWEEN_M * float(np.clip((min(ratio, 1.0 - ratio) - UPRIGHT) / UPRIGHT, 0.0, 1.0)))
         under = min(self.clearance(points, 0.0), DOWN_M)
         over, aside = under, 0.0
         for aside in ASIDE_M:
