@@ -7,6 +7,7 @@ which they are exceeded, reach boxes drawn in, longer phases where a robot has n
 from __future__ import annotations
 
 import copy
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 
 #: Rounds at most.
 ROUNDS = 5
+#: What a search and a stage get at least where the time is over [s].
+LEAST_S = 0.01
 #: Beyond the factor by which a limit is exceeded, so that the next plan is not at its edge again.
 MORE = 1.05
 #: Of phases, at most.
@@ -54,19 +57,22 @@ def plan_with_motion(
     if not asked.given.urdf:
         load_model(asked.given)  # refuses it by name, before there is a search
     world, rounds = scene_of(scene), _Rounds()
+    until, own = time.perf_counter() + asked.options.time_limit_s, dict(motion) if isinstance(motion, Mapping) else {}
     for _ in range(ROUNDS):
+        asked.options.time_limit_s = max(until - time.perf_counter(), LEAST_S)
         try:
             planned = search(world, asked.robot, {}, warm_start, asked.options)
         except Interrupted as interrupted:
             raise Interrupted(rounds.ended(interrupted.result)) from None
         try:
-            found = _carried_out(planned, asked.given, dict(motion) if isinstance(motion, Mapping) else {})
+            left_s = max(until - time.perf_counter(), LEAST_S)
+            found = _carried_out(planned, asked.given, {"time_limit_s": left_s} | own)
         except Interrupted as interrupted:
             raise Interrupted(rounds.ended(planned, interrupted.result)) from None
         rounds.add(asked.last, planned, found)
         if found is None or (found.status is MotionStatus.SOLVED and leads_to_the_goal(planned)):
             break
-        if not asked.lower(planned.plan, found):
+        if time.perf_counter() > until or not asked.lower(planned.plan, found):
             break
         warm_start = None
     return rounds.result()

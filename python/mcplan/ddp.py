@@ -95,7 +95,8 @@ def plan(
         options: How to search; None: the defaults.
         warm_start: An earlier plan of the same robot to start from.
         motion: Find a whole-body motion along the plan as well (``mcplan.motion``), and search again, up to five times in
-            all, with the limits that it found missing. True, or options of ``mcplan.motion`` by name.
+            all, with the limits that it found missing. True, or options of ``mcplan.motion`` by name. A `time_limit` is
+            for all of it, certificates apart.
         **named: Fields of ``ddp.Options`` by name, which stand above those of `options`; ``time_limit`` [s] is short for
             ``time_limit_s``. ``model`` says what contacts can do: "wrench" (default), forces within soles and friction
             cones that turn the base, or "lipm", the paper's forces through the CoM.

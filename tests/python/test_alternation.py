@@ -33,6 +33,12 @@ def test_a_walk_is_certified_in_the_first_round():
     mp.check(result.motion).raise_if_violated()
 
 
+def test_a_time_limit_is_for_search_and_motion_together():
+    result = mp.plan("flat", "talos", motion=True, time_limit=0.05)
+    assert result.status == "time_limit" and not result.solved
+    assert len(result.rounds) == 1 and result.plan.phases
+
+
 def test_a_jump_is_certified_after_another_round_or_refused_by_name():
     result = mp.plan("short_gap", "talos", motion=True, joint_limits=False)
     first = result.rounds[0]
