@@ -48,6 +48,7 @@ def test_every_dependency_is_noted_with_its_licence():
 
 def test_links_of_the_markdown_files_lead_somewhere():
     pages = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")]
+    pages.remove(ROOT / "docs/site/index.md")  # leads to pages that are made with the site, which checks its own links
     broken = [
         f"{page.relative_to(ROOT)}: {target}"
         for page in pages

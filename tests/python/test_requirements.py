@@ -104,15 +104,28 @@ def test_every_package_of_a_lock_is_pinned_exactly_and_has_hashes(extra: str) ->
         assert [specifier.operator for specifier in pin.specifier] == ["=="] and hashes > 0, pin
 
 
+def disagreements(locks: dict[str, list[Requirement]]) -> list[str]:
+    """Packages that two locks pin to different versions in one and the same environment."""
+    out = []
+    for environment in environments():
+        seen: dict[str, tuple[str, str]] = {}
+        for extra, pins in locks.items():
+            for pin in pins:
+                if applies(pin.marker, environment):
+                    other, version = seen.setdefault(canonicalize_name(pin.name), (extra, str(pin.specifier)))
+                    if version != str(pin.specifier):
+                        out.append(f"{pin.name}: {other} has {version}, {extra} {pin.specifier}")
+    return out
+
+
 def test_locks_have_the_same_versions_so_that_they_can_be_installed_together() -> None:
-    seen: dict[str, tuple[str, set[str]]] = {}
-    for extra in LOCKED:
-        pins: dict[str, set[str]] = {}
-        for pin in read(extra):
-            pins.setdefault(canonicalize_name(pin.name), set()).add(f"{pin.specifier}; {pin.marker}")
-        for name, versions in pins.items():
-            other, before = seen.setdefault(name, (extra, versions))
-            assert {v.split(";")[0] for v in before} == {v.split(";")[0] for v in versions}, f"{name}: {other}, {extra}"
+    assert disagreements({extra: read(extra) for extra in LOCKED}) == []
+
+
+def test_locks_that_disagree_are_seen_where_both_apply() -> None:
+    old, new = Requirement("a==1; python_version < '3.11'"), Requirement("a==2; python_version >= '3.11'")
+    assert disagreements({"dev": [old, new], "docs": [new]}) == []
+    assert "a: dev has ==1, docs ==2" in disagreements({"dev": [old], "docs": [Requirement("a==2")]})
 
 
 def test_supported_pythons_are_those_of_the_project() -> None:

@@ -87,13 +87,15 @@ def write_gallery(source: Path, folder: Path, fresh: bool, quick: bool) -> None:
         "",
     ]
     lines += ["```{raw} html", '<div class="gallery">']
+    shown = source / "gallery_files" / "gallery"
+    shown.mkdir(parents=True)
     for entry in entries():
         if not quick:
             make(entry, folder, fresh)
         elif not (folder / entry.name / MADE_BY).exists():
             continue
-        target = source / "gallery_files" / "gallery" / entry.name
-        target.mkdir(parents=True)
+        target = shown / entry.name
+        target.mkdir()
         for name in (PAGE, PICTURE, VIDEO):
             if (folder / entry.name / name).exists():
                 shutil.copy(folder / entry.name / name, target / name)
