@@ -29,6 +29,7 @@ CPP_ROOMS = {
     "planar": {"base", "model", "plan"},  # robot, task, plan and checker, which sees no planner either
     "planar/sip": {"base", "model", "plan", "nlp", "ipm", "planar"},
     "wb": {"base", "nlp", "ipm"},
+    "online": {"base", "model", "scene", "robot", "plan", "ddp"},
 }
 #: The public headers of each folder: data, options, results, and what loads, plans, checks and saves them. Another header
 #: is internal and lies in cpp/src; it becomes public, and installed, by its name here.
@@ -46,6 +47,7 @@ PUBLIC = {
     "planar": "checker force_laws plan plan_files robot robot_files task task_files",
     "planar/sip": "certificate options plan planner",
     "wb": "problem solver",
+    "online": "following planner",
 }
 #: Sources that know a parser: nobody else includes one, and no public header.
 PARSERS = {"toml++": "model/toml.cpp", "nlohmann": "model/json.cpp"}

@@ -17,6 +17,8 @@
 #include "mcplan/nlp/piece.hpp"
 #include "mcplan/nlp/problem.hpp"
 #include "mcplan/nlp/solver.hpp"
+#include "mcplan/online/following.hpp"
+#include "mcplan/online/planner.hpp"
 #include "mcplan/plan/checker.hpp"
 #include "mcplan/plan/force_laws.hpp"
 #include "mcplan/plan/friction_use.hpp"

@@ -48,6 +48,7 @@ void bind_nlp(py::module_& m);
 void bind_ipm(py::module_& m);
 void bind_rhp(py::module_& m);
 void bind_wb(py::module_& m);
+void bind_online(py::module_& m);
 void bind_sip(py::module_& m);
 void bind_sip_planner(py::module_& m);  // of the sip submodule
 void bind_planar(py::module_& m);

@@ -191,6 +191,7 @@ PYBIND11_MODULE(_core, m) {
   bind_rhp(m);
   bind_sip(m);
   bind_wb(m);
+  bind_online(m);
   // The planners' rooms go here, one line each: they may use everything above.
   for (const auto& [old, name] :
        {std::pair("PlanarMotion", "PlanarTask"), std::pair("WholeBodyPlan", "PlanarPlan"),

@@ -15,6 +15,7 @@ from . import ipm
 from . import rhp
 from . import sip
 from . import wb
+from . import online
 
 __all__: list[str] = [
     "Capsule",
@@ -92,6 +93,7 @@ __all__: list[str] = [
     "may_touch",
     "moment_point_W",
     "nlp",
+    "online",
     "plan_from_json",
     "plan_loads",
     "plan_samples",

@@ -9,22 +9,13 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
-from mcplan._core import Plan, Status
+from mcplan._core import Plan
+from mcplan._core.online import follows, with_feet_kept_up
 from mcplan.errors import InvalidInput
 from mcplan.solve import replan
 
 if TYPE_CHECKING:
-    from mcplan._core import Knot, PlanResult, Report, Robot, Scene
-
-#: Of the period, the time for which a plan that was cut short has to keep all limits to be worth following.
-KEPT_PERIODS = 2.0
-#: Speed at which an end-effector that is in the air is raised over its way at most [m/s], and the largest rate of
-#: 16 s^2 (1 - s)^2 over s.
-RISE_M_S, BUMP_RATE = 0.5, 3.08
-#: Height of a swing over that of the CoM, and its duration [s], where the robot says none.
-SWING_RATIO, USUAL_S = 0.1, 0.45
-#: Share of the usual height that a swing keeps half way to its landing.
-SWING_SHARE = 0.5
+    from mcplan._core import Knot, PlanResult, Robot, Scene
 
 
 @dataclass(frozen=True)
@@ -199,13 +190,13 @@ class Planner:
             t = min(max(state.time_s - begins_s, 0.0), float(plan.duration()))
             for robot in self.robots:
                 result = replan(plan, t, state.knot, state.contacts, self.command, self.scene, robot, dict(named))
-                if found is None or _usable(result.report, self.period_s):
+                if found is None or follows(result.report, self.period_s):
                     found = result
-                if _usable(result.report, self.period_s):
+                if follows(result.report, self.period_s):
                     break
             if found is None:
                 raise InvalidInput("robots", "must be one at least", "none")
-            new = _calmed(found.plan)
+            new = with_feet_kept_up(found.plan)
         except Exception as error:  # a state that the planner refuses must not end the thread: the plan goes on
             took_s, text = time.perf_counter() - began, f"{type(error).__name__}: {error}"
             return Update(None, state.time_s, took_s, "error", False, state.time_s, text, "previous_plan", ticket)
@@ -215,52 +206,9 @@ class Planner:
             begins_s=state.time_s,
             took_s=took_s,
             status=report.status.name,
-            usable=_usable(report, self.period_s),
+            usable=follows(report, self.period_s),
             kept_until_s=state.time_s + float(report.kept_until_s),
             message=report.message,
             plan_from=report.plan_from.name,
             ticket=ticket,
         )
-
-
-def _calmed(plan: Plan) -> Plan:
-    """The plan with the ways of end-effectors in the air kept from the ground, and none kicked up.
-
-    The way of an end-effector in the air goes on from where it is by a spline, plus 16 s^2 (1 - s)^2 times a height. The
-    spline alone sinks at once, and replan after replan toes come to drag: half way to its landing the end-effector is to be
-    half as high as in a swing of usual duration with that much of it left. With 50 ms to go such a height is a kick: its way is
-    raised by no more than RISE_M_S.
-    """
-    swings, robot = plan.swings, plan.robot
-    usual_m = robot.swing_height if robot.swing_height > 0.0 else SWING_RATIO * robot.com_height
-    usual_s = 0.5 * sum(robot.phase_duration) if robot.phase_duration[1] > 0.0 else USUAL_S
-    for swing in swings:
-        end = swing.end_effector
-        if (
-            swing.first_phase > 0
-            or plan.phases[0].contacts[end].surface >= 0
-            or robot.end_effectors[end].kind != "foot"
-        ):
-            continue
-        left_s = float(sum(phase.duration for phase in plan.phases[: swing.end_phase]))
-        s = 1.0 - 0.5 * min(left_s / usual_s, 1.0)  # half way
-        half, last = (plan.at(min(time_s, float(plan.duration()))) for time_s in (0.5 * left_s, left_s))
-        above_m = float(half.end_effectors[end].position_W[2] - last.end_effectors[end].position_W[2])
-        lacks_m = SWING_SHARE * 16.0 * s**2 * (1.0 - s) ** 2 * usual_m - above_m
-        swing.height = min(swing.height + max(lacks_m, 0.0), RISE_M_S * left_s / BUMP_RATE)
-    plan.swings = swings
-    return plan
-
-
-def _usable(report: Report, period_s: float) -> bool:
-    """Whether to follow a plan, as docs/replanning.md has it by status."""
-    return follows(report.status, report.plan_from.name, float(report.kept_until_s), period_s)
-
-
-def follows(status: Status, plan_from: str, kept_s: float, period_s: float) -> bool:
-    """Whether to follow a plan with such a status, from there, that keeps all limits for so long [s]."""
-    if plan_from not in ("same_sequence", "other_sequence"):
-        return False
-    if status in (Status.solved, Status.acceptable):
-        return True
-    return status in (Status.time_limit, Status.infeasible) and kept_s >= KEPT_PERIODS * period_s

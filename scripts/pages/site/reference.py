@@ -51,6 +51,7 @@ ROOMS = {
     "rhp": "The receding horizon",
     "planar": "Planar robots and whole-body plans",
     "wb": "Whole-body motions in space",
+    "online": "Planning while the robot walks",
 }
 
 
@@ -98,6 +99,7 @@ def run_doxygen(folder: Path) -> None:
         HIDE_FRIEND_COMPOUNDS = YES
         ENABLE_PREPROCESSING = YES
         MACRO_EXPANSION = YES
+        HAVE_DOT = NO
     """
     subprocess.run(["doxygen", "-"], input=settings, text=True, check=True, cwd=ROOT)
     _name_files_by_path(folder)

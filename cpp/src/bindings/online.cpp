@@ -1,0 +1,19 @@
+#include <pybind11/stl.h>
+
+#include "bindings.hpp"
+#include "mcplan/online/following.hpp"
+
+namespace mcplan::bindings {
+
+void bind_online(py::module_& parent) {
+  py::module_ m = parent.def_submodule("online", "Planning while the robot walks: what to do with a replan's plan.");
+  m.def("follows", &online::follows, py::arg("report"), py::arg("period_s"),
+        "Whether it is better to follow the plan of a replan than to stay with the plan under way: it was made from "
+        "the measured state, and it is solved, acceptable, or keeps all limits for twice the time [s] between two "
+        "replans.");
+  m.def("with_feet_kept_up", &online::with_feet_kept_up, py::arg("plan"), py::call_guard<py::gil_scoped_release>(),
+        "The plan with the ways of feet that are in the air at its start kept from the ground, and raised over their "
+        "splines by 0.5 m/s at most. Raises InvalidPlan.");
+}
+
+}  // namespace mcplan::bindings
