@@ -145,6 +145,8 @@ class DdpOptions(TypedDict, total=False):
     """Keep the sequence of every iteration in the report."""
     logger: collections.abc.Callable[[_core.LogLevel, str], None] | None
     """Called with (LogLevel, line); None: silent."""
+    watch: collections.abc.Callable[[_core.Plan], None] | None
+    """Called with every iterate of the search, a Plan that is not checked; None: never."""
 
 
 class DdpReplanOptions(DdpOptions, total=False):

@@ -103,7 +103,14 @@ PYTHON_ROOMS = {
 # The same inside of rooms; "" is what lies in the room's own folder, except for its __init__, which may import them all.
 INNER_ROOMS = {
     "wb": {"": {"certificate"}, "certificate": set()},
-    "view": {"": set(), "pages": {""}, "pictures": {""}, "plots": {"", "pictures"}, "video": {"", "pictures"}},
+    "view": {
+        "": set(),
+        "live": {"", "pages"},
+        "pages": {""},
+        "pictures": {""},
+        "plots": {"", "pictures"},
+        "video": {"", "pictures"},
+    },
     "planar": {"": set(), "tracking": set(), "view": {"tracking"}},
 }
 HEAVY = {"crocoddyl", "example_robot_data", "imageio", "matplotlib", "meshcat", "mink", "mujoco"}

@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -163,3 +164,42 @@ def test_dask_workers_make_the_same_bytes(done, tmp_path):
         words = ["sweep", str(spec), "--out", str(tmp_path / "o"), "--scheduler", cluster.scheduler_address]
         assert main(words) == 0
     assert content(tmp_path / "o") == content(one)
+
+
+def test_a_dask_worker_that_is_killed_costs_its_tasks_a_second_try(done, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    spec, one = done
+    out = tmp_path / "o"
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        with distributed.Client(cluster) as client:
+            processes = list(client.run(os.getpid).values())
+
+        def kill_one() -> None:
+            while not list(out.glob("records/*/0*.json")):
+                time.sleep(0.01)
+            os.kill(processes[0], signal.SIGKILL)
+
+        killer = threading.Thread(target=kill_one)
+        killer.start()
+        assert main(["sweep", str(spec), "--out", str(out), "--scheduler", cluster.scheduler_address]) == 0
+        killer.join()
+        with distributed.Client(cluster) as client:
+            client.wait_for_workers(2, timeout=60)  # its nanny has begun another
+            assert processes[0] not in client.run(os.getpid).values()
+    assert content(out) == content(one)
+
+
+def test_a_task_that_kills_dask_workers_is_recorded_and_the_others_are_done(tmp_path):
+    distributed = pytest.importorskip("distributed")
+    spec = sweep_spec(DATA)
+    with (
+        pytest.importorskip("dask").config.set({"distributed.scheduler.allowed-failures": 1}),
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+    ):
+        how = How(scheduler=cluster.scheduler_address)
+        outcome = run(spec, tmp_path / "o", how=how, function=crash_on_task_one)
+    ((name, message),) = outcome.failed
+    assert name.startswith("task 1: gap width_m=") and message.startswith("crashed: ") and outcome.crashed == 1
+    sweep = load_sweep(tmp_path / "o")
+    assert list(sweep.table.status == "crashed") == [False, True, False]
+    assert "its Dask worker died" in sweep.times.crash[1]

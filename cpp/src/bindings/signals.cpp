@@ -44,15 +44,9 @@ void SignalWatch::raise(py::handle result) {
   throw py::error_already_set();
 }
 
-Logger watched(Logger logger) {
-  return [logger = std::move(logger)](LogLevel level, const std::string& line) {
-    try {
-      logger(level, line);
-    } catch (const py::error_already_set& error) {
-      const py::gil_scoped_acquire acquire;
-      if (!error.matches(PyExc_KeyboardInterrupt) || !SignalWatch::keep(error)) throw;
-    }
-  };
+void SignalWatch::keep_interrupt(const py::error_already_set& error) {
+  const py::gil_scoped_acquire acquire;
+  if (!error.matches(PyExc_KeyboardInterrupt) || !keep(error)) throw error;
 }
 
 }  // namespace mcplan::bindings

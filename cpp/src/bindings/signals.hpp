@@ -1,6 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 #include "bindings.hpp"
 #include "mcplan/base/logging.hpp"
@@ -24,6 +27,9 @@ class SignalWatch {
   /// Keeps an exception that was raised in Python code which the solve called; false: there is no watch to keep it.
   static bool keep(const py::error_already_set& error);
 
+  /// The same for a KeyboardInterrupt alone; whatever cannot be kept is thrown on.
+  static void keep_interrupt(const py::error_already_set& error);
+
   /// With the GIL: runs handlers of signals that no one has asked for yet.
   void look();
 
@@ -37,14 +43,31 @@ class SignalWatch {
   std::optional<py::error_already_set> raised_;
 };
 
-/// The logger, during which Python may run handlers too: a KeyboardInterrupt from there ends the solve as others do.
-Logger watched(Logger logger);
+/// A function of the user's that a solve calls, during which Python may run handlers too: a KeyboardInterrupt from
+/// there ends the solve as others do.
+template <class... Arguments>
+std::function<void(Arguments...)> watched(std::function<void(Arguments...)> function) {
+  return [function = std::move(function)](Arguments... arguments) {
+    try {
+      function(arguments...);
+    } catch (const py::error_already_set& error) {
+      SignalWatch::keep_interrupt(error);
+    }
+  };
+}
+
+template <class Options, class = void>
+struct HasWatch : std::false_type {};
+template <class Options>
+struct HasWatch<Options, std::void_t<decltype(Options::watch)>> : std::true_type {};
 
 /// The options of a planner, whose solves then run in interruptible().
 template <class Options>
 Options watched(Options options) {
   options.stop = SignalWatch::stop;
   if (options.logger) options.logger = watched(std::move(options.logger));
+  if constexpr (HasWatch<Options>::value)
+    if (options.watch) options.watch = watched(std::move(options.watch));
   return options;
 }
 

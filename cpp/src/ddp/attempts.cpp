@@ -11,6 +11,8 @@
 #include "ddp/constants.hpp"
 #include "ddp/initial_sequence.hpp"
 #include "ddp/lanes.hpp"
+#include "ddp/plan_conversion.hpp"
+#include "ddp/reachable_surfaces.hpp"
 #include "ddp/stepping_sequence.hpp"
 
 namespace mcplan::ddp {
@@ -47,6 +49,16 @@ Attempts::Attempts(Problem&& problem, std::vector<int> surfaces, const Deadline&
       best_(&best),
       search_(problem_, deadline, report) {
   search_.watch([this](const Incumbent& now, const Tuning& tuning) { keep(now, tuning); });
+}
+
+/// Remember an iterate and show it to who watches.
+void Attempts::keep(const Incumbent& now, const Tuning& tuning) {
+  if (problem_.options.watch) {
+    Plan plan = to_plan(problem_, now, false);
+    put_back(plan, best_->scene(), surfaces_);
+    problem_.options.watch(plan);
+  }
+  best_->keep(search_, surfaces_, now, tuning);
 }
 
 /// Polish every guess, those without a sequence of their own after a discovery. The cheapest, empty when all of them

@@ -44,7 +44,7 @@ class Attempts {
   Ending crawl();
   double further_inside() const;
   Ending late(Ending ending) const;
-  void keep(const Incumbent& now, const Tuning& tuning) { best_->keep(search_, surfaces_, now, tuning); }
+  void keep(const Incumbent& now, const Tuning& tuning);
   void finish(Incumbent now, const Tuning& tuning) { best_->finish(search_, surfaces_, std::move(now), tuning); }
 
   const Problem problem_;

@@ -49,6 +49,7 @@ class BestPlan {
   void settle(const Problem& problem, Report& report);
 
   const std::optional<Finished>& best() const;
+  const Scene& scene() const { return *scene_; }
   bool ok() const { return best() && best()->ok; }
   /// What an attempt has ended with, the best of it: all that the search may go by.
   const std::optional<Finished>& finished() const { return finished_; }

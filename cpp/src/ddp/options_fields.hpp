@@ -167,7 +167,9 @@ struct Fields<ddp::Options> {
       field("initial_sequence", &Options::initial_sequence, "",
             "phases + 1 rows: surface index per end-effector, -1 free. Empty: searched for."),
       field("record_history", &Options::record_history, "", "Keep the sequence of every iteration in the report."),
-      field("logger", &Options::logger, "", "Called with (LogLevel, line); None: silent."));
+      field("logger", &Options::logger, "", "Called with (LogLevel, line); None: silent."),
+      field("watch", &Options::watch, "",
+            "Called with every iterate of the search, a Plan that is not checked; None: never."));
 };
 
 }  // namespace mcplan::model

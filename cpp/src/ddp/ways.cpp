@@ -77,6 +77,7 @@ Problem WaysToGoal::pose(const Way& way, int phases, const std::vector<int>& sur
   if (beside) {
     with.threads = 1;
     with.logger = nullptr;
+    with.watch = nullptr;
     with.stop = beside->stop;
   }
   if (earlier_) with.phases = static_cast<int>(earlier_->phases.size());

@@ -438,6 +438,7 @@ class Options:
         ] = [],
         record_history: bool = False,
         logger: collections.abc.Callable[[mcplan._core.LogLevel, str], None] = None,
+        watch: collections.abc.Callable[[mcplan._core.Plan], None] = None,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
@@ -664,6 +665,13 @@ class Options:
         """
     @time_limit_s.setter
     def time_limit_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def watch(self) -> collections.abc.Callable[[mcplan._core.Plan], None]:
+        """
+        Called with every iterate of the search, a Plan that is not checked; None: never.
+        """
+    @watch.setter
+    def watch(self, arg0: collections.abc.Callable[[mcplan._core.Plan], None]) -> None: ...
     @property
     def weights(self) -> Weights:
         """

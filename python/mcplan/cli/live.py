@@ -1,4 +1,4 @@
-"""--live: a run in a browser while it is simulated."""
+"""--live: a search or a run in a browser while it goes on."""
 
 from __future__ import annotations
 
@@ -10,14 +10,19 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from mcplan._core import Plan, Robot
+    from mcplan._core import Plan, Robot, Scene
     from mcplan.tracking.options import Watch
+    from mcplan.view.live import LiveView, PlanningView
 
 LiveOption = Annotated[
     bool,
     typer.Option(
         "--live", help="Show the run in a browser while it is simulated; it waits until the address is opened."
     ),
+]
+LivePlanningOption = Annotated[
+    bool,
+    typer.Option("--live", help="Show the search in a browser while it goes on; it waits until the address is opened."),
 ]
 
 
@@ -36,6 +41,30 @@ def watching(live: bool, plan: Plan, robot: Robot | None) -> Iterator[Watch | No
     from mcplan.view.live import LiveView
 
     with LiveView(plan, robot) as view:
-        print(f"open {view.url} in a browser; the run begins then", file=sys.stderr, flush=True)
-        view.wait()
+        _opened(view, "run")
         yield view
+
+
+@contextlib.contextmanager
+def watching_search(live: bool, scene: str | Scene, robot: str) -> Iterator[PlanningView | None]:
+    """The same for a search in a scene, with a robot.
+
+    Args:
+        live: Whether it is asked for.
+        scene: The scene, or its name or file.
+        robot: The robot's name or file.
+    """
+    if not live:
+        yield None
+        return
+    from mcplan.solve import robot_of, scene_of
+    from mcplan.view.live import PlanningView
+
+    with PlanningView(scene_of(scene), robot_of(robot)) as view:
+        _opened(view, "search")
+        yield view
+
+
+def _opened(view: LiveView | PlanningView, what: str) -> None:
+    print(f"open {view.url} in a browser; the {what} begins then", file=sys.stderr, flush=True)
+    view.wait()

@@ -11,9 +11,10 @@ import typer
 
 from mcplan.cli.contacts_text import contact_rows
 from mcplan.cli.given_options import named_as_typed
+from mcplan.cli.live import LivePlanningOption
 
 if TYPE_CHECKING:
-    from mcplan._core import PlanResult
+    from mcplan._core import PlanResult, Scene
     from mcplan.cli.outputs import Outputs
     from mcplan.wb import PlannedMotion
 
@@ -109,6 +110,7 @@ def plan(
     motion: MotionOption = None,
     html: HtmlOption = None,
     plots: PlotsOption = None,
+    live: LivePlanningOption = False,
     json: JsonOption = False,
     verbose: VerboseOption = False,
 ) -> int:
@@ -120,7 +122,7 @@ def plan(
     Example: mcplan plan stepping_stones --robot g1 --scale 0.8 -o plan.npz --html plan.html
     """
     from mcplan.arguments import named_by_file
-    from mcplan.cli.interrupts import CODE, as_far_as_it_came
+    from mcplan.cli.interrupts import CODE
     from mcplan.cli.outputs import Outputs, require_outputs
     from mcplan.cli.terminal import printable
     from mcplan.files.outputs import ARCHIVE, require_target
@@ -141,11 +143,25 @@ def plan(
 
     ground = scene if scale == 1.0 else scaled(mcplan.load_scene(scene), scale)
     with named_by_file(scene, robot):
-        result, interrupted = as_far_as_it_came(lambda: mcplan.plan(ground, robot, **options))
+        result, interrupted = _search(ground, robot, options, live)
     _tell(result, Outputs(output, html, plots), motion, json, interrupted)
     if interrupted:
         return CODE
     return 0 if (str(result.report.status) == "solved" if motion is None else result.solved) else 1
+
+
+def _search(ground: str | Scene, robot: str, options: dict[str, Any], live: bool) -> tuple[Any, bool]:
+    """What was found, and whether Ctrl-C ended it."""
+    import mcplan
+    from mcplan.cli.interrupts import as_far_as_it_came
+    from mcplan.cli.live import watching_search
+
+    with watching_search(live, ground, robot) as view:
+        watched = options if view is None else {**options, "watch": view}
+        result, interrupted = as_far_as_it_came(lambda: mcplan.plan(ground, robot, **watched))
+        if view is not None and not interrupted:
+            view.show(result.plan)
+    return result, interrupted
 
 
 def _tell(result: Any, outputs: Outputs, motion: Path | None, json: bool, interrupted: bool) -> None:

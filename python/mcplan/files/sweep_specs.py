@@ -36,6 +36,7 @@ NOT_OPTIONS = {
     "seed": "is said by seeds",
     "record_history": "is no option of sweeps",
     "logger": "is no option of sweeps",
+    "watch": "is no option of sweeps",
 }
 MAX_TASKS = 1_000_000
 Seed = Annotated[int, Field(strict=True, ge=0, le=2**53 - 1)]

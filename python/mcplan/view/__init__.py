@@ -6,7 +6,7 @@ Needs ``pip install 'mcplan[view]'``, and for rendering runs ``mcplan[sim]``; bo
 
 from __future__ import annotations
 
-from mcplan.view.live import LiveView
+from mcplan.view.live import LiveView, PlanningView
 from mcplan.view.pages.page import Page
 from mcplan.view.pages.show import show, show_scene
 from mcplan.view.pages.show_motion import show_motion
@@ -28,6 +28,7 @@ __all__ = [
     "LiveView",
     "NoGraphics",
     "Page",
+    "PlanningView",
     "motion_picture",
     "picture",
     "plot_com",

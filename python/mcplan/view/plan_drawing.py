@@ -78,9 +78,11 @@ def contact_plate(robot: Robot, end: int, margin: float = 0.0) -> Mesh:
     return disc(0.035 * scale + margin, thickness)
 
 
-def draw_footprint(stage: Stage, number: int, interval: Interval, robot: Robot, colour: str) -> None:
-    """Put a plate that stays where a contact is onto a page."""
-    path = f"contacts/{node(robot.end_effectors[interval.end_effector].name)}/{number}/print"
+def draw_footprint(
+    stage: Stage, number: int, interval: Interval, robot: Robot, colour: str, parent: str = "contacts"
+) -> None:
+    """Put a plate that stays where a contact is onto a page, below a node."""
+    path = f"{parent}/{node(robot.end_effectors[interval.end_effector].name)}/{number}/print"
     stage.mesh(path, contact_plate(robot, interval.end_effector), colour, 0.45)
     stage.place(path, pose(interval.rotation_W, interval.position_W))
 

@@ -20,6 +20,8 @@ Array = NDArray[np.float64]
 
 #: Codes under which meshcat's decoder makes typed arrays of msgpack extensions.
 UINT32, FLOAT32 = 0x16, 0x17
+#: Half of the angle that the camera of meshcat's page sees, and the colour behind everything.
+HALF_VIEW, BACKDROP = np.radians(37.5), "#eef1f5"
 
 
 def node(name: str) -> str:
@@ -98,8 +100,34 @@ class Stage:
 
     def place(self, path: str, pose: Array) -> None:
         """Put a node at a pose (4, 4) in its parent's frame."""
-        matrix = [float(x) for x in np.asarray(pose).T.ravel()]
-        self._commands.append({"type": "set_transform", "path": _full(path), "matrix": matrix})
+        self._commands.append(_transform(_full(path), pose))
+
+    def backdrop(self) -> None:
+        """Show what there is on plain ground: for the server's own page, which has a sky and a grid."""
+        for name, value in (("top_color", BACKDROP), ("bottom_color", BACKDROP)):
+            self._commands.append(_property("/Background", name, [*rgb(value)]))
+        self._commands.append(_property("/Grid", "visible", False))
+
+    def look(self, points_W: Array, direction_W: Array) -> None:
+        """Put the camera of the server's own page where all points are seen.
+
+        Args:
+            points_W: (n, 3) [m].
+            direction_W: (3,) from there towards the camera.
+        """
+        low, high = points_W.min(axis=0), points_W.max(axis=0)
+        radius = 0.5 * float(np.linalg.norm(high - low))
+        away = np.asarray(direction_W, float) / np.linalg.norm(direction_W) * radius / np.sin(HALF_VIEW)
+        to_origin = np.eye(4)  # where that camera looks, whatever its node's pose is
+        to_origin[:3, 3] = -0.5 * (low + high)
+        for path in ("/meshcat", "/Axes"):
+            self._commands.append(_transform(path, to_origin))
+        upright = [float(away[0]), float(away[2]), float(-away[1])]  # the camera's own frame has y up
+        self._commands.append(_property("/Cameras/default/rotated/<object>", "position", upright))
+
+    def remove(self, path: str) -> None:
+        """Take a node away, and all below it."""
+        self._commands.append({"type": "delete", "path": _full(path)})
 
     def move(
         self,
@@ -133,24 +161,24 @@ class Stage:
 
     def payload(self) -> bytes:
         """All commands, each behind its length (uint32, little endian), gzipped; always the same bytes."""
-        commands = list(self._commands)
-        if self._clips:
-            animations = [
-                {
-                    "path": _full(path),
-                    "clip": {"name": path, "fps": 1, "duration": self.duration_s, "tracks": tracks},
-                }
-                for path, tracks in self._clips.items()
-            ]
-            options = {"play": True, "repetitions": 1_000_000_000}
-            commands.append({"type": "set_animation", "path": "", "animations": animations, "options": options})
-        packed = [self._umsgpack.packb(command) for command in commands]
+        packed = [self._umsgpack.packb(command) for command in [*self._commands, *self._animation()]]
         return gzip.compress(b"".join(struct.pack("<I", len(p)) + p for p in packed), compresslevel=9, mtime=0)
 
     def taken(self) -> list[tuple[bytes, bytes, bytes]]:
         """Type, path and packed text of each command so far, which are forgotten: for a server that shows them at once."""
-        commands, self._commands = self._commands, []
+        commands = [*self._commands, *self._animation()]
+        self._commands, self._clips, self.duration_s = [], {}, 0.0
         return [(c["type"].encode(), c["path"].encode(), self._umsgpack.packb(c)) for c in commands]
+
+    def _animation(self) -> list[dict[str, Any]]:
+        """The command that sets all clips going, if there are any."""
+        animations = [
+            {"path": _full(path), "clip": {"name": path, "fps": 1, "duration": self.duration_s, "tracks": tracks}}
+            for path, tracks in self._clips.items()
+        ]
+        options = {"play": True, "repetitions": 1_000_000_000}
+        command = {"type": "set_animation", "path": "", "animations": animations, "options": options}
+        return [command] if animations else []
 
     def _track(self, name: str, kind: str, times_s: Array, values: Array) -> dict[str, Any]:
         if np.ptp(values, axis=0).max() < 10.0 ** (-2 - self._decimals):
@@ -210,6 +238,14 @@ class Stage:
         # three.js wants distinct identifiers; counting keeps the page the same from run to run.
         self._ids += 1
         return f"mcplan-{self._ids}"
+
+
+def _transform(path: str, pose: Array) -> dict[str, Any]:
+    return {"type": "set_transform", "path": path, "matrix": [float(x) for x in np.asarray(pose).T.ravel()]}
+
+
+def _property(path: str, name: str, value: Any) -> dict[str, Any]:
+    return {"type": "set_property", "path": path, "property": name, "value": value}
 
 
 def _full(path: str) -> str:

@@ -10,7 +10,14 @@
 #include "mcplan/base/deadline.hpp"
 #include "mcplan/base/logging.hpp"
 
+namespace mcplan {
+class Plan;
+}
+
 namespace mcplan::ddp {
+
+/// Receives what a search has, in SI units and as it is: contacts are not met exactly yet, nothing is checked.
+using PlanWatch = std::function<void(const Plan&)>;
 
 /// Which search runs.
 enum class Method {
@@ -100,6 +107,7 @@ struct Options {
 
   bool record_history = false;  ///< keep the contact sequence of every iteration in the report
   Logger logger;                ///< iteration table and decisions, line by line; null: silent
+  PlanWatch watch;              ///< every iterate of a search but those of the interior point; by the caller's thread
   StopRequest stop;             ///< polled every iteration; null: never
   Clock clock;                  ///< what time_limit_s is measured by; null: the steady clock
 

@@ -10,8 +10,7 @@ for package in ("meshcat", "pinocchio", "example_robot_data", "mujoco", "proxsui
 
 import mcplan as mp  # noqa: E402
 from mcplan.kinematics.urdf_model import load_model  # noqa: E402
-from mcplan.view import live  # noqa: E402
-from mcplan.view.live import LiveView  # noqa: E402
+from mcplan.view.live import LiveView, robot  # noqa: E402
 
 
 @pytest.fixture(scope="module")
@@ -27,6 +26,7 @@ class Sent:
     def __init__(self) -> None:
         self.transforms: dict[str, np.ndarray] = {}
         self.objects: list[str] = []
+        self.properties: dict[str, dict[str, object]] = {}
         self.pictures = 0
 
     def send_multipart(self, parts: list[bytes]) -> None:
@@ -36,6 +36,8 @@ class Sent:
         if command["type"] == "set_transform":
             self.transforms[command["path"]] = np.array(command["matrix"]).reshape(4, 4).T
             self.pictures += command["path"].endswith("/root_joint")
+        elif command["type"] == "set_property":
+            self.properties.setdefault(command["path"], {})[command["property"]] = command["value"]
         else:
             self.objects.append(command["path"])
 
@@ -55,7 +57,7 @@ def sent(monkeypatch) -> Sent:
     original = LiveView._show
 
     def show(self: LiveView, configuration: np.ndarray) -> None:
-        self._socket = found
+        self._server._socket = found
         original(self, configuration)
 
     monkeypatch.setattr(LiveView, "_show", show)
@@ -76,13 +78,15 @@ def test_joints_are_where_kinematics_puts_them(plan, sent):
     np.testing.assert_allclose(placed, data.oMi[urdf_model.model.getJointId("arm_left_4_joint")].homogeneous)
     assert any(path.startswith("/meshcat/scene/") for path in sent.objects)
     assert "/meshcat/plan/com" in sent.objects
+    camera = np.array(sent.properties["/Cameras/default/rotated/<object>"]["position"])
+    assert camera[1] > 0.0 and 1.0 < np.linalg.norm(camera) < 5.0
 
 
 def test_a_simulation_is_shown_at_its_rate_and_new_plans_are_drawn(plan, sent):
     with LiveView(plan, real_time=False) as view:
         result = mp.run(plan, duration=0.5, latency=0.02, watch=view)
     assert sent.objects.count("/meshcat/plan/com") == len(result.plans)
-    assert sent.pictures == pytest.approx(1 + 0.5 * live.RATE_HZ, abs=2)
+    assert sent.pictures == pytest.approx(1 + 0.5 * robot.RATE_HZ, abs=2)
 
 
 def test_what_is_watched_is_what_is_recorded(plan):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,12 +11,14 @@ from numpy.typing import NDArray
 from mcplan.extras import require
 from mcplan.kinematics.samples import sample_at
 from mcplan.kinematics.urdf_model import load_model
+from mcplan.view.colours import COM, end_effector_colours
+from mcplan.view.extent import extent_of, scale_of
+from mcplan.view.robot_urdf import mesh_figure
+from mcplan.view.scene_drawing import draw_surfaces, surface_drawings
+from mcplan.view.stage import Stage, node
+from mcplan.view.viewpoint import camera_direction, view_points
 
-from .colours import COM, end_effector_colours
-from .extent import extent_of, scale_of
-from .robot_urdf import mesh_figure
-from .scene_drawing import draw_surfaces, surface_drawings
-from .stage import Stage, node
+from .server import LiveServer
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -53,8 +55,6 @@ class LiveView:
     def __init__(self, plan: Plan, robot: Robot | None = None, real_time: bool = True) -> None:
         require("mcplan.view.LiveView", "view", "meshcat", "pinocchio")
         import pinocchio as pin  # type: ignore[import-untyped]
-        import zmq  # comes with meshcat
-        from meshcat.servers.zmqserver import start_zmq_server_as_subprocess  # type: ignore[import-untyped]
 
         robot = robot or plan.robot
         self._urdf_model = load_model(robot)
@@ -66,19 +66,19 @@ class LiveView:
         self._stage = Stage(scale_of(robot))
         self._draw_robot(robot)
         samples = sample_at(plan, plan.scene, robot, np.linspace(0.0, plan.duration(), INSTANTS))
-        draw_surfaces(self._stage, surface_drawings(plan.scene, extent_of(plan.scene, robot, samples, 1.0, 1.0)))
-        self._server, zmq_url, self.url = start_zmq_server_as_subprocess()
-        self._connect = lambda: _connected(zmq.Context.instance().socket(zmq.REQ), zmq_url)
-        self._socket: Any = self._connect()
+        extent = extent_of(plan.scene, robot, samples, 1.0, 1.0)
+        drawings = surface_drawings(plan.scene, extent)
+        draw_surfaces(self._stage, drawings)
+        self._stage.backdrop()
+        self._stage.look(view_points(drawings, samples, robot), camera_direction(extent))
+        self._server = LiveServer()
+        self.url: str = self._server.url
         self._draw_plan(plan)
         self._show(self._standing(plan))
 
     def wait(self) -> None:
         """Return when a browser has opened the page; Ctrl-C ends it."""
-        self._send([b"wait"])
-        # The server answers this from a timer, after which it does not notice what comes by the same connection.
-        self._socket.close(linger=0)
-        self._socket = self._connect()
+        self._server.wait()
 
     def __call__(self, time_s: float, configuration: Array, plan: Plan) -> None:
         """Show an instant, if the last picture is old enough.
@@ -102,9 +102,7 @@ class LiveView:
 
     def close(self) -> None:
         """End the server; what a browser shows stays."""
-        self._socket.close(linger=0)
-        self._server.terminate()
-        self._server.wait()
+        self._server.close()
 
     def __enter__(self) -> LiveView:
         return self
@@ -140,20 +138,4 @@ class LiveView:
         names = self._urdf_model.model.names
         for joint in self._joints:
             self._stage.place(f"robot/{node(names[joint])}", self._data.oMi[joint].homogeneous)
-        for command, path, packed in self._stage.taken():
-            self._send([command, path, packed])
-
-    def _send(self, parts: list[bytes]) -> None:
-        """Send a command and take the answer; a server that has been ended is no error: nothing is shown then."""
-        if self._server.poll() is not None:
-            return
-        self._socket.send_multipart(parts)
-        while not self._socket.poll(200):
-            if self._server.poll() is not None:
-                return
-        self._socket.recv()
-
-
-def _connected(socket: Any, url: str) -> Any:
-    socket.connect(url)
-    return socket
+        self._server.show(self._stage)
