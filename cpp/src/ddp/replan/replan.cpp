@@ -10,6 +10,7 @@
 #include "ddp/impossible.hpp"
 #include "ddp/problem.hpp"
 #include "ddp/replan/given.hpp"
+#include "ddp/replan/hands.hpp"
 #include "ddp/replan/other_steps.hpp"
 #include "ddp/replan/replan_fields.hpp"
 #include "ddp/replan/stops.hpp"
@@ -37,7 +38,7 @@ Status status_of(const Trial& trial) {
 const char* name_of(PlanFrom from) {
   if (from == PlanFrom::same_sequence) return "the plan's own sequence";
   if (from == PlanFrom::stop) return "a stand";
-  return from == PlanFrom::other_sequence ? "another step put in" : "the plan as it was planned";
+  return from == PlanFrom::other_sequence ? "another step or a hand" : "the plan as it was planned";
 }
 
 /// The trials of one replan, best first, and what is told of them.
@@ -52,19 +53,19 @@ class Trials {
            (best_ && iterations_left(best_->plan) < kWorthwhile);
   }
 
-  void make(const Now& now, const Rest& rest, PlanFrom from) {
+  /// With `apart` it gets its iterations whatever work others have been, and takes none from them.
+  void make(const Now& now, const Rest& rest, PlanFrom from, bool apart = false) {
     const double begin_s = now_->deadline->elapsed_s();
-    // A stop is short, and the last resort: it gets its iterations anyway.
-    const int iterations = best_ && from != PlanFrom::stop ? iterations_left(best_->plan) : kReplanIterations;
+    const int iterations = best_ && !apart ? iterations_left(best_->plan) : kReplanIterations;
     std::optional<Trial> trial = try_out(now, rest, *report_, iterations);
-    if (trial) work_ += trial->work;
+    if (trial && !apart) work_ += trial->work;
     const bool again = trial && !held_joints_ && asks_too_much_of_joints(*trial);
     const Plan found = again ? trial->plan : Plan();
     take(std::move(trial), from);
     held_joints_ = held_joints_ || again;
     if (again && !done()) {
       trial = try_out(now, rest, *report_, iterations_left(found), &found);
-      if (trial) work_ += trial->work;
+      if (trial && !apart) work_ += trial->work;
       take(std::move(trial), from);
     }
     longest_s_ = std::max(longest_s_, now_->deadline->elapsed_s() - begin_s);
@@ -82,6 +83,8 @@ class Trials {
 
   /// Whether nothing more may be begun.
   bool out_of_time() const { return now_->deadline->passed() || (best_ && best_->ending == Ending::interrupted); }
+
+  bool solved() const { return best_ && best_->ok(); }
 
   /// Whether a controller may follow the best one for the next two steps.
   bool usable() const { return best_ && (best_->ok() || can_be_followed(*best_)); }
@@ -156,11 +159,30 @@ void conclude(Trials& trials, Report& report, PlanResult& out) {
   out.plan = std::move(best->plan);
 }
 
+/// Pushed by more than this [m/s] the robot reaches for a hold before it tries to go on as planned. Measured on talos:
+/// at 0.5 m/s towards a wall its own sequence does at 1 of 14 instants.
+constexpr double kHardPush_m_s = 0.4;
+
+/// By the plan's own sequence, or with a hand where the robot is pushed towards what it can hold on to; which of them
+/// comes first is a matter of how hard. The own one is always tried while there is time.
+void as_planned_or_with_a_hand(const Rest& rest, Now& now, Trials& trials) {
+  std::vector<Rest> hands;
+  if (now.options->other_sequences) hands = with_hands(rest, *now.scene, *now.robot, now.pushed_W, now.similarity);
+  now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, rest);
+  const bool hard = now.pushed_W.norm() > kHardPush_m_s * now.similarity.velocity() && !hands.empty();
+  if (!hard) trials.make(now, rest, PlanFrom::same_sequence);
+  for (std::size_t i = 0; i < hands.size() && !trials.solved() && !trials.out_of_time(); ++i) {
+    Now there = now;
+    there.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, hands[i]);
+    trials.make(there, hands[i], PlanFrom::other_sequence, true);
+    if (hard && i == 0 && !trials.solved() && !trials.out_of_time()) trials.make(now, rest, PlanFrom::same_sequence);
+  }
+}
+
 /// To the scene's goal, by the plan's own sequence or with another step.
 void go_to_goal(Rest& rest, Now& now, Trials& trials) {
   stand_on(rest, now.options->phases_min, now.similarity);
-  now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, rest);
-  trials.make(now, rest, PlanFrom::same_sequence);
+  as_planned_or_with_a_hand(rest, now, trials);
   if (Rest elsewhere = rest; now.options->other_sequences && stand_on_others(elsewhere, *now.scene, *now.robot)) {
     now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, elsewhere);
     trials.make(now, elsewhere, PlanFrom::other_sequence);
@@ -185,8 +207,12 @@ void follow_command(const Rest& rest, const Now& now, Trials& trials) {
     Now there = now;
     there.scene = &scene;
     trials.followed(ratio * walk_on(ahead, scene, *now.robot, command, now.options->horizon));
-    there.surfaces = surfaces_of(scene, *now.robot, now.measured, ahead);
-    trials.make(there, ahead, PlanFrom::same_sequence);
+    if (ratio == ratios.front()) {
+      as_planned_or_with_a_hand(ahead, there, trials);
+    } else {
+      there.surfaces = surfaces_of(scene, *now.robot, now.measured, ahead);
+      trials.make(there, ahead, PlanFrom::same_sequence);
+    }
     if (trials.done()) return;
     const std::vector<Rest> others =
         ratio == ratios.back() ? other_steps(ahead, *now.robot, now.similarity) : std::vector<Rest>();
@@ -206,7 +232,7 @@ void stop(const Rest& rest, const Now& now, Trials& trials) {
     there.scene = &scene;
     stay(at_rest, scene, *now.robot);
     there.surfaces = surfaces_of(scene, *now.robot, now.measured, at_rest);
-    trials.make(there, at_rest, PlanFrom::stop);
+    trials.make(there, at_rest, PlanFrom::stop, true);  // it is short, and the last resort
   }
 }
 
@@ -238,6 +264,7 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
   Now now{&scene_in, &robot, &options, &deadline, {}, {}, similarity_of(robot, scene_in.gravity)};
   now.measured = completed(given, previous, t, scene_in, robot);
   const Rest planned = rest_of(previous, t);
+  now.pushed_W = now.measured.state.com_velocity_W - planned.plan.knots.front().com_velocity_W;
   Rest rest = planned;
   rename(rest, scene_in);
   if (options.command) count_turns_as(given.state.base_rpy.z(), rest, now.measured);

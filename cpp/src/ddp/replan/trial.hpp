@@ -20,6 +20,7 @@ struct Now {
   Measured measured;          ///< contacts given, on their planes
   std::vector<int> surfaces;  ///< that are looked at, by index in the scene, ascending
   Similarity similarity;
+  Eigen::Vector3d pushed_W = Eigen::Vector3d::Zero();  ///< [m/s] velocity of the CoM, measured minus planned
 };
 
 /// A sequence that was tried from the measured state, and what came of it.
