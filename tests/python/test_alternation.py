@@ -39,6 +39,7 @@ def test_a_time_limit_is_for_search_and_motion_together():
     assert len(result.rounds) == 1 and result.plan.phases
 
 
+@pytest.mark.slow
 def test_a_jump_is_certified_after_another_round_or_refused_by_name():
     result = mp.plan("short_gap", "talos", motion=True, joint_limits=False)
     first = result.rounds[0]
@@ -53,6 +54,7 @@ def test_a_jump_is_certified_after_another_round_or_refused_by_name():
         assert result.motion_result.shortfall.factor > 1.0
 
 
+@pytest.mark.slow
 def test_a_jump_too_far_is_refused_with_joint_time_and_factor():
     result = mp.plan("gap", "talos", motion={"max_iterations": 60}, joint_limits=False)
     assert not result.solved and result.status in ("torque_infeasible", "speed_infeasible")

@@ -13,6 +13,7 @@ from mcplan.cli import main
 from mcplan_bench import motion
 
 
+@pytest.mark.slow
 def test_a_row_says_what_the_certificate_measures(capsys, tmp_path):
     assert main(["bench", "motion", "--case", "talos/turn", "--out", str(tmp_path), "--json"]) == 0
     (row,) = json.loads(capsys.readouterr().out)["motions"]

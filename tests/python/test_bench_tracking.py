@@ -164,6 +164,7 @@ def test_ctrl_c_ends_the_table(monkeypatch):
         bench.table([named("flat/talos")])
 
 
+@pytest.mark.slow
 def test_the_short_table_holds(tmp_path, capsys):
     """Level ground, five steps over rubbles, and a walk of a planar robot for which nothing is minimised."""
     page = tmp_path / "page.md"

@@ -86,6 +86,7 @@ def test_robots_that_cannot_be_asked_are_one_line(capsys, file, tmp_path):
     )
 
 
+@pytest.mark.slow
 def test_strength_is_told_per_hand_and_direction(capsys):
     code, out, _ = run(capsys, "robots", "talos", "--strength")
     assert code == 0

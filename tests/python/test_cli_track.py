@@ -144,6 +144,7 @@ def test_whole_body_plans_have_their_measures_under_the_same_keys(capsys, wheel)
     assert (data["scene"], data["robot"]) == ("cartwheel", "climber9")
 
 
+@pytest.mark.slow
 def test_what_the_robot_exceeds_is_warned_of_before_it_is_simulated_all_the_same(capsys, file, tmp_path):
     plan = mp.Plan.load(file)
     plan.robot.mass *= 0.8

@@ -87,6 +87,7 @@ def test_joints_of_a_run_are_those_recorded(tmp_path):
     assert data["fps"].tolist() == [50] and data["body_quat_w"].shape[2] == 4
 
 
+@pytest.mark.slow
 def test_velocities_of_a_plan_are_the_derivatives_of_its_positions(tmp_path):
     data = exported(plan(), "mjlab", tmp_path, rate_hz=200)
     for positions, velocities in (("joint_pos", "joint_vel"), ("body_pos_w", "body_lin_vel_w")):

@@ -36,7 +36,7 @@ def setup(name):
     return legs_of(model, nominal, ends, limbs)
 
 
-@pytest.mark.parametrize("name", ["talos", "g1"])
+@pytest.mark.parametrize("name", [pytest.param("talos", marks=pytest.mark.slow), "g1"])
 def test_what_limits_allow_asks_no_joint_for_more_than_105_percent_of_its_own_limit(name):
     """Largest force of a random direction and place, largest speed of the CoM in a random direction, random postures."""
     urdf = setup(name)
@@ -82,6 +82,7 @@ def test_the_virtual_leg_of_talos_is_its_leg():
             np.testing.assert_allclose(ankle + virtual_leg(limb, hip, ankle, heading, 0.0)[3], knee, atol=4e-3)
 
 
+@pytest.mark.slow
 def test_the_checker_says_the_torques_that_the_limits_are_fitted_with():
     robot = mp.load_robot("talos")
     plan = by_hand.walk(by_hand.flat(), robot)

@@ -109,6 +109,7 @@ def test_every_verb_at_which_a_scene_meets_a_robot_warns():
             meet()
 
 
+@pytest.mark.slow
 def test_the_command_warns_in_a_line_each_time(tmp_path, capsys):
     save_scene(table_for("left_fot"), tmp_path / "table.toml")
     for words in (

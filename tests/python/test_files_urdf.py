@@ -118,7 +118,7 @@ def test_feet_stand_where_the_posture_has_them(loaded):
 
 
 @pytest.mark.parametrize(
-    "name", ["anymal", "go2", pytest.param("g1", marks=pytest.mark.slow), pytest.param("talos", marks=pytest.mark.slow)]
+    "name", ["go2", *(pytest.param(name, marks=pytest.mark.slow) for name in ("anymal", "g1", "talos"))]
 )
 def test_the_command_makes_the_robot_that_is_built_in(name):
     made, built_in = robot_to_dict(robot_from_urdf(name)), robot_to_dict(mp.load_robot(name))

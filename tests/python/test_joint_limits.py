@@ -22,6 +22,7 @@ def test_walks_are_solved_with_joint_limits(scene):
     assert found(result, "joint_speed").value < 0.0
 
 
+@pytest.mark.slow
 def test_a_jump_beyond_the_knees_is_refused_and_without_the_option_it_is_planned():
     """The torques of `gap` without limits are 1.8 times what TALOS has."""
     refused = mp.plan("gap", "talos")

@@ -24,7 +24,7 @@ def test_engines_and_replans_are_heard(caplog):
         assert any("replan, the plan's own sequence" in record.message for record in caplog.records)
         caplog.clear()
         lines: list[str] = []
-        mp.sip.plan("climbing", forces="uniform", logger=lambda _, line: lines.append(line))
+        mp.sip.plan("cartwheel", minimise="none", logger=lambda _, line: lines.append(line))
         assert lines and [record.message for record in caplog.records] == lines
 
 

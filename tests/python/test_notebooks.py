@@ -13,7 +13,7 @@ import mcplan as mp
 @pytest.mark.parametrize("kind", ["ddp", "sip"])
 def test_a_notebook_shows_the_picture_and_the_report(kind):
     pytest.importorskip("matplotlib")
-    result = mp.plan("flat") if kind == "ddp" else mp.sip.plan("climbing", forces="uniform")
+    result = mp.plan("flat") if kind == "ddp" else mp.sip.plan("cartwheel", minimise="none")
     text = result._repr_html_()
     assert str(result.report).splitlines()[0] in text
     found = re.search(r'src="data:image/png;base64,([^"]+)"', text)

@@ -171,6 +171,7 @@ def test_a_scene_needs_a_robot():
         mp.run("flat")
 
 
+@pytest.mark.slow
 def test_pages_and_plots_show_what_was_followed(plan, tmp_path):
     """The timeline's planned contacts are those of the plans in turn; footholds are drawn as first planned and as made."""
     pytest.importorskip("meshcat")

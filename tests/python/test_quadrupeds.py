@@ -132,6 +132,7 @@ def test_the_trunk_is_parallel_to_the_slope_that_four_feet_stand_on():
     assert np.degrees(plan.knots[-1].base_rpy[1]) == pytest.approx(-11.0, abs=0.7)
 
 
+@pytest.mark.slow
 def test_margins_are_options():
     slope = [mp.plan("slope", "go2", friction_ratio=ratio) for ratio in (1.0, 0.6)]
     used = [max(result.report.friction_use.values()) for result in slope]

@@ -108,6 +108,7 @@ def test_the_paper_says_that_richer_cases_cost_less():
     assert ("climbing", 1) not in paper.TABLE_4
 
 
+@pytest.mark.slow
 def test_the_page_shows_what_the_csv_files_hold(quick):
     page = (quick / "lengagne.md").read_text()
     for row in read(quick / "table_2.csv"):
@@ -126,6 +127,7 @@ def test_the_page_shows_what_the_csv_files_hold(quick):
     assert all(len(line) <= 130 or line.startswith("|") for line in page.splitlines())
 
 
+@pytest.mark.slow
 def test_table_2_of_the_cartwheel_converges_as_in_the_paper(quick):
     rows = read(quick / "table_2.csv")
     assert [row["neq"] for row in rows] == ["0", "1", "2", "3", "tube"]
@@ -136,6 +138,7 @@ def test_table_2_of_the_cartwheel_converges_as_in_the_paper(quick):
     )  # only the tube says where contacts are
 
 
+@pytest.mark.slow
 def test_table_4_of_the_cartwheel_is_solved_proved_and_falls_from_case_to_case(quick):
     rows = [row for row in read(quick / "table_4.csv") if row["kept"] == "True"]
     assert [row["forces"] for row in rows] == list(paper.CASES.values())
@@ -146,6 +149,7 @@ def test_table_4_of_the_cartwheel_is_solved_proved_and_falls_from_case_to_case(q
     assert mcplan.check(saved).ok()
 
 
+@pytest.mark.slow
 def test_the_kernel_stands_beside_ipopt_in_table_4(quick):
     rows = read(quick / "solvers.csv")
     assert [(row["table"], row["motion"], row["forces"]) for row in rows] == [
@@ -172,6 +176,7 @@ def test_a_solver_is_compared_where_both_were_run_with_its_own_poorer_case():
     assert lengagne_tables.solver_table([row])[-1].count("|") == lengagne_tables.solver_table([row])[0].count("|")
 
 
+@pytest.mark.slow
 def test_resume_draws_again_without_solving(quick, monkeypatch):
     before = json.loads((quick / "runs.json").read_text())
     (quick / "lengagne_figure_2.png").unlink()

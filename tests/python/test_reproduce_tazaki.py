@@ -17,6 +17,7 @@ from wrench_plans import LEFT_HAND, RIGHT_HAND, hanging_plan, leaning_plan, with
 pytest.importorskip("matplotlib")
 
 
+@pytest.mark.slow
 def test_the_page_shows_the_published_times_and_links_what_was_written(tmp_path, capsys):
     assert main(["reproduce", "tazaki", "--quick", "--out", str(tmp_path)]) == 0
     assert str(tmp_path / "tazaki.md") in capsys.readouterr().out

@@ -58,6 +58,7 @@ def quick(tmp_path_factory):
     return out
 
 
+@pytest.mark.slow
 def test_the_page_shows_the_published_tables_and_links_what_was_written(quick):
     page = (quick / "wang.md").read_text()
     for cells in ("| 36 | 39 |", "| 18 | 33 |", "| 78 | 33 | 81 |", "| 12 | 15 | 27 |"):
@@ -70,6 +71,7 @@ def test_the_page_shows_the_published_tables_and_links_what_was_written(quick):
         assert (quick / name).read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_the_cells_are_those_of_the_cycles(quick):
     cycles = read(quick / "cycles.csv")
     for row in read(quick / "table_3.csv"):
@@ -85,6 +87,7 @@ def test_the_cells_are_those_of_the_cycles(quick):
         assert float(row["cost_per_m"]) == pytest.approx(cost / sum(float(c["distance_m"]) for c in mine))
 
 
+@pytest.mark.slow
 def test_com_fails_in_the_second_cycle_and_says_how(quick):
     for row in read(quick / "table_2.csv"):
         if row["terrain"] != "rubbles":
@@ -95,6 +98,7 @@ def test_com_fails_in_the_second_cycle_and_says_how(quick):
             assert row["converges"] in ("1", "2")
 
 
+@pytest.mark.slow
 def test_resume_draws_again_without_solving(quick, monkeypatch, capsys):
     before = json.loads((quick / "runs.json").read_text())
     (quick / "figure_5.png").unlink()
@@ -321,6 +325,7 @@ def test_options_out_of_range_are_named(words, message, capsys, tmp_path):
     assert message in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_the_kernels_walks_stand_beside_ipopts_and_in_no_other_table(quick):
     page = (quick / "wang.md").read_text()
     section = page[page.index("### The same by the kernel") : page.index("## Figure 4")]

@@ -57,6 +57,7 @@ def check_walk(walk: rhp.Walk, *, paper: bool, cycles: int = CYCLES) -> None:
     assert not off, f"knots off the integral of the forces: {off}"
 
 
+@pytest.mark.slow
 def test_point_walks_four_cycles_over_rubbles() -> None:
     walk = walk_over("rubbles", "point_3", False, 4)
     check_walk(walk, paper=False, cycles=4)
@@ -90,6 +91,7 @@ def test_margins_see_a_force_that_slips_and_a_foot_over_the_edge() -> None:
     assert spoilt.defect["velocity"] > 1e-3
 
 
+@pytest.mark.slow
 def test_faces_that_are_left_out_do_not_matter() -> None:
     robot, scene = mp.load_robot("talos_wang"), mp.load_scene("rubbles")
     costs, rows = [], []

@@ -175,6 +175,7 @@ def test_the_logger_hears_of_every_way_that_was_tried():
     assert any(line.startswith("straight on") for line in ways)
 
 
+@pytest.mark.slow
 def test_the_contact_sequence_of_a_plan_that_went_round_is_drawn_from_its_own_iterations(tmp_path):
     from mcplan.showing import save_plots
     from mcplan.view.plots.report import sequences_by_switches

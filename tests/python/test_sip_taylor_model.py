@@ -113,7 +113,7 @@ def draw_integral(rng: np.random.Generator, order: int, places: list[float]) -> 
 
 @pytest.mark.parametrize(
     ("draw", "count", "seed"),
-    [(draw_composition, 7000, 1), (draw_integral, 3000, 2)],
+    [(draw_composition, 2500, 1), (draw_integral, 1500, 2)],
     ids=["compositions", "integrals"],
 )
 def test_no_function_leaves_its_model(draw, count, seed):

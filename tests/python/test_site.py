@@ -90,6 +90,7 @@ def test_the_commands_of_the_gallery_are_taken(entry):
     assert [why for command in entry.commands if (why := commands.wrong(command))] == []
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("doxygen") is None, reason="no Doxygen: a package of the extra docs")
 def test_the_site_builds_without_a_warning_or_a_broken_link(tmp_path):
     pytest.importorskip("sphinx")

@@ -56,6 +56,7 @@ def test_solved_plans_are_exported_and_what_has_no_joints_is_refused_by_name(spe
     assert sweep.verify() == []
 
 
+@pytest.mark.slow
 def test_exports_are_the_same_bytes_in_other_processes(spec, tmp_path):
     data, folder = spec
     for name, jobs in (("one", 1), ("two", 2)):

@@ -61,6 +61,7 @@ def test_torques_of_a_walk_are_of_the_size_of_one_leg_standing(walked, talos):
     assert 0.3 * lateral < roll < 2.0 * lateral
 
 
+@pytest.mark.slow
 def test_a_com_20_cm_higher_is_out_of_reach_with_straight_knees(talos):
     tall = copy.copy(talos)
     tall.com_height += 0.2
@@ -109,6 +110,7 @@ def test_three_times_the_mass_is_no_robot_of_that_urdf():
     assert found.of("mass")[""].value == pytest.approx(2.0, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_a_swing_through_a_stair_is_named_with_its_tread(stairs):
     assert "clearance" not in beyond(assess(stairs))
     low = copy.deepcopy(stairs)

@@ -45,6 +45,7 @@ def test_a_step_is_taken_unassisted(step):
     assert found.realtime_factor > 0.0 and found.control_ms > 0.0
 
 
+@pytest.mark.slow
 def test_a_turn_on_the_spot_is_followed_by_base_and_soles():
     """60 degrees in two steps: the base is the plan's, not that of postures, and feet land as they are told to head.
 

@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 
 TUTORIALS = sorted((Path(__file__).resolve().parents[2] / "docs/tutorials").glob("*.ipynb"))
+#: Simulations and walks that take over ten seconds.
+SLOW = {"04_receding_horizon", "07_tracking"}
 
 
 def code_of(path: Path) -> list[str]:
@@ -20,7 +22,10 @@ def test_there_is_one_for_each_part():
         assert f"mp.{call}(" in text
 
 
-@pytest.mark.parametrize("path", TUTORIALS, ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path",
+    [pytest.param(p, marks=pytest.mark.slow if p.stem in SLOW else (), id=p.stem) for p in TUTORIALS],
+)
 def test_every_cell_runs_after_those_before_it(path, tmp_path, monkeypatch):
     for name in ("meshcat", "matplotlib", "mujoco", "pinocchio", "proxsuite", "example_robot_data", "scipy", "pandas"):
         pytest.importorskip(name)

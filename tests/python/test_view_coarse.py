@@ -80,6 +80,7 @@ def test_without_the_urdf_a_picture_has_a_stick_robot_and_says_why(talos_plan, t
         assert orange(picture(plan, path=tmp_path / "p.png", poses=2)) == 0
 
 
+@pytest.mark.slow
 def test_meshes_do_not_hide_contact_forces(talos_plan, tmp_path, monkeypatch):
     """Where a picture without links has arrows, one with links has the same, but for blurred edges."""
     read = pytest.importorskip("matplotlib.image").imread

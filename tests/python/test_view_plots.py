@@ -230,6 +230,7 @@ def test_a_plan_with_wrenches_gets_pressure_and_turning_too(turn, tmp_path):
         assert (pixels(tmp_path / f"{name}.png") < 250).any(axis=2).sum() > 500, name
 
 
+@pytest.mark.slow
 def test_a_plan_on_point_feet_has_every_plot_but_that_of_pressure(tmp_path):
     result = mp.plan("flat", "go2")
     names = {path.name for path in save_plots(result.plan, result.report, tmp_path)}

@@ -85,6 +85,7 @@ def test_derivatives_are_those_of_differences(robot: str):
             assert np.median(np.abs(slopes - expected)) <= 1e-7 * np.median(np.abs(expected))
 
 
+@pytest.mark.slow
 def test_a_motion_that_asks_for_more_torque_than_there_is_names_joint_time_and_factor():
     plan = talos_steps()
     scene = plan.scene
@@ -263,6 +264,7 @@ def test_contact_points_lie_on_the_surface_under_the_sole():
     talos_steps.cache_clear()
 
 
+@pytest.mark.slow
 def test_links_that_are_too_near_are_moved_apart():
     """Arms are asked to stay 3 cm farther from the thighs than they are: a motion that does so is found and certified."""
     search = _Search.of(talos_steps(), "default", 0.025)
