@@ -35,7 +35,7 @@ def test_the_same_plan_gives_the_same_bytes(name, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "options", "message"),
     [
-        (("mjlba", "a.npz"), {}, "to: Did you mean 'mjlab'? Must be one of mjlab, isaaclab, "),
+        (("mjlba", "a.npz"), {}, "to: no such format. Did you mean 'mjlab'? Formats: mjlab, isaaclab, "),
         (("mjlab", "a.csv"), {}, "path: must end in .npz, got "),
         (("mjlab", "none/a.npz"), {}, "path: must lie in a folder that exists, got "),
         (("mjlab", "a.npz"), {"rate_hz": 0}, "rate_hz: must lie in 1 to 1000 [1/s], got 0.0"),
