@@ -66,7 +66,7 @@ def test_record_of_a_wheel_has_the_hash_of_each_file() -> None:
     assert text == "a,sha256=47DEQpj8HBSa-_TImW-5JCeuQeRkm5NMpJWZG3hSuFU,0\nx.dist-info/RECORD,,\n"
 
 
-@pytest.mark.parametrize("script", ["wheels", "deb", "release"])
+@pytest.mark.parametrize("script", ["wheels", "deb", "release", "test_exports"])
 def test_scripts_say_how_they_are_used(script: str) -> None:
     done = subprocess.run([ROOT / "scripts" / script, "--help"], capture_output=True, text=True)
     assert done.returncode == 0 and f"scripts/{script}" in done.stdout
