@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import numbers
 import os
 from collections.abc import Iterator
 from typing import Any
@@ -12,6 +13,8 @@ from mcplan.errors import InvalidArgument, InvalidPlan, InvalidRobot, InvalidSce
 
 #: How messages speak of the types that a path may have.
 PATH = "a path"
+#: Largest number of processes that any call starts side by side.
+MAX_JOBS = 1024
 
 
 def require(name: str, value: Any, *kinds: type, optional: bool = False) -> None:
@@ -60,6 +63,17 @@ def require_number(name: str, value: Any) -> float:
     except (TypeError, ValueError, OverflowError):
         pass
     raise InvalidArgument(name, "must be a number", found(value))
+
+
+def require_whole(name: str, value: Any, low: int, high: int) -> int:
+    """The whole number that an argument is.
+
+    Raises:
+        InvalidArgument: "jobs: must be a whole number in [1, 1024], got 0".
+    """
+    if isinstance(value, numbers.Integral) and not isinstance(value, bool) and low <= int(value) <= high:
+        return int(value)
+    raise InvalidArgument(name, f"must be a whole number in [{low}, {high}]", found(value))
 
 
 def require_names(name: str, value: Any) -> None:

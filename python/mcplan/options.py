@@ -10,7 +10,7 @@ import numpy as np
 
 from mcplan import moved
 from mcplan.arguments import require
-from mcplan.errors import InvalidArgument, InvalidOptions, did_you_mean, shown
+from mcplan.errors import InvalidArgument, InvalidInput, InvalidOptions, apart, did_you_mean, shown
 from mcplan.logs import listen
 
 ALIASES = {"time_limit": "time_limit_s"}
@@ -100,15 +100,29 @@ def _type_rule(target: Any, name: str, given: Any) -> str:
     """What an option takes, by its value; whole numbers are refused only where they do not fit."""
     value = getattr(target, name)
     if type(value) is int and type(given) is int:
-        return "must be at least 0" if given < 0 and not _takes(target, name, -1) else "must have fewer digits"
+        return _whole_rule(target, name, given)
     if value is None:  # options that are empty by default are callbacks
         return "must be a function or None"
     return f"must be of type {type(value).__name__}"
 
 
+def _whole_rule(target: Any, name: str, given: int) -> str:
+    """The range of a whole number that its type cannot hold: the option's own where that ends there, else the type's."""
+    limits = (0, -(2**31), -(2**63)) if given < 0 else (2**31 - 1, 2**63 - 1, 2**64 - 1)
+    trial = copy.copy(target)
+    nearest = [limit for limit in limits if _takes(trial, name, limit)][-1]
+    try:
+        trial.validate()
+    except InvalidInput as error:
+        for single in apart(error):
+            if single.field == name:
+                return single.rule
+    return f"must be at {'least' if given < 0 else 'most'} {nearest}"
+
+
 def _takes(target: Any, name: str, value: Any) -> bool:
     try:
-        setattr(copy.copy(target), name, value)
+        setattr(target, name, value)
     except TypeError:
         return False
     return True

@@ -33,6 +33,11 @@ def slowly(task: Any) -> Any:
     return task
 
 
+def is_deaf(number: int) -> bool:
+    """Whether this process has a signal blocked."""
+    return number in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+
+
 def crash_on_task_one(job: Any) -> str:
     """A task of a sweep; number one kills its process."""
     from mcplan.sweep.work import work

@@ -102,7 +102,7 @@ for phase in phases:
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not CONSUMER, reason="MCPLAN_NDCURVES_PYTHON names no Python with ndcurves")
+@pytest.mark.skipif(not CONSUMER, reason="scripts/test_exports runs it")
 def test_ndcurves_takes_the_curves(tmp_path):
     path = mp.export(plan(), "contact-sequence", tmp_path / "plan.json")
     bare = {name: text for name, text in os.environ.items() if name != "PYTHONPATH"}

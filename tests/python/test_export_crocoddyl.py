@@ -53,7 +53,7 @@ def test_the_script_knows_nothing_of_mcplan(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not CONSUMER, reason="MCPLAN_CROCODDYL_PYTHON names no Python with crocoddyl")
+@pytest.mark.skipif(not CONSUMER, reason="scripts/test_exports runs it")
 def test_crocoddyl_solves_the_problem_and_keeps_the_feet_where_they_are(tmp_path):
     path = mp.export(plan(), "crocoddyl", tmp_path / "problem.py")
     bare = {name: text for name, text in os.environ.items() if name != "PYTHONPATH"}

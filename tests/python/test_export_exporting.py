@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import re
 import subprocess
@@ -35,7 +36,7 @@ def test_the_same_plan_gives_the_same_bytes(name, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "options", "message"),
     [
-        (("mjlba", "a.npz"), {}, "to: Did you mean 'mjlab'? Must be one of mjlab, isaaclab, "),
+        (("mjlba", "a.npz"), {}, "to: no such format. Did you mean 'mjlab'? Formats: mjlab, isaaclab, "),
         (("mjlab", "a.csv"), {}, "path: must end in .npz, got "),
         (("mjlab", "none/a.npz"), {}, "path: must lie in a folder that exists, got "),
         (("mjlab", "a.npz"), {"rate_hz": 0}, "rate_hz: must lie in 1 to 1000 [1/s], got 0.0"),
@@ -54,6 +55,41 @@ def test_planar_plans_and_results_are_refused(tmp_path):
         mp.export(planar, "contacts", tmp_path / "a.npz")
     with pytest.raises(mp.errors.InvalidArgument, match="what: must be a Plan"):
         mp.export(3, "contacts", tmp_path / "a.npz")
+
+
+def test_the_file_that_is_read_is_not_replaced(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    plan().save("plan.npz")
+    before = (tmp_path / "plan.npz").read_bytes()
+    (tmp_path / "link.npz").symlink_to("plan.npz")
+    for words, option in (
+        (["export", "plan.npz", "--to", "contacts", "-o", "link.npz"], "--output"),
+        (["motion", "plan.npz", "-o", "./plan.npz"], "--output"),
+        (["track", "link.npz", "--save", "plan.npz"], "--save"),
+    ):
+        message = one_line_error((main(words), *capsys.readouterr()))
+        assert message.startswith(f"{option}: must be another file than the one that is read, got ")
+    assert (tmp_path / "plan.npz").read_bytes() == before
+
+
+@pytest.mark.parametrize("name", ["a\0.npz", "\ud800.npz"])
+def test_names_that_no_file_has_are_refused(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for write in (lambda: mp.export(plan(), "contacts", name), lambda: plan().save(name)):
+        with pytest.raises(
+            mp.InvalidInput, match="path: must (have no null character|be text that can be encoded), got "
+        ):
+            write()
+
+
+def test_a_malformed_plan_and_a_robot_of_another_type_are_named(tmp_path):
+    broken = copy.deepcopy(plan())
+    broken.phases[0].duration = float("nan")
+    with pytest.raises(mp.errors.InvalidPlan, match=r"phases\[0\].duration: must be a positive number, got nan"):
+        mp.export(broken, "contacts", tmp_path / "a.npz")
+    with pytest.raises(mp.errors.InvalidArgument, match="robot: must be a Robot, a name, a path or None, got 3"):
+        mp.export(plan(), "mjlab", tmp_path / "a.npz", robot=3)
+    assert not list(tmp_path.iterdir())
 
 
 def test_what_fails_leaves_the_file_of_before(tmp_path):

@@ -16,13 +16,15 @@ from mcplan.files.planar_robots import planar_robot_from_dict
 from mcplan.files.planar_tasks import planar_task_from_dict
 from mcplan.files.robots import robot_from_dict
 from mcplan.files.scenes import scene_from_dict
-from mcplan.files.schema import KINDS, schema_text
+from mcplan.files.schema import KINDS, schema_text, text_of
 
 
 @pytest.mark.parametrize("name", KINDS)
 def test_schemas_are_current(name):
+    if name == "sweep":
+        pytest.importorskip("pydantic")
     current = (DATA / "schema" / f"{name}.json").read_text()
-    assert current == schema_text(name), "run: python -m mcplan.files.schema"
+    assert current == text_of(name), "run: python -m mcplan.files.schema"
 
 
 @pytest.mark.parametrize(

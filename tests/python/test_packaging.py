@@ -14,7 +14,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 
-from releasing import components, sbom, wheel  # noqa: E402
+from releasing import checklist, components, sbom, wheel  # noqa: E402
 
 #: What auditwheel copied into the wheel for Python 3.11 on Debian 12; zlib, libstdc++ and libgcc_s are the system's.
 BUNDLED = """libblas-8d5488a6.so.3.11.0 libbz2-e4f501c8.so.1.0.4 libdmumps_seq-5-14eb3711.5.0.so libesmumps-7-1ab67439.0.3.so
@@ -66,7 +66,7 @@ def test_record_of_a_wheel_has_the_hash_of_each_file() -> None:
     assert text == "a,sha256=47DEQpj8HBSa-_TImW-5JCeuQeRkm5NMpJWZG3hSuFU,0\nx.dist-info/RECORD,,\n"
 
 
-@pytest.mark.parametrize("script", ["wheels", "deb", "release"])
+@pytest.mark.parametrize("script", ["wheels", "deb", "release", "test_exports"])
 def test_scripts_say_how_they_are_used(script: str) -> None:
     done = subprocess.run([ROOT / "scripts" / script, "--help"], capture_output=True, text=True)
     assert done.returncode == 0 and f"scripts/{script}" in done.stdout
@@ -95,3 +95,26 @@ def test_wheels_that_lie_in_dist_carry_notices_and_a_bill() -> None:
         with zipfile.ZipFile(path) as held:
             assert held.testzip() is None
             assert len([name for name in held.namelist() if name.endswith("/sboms/mcplan.cdx.json")]) == 1
+
+
+@pytest.mark.parametrize(
+    ("header", "changes", "told"),
+    [
+        (None, "", ["open  version", "No such file"]),
+        ("", "", ["open  version", "must have one line", "it has 0"]),
+        ('#define MCPLAN_VERSION "1.0 beta"', "", ["the version must be X.Y.Z, got '1.0 beta'"]),
+        ('#define MCPLAN_VERSION "1.2.3"', None, ["CHANGELOG.md: No such file"]),
+        ('#define MCPLAN_VERSION "1.2.3"', "## [1.2.4] - 2026-01-02\n", ["CHANGELOG.md has no dated heading for 1.2.3"]),
+        ('#define MCPLAN_VERSION "1.2.3"', "## [1.2.3] - 2026-13-02\n", ["must be YYYY-MM-DD, got 2026-13-02"]),
+        ('#define MCPLAN_VERSION "1.2.3"', "## [1.2.3] - 2026-01-02\n", ["done  changelog", "open  tag", "git tag: fatal"]),
+    ],
+)  # fmt: skip
+def test_the_checklist_of_a_release_says_what_is_missing(header, changes, told, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(checklist, "ROOT", tmp_path)
+    for name, text in (("cpp/include/mcplan/version.hpp", header), ("CHANGELOG.md", changes)):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        if text is not None:
+            (tmp_path / name).write_text(text)
+    assert checklist.main(["--check", "--quick"]) == 1
+    printed = capsys.readouterr().out
+    assert [part for part in told if part not in printed] == []

@@ -55,12 +55,32 @@ def result(request):
 
 
 def test_results_come_back_from_pickles(result):
-    assert_same(pickle.loads(pickle.dumps(result)), result)
+    again = pickle.loads(pickle.dumps(result))
+    assert_same(again, result)
+    assert again == result and not again != result
     assert pickle.dumps(pickle.loads(pickle.dumps(result))) == pickle.dumps(result)
 
 
 def test_results_can_be_copied(result):
     assert_same(copy.deepcopy(result), result)
+    assert copy.deepcopy(result) == result
+
+
+def with_state(value: Any, place: int, change: Any) -> Any:
+    """The same with one of the members that it is pickled by changed."""
+    state = list(value.__getstate__())
+    state[place] = change(state[place])
+    other = type(value).__new__(type(value))
+    other.__setstate__(tuple(state))
+    return other
+
+
+def test_results_differ_where_a_member_of_a_member_does(result):
+    if hasattr(result, "constraints") and not hasattr(result, "report"):
+        other = with_state(result, 0, lambda constraints: constraints[:-1])
+    else:
+        other = with_state(result, 1, lambda report: with_state(report, 1, lambda message: f"{message}!"))
+    assert result != other and result not in (3, None, "x")
 
 
 def test_a_pickle_of_another_shape_is_refused(result):

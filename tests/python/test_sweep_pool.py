@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
 import pytest
 
 from crashing import die_once, slowly, square_or_die
@@ -30,6 +35,15 @@ def test_who_stops_asking_ends_the_processes():
     assert next(working)[0] in (0, 1)
     working.close()  # would wait for half a minute if they went on
     assert next(working, None) is None
+
+
+def test_the_first_process_of_all_leaves_ctrl_c_to_the_one_that_asks():
+    # in a program of its own: what the first worker has along with it is started once in a process
+    program = f"""from crashing import is_deaf
+from mcplan.sweep import pool
+print(dict(pool.each(is_deaf, [{int(signal.SIGINT)}], 1)))"""
+    done = subprocess.run([sys.executable, "-c", program], cwd=Path(__file__).parent, capture_output=True, text=True)
+    assert (done.stdout, done.stderr) == ("{0: True}\n", "")
 
 
 def test_the_bench_goes_on_after_a_crash_and_names_the_task():

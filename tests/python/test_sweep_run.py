@@ -17,9 +17,10 @@ for package in ("pydantic", "pyarrow", "pandas"):
     pytest.importorskip(package)
 
 import mcplan as mp  # noqa: E402
+from command_line import one_line_error  # noqa: E402
 from crashing import crash_on_task_one  # noqa: E402
 from mcplan.cli import main  # noqa: E402
-from mcplan.errors import InvalidSweep  # noqa: E402
+from mcplan.errors import InvalidArgument, InvalidInput, InvalidSweep  # noqa: E402
 from mcplan.files.sweep_specs import sweep_spec  # noqa: E402
 from mcplan.sweep import How, load_sweep, run  # noqa: E402
 from mcplan.sweep.tasks import share_of, tasks_of  # noqa: E402
@@ -134,6 +135,9 @@ def test_a_folder_of_another_sweep_is_refused(done):
         ({"robots": ["taloss"]}, "robots[0]: no robot 'taloss'"),
         ({"options": {"phases": "x"}}, 'options.phases: must be of type int, got "x"'),
         ({"options": {"phases": {"grid": [18, -3]}}}, "options.phases: must"),
+        ({"options": {"phases": 10**11}}, "options.phases: must be at most 2000, got 100000000000"),
+        ({"name": "a\n"}, 'name: must have no control characters, got "a\\n"'),
+        ({"exports": ["mjlba"]}, "exports[0]: no such format. Did you mean 'mjlab'? Formats: mjlab, "),
         ({"options": {"seed": 3}}, "options.seed: is said by seeds"),
         ({"scenes": []}, "scenes: must not be empty"),
         ({"scenes": [{"generator": "gap", "samples": 0}]}, "scenes[0].samples: must be at least 1, got 0"),
@@ -158,11 +162,40 @@ def test_errors_name_field_rule_and_value(change, message):
     assert str(found.value).startswith(f"s.toml: {message}")
 
 
-def test_the_schema_that_is_checked_in_is_current():
-    from mcplan.files.builtin import DATA as FILES
-    from mcplan.files.sweep_specs import schema_text
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"jobs": 0}, "jobs: must be a whole number in [1, 1024], got 0"),
+        ({"jobs": 2.0}, "jobs: must be a whole number in [1, 1024], got 2.0"),
+        ({"attempts": 10**6}, "attempts: must be a whole number in [1, 1000], got 1000000"),
+        ({"shard": (3, 2)}, "shard: must be i/n with 1 <= i <= n, got 3/2"),
+        ({"shard": "1/2"}, 'shard: must be None or (i, n) with whole numbers 1 <= i <= n, got "1/2"'),
+        ({"scheduler": None}, "scheduler: must be a str, got None"),
+    ],
+)
+def test_how_a_sweep_is_run_is_checked_when_it_is_said(change, message):
+    with pytest.raises(InvalidArgument) as found:
+        How(**change)
+    assert str(found.value) == message
 
-    assert (FILES / "schema/sweep.json").read_text() == schema_text(), "run: python -m mcplan.files.schema"
+
+def test_what_is_refused_leaves_no_folder(tmp_path, capsys):
+    (tmp_path / "s.toml").write_text('name = "s"\n[[scenes]]\nscene = "flat"\n')
+    (tmp_path / "file").touch()
+    for words, message in (
+        (["--out", "o", "--shard", "\uff11/2"], "--shard: must be i/n with 1 <= i <= n"),
+        (["--out", "o", "--jobs", "1025"], "--jobs: must lie in [1, 1024], got 1025"),
+        (["--out", "file"], "--out: must be a folder, or a name for a new one"),
+        (["--out", "."], "--out: must be a new or an empty folder, or one of this sweep"),
+        (["--out", "o", "--scheduler", "nobody"], "--scheduler: must be the address of a Dask scheduler"),
+    ):
+        words[1] = str(tmp_path / words[1])
+        code = main(["sweep", str(tmp_path / "s.toml"), *words])
+        assert one_line_error((code, *capsys.readouterr())).startswith(message)
+    for spec, out in (("s.toml", tmp_path / "o"), (sweep_spec(DATA), None), (sweep_spec(DATA), tmp_path / "file")):
+        with pytest.raises(InvalidInput, match="^(spec|out): must be"):
+            run(spec, out)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "s.toml"]
 
 
 def test_dask_workers_make_the_same_bytes(done, tmp_path):

@@ -8,7 +8,8 @@ from typing import Annotated, Any
 
 import typer
 
-from mcplan.cli.given_options import at_least, named_as_typed, require_none_given
+from mcplan.arguments import MAX_JOBS
+from mcplan.cli.given_options import at_least, named_as_typed, require_none_given, within
 from mcplan_bench.cli.output import say
 
 from .contacts import contacts
@@ -26,7 +27,7 @@ app.command()(motion)
 app.command()(tracking)
 
 _OUT = typer.Option("--out", metavar="DIR", help="Folder for JSON and CSV.")
-_JOBS = typer.Option("--jobs", metavar="N", callback=at_least(1), help="Number of processes.")
+_JOBS = typer.Option("--jobs", metavar="N", callback=within(1, MAX_JOBS), help="Number of processes.")
 _SCENES = typer.Option("--scenes", metavar="N", callback=at_least(0), help="Number of random scenes.")
 _SEED = typer.Option("--seed", metavar="K", callback=at_least(0), help="Seed of the first random scene.")
 _ROBOT = typer.Option("--robot", metavar="R", help="Robot: built-in name or TOML file.")

@@ -8,7 +8,8 @@ from typing import Annotated, Any
 
 import typer
 
-from mcplan.cli.given_options import at_least
+from mcplan.arguments import MAX_JOBS
+from mcplan.cli.given_options import at_least, within
 from mcplan_bench.cli.output import cases_named, print_sections, say, write_page
 
 #: Solves behind each time, unless --repeats says how many.
@@ -31,7 +32,9 @@ RepeatsOption = Annotated[
     int | None,
     typer.Option("--repeats", metavar="N", callback=at_least(1), help="Number of solves behind each time (5)."),
 ]
-JobsOption = Annotated[int, typer.Option("--jobs", metavar="N", callback=at_least(1), help="Number of processes.")]
+JobsOption = Annotated[
+    int, typer.Option("--jobs", metavar="N", callback=within(1, MAX_JOBS), help="Number of processes.")
+]
 ListCasesOption = Annotated[bool, typer.Option("--list", help="Print the names of the cases.")]
 MarkdownOption = Annotated[
     Path | None,

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mcplan.cli.given_options import at_least
+from mcplan.arguments import MAX_JOBS
+from mcplan.cli.given_options import at_least, within
 from mcplan_bench.cli.output import cases_named, print_sections, say, write_page
 
 if TYPE_CHECKING:
@@ -48,7 +49,10 @@ SpeedOption = Annotated[
 JobsOption = Annotated[
     int,
     typer.Option(
-        "--jobs", metavar="N", callback=at_least(1), help="Number of processes; with several, times of runs are longer."
+        "--jobs",
+        metavar="N",
+        callback=within(1, MAX_JOBS),
+        help="Number of processes; with several, times of runs are longer.",
     ),
 ]
 ListCasesOption = Annotated[bool, typer.Option("--list", help="Print the names of the cases.")]

@@ -467,6 +467,9 @@ class Cycle:
     """
     How one cycle went.
     """
+
+    __hash__: typing.ClassVar[None] = None
+    def __eq__(self, other: typing.Any) -> bool: ...
     def __getstate__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
@@ -565,6 +568,8 @@ class Walk:
     """
     A walk: its plan, how it was found, cycle by cycle.
     """
+
+    __hash__: typing.ClassVar[None] = None
     @staticmethod
     def _repr_html_(result: typing.Any) -> str:
         """
@@ -574,6 +579,7 @@ class Walk:
                 result: What an engine returns: it has a plan and a report.
 
         """
+    def __eq__(self, other: typing.Any) -> bool: ...
     def __getstate__(self) -> tuple: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...

@@ -9,7 +9,7 @@ from typing import Any
 import typer
 
 from mcplan.cli.usage import typed_name
-from mcplan.errors import InvalidArgument, InvalidInput, InvalidOptions, apart, together
+from mcplan.errors import InvalidArgument, InvalidInput, InvalidOptions, InvalidSweep, apart, together
 
 
 def at_least(low: int) -> Callable[[typer.CallbackParam, Any], Any]:
@@ -22,6 +22,21 @@ def at_least(low: int) -> Callable[[typer.CallbackParam, Any], Any]:
     def checked(param: typer.CallbackParam, value: Any) -> Any:
         if value is not None and value < low:
             raise InvalidInput(typed_name(param), f"must be at least {low}", str(value))
+        return value
+
+    return checked
+
+
+def within(low: int, high: int) -> Callable[[typer.CallbackParam, Any], Any]:
+    """The callback of an option whose number has a range.
+
+    Raises:
+        InvalidInput: "--jobs: must lie in [1, 1024], got 0".
+    """
+
+    def checked(param: typer.CallbackParam, value: Any) -> Any:
+        if value is not None and not low <= value <= high:
+            raise InvalidInput(typed_name(param), f"must lie in [{low}, {high}]", str(value))
         return value
 
     return checked
@@ -49,7 +64,7 @@ def named_as_typed(*names: str, **options: str) -> Iterator[None]:
     try:
         yield
     except InvalidInput as found:
-        if type(found) not in (InvalidInput, InvalidOptions, InvalidArgument):
+        if type(found) not in (InvalidInput, InvalidOptions, InvalidArgument, InvalidSweep):
             raise
         named: dict[str, InvalidInput] = {}
         for single in (_named(each, typed) for each in apart(found)):

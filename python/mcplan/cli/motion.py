@@ -77,7 +77,7 @@ def motion(
     from mcplan.wb.solve import motion as solve
 
     require("mcplan motion", "view", "pinocchio", "scipy")
-    require_target("--output", output, ARCHIVE)
+    require_target("--output", output, ARCHIVE, plan)
     require_outputs("motion", output, html, plots)
     if verbose:
         _log_iterations()

@@ -9,7 +9,8 @@ import typer
 
 def schema(
     kind: Annotated[
-        str | None, typer.Argument(metavar="[KIND]", help="Kind of file: scene, robot, planar_robot or planar_task.")
+        str | None,
+        typer.Argument(metavar="[KIND]", help="Kind of file: scene, robot, planar_robot, planar_task or sweep."),
     ] = None,
 ) -> None:
     """Print where the JSON schemas of files are, for editors.

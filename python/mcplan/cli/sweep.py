@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mcplan.cli.given_options import at_least, named_as_typed
+from mcplan.arguments import MAX_JOBS
+from mcplan.cli.given_options import named_as_typed, within
 
 if TYPE_CHECKING:
     from mcplan.sweep.runner import Outcome, Progress
@@ -21,7 +22,7 @@ OutOption = Annotated[
     Path, typer.Option("--out", metavar="DIR", help="Folder of the sweep; one that is begun goes on.")
 ]
 JobsOption = Annotated[
-    int, typer.Option("--jobs", metavar="N", callback=at_least(1), help="Number of processes on this machine.")
+    int, typer.Option("--jobs", metavar="N", callback=within(1, MAX_JOBS), help="Number of processes on this machine.")
 ]
 SchedulerOption = Annotated[
     str, typer.Option("--scheduler", metavar="URL", help="Address of a Dask scheduler, whose workers are used instead.")
@@ -34,7 +35,7 @@ AttemptsOption = Annotated[
     typer.Option(
         "--attempts",
         metavar="K",
-        callback=at_least(1),
+        callback=within(1, 1000),
         help="How often a task may kill its process before it is given up.",
     ),
 ]

@@ -154,7 +154,7 @@ def track(
     from mcplan.following import track_any
 
     require("mcplan track", "sim", "mujoco", "pinocchio", "proxsuite")
-    (outputs := RunOutputs(video, html, strip, plots, save)).require()
+    (outputs := RunOutputs(video, html, strip, plots, save)).require(plan)
     values: dict[str, Any] = {"assist": assist, "pushes": parse_pushes(push or []), "seed": seed}
     values |= {"mass_scale": mass_scale, "friction_scale": friction, "ground_shift_m": ground_shift}
     values |= {"speed_limits": speed_limits, "self_contacts": self_contacts, "sensor_noise": sensor_noise}

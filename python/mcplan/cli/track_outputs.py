@@ -23,8 +23,11 @@ class RunOutputs:
     save: Path | None = None
     verb: str = "track"
 
-    def require(self) -> None:
+    def require(self, source: Path | None = None) -> None:
         """Say what cannot be written before simulating, not after.
+
+        Args:
+            source: The file of which the run is made, which is not replaced.
 
         Raises:
             InvalidInput: A folder does not exist or cannot be written to, a file stands where a folder should be or the
@@ -34,7 +37,7 @@ class RunOutputs:
         from mcplan.cli.outputs import require_outputs, require_rendering
         from mcplan.files.outputs import ARCHIVE, require_target
 
-        require_target("--save", self.save, ARCHIVE)
+        require_target("--save", self.save, ARCHIVE, source)
         require_target("--strip", self.strip, (".png",))
         require_outputs(self.verb, None, self.html, self.plots)
         if self.video is not None:

@@ -10,7 +10,7 @@ from mcplan._core import Plan, PlanarPlan, Robot
 from mcplan.arguments import require_number, require_or_path
 from mcplan.errors import InvalidArgument, InvalidInput, shown
 from mcplan.files.export_formats import format_of
-from mcplan.files.outputs import require_target
+from mcplan.files.outputs import require_named, require_target
 
 if TYPE_CHECKING:
     from mcplan.tracking import Recording, TrackingResult
@@ -48,7 +48,9 @@ def export(
 
     Raises:
         InvalidArgument: There is no such format, or an argument is of another type; the message names legal values.
-        InvalidInput: The file is no plan or run; a value is out of range; the robot cannot take up the plan's postures.
+        InvalidInput: The file is no plan or run, or the path is that file; a value is out of range; the robot cannot take
+            up the plan's postures.
+        InvalidPlan: The plan is malformed.
         InvalidRobot: The format needs joints, and the robot has no URDF.
         MissingExtra: The format needs Pinocchio: ``pip install 'mcplan[view]'``.
         OSError: The file cannot be written.
@@ -59,7 +61,8 @@ def export(
         if not RATES_HZ[0] <= rate_hz <= RATES_HZ[1]:
             raise InvalidInput("rate_hz", f"must lie in {RATES_HZ[0]:g} to {RATES_HZ[1]:g} [1/s]", shown(rate_hz))
     require_or_path("path", path)
-    require_target("path", Path(path), entry.suffix)
+    require_named(path)
+    require_target("path", Path(path), entry.suffix, what)
     from .source import Source
 
     source = Source.of(_loaded(what), robot, entry, rate_hz)

@@ -52,6 +52,7 @@ class Source:
 
         Raises:
             InvalidInput: A robot is given with a run or a motion; or the plan is empty.
+            InvalidPlan: The plan is malformed.
             InvalidRobot: The robot lacks an end-effector of the plan.
         """
         rate = entry.rate_hz if rate_hz is None else rate_hz
@@ -60,6 +61,7 @@ class Source:
         if isinstance(what, Plan):
             if not what.phases:
                 raise InvalidInput("what", "must be a plan that has phases", "none")
+            what.validate()
             from mcplan.tracking.runner import robot_for
 
             return Source(what, None, robot_for(what, robot), rate, entry.name)

@@ -66,4 +66,5 @@ def format_of(name: str, field: str = "to") -> Format:
     if isinstance(name, str) and name in FORMATS:
         return FORMATS[name]
     hint = did_you_mean(name, FORMATS) if isinstance(name, str) else ""
-    raise InvalidArgument(field, f"{hint}Must be one of {', '.join(FORMATS)}", shown(name))
+    rule = f"no such format. {hint}Formats: {', '.join(FORMATS)}" if hint else f"must be one of {', '.join(FORMATS)}"
+    raise InvalidArgument(field, rule, shown(name))

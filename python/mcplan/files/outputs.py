@@ -16,7 +16,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from mcplan.errors import InvalidInput, either, shown_path
+from mcplan.errors import InvalidInput, either, shown, shown_path
 
 #: Names of plans and runs.
 ARCHIVE = (".npz",)
@@ -94,15 +94,22 @@ def require_suffix(field: str, path: str | Path, suffixes: Sequence[str]) -> Non
     raise InvalidInput(field, f"must end in {either([suffix for suffix in suffixes if suffix])}", shown_path(target))
 
 
-def require_target(field: str, path: Path | None, suffixes: Sequence[str] | None = None) -> None:
+def require_target(field: str, path: Path | None, suffixes: Sequence[str] | None = None, source: object = None) -> None:
     """Say before hours of work, not after, that a file cannot be written.
 
+    Args:
+        field: What the file is called in messages.
+        path: The file; None: none is written.
+        suffixes: What it may end in; None: anything.
+        source: The file of which it is made, which may not be the same; anything else is no file.
+
     Raises:
-        InvalidInput: Its folder does not exist or cannot be written to, it is a folder itself, or it ends in none of the
-            suffixes (None: any will do).
+        InvalidInput: Its folder does not exist or cannot be written to, it is a folder itself, it ends in none of the
+            suffixes, or it would replace the one that it is made of.
     """
     if path is None:
         return
+    require_named(path, field)
     if not path.parent.is_dir():
         raise InvalidInput(field, "must lie in a folder that exists", shown_path(path))
     if path.is_dir():
@@ -112,6 +119,8 @@ def require_target(field: str, path: Path | None, suffixes: Sequence[str] | None
             require_suffix(field, path, suffixes)
         if is_special(path):
             return
+        if _is_there(source) and path.exists() and os.path.samefile(path, str(source)):
+            raise InvalidInput(field, "must be another file than the one that is read", shown_path(path))
         _require_replaceable(path)
     except OSError as found:
         raise InvalidInput(
@@ -128,6 +137,7 @@ def require_folder(field: str, path: Path | None) -> None:
     """
     if path is None:
         return
+    require_named(path, field)
     if path.exists() and not path.is_dir():
         raise InvalidInput(field, "must be a folder, or a name for a new one", shown_path(path))
     folder = Path(os.path.realpath(path))
@@ -158,10 +168,20 @@ def require_writable(field: str, folder: Path, path: Path) -> None:
         raise InvalidInput(field, rule, f"{shown_path(path)} ({found.strerror})") from None
 
 
-def require_named(path: str | Path) -> None:
-    """Raises InvalidInput for an empty path, of which ``Path`` makes the working folder."""
+def require_named(path: str | Path, field: str = "path") -> None:
+    """Raises InvalidInput for an empty path, of which ``Path`` makes the working folder, and for what no file can be called."""
     if not os.fspath(path):
-        raise InvalidInput("path", "must not be empty")
+        raise InvalidInput(field, "must not be empty")
+    if "\0" in os.fspath(path):
+        raise InvalidInput(field, "must have no null character", shown(os.fspath(path)))
+    try:
+        os.fsencode(path)
+    except UnicodeEncodeError:
+        raise InvalidInput(field, "must be text that can be encoded", shown(os.fspath(path))) from None
+
+
+def _is_there(source: object) -> bool:
+    return isinstance(source, str | os.PathLike) and os.path.exists(source)
 
 
 def _require_replaceable(target: Path) -> None:

@@ -1,4 +1,4 @@
-"""JSON schemas of scene, robot, planar task and sweep files, for editors and other programs.
+"""JSON schemas of scene, robot, planar robot, planar task and sweep files, for editors and other programs.
 
 python -m mcplan.files.schema        # writes mcplan/data/schema/*.json from the tables of fields, and of sweeps from their models
 """
@@ -11,7 +11,7 @@ from mcplan._core import schema_text
 from mcplan.files.builtin import DATA
 
 #: Kinds of files that have a schema.
-KINDS = ("scene", "robot", "planar_robot", "planar_task")
+KINDS = ("scene", "robot", "planar_robot", "planar_task", "sweep")
 
 
 def path_of(kind: str) -> Path:
@@ -23,17 +23,25 @@ def path_of(kind: str) -> Path:
     return DATA / "schema" / f"{kind}.json"
 
 
+def text_of(kind: str) -> str:
+    """What the schema of a kind of file has to be.
+
+    Args:
+        kind: One of KINDS.
+    """
+    if kind == "sweep":
+        from mcplan.files import sweep_specs
+
+        return sweep_specs.schema_text()
+    return schema_text(kind)
+
+
 def main() -> None:
     for name in KINDS:
         path = path_of(name)
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(schema_text(name), encoding="utf-8")
+        path.write_text(text_of(name), encoding="utf-8")
         print(path)
-    from mcplan.files.sweep_specs import schema_text as sweep_schema_text
-
-    path = DATA / "schema" / "sweep.json"
-    path.write_text(sweep_schema_text(), encoding="utf-8")
-    print(path)
 
 
 if __name__ == "__main__":

@@ -193,6 +193,10 @@ def _rule(kind: str, context: dict[str, Any], message: str) -> str:
         return f"must be one of {str(context['expected']).replace(chr(39), '').replace(' or ', ', ')}"
     if kind in ("too_short", "string_too_short"):
         return "must not be empty"
+    if kind == "string_too_long":
+        return f"must have at most {context['max_length']} characters"
+    if kind == "string_pattern_mismatch":
+        return "must have no control characters"
     words = {"int": "a whole number", "float": "a number", "string": "a text", "list": "a list", "tuple": "a list"}
     words |= {"dict": "a table", "model": "a table", "finite": "a finite number", "bool": "true or false"}
     return next((f"must be {word}" for start, word in words.items() if kind.startswith(start)), message.lower())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 from mcplan.errors import InvalidArgument, shown
@@ -15,8 +16,33 @@ Outcome = TypeVar("Outcome")
 _PATIENCE_S = 30
 
 
+@contextmanager
+def connected(scheduler: str) -> Iterator[Any]:
+    """A client of a scheduler, which is closed at the end.
+
+    Args:
+        scheduler: Address, "tcp://host:8786".
+
+    Raises:
+        InvalidArgument: Nobody answers at that address.
+    """
+    from distributed import Client
+
+    try:
+        client = Client(scheduler, timeout=_PATIENCE_S, set_as_default=False)
+    except Exception as error:  # also an AssertionError, of a scheme that it does not know
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise InvalidArgument(
+            "scheduler", f"must be the address of a Dask scheduler ({reason})", shown(scheduler)
+        ) from None
+    try:
+        yield client
+    finally:
+        client.close()
+
+
 def each(
-    function: Callable[[Task], Outcome], tasks: Sequence[Task], scheduler: str
+    client: Any, function: Callable[[Task], Outcome], tasks: Sequence[Task]
 ) -> Iterator[tuple[int, Outcome | Crash]]:
     """As ``pool.each``, on the workers of a scheduler.
 
@@ -25,22 +51,15 @@ def each(
     ``distributed.scheduler.allowed-failures``.
 
     Args:
+        client: Of the scheduler.
         function: Of a module that workers can import, too.
         tasks: Its arguments.
-        scheduler: Address, "tcp://host:8786".
 
     Raises:
-        InvalidArgument: Nobody answers at that address.
         KeyboardInterrupt: Ctrl-C was pressed; tasks that are not begun are taken back.
     """
-    from distributed import Client, as_completed
+    from distributed import as_completed
 
-    try:
-        client = Client(scheduler, timeout=_PATIENCE_S, set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise InvalidArgument(
-            "scheduler", f"must be the address of a Dask scheduler ({error})", shown(scheduler)
-        ) from None
     left = deque(range(len(tasks)))
     sent: dict[Any, int] = {}
     try:
@@ -54,7 +73,6 @@ def each(
     finally:
         if sent:
             client.cancel(list(sent))
-        client.close()
 
 
 def _send(

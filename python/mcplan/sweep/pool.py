@@ -13,6 +13,7 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
+from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
 from typing import Any, Generic, TypeVar
 
@@ -173,6 +174,8 @@ def _how(exit_code: int | None) -> str:
 def deaf_to_interrupts() -> Iterator[None]:
     """Processes that are started meanwhile leave Ctrl-C, which a terminal sends to all, to this one; it gets its own
     afterwards."""
+    # It starts with the first process otherwise, between our blocking SIGINT and that process, and unblocks it.
+    resource_tracker.ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield

@@ -4,16 +4,24 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from mcplan.arguments import MAX_JOBS, require, require_or_path, require_whole
+from mcplan.files.outputs import require_folder
 from mcplan.sweep import pool, store
-from mcplan.sweep.tasks import Task, share_of, tasks_of
+from mcplan.sweep.tasks import Task, require_shard, share_of, tasks_of
 from mcplan.sweep.work import CRASHED, RECORDS, REFUSED, REJECTED, TIMES, Job, head, work, write
 
 if TYPE_CHECKING:
     from mcplan.files.sweep_specs import SweepSpec
+
+    _Each = Callable[[Callable[[Job], str], Sequence[Job]], Iterator[tuple[int, Any]]]
+
+#: How often a task may kill its worker at most.
+MAX_ATTEMPTS = 1000
 
 
 @dataclass(frozen=True)
@@ -21,11 +29,11 @@ class How:
     """How a sweep is run, which changes nothing of what comes of it.
 
     Attributes:
-        jobs: Processes on this machine.
+        jobs: Processes on this machine, at most MAX_JOBS.
         scheduler: Address of a Dask scheduler, "tcp://host:8786", whose workers are used instead; the folder of the sweep
             must be the same for all of them. "": none.
         shard: (i, n), 1 <= i <= n: do the i-th of n shares only.
-        attempts: How often a task may kill its worker before it is recorded as crashed.
+        attempts: How often a task may kill its worker before it is recorded as crashed, at most MAX_ATTEMPTS.
         retry_crashed: Whether tasks that are recorded as crashed are tried again.
     """
 
@@ -34,6 +42,14 @@ class How:
     shard: tuple[int, int] | None = None
     attempts: int = pool.ATTEMPTS
     retry_crashed: bool = False
+
+    def __post_init__(self) -> None:
+        """Raises InvalidArgument for a value of another type or out of its range."""
+        require_whole("jobs", self.jobs, 1, MAX_JOBS)
+        require_whole("attempts", self.attempts, 1, MAX_ATTEMPTS)
+        require("scheduler", self.scheduler, str)
+        require("retry_crashed", self.retry_crashed, bool)
+        require_shard(self.shard)
 
 
 @dataclass(frozen=True)
@@ -83,8 +99,8 @@ class Outcome:
 
 def run(
     spec: SweepSpec,
-    out: Path,
-    folder: Path = Path("."),
+    out: str | Path,
+    folder: str | Path = ".",
     how: How | None = None,
     progress: Callable[[Progress], None] | None = None,
     function: Callable[[Job], str] = work,
@@ -100,20 +116,30 @@ def run(
         function: What does a task, of a module, and returns its status.
 
     Raises:
+        InvalidArgument: An argument is of another type; nobody answers at the scheduler's address, and nothing is begun.
+        InvalidInput: The folder cannot be made or written to.
         InvalidSweep: The folder holds something else.
         KeyboardInterrupt: Ctrl-C was pressed; what is done stays, and the same call goes on.
     """
-    how = how or How()
-    tasks = tasks_of(spec, folder)
+    from mcplan.files.sweep_specs import SweepSpec
+
+    require("spec", spec, SweepSpec)
+    require("how", how, How, optional=True)
+    require_or_path("out", out)
+    require_or_path("folder", folder)
+    how, out = how or How(), Path(out)
+    require_folder("out", out)
+    tasks = tasks_of(spec, Path(folder))
     share = share_of(tasks, how.shard)
-    store.begin(out, store.manifest_of(spec, tasks))
-    left = store.pending(out, share, how.retry_crashed)
-    store.sweep_away(out, left)
-    done = len(share) - len(left)
-    for task, status in _done(left, out, how, function):
-        done += 1
-        if progress is not None:
-            progress(Progress(task, status, done, len(share)))
+    with _workers(how) as each:
+        store.begin(out, store.manifest_of(spec, tasks))
+        left = store.pending(out, share, how.retry_crashed)
+        store.sweep_away(out, left)
+        done = len(share) - len(left)
+        for task, status in _done(left, out, each, function):
+            done += 1
+            if progress is not None:
+                progress(Progress(task, status, done, len(share)))
     outcome = Outcome(out, len(tasks), len(share), ran=len(left))
     records = _count(outcome, share, tasks)
     if outcome.left == 0:
@@ -123,19 +149,22 @@ def run(
     return outcome
 
 
-def _done(tasks: Sequence[Task], out: Path, how: How, function: Callable[[Job], str]) -> Iterator[tuple[Task, str]]:
+@contextmanager
+def _workers(how: How) -> Iterator[_Each]:
+    """What has a function called with each of some jobs by the workers, and gives index and outcome as they are done."""
+    if not how.scheduler:
+        yield lambda function, jobs: pool.each(function, jobs, how.jobs, how.attempts)
+        return
+    from mcplan.sweep import dask_pool
+
+    with dask_pool.connected(how.scheduler) as client:
+        yield lambda function, jobs: dask_pool.each(client, function, jobs)
+
+
+def _done(tasks: Sequence[Task], out: Path, each: _Each, function: Callable[[Job], str]) -> Iterator[tuple[Task, str]]:
     """Tasks as they are done, and their status."""
     jobs = [Job(task, str(out.resolve())) for task in tasks]
-    if not jobs:
-        return
-    working: Iterator[tuple[int, Any]]
-    if how.scheduler:
-        from mcplan.sweep import dask_pool
-
-        working = dask_pool.each(function, jobs, how.scheduler)
-    else:
-        working = pool.each(function, jobs, min(how.jobs, len(jobs)), how.attempts)
-    for index, outcome in working:
+    for index, outcome in each(function, jobs):
         if isinstance(outcome, pool.Crash):
             _record_crash(out, tasks[index], outcome)
             outcome = CRASHED

@@ -14,6 +14,7 @@ from mcplan.errors import InvalidArgument, InvalidSweep, shown
 if TYPE_CHECKING:
     from mcplan.files.sweep_specs import SceneEntry, SweepSpec
 
+_SHARD = "must be i/n with 1 <= i <= n"
 #: Tasks in a folder of records or plans.
 _PER_FOLDER = 1000
 
@@ -102,12 +103,23 @@ def share_of(tasks: Sequence[Task], shard: tuple[int, int] | None) -> list[Task]
     Raises:
         InvalidArgument: There is no such shard.
     """
+    require_shard(shard)
+    return list(tasks) if shard is None else list(tasks[shard[0] - 1 :: shard[1]])
+
+
+def require_shard(shard: Any) -> None:
+    """Refuse what is no shard.
+
+    Raises:
+        InvalidArgument: It is neither None nor (i, n) with 1 <= i <= n.
+    """
     if shard is None:
-        return list(tasks)
-    i, n = shard
-    if not 1 <= i <= n:
-        raise InvalidArgument("shard", "must be i/n with 1 <= i <= n", f"{i}/{n}")
-    return list(tasks[i - 1 :: n])
+        return
+    whole = isinstance(shard, tuple | list) and len(shard) == 2 and all(type(part) is int for part in shard)
+    if not whole:
+        raise InvalidArgument("shard", "must be None or (i, n) with whole numbers 1 <= i <= n", shown(shard))
+    if not 1 <= shard[0] <= shard[1]:
+        raise InvalidArgument("shard", _SHARD, f"{shard[0]}/{shard[1]}")
 
 
 def parse_shard(text: str) -> tuple[int, int]:
@@ -117,10 +129,11 @@ def parse_shard(text: str) -> tuple[int, int]:
         InvalidArgument: It is something else.
     """
     first, slash, second = text.partition("/")
-    if not (slash and first.isdecimal() and second.isdecimal() and len(text) < 20):
-        raise InvalidArgument("shard", "must be i/n with 1 <= i <= n", shown(text))
-    share_of([], (int(first), int(second)))
-    return int(first), int(second)
+    if not (slash and text.isascii() and first.isdecimal() and second.isdecimal() and len(text) < 20):
+        raise InvalidArgument("shard", _SHARD, shown(text))
+    shard = int(first), int(second)
+    require_shard(shard)
+    return shard
 
 
 def _combinations(spec: SweepSpec, entry: SceneEntry) -> Iterator[tuple[str, dict[str, Any], dict[str, Any], int]]:

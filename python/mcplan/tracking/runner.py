@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan._core import Plan, Robot
+from mcplan.arguments import require_or_path
 from mcplan.errors import InvalidInput, InvalidRobot, shown
 from mcplan.extras import require
 from mcplan.files.robots import list_robots_with
@@ -154,6 +155,7 @@ def robot_for(plan: Plan, robot: Robot | str | Path | None) -> Robot:
     if not isinstance(robot, Robot):
         from mcplan.files.robots import load_robot
 
+        require_or_path("robot", robot, "a Robot", "a name", optional=True)
         robot = load_robot(robot)
     own = {end.name: end for end in robot.end_effectors}
     for end in plan.robot.end_effectors:
