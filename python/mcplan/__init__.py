@@ -262,6 +262,7 @@ def run(
     robot: Robot | str | Path | None = None,
     *,
     watch: Watch | None = None,
+    true_scene: Scene | str | Path | None = None,
     **options: Any,
 ) -> RunResult:
     """Simulate a robot that is planned for while it walks: pushed, it takes other steps.
@@ -276,6 +277,8 @@ def run(
         robot: A robot with a URDF, or what load_robot takes; None: that of the plan.
         watch: Called at every control step with the simulated time [s], the configuration (nq,) in Pinocchio's order and
             the plan that is followed, as ``mcplan.view.LiveView`` is.
+        true_scene: The ground that is simulated where it is not as planned: surfaces of the scene by name, elsewhere, with
+            other friction, or left out. ``told_at_s`` is the time from which on the planner knows it; never by default.
         **options: Fields of ``mcplan.online.OnlineOptions`` and of ``mcplan.tracking.Options``, among them ``push``, one
             or several as ``mcplan.track`` takes them; ``command``, a velocity (ahead, left [m/s], turning [rad/s]);
             ``goal``, a place and heading instead of the scene's goal (x, y [m], heading [rad], from a time on [s]);
@@ -299,4 +302,4 @@ def run(
     require("mcplan.run", "sim", "mujoco", "pinocchio", "proxsuite")
     from mcplan.running import run_any
 
-    return run_any(scene, robot, options, watch=watch)
+    return run_any(scene, robot, options, watch=watch, true_scene=true_scene)

@@ -30,6 +30,7 @@ def run_any(
     values: Mapping[str, Any],
     progress: Callable[[float, float], None] | None = None,
     watch: Watch | None = None,
+    true_scene: Scene | str | Path | None = None,
 ) -> RunResult:
     """Walk with replanning; see mcplan.run.
 
@@ -39,6 +40,7 @@ def run_any(
         values: Options by name.
         progress: Called now and then with the time simulated and the time to simulate [s].
         watch: Called at every control step; see mcplan.run.
+        true_scene: The ground that is simulated; None: as planned.
     """
     if not isinstance(robot, Robot):
         require_or_path("robot", robot, "a Robot", "a name", optional=True)
@@ -47,7 +49,13 @@ def run_any(
     options, online = chosen_options(values)
     from mcplan.online.runner import run
 
-    return run(first_plan(scene, robot), robot if isinstance(scene, Plan) else None, options, online, progress, watch)
+    if true_scene is not None and not isinstance(true_scene, Scene):
+        require_or_path("true_scene", true_scene, "a Scene", "a name")
+        from mcplan.files.scenes import load_scene
+
+        true_scene = load_scene(true_scene)
+    own = robot if isinstance(scene, Plan) else None
+    return run(first_plan(scene, robot), own, options, online, progress, watch, true_scene)
 
 
 def chosen_options(values: Mapping[str, Any]) -> tuple[Options, OnlineOptions]:

@@ -50,8 +50,8 @@ def load(path: str | Path) -> Plan | PlanarPlan | Motion | TrackingResult | Plan
         InvalidInput: Neither, or its content does not fit together; the message names file, field and rule.
         FileNotFoundError: There is no such file.
     """
+    from mcplan.online.result import result_from
     from mcplan.planar.tracking.result import result_from as planar_result_from
-    from mcplan.tracking.result import result_from
     from mcplan.tracking.run_files import PLANAR_RUN, RUN, load_run
     from mcplan.wb.loading import load_any
 

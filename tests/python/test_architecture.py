@@ -92,7 +92,7 @@ PYTHON_ROOMS = {
     "view": _GROUND | {"files", "kinematics", "wb", "tracking"},
     "planar": _GROUND | {"files", "kinematics", "tracking", "view"},
     "export": _GROUND | {"files", "kinematics", "wb", "tracking"},
-    "showing": _GROUND | _LOOKED_AT,
+    "showing": _GROUND | _LOOKED_AT | {"online"},
     "notebooks": {"_core", "errors", "showing"},
     "following": _GROUND | _LOOKED_AT - {"view"},
     "running": _GROUND | {"solve", "files", "tracking", "online"},

@@ -73,6 +73,7 @@ BAD = {
         "--push": ("40",),
         "--command": ("x", "1,2"),
         "--goal": ("x", "1", "1,2,3,-4", "nan,0"),
+        "--told-at": ("x", "-1", "4000"),
         "--latency": ("-1", "x"),
         "--period": ("0",),
         "--duration": ("-1",),
@@ -160,7 +161,7 @@ def test_no_help_shows_ranges_of_typer():
 
 def test_every_option_that_takes_a_number_or_a_choice_is_tried():
     tried = {(verb.split()[0], option) for verb, options in BAD.items() for option in options}
-    texts = {"--robot", "--sequence", "--warm-start", "--from-urdf", "-o", "--free-durations"}
+    texts = {"--robot", "--true-scene", "--sequence", "--warm-start", "--from-urdf", "-o", "--free-durations"}
     paths = {
         "--out",
         "--markdown",

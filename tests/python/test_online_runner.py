@@ -114,13 +114,13 @@ def test_of_goals_and_commands_what_began_last_holds():
 
 
 def test_a_robot_for_which_no_plan_comes_is_brought_to_a_stand(plan, monkeypatch):
-    from mcplan.online import planner, runner
+    from mcplan.online import loop, planner
 
     asked = []
 
     def only_to_stand(*arguments):
         asked.append(arguments[4])
-        if arguments[4] != runner.STAND:
+        if arguments[4] != loop.STAND:
             raise mp.InvalidInput("test", "must stand")
         return replan(*arguments)
 
@@ -128,7 +128,7 @@ def test_a_robot_for_which_no_plan_comes_is_brought_to_a_stand(plan, monkeypatch
     monkeypatch.setattr(planner, "replan", only_to_stand)
     run = mp.run(plan, latency=LATENCY, duration=0.6, stop_after_s=0.25, self_contacts=False)
     assert run.online.stops >= 1 and run.online.replans_used >= 1 and not run.measures.fell
-    assert asked[0] is None and runner.STAND in asked
+    assert asked[0] is None and loop.STAND in asked
     assert run.online.statuses["error"] >= 2
 
 
@@ -192,8 +192,86 @@ def test_pages_and_plots_show_what_was_followed(plan, tmp_path):
 
 
 def test_plans_with_needless_steps_are_longer_than_what_is_left(plan):
-    from mcplan.online.runner import _longer
+    from mcplan.online.loop import _longer
 
     t = 0.5 * (plan.knot_times()[-4] + plan.knot_times()[-3])  # three phases are left
     assert not _longer(plan, plan, 0.0)
     assert _longer(plan, plan, t) and len(plan.phases) > 4
+
+
+def stairs(edit, planned):
+    """The scene of a plan with its surfaces edited, by name."""
+    scene = planned.scene.__copy__()
+    surfaces = [surface.__copy__() for surface in planned.scene.surfaces]
+    for surface in surfaces:
+        edit(surface)
+    scene.surfaces = surfaces
+    return scene
+
+
+@pytest.fixture(scope="module")
+def stairs_plan():
+    return mp.plan("stairs_broad", "talos").plan
+
+
+def lower(surface):
+    if surface.name.startswith("tread"):
+        surface.vertices_W = np.asarray(surface.vertices_W) - [0.0, 0.0, 0.03]
+
+
+def slippery(surface):
+    if surface.name == "tread_1":
+        surface.friction = 0.1
+
+
+def test_a_foot_finds_a_tread_that_is_lower_and_plans_go_on_from_there(stairs_plan):
+    run = mp.run(stairs_plan, true_scene=stairs(lower, stairs_plan), latency=LATENCY, duration=2.5, self_contacts=False)
+    assert not run.measures.fell and run.online.ground_felt >= 1
+    known = [max(np.asarray(f.plan.scene.surfaces[1].vertices_W)[:, 2]) for f in run.plans]
+    assert known[0] == pytest.approx(0.1) and known[-1] == pytest.approx(0.07, abs=0.004)
+    assert run.recording.true_scene is not None and run.recording.scene.surfaces[2] != stairs_plan.scene.surfaces[2]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("edit", [lower, slippery])
+def test_stairs_that_are_not_as_planned_are_climbed(stairs_plan, edit):
+    """Three centimetres lower, or with a tread of friction 0.1 that is found by slipping."""
+    true = stairs(edit, stairs_plan)
+    run = mp.run(stairs_plan, true_scene=true, latency=LATENCY)
+    assert not run.measures.fell and run.online.ground_felt >= 1 and run.online.stops == 0
+    end = run.recording.com_W[-1] - np.asarray(stairs_plan.at(stairs_plan.duration()).com_W)
+    assert np.linalg.norm(end[:2]) < 0.03
+
+
+def test_saved_runs_keep_their_planning(plan, tmp_path):
+    from mcplan.online.result import RunResult
+
+    run = mp.run(plan, latency=LATENCY, duration=0.35, self_contacts=False, command=(0.1, 0.0, 0.0))
+    run.save(tmp_path / "run.npz")
+    again = RunResult.load(tmp_path / "run.npz")
+    assert isinstance(again, RunResult) and str(again) == str(run)
+    assert again.online == run.online and again.options == run.options
+    assert again.online_options.command == run.online_options.command
+    assert len(again.plans) == len(run.plans) > 2
+    for one, other in zip(again.plans, run.plans, strict=True):
+        assert (one.begins_s, one.from_s, one.took_s, one.message) == (
+            other.begins_s,
+            other.from_s,
+            other.took_s,
+            other.message,
+        )
+        assert one.plan.knots == other.plan.knots
+
+
+@pytest.mark.parametrize(
+    ("told", "message"),
+    [
+        ({"told_at_s": 1.0}, "told_at_s: must be given with true_scene"),
+        ({"true_scene": "turn_jump"}, r"true_scene\.surfaces\[\d\]\.name: must be the name of a surface"),
+        ({"true_scene": "no_such"}, "no scene 'no_such'"),
+        ({"true_scene": 3}, "true_scene: must be a Scene"),
+    ],
+)
+def test_ground_that_cannot_be_simulated_is_refused(plan, told, message):
+    with pytest.raises((ValueError, TypeError), match=message):
+        mp.run(plan, **told)

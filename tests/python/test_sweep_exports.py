@@ -77,3 +77,12 @@ def test_wrong_formats_are_named(spec, exports, message):
     data, folder = spec
     with pytest.raises(InvalidSweep, match=message):
         sweep_spec({**data, "exports": exports}, folder=folder)
+
+
+@pytest.mark.parametrize(
+    ("field", "asked"), [("motion", {"motion": "legs"}), (r"exports\[1\]", {"exports": EXPORTS[::-1]})]
+)
+def test_what_needs_joints_is_refused_at_once_where_no_robot_has_any(spec, field, asked):
+    data, folder = spec
+    with pytest.raises(InvalidSweep, match=f"^{field}: needs a robot with a URDF: humanoid44 has none"):
+        sweep_spec({**data, "exports": [], **asked, "robots": ["humanoid44"]}, folder=folder)

@@ -142,6 +142,14 @@ def test_a_folder_of_another_sweep_is_refused(done):
          "scenes[0].parameters.width_m: must lie in [0, 5], got 9.0"),
         ({"scenes": [{"generator": "gap", "parameters": {"width_m": {"uniform": [2, 1]}}}]},
          "scenes[0].parameters.width_m: must have the lower bound first"),
+        ({"robots": ["g1", "g1"]}, 'robots[1]: must differ from those before it, got "g1"'),
+        ({"seeds": [1, 2, 1]}, "seeds[2]: must differ from those before it, got 1"),
+        ({"scenes": [{"scene": "flat", "samples": 5}]}, "scenes[0].samples: must be 1 where nothing is drawn"),
+        ({"scenes": [{"generator": "gap", "samples": 10**5, "parameters": {"width_m": {"linspace": [0.1, 0.2, 10**5]}}}]},
+         "scenes[0].samples: must be 1 where nothing is drawn"),
+        ({"scenes": [{"generator": "gap", "samples": 10**5, "parameters": {
+            "width_m": {"linspace": [0.1, 0.2, 10**5]}, "rise_m": {"uniform": [0.0, 0.1]}}}]},
+         "scenes: must give at most 1000000 tasks, got 10000000000"),
     ],
 )  # fmt: skip
 def test_errors_name_field_rule_and_value(change, message):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mcplan.tracking.contacts import EARLY_FRACTION, SEARCH_DEPTH, SEARCH_SPEED, Contact, Mode
+from mcplan.tracking.contacts import EARLY_FRACTION, SEARCH_DEPTH, SEARCH_SPEED, TOGETHER_S, Contact, LateLandings, Mode
 
 FREE, CONTACT, SEARCH = Mode.FREE, Mode.CONTACT, Mode.SEARCH
 SOON, LATER = EARLY_FRACTION + 0.05, EARLY_FRACTION - 0.05
@@ -68,3 +68,20 @@ def test_early_landing_lands_once():
     landed = [contact.update(False, in_contact, SOON, 0.002) for in_contact in (False, True, False, True)]
     landed.append(contact.update(True, True, 1.0, 0.002))
     assert landed == [False, True, False, False, False]
+
+
+def test_no_foot_is_lifted_before_a_late_one_has_landed():
+    dt, late = 0.002, LateLandings()
+    feet = [Contact(mode=CONTACT), Contact(mode=SEARCH)]
+    assert late.update(feet, [True, True], dt) == [True, True]
+    assert late.update(feet, [False, True], dt) == [True, True]  # the plan lifts the one that stands: it stays
+    feet[1].mode = CONTACT
+    kept = [late.update(feet, [False, True], dt)[0] for _ in range(60)]
+    assert sum(kept) == pytest.approx(TOGETHER_S / dt, abs=1.5) and kept == sorted(kept, reverse=True)
+
+
+def test_feet_in_the_air_are_not_kept_down_and_flights_are_flown():
+    late = LateLandings()
+    assert late.update([Contact(mode=FREE), Contact(mode=SEARCH)], [False, True], 0.002) == [False, True]
+    late = LateLandings()  # nothing is late where the plan has both feet in the air
+    assert late.update([Contact(mode=CONTACT), Contact(mode=SEARCH)], [False, False], 0.002) == [False, False]

@@ -285,6 +285,12 @@ constexpr int kContactsAhead = 2;
 constexpr double kLateDescent = 0.3, kLateMin_s = 0.02, kLateMax_s = 0.1;
 /// First guess of the phases at the end in which the robot stands [s]. Chosen.
 constexpr double kStanding_s = 0.3;
+/// A robot that stops stands for so many phases of that length, feet land within so many heights of the CoM of where
+/// they were to, on one of so many surfaces, and one after the other in such intervals [s]. Chosen.
+constexpr int kStopPhases = 4;
+constexpr double kStopReach = 0.5;
+constexpr std::size_t kStopGrounds = 2;
+constexpr double kStopApart_s = 0.05;
 /// Weight on the distance of footholds from where they were planned, of those that are committed and of others, and the
 /// distance [in CoM heights] up to which the price grows with its square, then with itself. With it, footholds of
 /// states that are as planned move by less than 1 mm; measured.

@@ -199,10 +199,14 @@ bool Barrier::factor_blend(const Point& point) {
 void Barrier::direction(double mu, const VectorXd& c, const VectorXd& slack_error, Step& step, bool given) {
   const double start_s = functions_.deadline().now_s();
   const int slacks = unknowns_.slack_count();
-  slack_work_ = weights_.tail(slacks).array() * slack_error.array() + mu * pull_.tail(slacks).array();
-  right_a_ = gradient_ + mu * pull_.head(n());
-  kkt_.add_inequalities_transposed(slack_work_, right_a_);
-  right_a_ = -right_a_;
+  if (given) {
+    right_a_ = rights_[0].dx + mu * rights_[1].dx;
+  } else {
+    slack_work_ = weights_.tail(slacks).array() * slack_error.array() + mu * pull_.tail(slacks).array();
+    right_a_ = gradient_ + mu * pull_.head(n());
+    kkt_.add_inequalities_transposed(slack_work_, right_a_);
+    right_a_ = -right_a_;
+  }
   right_b_ = -c - kkt_.delta_c() * lambda_;  // the regularisation acts on what multipliers change by
   if (given)
     kkt_.refine(right_a_, right_b_, dx_, step.lambda);

@@ -59,8 +59,8 @@ class Barrier {
   bool factor_blend(const Point& point);
   bool factor_ladder();
   void set_weights();
-  /// A step towards the solution for mu, with the violations c and slack_error. A given dx_ and multipliers of it are
-  /// but refined.
+  /// A step towards the solution for mu, with the violations c and slack_error. With what probe() found of these, dx_
+  /// and multipliers are but refined.
   void direction(double mu, const Eigen::VectorXd& c, const Eigen::VectorXd& slack_error, Step& step,
                  bool given = false);
   void probe(const Point& point);

@@ -71,13 +71,14 @@ Fronts::Fronts(int count, std::vector<std::vector<int>> order, const std::vector
     for (int unknown : order[g]) group_of[unknown] = static_cast<int>(g);
   find_fronts(std::move(order), group_of, pairs);
   long size = 0, scaled = 0, update = 0;
-  int largest = 0;
+  int largest = 0, own = 0;
   for (const Front& front : fronts_) {
     const long rest = front.stride - front.own;
     size += static_cast<long>(front.stride) * front.own;
     scaled = std::max(scaled, rest * front.own);
     update = std::max(update, rest * rest);
     largest = std::max(largest, front.size());
+    own = std::max(own, whole_chunks(front.own));
     longest_ = std::max(longest_, front.stride);
   }
   if (size > kMaxEntries)
@@ -91,6 +92,7 @@ Fronts::Fronts(int count, std::vector<std::vector<int>> order, const std::vector
   pivots_.resize(count);
   off_diagonal_.assign(count, 0.0);
   least_pivots_ = VectorXd::Zero(count);
+  own_ = VectorXd::Zero(static_cast<long>(own) * own);
   scaled_.resize(scaled);
   update_.resize(update);
   work_ = VectorXd::Zero(2 * longest_);
@@ -181,7 +183,7 @@ Fronts::Inertia Fronts::factor() {
     Block own(values_.data() + front.offset, m, m, Eigen::OuterStride<>(front.stride));
     int* pivots = pivots_.data() + front.first_column;
     double* off_diagonal = off_diagonal_.data() + front.first_column;
-    const PivotCount count = eliminate(own, m, pivots, off_diagonal, kLeastPivot);
+    const PivotCount count = eliminate_own(own, pivots, off_diagonal);
     total.positive += count.positive;
     total.negative += count.negative;
     total.zero += count.zero;
@@ -194,6 +196,20 @@ Fronts::Inertia Fronts::factor() {
     subtract_update(front);
   }
   return total;
+}
+
+/// In a copy whose columns are whole chunks, if they are not.
+PivotCount Fronts::eliminate_own(Eigen::Ref<MatrixXd> own, int* pivots, double* off_diagonal) {
+  const int m = static_cast<int>(own.rows()), padded = whole_chunks(m);
+  if (padded == m) return eliminate(own, m, pivots, off_diagonal, kLeastPivot);
+  Block copy(own_.data(), padded, m, Eigen::OuterStride<>(padded));
+  for (int k = 0; k < m; ++k) {
+    std::copy_n(&own(k, k), m - k, &copy(k, k));
+    std::fill_n(&copy(m - 1, k) + 1, padded - m, 0.0);
+  }
+  const PivotCount count = eliminate(copy, m, pivots, off_diagonal, kLeastPivot);
+  for (int k = 0; k < m; ++k) std::copy_n(&copy(k, k), m - k, &own(k, k));
+  return count;
 }
 
 /// The rows below a front's own ones: of L D into scaled_, of L in place, once its own block is factorised.
@@ -269,17 +285,26 @@ void Fronts::solve_forward(const std::array<double*, Count>& b, const std::array
     const double* F = values_.data() + front.offset;
     const int* pivots = pivots_.data() + front.first_column;
     const int* unknowns = front.unknowns.data();
-    for (int c = 0; c < Count; ++c) {
+    for (int c = 0; c < Count; ++c)
       for (int i = 0; i < m; ++i) y[c][i] = b[c][unknowns[pivots[i]]];
-      for (int i = m; i < stride; ++i) y[c][i] = 0.0;
-    }
     for (int k = 0; k < m; ++k) {
       const double* column = F + static_cast<long>(k) * stride;
       for (int c = 0; c < Count; ++c) {
         const double value = y[c][k];
         double* out = y[c];
-        for (int i = k + 1; i < stride; ++i) out[i] -= value * column[i];
+        int i = k + 1;
+        for (; i + kChunk <= m; i += kChunk) ChunkAt(out + i) -= value * ConstChunkAt(column + i);
+        for (; i < m; ++i) out[i] -= value * column[i];
       }
+    }
+    for (int i = m; i < stride; i += kChunk) {
+      std::array<Chunk, Count> sums;
+      for (Chunk& sum : sums) sum.setZero();
+      for (int k = 0; k < m; ++k) {
+        const Chunk column = ConstChunkAt(F + static_cast<long>(k) * stride + i);
+        for (int c = 0; c < Count; ++c) sums[c] -= y[c][k] * column;
+      }
+      for (int c = 0; c < Count; ++c) ChunkAt(y[c] + i) = sums[c];
     }
     for (int c = 0; c < Count; ++c) {
       for (int i = 0; i < m; ++i) b[c][unknowns[i]] = y[c][i];

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "ipm/pivoting.hpp"
+
 namespace mcplan::ipm {
 
 /// Factorisation P' L D L' P of a sparse symmetric matrix, unknowns group by group in a given order.
@@ -65,6 +67,7 @@ class Fronts {
   void find_fronts(std::vector<std::vector<int>> order, const std::vector<int>& group_of,
                    const std::vector<Pair>& pairs);
   void find_places(const std::vector<int>& group_of, const std::vector<Pair>& pairs);
+  PivotCount eliminate_own(Eigen::Ref<Eigen::MatrixXd> own, int* pivots, double* off_diagonal);
   void eliminate_rest(const Front& front);
   void subtract_update(const Front& front);
   template <int Count>
@@ -82,6 +85,7 @@ class Fronts {
   std::vector<int> pivots_;           ///< of every own unknown: its place within the front before pivoting
   std::vector<double> off_diagonal_;  ///< of D; other than zero at the first of two
   Eigen::VectorXd least_pivots_;
+  Eigen::VectorXd own_;              ///< of one front: its own block
   Eigen::VectorXd scaled_, update_;  ///< of one front: rows of L D below its own ones, and what they leave, L D L'
   mutable Eigen::VectorXd work_;     ///< of one front, for each right side
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ipm/all_finite.hpp"
+
 namespace mcplan::ipm {
 namespace {
 
@@ -10,27 +12,31 @@ using Eigen::VectorXd;
 
 constexpr double kDiverged = 1e20;  // as Ipopt's diverging_iterates_tol
 
-/// Nothing times what is not finite is nan.
-bool all_finite(const VectorXd& values) { return (0.0 * values).sum() == 0.0; }
-
 double outside(double value, double lower, double upper) { return std::max({lower - value, value - upper, 0.0}); }
+
+/// Of the Jacobian's entries, as their rows are scaled.
+VectorXd entry_scales(const nlp::Problem& problem, const Unknowns& unknowns) {
+  const std::vector<nlp::Entry>& entries = problem.jacobian_structure();
+  VectorXd out = VectorXd::Ones(static_cast<int>(entries.size()));
+  for (int i = 0; i < out.size(); ++i)
+    if (const int slack = unknowns.slack_of[entries[i].row]; slack >= 0) out[i] = unknowns.scale[slack];
+  return out;
+}
 
 }  // namespace
 
 Functions::Functions(const nlp::Problem& problem, const Unknowns& unknowns, const nlp::SolverOptions& options,
                      const Deadline& deadline)
-    : problem_(problem), unknowns_(unknowns), options_(options), deadline_(deadline) {
+    : problem_(problem),
+      unknowns_(unknowns),
+      options_(options),
+      deadline_(deadline),
+      jacobian_(problem, options.kernel.distant_start ? entry_scales(problem, unknowns) : VectorXd()) {
   rows_.resize(problem.row_count());
   gradient_.resize(problem.variable_count());
-  jacobian_.resize(static_cast<int>(problem.jacobian_structure().size()));
   hessian_.resize(static_cast<int>(problem.hessian_structure().size()));
   multipliers_ = VectorXd::Zero(problem.row_count());
   left_s_ = deadline.remaining_s();
-  if (!options.kernel.distant_start) return;
-  entry_scale_ = VectorXd::Ones(jacobian_.size());
-  for (int i = 0; i < jacobian_.size(); ++i)
-    if (const int slack = unknowns.slack_of[problem.jacobian_structure()[i].row]; slack >= 0)
-      entry_scale_[i] = unknowns.scale[slack];
 }
 
 void Functions::begin_iteration() {
@@ -99,12 +105,10 @@ void Functions::derivatives(const Point& point, VectorXd& gradient, LinearSystem
     throw Halt{nlp::Outcome::numerical_failure, "the iterates diverge; is the cost bounded from below?"};
   clocked(point.x, [&] {
     problem_.gradient(point.x, gradient_);
-    problem_.jacobian(point.x, jacobian_);
-    return all_finite(gradient_) && all_finite(jacobian_);
+    return jacobian_.evaluate(point.x) && all_finite(gradient_);
   });
   for (int i = 0; i < unknowns_.free_count(); ++i) gradient[i] = gradient_[unknowns_.free[i]];
-  if (entry_scale_.size() > 0) jacobian_.array() *= entry_scale_.array();
-  system.set_jacobian(jacobian_);
+  system.set_jacobian(jacobian_.values());
 }
 
 void Functions::gauss_newton_hessian(const Point& point, VectorXd& values) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "ipm/jacobian.hpp"
 #include "ipm/oracle.hpp"
 #include "ipm/unknowns.hpp"
 #include "mcplan/base/deadline.hpp"
@@ -49,8 +50,8 @@ class Functions : public Oracle {
   const Unknowns& unknowns_;
   const nlp::SolverOptions& options_;
   const Deadline& deadline_;
-  Eigen::VectorXd rows_, gradient_, jacobian_, hessian_, multipliers_;
-  Eigen::VectorXd entry_scale_;  ///< of the Jacobian's entries; empty: rows are not scaled
+  Eigen::VectorXd rows_, gradient_, hessian_, multipliers_;
+  Jacobian jacobian_;
   Eigen::VectorXd best_x_;
   double best_violation_ = nlp::kInfinity, best_cost_ = nlp::kInfinity;
   double evaluation_s_ = 0.0, reserved_s_ = 0.0, left_s_ = 0.0, longest_s_ = 0.0;

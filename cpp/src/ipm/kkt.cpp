@@ -26,16 +26,19 @@ Kkt::Kkt(const nlp::Problem& problem, const Unknowns& unknowns)
       fronts_(n_ + m_, elimination_order(problem, unknowns), structure(problem, unknowns, *this)) {
   const std::vector<int>& places = fronts_.places();
   std::size_t next = 0;
-  for (Term& term : hessian_terms_) term.place = places[next++];
-  for (Term& term : equality_terms_) term.place = places[next++];
-  int widest = 0, longest = 0, values = 0;
+  for (Place& place : hessian_places_) place.to = places[next++];
+  for (Place& place : equality_places_) place.to = places[next++];
+  int widest = 0, longest = 0, weighted = 0, values = 0;
   for (Dense& block : dense_) {
     block.first_place = static_cast<int>(next);
     next += block.columns * (block.columns + 1) / 2;
     block.first_value = values;
     values += block.rows * block.width;
     widest = std::max(widest, block.width);
-    if (block.rows > kFewRows) longest = std::max(longest, block.rows);
+    if (block.rows > kFewRows)
+      longest = std::max(longest, block.rows);
+    else
+      weighted = std::max(weighted, block.rows * block.width);
   }
   for (Dense& block : dense_equalities_) {
     block.first_value = values;
@@ -45,6 +48,7 @@ Kkt::Kkt(const nlp::Problem& problem, const Unknowns& unknowns)
   dense_values_ = VectorXd::Zero(values);
   block_ = MatrixXd::Zero(widest, longest);
   product_ = MatrixXd::Zero(widest, widest);
+  weighted_ = VectorXd::Zero(weighted);
   gathered_ = VectorXd::Zero(widest);
   slack_weights_ = VectorXd::Zero(unknowns.slack_count());
   slacks_ = slack_weights_;
@@ -62,7 +66,8 @@ std::vector<Fronts::Pair> Kkt::structure(const nlp::Problem& problem, const Unkn
     const nlp::Entry& entry = problem.hessian_structure()[i];
     const int a = unknowns.index_of[entry.row], b = unknowns.index_of[entry.column];
     if (a < 0 || b < 0) continue;
-    out.hessian_terms_.push_back({static_cast<int>(i), a, b, 0});
+    out.hessian_terms_.push_back({static_cast<int>(i), a, b});
+    out.hessian_places_.push_back({static_cast<int>(i), 0});
     pairs.emplace_back(a, b);
   }
   for (std::size_t i = 0; i < problem.jacobian_structure().size(); ++i) {
@@ -70,7 +75,7 @@ std::vector<Fronts::Pair> Kkt::structure(const nlp::Problem& problem, const Unkn
     const int column = unknowns.index_of[entry.column];
     if (column < 0) continue;
     if (const int row = unknowns.equality_of[entry.row]; row >= 0) {
-      out.equality_terms_.push_back({static_cast<int>(i), row, column, 0});
+      out.equality_places_.push_back({static_cast<int>(i), 0});
       pairs.emplace_back(column, unknowns.free_count() + row);
     }
   }
@@ -84,7 +89,7 @@ std::vector<Fronts::Pair> Kkt::structure(const nlp::Problem& problem, const Unkn
     else
       for (const Dense::Entry& entry : equalities.entries)
         out.sparse_equalities_.push_back({entry.from, equalities.targets[entry.to / equalities.width],
-                                          equalities.variables[entry.to % equalities.width], 0});
+                                          equalities.variables[entry.to % equalities.width]});
     Dense dense = dense_block(block, unknowns.slack_of, unknowns, local);
     if (dense.rows == 0) continue;
     for (int j = 0; j < dense.columns; ++j)
@@ -129,7 +134,7 @@ void Kkt::set_weights(const Eigen::Ref<const VectorXd>& slacks, const Eigen::Ref
 }
 
 void Kkt::set_jacobian(const VectorXd& values) {
-  jacobian_ = values;
+  jacobian_ = values.data();
   for (const std::vector<Dense>* blocks : {&dense_, &dense_equalities_})
     for (const Dense& dense : *blocks) {
       if (dense.constant && jacobian_set_) continue;
@@ -147,11 +152,14 @@ void Kkt::add_condensed(const Dense& dense) {
   const int* place = fronts_.places().data() + dense.first_place;
   double* values = fronts_.values();
   if (rows <= kFewRows) {
+    double* weighted = weighted_.data();
+    for (int row = 0; row < rows; ++row)
+      for (int from = row * width; from < (row + 1) * width; from += kChunk)
+        ChunkAt(weighted + from) = slack_weights_[slacks[row]] * ConstChunkAt(A + from);
     for (int j = 0; j < columns; ++j)
       for (int from = j / kChunk * kChunk; from < columns; from += kChunk) {
         Chunk sum = Chunk::Zero();
-        for (int row = 0; row < rows; ++row)
-          sum += slack_weights_[slacks[row]] * A[row * width + j] * ConstChunkAt(A + row * width + from);
+        for (int row = 0; row < rows; ++row) sum += weighted[row * width + j] * ConstChunkAt(A + row * width + from);
         const int end = std::min(from + kChunk, columns);
         for (int i = std::max(from, j); i < end; ++i) values[*place++] += sum[i - from];
       }
@@ -171,18 +179,36 @@ void Kkt::add_condensed(const Dense& dense) {
 void Kkt::assemble(double delta, double delta_c) {
   fronts_.set_zero();
   double* values = fronts_.values();
-  for (const Term& term : hessian_terms_) values[term.place] += hessian_[term.from];
-  for (const Term& term : equality_terms_) values[term.place] += jacobian_[term.from];
+  for (const Place& place : hessian_places_) values[place.to] += hessian_[place.from];
+  for (const Place& place : equality_places_) values[place.to] += jacobian_[place.from];
   const std::vector<int>& diagonal = fronts_.diagonal_places();
   for (int i = 0; i < n_; ++i) values[diagonal[i]] += bound_weights_[i] + delta;
   for (int i = 0; i < m_; ++i) values[diagonal[n_ + i]] -= delta_c;
   for (const Dense& dense : dense_) add_condensed(dense);
-  // An equality's pivot is a sum of squares of its coefficients, each over about the variable's diagonal entry.
+  if (delta_c > 0.0)
+    fronts_.least_pivots().tail(m_).setZero();
+  else
+    find_least_pivots();
+}
+
+/// An equality's pivot is a sum of squares of its coefficients, each over about the variable's diagonal entry.
+void Kkt::find_least_pivots() {
+  const double* values = fronts_.values();
+  const std::vector<int>& diagonal = fronts_.diagonal_places();
   VectorXd& least = fronts_.least_pivots();
   least.tail(m_).setZero();
-  if (delta_c > 0.0) return;
   for (int i = 0; i < n_; ++i) left_a_[i] = kNoPivot / std::max(1.0, std::abs(values[diagonal[i]]));
-  for (const Term& term : equality_terms_) {
+  for (const Dense& dense : dense_equalities_) {
+    gather(dense, left_a_);
+    const double* A = dense_values_.data() + dense.first_value;
+    for (int row = 0; row < dense.rows; ++row, A += dense.width) {
+      Chunk largest = Chunk::Zero();
+      for (int j = 0; j < dense.width; j += kChunk)
+        largest = largest.max(ConstChunkAt(A + j).square() * ConstChunkAt(gathered_.data() + j));
+      least[n_ + dense.targets[row]] = largest.maxCoeff();
+    }
+  }
+  for (const Term& term : sparse_equalities_) {
     double& of_row = least[n_ + term.row];
     of_row = std::max(of_row, jacobian_[term.from] * jacobian_[term.from] * left_a_[term.column]);
   }
@@ -198,11 +224,15 @@ Kkt::Factor Kkt::factor(double delta, double delta_c) {
   return inertia.negative == m_ ? Factor::good : Factor::wrong_inertia;
 }
 
+void Kkt::gather(const Dense& dense, const VectorXd& x) const {
+  for (int j = 0; j < dense.columns; ++j) gathered_[j] = x[dense.variables[j]];
+  for (int j = dense.columns; j < dense.width; ++j) gathered_[j] = 0.0;
+}
+
 /// out = A x, where these rows go.
 void Kkt::multiply(const Dense& dense, const VectorXd& x, VectorXd& out) const {
   const int width = dense.width;
-  for (int j = 0; j < dense.columns; ++j) gathered_[j] = x[dense.variables[j]];
-  for (int j = dense.columns; j < width; ++j) gathered_[j] = 0.0;
+  gather(dense, x);
   const double* A = dense_values_.data() + dense.first_value;
   for (int row = 0; row < dense.rows; ++row, A += width) {
     Chunk sum = Chunk::Zero();

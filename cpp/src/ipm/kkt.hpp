@@ -15,9 +15,9 @@ class Kkt : public LinearSystem {
  public:
   Kkt(const nlp::Problem& problem, const Unknowns& unknowns);
 
-  /// Jacobian in the order of problem.jacobian_structure(), Hessian in that of hessian_structure().
+  /// Jacobian in the order of problem.jacobian_structure(), Hessian in that of hessian_structure(). Not copied.
   void set_jacobian(const Eigen::VectorXd& values) override;
-  void set_hessian(const Eigen::VectorXd& values) override { hessian_ = values; }
+  void set_hessian(const Eigen::VectorXd& values) override { hessian_ = values.data(); }
   void set_weights(const Eigen::Ref<const Eigen::VectorXd>& slacks,
                    const Eigen::Ref<const Eigen::VectorXd>& bounds) override;
   Factor factor(double delta, double delta_c) override;
@@ -40,7 +40,10 @@ class Kkt : public LinearSystem {
   struct Term {
     int from = 0;             ///< place among the values
     int row = 0, column = 0;  ///< slack or equality, or the other variable; free variable
-    int place = 0;            ///< in the factorisation
+  };
+  struct Place {
+    int from = 0;  ///< among the values
+    int to = 0;    ///< in the factorisation
   };
   /// The inequalities or the equalities of a piece: a dense matrix of the variables that they see, in dense_values_,
   /// row by row of `width` numbers, of which those beyond `columns` are zero.
@@ -58,24 +61,29 @@ class Kkt : public LinearSystem {
 
   static std::vector<Fronts::Pair> structure(const nlp::Problem& problem, const Unknowns& unknowns, Kkt& out);
   void assemble(double delta, double delta_c);
+  void find_least_pivots();
   static Dense dense_block(const nlp::Problem::Block& block, const std::vector<int>& target_of,
                            const Unknowns& unknowns, std::vector<int>& local);
   void add_condensed(const Dense& dense);
+  void gather(const Dense& dense, const Eigen::VectorXd& x) const;  ///< what a piece sees, in gathered_
   void multiply(const Dense& dense, const Eigen::VectorXd& x, Eigen::VectorXd& out) const;
   void add_transposed(const Dense& dense, const Eigen::VectorXd& y, Eigen::VectorXd& out) const;
   void residual(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& dx,
                 const Eigen::VectorXd& lambda);
 
   int n_, m_;
-  std::vector<Term> hessian_terms_, equality_terms_;
+  std::vector<Term> hessian_terms_;
+  std::vector<Place> hessian_places_, equality_places_;
   std::vector<Dense> dense_, dense_equalities_;
   std::vector<Term> sparse_equalities_;  ///< those in none of these
   Fronts fronts_;
-  Eigen::VectorXd jacobian_, hessian_, slack_weights_, bound_weights_;
+  const double *jacobian_ = nullptr, *hessian_ = nullptr;
+  Eigen::VectorXd slack_weights_, bound_weights_;
   Eigen::VectorXd dense_values_;
   bool jacobian_set_ = false;  ///< so that constant entries of dense_values_ are there
   double delta_ = 0.0, delta_c_ = 0.0, residual_ = 0.0;
   Eigen::MatrixXd block_, product_;
+  Eigen::VectorXd weighted_;          ///< rows of a piece
   mutable Eigen::VectorXd gathered_;  ///< of the variables that a piece sees
   Eigen::VectorXd right_, other_right_, left_a_, left_b_, slacks_;
 };

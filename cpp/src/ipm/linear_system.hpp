@@ -16,7 +16,7 @@ class LinearSystem {
  public:
   virtual ~LinearSystem() = default;
 
-  /// Values in the order in which the oracle gives them.
+  /// Values in the order in which the oracle gives them; they are read until others are set.
   virtual void set_jacobian(const Eigen::VectorXd& values) = 0;
   virtual void set_hessian(const Eigen::VectorXd& values) = 0;
   virtual void set_weights(const Eigen::Ref<const Eigen::VectorXd>& slacks,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "ipm/chunk.hpp"
@@ -52,25 +53,32 @@ int row_of_size(const Matrix& F, int own, int k, double size) {
 void update_one(Matrix& F, int own, int k) {
   const int n = static_cast<int>(F.rows());
   double* pivot_column = &F(0, k);
-  const double inverse = 1.0 / pivot_column[k];
-  // Two columns at a time: each reading of column k serves both.
-  for (int j = k + 1; j < own; j += 2) {
-    const bool both = j + 1 < own;
-    const double first = pivot_column[j] * inverse, second = both ? pivot_column[j + 1] * inverse : 0.0;
-    if (first == 0.0 && second == 0.0) continue;
-    double *left = &F(0, j), *right = both ? &F(0, j + 1) : left;
-    int i = std::max(k + 1, j / kChunk * kChunk);
+  const long stride = F.outerStride();
+  const double pivot = pivot_column[k], inverse = 1.0 / pivot;
+  int j = k + 1;
+  const auto subtract = [&](auto count) {
+    constexpr int kCount = decltype(count)::value;
+    std::array<double, kCount> factors;
+    for (int c = 0; c < kCount; ++c) factors[c] = pivot_column[j + c] * inverse;
+    double* columns = &F(0, j);
+    int i = j / kChunk * kChunk;
+    j += kCount;
+    if (std::all_of(factors.begin(), factors.end(), [](double factor) { return factor == 0.0; })) return;
     for (; i + kChunk <= n; i += kChunk) {
       const Chunk from = ConstChunkAt(pivot_column + i);
-      ChunkAt(left + i) -= first * from;
-      if (both) ChunkAt(right + i) -= second * from;
+      for (int c = 0; c < kCount; ++c) ChunkAt(columns + c * stride + i) -= factors[c] * from;
     }
-    for (; i < n; ++i) {
-      left[i] -= first * pivot_column[i];
-      if (both) right[i] -= second * pivot_column[i];
-    }
-  }
-  F.col(k).segment(k + 1, n - k - 1) *= inverse;
+    for (; i < n; ++i)
+      for (int c = 0; c < kCount; ++c) columns[c * stride + i] -= factors[c] * pivot_column[i];
+  };
+  // Each reading of column k serves several others, which then begin in the same row.
+  while (j < own && j % kChunk != 0) subtract(std::integral_constant<int, 1>());
+  while (j + kChunk <= own) subtract(std::integral_constant<int, kChunk>());
+  while (j < own) subtract(std::integral_constant<int, 1>());
+  int i = k / kChunk * kChunk;
+  for (; i + kChunk <= n; i += kChunk) ChunkAt(pivot_column + i) *= inverse;
+  for (; i < n; ++i) pivot_column[i] *= inverse;
+  pivot_column[k] = pivot;
 }
 
 /// The same after a pivot of size two, whose off-diagonal entry is c.

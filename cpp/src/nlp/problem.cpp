@@ -32,29 +32,37 @@ struct Pattern {
 Pattern probe(const Piece& piece) {
   constexpr int kPoints = 3;
   const int n = piece.size(), m = piece.rows();
-  MatrixXd jacobian = MatrixXd::Zero(m, n), hessian = MatrixXd::Zero(n, n);
+  const int curved = piece.linear() ? 0 : n;  // variables with second derivatives
+  MatrixXd jacobian = MatrixXd::Zero(m, n), hessian = MatrixXd::Zero(curved, curved);
   if (piece.entries_come_and_go()) {
     jacobian.setOnes();
-    if (!piece.linear()) hessian.setOnes();
+    hessian.setOnes();
   }
   Probe random;
   VectorXd x(n), weights(m);
   const int points = piece.linear() ? 1 : kPoints;  // the Jacobian of a linear piece is the same everywhere
+  // A number that is not finite (a root, a logarithm) is an entry all the same.
+  const auto mark = [](const MatrixXd& values, MatrixXd& entries) {
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+      if (!(values.data()[i] == 0.0)) entries.data()[i] = 1.0;
+  };
+  MatrixXd J(m, n), H(hessian.rows(), hessian.cols());
   for (int trial = 0; trial < points; ++trial) {
     for (double& value : x) value = random.next();
     for (double& value : weights) value = random.next();
-    MatrixXd J = MatrixXd::Zero(m, n), H = MatrixXd::Zero(n, n);
+    J.setZero();
     piece.jacobian(x, J);
-    if (!piece.linear()) piece.hessian(x, weights, H);
-    // A number that is not finite (a root, a logarithm) is an entry all the same.
-    jacobian.array() += (J.array() == 0.0).select(MatrixXd::Zero(m, n), 1.0).array();
-    hessian.array() += (H.array() == 0.0).select(MatrixXd::Zero(n, n), 1.0).array();
+    mark(J, jacobian);
+    if (piece.linear()) continue;
+    H.setZero();
+    piece.hessian(x, weights, H);
+    mark(H, hessian);
   }
   Pattern out;
   for (int i = 0; i < m * n; ++i)
     if (jacobian.data()[i] != 0.0) out.jacobian.push_back(i);
-  for (int column = 0; column < n; ++column)
-    for (int row = column; row < n; ++row)
+  for (int column = 0; column < curved; ++column)
+    for (int row = column; row < curved; ++row)
       if (hessian(row, column) != 0.0) out.hessian.push_back(column * n + row);
   return out;
 }
@@ -197,8 +205,13 @@ ConstVector Problem::gather(const Block& block, const ConstVector& x) const {
 }
 
 Eigen::Map<MatrixXd> Problem::zeroed(int rows, int columns, const std::vector<int>& entries) const {
-  // Of a block of thousands of entries some hundred are ever looked at.
-  for (int entry : entries) buffer_[entry] = 0.0;
+  // Of a block of thousands of entries some hundred are ever looked at, often close together.
+  constexpr std::size_t kClose = 4;
+  const std::size_t span = entries.empty() ? 0 : entries.back() - entries.front() + 1;
+  if (span <= kClose * entries.size())
+    std::fill_n(buffer_.data() + (entries.empty() ? 0 : entries.front()), span, 0.0);
+  else
+    for (int entry : entries) buffer_[entry] = 0.0;
   return {buffer_.data(), rows, columns};
 }
 
@@ -231,11 +244,11 @@ void Problem::rows(const ConstVector& x, Vector out) const {
 void Problem::jacobian(const ConstVector& x, Vector values) const {
   values = linear_jacobian_;
   for (const Block& block : blocks_) {
-    if (block.is_cost() || block.piece->linear()) continue;
+    if (block.is_cost() || block.piece->linear() || block.jacobian_at.empty()) continue;
     auto J = zeroed(block.piece->rows(), block.piece->size(), block.jacobian_from);
     block.piece->jacobian(gather(block, x), J);
-    for (std::size_t i = 0; i < block.jacobian_at.size(); ++i)
-      values[block.jacobian_at[i]] += J.data()[block.jacobian_from[i]];
+    double* to = values.data() + block.jacobian_at.front();  // a block's entries follow one another
+    for (int from : block.jacobian_from) *to++ = J.data()[from];
   }
 }
 

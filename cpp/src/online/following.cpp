@@ -17,7 +17,7 @@ double bump(double s) { return 16.0 * (s * s) * ((1.0 - s) * (1.0 - s)); }
 }  // namespace
 
 bool follows(const Report& report, double period_s) {
-  if (report.plan_from != PlanFrom::same_sequence && report.plan_from != PlanFrom::other_sequence) return false;
+  if (report.plan_from == PlanFrom::search || report.plan_from == PlanFrom::previous_plan) return false;
   if (report.status == Status::solved || report.status == Status::acceptable) return true;
   return (report.status == Status::time_limit || report.status == Status::infeasible) &&
          report.kept_until_s >= kKeptPeriods * period_s;

@@ -1736,6 +1736,8 @@ class PlanFrom:
 
       other_sequence : Another step was put in.
 
+      stop : A stand as soon as may be: nothing that leads on can be followed.
+
       previous_plan : What is left of the plan under way, as it was planned: nothing better was found in time.
     """
 
@@ -1744,6 +1746,7 @@ class PlanFrom:
     previous_plan: typing.ClassVar[PlanFrom]
     same_sequence: typing.ClassVar[PlanFrom]
     search: typing.ClassVar[PlanFrom]
+    stop: typing.ClassVar[PlanFrom]
     @typing.overload
     def __eq__(self, other: PlanFrom) -> bool: ...
     @typing.overload

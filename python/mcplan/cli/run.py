@@ -58,6 +58,20 @@ PeriodOption = Annotated[float, typer.Option("--period", metavar="S", help="Time
 DurationOption = Annotated[
     float | None, typer.Option("--duration", metavar="S", help="Length of the run [s]; default: to the goal.")
 ]
+TrueSceneOption = Annotated[
+    str | None,
+    typer.Option(
+        "--true-scene",
+        metavar="SCENE",
+        help="Ground that is simulated where it is not as planned: its surfaces by name, moved, slippery, or left out.",
+    ),
+]
+ToldAtOption = Annotated[
+    float | None,
+    typer.Option(
+        "--told-at", metavar="S", help="Time from which on the planner knows the true scene [s]; default: never."
+    ),
+]
 ReplanningOption = Annotated[
     bool, typer.Option("--replanning/--no-replanning", help="Replan while walking; off: follow the first plan.")
 ]
@@ -74,6 +88,8 @@ ReplanningOption = Annotated[
     latency_s="--latency",
     period_s="--period",
     duration_s="--duration",
+    told_at_s="--told-at",
+    true_scene="--true-scene",
     friction_scale="--friction",
     ground_shift_m="--ground-shift",
     torque_bandwidth_hz="--torque-bandwidth",
@@ -89,6 +105,8 @@ def run(
     period: PeriodOption = 0.1,
     duration: DurationOption = None,
     replanning: ReplanningOption = True,
+    true_scene: TrueSceneOption = None,
+    told_at: ToldAtOption = None,
     mass_scale: track.MassScaleOption = 1.0,
     friction: track.FrictionOption = 1.0,
     ground_shift: track.GroundShiftOption = 0.0,
@@ -122,15 +140,17 @@ def run(
     values: dict[str, Any] = {"pushes": parse_pushes(push or []), "seed": seed, "replanning": replanning}
     values |= {"mass_scale": mass_scale, "friction_scale": friction, "ground_shift_m": ground_shift}
     values |= {"torque_bandwidth_hz": torque_bandwidth, "torque_delay_s": torque_delay, "sensor_noise": sensor_noise}
-    values |= {"latency_s": latency, "period_s": period, "duration_s": duration}
+    values |= {"latency_s": latency, "period_s": period, "duration_s": duration, "told_at_s": told_at}
     values["command"] = [_numbers(text) for text in command or []]
     values["goal"] = [_numbers(text, "--goal", (2, 3, 4), "x,y[,yaw[,at]], such as 1.5,0.3") for text in goal or []]
     outputs = RunOutputs(video, html, strip, plots, save, verb="run")
-    return _run((scene, robot), values, outputs, Telling(json, quiet, live))
+    return _run((scene, robot, true_scene), values, outputs, Telling(json, quiet, live))
 
 
-def _run(walk: tuple[str, str | None], values: dict[str, Any], outputs: RunOutputs, telling: Telling) -> int:
-    """Scene and robot, options by name, and what is to be written; the exit code."""
+def _run(
+    walk: tuple[str, str | None, str | None], values: dict[str, Any], outputs: RunOutputs, telling: Telling
+) -> int:
+    """Scene, robot and true scene, options by name, and what is to be written; the exit code."""
     from dataclasses import replace
 
     from mcplan.cli.interrupts import CODE, as_far_as_it_came
@@ -144,9 +164,12 @@ def _run(walk: tuple[str, str | None], values: dict[str, Any], outputs: RunOutpu
     chosen_options(values)
     progress = Progress(telling.quiet or telling.json)
     progress.working("planning")
-    plan = first_plan(*walk)
+    scene, robot, true_scene = walk
+    plan = first_plan(scene, robot)
     with watching(telling.live, plan, None) as watch:
-        result, interrupted = as_far_as_it_came(lambda: run_any(plan, walk[1], values, progress.simulated, watch))
+        result, interrupted = as_far_as_it_came(
+            lambda: run_any(plan, robot, values, progress.simulated, watch, true_scene)
+        )
     progress.end()
     print(json_module.dumps(summary(result), allow_nan=False) if telling.json else result, flush=True)
     written = (replace(outputs, video=None, html=None, strip=None, plots=None) if interrupted else outputs).write(

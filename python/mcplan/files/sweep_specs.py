@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -120,9 +121,23 @@ def sweep_spec(data: Any, source: str = "", folder: Path = Path(".")) -> SweepSp
     except ValidationError as error:
         raise together([_finding(each, data) for each in error.errors()]).moved(InvalidSweep, source) from None
     findings = [*_of_robots(spec, folder), *_of_scenes(spec, folder), *_of_options(spec), *_of_exports(spec)]
+    findings += [*_of_repeats(spec), *_of_size(spec)]
+    findings = findings or _of_joints(spec, folder)
     if findings:
         raise together(findings).moved(InvalidSweep, source)
     return spec
+
+
+def number_of_tasks(spec: SweepSpec) -> int:
+    """How many tasks a sweep has, without making them."""
+    planners = math.prod(_count(value) for value in spec.options.values()) * len(spec.seeds)
+    return sum(
+        len(entry.robots or spec.robots)
+        * entry.samples
+        * math.prod(_count(value) for value in entry.parameters.values())
+        * planners
+        for entry in spec.scenes
+    )
 
 
 def schema_text() -> str:
@@ -199,6 +214,44 @@ def _values(value: Any) -> list[Any]:
     return value.extremes() if isinstance(value, Several) else [value]
 
 
+def _count(value: Any) -> int:
+    """Number of values in turn; what is drawn is one for each sample."""
+    return value.count() if isinstance(value, Several) else 1
+
+
+def _of_size(spec: SweepSpec) -> list[InvalidInput]:
+    number = number_of_tasks(spec)
+    return [InvalidInput("scenes", f"must give at most {MAX_TASKS} tasks", str(number))] if number > MAX_TASKS else []
+
+
+def _of_repeats(spec: SweepSpec) -> list[InvalidInput]:
+    """What would be planned again and give the same: a robot or seed named twice, samples of what is not drawn."""
+    lists: list[tuple[str, list[Any]]] = [("robots", spec.robots), ("seeds", spec.seeds)]
+    lists += [(f"scenes[{i}].robots", entry.robots or []) for i, entry in enumerate(spec.scenes)]
+    lists.append(("exports", spec.exports))
+    out = [
+        InvalidInput(f"{field}[{k}]", "must differ from those before it", shown(value))
+        for field, values in lists
+        for k, value in enumerate(values)
+        if value in values[:k]
+    ]
+    for i, entry in enumerate(spec.scenes):
+        if entry.samples > 1 and not _draws(entry, spec):
+            rule = "must be 1 where nothing is drawn: all of them would be the same"
+            out.append(InvalidInput(f"scenes[{i}].samples", rule, str(entry.samples)))
+    return out
+
+
+def _draws(entry: SceneEntry, spec: SweepSpec) -> bool:
+    """Whether samples of an entry differ; what no generator is called is told elsewhere."""
+    if entry.generator is not None:
+        own = GENERATORS[entry.generator].parameters if entry.generator in GENERATORS else {"seed": None}
+        if "seed" in own and "seed" not in entry.parameters:
+            return True
+    values = [*entry.parameters.values(), *spec.options.values()]
+    return any(isinstance(value, Several) and value.drawn for value in values)
+
+
 def _of_robots(spec: SweepSpec, folder: Path) -> list[InvalidInput]:
     lists = [("robots", spec.robots)]
     lists += [(f"scenes[{i}].robots", entry.robots) for i, entry in enumerate(spec.scenes) if entry.robots]
@@ -262,6 +315,17 @@ def _of_options(spec: SweepSpec) -> list[InvalidInput]:
     return out
 
 
+def _of_joints(spec: SweepSpec, folder: Path) -> list[InvalidInput]:
+    """What needs joints, where no robot of the sweep has any; of several robots those without are told by the table."""
+    asked: list[tuple[str, str]] = [("motion", spec.motion)] if spec.motion else []
+    asked += [(f"exports[{i}]", name) for i, name in enumerate(spec.exports) if FORMATS[name].joints]
+    names = {robot for entry in spec.scenes for robot in entry.robots or spec.robots}
+    if not asked or any(load_robot(place(name, folder)).urdf for name in names):
+        return []
+    rule = f"needs a robot with a URDF: {', '.join(sorted(names))} {'has' if len(names) == 1 else 'have'} none"
+    return [InvalidInput(field, rule, shown(value)) for field, value in asked]
+
+
 def _of_exports(spec: SweepSpec) -> list[InvalidInput]:
     out = []
     for i, name in enumerate(spec.exports):
@@ -269,8 +333,6 @@ def _of_exports(spec: SweepSpec) -> list[InvalidInput]:
             format_of(name, f"exports[{i}]")
         except InvalidArgument as error:
             out.append(error.moved(InvalidInput))
-        if name in spec.exports[:i]:
-            out.append(InvalidInput(f"exports[{i}]", "must differ from those before it", shown(name)))
     return out
 
 

@@ -90,6 +90,11 @@ class Several(Strict):
             _require_plain(value)
         return self
 
+    @property
+    def drawn(self) -> bool:
+        """Whether one value is drawn for each sample, and none stands in turn."""
+        return self.grid is None and self.linspace is None and self.range is None
+
     def points(self) -> list[Any] | None:
         """The values in turn, or None where one is drawn."""
         if self.grid is not None:
@@ -100,6 +105,14 @@ class Several(Strict):
         if self.range is not None:
             return list(range_(self.range.first, self.range.first + self.range.count))
         return None
+
+    def count(self) -> int:
+        """Number of values in turn; 1 where one is drawn."""
+        if self.linspace is not None:
+            return self.linspace[2]
+        if self.range is not None:
+            return self.range.count
+        return len(self.grid) if self.grid is not None else 1
 
     def extremes(self) -> list[Any]:
         """Values that lie in every legal range if all do: the bounds, or each of them."""

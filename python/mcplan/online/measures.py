@@ -23,6 +23,7 @@ class OnlineMeasures:
             steps lie ahead.
         contact_changes: Contacts that were made and that the first plan did not have: none on that surface, by that
             end-effector, within 5 cm.
+        ground_felt: How often a surface was found to be higher, lower or more slippery than was known, by the feet on it.
         stops: How often the robot was brought to a stand since no plan came.
         statuses: How many computations had which status.
         reasons: How many were asked for by what: the period, a touchdown, the CoM or the capture point off the plan.
@@ -36,6 +37,7 @@ class OnlineMeasures:
     replans_late: int | None = None
     oldest_plan_s: float = 0.0
     contact_changes: int = 0
+    ground_felt: int = 0
     stops: int = 0
     statuses: dict[str, int] = field(default_factory=dict)
     reasons: dict[str, int] = field(default_factory=dict)
@@ -64,8 +66,8 @@ class Tally:
         self.statuses[status] += 1
         self.reasons[reason] += 1
 
-    def measures(self) -> OnlineMeasures:
-        """The numbers."""
+    def measures(self, ground_felt: int = 0) -> OnlineMeasures:
+        """The numbers; how often the ground was felt to be another, the loop knows."""
         took_ms = 1e3 * np.array(self.took_s)
         some = len(took_ms) > 0
         fixed = not np.isnan(self.fixed_latency_s)
@@ -78,6 +80,7 @@ class Tally:
             replans_late=int((took_ms > 1e3 * self.fixed_latency_s).sum()) if fixed else None,
             oldest_plan_s=self.oldest_s,
             contact_changes=self.contact_changes,
+            ground_felt=ground_felt,
             stops=self.stops,
             statuses=dict(sorted(self.statuses.items())),
             reasons=dict(sorted(self.reasons.items())),

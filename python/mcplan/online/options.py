@@ -30,6 +30,8 @@ class OnlineOptions:
         wide_reach: Where no plan keeps legs within the robot's boxes, they may reach as far as their joints let them (see
             ``reach``).
         start_slack_s: Time within which what the measured state violates has to be made good, for a robot of human size.
+        felt_ground: Surfaces are taken to be at the height at which feet stand on them.
+        told_at_s: Time from which on the planner knows the ground that is simulated, where that is not the plan's; nan: never.
         stop_after_s: The robot is brought to a stand if it has left its plan and no plan has come for so long.
     """
 
@@ -47,6 +49,8 @@ class OnlineOptions:
     wide_reach: bool = True
     start_slack_s: float = 1.0
     stop_after_s: float = 0.5
+    felt_ground: bool = True
+    told_at_s: float = float("nan")
 
     def validate(self) -> None:
         """Raise InvalidOptions naming the first field out of its range."""
@@ -55,7 +59,7 @@ class OnlineOptions:
         for name in ("com_margin_m", "capture_margin_m", "stop_after_s", "start_slack_s"):
             value = getattr(self, name)
             _require(name, "must be above 0", value, bool(value > 0))
-        for name, high in (("latency_s", 1.0), ("time_limit_s", 10.0), ("duration_s", 3600.0)):
+        for name, high in (("latency_s", 1.0), ("time_limit_s", 10.0), ("duration_s", 3600.0), ("told_at_s", 3600.0)):
             value = getattr(self, name)
             _require(name, f"must lie in 0 to {high:g}, or be nan", value, bool(np.isnan(value) or 0 <= value <= high))
         for name, rule in (

@@ -20,17 +20,18 @@ class Pace:
 
     Attributes:
         new_goal: No plan leads to the present goal yet.
+        slipped: An end-effector slips, on a surface that is more slippery than was known.
     """
 
     def __init__(self, options: OnlineOptions) -> None:
         self._options = options
         self._last_s = -options.period_s if options.command_at(0.0) else 0.0
         self._touched = False
-        self.new_goal = False
+        self.new_goal = self.slipped = False
 
     def asked(self, now_s: float) -> None:
         """A replan was asked for."""
-        self._last_s, self._touched = now_s, False
+        self._last_s, self._touched, self.slipped = now_s, False, False
 
     def due(
         self, now_s: float, touchdown: bool, plan: Plan, t: float, com_W: Array, com_velocity_W: Array
@@ -47,6 +48,8 @@ class Pace:
         self._touched |= touchdown
         if since_s < options.pause_s - 1e-9:
             return None
+        if self.slipped:
+            return "slip"
         # Where nothing but standing is left, replans would put in steps on the spot again and again.
         goes_on = options.command_at(now_s) is not None or steps_left(plan, t) or self.new_goal
         if options.at_touchdowns and self._touched and goes_on:

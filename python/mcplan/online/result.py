@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
 
 from mcplan._core import Plan
+from mcplan.errors import InvalidInput
+from mcplan.files.plans import plan_from_bytes, plan_to_bytes
 from mcplan.tracking.report import as_text, ending, rows_of
 from mcplan.tracking.result import TrackingResult
+from mcplan.tracking.result import result_from as tracking_result_from
+from mcplan.tracking.run_files import RUN, Arrays, Header, RunParts, load_run, numbers, plain
 
 from .measures import OnlineMeasures
-from .options import OnlineOptions
+from .options import OnlineOptions, option_names
+
+#: What stands in files of a plan that was followed, beside the plan.
+_OF_PLANS = ("begins_s", "from_s", "took_s", "message")
 
 
 @dataclass(frozen=True)
@@ -45,12 +53,62 @@ class RunResult(TrackingResult):
     online_options: OnlineOptions = field(default_factory=OnlineOptions)
     plans: tuple[FollowedPlan, ...] = ()
 
+    def _parts(self) -> RunParts:
+        parts = super()._parts()
+        own = {
+            "measures": plain(self.online.as_dict()),
+            "options": plain(asdict(self.online_options)),
+            "plans": [{name: getattr(p, name) for name in _OF_PLANS} for p in self.plans],
+        }
+        files = {_file_of(number): plan_to_bytes(p.plan) for number, p in enumerate(self.plans)}
+        return replace(parts, more={**parts.more, "online": own}, files=files)
+
+    @staticmethod
+    def load(path: str | Path) -> TrackingResult:
+        """Read what save() wrote; of a run that was saved without its planning, a TrackingResult.
+
+        Raises:
+            InvalidInput: No such file of a robot with a URDF; the message names file, field and rule.
+            FileNotFoundError: There is no such file.
+        """
+        return load_run(path, {RUN: result_from})
+
     def __str__(self) -> str:
         recording = self.recording
         how = "replanned" if self.online_options.replanning else "one plan"
         title = f"{recording.plan.scene.name}  {recording.simulated_robot.name}  {ending(self)} ({how})"
         rows = [row for row in rows_of(self) if row[0] != "base at the end"]
         return as_text(title, [*rows[:-2], *online_rows(self.online), *rows[-2:]])
+
+
+def result_from(header: Header, arrays: Arrays) -> TrackingResult:
+    """The result that the file of a run contains; earlier versions saved none of the planning."""
+    tracked = tracking_result_from(header, arrays)
+    own = header.get("online")
+    if own is None:
+        return tracked
+    plans = []
+    for number, of_plan in enumerate(own["plans"]):
+        name = _file_of(number)
+        if name not in arrays:
+            raise InvalidInput(name, "is required")
+        plans.append(FollowedPlan(plan_from_bytes(arrays[name].tobytes()), **{key: of_plan[key] for key in _OF_PLANS}))
+    options = {key: value for key, value in numbers(own["options"]).items() if key in option_names()}
+    for name in ("command", "goal"):
+        options[name] = tuple(tuple(row) for row in options[name])
+    return RunResult(
+        tracked.recording,
+        tracked.measures,
+        tracked.options,
+        tracked.interrupted,
+        OnlineMeasures(**numbers(own["measures"])),
+        OnlineOptions(**options),
+        tuple(plans),
+    )
+
+
+def _file_of(number: int) -> str:
+    return f"plan_{number:05d}"
 
 
 def online_rows(m: OnlineMeasures) -> list[tuple[str, str]]:
@@ -65,4 +123,5 @@ def online_rows(m: OnlineMeasures) -> list[tuple[str, str]]:
         ("latency", f"{m.latency_ms:.1f} ms{late}"),
         ("oldest plan", f"{m.oldest_plan_s:.2f} s"),
         ("contacts not planned first", str(m.contact_changes)),
+        *([("ground felt elsewhere", f"{m.ground_felt} times")] if m.ground_felt else []),
     ]

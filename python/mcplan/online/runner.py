@@ -2,58 +2,29 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mcplan._core import Plan, Robot
-from mcplan.errors import InvalidInput
+from mcplan._core import Plan, Robot, Scene
+from mcplan.errors import InvalidInput, InvalidOptions
 from mcplan.extras import require
 from mcplan.tracking.disturbances import disturbed
 from mcplan.tracking.interruption import Interruption
-from mcplan.tracking.measures import measure, with_touches
 from mcplan.tracking.options import Options, Watch
-from mcplan.tracking.recorder import Acting, Recorder
-from mcplan.tracking.references import references
-from mcplan.tracking.robot_dynamics import RobotDynamics
-from mcplan.tracking.runner import CONTACT_RATIO, posture_at, robot_for
-from mcplan.tracking.sensors import Sensors
-from mcplan.tracking.separation import Separation
+from mcplan.tracking.runner import posture_at, robot_for
 
-from .contacts import ContactFilter
-from .followed import FollowedReferences
-from .goals import phases_to, with_goal
-from .measures import Tally
+from .loop import Loop, length_of
 from .options import OnlineOptions
-from .pacing import Pace, steps_left
-from .planner import Planner, Update
-from .reach import widened
-from .result import FollowedPlan, RunResult
-from .state import StateReader
+from .result import RunResult
 
 if TYPE_CHECKING:
-    from mcplan.tracking.controller import Controller
-    from mcplan.tracking.simulation import Simulation
+    pass
 
 Array = NDArray[np.float64]
-
-#: Fallen: ratio of the CoM's height over the lowest foot to the nominal one, or tilt of the base [rad].
-FALLEN_RATIO, FALLEN_RAD = 0.6, 1.0
-#: Duration of a run under a command [s].
-COMMAND_S = 10.0
-#: A run to a goal ends at the latest after this ratio of the first plan's duration, and this time more [s].
-LONGEST_RATIO, LONGEST_S = 2.0, 5.0
-#: Velocity of a robot that is to stand.
-STAND = (0.0, 0.0, 0.0)
-#: Height of the CoM of a robot of human size [m].
-HUMAN_M = 0.88
-#: A contact is one that the first plan had if it is within this distance of it [m].
-SAME_PLACE_M = 0.05
 
 
 def run(
@@ -63,6 +34,7 @@ def run(
     online: OnlineOptions | None = None,
     progress: Callable[[float, float], None] | None = None,
     watch: Watch | None = None,
+    true_scene: Scene | None = None,
 ) -> RunResult:
     """Simulate a robot that follows a plan and is planned for anew while it walks.
 
@@ -74,6 +46,8 @@ def run(
         progress: Called now and then with the time simulated and the time to simulate [s].
         watch: Called at every control step with the simulated time [s], the configuration (nq,) in Pinocchio's order and
             the plan that is followed, as ``mcplan.view.LiveView`` is.
+        true_scene: The ground that is simulated: surfaces of the plan's scene by name, elsewhere, with other friction, or
+            left out; None: as planned. The planner takes the ground for that of the plan until ``online.told_at_s``.
 
     Returns:
         What the robot did, and how planning went. Ctrl-C ends the run with Interrupted, which carries the result.
@@ -82,30 +56,26 @@ def run(
         MissingExtra: The packages of ``pip install 'mcplan[sim]'`` are not installed.
         InvalidOptions: An option is out of range, or a push does not act in the run.
         InvalidRobot: The robot has no URDF, or it cannot be read, or it lacks an end-effector of the plan.
-        InvalidInput: The robot cannot take up the plan's first posture, or the plan has forces at points.
+        InvalidInput: The robot cannot take up the plan's first posture, or the plan has forces at points, or ``true_scene``
+            does not fit the plan.
     """
     require("mcplan.online", "sim", "mujoco", "pinocchio", "proxsuite")
     options, online = options or Options(), online or OnlineOptions()
-    options.validate()
-    online.validate()
-    if any(phase.has_points for phase in plan.phases):
-        raise InvalidInput("plan", "must be a plan of ddp: those with forces at points are not replanned")
-    length_s = _length(plan, options, online)
-    options.require_pushes_within(length_s)
+    _require_valid(plan, options, online, true_scene)
     walker = robot_for(plan, robot)
     if options.seed:
         options = disturbed(options, options.seed, plan.duration(), walker.mass)
     from mcplan.tracking import mujoco_model
     from mcplan.tracking.simulation import Simulation
 
-    model = mujoco_model.build(walker, plan.scene, options)
+    model = mujoco_model.build(walker, true_scene or plan.scene, options)
     simulation = Simulation(model, options.torque_delay_s, options.torque_bandwidth_hz)
     start = posture_at(model.urdf_model, plan, 0.0)
     on_ground = start.copy()
     on_ground[2] += options.ground_shift_m
     simulation.reset(on_ground, np.zeros(model.urdf_model.model.nv))
     with Interruption() as stop:
-        loop = _Loop(plan, simulation, start, options, online, length_s)
+        loop = Loop(plan, simulation, start, options, online, true_scene)
         loop.watch = watch
         try:
             result = loop.run(stop, progress)
@@ -115,257 +85,16 @@ def run(
     return result
 
 
-def _length(plan: Plan, options: Options, online: OnlineOptions) -> float:
-    """The longest that the run may take [s]."""
-    if not np.isnan(online.duration_s):
-        return online.duration_s
-    planned_s = float(plan.duration()) + options.hold_s
-    if online.goal and online.replanning:
-        begins_s = max(row[0] for row in (*online.goal, *online.command))
-        return begins_s + LONGEST_RATIO * planned_s + LONGEST_S
-    if online.command:
-        return COMMAND_S
-    return LONGEST_RATIO * planned_s + LONGEST_S if online.replanning else planned_s
-
-
-@dataclass
-class _Pending:
-    """An update, when it may be taken over, which is when its computation is over, and whether it has needless steps."""
-
-    update: Update
-    ready_s: float
-    longer: bool
-
-
-def _longer(plan: Plan, under_way: Plan, t: float) -> bool:
-    """Whether a plan has more phases than are left of the one under way, and one in which a late foot lands.
-
-    Where nothing pushes the robot, another step on the spot, put in again and again, would keep it from its goal.
-    """
-    left = len(under_way.phases) - int(under_way.at(min(t, float(under_way.duration()))).phase)
-    return len(plan.phases) > left + 1
-
-
-class _Loop:
-    """One run."""
-
-    def __init__(
-        self,
-        plan: Plan,
-        simulation: Simulation,
-        start: Array,
-        options: Options,
-        online: OnlineOptions,
-        length_s: float,
-    ) -> None:
-        from mcplan.tracking.controller import Controller, Restraints
-
-        self.first_plan, self.simulation, self.options, self.online = plan, simulation, options, online
-        self.urdf_model = simulation.model.urdf_model
-        self.robot, self.dt_s, self.length_s = self.urdf_model.robot, options.control_step_s, length_s
-        separation = Separation(simulation.model) if options.self_contacts else None
-        restraints = Restraints(simulation.model.motors, separation)
-        desired = references(plan, self.robot, self.dt_s, options.hold_s)
-        self.controller: Controller = Controller(self.urdf_model, plan.scene, desired, start, options.gains, restraints)
-        self.start, self.actual = start, RobotDynamics(self.urdf_model)
-        weight_N = self.actual.mass * plan.scene.gravity
-        self.contact_N = CONTACT_RATIO * weight_N
-        standing = desired.surfaces[0] >= 0
-        self.contacts = ContactFilter(standing, 2.0 * self.contact_N, self.contact_N)
-        self.reader = StateReader(self.robot, self.urdf_model)
-        self.sensors = Sensors(options.sensor_noise, options.noise_seed)
-        limit_s = online.time_limit_s
-        if np.isnan(limit_s) and not online.fixed_latency:
-            limit_s = online.period_s
-        named = {"start_slack_s": online.start_slack_s * np.sqrt(plan.robot.com_height / HUMAN_M)}
-        if not np.isnan(limit_s):
-            named["time_limit"] = limit_s
-        self.planner = Planner(plan, 0.0, command=None, period_s=online.period_s, **named)
-        if online.wide_reach:
-            self.planner.robots.append(widened(plan.robot))
-        self.pace, self.tally = Pace(online), Tally(online.latency_s)
-        self.pending: _Pending | None = None
-        self.failing_s, self.stopping = (
-            np.inf,
-            False,
-        )  # since when no plan could be followed; whether to come to a stand
-        self.goal: tuple[float, float, float] | None = None  # what is walked to instead of the scene's goal
-        self.goal_open = False  # whether no plan leads there yet
-        self.plans = [FollowedPlan(plan, 0.0, 0.0)]
-        count = int(np.ceil(length_s / self.dt_s)) + 1
-        self.followed = FollowedReferences(count, desired)
-        self.recorder = Recorder(plan, self.urdf_model, simulation.model.joints, self.followed)
-        self.failures, self.control_s = 0, 0.0
-        self.watch: Watch | None = None
-
-    @property
-    def plan(self) -> FollowedPlan:
-        """The one under way."""
-        return self.plans[-1]
-
-    def run(self, stop: Interruption, progress: Callable[[float, float], None] | None) -> RunResult:
-        """Go on until the end, a fall, or Ctrl-C."""
-        fell_at, began, n = np.inf, time.perf_counter(), 0
-        for n in range(self.followed.count):
-            now_s = n * self.dt_s
-            dynamics = self._step(n, now_s)
-            if self.simulation.broke or self._fallen(dynamics):
-                fell_at = now_s
-                break
-            if stop.asked or self._over(now_s):
-                break
-            if progress is not None and n % 50 == 0:
-                progress(
-                    now_s, min(self.length_s, self.plan.begins_s + self.plan.plan.duration() + self.options.hold_s)
-                )
-        return self._result(n, fell_at, time.perf_counter() - began, stop.asked)
-
-    def _step(self, n: int, now_s: float) -> RobotDynamics:
-        """One control step."""
-        simulation, options = self.simulation, self.options
-        state = simulation.state()
-        forces, touches = simulation.contact_forces_W(), simulation.touches()
-        read = self.sensors.read(*state)
-        before = self.contacts.in_contact
-        standing = self.contacts.update(now_s, forces)
-        self._take_over(now_s)
-        tick = time.perf_counter()
-        in_contact = np.linalg.norm(forces, axis=1) > self.contact_N
-        command = self.controller.step(n, *read, in_contact)
-        self.control_s += time.perf_counter() - tick
-        self.failures += not command.solved
-        dynamics = self.controller.dynamics
-        self._touchdowns(before, standing, dynamics)
-        if self.online.replanning and self.pending is None:
-            self._ask(now_s, read, standing, bool((standing & ~before).any()))
-        if options.sensor_noise > 0.0:  # what is recorded is what the robot does, not what the controller reads
-            dynamics = self.actual
-            dynamics.update(*state)
-        if self.watch is not None:
-            self.watch(now_s, state[0], self.plan.plan)
-        push = sum((p.force_W(now_s) for p in options.pushes), np.zeros(3))
-        steps = round(self.dt_s / options.simulation_step_s)
-        given = simulation.advance(command.torques, np.concatenate([push, np.zeros(3)]), steps)
-        self.followed.add(n, *self.controller.row(n))
-        self.recorder.add(dynamics, Acting(given, forces, in_contact, np.zeros(6), push, touches))
-        if steps_left(self.plan.plan, now_s - self.plan.begins_s):
-            self.tally.oldest_s = max(self.tally.oldest_s, now_s - self.plan.begins_s)
-        return dynamics
-
-    def _ask(self, now_s: float, read: tuple[Array, Array], standing: NDArray[np.bool_], touchdown: bool) -> None:
-        """Submit the state if a replan is due. The simulation waits, its clock goes on by the latency."""
-        under_way, com_W, velocity_W = (
-            self.plan,
-            self.controller.dynamics.com_W,
-            self.controller.dynamics.com_velocity_W,
+def _require_valid(plan: Plan, options: Options, online: OnlineOptions, true_scene: Scene | None) -> None:
+    """Raise InvalidOptions or InvalidInput, as run() says."""
+    options.validate()
+    online.validate()
+    if any(phase.has_points for phase in plan.phases):
+        raise InvalidInput("plan", "must be a plan of ddp: those with forces at points are not replanned")
+    if true_scene is not None:
+        true_scene.validate()
+    elif not np.isnan(online.told_at_s):
+        raise InvalidOptions(
+            "told_at_s", "must be given with true_scene, which the planner is told", f"{online.told_at_s:g}"
         )
-        t = now_s - under_way.begins_s
-        self._set_goal(now_s)
-        self.pace.new_goal = self.goal_open
-        reason = self.pace.due(now_s, touchdown, under_way.plan, t, com_W, velocity_W)
-        if reason is None:
-            return
-        self.planner.command = self._command(now_s)
-        state = self.reader.read(now_s, *read, self._for_planner(standing, t), under_way.plan, t)
-        # Near the goal the phases that are left are enough, unless the robot has to catch itself.
-        few = reason in ("period", "touchdown") and self.planner.command is None and not self.goal_open
-        named = {"phases_min": 1} if few else {}
-        if self.goal_open and self.goal is not None:
-            named = {"phases_min": phases_to(self.goal, com_W, float(state.knot.base_rpy[2]), self.robot)}
-        self.planner.submit(state, **named)
-        update = self.planner.wait()
-        assert update is not None
-        self.pace.asked(now_s)
-        latency_s = self.online.latency_s if self.online.fixed_latency else update.took_s
-        self.tally.computed(update.took_s, latency_s, update.status, reason)
-        longer = few and update.usable and update.plan is not None and _longer(update.plan, under_way.plan, t)
-        self.pending = _Pending(update, now_s + latency_s, longer)
-
-    def _set_goal(self, now_s: float) -> None:
-        """Plan to another goal if one holds by now and no command does."""
-        goal = self.online.goal_at(now_s)
-        if goal is not None and goal != self.goal and self.online.command_at(now_s) is None:
-            self.goal, self.goal_open = goal, True
-            self.planner.scene = with_goal(self.first_plan.scene, goal)
-
-    def _command(self, now_s: float) -> tuple[float, float, float] | None:
-        """The velocity that is asked for, or a stand where no plan has come for long."""
-        if now_s - self.failing_s > self.online.stop_after_s:
-            self.tally.stops += not self.stopping
-            self.stopping = True
-        return STAND if self.stopping else self.online.command_at(now_s)
-
-    def _for_planner(self, standing: NDArray[np.bool_], t: float) -> list[bool]:
-        """Contacts that the planner is told: a foot that is being lifted has left, though its force is not yet gone."""
-        from mcplan.tracking.contacts import Mode
-
-        free = [contact.mode is Mode.FREE for contact in self.controller.contacts]
-        return [bool(stands and not leaves) for stands, leaves in zip(standing, free, strict=True)]
-
-    def _take_over(self, now_s: float) -> None:
-        """Follow the update that waits, if its computation is over."""
-        if self.pending is None or now_s < self.pending.ready_s - 1e-9:
-            return
-        update, longer, self.pending = self.pending.update, self.pending.longer, None
-        if longer:
-            return
-        if not update.usable or update.plan is None:
-            self.failing_s = min(self.failing_s, update.begins_s)
-            return
-        self.failing_s, self.stopping = np.inf, False
-        self.controller.set_plan(update.plan, update.begins_s)
-        self.planner.take_over(update)
-        if self.planner.command is None and update.status in ("solved", "acceptable"):
-            self.goal_open = False
-        self.plans.append(FollowedPlan(update.plan, update.begins_s, now_s, update.took_s, update.message))
-        self.tally.used += 1
-
-    def _touchdowns(self, before: NDArray[np.bool_], standing: NDArray[np.bool_], dynamics: RobotDynamics) -> None:
-        """Count contacts that the first plan did not have."""
-        for end in np.flatnonzero(standing & ~before):
-            place = dynamics.end_effector_position_W(int(end))
-            planned = [
-                np.asarray(knot.end_effectors_W[end])
-                for knot, contacts in zip(self.first_plan.knots, self.first_plan.contact_sequence(), strict=False)
-                if contacts[end] >= 0
-            ]
-            if not any(np.linalg.norm(place - known) < SAME_PLACE_M for known in planned):
-                self.tally.contact_changes += 1
-
-    def _over(self, now_s: float) -> bool:
-        """Whether the plan under way has ended and its end was held."""
-        if self.online.command_at(now_s) or not np.isnan(self.online.duration_s):
-            return False
-        if self.goal_open or any(row[0] > now_s for row in (*self.online.goal, *self.online.command)):
-            return False
-        return bool(now_s - self.plan.begins_s > self.plan.plan.duration() + self.options.hold_s)
-
-    def _fallen(self, dynamics: RobotDynamics) -> bool:
-        feet = [i for i, end in enumerate(self.robot.end_effectors) if end.kind == "foot"]
-        lowest = min(dynamics.end_effector_position_W(i)[2] for i in feet)
-        low = dynamics.com_W[2] - lowest < FALLEN_RATIO * self.robot.com_height
-        return bool(low or dynamics.base_WB[2, 2] < np.cos(FALLEN_RAD))
-
-    def _result(self, n: int, fell_at: float, wall_s: float, interrupted: bool) -> RunResult:
-        recording = self.recorder.finish(fell_at)
-        measures = measure(recording, self._end_posture())
-        if self.simulation.model.link_pairs:
-            measures = with_touches(measures, recording.touches)
-        measures = replace(
-            measures,
-            qp_failures=self.failures,
-            simulator_warnings=self.simulation.warnings,
-            realtime_factor=(n + 1) * self.dt_s / wall_s,
-            control_ms=1e3 * self.control_s / (n + 1),
-        )
-        return RunResult(
-            recording, measures, self.options, interrupted, self.tally.measures(), self.online, tuple(self.plans)
-        )
-
-    def _end_posture(self) -> Array:
-        """Where the plan under way ends; not a number where the robot could not take that posture up."""
-        plan = self.plan.plan
-        try:
-            return posture_at(self.urdf_model, plan, plan.duration())
-        except InvalidInput:
-            return np.full(self.urdf_model.model.nq, np.nan)
+    options.require_pushes_within(length_of(plan, options, online))

@@ -78,14 +78,14 @@ def tasks_of(spec: SweepSpec, folder: Path = Path(".")) -> list[Task]:
     Raises:
         InvalidSweep: There are more than MAX_TASKS.
     """
-    from mcplan.files.sweep_specs import MAX_TASKS, place
+    from mcplan.files.sweep_specs import MAX_TASKS, number_of_tasks, place
 
+    if (number := number_of_tasks(spec)) > MAX_TASKS:
+        raise InvalidSweep("scenes", f"must give at most {MAX_TASKS} tasks", str(number))
     out: list[Task] = []
     for entry in spec.scenes:
         source = place(entry.scene, folder) if entry.scene is not None else ""
         for robot, parameters, options, seed in _combinations(spec, entry):
-            if len(out) >= MAX_TASKS:
-                raise InvalidSweep("scenes", f"must give at most {MAX_TASKS} tasks")
             robot_source = place(robot, folder)
             out.append(
                 Task(

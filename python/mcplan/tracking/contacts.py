@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 
@@ -12,8 +13,10 @@ Array = NDArray[np.float64]
 
 #: A foot in contact after this fraction of its swing has landed early; before, it has not left yet.
 EARLY_FRACTION = 0.7
+#: After a late landing the other feet stay on the ground for so long, though the plan lifts them [s].
+TOGETHER_S = 0.06
 #: Speed at which a foot that is late is lowered onto the ground [m/s], and how far [m].
-SEARCH_SPEED, SEARCH_DEPTH = 0.15, 0.08
+SEARCH_SPEED, SEARCH_DEPTH = 0.3, 0.08
 
 
 class Mode(Enum):
@@ -30,7 +33,7 @@ class Contact:
 
     Attributes:
         mode: Its mode.
-        position_W, rotation_W: Where the contact was made.
+        position_W, rotation_W: Where the contact was made; in Mode.SEARCH: where the search for the ground began.
         searched_s: Time spent in Mode.SEARCH.
     """
 
@@ -69,10 +72,34 @@ class Contact:
 
     @property
     def search_depth_m(self) -> float:
-        """Depth below its planned place at which the ground is searched."""
+        """Depth below the place where it was due at which the ground is searched."""
         return min(SEARCH_SPEED * self.searched_s, SEARCH_DEPTH)
 
     @property
     def search_speed(self) -> float:
         """Speed at which that depth grows [m/s]."""
         return SEARCH_SPEED if SEARCH_SPEED * self.searched_s < SEARCH_DEPTH else 0.0
+
+
+class LateLandings:
+    """Keeps feet on the ground while one that should carry by now is still on its way down, and shortly after.
+
+    A plan goes on with time: without this the next foot would be lifted before there is another one to stand on.
+    """
+
+    def __init__(self) -> None:
+        self._keeps_s = 0.0
+
+    def update(self, contacts: Sequence[Contact], planned: Sequence[bool], dt_s: float) -> list[bool]:
+        """Whether each end-effector is to be in contact now.
+
+        Args:
+            contacts: As they were a control step ago.
+            planned: Whether the plan has each in contact.
+            dt_s: Duration of the control step.
+        """
+        late = any(on and contact.mode is Mode.SEARCH for contact, on in zip(contacts, planned, strict=True))
+        self._keeps_s = TOGETHER_S if late else max(self._keeps_s - dt_s, 0.0)
+        if self._keeps_s <= 0.0:
+            return list(planned)
+        return [on or contact.mode is Mode.CONTACT for contact, on in zip(contacts, planned, strict=True)]

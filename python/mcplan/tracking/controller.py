@@ -22,7 +22,7 @@ from mcplan.kinematics.urdf_model import UrdfModel, leg_velocities
 
 from .actuators import TorqueSpeed
 from .contact_forces import SIDES, ForcePoints, pyramid
-from .contacts import Contact, Mode
+from .contacts import Contact, LateLandings, Mode
 from .joint_references import JointReferences
 from .live_references import LiveReferences
 from .options import Gains
@@ -108,7 +108,7 @@ class Controller:
         self.points = [ForcePoints.of(end.half_size) for end in urdf_model.robot.end_effectors]
         self.flat = [p.count > 1 for p in self.points]
         self.feet = [end.kind == "foot" for end in urdf_model.robot.end_effectors]
-        self.contacts = [Contact() for _ in self.points]
+        self.contacts, self._late = [Contact() for _ in self.points], LateLandings()
         self.qp = QuadraticProgram()
         self.torques = np.zeros(self.nv - 6)
         self.surfaces = [np.asarray(s.vertices_W, float) for s in scene.surfaces]
@@ -130,12 +130,15 @@ class Controller:
             self.references, n = self._live.window(n)
         self.dynamics.update(configuration, velocity)
         motions = [self.dynamics.end_effector(i) for i in range(len(self.contacts))]
-        for i, contact in enumerate(self.contacts):
-            planned = bool(self.references.surfaces[n, i] >= 0)
+        on_ground = self._late.update(self.contacts, list(self.references.surfaces[n] >= 0), self.references.dt_s)
+        for i, (contact, planned) in enumerate(zip(self.contacts, on_ground, strict=True)):
             # An end-effector that never lands again does not land early either: a hand that brushes a wall goes on.
             fraction = float(self.references.swing_fraction[n, i] * self.references.returns[n, i])
+            searched = contact.mode is Mode.SEARCH
             if contact.update(planned, bool(in_contact[i]), fraction, self.references.dt_s):
                 self._set_contact(n, i, motions[i].position_W, self._landed(n, i, motions[i]))
+            elif contact.mode is Mode.SEARCH and not searched:
+                contact.position_W = motions[i].position_W
         problem, supporting, force_map = self._problem(n, motions)
         found = self.qp.solve(problem, tuple(supporting))
         if found is not None:
@@ -159,6 +162,26 @@ class Controller:
             self.joints = JointReferences(np.atleast_2d(self.joints.at(max(self._last, 0))[0]))
         before = self._live or LiveReferences.of(self.references)
         self._live = LiveReferences.after(before, self._last + 1, plan, self.urdf_model.robot, t0, self.gains)
+
+    def set_friction(self, surface: int, friction: float) -> None:
+        """Keep forces on a surface, by index, within another friction coefficient; feet that slip stay where they are."""
+        self.pyramids[surface] = pyramid(self.normals[surface], friction)
+        for contact, on, end in zip(self.contacts, self.surfaces_now(), range(len(self.contacts)), strict=True):
+            if on == surface:
+                contact.position_W = self.dynamics.end_effector_position_W(end)
+
+    def surfaces_now(self) -> list[int]:
+        """(e,) index of the surface with which each end-effector is in contact; -1: none."""
+        _, n = self.row(max(self._last, 0))
+        return [self._surface(n, end) if c.mode is Mode.CONTACT else -1 for end, c in enumerate(self.contacts)]
+
+    def velocities_W(self) -> list[Array]:
+        """(e,) velocities (3,) of the end-effectors at the last control step [m/s]."""
+        return [self.dynamics.end_effector(end).velocity_W[:3] for end in range(len(self.contacts))]
+
+    def speeds_m_s(self) -> list[float]:
+        """(e,) of the end-effectors at the last control step."""
+        return [float(np.linalg.norm(velocity_W)) for velocity_W in self.velocities_W()]
 
     def row(self, n: int) -> tuple[References, int]:
         """References that contain control step n, and its index there."""
@@ -295,9 +318,11 @@ class Controller:
             elif contact.mode is Mode.SEARCH or ref.returns[n, i]:
                 target_W, velocity_W = ref.end_effectors_W[n, i], ref.end_effector_velocities_W[n, i]
                 if contact.mode is Mode.SEARCH:
+                    # Down from where the foot is: the reference stays at the height at which the ground was to be.
                     normal = self.normals[self._surface(n, i)]
-                    target_W = target_W - contact.search_depth_m * normal
-                    velocity_W = velocity_W - contact.search_speed * normal
+                    above_m = normal @ (target_W - contact.position_W)
+                    target_W = target_W - (max(above_m, 0.0) + contact.search_depth_m) * normal
+                    velocity_W = velocity_W - (normal @ velocity_W + contact.search_speed) * normal
                 error = np.concatenate(
                     [target_W - motion.position_W, rotation_vector(ref.soles_W[n, i] @ motion.rotation_W.T)]
                 )

@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 from mcplan.files.plans import plan_from_bytes
 from mcplan.files.robots import robot_from_dict
+from mcplan.files.scenes import scene_from_dict
 
 from .run_files import RUN, Arrays, Header, columns_of, load_run
 from .touches import Touch
 
 if TYPE_CHECKING:
-    from mcplan._core import Plan, Robot
+    from mcplan._core import Plan, Robot, Scene
 
 Array = NDArray[np.float64]
 
@@ -48,6 +49,7 @@ class Recording:
         robot: What was simulated, with the plan's end-effectors in the plan's order; None: the plan's own.
         velocity_limits: (nj,) [rad/s]; 0: the URDF knows none. Empty in files of earlier versions.
         touches: Contacts of links with each other, and of links other than end-effectors with the terrain.
+        true_scene: What was simulated, where it is another than the plan knows; None: the plan's own.
     """
 
     plan: Plan
@@ -74,6 +76,12 @@ class Recording:
     robot: Robot | None = None
     velocity_limits: Array = field(default_factory=lambda: np.zeros(0))
     touches: tuple[Touch, ...] = ()
+    true_scene: Scene | None = None
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that was simulated."""
+        return self.true_scene if self.true_scene is not None else self.plan.scene
 
     @property
     def simulated_robot(self) -> Robot:
@@ -110,6 +118,7 @@ def recording_from(header: Header, arrays: Arrays) -> Recording:
     """The recording that the file of a run contains."""
     plan = plan_from_bytes(arrays["plan"].tobytes())
     robot = None if header["robot"] is None else robot_from_dict(header["robot"])
+    true_scene = header.get("true_scene")  # files of earlier versions have none
     columns = columns_of(Recording, arrays)
     touches = tuple(Touch(**{**item, "links": tuple(item["links"])}) for item in header.get("touches", ()))
     return Recording(
@@ -118,5 +127,6 @@ def recording_from(header: Header, arrays: Arrays) -> Recording:
         fell_at_s=float(header["ended_at_s"]),
         robot=robot,
         touches=touches,
+        true_scene=None if true_scene is None else scene_from_dict(true_scene),
         **columns,
     )

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from mcplan.files.plans import plan_to_bytes
 from mcplan.files.robots import robot_to_dict
+from mcplan.files.scenes import scene_to_dict
 
 from .measures import Measures
 from .options import Options
@@ -43,8 +44,12 @@ class TrackingResult:
 
     def save(self, path: str | Path) -> None:
         """Write everything, the plan included, to an .npz file, which is complete or not there at all."""
+        save_run(self._parts(), path)
+
+    def _parts(self) -> RunParts:
+        """The content of its file."""
         run = self.recording
-        parts = RunParts(
+        return RunParts(
             RUN,
             run,
             plan_to_bytes(run.plan),
@@ -56,9 +61,9 @@ class TrackingResult:
                 "joints": list(run.joints),
                 "robot": None if run.robot is None else robot_to_dict(run.robot),
                 "touches": [asdict(touch) for touch in run.touches],
+                "true_scene": None if run.true_scene is None else scene_to_dict(run.true_scene),
             },
         )
-        save_run(parts, path)
 
     @staticmethod
     def load(path: str | Path) -> TrackingResult:

@@ -15,7 +15,7 @@ import io
 import json
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any, Protocol, TypeVar, cast
 
@@ -35,7 +35,7 @@ from .options import Gains, Options, Push
 FORMAT = 1
 RUN, PLANAR_RUN = whole_body_plans.RUN_KINDS
 #: Fields of recordings that are no arrays: those of the header, and what the plan's file contains.
-_OTHERS = {"plan", "robot", "joints", "end_effectors", "fell_at_s", "left_plan_at_s", "touches"}
+_OTHERS = {"plan", "robot", "joints", "end_effectors", "fell_at_s", "left_plan_at_s", "touches", "true_scene"}
 #: Arrays without a row for each instant, and those that files of earlier versions lack.
 _WITHOUT_ROWS, _LATER = {"torque_limits", "velocity_limits"}, {"velocity_limits"}
 
@@ -61,6 +61,7 @@ class RunParts:
         interrupted: Whether Ctrl-C ended the run.
         ended_at_s: Time at which the run ended early; infinite: it did not.
         more: Other entries of the header: names of joints, the robot.
+        files: Bytes of further files by name, such as plans that were followed.
     """
 
     kind: str
@@ -71,6 +72,7 @@ class RunParts:
     interrupted: bool
     ended_at_s: float
     more: dict[str, Any]
+    files: Mapping[str, bytes] = field(default_factory=dict)
 
 
 def save_run(parts: RunParts, path: str | Path) -> None:
@@ -81,15 +83,16 @@ def save_run(parts: RunParts, path: str | Path) -> None:
         "format": FORMAT,
         "mcplan": __version__,
         "options": asdict(parts.options),
-        "measures": _plain(parts.measures.as_dict()),
+        "measures": plain(parts.measures.as_dict()),
         "interrupted": parts.interrupted,
-        "ended_at_s": _plain(parts.ended_at_s),
+        "ended_at_s": plain(parts.ended_at_s),
         **parts.more,
     }
     names = _array_names(type(parts.recording))
     content = {in_file: getattr(parts.recording, name) for name, in_file in names.items()}
     content["header"] = np.frombuffer(json.dumps(header, allow_nan=False).encode(), dtype=np.uint8)
-    content["plan"] = np.frombuffer(parts.plan, dtype=np.uint8)
+    for name, data in {"plan": parts.plan, **parts.files}.items():
+        content[name] = np.frombuffer(data, dtype=np.uint8)
     buffer = io.BytesIO()
     np.savez_compressed(buffer, **cast(Any, content))
     write_whole(buffer.getvalue(), path)
@@ -175,7 +178,7 @@ def options_of(header: Header) -> Options:
 
 def measures_of(header: Header) -> dict[str, Any]:
     """The measures of the run, by name."""
-    return {key: float(value) if isinstance(value, str) else value for key, value in header["measures"].items()}
+    return numbers(header["measures"])
 
 
 def _array_names(recording: type) -> dict[str, str]:
@@ -184,8 +187,13 @@ def _array_names(recording: type) -> dict[str, str]:
     return {item.name: item.metadata.get("in_file", item.name) for item in own}
 
 
-def _plain(value: Any) -> Any:
+def numbers(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Values by name as they were before ``plain``: those that are text are "nan" or "inf"."""
+    return {key: float(value) if isinstance(value, str) else value for key, value in values.items()}
+
+
+def plain(value: Any) -> Any:
     """With "nan" and "inf" for numbers that JSON cannot represent."""
     if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
+        return {key: plain(item) for key, item in value.items()}
     return str(value) if isinstance(value, float) and not np.isfinite(value) else value

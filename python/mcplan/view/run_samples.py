@@ -58,7 +58,7 @@ def frames_of(recording: Recording, urdf_model: UrdfModel, rate_hz: float) -> Ru
         urdf_model: Model of its robot; soles are rotated as its configurations say.
         rate_hz: Frames in a second.
     """
-    scene = recording.plan.scene
+    scene = recording.scene
     chosen = frame_indices(recording.times_s, rate_hz)
     configurations = recording.configurations[chosen]
     rotation_WB, soles_W = _rotations(urdf_model, configurations)

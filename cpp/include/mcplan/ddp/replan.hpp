@@ -47,7 +47,8 @@ struct ReplanOptions {
   bool other_sequences = true;             ///< where the plan's own sequence does not do, try others near to it
 
   /// Iterations times phases, over all sequences, after which no other one is tried: a bound of the time of a call
-  /// that, unlike time_limit_s, gives the same plan on any machine. The plan's own sequence gets its iterations anyway.
+  /// that, unlike time_limit_s, gives the same plan on any machine. The plan's own sequence gets its iterations anyway,
+  /// and so does a stop, unless this is 0.
   int max_work = 1000;
 
   /// Throws InvalidOptions naming all that is out of its range.

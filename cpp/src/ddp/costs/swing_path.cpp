@@ -68,7 +68,7 @@ class SwingPath final : public CostTerm {
 
  private:
   /// Rows between two instants that follow each other.
-  static constexpr int kParts = 4;
+  static constexpr int kParts = 8;
 
   /// Between two instants CoM and base are on straight lines: the CoM leaves that by |p''| dt^2 / 8, a few millimetres.
   struct Between {

@@ -12,6 +12,7 @@
 #include "ddp/replan/given.hpp"
 #include "ddp/replan/other_steps.hpp"
 #include "ddp/replan/replan_fields.hpp"
+#include "ddp/replan/stops.hpp"
 #include "ddp/replan/trial.hpp"
 #include "ddp/replan/walk_on.hpp"
 #include "ddp/replan_fit.hpp"
@@ -35,6 +36,7 @@ Status status_of(const Trial& trial) {
 
 const char* name_of(PlanFrom from) {
   if (from == PlanFrom::same_sequence) return "the plan's own sequence";
+  if (from == PlanFrom::stop) return "a stand";
   return from == PlanFrom::other_sequence ? "another step put in" : "the plan as it was planned";
 }
 
@@ -52,7 +54,9 @@ class Trials {
 
   void make(const Now& now, const Rest& rest, PlanFrom from) {
     const double begin_s = now_->deadline->elapsed_s();
-    std::optional<Trial> trial = try_out(now, rest, *report_, best_ ? iterations_left(best_->plan) : kReplanIterations);
+    // A stop is short, and the last resort: it gets its iterations anyway.
+    const int iterations = best_ && from != PlanFrom::stop ? iterations_left(best_->plan) : kReplanIterations;
+    std::optional<Trial> trial = try_out(now, rest, *report_, iterations);
     if (trial) work_ += trial->work;
     const bool again = trial && !held_joints_ && asks_too_much_of_joints(*trial);
     const Plan found = again ? trial->plan : Plan();
@@ -75,6 +79,12 @@ class Trials {
   }
 
   std::optional<Trial>& best() { return best_; }
+
+  /// Whether nothing more may be begun.
+  bool out_of_time() const { return now_->deadline->passed() || (best_ && best_->ending == Ending::interrupted); }
+
+  /// Whether a controller may follow the best one for the next two steps.
+  bool usable() const { return best_ && (best_->ok() || can_be_followed(*best_)); }
 
   /// Ratio of the velocity command that the trials from now on follow.
   void followed(double ratio) { ratio_ = ratio; }
@@ -151,6 +161,10 @@ void go_to_goal(Rest& rest, Now& now, Trials& trials) {
   stand_on(rest, now.options->phases_min, now.similarity);
   now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, rest);
   trials.make(now, rest, PlanFrom::same_sequence);
+  if (Rest elsewhere = rest; now.options->other_sequences && stand_on_others(elsewhere, *now.scene, *now.robot)) {
+    now.surfaces = surfaces_of(*now.scene, *now.robot, now.measured, elsewhere);
+    trials.make(now, elsewhere, PlanFrom::other_sequence);
+  }
   if (!now.options->other_sequences || (trials.best() && hopeless(*trials.best()))) return;
   for (const Rest& other : other_steps(rest, *now.robot, now.similarity)) {
     if (trials.done()) return;
@@ -180,6 +194,19 @@ void follow_command(const Rest& rest, const Now& now, Trials& trials) {
       trials.make(there, other, PlanFrom::other_sequence);
       if (trials.done()) return;
     }
+  }
+}
+
+/// To a stand, where nothing else can be followed: at once, each foot in the air on the ground that is near.
+void stop(const Rest& rest, const Now& now, Trials& trials) {
+  for (Rest& at_rest : stops(rest, *now.scene, *now.robot, now.similarity)) {
+    if (trials.usable() || trials.out_of_time()) return;
+    Scene scene = *now.scene;
+    Now there = now;
+    there.scene = &scene;
+    stay(at_rest, scene, *now.robot);
+    there.surfaces = surfaces_of(scene, *now.robot, now.measured, at_rest);
+    trials.make(there, at_rest, PlanFrom::stop);
   }
 }
 
@@ -221,10 +248,12 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
   if (!ended && deadline.limited() && deadline.remaining_s() < short_s) kept = as_planned(planned, now);
   Trials trials(now, report);
   if (begin_with(rest, now.measured, now.measured.contacts, past_of(previous, t), now.similarity)) {
+    const Rest begun = rest;
     if (options.command)
       follow_command(rest, now, trials);
     else
       go_to_goal(rest, now, trials);
+    if (options.other_sequences && options.max_work > 0) stop(begun, now, trials);
   }
   if (!ended && deadline.passed() && !(trials.best() && can_be_followed(*trials.best())))
     trials.take(kept ? std::move(kept) : as_planned(planned, now), PlanFrom::previous_plan);

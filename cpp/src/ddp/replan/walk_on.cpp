@@ -7,6 +7,7 @@
 
 #include "ddp/constants.hpp"
 #include "ddp/replan/given.hpp"
+#include "ddp/replan/under_feet.hpp"
 #include "mcplan/base/rotation.hpp"
 #include "mcplan/robot/similarity.hpp"
 #include "mcplan/scene/polygon.hpp"
@@ -70,8 +71,6 @@ class Way {
 
 /// Knots' times from the start of the rest [s].
 std::vector<double> times_of(const Rest& rest) { return rest.plan.knot_times(); }
-
-bool is_foot(const Robot& robot, int e) { return robot.end_effectors[e].kind == "foot"; }
 
 /// What is planned beyond the horizon goes, back to a phase in which all stands that stands at the end.
 void cut_off(Rest& rest, int phases) {
@@ -158,23 +157,6 @@ std::pair<Pose, double> pose_of(const Rest& rest, const Robot& robot) {
   return {pose, at_s};
 }
 
-/// The surface nearest to a place below the base among those that the end-effector may touch, and the place on it.
-struct Found {
-  int surface = kFree;
-  Vector3d place = Vector3d::Zero();
-  double distance = std::numeric_limits<double>::infinity();
-};
-Found ground_at(const Scene& scene, const EndEffector& end, const Vector3d& desired) {
-  Found out;
-  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
-    if (!may_touch(scene.surfaces[i], end)) continue;
-    const Vector3d here = Polygon(scene.surfaces[i].vertices_W).nearest(desired);
-    const double distance = (here - desired).norm();
-    if (distance < out.distance) out = {static_cast<int>(i), here, distance};
-  }
-  return out;
-}
-
 /// Where a foot is due under a pose, at the height of the ground below.
 Vector3d due(const Robot& robot, int e, const Pose& pose, double ground) {
   const Vector2d place = pose.position + turned(robot.end_effectors[e].nominal_B.head<2>(), pose.yaw);
@@ -214,13 +196,13 @@ class Follow {
       const Pose pose = way_->at(last ? times_.back() : 0.5 * (times_[k] + times_[end]));
       const Found found = ground_at(*scene_, robot_->end_effectors[e], due(*robot_, e, pose, ground));
       if (found.surface == kFree) return;
-      ground = found.place.z();
+      ground = found.place_W.z();
       for (int j = k; j < end; ++j) rest_->plan.phases[j].contacts[e].surface = found.surface;
       if (last) rest_->plan.final_contacts[e] = found.surface;
       for (int j = k; j <= std::min(end, rest_->size()); ++j) {
-        rest_->desired[j].end_effectors_W[e] = found.place;
+        rest_->desired[j].end_effectors_W[e] = found.place_W;
         // What has just been added begins there; what was planned is where the motion begins.
-        if (!rest_->planned[std::min(k, rest_->size() - 1)]) rest_->plan.knots[j].end_effectors_W[e] = found.place;
+        if (!rest_->planned[std::min(k, rest_->size() - 1)]) rest_->plan.knots[j].end_effectors_W[e] = found.place_W;
       }
       k = end;
     }
@@ -327,6 +309,13 @@ double walk_on(Rest& rest, Scene& scene, const Robot& robot, const VelocityComma
     return ratio;
   }
   return 0.0;
+}
+
+void stay(Rest& rest, Scene& scene, const Robot& robot) {
+  const auto [pose, at_s] = pose_of(rest, robot);
+  const Way nowhere(pose, at_s, {}, 0.0, times_of(rest).back(), 0.0);
+  Follow(rest, scene, robot, nowhere).run();
+  scene.goal = stance_of(rest, scene, robot, pose);
 }
 
 }  // namespace mcplan::ddp

@@ -13,4 +13,7 @@ namespace mcplan::ddp {
 /// the ratio of the command that is followed is returned.
 double walk_on(Rest& rest, Scene& scene, const Robot& robot, const VelocityCommand& command, int phases);
 
+/// Come to rest over the feet where the rest has them at its end: that is what is desired, and the scene's goal.
+void stay(Rest& rest, Scene& scene, const Robot& robot);
+
 }  // namespace mcplan::ddp

@@ -154,29 +154,34 @@ void MomentumSquareOverTime::jacobian(const nlp::ConstVector& x, nlp::Matrix J) 
 }
 
 void MomentumSquareOverTime::hessian(const nlp::ConstVector& x, const nlp::ConstVector& weights, nlp::Matrix H) const {
+  constexpr int kAll = 3 + Within::kCount, kPadded = kAll + 1;  // whole registers
   const Within within(x, 3, ratio_, mass_, gravity_);
-  auto inner = H.bottomRightCorner<Within::kCount, Within::kCount>();
+  Eigen::Matrix<double, kPadded, kPadded> sum = Eigen::Matrix<double, kPadded, kPadded>::Zero();
+  auto inner = sum.block<Within::kCount, Within::kCount>(3, 3);
   for (const auto& [s, weight] : kGauss) {
     const RateCombination c = RateCombination::integral(s);
     const Vector3d rise = within.value(c), L = x.head<3>() + within.h * rise;
     const Within::Jacobian of_rate = within.jacobian(c);
-    Eigen::Matrix<double, 3, 3 + Within::kCount> of_L;  // derivatives of L
-    of_L.leftCols<3>().setIdentity();
-    of_L.rightCols<Within::kCount>() = within.h * of_rate;
-    of_L.col(3 + Within::kDuration) += ratio_ * rise;
+    Eigen::Matrix<double, kPadded, 3> of_L;  // transposed derivatives of L
+    of_L.topRows<3>().setIdentity();
+    of_L.middleRows<Within::kCount>(3) = within.h * of_rate.transpose();
+    of_L.row(3 + Within::kDuration) += ratio_ * rise.transpose();
+    of_L.bottomRows<1>().setZero();
 
     const double w = 2.0 * weights[0] * weight, factor = w * within.h;
-    const Eigen::Matrix<double, 3, 3 + Within::kCount> scaled = factor * of_L;
-    H += scaled.transpose().lazyProduct(of_L);
+    const Eigen::Matrix<double, 3, kPadded> scaled = factor * of_L.transpose();
+    sum += of_L.lazyProduct(scaled);
     within.add_hessian(c, L, factor * within.h, inner);
     // of L itself, h times the integral of R: its duration's row beside that of the integral
     const Eigen::Matrix<double, Within::kCount, 1> beside = factor * ratio_ * of_rate.transpose() * L;
     inner.row(Within::kDuration) += beside.transpose();
     inner(Within::kDuration, Within::kDuration) += beside[Within::kDuration];
     // and of the factor h before |L|^2
-    H.row(3 + Within::kDuration) += w * ratio_ * L.transpose() * of_L;
-    H(3 + Within::kDuration, 3 + Within::kDuration) += w * ratio_ * L.dot(of_L.col(3 + Within::kDuration));
+    const Eigen::Matrix<double, kPadded, 1> before = w * ratio_ * (of_L * L);
+    sum.row(3 + Within::kDuration) += before.transpose();
+    sum(3 + Within::kDuration, 3 + Within::kDuration) += before[3 + Within::kDuration];
   }
+  H += sum.topLeftCorner<kAll, kAll>();
 }
 
 }  // namespace mcplan::rhp

@@ -65,7 +65,7 @@ def show_run(run: Run) -> Page:
     require("mcplan.view.show_run", "view", "meshcat", "pinocchio")
     measures = run.measures if isinstance(run, TrackingResult) else None
     plan = recording.plan
-    scene, robot = plan.scene, recording.simulated_robot
+    scene, robot = recording.scene, recording.simulated_robot
     replanned = len(getattr(run, "plans", ())) > 1
     colours = end_effector_colours(robot)
     urdf_model = load_model(robot)
@@ -85,7 +85,7 @@ def show_run(run: Run) -> Page:
     legend[1:1] = [entry("planned", "line", PLANNED, text)]
     legend += _draw_helpers(stage, frames, robot)
     duration = float(samples.times_s[-1])
-    expected = _followed_contacts(recording) if replanned else contact_intervals(plan, scene, robot)
+    expected = _followed_contacts(recording) if replanned else contact_intervals(plan, plan.scene, robot)
     within = [replace(i, end_s=min(i.end_s, duration)) for i in expected if i.start_s < duration]
     bars = timeline(scene, robot, Bars(samples.intervals, within, _events(recording)), colours, duration)
     direction = camera_direction(extent)

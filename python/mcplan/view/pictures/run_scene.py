@@ -38,7 +38,7 @@ def scene_of(run: Run, rate_hz: float) -> RunScene:
         InvalidRobot: The robot's URDF cannot be read.
     """
     recording, shift = recording_of(run), ground_shift_of(run)
-    scene, robot = recording.plan.scene, recording.simulated_robot
+    scene, robot = recording.scene, recording.simulated_robot
     colours = end_effector_colours(robot)
     urdf_model = load_model(robot)
     frames = frames_of(recording, urdf_model, rate_hz)

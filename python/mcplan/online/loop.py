@@ -1,0 +1,360 @@
+"""The steps of a closed loop: what is measured, when it is planned from, what is followed."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mcplan._core import Plan, Scene
+from mcplan.errors import InvalidInput
+from mcplan.tracking.interruption import Interruption
+from mcplan.tracking.measures import measure, with_touches
+from mcplan.tracking.options import Options, Watch
+from mcplan.tracking.recorder import Acting, Recorder
+from mcplan.tracking.references import references
+from mcplan.tracking.robot_dynamics import RobotDynamics
+from mcplan.tracking.runner import CONTACT_RATIO, posture_at
+from mcplan.tracking.sensors import Sensors
+from mcplan.tracking.separation import Separation
+
+from .contacts import ContactFilter
+from .followed import FollowedReferences
+from .goals import phases_to, with_goal
+from .known_ground import KnownGround
+from .measures import Tally
+from .options import OnlineOptions
+from .pacing import Pace, steps_left
+from .planner import Planner, Update
+from .reach import widened
+from .result import FollowedPlan, RunResult
+from .state import StateReader
+
+if TYPE_CHECKING:
+    from mcplan.tracking.controller import Controller
+    from mcplan.tracking.simulation import Simulation
+
+Array = NDArray[np.float64]
+
+#: Fallen: ratio of the CoM's height over the lowest foot to the nominal one, or tilt of the base [rad].
+FALLEN_RATIO, FALLEN_RAD = 0.6, 1.0
+#: Duration of a run under a command [s].
+COMMAND_S = 10.0
+#: A run to a goal ends at the latest after this ratio of the first plan's duration, and this time more [s].
+LONGEST_RATIO, LONGEST_S = 2.0, 5.0
+#: For so long at most a late end-effector comes down before there is another plan [s].
+SEARCH_S = 0.25
+#: Force over the weight from which on a contact says how slippery its surface is.
+PRESSES_RATIO = 0.05
+#: Velocity of a robot that is to stand.
+STAND = (0.0, 0.0, 0.0)
+#: Height of the CoM of a robot of human size [m].
+HUMAN_M = 0.88
+#: A contact is one that the first plan had if it is within this distance of it [m].
+SAME_PLACE_M = 0.05
+
+
+def length_of(plan: Plan, options: Options, online: OnlineOptions) -> float:
+    """The longest that the run may take [s]."""
+    if not np.isnan(online.duration_s):
+        return online.duration_s
+    planned_s = float(plan.duration()) + options.hold_s
+    if online.goal and online.replanning:
+        begins_s = max(row[0] for row in (*online.goal, *online.command))
+        return begins_s + LONGEST_RATIO * planned_s + LONGEST_S
+    if online.command:
+        return COMMAND_S
+    return LONGEST_RATIO * planned_s + LONGEST_S if online.replanning else planned_s
+
+
+@dataclass
+class _Pending:
+    """An update, when it may be taken over, which is when its computation is over, and whether it has needless steps."""
+
+    update: Update
+    ready_s: float
+    longer: bool
+
+
+def _longer(plan: Plan, under_way: Plan, t: float) -> bool:
+    """Whether a plan has more phases than are left of the one under way, and one in which a late foot lands.
+
+    Where nothing pushes the robot, another step on the spot, put in again and again, would keep it from its goal.
+    """
+    left = len(under_way.phases) - int(under_way.at(min(t, float(under_way.duration()))).phase)
+    return len(plan.phases) > left + 1
+
+
+class Loop:
+    """One run."""
+
+    def __init__(
+        self,
+        plan: Plan,
+        simulation: Simulation,
+        start: Array,
+        options: Options,
+        online: OnlineOptions,
+        true_scene: Scene | None,
+    ) -> None:
+        from mcplan.tracking.controller import Controller, Restraints
+
+        self.first_plan, self.simulation, self.options, self.online = plan, simulation, options, online
+        self.urdf_model = simulation.model.urdf_model
+        self.robot, self.dt_s, self.length_s = (
+            self.urdf_model.robot,
+            options.control_step_s,
+            length_of(plan, options, online),
+        )
+        separation = Separation(simulation.model) if options.self_contacts else None
+        restraints = Restraints(simulation.model.motors, separation)
+        desired = references(plan, self.robot, self.dt_s, options.hold_s)
+        self.controller: Controller = Controller(self.urdf_model, plan.scene, desired, start, options.gains, restraints)
+        self.start, self.actual = start, RobotDynamics(self.urdf_model)
+        weight_N = self.actual.mass * plan.scene.gravity
+        self.contact_N = CONTACT_RATIO * weight_N
+        standing = desired.surfaces[0] >= 0
+        self.true_scene = true_scene
+        self.ground = KnownGround(plan.scene, true_scene, online, len(standing), PRESSES_RATIO * weight_N)
+        self.in_contact = standing  # by the forces of this control step
+        self.contacts = ContactFilter(standing, 2.0 * self.contact_N, self.contact_N)
+        self.reader = StateReader(self.robot, self.urdf_model)
+        self.sensors = Sensors(options.sensor_noise, options.noise_seed)
+        limit_s = online.time_limit_s
+        if np.isnan(limit_s) and not online.fixed_latency:
+            limit_s = online.period_s
+        named = {"start_slack_s": online.start_slack_s * np.sqrt(plan.robot.com_height / HUMAN_M)}
+        if not np.isnan(limit_s):
+            named["time_limit"] = limit_s
+        self.planner = Planner(plan, 0.0, command=None, period_s=online.period_s, **named)
+        if online.wide_reach:
+            self.planner.robots.append(widened(plan.robot))
+        self.pace, self.tally = Pace(online), Tally(online.latency_s)
+        self.pending: _Pending | None = None
+        self.failing_s, self.stopping = (
+            np.inf,
+            False,
+        )  # since when no plan could be followed; whether to come to a stand
+        self.goal: tuple[float, float, float] | None = None  # what is walked to instead of the scene's goal
+        self.goal_open = False  # whether no plan leads there yet
+        self.late_s = np.inf  # since when an end-effector is late
+        self.plans = [FollowedPlan(plan, 0.0, 0.0)]
+        count = int(np.ceil(self.length_s / self.dt_s)) + 1
+        self.followed = FollowedReferences(count, desired)
+        self.recorder = Recorder(plan, self.urdf_model, simulation.model.joints, self.followed)
+        self.failures, self.control_s = 0, 0.0
+        self.watch: Watch | None = None
+
+    @property
+    def plan(self) -> FollowedPlan:
+        """The one under way."""
+        return self.plans[-1]
+
+    def run(self, stop: Interruption, progress: Callable[[float, float], None] | None) -> RunResult:
+        """Go on until the end, a fall, or Ctrl-C."""
+        fell_at, began, n = np.inf, time.perf_counter(), 0
+        for n in range(self.followed.count):
+            now_s = n * self.dt_s
+            dynamics = self._step(n, now_s)
+            if self.simulation.broke or self._fallen(dynamics):
+                fell_at = now_s
+                break
+            if stop.asked or self._over(now_s):
+                break
+            if progress is not None and n % 50 == 0:
+                progress(
+                    now_s, min(self.length_s, self.plan.begins_s + self.plan.plan.duration() + self.options.hold_s)
+                )
+        return self._result(n, fell_at, time.perf_counter() - began, stop.asked)
+
+    def _step(self, n: int, now_s: float) -> RobotDynamics:
+        """One control step."""
+        simulation, options = self.simulation, self.options
+        state = simulation.state()
+        forces, touches = simulation.contact_forces_W(), simulation.touches()
+        read = self.sensors.read(*state)
+        before = self.contacts.in_contact
+        standing = self.contacts.update(now_s, forces)
+        self._take_over(now_s)
+        tick = time.perf_counter()
+        in_contact = self.in_contact = np.linalg.norm(forces, axis=1) > self.contact_N
+        command = self.controller.step(n, *read, in_contact)
+        self.control_s += time.perf_counter() - tick
+        self.failures += not command.solved
+        dynamics = self.controller.dynamics
+        self._touchdowns(before, standing, dynamics)
+        self._feel_slips(forces)
+        if self.online.replanning and self.pending is None and not self._searching(now_s):
+            self._ask(now_s, read, standing, bool((standing & ~before).any()))
+        if options.sensor_noise > 0.0:  # what is recorded is what the robot does, not what the controller reads
+            dynamics = self.actual
+            dynamics.update(*state)
+        if self.watch is not None:
+            self.watch(now_s, state[0], self.plan.plan)
+        push = sum((p.force_W(now_s) for p in options.pushes), np.zeros(3))
+        steps = round(self.dt_s / options.simulation_step_s)
+        given = simulation.advance(command.torques, np.concatenate([push, np.zeros(3)]), steps)
+        self.followed.add(n, *self.controller.row(n))
+        self.recorder.add(dynamics, Acting(given, forces, in_contact, np.zeros(6), push, touches))
+        if steps_left(self.plan.plan, now_s - self.plan.begins_s):
+            self.tally.oldest_s = max(self.tally.oldest_s, now_s - self.plan.begins_s)
+        return dynamics
+
+    def _searching(self, now_s: float) -> bool:
+        """Whether a late end-effector comes down on ground that is lower than planned: a new plan would hold it up again."""
+        from mcplan.tracking.contacts import Mode
+
+        late = any(contact.mode is Mode.SEARCH for contact in self.controller.contacts)
+        self.late_s = (now_s if np.isinf(self.late_s) else self.late_s) if late else np.inf
+        return late and now_s - self.late_s < SEARCH_S
+
+    def _ask(self, now_s: float, read: tuple[Array, Array], standing: NDArray[np.bool_], touchdown: bool) -> None:
+        """Submit the state if a replan is due. The simulation waits, its clock goes on by the latency."""
+        under_way, com_W, velocity_W = (
+            self.plan,
+            self.controller.dynamics.com_W,
+            self.controller.dynamics.com_velocity_W,
+        )
+        t = now_s - under_way.begins_s
+        self._set_goal(now_s)
+        self.pace.new_goal = self.goal_open
+        reason = self.pace.due(now_s, touchdown, under_way.plan, t, com_W, velocity_W)
+        if reason is None:
+            return
+        self.planner.command = self._command(now_s)
+        state = self.reader.read(now_s, *read, self._for_planner(standing), under_way.plan, t)
+        if self.ground.told(now_s) | self.ground.feel_heights(state, self.controller.speeds_m_s()):
+            self._plan_on(self.ground.scene)
+        # Near the goal the phases that are left are enough, unless the robot has to catch itself.
+        few = reason in ("period", "touchdown") and self.planner.command is None and not self.goal_open
+        named = {"phases_min": 1} if few else {}
+        if self.goal_open and self.goal is not None:
+            named = {"phases_min": phases_to(self.goal, com_W, float(state.knot.base_rpy[2]), self.robot)}
+        self.planner.submit(state, **named)
+        update = self.planner.wait()
+        assert update is not None
+        self.pace.asked(now_s)
+        latency_s = self.online.latency_s if self.online.fixed_latency else update.took_s
+        self.tally.computed(update.took_s, latency_s, update.status, reason)
+        longer = few and update.usable and update.plan is not None and _longer(update.plan, under_way.plan, t)
+        self.pending = _Pending(update, now_s + latency_s, longer)
+
+    def _feel_slips(self, forces_W: Array) -> None:
+        """Plan and control with less friction where an end-effector slips."""
+        controller = self.controller
+        slippery = self.ground.feel_slips(controller.surfaces_now(), list(forces_W), controller.velocities_W())
+        for surface, friction in slippery.items():
+            controller.set_friction(surface, friction)
+        if slippery:
+            self.pace.slipped = True
+            self._plan_on(self.ground.scene)
+
+    def _set_goal(self, now_s: float) -> None:
+        """Plan to another goal if one holds by now and no command does."""
+        goal = self.online.goal_at(now_s)
+        if goal is not None and goal != self.goal and self.online.command_at(now_s) is None:
+            self.goal, self.goal_open = goal, True
+            self._plan_on(self.ground.scene)
+
+    def _plan_on(self, scene: Scene) -> None:
+        """Plan on this ground from now on."""
+        self.planner.scene = scene if self.goal is None else with_goal(scene, self.goal)
+
+    def _command(self, now_s: float) -> tuple[float, float, float] | None:
+        """The velocity that is asked for, or a stand where no plan has come for long."""
+        if now_s - self.failing_s > self.online.stop_after_s:
+            self.tally.stops += not self.stopping
+            self.stopping = True
+        return STAND if self.stopping else self.online.command_at(now_s)
+
+    def _for_planner(self, standing: NDArray[np.bool_]) -> list[bool]:
+        """Contacts that the planner is told, sooner than forces say for certain.
+
+        A foot that is being lifted has left, though its force is not yet gone, and one that has just landed is there.
+        """
+        from mcplan.tracking.contacts import Mode
+
+        modes = [contact.mode for contact in self.controller.contacts]
+        told = []
+        for end, (stands, mode) in enumerate(zip(standing, modes, strict=True)):
+            lands = mode is Mode.CONTACT and self.in_contact[end]
+            told.append(bool(mode is not Mode.FREE and (stands or lands)))
+        return told
+
+    def _take_over(self, now_s: float) -> None:
+        """Follow the update that waits, if its computation is over."""
+        if self.pending is None or now_s < self.pending.ready_s - 1e-9:
+            return
+        update, longer, self.pending = self.pending.update, self.pending.longer, None
+        if longer:
+            return
+        if not update.usable or update.plan is None:
+            self.failing_s = min(self.failing_s, update.begins_s)
+            return
+        self.failing_s, self.stopping = np.inf, False
+        self.controller.set_plan(update.plan, update.begins_s)
+        self.planner.take_over(update)
+        if self.planner.command is None and update.status in ("solved", "acceptable"):
+            self.goal_open = False
+        self.plans.append(FollowedPlan(update.plan, update.begins_s, now_s, update.took_s, update.message))
+        self.tally.used += 1
+
+    def _touchdowns(self, before: NDArray[np.bool_], standing: NDArray[np.bool_], dynamics: RobotDynamics) -> None:
+        """Count contacts that the first plan did not have."""
+        for end in np.flatnonzero(standing & ~before):
+            place = dynamics.end_effector_position_W(int(end))
+            planned = [
+                np.asarray(knot.end_effectors_W[end])
+                for knot, contacts in zip(self.first_plan.knots, self.first_plan.contact_sequence(), strict=False)
+                if contacts[end] >= 0
+            ]
+            if not any(np.linalg.norm(place - known) < SAME_PLACE_M for known in planned):
+                self.tally.contact_changes += 1
+
+    def _over(self, now_s: float) -> bool:
+        """Whether the plan under way has ended and its end was held."""
+        if self.online.command_at(now_s) or not np.isnan(self.online.duration_s):
+            return False
+        if self.goal_open or any(row[0] > now_s for row in (*self.online.goal, *self.online.command)):
+            return False
+        return bool(now_s - self.plan.begins_s > self.plan.plan.duration() + self.options.hold_s)
+
+    def _fallen(self, dynamics: RobotDynamics) -> bool:
+        feet = [i for i, end in enumerate(self.robot.end_effectors) if end.kind == "foot"]
+        lowest = min(dynamics.end_effector_position_W(i)[2] for i in feet)
+        low = dynamics.com_W[2] - lowest < FALLEN_RATIO * self.robot.com_height
+        return bool(low or dynamics.base_WB[2, 2] < np.cos(FALLEN_RAD))
+
+    def _result(self, n: int, fell_at: float, wall_s: float, interrupted: bool) -> RunResult:
+        recording = replace(self.recorder.finish(fell_at), true_scene=self.true_scene)
+        measures = measure(recording, self._end_posture())
+        if self.simulation.model.link_pairs:
+            measures = with_touches(measures, recording.touches)
+        measures = replace(
+            measures,
+            qp_failures=self.failures,
+            simulator_warnings=self.simulation.warnings,
+            realtime_factor=(n + 1) * self.dt_s / wall_s,
+            control_ms=1e3 * self.control_s / (n + 1),
+        )
+        return RunResult(
+            recording,
+            measures,
+            self.options,
+            interrupted,
+            self.tally.measures(self.ground.felt),
+            self.online,
+            tuple(self.plans),
+        )
+
+    def _end_posture(self) -> Array:
+        """Where the plan under way ends; not a number where the robot could not take that posture up."""
+        plan = self.plan.plan
+        try:
+            return posture_at(self.urdf_model, plan, plan.duration())
+        except InvalidInput:
+            return np.full(self.urdf_model.model.nq, np.nan)
