@@ -25,8 +25,9 @@ Array = NDArray[np.float64]
 RAMP_S = 0.06
 #: Of the friction that the scene has.
 FRICTION_RATIO = 0.95
-#: Of the weight of accelerations, where there are flights: legs that push off have to accelerate.
-FLIGHT_ACCELERATION = 0.1
+#: Of the weight of accelerations, where there are flights: legs that push off have to accelerate. With less, Gauss-Newton steps
+#: overshoot and jumps do not converge (docs/theory/wb.md, "Cost").
+FLIGHT_ACCELERATION = 0.3
 
 
 def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array) -> _core.Problem:
