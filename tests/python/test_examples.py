@@ -12,6 +12,7 @@ EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 #: What they show is in the Python package alone, and what it needs.
 PYTHON_ALONE = {
     "06_track": ("mujoco", "pinocchio", "proxsuite", "example_robot_data", "scipy"),
+    "09_hop": ("mujoco", "pinocchio", "proxsuite", "example_robot_data", "scipy", "coal"),
 }
 NO_PLANNER = not (ROOT / "cpp/src/ddp/switched_ddp.cpp").exists()
 

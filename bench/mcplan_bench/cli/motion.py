@@ -38,7 +38,7 @@ def motion(
         robot, slash, scene = given.partition("/")
         if not (robot and slash and scene):
             raise InvalidOptions("--case", "must be a robot and a scene, such as go2/flat", shown(given))
-        mcplan.load_robot(robot), mcplan.load_scene(scene)  # names that are wrong are refused before there is work
+        mcplan.load_robot(bench.OWN_ROBOTS.get(robot, robot)), mcplan.load_scene(scene)  # wrong names are refused first
         cases.append((robot, scene))
     rows = bench.motions(cases or bench.CASES, progress=say)
     result = {"machine": records.machine(), "motions": rows}

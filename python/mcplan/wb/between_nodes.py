@@ -2,7 +2,8 @@
 
 Forces f at corners that balance at the nodes leave a wrench r on the base between them. At a finer set of nodes the forces are
 changed by d with G d = r, of least sum |d_c|^2 / s_c^2, where s_c = mu f_n - |f_t| says how far a force is inside of its
-cone: those at its edge hardly change. Where the change would leave a cone, a part of it is made.
+cone: those at its edge hardly change. Where the change would leave a cone, a part of it is made, and the rest is tried again
+from there.
 """
 
 from __future__ import annotations
@@ -19,13 +20,15 @@ from .free_flyer import rotations
 from .knots import subdivided, with_knots
 
 if TYPE_CHECKING:
-    from .motion import Motion, MotionSamples
+    from .motion import Motion
     from .motion_model import MotionModel
 
 Array = NDArray[np.float64]
 
 #: Steps between instants at which forces are corrected [s].
 STEP_S = 0.005
+#: Times that forces are changed.
+ROUNDS = 4
 #: Friction beyond which it makes no difference.
 MOST_FRICTION = 10.0
 #: Forces outside of their cone by less are not [N].
@@ -50,9 +53,15 @@ def balanced(motion: Motion, step_s: float = STEP_S) -> Motion:
     # Forces of points are linear in the world between nodes: their frames turn, and the solver's cones do not.
     forces_W = np.einsum("keij,kepj->kepi", rotations_W[at_nodes], motion.corner_forces_S)
     finer = with_forces(finer, _linear(motion.times_s, forces_W, times), rotations_W)
-    states = finer.sample(times)
-    forces_W = np.einsum("keij,kepj->kepi", rotations_W, finer.corner_forces_S)
-    return with_forces(finer, forces_W + _changes(finer, states, forces_W), rotations_W)
+    forces_W, at = np.einsum("keij,kepj->kepi", rotations_W, finer.corner_forces_S), np.arange(len(times))
+    for _ in range(ROUNDS):
+        changes, parts = _changes(finer, at, forces_W[at])
+        forces_W[at] += changes
+        finer = with_forces(finer, forces_W, rotations_W)
+        at = at[parts < 1.0]
+        if at.size == 0:
+            break
+    return finer
 
 
 def with_forces(motion: Motion, forces_W: Array, rotations_W: Array) -> Motion:
@@ -73,9 +82,10 @@ def with_model(motion: Motion, model: MotionModel) -> Motion:
     return motion
 
 
-def _changes(motion: Motion, states: MotionSamples, forces_W: Array) -> Array:
-    """(n + 1, L, 4, 3) by which the forces at the nodes are changed."""
-    base = rotations(motion.coordinates(motion.times_s)[0][:, 3:6])
+def _changes(motion: Motion, at: NDArray[np.int64], forces_W: Array) -> tuple[Array, Array]:
+    """(k, L, 4, 3) by which the forces at k nodes are changed, and (k,) what part of what is missing that is."""
+    states = motion.sample(motion.times_s[at])
+    base = rotations(motion.coordinates(motion.times_s[at])[0][:, 3:6])
     missing = np.einsum("kij,khj->khi", base, states.base_residual_B.reshape(-1, 2, 3)).reshape(-1, 6)
     arms = np.einsum("keij,epj->kepi", states.rotations_W, motion.corner_points_S)
     arms += (states.end_effectors_W - states.q[:, None, :3])[:, :, None]
@@ -84,41 +94,42 @@ def _changes(motion: Motion, states: MotionSamples, forces_W: Array) -> Array:
     grasp[..., :3, :] = np.eye(3)
     grasp[..., 3, 1], grasp[..., 3, 2], grasp[..., 4, 2] = -z, y, -x
     grasp[..., 4, 0], grasp[..., 5, 0], grasp[..., 5, 1] = z, -y, x
-    cones = _Cones.of(motion)
+    cones = _Cones.of(motion, at)
     room = np.maximum(cones.room(forces_W), 0.0)
     weights = (room / np.maximum(room.max(axis=(1, 2)), 1e-9)[:, None, None]) ** 2
     gram = np.einsum("kec,kecij,keclj->kil", weights, grasp, grasp)
     multipliers = np.einsum("kij,kj->ki", np.linalg.pinv(gram, rcond=RANK, hermitian=True), missing)
     changes = weights[..., None] * np.einsum("kecij,ki->kecj", grasp, multipliers)
-    return cones.part(forces_W, changes) * changes
+    parts = cones.part(forces_W, changes)
+    return parts[:, None, None, None] * changes, parts
 
 
 @dataclass(frozen=True)
 class _Cones:
-    """Friction (n + 1, L) and normals (n + 1, L, 3) of the surfaces in contact at the nodes."""
+    """Friction (k, L) and normals (k, L, 3) of the surfaces in contact at k nodes."""
 
     frictions: Array
     normals: Array
 
     @staticmethod
-    def of(motion: Motion) -> _Cones:
+    def of(motion: Motion, at: NDArray[np.int64]) -> _Cones:
         surfaces = motion.plan.scene.surfaces
         frictions = np.array([min(float(surface.friction), MOST_FRICTION) for surface in surfaces] + [1.0])
         normals = np.array([polygon_normal(np.asarray(surface.vertices_W)) for surface in surfaces] + [[0.0, 0.0, 1.0]])
         before = np.vstack([motion.contacts[:1], motion.contacts])
         touched = np.where(before >= 0, before, np.vstack([motion.contacts, motion.contacts[-1:]]))
-        return _Cones(frictions[touched], normals[touched])
+        return _Cones(frictions[touched[at]], normals[touched[at]])
 
     def room(self, forces_W: Array) -> Array:
-        """(n + 1, L, 4) how far forces are inside of their cones: friction times the normal force, less the tangential."""
+        """(k, L, 4) how far forces are inside of their cones: friction times the normal force, less the tangential."""
         along = np.einsum("kepj,kej->kep", forces_W, self.normals)
         across = np.linalg.norm(forces_W - along[..., None] * self.normals[:, :, None], axis=-1)
         return np.asarray(self.frictions[:, :, None] * along - across)
 
     def part(self, forces_W: Array, changes: Array) -> Array:
-        """(n + 1, 1, 1, 1) the largest of some parts of all changes at a node with which all forces are in their cones."""
+        """(k,) the largest of some parts of all changes at a node with which all forces are in their cones."""
         parts = np.zeros(len(forces_W))
         for part in np.linspace(0.05, 1.0, 20):
             inside = (self.room(forces_W + part * changes) >= -SMALL_N).all(axis=(1, 2))
             parts = np.where(inside, part, parts)
-        return parts[:, None, None, None]
+        return parts

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: A motion's forces act at the corners of this part of a sole; the solver holds them to a little less, which leaves room
-#: to correct them between its nodes.
-CORNER_RATIO, SOLVED_RATIO = 0.95, 0.9
+#: A motion's forces act at the corners of this part of a sole; the solver holds them to a little less, and by this much
+#: [m] but for half of a sole, which leaves room to correct them between its nodes.
+CORNER_RATIO, SOLVED_RATIO, CORRECTED_M = 0.95, 0.9, 6e-3
 #: Points keep this distance from the edges of surfaces [m].
 EDGE_M = 2e-3
 
@@ -26,15 +26,22 @@ def corners_S(end: EndEffector, ratio: float = CORNER_RATIO) -> Array:
     """(4, 3) corners of a part of a sole, in its frame [m]: of that on which a motion's forces act; (1, 3) without a sole."""
     if not has_sole(end):
         return np.zeros((1, 3))
-    x, y = ratio * np.asarray(end.half_size, float)
+    return _rectangle(ratio * np.asarray(end.half_size, float))
+
+
+def _rectangle(half_size: Array) -> Array:
+    x, y = half_size
     return np.array([[x, y, 0.0], [x, -y, 0.0], [-x, -y, 0.0], [-x, y, 0.0]])
 
 
 def points_S(plan: Plan, interval: Interval) -> Array:
     """Where the solver lets forces of a contact act: corners of the sole, moved inwards onto the surface."""
-    corners = corners_S(plan.robot.end_effectors[interval.end_effector], SOLVED_RATIO)
-    if len(corners) == 1:
-        return corners
+    end = plan.robot.end_effectors[interval.end_effector]
+    if not has_sole(end):
+        return corners_S(end)
+    half = np.asarray(end.half_size, float)
+    inside = np.maximum(CORNER_RATIO * half - CORRECTED_M, 0.5 * half)
+    corners = _rectangle(np.minimum(SOLVED_RATIO * half, inside))
     vertices = np.asarray(plan.scene.surfaces[interval.surface].vertices_W, float)
     polygon = ((vertices - interval.position_W) @ interval.rotation_W)[:, :2]
     area = np.roll(polygon, -1, axis=0)

@@ -26,6 +26,8 @@ FLIGHT_M = 0.3
 #: Kept over the ground from this part of a swing to its middle [m], growing from nothing in the parts before: where a sole
 #: that is to be lifted within a node asks for all the torque that there is.
 MIDDLE_M, MIDDLE, ENDS = 0.014, 0.35, 0.15
+#: Kept there even where the plan has less [m].
+LEAST_M = 0.012
 #: Left to a motion between what is kept and the plan, unless there is less than twice as much over the ground [m].
 ROOM_M = 0.005
 #: Kept over the ground wherever there is twice as much, but where feet go up and down alone: a foot that is being lifted lags
@@ -100,7 +102,8 @@ class Ground:
             over = min(self.clearance(points, aside), DOWN_M)
             if over >= LEAST_RATIO * under:
                 break
-        return aside, max(0.0, over - min(keep, max(0.5 * over, over - ROOM_M)))
+        down = max(0.0, over - min(keep, max(0.5 * over, over - ROOM_M)))
+        return aside, min(down, over - LEAST_M) if min(ratio, 1.0 - ratio) >= MIDDLE else down
 
 
 def _swept(positions_W: Array, k: int, part: float) -> Array:

@@ -25,6 +25,9 @@ Array = NDArray[np.float64]
 RAMP_S = 0.06
 #: Of the friction that the scene has.
 FRICTION_RATIO = 0.95
+#: Of the weight of accelerations, where there are flights: legs that push off have to accelerate. With less, Gauss-Newton steps
+#: overshoot and jumps do not converge (docs/theory/wb.md, "Cost").
+FLIGHT_ACCELERATION = 0.3
 
 
 def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array) -> _core.Problem:
@@ -36,6 +39,10 @@ def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array)
     problem.posture = posture
     mass = sum(inertia.mass for inertia in spline.model.inertias)
     problem.weight_N = mass * plan.scene.gravity
+    if any(nodes.flies(k) for k in range(nodes.count)):
+        weights = problem.weights
+        weights.acceleration *= FLIGHT_ACCELERATION
+        problem.weights = weights
     wrenches = ramped(nodes, planned_wrenches_S(nodes) * (mass / plan.robot.mass))
     samples = nodes.samples
     touches = np.asarray((nodes.contacts >= 0).any(axis=0))
