@@ -61,6 +61,27 @@ TEST_CASE("a swing that the reach box keeps low asks the CoM to rise") {
   CHECK(at_height(0.95) == 0.0);
 }
 
+TEST_CASE("a swing from one side of a fence to the other asks the CoM to rise, however thin the fence is") {
+  mcplan::Scene scene = scenes::made_of(
+      "fence", {scenes::rectangle("ground", -1, 3, -1, 1, 0), scenes::rectangle("fence", 0.5, 0.53, -1, 1, 0.19)},
+      "ground", "ground", {1.0, 0.0, 0.0});
+  scene.surfaces[1].thickness = 0.19;
+  const ddp::Problem problem(scene, scenes::humanoid44(), phases(6));
+  const ddp::Layout& at = problem.layout;
+  const Writer path = term(problem, "swing_path", swinging());
+  VectorXd x = VectorXd::Zero(at.nx()), u = VectorXd::Zero(at.nu());
+  x.segment<3>(at.end(1)) = Vector3d(0.25, 0.1, 0.0) / 0.7;
+  u.segment<3>(at.stride(1)) = Vector3d(0.53, 0.0, 0.0) / 0.7;
+  u[at.duration()] = 1e-3;
+  const auto at_height = [&](double height) {
+    x.segment<3>(at.com()) = Vector3d(0.5, 0.0, height) / 0.7;
+    return cost(problem, path, x, u);
+  };
+  CHECK(at_height(0.68) > at_height(0.70));
+  CHECK(at_height(0.70) > at_height(0.73));
+  CHECK(at_height(0.76) == 0.0);
+}
+
 TEST_CASE("the rows of swings have the derivatives of their values") {
   const ddp::Problem problem = with_tread();
   check_rows(problem, term(problem, "swing_path", swinging()), 5, 0.4, 10);
