@@ -69,7 +69,7 @@ def test_exports_are_the_same_bytes_in_other_processes(spec, tmp_path):
 @pytest.mark.parametrize(
     ("exports", "message"),
     [
-        (["mjlb"], r"exports\[0\]: Did you mean 'mjlab'\?"),
+        (["mjlb"], r"exports\[0\]: no such format. Did you mean 'mjlab'\?"),
         (["mjlab", "mjlab"], r"exports\[1\]: must differ from those before it, got \"mjlab\""),
         ("mjlab", "exports: must be a list"),
     ],

@@ -45,11 +45,12 @@ class SwingPath final : public CostTerm {
     // Between two knots of a swing the way bulges by what their velocities carry the foot on.
     const double bulge = 0.25 * (arc.stride_before.norm() + arc.stride_after.norm());
     const double far = 0.5 * way.norm() + bulge + problem.limits[step.l].half_size.norm() + 2.0 * kPathRoom;
-    std::vector<Sample> samples;
+    static thread_local std::vector<Sample> samples;  // nothing is allocated once it is long enough
+    samples.clear();
     for (std::size_t i = 0; i < problem.polygons.size(); ++i) {
       const Polygon& polygon = problem.polygons[i];
       if (polygon.outside(middle) > far) continue;
-      if (samples.empty()) samples = samples_of(step, arc);
+      if (samples.empty()) find_samples(step, arc, samples);
       const Passing passing(polygon, problem.thickness[i], arc, from, from + way);
       for (const Sample& sample : samples)
         if (passing.across || !sample.fine) write_at(step, polygon, passing, sample, rows);
@@ -61,8 +62,7 @@ class SwingPath final : public CostTerm {
   /// an edge between them unseen. Every other one is left out but of what a swing goes across, of which both edges
   /// count.
   static constexpr int kParts = 16;
-  /// On rows of what a swing goes across. Measured on fences 0.05 to 0.25 m across and 0.1 to 0.2 m high: with 1 three
-  /// of six plans cost up to 20 times as much.
+  /// On rows of what a swing goes across, of which there are twice as many. Chosen.
   static constexpr double kAcrossWeight = 0.5;
 
   /// Between two instants CoM and base are on straight lines: the CoM leaves that by |p''| dt^2 / 8, a few millimetres.
@@ -132,30 +132,34 @@ class SwingPath final : public CostTerm {
   /// What a swing has to do with a solid, from its own phase.
   struct Passing {
     double thickness = 0.0;
-    bool through = false;      ///< below what it leaves or reaches a foot has come through it, however thin that is
-    bool rises = false;        ///< and out of that it goes up by a knot inside the swing as well
-    bool across = false;       ///< it comes from beyond one edge and goes beyond another: over the solid, or round it
-    std::vector<char> behind;  ///< by edge: what it comes from or goes to lies beyond
+    bool through = false;  ///< below what it leaves or reaches a foot has come through it, however thin that is
+    bool rises = false;    ///< and out of that it goes up by a knot inside the swing as well
+    bool across = false;   ///< it comes from beyond one edge and goes beyond another: over the solid, or round it
+    Vector3d from, to;     ///< the ends of its phase
 
-    Passing(const Polygon& polygon, double thick, const SwingArc& arc, const Vector3d& from, const Vector3d& to)
-        : thickness(thick), behind(polygon.edge_count()) {
+    Passing(const Polygon& polygon, double thick, const SwingArc& arc, const Vector3d& begin, const Vector3d& end)
+        : thickness(thick), from(begin), to(end) {
       through = (arc.before == 0.0 && stands_on(polygon, from)) || (arc.after == 0.0 && stands_on(polygon, to));
       rises = through && (arc.duration_before > 0.0 || arc.duration_after > 0.0);
       if (through) thickness = std::numeric_limits<double>::infinity();
       across = polygon.outside(from) > 0.0 && polygon.outside(to) > 0.0;
-      for (int e = 0; e < polygon.edge_count(); ++e) {
-        const bool left = polygon.overshoot(e, from) > 0.0, reached = polygon.overshoot(e, to) > 0.0;
-        across = across && !(left && reached);
-        behind[e] = left || reached;
-      }
+      for (int e = 0; e < polygon.edge_count(); ++e)
+        across = across && !(polygon.overshoot(e, from) > 0.0 && polygon.overshoot(e, to) > 0.0);
+    }
+
+    /// What it comes from or goes to lies beyond this edge.
+    bool goes_over(const Polygon& polygon, int e) const {
+      return polygon.overshoot(e, from) > 0.0 || polygon.overshoot(e, to) > 0.0;
     }
   };
 
-  /// The edge that a point is nearest to or farthest beyond; of some of them, -1 where there is none.
-  static int nearest_edge(const Polygon& polygon, const Vector3d& point, const std::vector<char>& but = {}) {
+  /// The edge that a point is nearest to or farthest beyond; but for those that a swing goes over, -1 where that leaves
+  /// none.
+  static int nearest_edge(const Polygon& polygon, const Vector3d& point, const Passing* over = nullptr) {
     int nearest = -1;
     for (int e = 0; e < polygon.edge_count(); ++e)
-      if ((but.empty() || !but[e]) && (nearest < 0 || polygon.overshoot(e, point) > polygon.overshoot(nearest, point)))
+      if (!(over && over->goes_over(polygon, e)) &&
+          (nearest < 0 || polygon.overshoot(e, point) > polygon.overshoot(nearest, point)))
         nearest = e;
     return nearest;
   }
@@ -196,10 +200,9 @@ class SwingPath final : public CostTerm {
 
   /// The samples of a phase: in the middle 80 % of the swing's time, where the sole's corners count; of its ends the
   /// CoM is not known.
-  static std::vector<Sample> samples_of(const StepView& step, const SwingArc& arc) {
+  static void find_samples(const StepView& step, const SwingArc& arc, std::vector<Sample>& samples) {
     constexpr double kEnds[] = {0.1, 0.15, 0.85, 0.9};
     const double total = arc.before + arc.duration + arc.after;
-    std::vector<Sample> samples;
     for (const double s : kEnds) {
       const double fraction = (s * total - arc.before) / arc.duration;
       if (fraction > 0.0 && fraction < 1.0) add_sample(step, arc, s, fraction, nullptr, false, samples);
@@ -210,7 +213,6 @@ class SwingPath final : public CostTerm {
         const double fraction = body.fraction(), s = (arc.before + fraction * arc.duration) / total;
         if (s > kEnds[0] && s < kEnds[3]) add_sample(step, arc, s, fraction, &body, part % 2 == 1, samples);
       }
-    return samples;
   }
 
   /// `s_given` is the share of the swing by the durations that are given, by which the sole turns.
@@ -243,7 +245,7 @@ class SwingPath final : public CostTerm {
     const double up = polygon.height(corner) - kPathRoom;
     int side = nearest_edge(polygon, corner);
     // Over what it goes across a foot is lifted with the CoM, unless the way round is shorter.
-    if (sample.held.low && passing.across) side = nearest_edge(polygon, corner, passing.behind);
+    if (sample.held.low && passing.across) side = nearest_edge(polygon, corner, &passing);
     const double away =
         side < 0 ? -std::numeric_limits<double>::infinity() : polygon.overshoot(side, corner) - kPathRoom;
     const bool raise = (sample.held.low || passing.rises) && up > away;
