@@ -25,8 +25,8 @@ Array = NDArray[np.float64]
 RAMP_S = 0.06
 #: Of the friction that the scene has.
 FRICTION_RATIO = 0.95
-#: Of the weight of accelerations, where there are flights: legs that push off have to accelerate. With less, Gauss-Newton steps
-#: overshoot and jumps do not converge (docs/theory/wb.md, "Cost").
+#: Of the weight of accelerations, where there are flights: legs that push off have to accelerate. With less, jumps do not
+#: converge (measured: docs/theory/wb.md, "Cost").
 FLIGHT_ACCELERATION = 0.3
 
 

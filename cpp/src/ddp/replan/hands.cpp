@@ -83,16 +83,18 @@ Rest held(Rest rest, const Hold& hold, int at, double after_s, double shortest_s
 }  // namespace
 
 std::vector<Rest> with_hands(const Rest& rest, const Scene& scene, const Robot& robot, const Vector3d& pushed_W,
-                             const Similarity& similarity) {
+                             double committed_s, const Similarity& similarity) {
   const Eigen::Vector2d box_s = phase_duration_of(robot, similarity);
   const double reaching_s = swing_duration_of(box_s);
   std::vector<Rest> out;
-  if (rest.size() == 0) return out;
   for (const Hold& hold : holds(rest, scene, robot, pushed_W, reaching_s, similarity)) {
-    out.push_back(held(rest, hold, 0, reaching_s, box_s[0]));
-    if (rest.size() < 2) continue;
-    const double later_s = std::max(reaching_s - rest.plan.phases.front().duration, box_s[0]);
-    out.push_back(held(rest, hold, 1, later_s, box_s[0]));
+    double begin_s = 0.0;
+    for (int at = 0; at < std::min(rest.size(), 2); ++at) {
+      const double end_s = begin_s + rest.plan.phases[at].duration;
+      // What ends a phase within the committed time would come later.
+      if (end_s > committed_s) out.push_back(held(rest, hold, at, std::max(reaching_s - begin_s, box_s[0]), box_s[0]));
+      begin_s = end_s;
+    }
   }
   return out;
 }

@@ -80,6 +80,7 @@ TEST_CASE("a swing from one side of a fence to the other asks the CoM to rise, h
   CHECK(at_height(0.68) > at_height(0.70));
   CHECK(at_height(0.70) > at_height(0.73));
   CHECK(at_height(0.76) == 0.0);
+  check_rows(problem, path, 5, 0.4, 10);
 }
 
 TEST_CASE("the rows of swings have the derivatives of their values") {

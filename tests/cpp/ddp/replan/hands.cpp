@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "mcplan/ddp/plan.hpp"
 #include "mcplan/ddp/replan.hpp"
 #include "scenes.hpp"
@@ -31,10 +33,10 @@ struct Walk {
   Similarity human = similarity_of(plan.robot, plan.scene.gravity);
   int left_hand = plan.robot.end_effector_index("left_hand");
 
-  std::vector<Rest> hands(double t, const Vector3d& pushed_W) const {
+  std::vector<Rest> hands(double t, const Vector3d& pushed_W, double committed_s = 0.0) const {
     Rest rest = rest_of(plan, t);
     rest.plan.knots.front().com_velocity_W += pushed_W;
-    return with_hands(rest, plan.scene, plan.robot, pushed_W, human);
+    return with_hands(rest, plan.scene, plan.robot, pushed_W, committed_s, human);
   }
 
   /// Replan after a push that changes the CoM's velocity so [m/s].
@@ -98,7 +100,20 @@ TEST_CASE("no hand is put in without a push to its side, or where nothing is in 
   CHECK(walk.hands(0.9, {0.5, 0.1, 0}).empty());
   CHECK(walk.hands(0.9, {0, -0.5, 0}).empty());  // to the right there is no wall
   const Rest rest = rest_of(walk.plan, 0.9);
-  CHECK(with_hands(rest, beside_a_wall(1.5), walk.plan.robot, {0, 0.4, 0}, walk.human).empty());
+  CHECK(with_hands(rest, beside_a_wall(1.5), walk.plan.robot, {0, 0.4, 0}, 0.0, walk.human).empty());
+}
+
+TEST_CASE("what is committed is not put off for a hand") {
+  const Walk walk;
+  const double t = 0.9;
+  const std::vector<double> times = walk.plan.knot_times();
+  const auto next = std::upper_bound(times.begin(), times.end(), t);
+  const double first_s = *next - t, second_s = *(next + 1) - t;
+  REQUIRE(walk.hands(t, {0, 0.4, 0}).size() == 2);
+  const std::vector<Rest> after = walk.hands(t, {0, 0.4, 0}, 0.5 * (first_s + second_s));
+  REQUIRE(after.size() == 1);
+  CHECK(after.front().plan.phases.front().duration == first_s);
+  CHECK(walk.hands(t, {0, 0.4, 0}, 1.01 * second_s).empty());
 }
 
 TEST_CASE("a hand at the wall catches pushes that steps do not, and a plan that does without it is not missed") {
