@@ -94,7 +94,7 @@ inline int check_rows(const ddp::Problem& problem, const Writer& write, const Ve
   CHECK(sum == doctest::Approx(rows.cost()).epsilon(1e-14));
   if (rows.count() == 0) return 0;
   for (int i = 0; i < nx + nu; ++i)
-    for (double by : {-2 * kStep, 2 * kStep}) {
+    for (double by : {-2 * kStep, -kStep, kStep, 2 * kStep}) {
       VectorXd moved = z;
       moved[i] += by;
       if (values(problem, write, moved).size() != rows.count()) return 0;
