@@ -33,20 +33,21 @@ Ground::Ground(const Scene& scene, const Robot& robot, const ResolvedStance& fro
     const Vector3d place = rotation_from_rpy({0.0, 0.0, from.yaw}) * end.nominal_B;
     nominal_.push_back(turns ? Vector2d::Zero() : Vector2d(place.head<2>()));
   }
-  for (const Surface& surface : scene.surfaces) {
+  for (int i = 0; i < static_cast<int>(scene.surfaces.size()); ++i) {
+    const Surface& surface = scene.surfaces[i];
     const Solid solid{Polygon(surface.vertices_W), surface.thickness};
     const double up = solid.polygon.normal_W().z();
     const bool holds = up > kGroundNormal && std::any_of(feet_.begin(), feet_.end(), [&](int e) {
                          return may_touch(surface, robot.end_effectors[e]);
                        });
     if (holds) {
-      patches_.push_back({solid.polygon, {}});
+      patches_.push_back({solid.polygon, {}, i});
       for (const Vector3d& vertex : surface.vertices_W) patches_.back().box.extend(vertex);
     }
     // A slope comes near the trunk uphill of it, and is no obstacle.
     constexpr double kStraight = 1e-3;
     if (std::abs(up) < kStraight || std::abs(up) > 1.0 - kStraight)
-      solids_.push_back({solid.polygon, solid.thickness, box_of(solid)});
+      solids_.push_back({solid.polygon, solid.thickness, box_of(solid), i});
   }
 }
 
@@ -61,10 +62,11 @@ Ground::Footing Ground::footing(const Patch& patch, const Vector2d& at) const {
   return {(nearest.head<2>() - at).norm(), nearest.z()};
 }
 
-/// The trunk, a cylinder as wide as the feet stand, from the height of a step to above the CoM, is in a solid.
-bool Ground::blocked(const Vector2d& at, double height) const {
+/// The first solid that the trunk is in, a cylinder as wide as the feet stand, from the height of a step to above the
+/// CoM.
+int Ground::solid_at(const Vector2d& at, double height) const {
   const double low = height + rise_, high = height + kTrunkHeight * height_;
-  return std::any_of(solids_.begin(), solids_.end(), [&](const Standing& solid) {
+  const auto found = std::find_if(solids_.begin(), solids_.end(), [&](const Standing& solid) {
     const Eigen::AlignedBox3d& box = solid.box;
     if (!(box.max().z() > low) || !(box.min().z() < high)) return false;
     const Vector2d nearest = at.cwiseMax(box.min().head<2>()).cwiseMin(box.max().head<2>());
@@ -73,6 +75,7 @@ bool Ground::blocked(const Vector2d& at, double height) const {
     const double middle = 0.5 * (std::max(low, box.min().z()) + std::min(high, box.max().z()));
     return outside_prism(solid.polygon, solid.thickness, {at.x(), at.y(), middle}).distance < half_width_;
   });
+  return found == solids_.end() ? -1 : found->surface;
 }
 
 std::vector<Place> Ground::places(const Vector2d& at) const {
@@ -92,7 +95,7 @@ std::vector<Place> Ground::places(const Vector2d& at) const {
       return std::abs(place.height - below.height) < kSameHeightRatio * rise_;
     });
     if (known) continue;
-    Place place{below.height, 0.0, false};
+    Place place{below.height, 0.0, patch->surface};
     bool stands = true;
     for (const Vector2d& foot : nominal_) {
       double away = std::numeric_limits<double>::infinity();
@@ -104,7 +107,7 @@ std::vector<Place> Ground::places(const Vector2d& at) const {
       place.looseness += away / gap() / static_cast<double>(nominal_.size());
     }
     if (!stands) continue;
-    place.blocked = blocked(at, place.height);
+    place.solid = solid_at(at, place.height);
     out.push_back(place);
   }
   std::sort(out.begin(), out.end(), [](const Place& a, const Place& b) { return a.height > b.height; });

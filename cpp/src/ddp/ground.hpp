@@ -13,7 +13,8 @@ namespace mcplan::ddp {
 struct Place {
   double height = 0.0;     ///< [m] of the ground
   double looseness = 0.0;  ///< level distance of the feet from ground, on average: 0 on it, 1 as far as may be
-  bool blocked = false;    ///< a solid stands where the trunk would be
+  int surface = -1;        ///< of the scene, that the ground belongs to
+  int solid = -1;          ///< of the scene, one that stands where the trunk would be, or -1
 };
 
 /// The ground that the feet can touch, those end-effectors that stand at both start and goal, and the solids that stand
@@ -38,12 +39,13 @@ class Ground {
   struct Patch {
     Polygon polygon;
     Eigen::AlignedBox3d box;
+    int surface;
   };
   struct Footing {
     double away = 0.0, height = 0.0;
   };
   Footing footing(const Patch& patch, const Eigen::Vector2d& at) const;
-  bool blocked(const Eigen::Vector2d& at, double height) const;
+  int solid_at(const Eigen::Vector2d& at, double height) const;
 
   std::vector<int> feet_;                   // of the robot
   std::vector<Eigen::Vector2d> nominal_;    // from the CoM in the heading of the walk; where it changes, the CoM's
@@ -55,6 +57,7 @@ class Ground {
     Polygon polygon;
     double thickness;
     Eigen::AlignedBox3d box;
+    int surface;
   };
   std::vector<Standing> solids_;  // what may stand in the way
 };

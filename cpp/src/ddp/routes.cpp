@@ -37,6 +37,7 @@ double cost_of(const Place& place) { return 1.0 + kLooseness * place.looseness; 
 struct Followed {
   bool walkable = false, obstructed = false;
   double cost = 0.0;
+  std::optional<Barrier> barrier;
 };
 
 Followed follow(const Ground& ground, const Vector3d& from, const Vector3d& to, double spacing) {
@@ -44,15 +45,24 @@ Followed follow(const Ground& ground, const Vector3d& from, const Vector3d& to, 
   const int count = std::max(1, static_cast<int>(std::ceil((to - from).head<2>().norm() / spacing)));
   const double piece = (to - from).norm() / count;
   double height = from.z();
+  int ground_before = -1;
   for (int i = 0; i <= count; ++i) {
-    const std::vector<Place> places = ground.places(from.head<2>() + (to - from).head<2>() * i / count);
+    const Vector2d at = from.head<2>() + (to - from).head<2>() * i / count;
+    const std::vector<Place> places = ground.places(at);
     const auto off = [&](const Place& p) { return std::abs(p.height - height); };
     const auto next =
         std::min_element(places.begin(), places.end(), [&](const Place& a, const Place& b) { return off(a) < off(b); });
-    if (next == places.end() || off(*next) > ground.rise()) return {};
-    line.obstructed = line.obstructed || next->blocked;
+    if (next == places.end() || off(*next) > ground.rise()) {
+      const bool none = next == places.end();
+      const Barrier found{-1, ground_before, none ? -1 : next->surface, height, none ? 0.0 : next->height - height, at};
+      return {false, false, 0.0, line.barrier ? line.barrier : found};
+    }
+    if (next->solid >= 0 && !line.barrier)
+      line.barrier = Barrier{next->solid, next->surface, -1, next->height, 0.0, at};
+    line.obstructed = line.obstructed || next->solid >= 0;
     line.cost += piece * cost_of(*next);
     height = next->height;
+    ground_before = next->surface;
   }
   line.walkable = !line.obstructed && std::abs(height - to.z()) <= ground.rise();
   return line;
@@ -126,7 +136,7 @@ class Roadmap {
   void add_places(int row, int column) {
     const Vector2d at = low_ + spacing_ * (column * along_ + row * across());
     for (const Place& place : ground_->places(at))
-      if (!place.blocked) cell(row, column).push_back(add({at.x(), at.y(), place.height}, cost_of(place)));
+      if (place.solid < 0) cell(row, column).push_back(add({at.x(), at.y(), place.height}, cost_of(place)));
   }
 
   /// The start or the goal, joined with the places around it.
@@ -233,6 +243,8 @@ Routes find_routes(const Scene& scene, const Robot& robot, double sole_inside) {
   const Followed line = follow(ground, begin, end, kRoadSpacing * ground.stride());
   routes.straight = line.walkable;
   routes.obstructed = line.obstructed;
+  routes.rise = ground.rise();
+  if (!line.walkable) routes.barrier = line.barrier;
   if (line.walkable) return routes;
   Roadmap roadmap(ground, begin, end);
   for (int i = 0; i < 2 * kDetours && static_cast<int>(routes.detours.size()) < kDetours; ++i) {

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "ddp/barrier.hpp"
 #include "ddp/best_plan.hpp"
 #include "ddp/constants.hpp"
 #include "ddp/cost_terms.hpp"
@@ -132,8 +133,11 @@ std::string SwitchedDdp::Impl::message_of(Status status, int steps, const BestPl
     message << "stopped before the checker had seen the best plan in full; it accepts what it saw of it";
   else
     message << "the best plan violates " << report.worst_violation.to_string();
-  if (best && status != Status::solved)
-    if (const std::string flight = flight_needed(scene, robot); !flight.empty()) message << "; " << flight;
+  if (best && status != Status::solved) {
+    std::string why = flight_needed(scene, robot);
+    if (why.empty()) why = what_bars(scene, robot, options.sole_inside);
+    if (!why.empty()) message << "; " << why;
+  }
   return message.str();
 }
 

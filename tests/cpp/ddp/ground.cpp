@@ -58,7 +58,7 @@ TEST_CASE("stairs have two places near a riser, and solids that stand are where 
   const auto blocked = [&](double x, double y) {
     const auto places = ground.places({x, y});
     REQUIRE(places.size() == 1);
-    return places[0].blocked;
+    return places[0].solid >= 0;
   };
   CHECK(blocked(0.95, 0.0));
   CHECK(blocked(0.95, 0.2));
