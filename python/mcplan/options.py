@@ -86,7 +86,9 @@ def _set(target: Any, name: str, value: Any, prefix: str = "") -> None:
         value = members[value.replace("-", "_")]
     kind = type(getattr(target, name))
     # pybind11 takes the one for the other.
-    if (kind is int and isinstance(value, bool)) or (kind is bool and not isinstance(value, bool | np.bool_)):
+    if (kind in (int, float) and isinstance(value, bool | np.bool_)) or (
+        kind is bool and not isinstance(value, bool | np.bool_)
+    ):
         raise InvalidOptions(prefix + name, f"must be of type {kind.__name__}", shown(value))
     try:
         setattr(target, name, value)

@@ -66,12 +66,27 @@ def refusal(text: str, given: tuple[Any, ...], named: dict[str, Any], member: st
         return InvalidArgument(member + field, rule, value)
     misfits = [wrong for wrong in (_wrong(call, signature, given, named) for signature in signatures) if wrong]
     if not misfits:
+        if (negative := _negative(signatures, given, named)) is not None:
+            return negative
         values = [*map(found, given), *(f"{name}={found(value)}" for name, value in named.items())]
         return InvalidArgument(
             call, "must be called otherwise: a value is out of the range of its type", ", ".join(values)
         )
     wrong = max(misfits, key=lambda misfit: misfit.fitting)
     return InvalidArgument(wrong.field, wrong.rule, wrong.value)
+
+
+def _negative(
+    signatures: list[list[_Argument]], given: tuple[Any, ...], named: dict[str, Any]
+) -> InvalidArgument | None:
+    """Of arguments that all fit a signature by what it writes: the first that is negative, where C++ has no sign."""
+    for signature in signatures:
+        by_place = zip((argument for argument in signature if not argument.by_name), given, strict=False)
+        by_name = ((argument, named[argument.name]) for argument in signature if argument.name in named)
+        for argument, value in (*by_place, *by_name):
+            if "typing.SupportsInt" in argument.legal and isinstance(value, int) and value < 0:
+                return InvalidArgument(argument.name, "must be at least 0", found(value))
+    return None
 
 
 def no_member(made: Any) -> InvalidArgument | None:
@@ -161,7 +176,8 @@ def _whole(_: list[str], value: Any) -> tuple[str, str, str] | None:
     if isinstance(value, float | np.floating) or not (hasattr(value, "__index__") or hasattr(value, "__int__")):
         return "", "must be a whole number", found(value)
     if isinstance(value, int) and not -(2**31) <= value < 2**31:  # the C++ type may be wider, yet this one was refused
-        return "", "must be a whole number of 32 bits", found(value)
+        bits = 32 if -(2**63) <= value < 2**64 else 64
+        return "", f"must be a whole number of {bits} bits", found(value)
     return None
 
 

@@ -128,7 +128,7 @@ def test_a_reader_that_leaves_is_no_failure(tmp_path, line, code):
 def test_a_full_disk_behind_the_output_is_one_line():
     done = command(shell="scenes > /dev/full")
     assert (done.returncode, done.stderr.count(b"\n")) == (2, 1)
-    assert b"No space left on device" in done.stderr
+    assert done.stderr == b"error: standard output: No space left on device\n"
 
 
 @pytest.mark.parametrize("stream", ["<&-", ">&-", "2>&-"])

@@ -120,6 +120,7 @@ def test_an_option_has_one_of_its_names(call):
         (mp.ddp.Options, {"initial_sequence": [["a"]]}, 'initial_sequence[0][0]: must be a whole number, got "a"'),
         (mp.ddp.Options, {"initial_sequence": [3]}, "initial_sequence[0]: must be a list, got 3"),
         (mp.ddp.Options, {"phases": True}, "phases: must be of type int, got True"),
+        (mp.ddp.Options, {"time_limit_s": True}, "time_limit_s: must be of type float, got True"),
         (mp.ddp.Options, {"stepping_guesses": 5}, "stepping_guesses: must be of type bool, got 5"),
     ],
 )

@@ -55,6 +55,8 @@ CALLS: list[tuple[str, Callable[[mp.Plan], Any]]] = [
         lambda p: mp.model.ForceLaw(7),
     ),
     ("Status: must be one of 0 (solved), ", lambda p: mp.Status(-1)),
+    ("seed: must be at least 0, got -1", lambda p: mp.ddp.Options(seed=-1)),
+    ("seed: must be a whole number of 64 bits, got 1180591620717411303424", lambda p: mp.ddp.Options(seed=2**70)),
 ]
 
 MEMBERS = [

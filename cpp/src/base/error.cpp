@@ -1,5 +1,7 @@
 #include "mcplan/base/error.hpp"
 
+#include <cmath>
+#include <iomanip>
 #include <sstream>
 #include <utility>
 
@@ -40,6 +42,8 @@ void InvalidInput::add(const InvalidInput& other) {
 
 std::string text(double value) {
   std::ostringstream out;
+  constexpr double kDigits = 1e15;  // whole numbers below are written in full: 1234567, not 1.23457e+06
+  if (value == std::floor(value) && std::abs(value) < kDigits) out << std::setprecision(15);
   out << value;
   return out.str();
 }

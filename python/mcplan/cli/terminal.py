@@ -37,6 +37,10 @@ def control(stream: TextIO, text: str) -> None:
     stream.flush()
 
 
+#: Of streams, by file descriptor.
+_NAMES = {1: "standard output", 2: "standard error output"}
+
+
 class Stream:
     """A text stream before another one. Control characters are written out, letters that the terminal's encoding lacks
     are escaped, and when its reader has gone (``| head``) the rest goes nowhere: the work itself goes on."""
@@ -85,6 +89,7 @@ class Stream:
         """
         self._gone = True
         with suppress(OSError, ValueError):
+            found.filename = _NAMES.get(self._stream.fileno())
             nowhere = os.open(os.devnull, os.O_WRONLY)
             os.dup2(nowhere, self._stream.fileno())
             os.close(nowhere)

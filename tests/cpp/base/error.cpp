@@ -22,6 +22,9 @@ TEST_CASE("typed errors are caught as bad input") {
 TEST_CASE("values are written short") {
   CHECK(text(0.25) == "0.25");
   CHECK(text(-3) == "-3");
+  CHECK(text(1234567.0) == "1234567");
+  CHECK(text(1234567.25) == "1.23457e+06");
+  CHECK(text(1e20) == "1e+20");
   CHECK(text(std::string("stares")) == "\"stares\"");
   CHECK(text(std::string("a \"b\"\\")) == "\"a \\\"b\\\"\\\\\"");
   CHECK(text(Eigen::Vector3d(1, 0.5, -2)) == "[1, 0.5, -2]");
