@@ -230,7 +230,7 @@ constexpr RestartSetting kRestarts[] = {{10.0, 0.30}, {100.0, 0.40}, {30.0, 0.35
 /// and so are those of more discoveries, with other proximal weights and first guesses of the durations, as ratios of
 /// their box. Chosen; measured by benchmarks/optimality.py.
 constexpr int kFewPhases = 12;
-constexpr double kFewPhasesDurations[] = {0.4, 1.0, 0.1};
+constexpr double kFewPhasesDurations[] = {0.4, 1.0, 0.1, 0.2};
 constexpr double kFewPhasesProximal[] = {10.0, 300.0};
 /// How much further inside footholds go, each time a swing has caught an edge: a ratio of the longest half sole, so
 /// that the second time the whole sole stands clear of the next riser, and at least so much [m]. Measured
