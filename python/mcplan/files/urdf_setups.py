@@ -121,5 +121,5 @@ SETUPS = {
         tuple(_anymal_foot(leg) for leg in ("RF", "LF", "RH", "LH")), 0.07, "ANYbotics ANYmal B: four point feet"
     ),
     "go2": Setup(tuple(_go2_foot(leg) for leg in ("FR", "FL", "RR", "RL")), 0.06, "Unitree Go2: four point feet"),
-    "g1": Setup(_pairs(_g1_foot, _g1_hand), 0.08, "Unitree G1: two feet, two hands", _g1_posture(), lift=0.12),
+    "g1": Setup(_pairs(_g1_foot, _g1_hand), 0.08, "Unitree G1: two feet, two hands", _g1_posture(), lift=0.14),
 }
