@@ -23,7 +23,7 @@ def test_a_robot_is_the_one_that_the_loader_gives(name):
     np.testing.assert_array_equal(found.posture, expected.q0)
     assert found.path.samefile(Path(expected.urdf))
     ours, theirs = (
-        [(item.name, item.parentJoint, item.meshPath, item.meshColor.tolist()) for item in visual.geometryObjects]
+        [(item.name, item.parentJoint, item.meshPath) for item in visual.geometryObjects]
         for visual in (packaged_visuals(name), expected.visual_model)
     )
     assert ours == theirs and ours

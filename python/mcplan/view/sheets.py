@@ -38,7 +38,10 @@ def save_figure(figure: Figure, path: str | Path, **options: Any) -> Path:
     kind = Path(path).suffix.lower()[1:] or "png"
     about = {"Software": None} if kind == "png" else None  # its version: the same figure gives the same bytes
     with whole_file(path) as temporary:
-        figure.savefig(temporary, format=kind, metadata=about, **options)
+        if kind == "png" and not options:
+            figure.canvas.print_png(temporary, metadata=about)  # savefig would draw twice, once to lay it out
+        else:
+            figure.savefig(temporary, format=kind, metadata=about, **options)
     return Path(path)
 
 
