@@ -8,8 +8,8 @@ from mcplan.tracking import Push
 from mcplan.tracking.feasibility import assess
 
 scene = mp.load_scene("flat")
-scene.goal.position_W = [0.4, 0.0, 0.0]  # [m] two steps, to be quick
-result = mp.plan(scene, "talos", phases=10, sole_inside=1.0, time_limit=20.0)
+scene.goal.position_W = [0.2, 0.0, 0.0]  # [m] one step of each foot, to be quick
+result = mp.plan(scene, "talos", phases=6, sole_inside=1.0, time_limit=20.0)
 if result.report.status != mp.Status.solved:
     raise SystemExit(result.report.message)
 plan = result.plan

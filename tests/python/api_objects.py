@@ -16,9 +16,9 @@ def valid_objects() -> list[Any]:
     humanoid, walker, scene = mp.load_robot("humanoid44"), mp.load_robot("talos_wang"), mp.load_scene("flat")
     wrench = mp.plan(scene, humanoid, phases=6, max_iterations=8, restarts=0).plan
     pendulum = mp.plan(scene, humanoid, phases=6, max_iterations=8, restarts=0, model="lipm").plan
-    walk = mp.walk("rubbles", walker, cycles=2, lookahead=1)
+    walk = mp.walk("rubbles", walker, cycles=1, lookahead=1)
     task = mp.load_planar_task("chimney")
-    whole_body = mp.whole_body(task, forces="uniform", minimise="none", max_iterations=10).plan
+    whole_body = mp.whole_body(task, forces="uniform", minimise="none", max_iterations=3).plan
     climb = mp.whole_body("climbing", forces="parameters", minimise="none", max_iterations=3).plan
     scenes = [scene, mp.load_scene("gap_with_rail"), mp.load_scene("rubbles")]
     return [*scenes, humanoid, walker, wrench, pendulum, walk.plan, task, whole_body, climb]

@@ -20,7 +20,7 @@ def receding_horizon(logger: Logger) -> mp.rhp.RecedingHorizon:
 
 def whole_body(logger: Logger) -> mp.sip.Planner:
     given = {"forces": "uniform", "max_iterations": 1, "kinematics_first": False, "logger": logger}
-    return mp.sip.Planner(mp.load_planar_task("chimney"), make_options("none", given))
+    return mp.sip.Planner(mp.load_planar_task("cartwheel"), make_options("none", given))
 
 
 #: What makes a planner with a logger, one of its calls, and all calls that must wait for that one.

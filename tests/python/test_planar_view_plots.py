@@ -132,7 +132,7 @@ def test_a_foot_in_the_air_has_no_drift(plan):
         assert np.isfinite(values[inside]).any() == touching
 
 
-@pytest.mark.parametrize("name", ["cartwheel", "walking"])
+@pytest.mark.parametrize("name", ["cartwheel", pytest.param("walking", marks=pytest.mark.slow)])
 def test_all_plots_are_written_and_not_blank(name, tmp_path):
     written = save_whole_body_plots(reference_plan(name, "optimised_per_point"), tmp_path / "plots")
     assert {path.stem for path in written} == {

@@ -6,13 +6,16 @@ from pathlib import Path
 
 import pytest
 
+import mcplan as mp
 from mcplan.cli import main
+from mcplan.files.scenes import save_scene
 
 README = Path(__file__).resolve().parents[2] / "README.md"
 
-#: What takes over some seconds, and what stands for it in the quick test.
+#: What takes over some seconds, and what stands for it in the quick test: near.toml is flat, with the goal 0.2 m away.
 SHORTER = {
-    "mcplan rhp rubbles": "mcplan rhp flat --lookahead 2",
+    "mcplan plan stairs_broad --robot talos": "mcplan plan near.toml --robot talos --phases 8",
+    "mcplan rhp rubbles": "mcplan rhp flat --lookahead 2 --cycles 2",
     "mcplan sip climbing --certify": "mcplan sip cartwheel --minimise none",
     "mcplan sip walking": "mcplan sip cartwheel --minimise none",
     "mcplan demo": "mcplan demo --help",
@@ -63,6 +66,9 @@ def test_every_line_is_accepted_after_those_before_it(number, tmp_path, monkeypa
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("mcplan.tracking.runner._run", begin)
+    near = mp.load_scene("flat")
+    near.goal.position_W = [0.2, 0.0, 0.0]
+    save_scene(near, Path("near.toml"))
     for command in blocks()[number]:
         for long, short in SHORTER.items():
             if command == long or command.startswith(f"{long} -"):

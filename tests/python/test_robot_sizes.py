@@ -135,7 +135,9 @@ def test_robots_of_human_size_have_the_published_tolerances():
         assert found["slip"] == (1e-3, "m") and found["pull"] == (1e-6, "N") and found["clearance"] == (5e-3, "m")
 
 
-@pytest.mark.parametrize("by", [EXACT[1], EXACT[2], EXACT[5]], ids=str)
+@pytest.mark.parametrize(
+    "by", [EXACT[1], *[pytest.param(by, marks=pytest.mark.slow) for by in (EXACT[2], EXACT[5])]], ids=str
+)
 def test_a_receding_horizon_walks_alike_at_every_size(by):
     scene, robot = mp.load_scene("rubbles"), mp.load_robot("talos_wang")
     options = {"fidelity": "point", "lookahead": 2, "cycles": 2}
@@ -150,7 +152,7 @@ def test_a_receding_horizon_walks_alike_at_every_size(by):
     assert second.cycles[0].acceleration_cost == first.cycles[0].acceleration_cost * (by.velocity**2 / by.time)
 
 
-@pytest.mark.parametrize("height", [0.01, 15.0])
+@pytest.mark.parametrize("height", [0.01, pytest.param(15.0, marks=pytest.mark.slow)])
 def test_a_receding_horizon_walks_at_sizes_that_are_no_power_of_two(height):
     scene, robot = mp.load_scene("rubbles"), mp.load_robot("talos_wang")
     length = height / float(robot.com_height)

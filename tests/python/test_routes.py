@@ -97,8 +97,14 @@ def test_legs_do_not_walk_through_a_fence():
     assert "limb" in found and "trunk" not in found
 
 
-@pytest.mark.parametrize("height", [0.25, 0.3])
-@pytest.mark.parametrize("handles", [True, False])
+@pytest.mark.parametrize(
+    ("handles", "height"),
+    [
+        (True, 0.25),
+        (False, 0.3),
+        *[pytest.param(handles, height, marks=pytest.mark.slow) for handles, height in ((True, 0.3), (False, 0.25))],
+    ],
+)
 def test_a_high_step_is_climbed_beside_handles_and_beside_tables(height, handles):
     low, high = patch("low", (-1.0, 0.3), (-1.0, 1.0)), patch("high", (0.3, 2.5), (-1.0, 1.0), height)
     high.thickness = height

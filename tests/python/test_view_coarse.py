@@ -68,7 +68,7 @@ def test_a_robot_with_a_urdf_is_drawn_with_its_meshes(talos_plan, tmp_path):
     assert pixels[True] > 300 and pixels[False] == 0
 
 
-@pytest.mark.parametrize("ending", ["svg", "pdf"])
+@pytest.mark.parametrize("ending", ["svg", pytest.param("pdf", marks=pytest.mark.slow)])
 def test_pictures_in_vectors_have_meshes_as_an_image(talos_plan, tmp_path, ending):
     assert picture(talos_plan, path=tmp_path / f"p.{ending}", poses=2).stat().st_size < 3e6
 

@@ -1,5 +1,6 @@
 """The viewer asks for its packages when used, in one line."""
 
+import os
 import subprocess
 import sys
 
@@ -12,7 +13,7 @@ def run(script: str) -> str:
         capture_output=True,
         text=True,
         check=True,
-        env={"PYTHONPATH": ":".join(sys.path)},
+        env={**os.environ, "PYTHONPATH": ":".join(sys.path)},
     )
     return result.stdout.strip()
 

@@ -24,6 +24,7 @@ from mcplan.files.leg_geometry import legs_of
 from mcplan.files.limb_limits import add_limb_limits
 from mcplan.files.reach import HEADING_MAX, Limb, explore, headings_reached, largest_box
 from mcplan.files.strength import POINTS, rounded_down, sole_torsion, strengths_in_box
+from mcplan.files.urdf_packages import packaged_robot
 from mcplan.files.urdf_reading import build_model, read_urdf, read_xml
 from mcplan.files.urdf_setups import HEADER, SETUPS, End, Setup
 
@@ -290,13 +291,11 @@ def _read(source: str, srdf: str | None) -> tuple[Any, np.ndarray, str]:
         if srdf is None:
             return model, pin.neutral(model), source
         return model, _first_posture(model, srdf), source
-    import example_robot_data
-
     try:
-        loaded = example_robot_data.load(source)
+        packaged = packaged_robot(source)
     except Exception as found:  # its loaders raise what the file system or the parser happen to raise
         raise InvalidInput("source", "must be a URDF file or a name of example-robot-data", shown(source)) from found
-    return loaded.model, loaded.q0.copy(), f"example-robot-data:{source}"
+    return pin.Model(packaged.model), packaged.posture.copy(), f"example-robot-data:{source}"
 
 
 def _first_posture(model: Any, srdf: str) -> np.ndarray:

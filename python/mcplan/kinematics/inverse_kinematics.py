@@ -121,7 +121,9 @@ def has_sole(end: EndEffector) -> bool:
 class _Solver:
     def __init__(self, pin: Any, urdf_model: UrdfModel) -> None:
         self.pin, self.model, self.data = pin, urdf_model.model, urdf_model.model.createData()
-        self.robot, self.frames, self.home = urdf_model.robot, urdf_model.frames, urdf_model.neutral
+        self.frames, self.home = urdf_model.frames, urdf_model.neutral
+        ends = urdf_model.robot.end_effectors  # a copy, which takes longer than a task
+        self.soles, self.feet = [has_sole(end) for end in ends], [end.kind == "foot" for end in ends]
         model = urdf_model.model
         self.posture = np.full(model.nv, POSTURE**2)
         self.posture[:6] = 0.0
@@ -159,11 +161,13 @@ class _Solver:
 
     def _within_limits(self, q: Array, hessian: Array, gradient: Array) -> Array:
         """Newton step in which joints that would leave their range stay, so that the others do the work."""
-        free = np.ones(self.model.nv, dtype=bool)
-        step = np.zeros(self.model.nv)
+        free, step = np.ones(self.model.nv, dtype=bool), np.zeros(self.model.nv)
         for _ in range(4):
-            step[:] = 0.0
-            step[free] = np.linalg.solve(hessian[np.ix_(free, free)], gradient[free])
+            if free.all():
+                step = np.linalg.solve(hessian, gradient)
+            else:
+                step[:] = 0.0
+                step[free] = np.linalg.solve(hessian[np.ix_(free, free)], gradient[free])
             out = np.zeros_like(free)
             out[6:] = (step[6:] < self.low[7:] - q[7:] + EDGE) & (step[6:] < 0.0) & (q[7:] < self.low[7:] + EDGE)
             out[6:] |= (step[6:] > self.high[7:] - q[7:] - EDGE) & (step[6:] > 0.0) & (q[7:] > self.high[7:] - EDGE)
@@ -180,7 +184,7 @@ class _Solver:
         positions, tilts = np.zeros(len(self.frames)), np.zeros(len(self.frames))
         for end, frame in enumerate(self.frames):
             positions[end] = np.linalg.norm(samples.positions_W[n, end] - data.oMf[frame].translation)
-            if has_sole(self.robot.end_effectors[end]):
+            if self.soles[end]:
                 tilts[end] = np.linalg.norm(pin.log3(samples.rotations_W[n, end] @ data.oMf[frame].rotation.T))
         return com, positions, tilts
 
@@ -200,11 +204,10 @@ class _Solver:
         for end, frame in enumerate(self.frames):
             placement = data.oMf[frame]
             jacobian = pin.getFrameJacobian(model, data, frame, world)
-            foot = self.robot.end_effectors[end].kind == "foot"
-            weight = CONTACT if samples.surfaces[n, end] >= 0 else SWING if foot else HAND
+            weight = CONTACT if samples.surfaces[n, end] >= 0 else SWING if self.feet[end] else HAND
             errors.append(weight * (samples.positions_W[n, end] - placement.translation))
             jacobians.append(weight * jacobian[:3])
-            if has_sole(self.robot.end_effectors[end]):
+            if self.soles[end]:
                 desired = samples.rotations_W[n, end]
                 weight = FREE_SOLE if samples.has_points and samples.surfaces[n, end] < 0 else SOLE
                 errors.append(weight * pin.log3(desired @ placement.rotation.T))

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from mcplan.errors import InvalidRobot, shown, written
 from mcplan.extras import require
 from mcplan.files.robots import PACKAGE, list_robots_with
+from mcplan.files.urdf_packages import packaged_robot, packaged_visuals
 from mcplan.files.urdf_reading import build_model, package_folders, read_urdf
 
 from .srdf import srdf_beside
@@ -37,7 +39,7 @@ class UrdfModel:
         robot: What it was read for.
         model: Pinocchio model with a free-flyer, and the contact frames among its frames. Every joint has the inertia
             of a rotor, `model.armature`, and every link one that a rigid body can have.
-        visual: Its visual geometry.
+        read_visual: Gives its visual geometry; of a robot of example-robot-data it is read when asked for.
         neutral: (nq,) configuration: free-flyer at the origin, joints in the robot's posture.
         frames: Index of the contact frame of each end-effector: at its contact point, axes those of the base when the
             robot is in its posture. The z axis of a sole's frame is the normal of the ground on which it lies flat.
@@ -46,10 +48,15 @@ class UrdfModel:
 
     robot: Robot
     model: Any
-    visual: Any
+    read_visual: Callable[[], Any]
     neutral: Array
     frames: list[int]
     path: Path
+
+    @property
+    def visual(self) -> Any:
+        """Its visual geometry; what is returned is not to be changed."""
+        return self.read_visual()
 
 
 def _others() -> str:
@@ -74,15 +81,17 @@ def load_model(robot: Robot) -> UrdfModel:
         require(f"the joints of {robot.name}", "view", "example_robot_data")
     try:
         if source.startswith(PACKAGE):
-            wrapper = _from_package(source[len(PACKAGE) :])
-            model, visual = pin.Model(wrapper.model), wrapper.visual_model.copy()
-            neutral, path = wrapper.q0.copy(), Path(wrapper.urdf)
+            name = source[len(PACKAGE) :]
+            packaged = packaged_robot(name)
+            model, neutral, path = pin.Model(packaged.model), packaged.posture.copy(), packaged.path
+            read_visual = partial(packaged_visuals, name)
         else:
             path = Path(source).resolve(strict=True)
             xml = read_urdf(path, InvalidRobot)
             model = build_model(xml, InvalidRobot, str(path))
             kind, folders = pin.GeometryType.VISUAL, package_folders(path)
             visual = pin.buildGeomFromUrdfString(model, xml.text, kind, None, folders)
+            read_visual = partial(_same, visual)
             srdf = srdf_beside(path)
             if srdf is not None and "rotor_params" in srdf.read_text(errors="replace"):
                 pin.loadRotorParameters(model, str(srdf), False)
@@ -102,15 +111,11 @@ def load_model(robot: Robot) -> UrdfModel:
     model.armature = armature
     for joint in range(1, model.njoints):
         _make_physical(model, joint)
-    return UrdfModel(robot, model, visual, neutral, _contact_frames(model, neutral, robot), path)
+    return UrdfModel(robot, model, read_visual, neutral, _contact_frames(model, neutral, robot), path)
 
 
-@lru_cache(maxsize=2)
-def _from_package(name: str) -> Any:
-    """A robot of example-robot-data, whose meshes take a second to read; what is returned is not to be changed."""
-    import example_robot_data  # type: ignore[import-untyped]
-
-    return example_robot_data.load(name)
+def _same(value: Any) -> Any:
+    return value
 
 
 def _make_physical(model: Any, joint: int) -> None:

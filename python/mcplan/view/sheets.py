@@ -35,10 +35,15 @@ def save_figure(figure: Figure, path: str | Path, **options: Any) -> Path:
     Raises:
         OSError: The file cannot be written.
     """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
     kind = Path(path).suffix.lower()[1:] or "png"
     about = {"Software": None} if kind == "png" else None  # its version: the same figure gives the same bytes
     with whole_file(path) as temporary:
-        figure.savefig(temporary, format=kind, metadata=about, **options)
+        if kind == "png" and not options:
+            FigureCanvasAgg(figure).print_png(temporary, metadata=about)  # savefig would draw twice, once to lay it out
+        else:
+            figure.savefig(temporary, format=kind, metadata=about, **options)
     return Path(path)
 
 

@@ -172,6 +172,21 @@ class _Instants:
         """Largest torque over its limit."""
         return float((np.abs(self.efforts(k, wrenches_S)) / self._robot.effort).max(initial=0.0))
 
+    def torques_per_force(self, k: int) -> Array:
+        """(J, 3 C) torques that corner forces in the world add [N m/N]: -J' w of the wrench w in the sole's frame."""
+        import pinocchio as pin
+
+        model, states = self._robot.model, self._states
+        pin.computeJointJacobians(model, self._data, states.q[k])
+        pin.updateFramePlacements(model, self._data)
+        found = np.zeros((len(self._robot.moving), *states.corner_forces_W[k].shape))
+        for e in np.flatnonzero(self._cones.in_contact[k].any(axis=1)):
+            frame = self._robot.urdf_model.frames[e]
+            jacobian = pin.getFrameJacobian(model, self._data, frame, pin.ReferenceFrame.LOCAL)[:, self._robot.moving]
+            wrenches = _grasp(self._motion.corner_points_S[e]) @ states.rotations_W[k, e].T
+            found[:, e] = -np.einsum("ij,cik->jck", jacobian, wrenches)
+        return found.reshape(len(found), -1)
+
     def solve(self, k: int) -> Array:
         """Forces (L, 4, 3) nearest to the shipped ones within cones and torque limits, that balance if any do."""
         from scipy.optimize import nnls
@@ -181,14 +196,12 @@ class _Instants:
         weight = max(float(np.abs(states.corner_forces_W[k]).sum()), 1.0)
         none = np.zeros(shape)
         apart = self.efforts(k, self.wrenches([k], none[None])[0])
-        per_ray, on_base = np.zeros((len(apart), len(corners))), np.zeros((6, len(corners)))
-        grasp, spread = self.grasp(k), np.zeros((none.size, len(corners)))
+        spread = np.zeros((none.size, len(corners)))
         for i, (ray, corner) in enumerate(zip(rays, corners, strict=True)):
-            forces = none.reshape(-1, 3).copy()
-            forces[corner] = ray * weight
-            per_ray[:, i] = self.efforts(k, self.wrenches([k], forces.reshape(1, *shape))[0]) - apart
-            on_base[:, i] = grasp[corner] @ ray
             spread[3 * corner : 3 * corner + 3, i] = ray
+        grasp = self.grasp(k)
+        on_base = np.einsum("cij,cjr->ir", grasp, spread.reshape(-1, 3, len(corners)))
+        per_ray = weight * self.torques_per_force(k) @ spread
         shipped = states.corner_forces_W[k].reshape(-1) / weight
         needed = _sum(grasp, shipped) + self._missing_W[k] / weight
         bounded = np.isfinite(self._robot.effort) & (np.abs(per_ray).max(axis=1, initial=0.0) > 1e-9)

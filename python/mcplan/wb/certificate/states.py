@@ -94,8 +94,9 @@ def _free_flyer(robot: CertifiedRobot, x: Array, dx: Array, ddx: Array) -> tuple
         linear = rotation.T @ dx[k, :3]
         base[k, :3], base[k, 3:] = x[k, :3], pin.Quaternion(rotation).coeffs()
         v[k, :3], v[k, 3:6] = linear, omega
-        a[k, :3] = rotation.T @ ddx[k, :3] - np.cross(omega, linear)
+        a[k, :3] = rotation.T @ ddx[k, :3]
         a[k, 3:6] = jacobian @ second + pin.rpy.computeRpyJacobianTimeDerivative(rpy, rate, local) @ rate
+    a[:, :3] -= np.cross(v[:, 3:6], v[:, :3])
     v[:, robot.moving], a[:, robot.moving] = dx[:, 6:], ddx[:, 6:]
     return configurations(robot, base, x[:, 6:]), v, a
 
@@ -140,9 +141,8 @@ def _dynamics(robot: CertifiedRobot, trajectory: tuple[Array, Array, Array], wre
         for end, frame in enumerate(frames):
             positions[k, end], rotations[k, end] = data.oMf[frame].translation, data.oMf[frame].rotation
             twists[k, end] = pin.getFrameVelocity(model, data, frame, aligned).vector
-        for joint in range(1, joints):
-            joint_rotations[k, joint] = data.oMi[joint].rotation
-            joint_positions[k, joint] = data.oMi[joint].translation
+        places = np.array([place.homogeneous for place in data.oMi])[1:]
+        joint_rotations[k, 1:], joint_positions[k, 1:] = places[:, :3, :3], places[:, :3, 3]
     return {
         "tau": tau,
         "residual_W": residual,
