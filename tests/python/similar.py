@@ -143,6 +143,7 @@ def similar_plan(plan: mp.Plan, by: Factors) -> mp.Plan:
                 first_phase=swing.first_phase,
                 end_phase=swing.end_phase,
                 height=swing.height * by.length,
+                elapsed_s=swing.elapsed_s * by.time,
                 lift_normal_W=swing.lift_normal_W,
                 land_normal_W=swing.land_normal_W,
             )

@@ -68,6 +68,18 @@ def test_a_plan_comes_back_exactly_from_json(make, tmp_path):
     assert header["knots"][1]["com_velocity_W"][1] == 1 / 3
 
 
+def test_how_long_a_swing_is_under_way_comes_back(tmp_path):
+    plan = stepping_plan()
+    assert "swing_elapsed_s" not in arrays_of(plan_to_bytes(plan))
+    plan.swings[0].first_phase, plan.swings[0].elapsed_s = 0, 1 / 3
+    for name in ("plan.npz", "plan.json"):
+        plan.save(tmp_path / name)
+        assert mp.Plan.load(tmp_path / name) == plan
+    arrays = arrays_of(plan_to_bytes(plan))
+    del arrays["swing_elapsed_s"]  # as older versions write plans
+    assert all(swing.elapsed_s == 0.0 for swing in plan_from_bytes(bytes_of(arrays)).swings)
+
+
 def test_a_damaged_plan_in_json_is_named_with_its_file(plan, tmp_path):
     file = tmp_path / "plan.json"
     plan.save(file)

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 
+#include "plan/swing_lift.hpp"
+
 namespace mcplan::online {
 namespace {
 
 constexpr double kKeptPeriods = 2.0;  // for which a plan that was cut short has to keep all limits
 constexpr double kRise_m_s = 0.5;     // speed at which a foot is raised over its way at most
-constexpr double kBumpRate = 3.08;    // largest rate of 16 s^2 (1 - s)^2 over s
 constexpr double kSwingRatio = 0.1;   // height of a swing over that of the CoM, where the robot says none
 constexpr double kUsual_s = 0.45;     // duration of a swing, where the robot says none
 constexpr double kHeightRatio = 0.5;  // of the usual height, which a foot keeps half way to its landing
-
-double bump(double s) { return 16.0 * (s * s) * ((1.0 - s) * (1.0 - s)); }
 
 }  // namespace
 
@@ -31,19 +30,23 @@ Plan with_feet_kept_up(Plan plan) {
   const auto height_W = [&](double t, int end) {
     return plan.at(std::min(t, plan.duration())).end_effectors[end].position_W.z();
   };
-  std::vector<Swing> swings = plan.swings;
-  for (Swing& swing : swings) {
+  for (Swing& swing : plan.swings) {
     const int end = swing.end_effector;
     const bool in_air = swing.first_phase == 0 && plan.phases.front().contacts[end].surface < 0;
     if (!in_air || robot.end_effectors[end].kind != "foot") continue;
     double left_s = 0.0;
     for (int k = 0; k < swing.end_phase; ++k) left_s += plan.phases[k].duration;
     const double half_way = 1.0 - 0.5 * std::min(left_s / usual_s, 1.0);  // s there, of a usual swing
-    const double above_m = height_W(0.5 * left_s, end) - height_W(left_s, end);
-    const double lacks_m = kHeightRatio * bump(half_way) * usual_m - above_m;
-    swing.height = std::min(swing.height + std::max(lacks_m, 0.0), kRise_m_s * left_s / kBumpRate);
+    const auto lacks_m = [&] {
+      const double above_m = height_W(0.5 * left_s, end) - height_W(left_s, end);
+      return kHeightRatio * SwingLift(half_way).value() * usual_m - above_m;
+    };
+    if (swing.elapsed_s > 0.0) {
+      if (!(lacks_m() > 0.0)) continue;
+      swing.height = swing.elapsed_s = 0.0;  // its lift has gone too far to raise it: lifted anew
+    }
+    swing.height = std::min(swing.height + std::max(lacks_m(), 0.0), kRise_m_s * left_s / SwingLift::kMaxRate);
   }
-  plan.swings = std::move(swings);
   return plan;
 }
 

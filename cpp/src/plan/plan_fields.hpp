@@ -92,7 +92,10 @@ struct Fields<Swing> {
       field("end_phase", &Swing::end_phase, "", "Index of the phase after the last of them.").required(),
       field("height", &Swing::height, "m", "How far it is lifted off the straight path.").required(),
       field("lift_normal_W", &Swing::lift_normal_W, "-", "Unit normal of the surface it leaves.").required(),
-      field("land_normal_W", &Swing::land_normal_W, "-", "Unit normal of the surface it reaches.").required());
+      field("land_normal_W", &Swing::land_normal_W, "-", "Unit normal of the surface it reaches.").required(),
+      field("elapsed_s", &Swing::elapsed_s, "s",
+            "Time since lift-off at the plan's start, of a swing that is under way there; 0: it begins in the plan.")
+          .not_negative());
 };
 
 template <>

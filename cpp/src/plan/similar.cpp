@@ -82,7 +82,10 @@ Plan scaled_motion(const Plan& plan, const Similarity& by) {
     phase.duration *= by.time;
     for (Contact& contact : phase.contacts) scale(contact, by);
   }
-  for (Swing& swing : out.swings) swing.height *= by.length;
+  for (Swing& swing : out.swings) {
+    swing.height *= by.length;
+    swing.elapsed_s *= by.time;
+  }
   out.start_slack_s *= by.time;
   out.momentum_max *= by.angular_momentum();
   out.momentum_rate_max *= by.moment();

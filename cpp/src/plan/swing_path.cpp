@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "mcplan/base/rotation.hpp"
+#include "plan/hermite.hpp"
+#include "plan/swing_lift.hpp"
 
 namespace mcplan {
 
@@ -31,9 +33,10 @@ Moving bent(const Moving& y, const Moving& band) {
   return {band.value * (2.0 * g - 1.0), slope * y.rate + (2.0 * g - 1.0 - (2.0 * u - 1.0) * slope) * band.rate};
 }
 
-/// 16 s^2 (1-s)^2 at s = t / total.
+/// The lift at s = t / total, over the swing's height.
 Moving bump_at(double s, double total) {
-  return {16.0 * s * s * (1.0 - s) * (1.0 - s), 32.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / total};
+  const SwingLift lift(s);
+  return {lift.value(), lift.rate() / total};
 }
 
 double swung(const ActiveSwing& active, double since_start) {
@@ -48,15 +51,13 @@ Moving band_at(double lift, double middle, double land, double s, double total) 
           (1.0 - bump.value) * (land - lift) / total + bump.rate * (middle - ends)};
 }
 
-void add_clearance(const ActiveSwing& active, double since_start, EndEffectorState& end) {
-  const Swing& swing = *active.swing;
-  const double total = active.total_s;
-  const double s = swung(active, since_start);
+/// Add L(s), s = 0..1 of `total` [s], to a place and a velocity.
+void add_lift(const Swing& swing, double s, double total, Vector3d& position_W, Vector3d& velocity_W) {
   const Moving bump = bump_at(s, total);
   const Vector3d turn = swing.land_normal_W - swing.lift_normal_W;
   if (turn.isZero(0.0) && swing.lift_normal_W.squaredNorm() == 1.0) {
-    end.position_W += swing.height * bump.value * swing.lift_normal_W;
-    end.velocity_W += swing.height * bump.rate * swing.lift_normal_W;
+    position_W += swing.height * bump.value * swing.lift_normal_W;
+    velocity_W += swing.height * bump.rate * swing.lift_normal_W;
     return;
   }
   const Vector3d along = swing.lift_normal_W + s * turn;
@@ -65,8 +66,22 @@ void add_clearance(const ActiveSwing& active, double since_start, EndEffectorSta
   if (length < 1e-6) return;
   const Vector3d n = along / length;
   const Vector3d n_rate = (turn - n * n.dot(turn)) / (length * total);
-  end.position_W += swing.height * bump.value * n;
-  end.velocity_W += swing.height * (bump.rate * n + bump.value * n_rate);
+  position_W += swing.height * bump.value * n;
+  velocity_W += swing.height * (bump.rate * n + bump.value * n_rate);
+}
+
+void add_clearance(const ActiveSwing& active, double since_start, EndEffectorState& end) {
+  const double before = active.swing->elapsed_s, since_knot = active.before_s + since_start;
+  const double total = before + active.total_s;
+  add_lift(*active.swing, std::clamp((before + since_knot) / total, 0.0, 1.0), total, end.position_W, end.velocity_W);
+  if (before == 0.0) return;
+  // What the first knot has of the lift already.
+  Vector3d begun = Vector3d::Zero(), begun_rate = Vector3d::Zero(), position, velocity;
+  add_lift(*active.swing, before / total, total, begun, begun_rate);
+  const Hermite rest(active.total_s, swung(active, since_start));
+  rest.put(begun, begun_rate, Vector3d::Zero(), Vector3d::Zero(), position, velocity);
+  end.position_W -= position;
+  end.velocity_W -= velocity;
 }
 
 /// The path bends within a band inside of the box's sides, so that its velocity goes on where it comes to one.

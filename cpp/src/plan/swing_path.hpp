@@ -11,7 +11,7 @@ namespace mcplan {
 /// A swing of which the phase is a part.
 struct ActiveSwing {
   const Swing* swing = nullptr;
-  double before_s = 0.0, total_s = 0.0;      ///< from lift-off to the phase's start, to touch-down
+  double before_s = 0.0, total_s = 0.0;      ///< from its first knot to the phase's start, to touch-down
   Eigen::Vector3d reach_min_B, reach_max_B;  ///< what the path is held in: the reach box and both ends of the swing
   /// Band [m] inside of the lower and upper sides in which the path bends, at lift-off, at touch-down and half way.
   Eigen::Vector3d lift_bands_B[2], land_bands_B[2], middle_band_B;

@@ -49,9 +49,57 @@ double depth_on(const std::vector<PathInstant>& path, const std::vector<Solid>& 
   return worst;
 }
 
+/// What a swing may be like: its height [m], and the time [s] for which it has been under way.
+struct Choice {
+  double height, elapsed_s;
+};
+
+/// What is tried of a swing that is under way, or begins in the plan, in this order.
+std::vector<Choice> choices(const Swing& swing, bool under_way, double usual_m, double fastest_m) {
+  std::vector<Choice> out{{swing.height, swing.elapsed_s}};
+  if (swing.elapsed_s > 0.0) out.push_back({0.0, 0.0});
+  for (double factor : under_way ? kMoreLift : kOtherLifts) out.push_back({std::min(factor * usual_m, fastest_m), 0.0});
+  return out;
+}
+
+/// Give a swing of the plan the first choice with which it clears the solids, or the one with which it goes in least.
+void choose(Plan& plan, Swing& swing, const FreeStretch& stretch, const std::vector<Choice>& from,
+            const std::vector<Solid>& solids, const std::vector<Eigen::AlignedBox3d>& boxes, double sample_s) {
+  const std::vector<PathInstant> path = path_of(plan, swing, sample_s);
+  Choice best = from.front();
+  double least = HUGE_VAL;
+  for (const Choice& choice : from) {
+    swing.height = choice.height;
+    swing.elapsed_s = choice.elapsed_s;
+    const double depth = depth_on(path, solids, boxes, plan.robot.end_effectors[swing.end_effector], stretch);
+    if (depth < least) {
+      least = depth;
+      best = choice;
+    }
+    if (least <= 0.0) break;
+  }
+  swing.height = best.height;
+  swing.elapsed_s = best.elapsed_s;
+}
+
 }  // namespace
 
-void choose_swings(Plan& plan, bool heights) {
+std::vector<Swing> swings_under_way(const Plan& plan, double t) {
+  const std::vector<double> times = plan.knot_times();
+  std::vector<Swing> out;
+  for (int e = 0; e < plan.end_effector_count(); ++e) {
+    const Swing* last = nullptr;
+    for (const Swing& swing : plan.swings)
+      if (swing.end_effector == e && times[swing.first_phase] < t && !(last && swing.first_phase < last->first_phase))
+        last = &swing;
+    if (!last) continue;
+    out.push_back(*last);
+    out.back().elapsed_s += t - times[last->first_phase];
+  }
+  return out;
+}
+
+void choose_swings(Plan& plan, bool heights, const std::vector<Swing>& under_way) {
   plan.swings.clear();
   require_shape(plan, plan.scene.surfaces.size());
   const std::vector<Solid> solids = solids_of(plan.scene);
@@ -71,28 +119,20 @@ void choose_swings(Plan& plan, bool heights) {
       swing.land_normal_W = stretch.land_normal_W;
       const bool leaves = in_contact(plan, stretch.first_phase - 1, e),
                  arrives = in_contact(plan, stretch.end_phase, e);
-      // A swing that is measured under way has been lifted already.
-      const bool under_way = plan.measured_start && !leaves && stretch.first_phase == 0;
-      swing.height = (leaves || arrives) && !under_way ? usual_height : 0.0;
+      const bool in_air = plan.measured_start && !leaves && stretch.first_phase == 0;
+      swing.height = (leaves || arrives) && !in_air ? usual_height : 0.0;
+      for (const Swing& begun : under_way)
+        if (begun.end_effector == e && in_air && arrives) {
+          swing.height = begun.height;
+          swing.elapsed_s = begun.elapsed_s;
+          swing.lift_normal_W = begun.lift_normal_W;
+        }
       plan.swings.push_back(swing);
       if (!(leaves || arrives) || !heights) continue;
-      // The least of a few heights that clears the scene.
-      const std::vector<PathInstant> path = path_of(plan, plan.swings.back(), sample_s);
-      const EndEffector& end_effector = plan.robot.end_effectors[e];
-      double best_depth = depth_on(path, solids, boxes, end_effector, stretch);
-      double best_height = swing.height;
       // What is left of a swing may be too short to be lifted in: an arc rises and falls by its height twice as fast as
       // a triangle at its steepest, 4 h / T.
-      const double most = under_way ? kLiftSpeed * similarity.velocity() * stretch.duration_s / 4.0 : HUGE_VAL;
-      for (double factor : under_way ? kMoreLift : kOtherLifts) {
-        if (best_depth <= 0.0) break;
-        plan.swings.back().height = std::min(factor * usual_height, most);
-        const double depth = depth_on(path, solids, boxes, end_effector, stretch);
-        if (depth >= best_depth) continue;
-        best_depth = depth;
-        best_height = plan.swings.back().height;
-      }
-      plan.swings.back().height = best_height;
+      const double most = in_air ? kLiftSpeed * similarity.velocity() * stretch.duration_s / 4.0 : HUGE_VAL;
+      choose(plan, plan.swings.back(), stretch, choices(swing, in_air, usual_height, most), solids, boxes, sample_s);
     }
 }
 

@@ -61,6 +61,10 @@ void validate_swing(const Swing& swing, int end_effectors, int phases, const std
                           text(swing.end_phase));
   if (!(std::isfinite(swing.height) && swing.lift_normal_W.allFinite() && swing.land_normal_W.allFinite()))
     throw InvalidPlan(field, "must be finite numbers", "nan or inf");
+  if (!(swing.elapsed_s >= 0.0 && std::isfinite(swing.elapsed_s)))
+    throw InvalidPlan(field + ".elapsed_s", "must be zero or positive", text(swing.elapsed_s));
+  if (swing.elapsed_s > 0.0 && swing.first_phase > 0)
+    throw InvalidPlan(field + ".elapsed_s", "must be 0 of a swing that begins in the plan", text(swing.elapsed_s));
 }
 
 }  // namespace

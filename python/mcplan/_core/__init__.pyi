@@ -1262,9 +1262,17 @@ class Swing:
         height: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         lift_normal_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         land_normal_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        elapsed_s: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     ) -> None: ...
     def __repr__(self) -> str: ...
     def __setstate__(self, arg0: tuple) -> None: ...
+    @property
+    def elapsed_s(self) -> float:
+        """
+        [s] Time since lift-off at the plan's start, of a swing that is under way there; 0: it begins in the plan.
+        """
+    @elapsed_s.setter
+    def elapsed_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def end_effector(self) -> int:
         """

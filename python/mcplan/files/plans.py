@@ -7,7 +7,8 @@ and the robot with the keys of their files. N phases, L end-effectors and S swin
     com_W, com_velocity_W, base_rpy, base_rpy_rate (N+1, 3)  end_effectors_W, end_effector_velocities_W (N+1, L, 3)
     swings (S, 3: end-effector, first phase, end phase)  swing_heights (S)  swing_normals_W (S, 2, 3)
 
-That is format 1, for plans of the pendulum alone. A plan with forces at points has format 2, with these in addition:
+and swing_elapsed_s (S), the time since lift-off, where a swing is under way at the plan's start; older versions do not look
+at it. That is format 1, for plans of the pendulum alone. A plan with forces at points has format 2, with these in addition:
 
     laws (N: 0 pendulum, 1 held, 2 linear)  intervals (N)  angular_momentum_W (N+1, 3)
     point_counts (N, L)  points_W (P, 3)  point_forces_W (F, 3)
@@ -117,6 +118,8 @@ def plan_to_bytes(plan: Plan) -> bytes:
         "swing_heights": np.array([s.height for s in plan.swings], dtype=float),
         "swing_normals_W": np.array([[s.lift_normal_W, s.land_normal_W] for s in plan.swings]).reshape(-1, 2, 3),
     }
+    if any(s.elapsed_s for s in plan.swings):
+        arrays["swing_elapsed_s"] = np.array([s.elapsed_s for s in plan.swings], dtype=float)
     for name in (
         "com_W",
         "com_velocity_W",
@@ -242,9 +245,14 @@ def _swings(arrays: dict[str, np.ndarray]) -> list[Swing]:
             height=height,
             lift_normal_W=normals[0],
             land_normal_W=normals[1],
+            elapsed_s=elapsed_s,
         )
-        for (end, first, last), height, normals in zip(
-            arrays["swings"], arrays["swing_heights"], arrays["swing_normals_W"], strict=True
+        for (end, first, last), height, normals, elapsed_s in zip(
+            arrays["swings"],
+            arrays["swing_heights"],
+            arrays["swing_normals_W"],
+            arrays.get("swing_elapsed_s", np.zeros_like(arrays["swing_heights"])),
+            strict=True,
         )
     ]
 
@@ -350,6 +358,8 @@ def _check_shapes(arrays: dict[str, np.ndarray], ends: int, version: int) -> Non
         "swing_heights": (swings,),
         "swing_normals_W": (swings, 2, 3),
     }
+    if "swing_elapsed_s" in arrays:
+        expected["swing_elapsed_s"] = (swings,)
     if version >= 2:
         expected |= {
             "laws": (count,),

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
-from mcplan._core import Plan
+from mcplan._core import Plan, Status
 from mcplan._core.online import follows, with_feet_kept_up
 from mcplan.errors import InvalidInput
 from mcplan.solve import replan
@@ -190,9 +190,12 @@ class Planner:
             t = min(max(state.time_s - begins_s, 0.0), float(plan.duration()))
             for robot in self.robots:
                 result = replan(plan, t, state.knot, state.contacts, self.command, self.scene, robot, dict(named))
-                if found is None or follows(result.report, self.period_s):
+                usable = follows(result.report, self.period_s)
+                if found is None or (usable and not follows(found.report, self.period_s)):
                     found = result
-                if follows(result.report, self.period_s):
+                # One that keeps all limits for a while only is second to one that does to the end within wider limits.
+                if usable and result.report.status != Status.infeasible:
+                    found = result
                     break
             if found is None:
                 raise InvalidInput("robots", "must be one at least", "none")

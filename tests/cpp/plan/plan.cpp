@@ -233,20 +233,21 @@ TEST_CASE("paths and their velocities are continuous over the knots") {
   CHECK((left.velocity_W - right.velocity_W).norm() < 1e-13);
 }
 
-TEST_CASE("a swing leaves and arrives along the normals") {
+TEST_CASE("a swing is lifted along the normals") {
   Plan plan = walk();
   const Vector3d lift = Vector3d(0.3, 0.0, 1.0).normalized(), land = Vector3d(0.0, -0.4, 1.0).normalized();
   plan.swings[0].lift_normal_W = lift;
   plan.swings[0].land_normal_W = land;
   plan.swings[0].height = 0.05;
-  const auto direction = [&](double tau, int knot) {
+  Plan flat = plan;
+  flat.swings[0].height = 0.0;
+  const auto direction = [&](double tau) {
     return Vector3d(plan.at_phase(3, tau).end_effectors[left_foot].position_W -
-                    plan.knots[knot].end_effectors_W[left_foot])
+                    flat.at_phase(3, tau).end_effectors[left_foot].position_W)
         .normalized();
   };
-  // The spline moves like s^3, the clearance like s^2: close to the knots only the latter is left.
-  CHECK(direction(4e-5, 3).dot(lift) > 0.9999);
-  CHECK(direction(0.4 - 4e-5, 4).dot(land) > 0.9999);
+  CHECK(direction(4e-4).dot(lift) > 0.9999);
+  CHECK(direction(0.4 - 4e-4).dot(land) > 0.9999);
   CHECK(plan.at_phase(3, 0.0).end_effectors[left_foot].velocity_W.norm() < 1e-15);
 }
 

@@ -78,6 +78,18 @@ TEST_CASE("slack of the start survives a file, and a file without it has none") 
   CHECK(field(replaced(with, "\"start_slack_s\": 0.3", "\"start_slack_s\": -0.3")) == "start_slack_s");
 }
 
+TEST_CASE("how long a swing is under way survives a file, and a file without it has none that is") {
+  Plan plan = noisy(fixtures::walk());
+  const std::string without = plan_to_json(plan);
+  CHECK(without.find("elapsed_s") == std::string::npos);
+  CHECK(plan_from_json(without).swings[0].elapsed_s == 0.0);
+  plan.swings[0].first_phase = 0;
+  plan.swings[0].elapsed_s = 0.1 + 0.2;
+  const std::string with = plan_to_json(plan);
+  CHECK(plan_from_json(with) == plan);
+  CHECK(field(replaced(with, "\"elapsed_s\": 0.3", "\"elapsed_s\": -0.3")) == "swings[0].elapsed_s");
+}
+
 TEST_CASE("other endings and other files are refused") {
   CHECK_THROWS_AS(fixtures::walk().save("plan.npz"), InvalidInput);
   CHECK_THROWS_AS(load_plan("/nowhere/plan.json"), InvalidPlan);

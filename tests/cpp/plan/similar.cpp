@@ -60,6 +60,19 @@ TEST_CASE("a similar motion has similar states and forces between its knots") {
   }
 }
 
+TEST_CASE("a similar motion has a similar swing under way at its start") {
+  Plan plan = fixtures::walk();
+  plan.swings[0].first_phase = 0;
+  plan.swings[0].elapsed_s = 0.25;
+  for (const Similarity& by : {kSmaller, kLarger, kSlower}) {
+    const Plan other = similar_walk(by, plan);
+    const mcplan::EndEffectorState a = plan.at(0.3).end_effectors[fixtures::left_foot],
+                                   b = other.at(0.3 * by.time).end_effectors[fixtures::left_foot];
+    CHECK(b.position_W == a.position_W * by.length);
+    CHECK(b.velocity_W == a.velocity_W * by.velocity());
+  }
+}
+
 TEST_CASE("the checker measures a similar motion in the same parts of its tolerances") {
   Plan plan = fixtures::walk();
   for (int k = 8; k <= 9; ++k) plan.knots[k].end_effectors_W[fixtures::left_foot].x() += 0.002;

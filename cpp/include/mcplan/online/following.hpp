@@ -11,10 +11,10 @@ bool follows(const Report& report, double period_s);
 
 /// The plan with the ways of end-effectors that are in the air at its start kept from the ground, and none kicked up.
 ///
-/// The way of an end-effector in the air goes on from where it is by a spline, plus 16 s^2 (1 - s)^2 times a height.
+/// The way of an end-effector in the air goes on from where it is by a spline, plus what is left of its lift (Swing).
 /// The spline alone sinks at once, and replan after replan toes come to drag: half way to its landing a foot is to be
-/// half as high as in a swing of usual duration with that much of it left. With 50 ms to go such a height is a kick:
-/// its way is raised by no more than 0.5 m/s. Throws InvalidPlan.
+/// half as high as in a swing of usual duration with that much of it left. Where it would not be, it is lifted anew.
+/// With 50 ms to go such a height is a kick: its way is raised by no more than 0.5 m/s. Throws InvalidPlan.
 Plan with_feet_kept_up(Plan plan);
 
 }  // namespace mcplan::online

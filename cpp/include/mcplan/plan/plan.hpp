@@ -70,15 +70,22 @@ struct Knot {
 };
 
 /// A stretch of phases in which an end-effector is free. Its path is the C2 quintic spline through the knots (zero
-/// acceleration there) plus  16 s^2 (1-s)^2 height n(s),  s = 0..1 over the swing: it leaves and arrives along the
-/// normals of the surfaces. Where that would leave the reach box, it bends, with continuous velocity, into the box's
-/// side (docs/theory/ddp.md, "Continuous-time plan").
+/// acceleration there) plus a lift
+///
+///     L(s) = b(s) height n(s),   b = 96/5 x^3 / (x + 1/20),   x = s (1-s),   s = 0..1 over the swing:
+///
+/// it leaves and arrives near the normals of the surfaces, with zero velocity and acceleration. Where a swing is under
+/// way at the plan's start, the first knot has some of the lift already: there L goes on from s_0 = elapsed_s /
+/// (elapsed_s + time left), less the quintic that leads from L(s_0) and its rate to nothing at the end. Where a path
+/// would leave the reach box, it bends, with continuous velocity, into the box's side (docs/theory/ddp.md,
+/// "Continuous-time plan").
 struct Swing {
   int end_effector = 0;
   int first_phase = 0, end_phase = 0;  ///< phases first_phase .. end_phase - 1
   double height = 0.0;                 ///< [m]
   Eigen::Vector3d lift_normal_W = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d land_normal_W = Eigen::Vector3d::UnitZ();
+  double elapsed_s = 0.0;  ///< [s] since lift-off, at the plan's start; 0 where the swing begins in the plan
 };
 
 /// An end-effector at an instant.

@@ -8,6 +8,7 @@
 #include "ddp/constants.hpp"
 #include "ddp/cost_terms.hpp"
 #include "plan/clearance.hpp"
+#include "plan/swing_lift.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -18,7 +19,7 @@ using Eigen::Vector3d;
 /// paper). A share s of the swing's time after lift-off, through as many phases as it has, the foot is on its way
 /// between the knots (on_arc), lifted by at most
 ///
-///     4 swing_height 16 s^2 (1 - s)^2
+///     4 swing_height b(s),  b of SwingLift,
 ///
 /// and held in its reach box, which is what the swings of a plan are chosen from. A sole that is too low goes up with
 /// the CoM where that is what limits it, else beside the nearest edge: by a foothold further from it.
@@ -226,9 +227,8 @@ class SwingPath final : public CostTerm {
     sample.sole = sole_frame(between.normalized(), step.sole_yaw);
     sample.on = on_arc(arc, fraction, step.x.segment<3>(at.end(step.l)), step.u->segment<3>(at.stride(step.l)),
                        (*step.u)[at.duration()]);
-    const double s = sample.on.s;
-    sample.place =
-        sample.on.place + kLiftMax * problem.swing_height * 16.0 * s * s * (1.0 - s) * (1.0 - s) * sample.sole.col(2);
+    const double lift = SwingLift(sample.on.s).value();
+    sample.place = sample.on.place + kLiftMax * problem.swing_height * lift * sample.sole.col(2);
     sample.with_body = body != nullptr;
     sample.fine = fine;
     if (!body) return;
@@ -258,7 +258,7 @@ class SwingPath final : public CostTerm {
     auto g = rows.add_dense(weight, value);
     Vector3d along = raise ? polygon.normal_W() : polygon.edge_outward_W(side);
     if (sample.with_body) sample.held.add_along(sample.body, along, g);
-    const double s = sample.on.s, lift_by_s = kLiftMax * problem.swing_height * 32.0 * s * (1.0 - s) * (1.0 - 2.0 * s);
+    const double lift_by_s = kLiftMax * problem.swing_height * SwingLift(sample.on.s).rate();
     g.segment<3>(at.end(step.l)) += along;
     g.segment<3>(at.nx() + at.stride(step.l)) += sample.on.by_stride * along;
     g[at.nx() + at.duration()] +=

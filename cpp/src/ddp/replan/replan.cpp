@@ -22,6 +22,7 @@
 #include "mcplan/version.hpp"
 #include "model/read.hpp"
 #include "model/text.hpp"
+#include "plan/swings.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -266,6 +267,7 @@ PlanResult replan(const Plan& previous, double t, const Measured& given, const S
   Now now{&scene_in, &robot, &options, &deadline, {}, {}, similarity_of(robot, scene_in.gravity)};
   now.measured = completed(given, previous, t, scene_in, robot);
   const Rest planned = rest_of(previous, t);
+  now.under_way = swings_under_way(previous, t);
   now.pushed_W = now.measured.state.com_velocity_W - planned.plan.knots.front().com_velocity_W;
   Rest rest = planned;
   rename(rest, scene_in);

@@ -117,7 +117,8 @@ std::optional<Trial> try_out(const Now& now, const Rest& rest, Report& report, i
   if (!trial.exact && late && late()) return trial;  // there is no time to look at what nobody can follow
   trial.evaluation = search.evaluate(at, tuning);
   const Stopwatch watch(report.timing_s, "check");
-  trial.plan = to_plan(problem, at, true);
+  trial.plan = to_plan(problem, at, false);
+  choose_swings(trial.plan, true, now.under_way);
   trial.plan.start_slack_s = now.options->start_slack_s * now.similarity.time;
   put_back(trial.plan, *now.scene, now.surfaces);
   // In time or not, the next two steps are looked at; a limit leaves the rest of them to the next call.
@@ -133,7 +134,7 @@ Trial as_planned(const Rest& planned, const Now& now) {
   Trial trial;
   trial.plan = planned.plan;
   trial.plan.measured_start = true;
-  choose_swings(trial.plan);
+  choose_swings(trial.plan, true, now.under_way);
   trial.exact = true;
   trial.ending = Ending::time_limit;
   trial.check = look(trial.plan, now, two_steps_s(trial.plan), {});

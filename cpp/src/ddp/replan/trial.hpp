@@ -21,6 +21,7 @@ struct Now {
   std::vector<int> surfaces;  ///< that are looked at, by index in the scene, ascending
   Similarity similarity;
   Eigen::Vector3d pushed_W = Eigen::Vector3d::Zero();  ///< [m/s] velocity of the CoM, measured minus planned
+  std::vector<Swing> under_way = {};                   ///< of the plan under way, for what is in the air
 };
 
 /// A sequence that was tried from the measured state, and what came of it.

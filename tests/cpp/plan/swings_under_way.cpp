@@ -1,0 +1,140 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "mcplan/base/error.hpp"
+#include "plan/fixtures.hpp"
+#include "plan/plan_shape.hpp"
+#include "plan/swings.hpp"
+
+using namespace fixtures;
+using mcplan::EndEffectorState;
+using mcplan::Plan;
+using mcplan::Swing;
+
+namespace {
+
+constexpr int kSwing = 3;  // phase of the left foot's first swing, and its index in plan.knots
+
+/// What is left of the walk at `since` [s] in its first swing, from the state there.
+Plan rest_of_swing(const Plan& plan, double since) {
+  const mcplan::PlanState now = plan.at_phase(kSwing, since);
+  Plan rest = plan;
+  rest.phases.erase(rest.phases.begin(), rest.phases.begin() + kSwing);
+  rest.knots.erase(rest.knots.begin(), rest.knots.begin() + kSwing);
+  rest.phases.front().duration -= since;
+  mcplan::Knot& knot = rest.knots.front();
+  knot.com_W = now.com_W;
+  knot.com_velocity_W = now.com_velocity_W;
+  knot.base_rpy = now.base_rpy;
+  knot.base_rpy_rate = now.base_rpy_rate;
+  for (int e = 0; e < plan.end_effector_count(); ++e) {
+    knot.end_effectors_W[e] = now.end_effectors[e].position_W;
+    knot.end_effector_velocities_W[e] = now.end_effectors[e].velocity_W;
+  }
+  rest.measured_start = true;
+  mcplan::choose_swings(rest, true, swings_under_way(plan, kSwing * kPhase + since));
+  return rest;
+}
+
+const Swing& of(const Plan& plan, int end_effector) {
+  for (const Swing& swing : plan.swings)
+    if (swing.end_effector == end_effector) return swing;
+  throw mcplan::InvalidPlan("swings", "must have one of the end-effector", "none");
+}
+
+/// The walk with a first step on the spot, so that its way is the lift alone, without limits of reach.
+Plan step_on_the_spot() {
+  Plan plan = walk();
+  plan.scene.surfaces[block].vertices_W = plan.scene.surfaces[patch].vertices_W;
+  plan.robot.end_effectors[left_foot].reach_min_B.setConstant(-9.0);
+  plan.robot.end_effectors[left_foot].reach_max_B.setConstant(9.0);
+  plan.knots[kSwing + 1].end_effectors_W[left_foot] = plan.knots[kSwing].end_effectors_W[left_foot];
+  return plan;
+}
+
+}  // namespace
+
+TEST_CASE("a swing that is under way goes on as it was, again and again") {
+  const Plan plan = step_on_the_spot();
+  for (const double since : {0.004, 0.1, 0.2, 0.37}) {
+    CAPTURE(since);
+    const Plan rest = rest_of_swing(plan, since);
+    CHECK(of(rest, left_foot).elapsed_s == doctest::Approx(since));
+    CHECK(of(rest, left_foot).height == of(plan, left_foot).height);
+    const Plan again = [&] {
+      Plan shifted = rest;  // as long before its swing as the walk is
+      shifted.knots.insert(shifted.knots.begin(), kSwing, rest.knots.front());
+      shifted.phases.insert(shifted.phases.begin(), plan.phases.begin(), plan.phases.begin() + kSwing);
+      for (Swing& swing : shifted.swings) swing.first_phase += kSwing, swing.end_phase += kSwing;
+      return rest_of_swing(shifted, 0.02);
+    }();
+    CHECK(of(again, left_foot).elapsed_s == doctest::Approx(since + 0.02));
+    for (double t = 0.0; t < kPhase - since; t += 0.004) {
+      const EndEffectorState planned = plan.at_phase(kSwing, since + t).end_effectors[left_foot];
+      const EndEffectorState on = rest.at_phase(0, t).end_effectors[left_foot];
+      CHECK((on.position_W - planned.position_W).norm() < 1e-14);
+      CHECK((on.velocity_W - planned.velocity_W).norm() < 1e-12);
+      if (t < 0.02 || again.phases.front().duration < t - 0.02) continue;
+      const EndEffectorState later = again.at_phase(0, t - 0.02).end_effectors[left_foot];
+      CHECK((later.position_W - planned.position_W).norm() < 1e-14);
+    }
+  }
+}
+
+TEST_CASE("the path of a swing that is under way begins at its knot, with that velocity and its own acceleration") {
+  const Plan plan = walk();
+  for (const double since : {0.05, 0.2, 0.3}) {
+    CAPTURE(since);
+    Plan rest = rest_of_swing(plan, since);
+    rest.knots.front().end_effectors_W[left_foot] += Vector3d(0.004, -0.003, 0.006);  // pushed off its way
+    rest.knots.front().end_effector_velocities_W[left_foot] += Vector3d(0.1, 0.05, -0.2);
+    rest.phases.front().duration *= 1.1;  // and later
+    const EndEffectorState begin = rest.at_phase(0, 0.0).end_effectors[left_foot];
+    CHECK((begin.position_W - rest.knots[0].end_effectors_W[left_foot]).norm() < 1e-14);
+    CHECK((begin.velocity_W - rest.knots[0].end_effector_velocities_W[left_foot]).norm() < 1e-12);
+    const EndEffectorState end = rest.at_phase(0, rest.phases.front().duration).end_effectors[left_foot];
+    CHECK((end.position_W - rest.knots[1].end_effectors_W[left_foot]).norm() < 1e-14);
+    CHECK(end.velocity_W.norm() < 1e-12);
+    const double h = 1e-6;
+    for (double t = 0.01; t < rest.phases.front().duration - h; t += 0.013) {
+      const auto at = [&](double tau) { return rest.at_phase(0, tau).end_effectors[left_foot]; };
+      const Vector3d difference = (at(t + h).position_W - at(t - h).position_W) / (2.0 * h);
+      CHECK((difference - at(t).velocity_W).norm() < 1e-7);
+    }
+  }
+}
+
+TEST_CASE("a swing under way that would not clear the scene is lifted anew") {
+  Plan plan = walk();
+  plan.swings[0].height = 0.001;  // over a block of 0.02 m
+  const Plan rest = rest_of_swing(plan, 0.02);
+  CHECK(of(rest, left_foot).elapsed_s == 0.0);
+  CHECK(of(rest, left_foot).height > 0.005);
+}
+
+TEST_CASE("swings under way are those that began last, whether they have ended or not") {
+  const Plan plan = walk();
+  CHECK(swings_under_way(plan, 0.0).empty());
+  for (const auto& [t, elapsed_s] : {std::pair{1.3, 0.1}, std::pair{1.7, 0.5}}) {  // in the air, and landed
+    const std::vector<Swing> found = swings_under_way(plan, t);
+    const auto foot =
+        std::find_if(found.begin(), found.end(), [](const Swing& s) { return s.end_effector == left_foot; });
+    REQUIRE(foot != found.end());
+    CHECK(foot->elapsed_s == doctest::Approx(elapsed_s));
+    CHECK(foot->first_phase == kSwing);
+  }
+}
+
+TEST_CASE("the time since lift-off is refused where the swing begins in the plan, or is no time") {
+  for (const auto& [first_phase, elapsed_s] : {std::pair{3, 0.1}, std::pair{0, -0.1}, std::pair{0, HUGE_VAL}}) {
+    Plan plan = walk();
+    plan.swings[0].first_phase = first_phase;
+    plan.swings[0].elapsed_s = elapsed_s;
+    CHECK_THROWS_AS(plan.validate(), mcplan::InvalidPlan);
+  }
+  Plan plan = walk();
+  plan.swings[0].first_phase = 0;
+  plan.swings[0].elapsed_s = 0.1;
+  CHECK_NOTHROW(plan.validate());
+}
