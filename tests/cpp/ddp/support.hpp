@@ -10,12 +10,7 @@
 #include "ddp/local_model.hpp"
 #include "ddp/problem.hpp"
 #include "scenes.hpp"
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kSlowBuild = true;  ///< the sanitizers cost a factor of ten to thirty: fewer cases there
-#else
-constexpr bool kSlowBuild = false;
-#endif
+#include "slow_build.hpp"
 
 namespace support {
 

@@ -10,6 +10,7 @@
 #include "mcplan/planar/plan_files.hpp"
 #include "mcplan/planar/sip/certificate.hpp"
 #include "mcplan/planar/sip/planner.hpp"
+#include "slow_build.hpp"
 #include "tasks.hpp"
 
 using namespace mcplan::sip;
@@ -60,6 +61,7 @@ TEST_CASE("the kernel's cheapest cartwheel costs what Ipopt's does, and is prove
   CHECK(result.solver == Solver::ipm);
   CHECK(result.report.cost <= 1.01 * reference.report.cost);
   CHECK(certify(result.plan).proved());
+  if (kSlowBuild) return;
   // The same bytes again, and with both allowed, since the kernel does not fail.
   CHECK(Planner(planar_tasks::cartwheel(), with(Solver::ipm, Forces::per_point, true)).solve().plan == result.plan);
   CHECK(Planner(planar_tasks::cartwheel(), with(Solver::automatic, Forces::per_point, true)).solve().plan ==
@@ -146,6 +148,7 @@ TEST_CASE("motors that are far too weak are said to be: nothing within all const
   mcplan::PlanarTask task = planar_tasks::cartwheel();
   for (auto& body : task.robot.bodies) body.torque_max *= 0.08;
   for (const Forces forces : {Forces::uniform, Forces::per_body}) {
+    if (kSlowBuild && forces == Forces::per_body) continue;
     const Result result = Planner(task, with(Solver::ipm, forces, false)).solve();
     CHECK_MESSAGE(result.report.status == Status::infeasible, result.report.message);
     CHECK(result.report.worst_violation.name == "torque");

@@ -11,6 +11,7 @@
 #include "interval.hpp"
 #include "mcplan/planar/sip/certificate.hpp"
 #include "planar/robots.hpp"
+#include "slow_build.hpp"
 #include "tasks.hpp"
 
 using namespace mcplan::sip;
@@ -107,6 +108,13 @@ TEST_CASE(
   CHECK(deepest(outside.plan) < mcplan::PlanarTolerances().clearance);
   CHECK(certify(outside.plan).proved());
 
+  PlanarTask allowed = task;
+  allowed.no_clearance = {{2, 0}, {2, 1}};
+  const Result let_in = Planner(allowed, without_cost()).solve();
+  CHECK(let_in.report.status == Status::solved);
+  CHECK(certify(let_in.plan).proved());
+  if (kSlowBuild) return;
+
   Options without = without_cost();
   without.clearance = false;
   const Result inside = Planner(task, without).solve();
@@ -115,12 +123,7 @@ TEST_CASE(
   REQUIRE(check(inside.plan).violations().size() == 1);
   CHECK(check(inside.plan).worst().name == "clearance");
   CHECK_FALSE(certify(inside.plan).proved());
-
-  task.no_clearance = {{2, 0}, {2, 1}};
-  const Result let_in = Planner(task, without_cost()).solve();
-  CHECK(let_in.report.status == Status::solved);
   CHECK(let_in.plan.control_points == inside.plan.control_points);
-  CHECK(certify(let_in.plan).proved());
 }
 
 TEST_CASE("the reported torque integral is that of exact torques") {
@@ -251,7 +254,7 @@ TEST_CASE("torque limits that cannot carry the weight end without a solution") {
   PlanarTask task = planar_tasks::cartwheel();
   for (auto& body : task.robot.bodies) body.torque_max *= 0.05;
   Options options = without_cost();
-  options.max_iterations = 40;
+  options.max_iterations = kSlowBuild ? 10 : 40;
   const Result result = Planner(task, options).solve();
   CHECK((result.report.status == Status::infeasible || result.report.status == Status::iteration_limit));
   CHECK(!check(result.plan).ok());
@@ -291,6 +294,7 @@ TEST_CASE("a planner may be asked twice") {
 }
 
 TEST_CASE("a task that is moved as a whole has the same solution") {
+  if (kSlowBuild) return;  // the code of other solves with a cost, on other numbers
   const Result here = Planner(planar_tasks::cartwheel()).solve();
   const Result there = Planner(moved(planar_tasks::cartwheel(), {100.0, 3.0})).solve();
   REQUIRE(here.report.status == Status::solved);
