@@ -135,6 +135,7 @@ def test_iterates_of_a_part_of_the_scene_have_the_scenes_surfaces():
         assert {plan.scene.surfaces[i].name for i in used} == {mp.load_scene("flat").surfaces[0].name}
 
 
+@pytest.mark.usefixtures("ctrl_c")
 def test_what_a_watcher_raises_comes_out_and_an_interrupt_has_the_best_plan():
     def fail(plan: mp.Plan) -> None:
         raise LookupError("no browser")
