@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import threading
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -53,6 +54,42 @@ def test_what_is_submitted_comes_back_as_the_plan_that_replan_makes(plan):
     assert update.ticket == ticket == 1 and update.usable and update.begins_s == 1.0
     assert update.status == expected.report.status.name and update.plan.knots == expected.plan.knots
     assert update.kept_until_s == 1.0 + expected.report.kept_until_s and update.took_s > 0.0
+
+
+@pytest.mark.parametrize(
+    ("outcomes", "chosen"),
+    [
+        (["infeasible", "acceptable"], 1),  # it keeps all limits for a while only, the other to the end
+        (["infeasible", "iteration_limit"], 0),
+        (["iteration_limit", "infeasible"], 1),
+        (["infeasible", "infeasible"], 0),
+        (["iteration_limit", "iteration_limit"], 0),
+        (["solved", "solved"], 0),
+    ],
+)
+def test_a_plan_that_is_accepted_goes_before_one_that_keeps_its_limits_for_a_while(plan, monkeypatch, outcomes, chosen):
+    asked = []
+
+    def replan(previous, t, knot, contacts, command, scene, robot, named):
+        asked.append(robot)
+        number = len(asked) - 1
+        report = SimpleNamespace(
+            status=getattr(mp.Status, outcomes[number]),
+            kept_until_s=0.5,
+            message=str(number),
+            plan_from=mp.model.PlanFrom.search,
+        )
+        return SimpleNamespace(plan=plan, report=report)
+
+    # All that keep their limits for a while are usable: a report has no constructor.
+    monkeypatch.setattr("mcplan.online.planner.follows", lambda report, _: report.status != mp.Status.iteration_limit)
+    monkeypatch.setattr("mcplan.online.planner.replan", replan)
+    with Planner(plan) as planner:
+        planner.robots = [plan.robot, widened(plan.robot) or plan.robot]
+        planner.submit(state(plan, 1.0))
+        update = planner.wait()
+    assert update.message == str(chosen) and update.status == outcomes[chosen]
+    assert len(asked) == (1 if outcomes[0] == "solved" else 2)
 
 
 def test_the_next_plan_is_made_from_the_one_taken_over(plan):

@@ -59,7 +59,7 @@ std::string text(const std::string& value) {
 std::string text(const Eigen::Ref<const Eigen::VectorXd>& value) {
   std::ostringstream out;
   out << '[';
-  for (Eigen::Index i = 0; i < value.size(); ++i) out << (i ? ", " : "") << value[i];
+  for (Eigen::Index i = 0; i < value.size(); ++i) out << (i ? ", " : "") << text(value[i]);
   out << ']';
   return out.str();
 }

@@ -37,7 +37,6 @@ double cost_of(const Place& place) { return 1.0 + kLooseness * place.looseness; 
 struct Followed {
   bool walkable = false, obstructed = false;
   double cost = 0.0;
-  std::optional<Barrier> barrier;
 };
 
 Followed follow(const Ground& ground, const Vector3d& from, const Vector3d& to, double spacing) {
@@ -45,24 +44,15 @@ Followed follow(const Ground& ground, const Vector3d& from, const Vector3d& to, 
   const int count = std::max(1, static_cast<int>(std::ceil((to - from).head<2>().norm() / spacing)));
   const double piece = (to - from).norm() / count;
   double height = from.z();
-  int ground_before = -1;
   for (int i = 0; i <= count; ++i) {
-    const Vector2d at = from.head<2>() + (to - from).head<2>() * i / count;
-    const std::vector<Place> places = ground.places(at);
+    const std::vector<Place> places = ground.places(from.head<2>() + (to - from).head<2>() * i / count);
     const auto off = [&](const Place& p) { return std::abs(p.height - height); };
     const auto next =
         std::min_element(places.begin(), places.end(), [&](const Place& a, const Place& b) { return off(a) < off(b); });
-    if (next == places.end() || off(*next) > ground.rise()) {
-      const bool none = next == places.end();
-      const Barrier found{-1, ground_before, none ? -1 : next->surface, height, none ? 0.0 : next->height - height, at};
-      return {false, false, 0.0, line.barrier ? line.barrier : found};
-    }
-    if (next->solid >= 0 && !line.barrier)
-      line.barrier = Barrier{next->solid, next->surface, -1, next->height, 0.0, at};
+    if (next == places.end() || off(*next) > ground.rise()) return {};
     line.obstructed = line.obstructed || next->solid >= 0;
     line.cost += piece * cost_of(*next);
     height = next->height;
-    ground_before = next->surface;
   }
   line.walkable = !line.obstructed && std::abs(height - to.z()) <= ground.rise();
   return line;
@@ -104,6 +94,38 @@ class Roadmap {
       ids.push_back(graph_.id(node));
     std::reverse(ids.begin(), ids.end());
     return straightened(ids);
+  }
+
+  /// Where no way leads from the start to the goal, what ends the straight one.
+  std::optional<Barrier> barrier() const {
+    lemon::Dijkstra<lemon::SmartGraph, lemon::SmartGraph::EdgeMap<double>> search(graph_, length_);
+    search.run(graph_.nodeFromId(start_));
+    const auto led_to = [&](const Vector2d& at, double height) {
+      for (std::size_t i = 0; i < nodes_.size(); ++i)
+        if ((nodes_[i].at.head<2>() - at).norm() <= spacing_ &&
+            std::abs(nodes_[i].at.z() - height) <= ground_->rise() &&
+            search.reached(graph_.nodeFromId(static_cast<int>(i))))
+          return true;
+      return false;
+    };
+    const Vector2d from = nodes_[start_].at.head<2>(), way = nodes_[goal_].at.head<2>() - from;
+    const int count = std::max(1, static_cast<int>(std::ceil(way.norm() / spacing_)));
+    for (int i = count - 1; i >= 0; --i) {
+      const Vector2d at = from + way * i / count;
+      const std::vector<Place> places = ground_->places(at), beyond = ground_->places(from + way * (i + 1) / count);
+      const auto last = std::find_if(places.begin(), places.end(),
+                                     [&](const Place& p) { return p.solid < 0 && led_to(at, p.height); });
+      if (last == places.end()) continue;
+      const auto off = [&](const Place& p) { return std::abs(p.height - last->height); };
+      const auto next = std::min_element(beyond.begin(), beyond.end(),
+                                         [&](const Place& a, const Place& b) { return off(a) < off(b); });
+      if (next == beyond.end()) return std::nullopt;  // a gap
+      const bool steep = off(*next) > ground_->rise();
+      if (!steep && next->solid < 0) return std::nullopt;
+      return Barrier{steep ? -1 : next->solid,    last->surface,  next->surface, last->height,
+                     next->height - last->height, ground_->rise()};
+    }
+    return std::nullopt;
   }
 
   /// Make dear what lies near a route, but not near its ends, so that the next one goes elsewhere.
@@ -243,8 +265,6 @@ Routes find_routes(const Scene& scene, const Robot& robot, double sole_inside) {
   const Followed line = follow(ground, begin, end, kRoadSpacing * ground.stride());
   routes.straight = line.walkable;
   routes.obstructed = line.obstructed;
-  routes.rise = ground.rise();
-  if (!line.walkable) routes.barrier = line.barrier;
   if (line.walkable) return routes;
   Roadmap roadmap(ground, begin, end);
   for (int i = 0; i < 2 * kDetours && static_cast<int>(routes.detours.size()) < kDetours; ++i) {
@@ -255,6 +275,7 @@ Routes find_routes(const Scene& scene, const Robot& robot, double sole_inside) {
                                    [&](const Route& other) { return same(ground, route, other, roadmap.spacing()); });
     if (!known) routes.detours.push_back(route);
   }
+  if (routes.detours.empty()) routes.barrier = roadmap.barrier();
   return routes;
 }
 

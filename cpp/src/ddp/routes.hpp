@@ -14,13 +14,14 @@ namespace mcplan::ddp {
 /// Points [m] of the ground below the CoM, from the start to the goal; empty: the straight line.
 using Route = std::vector<Eigen::Vector3d>;
 
-/// What steps do not pass on a straight line, the first of it.
+/// What stands on the straight line beyond the last place to which ground leads from the start. Surfaces are the
+/// scene's.
 struct Barrier {
-  int solid = -1;                                ///< of the scene's surfaces, one that the trunk would walk into, or
-  int from = -1, to = -1;                        ///< ... from ground to ground, another height; -1: there is no ground
-  double height = 0.0;                           ///< [m] of the ground there, of `from`
-  double rise = 0.0;                             ///< [m] to the height of `to`, negative downwards
-  Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< [m]
+  int solid = -1;          ///< that the trunk would walk into; -1: the next ground is too high or too low for a step
+  int from = -1, to = -1;  ///< ground before it and there
+  double height = 0.0;     ///< [m] of `from` there
+  double rise = 0.0;       ///< [m] from `from` to `to`, negative downwards
+  double step = 0.0;       ///< [m] the highest that the robot makes
 };
 
 /// What is known of the ground between start and goal.
@@ -28,8 +29,7 @@ struct Routes {
   bool straight = true;            ///< steps lead along the straight line
   bool obstructed = false;         ///< or would, were there not a solid that the trunk would walk into
   std::vector<Route> detours;      ///< where they do not: ways round, the cheapest one first; there may be none
-  double rise = 0.0;               ///< [m] the highest step
-  std::optional<Barrier> barrier;  ///< why they do not
+  std::optional<Barrier> barrier;  ///< why none of these leads to the goal, where it is no gap
 };
 
 /// Looks for up to three detours, on different sides of what is in the way. Of scenes where nothing stands at both

@@ -59,8 +59,8 @@ struct SwitchedDdp::Impl {
                            "paper");
   }
   PlanResult solve(const Plan* earlier);
-  PlanResult conclude(Ending ending, int steps, const BestPlan& best, Report&& report, double time_s) const;
-  std::string message_of(Status status, int steps, const BestPlan& kept, const Report& report) const;
+  PlanResult conclude(const Found& found, Report&& report, double time_s) const;
+  std::string message_of(Status status, const Found& found, const Report& report) const;
   PlanResult without_plan(Report&& report) const;
 };
 
@@ -78,7 +78,7 @@ PlanResult SwitchedDdp::Impl::solve(const Plan* earlier) {
     return without_plan(std::move(report));
   }
   const Found found = WaysToGoal(scene, robot, options, earlier, deadline).search(report);
-  return conclude(found.ending, found.steps, found.best, std::move(report), deadline.elapsed_s());
+  return conclude(found, std::move(report), deadline.elapsed_s());
 }
 
 PlanResult SwitchedDdp::Impl::without_plan(Report&& report) const {
@@ -89,10 +89,9 @@ PlanResult SwitchedDdp::Impl::without_plan(Report&& report) const {
   return out;
 }
 
-PlanResult SwitchedDdp::Impl::conclude(Ending ending, int steps, const BestPlan& kept, Report&& report,
-                                       double time_s) const {
-  const auto& best = kept.best();
-  report.status = status_of(ending, best);
+PlanResult SwitchedDdp::Impl::conclude(const Found& found, Report&& report, double time_s) const {
+  const auto& best = found.best.best();
+  report.status = status_of(found.ending, best);
   report.time_s = time_s;
   if (best) {
     // Of a plan that was looked at in few instants, in as few.
@@ -110,13 +109,13 @@ PlanResult SwitchedDdp::Impl::conclude(Ending ending, int steps, const BestPlan&
     report.worst_violation.value = 1.0;
     report.worst_violation.unit = no_sequence ? "missing" : "numbers";
   }
-  report.message = message_of(report.status, steps, kept, report);
+  report.message = message_of(report.status, found, report);
   if (!best) return without_plan(std::move(report));
   return {best->plan, std::move(report)};
 }
 
-std::string SwitchedDdp::Impl::message_of(Status status, int steps, const BestPlan& kept, const Report& report) const {
-  const auto& best = kept.best();
+std::string SwitchedDdp::Impl::message_of(Status status, const Found& found, const Report& report) const {
+  const auto& best = found.best.best();
   std::ostringstream message;
   if (!report.paper_verdict.empty())
     message << "the published algorithm: " << report.paper_verdict << ", cost "
@@ -124,7 +123,8 @@ std::string SwitchedDdp::Impl::message_of(Status status, int steps, const BestPl
   if (status == Status::solved)
     message << "the checker accepts the plan";
   else if (status == Status::no_sequence)
-    message << "no contact sequence joins start and goal in " << steps << " phases; raise `phases`, or look at the "
+    message << "no contact sequence joins start and goal in " << found.steps
+            << " phases; raise `phases`, or look at the "
             << "surfaces' end_effectors and the scene's rules";
   else if (!best)
     message << (status == Status::numerical_failure ? "every attempt broke down numerically"
@@ -135,7 +135,7 @@ std::string SwitchedDdp::Impl::message_of(Status status, int steps, const BestPl
     message << "the best plan violates " << report.worst_violation.to_string();
   if (best && status != Status::solved) {
     std::string why = flight_needed(scene, robot);
-    if (why.empty()) why = what_bars(scene, robot, options.sole_inside);
+    if (why.empty() && found.barrier) why = text_of(*found.barrier, scene, robot.name);
     if (!why.empty()) message << "; " << why;
   }
   return message.str();

@@ -220,6 +220,7 @@ Found WaysToGoal::search(Report& report) const {
   const auto hopeless = [&] { return !best->best.best() || violation_ratio(best->best.best()->worst) > kAcceptable; };
   if (options_->min_contacts < 0 && least > 0 && hopeless()) try_way({{}, options_->allow_flight, 0});
   try_more_phases(report, *best);
+  best->barrier = routes.barrier;
   return std::move(*best);
 }
 

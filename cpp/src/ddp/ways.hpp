@@ -26,6 +26,7 @@ struct Found {
   Ending ending = Ending::no_sequence;
   int steps = 0;
   Way way = {};
+  std::optional<Barrier> barrier = {};  ///< why no ground leads to the goal
 };
 
 /// The ways from the start of a scene to its goal, and a search along each. Theory: docs/theory/ddp.md, "Routes".

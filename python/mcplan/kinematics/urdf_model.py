@@ -84,14 +84,14 @@ def load_model(robot: Robot) -> UrdfModel:
             name = source[len(PACKAGE) :]
             packaged = packaged_robot(name)
             model, neutral, path = pin.Model(packaged.model), packaged.posture.copy(), packaged.path
-            read_visual = partial(packaged_visuals, name)
+            read_visual: Callable[[], Any] = partial(packaged_visuals, name)
         else:
             path = Path(source).resolve(strict=True)
             xml = read_urdf(path, InvalidRobot)
             model = build_model(xml, InvalidRobot, str(path))
             kind, folders = pin.GeometryType.VISUAL, package_folders(path)
             visual = pin.buildGeomFromUrdfString(model, xml.text, kind, None, folders)
-            read_visual = partial(_same, visual)
+            read_visual = lambda: visual  # noqa: E731
             srdf = srdf_beside(path)
             if srdf is not None and "rotor_params" in srdf.read_text(errors="replace"):
                 pin.loadRotorParameters(model, str(srdf), False)
@@ -112,10 +112,6 @@ def load_model(robot: Robot) -> UrdfModel:
     for joint in range(1, model.njoints):
         _make_physical(model, joint)
     return UrdfModel(robot, model, read_visual, neutral, _contact_frames(model, neutral, robot), path)
-
-
-def _same(value: Any) -> Any:
-    return value
 
 
 def _make_physical(model: Any, joint: int) -> None:

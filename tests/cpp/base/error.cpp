@@ -28,6 +28,7 @@ TEST_CASE("values are written short") {
   CHECK(text(std::string("stares")) == "\"stares\"");
   CHECK(text(std::string("a \"b\"\\")) == "\"a \\\"b\\\"\\\\\"");
   CHECK(text(Eigen::Vector3d(1, 0.5, -2)) == "[1, 0.5, -2]");
+  CHECK(text(Eigen::Vector2d(1234567, 0.5)) == "[1234567, 0.5]");
   CHECK(text(Eigen::VectorXd()) == "[]");
 }
 

@@ -10,7 +10,11 @@
 namespace {
 
 using mcplan::Scene;
-using mcplan::ddp::what_bars;
+
+std::string what_bars(const Scene& scene, const mcplan::Robot& robot) {
+  const mcplan::ddp::Routes routes = mcplan::ddp::find_routes(scene, robot);
+  return routes.barrier ? text_of(*routes.barrier, scene, robot.name) : "";
+}
 
 /// A floor from -2 to 4 m with a solid from wall to wall, or up to `end`.
 Scene barred(double bottom, double top, double end = 2.0, double depth = 0.1) {
@@ -35,8 +39,7 @@ Scene with_step(double height) {
 TEST_CASE("a fence from wall to wall that no foot comes over is named, with its height and the robot's") {
   CHECK(what_bars(barred(0.0, 0.6), scenes::humanoid44()) ==
         "\"bar\" stands 0.6 m above \"floor\" across the way to the goal, and no way round it was found: without hands "
-        "or "
-        "a jump a level humanoid44 puts no foot more than 0.2 m above the other");
+        "or a jump a level humanoid44 puts no foot more than 0.2 m above the other");
   CHECK(what_bars(barred(0.0, 0.19), scenes::humanoid44()).empty());      // it is stepped over
   CHECK(what_bars(barred(0.0, 0.6, 0.4), scenes::humanoid44()).empty());  // its end is walked round
   CHECK(what_bars(scenes::flat(), scenes::humanoid44()).empty());
@@ -57,6 +60,18 @@ TEST_CASE("steps up and down that are too high are named") {
   down.start.position_W.z() = 0.4;
   const std::string said = what_bars(down, scenes::humanoid44());
   CHECK(said.find("on the way to the goal the ground falls by 0.4 m from \"low\" to \"high\"") == 0);
+}
+
+TEST_CASE("what can be walked round is not named for what cannot") {
+  Scene scene = barred(0.0, 0.6);
+  scene.surfaces.insert(scene.surfaces.begin(), scenes::rectangle("post", 0.3, 0.35, -0.05, 0.05, 1.4, "hand"));
+  scene.surfaces[0].thickness = 1.4;
+  CHECK(what_bars(scene, scenes::humanoid44()).find("\"bar\" stands 0.6 m above \"floor\"") == 0);
+  Scene gap =
+      scenes::made_of("gap", {scenes::rectangle("a", -1, 1.2, -2, 2, 0), scenes::rectangle("b", 2.2, 4, -2, 2, 0)}, "a",
+                      "b", {2.8, 0.0, 0.0});
+  gap.surfaces.push_back(scene.surfaces[0]);
+  CHECK(what_bars(gap, scenes::humanoid44()).empty());
 }
 
 TEST_CASE("a search that fails before a wall says what bars the way") {
