@@ -34,7 +34,7 @@ _ROOM_M, _BESIDE_M = 0.02, 0.005
 #: Ratios of a reach box that a step along, up and across uses at most, of the CoM's height that it does along.
 _ALONG, _UP, _OF_HEIGHT = 0.55, 0.25, 0.30
 #: Kinds by turns of ten; instead of a hold, robots whose hands do not bear half the weight have patches, and instead of a
-#: jump those whose legs do not give way by a fifth of the CoM's height: g1's by less than a sixth, and it is not known to jump.
+#: jump those whose legs do not give way by a fifth of the CoM's height: g1's by an eighth, and it is not known to jump.
 KINDS = ("patches", "strips", "patches", "jump", "patches", "strips", "stairs", "patches", "hold", "patches")
 #: Gap beyond the longest step, and CoM heights a gap may be long: humanoid44 and talos jump these on level ground.
 _JUMP_OVER, _JUMP_HEIGHTS = 1.1, 1.1
