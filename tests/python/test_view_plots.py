@@ -68,7 +68,7 @@ def test_save_plots_writes_pictures_that_are_not_blank(plan, tmp_path):
     for path in written:
         image = pixels(path)
         assert min(image.shape[:2]) > 200, path.name
-        assert len(np.unique(image.reshape(-1, 3), axis=0)) > 50, path.name
+        assert len(np.unique(image[::4, ::4].reshape(-1, 3), axis=0)) > 50, path.name
         assert 0.01 < np.mean(image.min(axis=2) < 250) < 0.9, path.name
 
 
