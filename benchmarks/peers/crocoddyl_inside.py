@@ -19,6 +19,8 @@ import pinocchio as pin
 
 #: Instants between two nodes at which positions and speeds are looked at.
 BETWEEN = 20
+#: Normal force from which on a centre of pressure counts [N].
+LOADED_N = 10.0
 
 
 def load(path: str) -> Any:
@@ -51,20 +53,43 @@ def drift(model: Any, data: dict[str, Any], xs: list[Any]) -> tuple[float, float
 
 
 def residual(model: Any, xs: list[Any], problem: Any) -> tuple[float, float]:
-    """Largest residual of the base's six rows half way between nodes with the forces of the node held [N, N m].
+    """Largest residual of the base's six rows between nodes with the forces of the node held [N, N m].
 
-    The motion is the parabola that the integrator's velocities describe; the contact forces are those of the node.
+    The motion is the one that the integrator describes: constant acceleration, positions along the velocity at the end of the
+    step.
     """
     rnea, worst_N, worst_Nm = model.createData(), 0.0, 0.0
     for x, after, node in zip(xs, xs[1:], problem.runningDatas, strict=False):
         dt = problem.runningModels[0].dt
         v, v_after = x[model.nq :], after[model.nq :]
-        q = pin.integrate(model, x[: model.nq], 0.5 * dt * v_after)
         forces = node.differential.multibody.contacts.fext
-        tau = pin.rnea(model, rnea, q, 0.5 * (v + v_after), (v_after - v) / dt, forces)
-        worst_N = max(worst_N, float(np.linalg.norm(tau[:3])))
-        worst_Nm = max(worst_Nm, float(np.linalg.norm(tau[3:6])))
+        for ratio in np.arange(1, BETWEEN) / BETWEEN:
+            q = pin.integrate(model, x[: model.nq], ratio * dt * v_after)
+            tau = pin.rnea(model, rnea, q, v + ratio * (v_after - v), (v_after - v) / dt, forces)
+            worst_N = max(worst_N, float(np.linalg.norm(tau[:3])))
+            worst_Nm = max(worst_Nm, float(np.linalg.norm(tau[3:6])))
     return worst_N, worst_Nm
+
+
+def contact_forces(data: dict[str, Any], problem: Any) -> tuple[float, float]:
+    """Largest force beyond a friction cone [N], and distance of a centre of pressure beyond its sole [m].
+
+    They are held from node to node. Centres of pressure count from LOADED_N on.
+    """
+    cone_N = beyond_m = 0.0
+    names = [str(name) for name in data["end_effectors"]]
+    for n, node in enumerate(problem.runningDatas):
+        contacts = node.differential.multibody.contacts.contacts.todict()
+        for name, contact in contacts.items():
+            e = names.index(name)
+            wrench = contact.jMf.actInv(contact.fext)  # in the frame of the sole
+            normal = wrench.linear[2]
+            over = float(np.hypot(*wrench.linear[:2]) - float(data["frictions"][n, e]) * normal)
+            cone_N = max(cone_N, over)
+            if data["half_sizes"][e].all() and normal > LOADED_N:
+                pressure = np.array([-wrench.angular[1], wrench.angular[0]]) / normal
+                beyond_m = max(beyond_m, float((np.abs(pressure) - data["half_sizes"][e]).max()))
+    return cone_N, beyond_m
 
 
 def main() -> None:
@@ -85,6 +110,7 @@ def main() -> None:
     over = np.maximum(model.lowerPositionLimit[7:] - q, q - model.upperPositionLimit[7:])
     at_nodes, between = drift(model, data, found_xs)
     force_N, moment_Nm = residual(model, found_xs, problem)
+    cone_N, beyond_m = contact_forces(data, problem)
     report = {
         "converged": converged,
         "iterations": solver.iter,
@@ -94,7 +120,9 @@ def main() -> None:
         "cpu_s": solved - built,
         "torque_use": float((np.abs(torques) / model.effortLimit[6:]).max()),
         "velocity_use": float((np.abs(v) / model.velocityLimit[6:]).max()),
-        "position_over_rad": max(0.0, float(over.max())),
+        "position_over_mrad": 1e3 * max(0.0, float(over.max())),
+        "cone_N": cone_N,
+        "pressure_mm": 1e3 * beyond_m,
         "drift_nodes_mm": 1e3 * at_nodes,
         "drift_mm": 1e3 * between,
         "base_residual_N": force_N,

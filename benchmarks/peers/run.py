@@ -69,7 +69,9 @@ def main() -> None:
         "motions": motions.rows,
     }
     rows = words.build / "rows.json"
-    kept: dict[str, Any] = json.loads(rows.read_text()) if rows.exists() else {}  # of peers that are not asked for now
+    # Of peers that are not asked for now.
+    stored: dict[str, dict[str, Any]] = json.loads(rows.read_text()) if rows.exists() else {}
+    kept, dates = stored.get("rows", {}), stored.get("dates", {})
     for name in words.only:
         folder = words.build.absolute() / name
         folder.mkdir(parents=True, exist_ok=True)
@@ -78,10 +80,9 @@ def main() -> None:
             kept[name] = ways[name](folder)
         except Unavailable as error:
             kept[name] = str(error)
-        rows.write_text(json.dumps(kept, indent=1) + "\n")
-    page = tables.page(
-        kept, datetime.date.today().isoformat(), f"{platform.machine()}, Python {platform.python_version()}"
-    )
+        dates[name] = datetime.date.today().isoformat()
+        rows.write_text(json.dumps({"rows": kept, "dates": dates}, indent=1) + "\n")
+    page = tables.page(kept, dates, f"{platform.machine()}, Python {platform.python_version()}")
     if words.out:
         words.out.write_text(page)
     else:

@@ -8,8 +8,8 @@ Row = dict[str, Any]
 
 HEAD = """# Beside other planners
 
-Made by `benchmarks/peers/run.py` on {date} ({machine}, two shared cores that were busy, CPU times of
-one thread). The same goals for all; what each planner must be told is in the tables, since that differs more than the times.
+Made by `benchmarks/peers/run.py` ({machine}, two shared cores that were busy, CPU times of one thread), each table in one run on
+its date. The same goals for all; what each planner must be told is in the tables, since that differs more than the times.
 `hpp-python` is on PyPI, but its contact planner (`hpp-rbprm`) is not; no other planner that searches a contact sequence could be
 installed.
 """
@@ -40,10 +40,11 @@ whose time.
     "motions": """## Whole-body motions: Crocoddyl
 
 Both get the same plan. [Crocoddyl](https://github.com/loco-3d/crocoddyl) gets it as `mcplan export --to crocoddyl` writes it: its
-soft limits, nodes of 20 ms, a start from inverse kinematics, FDDP to its own tolerance. Its *drift* is the distance of a sole in
-contact from where it is planned, its base residual that half way between nodes with forces held. mcplan's figures are those of
-its certificate each millisecond; *check* is the certificate's time. mcplan's time has the inverse kinematics of its start in it,
-Crocoddyl's has not.
+soft limits, nodes of 20 ms, a start from inverse kinematics, FDDP to its own tolerance. All figures are the largest of instants a
+millisecond apart: mcplan's are those of its certificate, *check* being its time; Crocoddyl's motion goes on between nodes as its
+integrator has it, with the node's torques and forces held. *Joints*, *cone* and *CoP* are what is beyond joint limits, friction
+cones and soles (of loads above 10 N), *drift* how far a sole in contact is from where it is planned, *base* what no contact
+gives. mcplan's time has the inverse kinematics of its start in it, Crocoddyl's has not.
 """,
 }
 
@@ -61,6 +62,8 @@ TITLES = {
     "max_ms": "most [ms]",
     "torque_use": "torque use",
     "velocity_use": "speed use",
+    "position_over_mrad": "joints [mrad]",
+    "pressure_mm": "CoP [mm]",
     "drift_mm": "drift [mm]",
     "base_residual_N": "base [N]",
     "base_residual_Nm": "base [N m]",
@@ -89,8 +92,19 @@ COLUMNS = {
         "iterations",
         "cpu_s",
         "certificate_s",
+    ),
+}
+
+#: Of a second table, where one would be too wide.
+MORE_COLUMNS = {
+    "motions": (
+        "case",
+        "planner",
         "torque_use",
         "velocity_use",
+        "position_over_mrad",
+        "cone_N",
+        "pressure_mm",
         "drift_mm",
         "base_residual_N",
         "base_residual_Nm",
@@ -114,13 +128,16 @@ def table(columns: tuple[str, ...], rows: list[Row]) -> str:
     return "\n".join(lines)
 
 
-def page(kept: dict[str, list[Row] | str], date: str, machine: str) -> str:
+def page(kept: dict[str, list[Row] | str], dates: dict[str, str], machine: str) -> str:
     """The whole page; a peer that could not be had is named with the reason."""
-    parts = [HEAD.format(date=date, machine=machine)]
+    parts = [HEAD.format(machine=machine)]
     for name, text in SECTIONS.items():
         if name not in kept:
             continue
         rows = kept[name]
         parts.append(text)
+        parts.append(f"Measured on {dates[name]}.\n")
         parts.append(f"Not on this machine: {rows}\n" if isinstance(rows, str) else table(COLUMNS[name], rows) + "\n")
+        if name in MORE_COLUMNS and not isinstance(rows, str):
+            parts.append(table(MORE_COLUMNS[name], rows) + "\n")
     return "\n".join(parts)

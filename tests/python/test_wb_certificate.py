@@ -17,7 +17,8 @@ import mcplan.wb.certificate  # noqa: E402
 from mcplan.errors import InvalidOptions, PlanViolated  # noqa: E402
 from mcplan.wb import Motion  # noqa: E402
 from mcplan.wb.certificate import MotionTolerances, MotionViolation, certify  # noqa: E402
-from motions_by_hand import LEFT, RIGHT, Talos, changed, lifting_motion, standing_motion, swaying_motion  # noqa: E402
+from mcplan.wb.nodes import nodes_of as solver_nodes  # noqa: E402
+from motions_by_hand import LEFT, RIGHT, Talos, changed, lifting_motion, plan_for, standing_motion, swaying_motion  # noqa: E402
 
 #: Motions by hand move away from their plan, which stands still.
 AWAY = MotionTolerances(com_rms_m=0.2, com_max_m=0.2)
@@ -68,6 +69,32 @@ def test_a_lifted_foot_is_certified_but_for_the_plan_s_com(lifting: Motion) -> N
     assert result.of("mid_swing").end_effector == "left_foot"
     assert 0.02 < result.of("mid_swing").value < 0.03
     assert set(violated(lifting, MotionTolerances())) == {"com_rms", "com_max"}
+
+
+def test_a_swing_that_is_cut_out_of_a_motion_has_the_middle_of_the_whole(talos: Talos, lifting: Motion) -> None:
+    whole = certify(lifting, AWAY).of("mid_swing")
+    since, begin = 0.3, 1.0
+    first = int(np.argmin(np.abs(lifting.times_s - begin - since)))  # nodes are equally far apart
+    plan = plan_for(talos, [(0.8 - since, [RIGHT]), (1.0, [RIGHT, LEFT])])
+    parts = {
+        "times_s": lifting.times_s[first:] - lifting.times_s[first],
+        "coefficients": lifting.coefficients[first:],
+        "corner_forces_S": lifting.corner_forces_S[first:],
+        "contacts": lifting.contacts[first:],
+    }
+    swings = plan.swings
+    swings[0].elapsed_s = since
+    plan.swings = swings
+    cut = certify(changed(lifting, plan=plan, **parts), AWAY).of("mid_swing")
+    assert cut.value == pytest.approx(whole.value, rel=1e-6) and cut.end_effector == whole.end_effector
+    assert abs(cut.time_s - 0.4 + since) == pytest.approx(
+        abs(whole.time_s - begin - 0.4), abs=1.5e-3
+    )  # as low on both sides
+
+    nodes, rest = solver_nodes(lifting.plan, 0.1), solver_nodes(plan, 0.1)
+    middle = {round(float(t) - begin - since, 6): nodes.middle(k, LEFT) for k, t in enumerate(nodes.times_s)}
+    assert [rest.middle(k, LEFT) for k in range(5)] == pytest.approx([middle[round(0.1 * k, 6)] for k in range(5)])
+    assert rest.middle(1, LEFT) == pytest.approx(1.0)
 
 
 def test_what_stands_is_as_statics_say(standing: Motion, talos: Talos) -> None:

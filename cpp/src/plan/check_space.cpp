@@ -152,9 +152,9 @@ void Surroundings::check_clearance(const Problem& problem, const Sample& sample,
     const FreeStretch* stretch = sample.view->stretches[l];
     if (stretch == nullptr) continue;
     const EndEffectorState& end = sample.at.end_effectors[l];
-    const double depth = clearance_depth(around(problem, l, end.position_W), problem.robot.end_effectors[l], *stretch,
-                                         (sample.time_s - stretch->start_s) / stretch->duration_s, end.position_W,
-                                         sole_yaw(problem, sample, l));
+    const double depth =
+        clearance_depth(around(problem, l, end.position_W), problem.robot.end_effectors[l], *stretch,
+                        stretch->ratio(sample.time_s - stretch->start_s), end.position_W, sole_yaw(problem, sample, l));
     findings.offer(StateLimit::clearance, depth, {sample.phase, l, sample.time_s});
   }
 }

@@ -200,7 +200,7 @@ CheckResult check(const Plan& plan, const Scene& scene, const Robot& robot, cons
 
   problem.solids = solids_of(scene);
   for (int l = 0; l < problem.end_effector_count(); ++l)
-    problem.stretches.push_back(free_stretches(plan, problem.solids, l));
+    problem.stretches.push_back(free_stretches(plan, problem.solids, l, robot, similarity));
 
   std::optional<StartSlack> slack;
   if (plan.start_slack_s > 0.0) findings.set_slack(&slack.emplace(problem, findings));

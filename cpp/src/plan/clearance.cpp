@@ -64,7 +64,16 @@ static bool corners_clear(const std::vector<Solid>& solids, const Vector3d& posi
   return true;
 }
 
+double begun_s(const Swing& swing, const Robot& robot, const Similarity& similarity) {
+  return std::min(swing.elapsed_s, phase_duration_of(robot, similarity)[1]);
+}
+
 std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Solid>& solids, int end_effector) {
+  return free_stretches(plan, solids, end_effector, plan.robot, similarity_of(plan.robot, plan.scene.gravity));
+}
+
+std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Solid>& solids, int end_effector,
+                                        const Robot& robot, const Similarity& similarity) {
   require_shape(plan, solids.size(), false);
   if (end_effector < 0 || end_effector >= plan.end_effector_count())
     throw InvalidInput("end_effector", "must be an index below " + text(plan.end_effector_count()), text(end_effector));
@@ -91,6 +100,12 @@ std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Soli
     before = surface;
     if (k < n) time += plan.phases[k].duration;
   }
+  if (stretches.empty() || stretches.front().first_phase > 0) return stretches;
+  for (const Swing& swing : plan.swings)
+    if (swing.end_effector == end_effector && swing.first_phase == 0 && swing.elapsed_s > 0.0) {
+      stretches.front().before_s = begun_s(swing, robot, similarity);
+      stretches.front().lift_normal_W = swing.lift_normal_W.normalized();
+    }
   return stretches;
 }
 

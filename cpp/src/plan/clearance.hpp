@@ -5,6 +5,7 @@
 
 #include "mcplan/plan/plan.hpp"
 #include "mcplan/robot/robot.hpp"
+#include "mcplan/robot/similarity.hpp"
 #include "mcplan/scene/polygon.hpp"
 #include "mcplan/scene/scene.hpp"
 
@@ -33,18 +34,30 @@ double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_
                        const Eigen::Vector3d& position_W, const Eigen::Matrix3d& sole_W, bool whole_sole);
 
 /// A stretch of phases in which an end-effector touches nothing, with the normals of what it leaves and reaches
-/// (the world's z where the plan starts or ends free).
+/// (the world's z where the plan ends free, and where it starts so and does not say what the swing left).
 struct FreeStretch {
   int first_phase = 0, end_phase = 0;  ///< phases first_phase .. end_phase - 1
   double start_s = 0.0, duration_s = 0.0;
+  double before_s = 0.0;  ///< for which it has been under way where the plan starts, as begun_s() takes it
   Eigen::Vector3d lift_normal_W = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d land_normal_W = Eigen::Vector3d::UnitZ();
+
+  /// s = 0..1 of the whole swing at so long [s] after the stretch has begun.
+  double ratio(double since_start_s) const { return (before_s + since_start_s) / (before_s + duration_s); }
 };
 
-/// The free stretches of one end-effector, read from the contact sequence.
-std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Solid>& solids, int end_effector);
+/// For how long a swing has been under way at the plan's start, as far as it counts [s]: what the plan says, which
+/// nothing in it proves, and at most the robot's longest phase. Each second of it takes 0.1 s of the end of the swing
+/// from what is looked at of a sole's corners.
+double begun_s(const Swing& swing, const Robot& robot, const Similarity& similarity);
 
-/// Depth [m] at s = 0..1 of a stretch. The sole turns from the one surface's normal to the other's; its corners count
+/// The free stretches of one end-effector, read from the contact sequence; how long one that the plan starts with has
+/// been under way, and what it left, from the plan's swings. `robot` bounds the former; without it the plan's does.
+std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Solid>& solids, int end_effector);
+std::vector<FreeStretch> free_stretches(const Plan& plan, const std::vector<Solid>& solids, int end_effector,
+                                        const Robot& robot, const Similarity& similarity);
+
+/// Depth [m] at s = 0..1 of a swing. The sole turns from the one surface's normal to the other's; its corners count
 /// in the middle 80 % of the time only, since a sole may overhang an edge where it lifts off and touches down.
 double clearance_depth(const std::vector<Solid>& solids, const EndEffector& end_effector, const FreeStretch& stretch,
                        double s, const Eigen::Vector3d& position_W, double yaw);

@@ -44,7 +44,7 @@ double depth_on(const std::vector<PathInstant>& path, const std::vector<Solid>& 
     if (!(boxes[i].squaredExteriorDistance(way) > reach * reach)) near.push_back(solids[i]);
   double worst = 0.0;
   for (std::size_t i = 0; i < path.size(); ++i)
-    worst = std::max(worst, clearance_depth(near, end_effector, stretch, path[i].since_lift_s / stretch.duration_s,
+    worst = std::max(worst, clearance_depth(near, end_effector, stretch, stretch.ratio(path[i].since_lift_s),
                                             ends[i].position_W, ends[i].yaw));
   return worst;
 }
@@ -63,14 +63,18 @@ std::vector<Choice> choices(const Swing& swing, bool under_way, double usual_m, 
 }
 
 /// Give a swing of the plan the first choice with which it clears the solids, or the one with which it goes in least.
-void choose(Plan& plan, Swing& swing, const FreeStretch& stretch, const std::vector<Choice>& from,
-            const std::vector<Solid>& solids, const std::vector<Eigen::AlignedBox3d>& boxes, double sample_s) {
+void choose(Plan& plan, Swing& swing, FreeStretch stretch, const std::vector<Choice>& from,
+            const std::vector<Solid>& solids, const std::vector<Eigen::AlignedBox3d>& boxes, double sample_s,
+            const Similarity& similarity) {
   const std::vector<PathInstant> path = path_of(plan, swing, sample_s);
   Choice best = from.front();
   double least = HUGE_VAL;
+  const Eigen::Vector3d lifted_from_W = stretch.lift_normal_W;
   for (const Choice& choice : from) {
     swing.height = choice.height;
     swing.elapsed_s = choice.elapsed_s;
+    stretch.before_s = begun_s(swing, plan.robot, similarity);
+    stretch.lift_normal_W = choice.elapsed_s > 0.0 ? swing.lift_normal_W.normalized() : lifted_from_W;
     const double depth = depth_on(path, solids, boxes, plan.robot.end_effectors[swing.end_effector], stretch);
     if (depth < least) {
       least = depth;
@@ -132,7 +136,8 @@ void choose_swings(Plan& plan, bool heights, const std::vector<Swing>& under_way
       // What is left of a swing may be too short to be lifted in: an arc rises and falls by its height twice as fast as
       // a triangle at its steepest, 4 h / T.
       const double most = in_air ? kLiftSpeed * similarity.velocity() * stretch.duration_s / 4.0 : HUGE_VAL;
-      choose(plan, plan.swings.back(), stretch, choices(swing, in_air, usual_height, most), solids, boxes, sample_s);
+      choose(plan, plan.swings.back(), stretch, choices(swing, in_air, usual_height, most), solids, boxes, sample_s,
+             similarity);
     }
 }
 

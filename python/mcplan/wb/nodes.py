@@ -35,6 +35,7 @@ class Nodes:
         contacts: (n, e) surface in contact between nodes, -1: none.
         intervals: Of each end-effector and node the contact that it is in, both ends included; None: free.
         first: (n + 1, e) whether the contact is made there, and last whether it is broken.
+        begun_s: (e,) for how long swings have been under way where the plan starts, 0: none is, as far as the plan says.
         swings_W: (n + 1, e, 3) where feet in the air are to be: as high as in the plan, but they go sideways a little
             later and are there a little earlier, so that they pass edges near their footholds from above.
     """
@@ -45,6 +46,7 @@ class Nodes:
     intervals: list[list[Interval | None]]
     first: NDArray[np.bool_]
     last: NDArray[np.bool_]
+    begun_s: Array
     swings_W: Array
 
     @property
@@ -62,17 +64,20 @@ class Nodes:
         return (not self.first[k, end] or k == 0) and (not self.last[k, end] or k == self.count - 1)
 
     def swung(self, k: int, end: int) -> float:
-        """How far a swing has got at a node, 0 to 1; before the first contact and after the last one 0."""
+        """How far a swing has got at a node, 0 to 1; of one whose begin or end the plan does not say 0."""
         start, stop = self.swing(k, end)
         return (float(self.times_s[k]) - start) / (stop - start) if stop > start else 0.0
 
     def swing(self, k: int, end: int) -> tuple[float, float]:
-        """When a swing begins and ends [s]; the same time twice: it does not, as far as the plan says."""
+        """When a swing begins and ends [s]; the same time twice: it does not, as far as the plan says.
+
+        One that is under way where the plan starts has begun before, at a negative time.
+        """
         before = next((i for i in range(k, -1, -1) if self.intervals[i][end] is not None), None)
         after = next((i for i in range(k, self.count) if self.intervals[i][end] is not None), None)
-        if before is None or after is None:
+        if after is None or (before is None and self.begun_s[end] == 0.0):
             return 0.0, 0.0
-        return float(self.times_s[before]), float(self.times_s[after])
+        return -float(self.begun_s[end]) if before is None else float(self.times_s[before]), float(self.times_s[after])
 
     def middle(self, k: int, end: int) -> float:
         """1 in the middle of a swing, and nothing at its ends, where plans accelerate as no joint can follow."""
@@ -103,7 +108,11 @@ def nodes_of(plan: Plan, step_s: float) -> Nodes:
         first[inside[0], end] = last[inside[-1], end] = True
     rpy = np.array([plan.at(float(t)).base_rpy for t in times])
     zyx = np.unwrap(rpy[:, ::-1], axis=0)
-    nodes = Nodes(samples, zyx, contacts, intervals, first, last, samples.positions_W.copy())
+    begun = np.zeros(ends)
+    for swing in plan.swings:
+        if swing.first_phase == 0:
+            begun[swing.end_effector] = swing.elapsed_s
+    nodes = Nodes(samples, zyx, contacts, intervals, first, last, begun, samples.positions_W.copy())
     _go_upright(plan, nodes)
     return nodes
 
@@ -130,5 +139,5 @@ def _go_upright(plan: Plan, nodes: Nodes) -> None:
                 ratio = np.clip(
                     (nodes.times_s[k] - start - UPRIGHT * (stop - start)) / (1.0 - 2.0 * UPRIGHT), 0.0, stop - start
                 )
-                at = plan.at(start + float(ratio)).end_effectors[end].position_W
+                at = plan.at(max(0.0, start + float(ratio))).end_effectors[end].position_W
                 nodes.swings_W[k, end, :2] = at[:2]

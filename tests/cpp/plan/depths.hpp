@@ -20,7 +20,7 @@ inline double deepest(const mcplan::Plan& plan, const std::vector<mcplan::Solid>
       const double tau = duration * i / samples;
       const auto end = plan.at_phase(k, tau).end_effectors[end_effector];
       worst = std::max(worst, mcplan::clearance_depth(solids, plan.robot.end_effectors[end_effector], stretch,
-                                                      (before + tau) / stretch.duration_s, end.position_W, end.yaw));
+                                                      stretch.ratio(before + tau), end.position_W, end.yaw));
     }
     before += duration;
   }

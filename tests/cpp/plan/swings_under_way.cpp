@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mcplan/base/error.hpp"
+#include "plan/clearance.hpp"
 #include "plan/fixtures.hpp"
 #include "plan/plan_shape.hpp"
 #include "plan/swings.hpp"
@@ -103,6 +104,41 @@ TEST_CASE("the path of a swing that is under way begins at its knot, with that v
       CHECK((difference - at(t).velocity_W).norm() < 1e-7);
     }
   }
+}
+
+TEST_CASE("a swing under way that is cut out of a plan is looked at like the whole of it, at the same instants") {
+  Plan plan = step_on_the_spot();
+  const auto solids = mcplan::solids_of(plan.scene);
+  const mcplan::FreeStretch whole = mcplan::free_stretches(plan, solids, left_foot)[0];
+  const mcplan::EndEffector& foot = plan.robot.end_effectors[left_foot];
+  // A table whose edge the sole overhangs: its corners are inside, where they count.
+  const std::vector<mcplan::Solid> table = {
+      {mcplan::Polygon({{0, 0, 0.5}, {1, 0, 0.5}, {1, 2, 0.5}, {0, 2, 0.5}}), 0.1}};
+  const Vector3d beside(1.02, 1.0, 0.48);
+  for (const double since : {0.02, 0.1, 0.2, 0.37}) {
+    CAPTURE(since);
+    const Plan rest = rest_of_swing(plan, since);
+    const mcplan::FreeStretch cut = mcplan::free_stretches(rest, solids, left_foot)[0];
+    CHECK(cut.lift_normal_W == whole.lift_normal_W);
+    for (double t = since; t < kPhase; t += 0.007) {
+      CHECK(cut.ratio(t - since) == doctest::Approx(whole.ratio(t)));
+      CHECK(clearance_depth(table, foot, cut, cut.ratio(t - since), beside, 0.0) ==
+            clearance_depth(table, foot, whole, whole.ratio(t), beside, 0.0));
+    }
+  }
+}
+
+TEST_CASE("a plan that claims to swing for ages leaves no more of its end unlooked at than a longest phase does") {
+  Plan rest = rest_of_swing(step_on_the_spot(), 0.2);
+  const auto solids = mcplan::solids_of(rest.scene);
+  rest.robot.phase_duration = {0.15, 0.5};
+  for (Swing& swing : rest.swings)
+    if (swing.end_effector == left_foot) swing.elapsed_s = 1e6;
+  const mcplan::FreeStretch stretch = mcplan::free_stretches(rest, solids, left_foot)[0];
+  const double left = kPhase - 0.2;
+  CHECK(stretch.duration_s == doctest::Approx(left));
+  CHECK(stretch.ratio(left - 0.1 * (left + 0.5)) == doctest::Approx(0.9));
+  CHECK(stretch.ratio(0.0) > 0.1);
 }
 
 TEST_CASE("a swing under way that would not clear the scene is lifted anew") {

@@ -39,15 +39,21 @@ def clearance(
         about = replace(depth, value=-np.inf, end_effector=end.name)
         worst = largest(about, -heights[free], states.times[free])
         depth = worst if depth.end_effector == "" else worse(depth, worst)
-        for before, after in zip(own[:-1], own[1:], strict=True):
-            length = after.start_s - before.end_s
-            ratio = (states.times - before.end_s) / max(length, 1e-9)
+        for begin, stop in _swings(motion, e, own):
+            ratio = (states.times - begin) / max(stop - begin, 1e-9)
             inside = (ratio >= MIDDLE[0]) & (ratio <= MIDDLE[1])
             if end.kind == "foot" and inside.any():
                 lowest = largest(about, -heights[inside], states.times[inside])
                 low = replace(middle, value=-lowest.value, time_s=lowest.time_s, end_effector=end.name)
                 middle = worse(middle, low)
     return [depth, middle]
+
+
+def _swings(motion: CertifiedMotion, end: int, own: list[Foothold]) -> list[tuple[float, float]]:
+    """Begin and end of an end-effector's swings [s]; one that is under way at the start has begun before, if the plan says so."""
+    swings = [(before.end_s, after.start_s) for before, after in zip(own[:-1], own[1:], strict=True)]
+    begun = max((s.elapsed_s for s in motion.plan.swings if s.end_effector == end and s.first_phase == 0), default=0.0)
+    return [(-begun, own[0].start_s)] + swings if own and begun > 0.0 else swings
 
 
 def heights_over(motion: CertifiedMotion, states: States, end: int, at: NDArray[np.int64]) -> Array:
