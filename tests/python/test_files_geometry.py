@@ -53,6 +53,18 @@ def test_a_stance_far_from_its_surfaces_is_refused(size, field, place, where, tm
         load_scene(file)
 
 
+def test_a_stance_as_far_away_as_numbers_go_is_refused_with_its_distance(tmp_path):
+    file = write(tmp_path, floor(1.0, goal={"position": [1e300, 0.0, 0.0], "contacts": {"foot": "a"}}))
+    with pytest.raises(
+        mp.errors.InvalidScene, match=r"goal.position: .* got \[1e\+300, 0, 0\], 1e\+300 m beside \"a\""
+    ):
+        load_scene(file)
+    scene = mp.load_scene("flat")
+    scene.goal.position_W = [1e300, 0.0, 0.0]
+    with pytest.raises(mp.errors.InvalidScene, match=r"right_foot would stand 1e\+300 m off"):
+        mp.plan(scene, "humanoid44")
+
+
 def test_start_and_goal_are_both_named(tmp_path):
     high = {"position": [0.0, 0.0, 2.0], "contacts": {"foot": "a"}}
     with pytest.raises(mp.errors.InvalidScene) as found:

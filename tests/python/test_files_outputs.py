@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import mcplan as mp
-from mcplan.errors import InvalidInput
+from mcplan.errors import InvalidArgument, InvalidInput
 from mcplan.files.outputs import require_folder, require_target, whole_file, write_whole
 from standing import standing_plan
 
@@ -152,3 +152,17 @@ def test_a_plan_is_not_saved_under_another_kinds_name(tmp_path, name):
     with pytest.raises(InvalidInput, match=r"path: must end in \.npz or \.json, got .*" + name.replace(".", r"\.")):
         standing_plan().save(tmp_path / name)
     assert names(tmp_path) == []
+
+
+@pytest.mark.parametrize("path", [3, None, b"x.toml", ["x.toml"]])
+def test_what_is_no_path_is_refused_by_name_wherever_something_is_saved(path):
+    plan = standing_plan()
+    page = mp.show(plan)
+    for save in (
+        plan.save,
+        page.save_html,
+        lambda to: mp.files.scenes.save_scene(plan.scene, to),
+        lambda to: mp.files.robots.save_robot(plan.robot, to),
+    ):
+        with pytest.raises(InvalidArgument, match="path: must be a path, got "):
+            save(path)

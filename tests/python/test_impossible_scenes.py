@@ -38,7 +38,16 @@ def slippery(degrees: float, friction: float) -> mp.Scene:
     return scene([slope], [1.0, 0.0, rise])
 
 
+def goal_in_a_block() -> mp.Scene:
+    block = rectangle("block", (1.5, 2.5), 1.0)
+    block.thickness, block.end_effectors = 1.0, ["right_hand"]
+    out = scene([rectangle("a", (-3.0, 3.0)), block], [2.0, 0.0, 0.0])
+    out.goal.contacts = {"foot": "a"}
+    return out
+
+
 IMPOSSIBLE = {
+    'goal: the trunk of humanoid44, with the CoM at [2.0, 0.0, 0.7], would be in the solid of "block"': goal_in_a_block(),
     'the gap of 5 m between "a" and "b" is wider than any jump of humanoid44: at most ': gap(5.0),
     'friction 0.05 of "s" cannot hold on a slope of 30 degrees, which takes 0.577': slippery(30.0, 0.05),
     'goal: right_foot would stand on "a", 0.1 m out of its reach from the CoM at [1.0, 0.0, 0.85]': scene(

@@ -22,6 +22,9 @@ struct Impossible {
 /// Of a contact of the goal, or of the start: it is out of the end-effector's reach. bound_stance.cpp
 std::optional<Impossible> stance_out_of_reach(const Scene& scene, const Robot& robot, bool at_goal);
 
+/// Of the goal, or of the start: the trunk would be in a solid. bound_trunk.cpp
+std::optional<Impossible> trunk_in_solid(const Scene& scene, const Robot& robot, bool at_goal);
+
 /// The friction cones of all surfaces together hold nothing up. bound_friction.cpp
 std::optional<Impossible> slips_everywhere(const Scene& scene, const Robot& robot);
 

@@ -131,12 +131,14 @@ class Roadmap {
   /// Make dear what lies near a route, but not near its ends, so that the next one goes elsewhere.
   void avoid(const Route& route) {
     const double near = ground_->stride();
+    std::vector<Vector3d> samples;
+    for (int s = 0; s <= kRoadSamples; ++s) samples.push_back(point_on(route, static_cast<double>(s) / kRoadSamples));
     std::vector<char> close(nodes_.size(), 0);
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       const Vector3d& at = nodes_[i].at;
       if ((at - route.front()).norm() < near || (at - route.back()).norm() < near) continue;
-      for (int s = 0; s <= kRoadSamples && !close[i]; ++s)
-        close[i] = (at - point_on(route, static_cast<double>(s) / kRoadSamples)).norm() < kNearRoute * near;
+      close[i] = std::any_of(samples.begin(), samples.end(),
+                             [&](const Vector3d& sample) { return (at - sample).norm() < kNearRoute * near; });
     }
     for (lemon::SmartGraph::EdgeIt edge(graph_); edge != lemon::INVALID; ++edge)
       if (close[graph_.id(graph_.u(edge))] || close[graph_.id(graph_.v(edge))]) length_[edge] *= kAvoided;

@@ -13,6 +13,7 @@
 #include "nlp/has_ipopt.hpp"
 #include "nlp/ipopt_adapter.hpp"
 #include "nlp/ipopt_ending.hpp"
+#include "nlp/ipopt_fork_gate.hpp"
 #include "nlp/ipopt_version.hpp"
 #include "nlp/start.hpp"
 
@@ -97,6 +98,7 @@ Ending run(const Problem& problem, const VectorXd& x0, IpoptAdapter& adapter, co
   const Turn turn(deadline);
   if (!turn.mine()) return {Outcome::time_limit, "reached time_limit_s while another solve was running", false};
   adapter.begin();
+  const ForkGate gate;
   Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
   set_options(*application->Options(), options);
   Ipopt::ApplicationReturnStatus code = application->Initialize("");  // no name: no ipopt.opt is read

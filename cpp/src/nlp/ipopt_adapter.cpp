@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "nlp/ipopt_fork_gate.hpp"
+
 namespace mcplan::nlp {
 namespace {
 
@@ -78,6 +80,7 @@ bool IpoptAdapter::evaluate(Index n, const Number* x, bool new_x, Number* out, I
   const Eigen::Map<const VectorXd> at(x, n);
   Eigen::Map<VectorXd> values(out, size);
   try {
+    const ForkGate::Opening opening;
     function(at, values);
     if (!values.allFinite() && options_.stop && options_.stop()) {
       reason_ = Reason::stop;
@@ -136,6 +139,7 @@ bool IpoptAdapter::intermediate_callback(Ipopt::AlgorithmMode mode, Index iterat
   iterations_ = iteration;
   clock_linear_solver(data, restoration);
   try {
+    const ForkGate::Opening opening;
     reserve();
     if (options_.logger) {
       char line[160];

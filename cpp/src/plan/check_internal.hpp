@@ -357,7 +357,6 @@ class Limbs {
   static constexpr double kMove = 0.25;     ///< [m] of the CoM, before surfaces are looked for again
   static constexpr double kBent = 0.1;      ///< [m] by which a limb bends, and ...
   static constexpr double kInside = 0.15;   ///< [m] ... of which it may be in a solid, of a robot of human size
-  static constexpr double kTrunk = 0.1;     ///< [CoM heights] radius
   static constexpr double kEvery_s = 0.01;  ///< instants that are looked at, for a robot of human size
 
   void look_around(const Problem& problem, const Eigen::Vector3d& com_W);

@@ -110,9 +110,9 @@ void Limbs::look(const Problem& problem, const Sample& sample, Findings& finding
   }
 }
 
-/// A ball about the CoM, thinner than any trunk (kTrunk CoM heights), in no solid.
+/// A ball about the CoM, thinner than any trunk (kTrunkBall CoM heights), in no solid.
 void Limbs::check_trunk(const Problem& problem, const Sample& sample, Findings& findings) const {
-  const double radius = kTrunk * problem.robot.com_height;
+  const double radius = kTrunkBall * problem.robot.com_height;
   const Vector3d& com = sample.replay.com_W;
   for (int surface : near_) {
     if (!(boxes_[surface].squaredExteriorDistance(com) < radius * radius)) continue;

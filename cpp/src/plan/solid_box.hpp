@@ -6,6 +6,9 @@
 
 namespace mcplan {
 
+/// Radius of the ball about the CoM that stays out of solids, in CoM heights: thinner than any trunk.
+constexpr double kTrunkBall = 0.1;
+
 /// Box of the prism below a surface; of one without a bottom nothing can be said, and its numbers say so.
 inline Eigen::AlignedBox3d box_of(const Solid& solid) {
   Eigen::AlignedBox3d box;

@@ -39,7 +39,7 @@ void require_within_reach(const Scene& scene, const Robot& robot, const Stance& 
     const Eigen::Vector3d outside =
         (end_effector.reach_min_B - place_B).cwiseMax(place_B - end_effector.reach_max_B).cwiseMax(0.0);
     if (resolved.contacts[l] < 0 || !(outside.norm() > max_outside * robot.com_height)) continue;
-    const std::string off = model::digits((place_B - end_effector.nominal_B).norm(), "%.2g");
+    const std::string off = model::digits((place_B - end_effector.nominal_B).stableNorm(), "%.2g");
     throw InvalidScene(field + ".position",
                        "must be where " + robot.name + " reaches the surfaces that its contacts name",
                        model::digits(stance.position_W, "%.4g") + ": " + end_effector.name + " would stand " + off +

@@ -34,8 +34,8 @@ void require_ground_below(const Scene& scene, const Stance& stance, const std::s
   for (const std::string& name : names) {
     const Polygon polygon(scene.surfaces[static_cast<std::size_t>(scene.surface_index(name))].vertices_W);
     const Vector3d away = stance.position_W - polygon.nearest(stance.position_W);
-    const double distance = away.norm();
-    if (distance >= nearest) continue;
+    const double distance = away.stableNorm();
+    if (!near_name.empty() && !(distance < nearest)) continue;
     const double along = distance > 0.0 ? std::abs(away.dot(polygon.normal_W())) / distance : 1.0;
     nearest = distance;
     near_name = name;

@@ -16,6 +16,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from mcplan.arguments import require_or_path
 from mcplan.errors import InvalidInput, either, shown, shown_path
 
 #: Names of plans and runs.
@@ -169,7 +170,13 @@ def require_writable(field: str, folder: Path, path: Path) -> None:
 
 
 def require_named(path: str | Path, field: str = "path") -> None:
-    """Raises InvalidInput for an empty path, of which ``Path`` makes the working folder, and for what no file can be called."""
+    """Refuse what is no path, what no file can be called, and an empty path, of which ``Path`` makes the working folder.
+
+    Raises:
+        InvalidArgument: It is no path.
+        InvalidInput: It is empty, has a null character or letters that cannot be encoded.
+    """
+    require_or_path(field, path)
     if not os.fspath(path):
         raise InvalidInput(field, "must not be empty")
     if "\0" in os.fspath(path):

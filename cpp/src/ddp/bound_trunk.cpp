@@ -1,0 +1,38 @@
+#include <algorithm>
+
+#include "ddp/costs/prism.hpp"
+#include "ddp/impossible.hpp"
+#include "mcplan/plan/checker.hpp"
+#include "mcplan/robot/similarity.hpp"
+#include "model/text.hpp"
+#include "plan/solid_box.hpp"
+
+namespace mcplan::ddp {
+
+/// At its stance a plan has (`start`, `goal`) a CoM p within b of the stance's p*, from which the replayed one differs
+/// by at most the tolerance of `dynamics`. A ball about the CoM, of radius r = kTrunkBall CoM heights, is no deeper
+/// than c in any solid (`trunk`, `clearance`), so that p is at least r - c from it. The distance from a convex set
+/// changes by no more than the point moves: where p* is nearer than
+///
+///     r - c - b
+///
+/// to a solid, there is no plan.
+std::optional<Impossible> trunk_in_solid(const Scene& scene, const Robot& robot, bool at_goal) {
+  const char* name = at_goal ? "goal" : "start";
+  const ResolvedStance at = resolve_stance(scene, robot, at_goal ? scene.goal : scene.start, name);
+  const Tolerances tolerances;
+  const double length = similarity_of(robot, scene.gravity).length;
+  const double radius_m = kTrunkBall * robot.com_height;
+  const double allowed_m = (tolerances.clearance + tolerances.boundary + 2.0 * tolerances.dynamics) * length;
+  for (const Surface& surface : scene.surfaces) {
+    const Outside outside = outside_prism(Polygon(surface.vertices_W), surface.thickness, at.com_W);
+    const double depth_m = radius_m - std::max(outside.distance, 0.0);
+    if (!(depth_m > allowed_m)) continue;
+    return Impossible{std::string(name) + ": the trunk of " + robot.name + ", with the CoM at " +
+                          model::digits(at.com_W, "%.4g") + ", would be in the solid of " + model::shown(surface.name),
+                      {"trunk", -1, "", 0.0, depth_m, allowed_m, "m", surface.name}};
+  }
+  return std::nullopt;
+}
+
+}  // namespace mcplan::ddp
