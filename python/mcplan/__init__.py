@@ -282,6 +282,7 @@ def run(
         **options: Fields of ``mcplan.online.OnlineOptions`` and of ``mcplan.tracking.Options``, among them ``push``, one
             or several as ``mcplan.track`` takes them; ``command``, a velocity (ahead, left [m/s], turning [rad/s]);
             ``goal``, a place and heading instead of the scene's goal (x, y [m], heading [rad], from a time on [s]);
+            ``engine``, "ddp" or "rhp", which keeps surfaces and order of feet and plans at touchdowns;
             ``latency`` [s], a fixed time from measured state to plan instead of the wall clock of the computation, for
             runs that repeat to the byte; ``period`` [s]; ``replanning=False``: the first plan is followed, for comparison.
 

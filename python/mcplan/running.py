@@ -55,7 +55,7 @@ def run_any(
 
         true_scene = load_scene(true_scene)
     own = robot if isinstance(scene, Plan) else None
-    return run(first_plan(scene, robot), own, options, online, progress, watch, true_scene)
+    return run(first_plan(scene, robot, online), own, options, online, progress, watch, true_scene)
 
 
 def chosen_options(values: Mapping[str, Any]) -> tuple[Options, OnlineOptions]:
@@ -86,11 +86,29 @@ def _is_single(pushes: Any) -> bool:
     )
 
 
-def first_plan(scene: Scene | Plan | str | Path, robot: Robot | str | Path | None) -> Plan:
-    """The plan to begin with: given, loaded, or found for a scene.
+def first_plan(
+    scene: Scene | Plan | str | Path, robot: Robot | str | Path | None, online: OnlineOptions | None = None
+) -> Plan:
+    """The plan to begin with: given, loaded, or found for a scene; by rhp where that replans.
 
     Raises:
         InvalidInput: No plan was found, or no robot was named.
+    """
+    begins = _plan_or_walk(scene, robot)
+    if online is None or online.engine == "ddp":
+        return begins if isinstance(begins, Plan) else _searched(*begins)
+    from mcplan.online.horizon_walk import first_walk
+
+    if isinstance(begins, Plan):
+        return begins if begins.planner == "rhp" else first_walk(begins.scene, begins.robot, online, begins)
+    return first_walk(*begins, online)
+
+
+def _plan_or_walk(scene: Scene | Plan | str | Path, robot: Robot | str | Path | None) -> Plan | tuple[Scene, Robot]:
+    """The plan, if it is one or the path of one; else scene and robot.
+
+    Raises:
+        InvalidInput: It is a whole-body plan, or no robot was named.
     """
     if isinstance(scene, Plan):
         return scene
@@ -111,6 +129,10 @@ def first_plan(scene: Scene | Plan | str | Path, robot: Robot | str | Path | Non
         from mcplan.files.robots import load_robot
 
         robot = load_robot(robot)
+    return scene, robot
+
+
+def _searched(scene: Scene, robot: Robot) -> Plan:
     result = solve(scene, robot, {})
     if result.report.status not in (Status.solved, Status.acceptable):
         raise InvalidInput("scene", "must have a plan to begin with", f"{scene.name}: {result.report.message}")

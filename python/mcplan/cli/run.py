@@ -30,6 +30,12 @@ SceneArgument = Annotated[
 RobotOption = Annotated[
     str | None, typer.Option("--robot", metavar="R", help="Robot with a URDF: built-in name or TOML file.")
 ]
+EngineOption = Annotated[
+    str,
+    typer.Option(
+        "--engine", metavar="E", help="ddp, free in its steps, or rhp: at touchdowns, surfaces and order of feet given."
+    ),
+]
 CommandOption = Annotated[
     list[str] | None,
     typer.Option(
@@ -79,6 +85,7 @@ ReplanningOption = Annotated[
 
 @named_as_typed(
     "robot",
+    "engine",
     "command",
     "goal",
     "mass_scale",
@@ -98,6 +105,7 @@ ReplanningOption = Annotated[
 def run(
     scene: SceneArgument,
     robot: RobotOption = None,
+    engine: EngineOption = "ddp",
     push: track.PushOption = None,
     command: CommandOption = None,
     goal: GoalOption = None,
@@ -133,6 +141,8 @@ def run(
     Example: mcplan run flat --robot talos --push 250,0.2,1.4,90 --latency 0.02 --html run.html
 
     Example: mcplan run flat --robot talos --command 0.15,0,0.1 --duration 8 --json
+
+    Example: mcplan run rubbles --robot talos --engine rhp --latency 0.1
     """
     from mcplan.cli.pushes import parse_pushes
     from mcplan.cli.track_outputs import RunOutputs
@@ -141,6 +151,7 @@ def run(
     values |= {"mass_scale": mass_scale, "friction_scale": friction, "ground_shift_m": ground_shift}
     values |= {"torque_bandwidth_hz": torque_bandwidth, "torque_delay_s": torque_delay, "sensor_noise": sensor_noise}
     values |= {"latency_s": latency, "period_s": period, "duration_s": duration, "told_at_s": told_at}
+    values["engine"] = engine
     values["command"] = [_numbers(text) for text in command or []]
     values["goal"] = [_numbers(text, "--goal", (2, 3, 4), "x,y[,yaw[,at]], such as 1.5,0.3") for text in goal or []]
     outputs = RunOutputs(video, html, strip, plots, save, verb="run")
@@ -161,11 +172,11 @@ def _run(
 
     require("mcplan run", "sim", "mujoco", "pinocchio", "proxsuite")
     outputs.require()
-    chosen_options(values)
+    _, online = chosen_options(values)
     progress = Progress(telling.quiet or telling.json)
     progress.working("planning")
     scene, robot, true_scene = walk
-    plan = first_plan(scene, robot)
+    plan = first_plan(scene, robot, online)
     with watching(telling.live, plan, None) as watch:
         result, interrupted = as_far_as_it_came(
             lambda: run_any(plan, robot, values, progress.simulated, watch, true_scene)

@@ -14,12 +14,14 @@ docs/online.md says how to wire it to a robot.
 from __future__ import annotations
 
 from .contacts import ContactFilter
+from .horizon_planner import HorizonPlanner
 from .measures import OnlineMeasures
 from .options import OnlineOptions
 from .planner import MeasuredState, Planner, Update
 
 __all__ = [
     "ContactFilter",
+    "HorizonPlanner",
     "MeasuredState",
     "OnlineMeasures",
     "OnlineOptions",

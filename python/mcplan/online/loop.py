@@ -72,7 +72,7 @@ def length_of(plan: Plan, options: Options, online: OnlineOptions) -> float:
 
 
 @dataclass
-class _Pending:
+class Pending:
     """An update, when it may be taken over, which is when its computation is over, and whether it has needless steps."""
 
     update: Update
@@ -124,17 +124,9 @@ class Loop:
         self.contacts = ContactFilter(standing, 2.0 * self.contact_N, self.contact_N)
         self.reader = StateReader(self.robot, self.urdf_model)
         self.sensors = Sensors(options.sensor_noise, options.noise_seed)
-        limit_s = online.time_limit_s
-        if np.isnan(limit_s) and not online.fixed_latency:
-            limit_s = online.period_s
-        named = {"start_slack_s": online.start_slack_s * np.sqrt(plan.robot.com_height / HUMAN_M)}
-        if not np.isnan(limit_s):
-            named["time_limit"] = limit_s
-        self.planner = Planner(plan, 0.0, command=None, period_s=online.period_s, **named)
-        if online.wide_reach:
-            self.planner.robots.append(widened(plan.robot))
-        self.pace, self.tally = Pace(online), Tally(online.latency_s)
-        self.pending: _Pending | None = None
+        self.planner, self.pace = self._planning(plan, online)
+        self.tally = Tally(online.latency_s)
+        self.pending: Pending | None = None
         self.failing_s, self.stopping = (
             np.inf,
             False,
@@ -148,6 +140,19 @@ class Loop:
         self.recorder = Recorder(plan, self.urdf_model, simulation.model.joints, self.followed)
         self.failures, self.control_s = 0, 0.0
         self.watch: Watch | None = None
+
+    def _planning(self, plan: Plan, online: OnlineOptions) -> tuple[Planner, Pace]:
+        """Who replans, and when."""
+        limit_s = online.time_limit_s
+        if np.isnan(limit_s) and not online.fixed_latency:
+            limit_s = online.period_s
+        named = {"start_slack_s": online.start_slack_s * np.sqrt(plan.robot.com_height / HUMAN_M)}
+        if not np.isnan(limit_s):
+            named["time_limit"] = limit_s
+        planner = Planner(plan, 0.0, command=None, period_s=online.period_s, **named)
+        if online.wide_reach:
+            planner.robots.append(widened(plan.robot))
+        return planner, Pace(online)
 
     @property
     def plan(self) -> FollowedPlan:
@@ -241,7 +246,7 @@ class Loop:
         latency_s = self.online.latency_s if self.online.fixed_latency else update.took_s
         self.tally.computed(update.took_s, latency_s, update.status, reason)
         longer = few and update.usable and update.plan is not None and _longer(update.plan, under_way.plan, t)
-        self.pending = _Pending(update, now_s + latency_s, longer)
+        self.pending = Pending(update, now_s + latency_s, longer)
 
     def _feel_slips(self, forces_W: Array) -> None:
         """Plan and control with less friction where an end-effector slips."""

@@ -8,12 +8,16 @@ import numpy as np
 
 from mcplan.errors import InvalidOptions
 
+#: Engines that replan.
+ENGINES = ("ddp", "rhp")
+
 
 @dataclass(frozen=True)
 class OnlineOptions:
     """When to replan, and when a new plan is taken over.
 
     Attributes:
+        engine: Who replans: "ddp", or "rhp", which is given surfaces and order of feet and plans at touchdowns.
         replanning: False: the first plan is followed to its end.
         period_s: A replan is asked for this long after the last one.
         at_touchdowns: And whenever an end-effector has come into contact.
@@ -35,6 +39,7 @@ class OnlineOptions:
         stop_after_s: The robot is brought to a stand if it has left its plan and no plan has come for so long.
     """
 
+    engine: str = "ddp"
     replanning: bool = True
     period_s: float = 0.1
     at_touchdowns: bool = True
@@ -54,6 +59,9 @@ class OnlineOptions:
 
     def validate(self) -> None:
         """Raise InvalidOptions naming the first field out of its range."""
+        _require("engine", "must be 'ddp' or 'rhp'", repr(self.engine), self.engine in ENGINES)
+        if self.engine == "rhp":
+            self._require_for_rhp()
         _require("period_s", "must lie in 0.01 to 10", self.period_s, 0.01 <= self.period_s <= 10)
         _require("pause_s", "must lie in 0 to 1", self.pause_s, 0 <= self.pause_s <= 1)
         for name in ("com_margin_m", "capture_margin_m", "stop_after_s", "start_slack_s"):
@@ -74,6 +82,19 @@ class OnlineOptions:
             _require(name, "must have ascending times of 0 or more", rows, ascending)
         both = {row[0] for row in self.command} & {row[0] for row in self.goal}
         _require("goal", "must not begin when a command does", self.goal, not both)
+
+    def _require_for_rhp(self) -> None:
+        """Raise InvalidOptions naming the first field that a given sequence of steps cannot follow."""
+        for name, instead in (
+            ("command", "walk at a velocity with engine 'ddp'"),
+            ("goal", "walk to another goal with engine 'ddp', or give a plan that leads there"),
+        ):
+            rows = getattr(self, name)
+            _require(name, f"must not be given with engine 'rhp', whose steps are given: {instead}", rows, not rows)
+        rule = (
+            "must be true with engine 'rhp', which plans at touchdowns alone; take engine 'ddp' to replan by the period"
+        )
+        _require("at_touchdowns", rule, self.at_touchdowns, self.at_touchdowns)
 
     def command_at(self, time_s: float) -> tuple[float, float, float] | None:
         """The velocity to walk at at a time [s]; None: to a goal."""

@@ -62,6 +62,33 @@ class Pace:
         return "capture point" if capture_m > options.capture_margin_m else None
 
 
+class TouchdownPace(Pace):
+    """Says when to plan a horizon of rhp: once both feet stand after a touchdown, and again until there is one.
+
+    Attributes:
+        failed: The last horizon could not be followed.
+    """
+
+    def __init__(self, options: OnlineOptions) -> None:
+        super().__init__(options)
+        self.failed = False
+
+    def due_standing(self, now_s: float, touchdown: bool, both_stand: bool) -> str | None:
+        """What asks for a horizon now; None: nothing does.
+
+        Args:
+            now_s: On the controller's clock.
+            touchdown: A foot came into contact just now.
+            both_stand: Both feet are in contact and none is about to leave.
+        """
+        self._touched |= touchdown
+        if not both_stand:
+            return None
+        if self._touched:
+            return "touchdown"
+        return "again" if self.failed and now_s - self._last_s > self._options.period_s - 1e-9 else None
+
+
 def steps_left(plan: Plan, t: float) -> bool:
     """Whether contacts change after a time [s] of a plan."""
     if t >= plan.duration():

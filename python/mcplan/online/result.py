@@ -93,7 +93,11 @@ def result_from(header: Header, arrays: Arrays) -> TrackingResult:
         if name not in arrays:
             raise InvalidInput(name, "is required")
         plans.append(FollowedPlan(plan_from_bytes(arrays[name].tobytes()), **{key: of_plan[key] for key in _OF_PLANS}))
-    options = {key: value for key, value in numbers(own["options"]).items() if key in option_names()}
+    engine = own["options"].get("engine", OnlineOptions.engine)  # earlier versions had one alone
+    options = numbers(
+        {key: value for key, value in own["options"].items() if key in option_names() and key != "engine"}
+    )
+    options["engine"] = engine
     for name in ("command", "goal"):
         options[name] = tuple(tuple(row) for row in options[name])
     return RunResult(

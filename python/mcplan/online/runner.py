@@ -17,6 +17,8 @@ from mcplan.tracking.interruption import Interruption
 from mcplan.tracking.options import Options, Watch
 from mcplan.tracking.runner import posture_at, robot_for
 
+from .horizon_loop import HorizonLoop
+from .horizon_planner import require_steps
 from .loop import Loop, length_of
 from .options import OnlineOptions
 from .result import RunResult
@@ -39,7 +41,7 @@ def run(
     """Simulate a robot that follows a plan and is planned for anew while it walks.
 
     Args:
-        plan: The plan to begin with, of ``ddp``.
+        plan: The plan to begin with, of ``ddp``, or of ``rhp`` where that replans.
         robot: A robot with a URDF and the plan's end-effectors by name; None: the plan's own.
         options: Options of the simulation, as for tracking.
         online: When to replan, and when plans are taken over.
@@ -75,7 +77,8 @@ def run(
     on_ground[2] += options.ground_shift_m
     simulation.reset(on_ground, np.zeros(model.urdf_model.model.nv))
     with Interruption() as stop:
-        loop = Loop(plan, simulation, start, options, online, true_scene)
+        kind = HorizonLoop if online.engine == "rhp" else Loop
+        loop = kind(plan, simulation, start, options, online, true_scene)
         loop.watch = watch
         try:
             result = loop.run(stop, progress)
@@ -89,8 +92,12 @@ def _require_valid(plan: Plan, options: Options, online: OnlineOptions, true_sce
     """Raise InvalidOptions or InvalidInput, as run() says."""
     options.validate()
     online.validate()
-    if any(phase.has_points for phase in plan.phases):
-        raise InvalidInput("plan", "must be a plan of ddp: those with forces at points are not replanned")
+    if online.engine == "rhp":
+        require_steps(plan)
+    elif online.replanning and any(phase.has_points for phase in plan.phases):
+        raise InvalidInput(
+            "plan", "must be a plan of ddp: those with forces at points are replanned by engine 'rhp' alone"
+        )
     if true_scene is not None:
         true_scene.validate()
     elif not np.isnan(online.told_at_s):

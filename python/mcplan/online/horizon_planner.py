@@ -1,0 +1,191 @@
+"""Planning by rhp beside a controller: one horizon for each touchdown, from the measured state."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mcplan._core import Plan, Status, rhp
+from mcplan.errors import InvalidInput, InvalidPlan
+from mcplan.options import fill
+
+from .planner import MeasuredState, Planner, Update
+
+if TYPE_CHECKING:
+    from mcplan._core import Robot, Scene
+
+#: Phases of a step: on both feet, on one, on both.
+PHASES = 3
+#: Options of rhp for walks that are planned while they are walked, unless others are named. Of ``single`` what is predicted
+#: can be followed, too, when no horizon comes.
+ONLINE: Mapping[str, Any] = {"fidelity": "single", "lookahead": 3, "solver": "ipm"}
+#: Range of the duration on both feet, at least [s].
+DOUBLE_SUPPORT_S = 0.1
+#: By so much a measured start may be beyond a limit that the horizon then keeps: of the CoM's height as a ratio, of angular
+#: momentum as a factor.
+HEIGHT_SLACK, MOMENTUM_SLACK = 0.005, 1.05
+
+
+def online_options(computing_s: float, named: Mapping[str, Any]) -> rhp.Options:
+    """Options of walks that are planned while they are walked, a horizon taking so long [s]."""
+    options = fill(rhp.Options(), ONLINE)
+    low, high = options.double_support_s
+    options.double_support_s = (low + computing_s, max(high, low + computing_s + DOUBLE_SUPPORT_S))
+    chosen: rhp.Options = fill(options, named)
+    return chosen
+
+
+def steps_of(plan: Plan, first: int, end: int) -> Plan:
+    """Steps `first` up to `end` of a plan that rhp has made; it begins at rest or on the way, and time 0."""
+    low, high = PHASES * first, PHASES * end
+    part = plan.__copy__()
+    phases, swings = list(plan.phases), []
+    for swing in plan.swings:
+        begins, ends = max(swing.first_phase, low), min(swing.end_phase, high)
+        if begins < ends:  # hands are free throughout, feet within a step
+            moved = swing.__copy__()
+            moved.first_phase, moved.end_phase = begins - low, ends - low
+            swings.append(moved)
+    part.phases, part.knots, part.swings = phases[low:high], list(plan.knots)[low : high + 1], swings
+    if high < len(phases):
+        part.final_contacts = [contact.surface for contact in phases[high - 1].contacts]
+        part.open_end = True
+    part.measured_start = plan.measured_start or first > 0
+    return part
+
+
+def steps_made(plan: Plan, t: float) -> int:
+    """How many steps of a plan of rhp are made at a time [s] at which both feet stand.
+
+    A foot that is down in the second half of its swing has landed early; in the first half it has not left yet.
+    """
+    now = int(plan.at(min(max(t, 0.0), float(plan.duration()))).phase)
+    step, kind = divmod(now, PHASES)
+    times = plan.knot_times()
+    landed = kind == 2 or (kind == 1 and t > 0.5 * (times[now] + times[now + 1]))
+    return step + int(landed)
+
+
+def require_steps(plan: Plan) -> None:
+    """Raise InvalidPlan where a plan is not made of steps as rhp makes them."""
+    if plan.planner != "rhp" or len(plan.phases) % PHASES:
+        rule = "must be one of rhp: engine 'rhp' follows its steps; take mcplan.walk(scene, sequence=plan).plan"
+        raise InvalidPlan("planner", rule, plan.planner or "none")
+
+
+class HorizonPlanner(Planner):
+    """Plans horizons of rhp in a thread of its own; the order of feet and their surfaces are those of the first plan.
+
+    A horizon of rhp begins on both feet. States with a foot in the air are refused (an update of status ``error``): submit
+    one at each touchdown, and follow the plan under way meanwhile.
+
+    Args:
+        plan: The plan under way, of rhp; its steps are those that are planned.
+        begins_s: Time of the clock at which it began.
+        computing_s: Time that a horizon takes: phases on both feet are longer by as much, for all of its first one to come.
+        **named: Options of mcplan.walk by name, among them ``time_limit`` [s].
+
+    Attributes:
+        first_step: Which step of the sequence the plan under way begins with.
+    """
+
+    def __init__(self, plan: Plan, begins_s: float = 0.0, *, computing_s: float = 0.0, **named: Any) -> None:
+        require_steps(plan)
+        self.sequence, self.first_step = plan, 0
+        self._options = online_options(computing_s, named)
+        self._first_steps: dict[int, int] = {}
+        super().__init__(plan, begins_s)
+
+    @property
+    def steps(self) -> int:
+        """How many steps the sequence has."""
+        return len(self.sequence.phases) // PHASES
+
+    def first_step_at(self, t: float) -> int:
+        """Which step of the sequence is next at a time [s] of the plan under way at which both feet stand."""
+        return self.first_step + steps_made(self.plan, t)
+
+    def take_over(self, update: Update) -> None:
+        super().take_over(update)
+        self.first_step = self._first_steps.pop(update.ticket, self.first_step)
+
+    def _computed(
+        self, ticket: int, state: MeasuredState, plan: Plan, begins_s: float, named: Mapping[str, Any]
+    ) -> Update:
+        began = time.perf_counter()
+        scene, robot, first = self.scene or self.sequence.scene, self.sequence.robot, self.first_step
+        try:
+            first += steps_made(plan, state.time_s - begins_s)
+            if first >= self.steps:
+                raise InvalidInput("state", "must be measured before the last step is made", str(first))
+            options = fill(self._options.__copy__(), named)
+            start = start_state(scene, robot, state)
+            planner = rhp.RecedingHorizon(
+                scene, robot, steps_of(self.sequence, first, self.steps), within_reach(options, robot, start)
+            )
+            cycle = planner.step(start)
+            new = self._followed(planner.horizon(), first) if cycle.executed else None
+        except Exception as error:  # a state that the planner refuses must not end the thread: the plan goes on
+            took_s, text = time.perf_counter() - began, f"{type(error).__name__}: {error}"
+            return Update(None, state.time_s, took_s, "error", False, state.time_s, text, "previous_plan", ticket)
+        self._first_steps = {ticket: first}
+        update = Update(
+            plan=new,
+            begins_s=state.time_s,
+            took_s=time.perf_counter() - began,
+            status=cycle.status.name,
+            usable=cycle.executed,
+            kept_until_s=state.time_s + (float(cycle.duration_s) if cycle.status == Status.solved else 0.0),
+            message=cycle.message,
+            plan_from=cycle.step_from.name,
+            ticket=ticket,
+        )
+        return update if new is not None else replace(update, plan_from="previous_plan")
+
+    def _followed(self, horizon: Plan, first: int) -> Plan:
+        """What of a horizon may be followed: all where it ends at rest, else all but its last step."""
+        steps = len(horizon.phases) // PHASES
+        return horizon if first + steps >= self.steps or steps == 1 else steps_of(horizon, 0, steps - 1)
+
+
+def start_state(scene: Scene, robot: Robot, state: MeasuredState) -> rhp.State:
+    """The measured state as rhp takes it; feet lie on the planes of their surfaces.
+
+    Raises:
+        InvalidInput: A foot is in the air.
+    """
+    feet = [i for i, end in enumerate(robot.end_effectors) if end.kind == "foot"]
+    knot, places, surfaces = state.knot, [], []
+    for foot in feet:
+        surface = int(state.contacts[foot])
+        if surface < 0:
+            name = robot.end_effectors[foot].name
+            raise InvalidInput("state.contacts", "must have both feet on surfaces: horizons of rhp begin so", name)
+        outline_W = np.asarray(scene.surfaces[surface].vertices_W, float)
+        normal = np.cross(outline_W[1] - outline_W[0], outline_W[2] - outline_W[1])
+        normal /= np.linalg.norm(normal)
+        place = np.asarray(knot.end_effectors_W[foot], float)
+        places.append(place - normal * (normal @ (place - outline_W[0])))
+        surfaces.append(surface)
+    return rhp.State(
+        com_W=knot.com_W,
+        com_velocity_W=knot.com_velocity_W,
+        angular_momentum_W=knot.angular_momentum_W,
+        feet_W=places,
+        surfaces=surfaces,
+    )
+
+
+def within_reach(options: rhp.Options, robot: Robot, start: rhp.State) -> rhp.Options:
+    """Options with a CoM's height and an angular momentum that a measured start does not violate already."""
+    chosen = options.__copy__()
+    heights = [float(start.com_W[2] - foot[2]) / float(robot.com_height) for foot in start.feet_W]
+    low, high = options.com_height
+    chosen.com_height = (min(low, min(heights) - HEIGHT_SLACK), max(high, max(heights) + HEIGHT_SLACK))
+    largest = float(np.abs(start.angular_momentum_W).max())
+    chosen.momentum_max = max(options.momentum_max, MOMENTUM_SLACK * largest)
+    return chosen
