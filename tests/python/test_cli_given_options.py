@@ -70,6 +70,7 @@ BAD = {
         "--sensor-noise": ("-1",),
     },
     "run flat --robot talos": {
+        "--engine": ("x", "sip"),
         "--push": ("40",),
         "--command": ("x", "1,2"),
         "--goal": ("x", "1", "1,2,3,-4", "nan,0"),
