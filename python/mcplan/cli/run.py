@@ -142,7 +142,7 @@ def run(
 
     Example: mcplan run flat --robot talos --command 0.15,0,0.1 --duration 8 --json
 
-    Example: mcplan run rubbles --robot talos --engine rhp --latency 0.1
+    Example: mcplan run stairs_up --robot talos --engine rhp --latency 0.1
     """
     from mcplan.cli.pushes import parse_pushes
     from mcplan.cli.track_outputs import RunOutputs
