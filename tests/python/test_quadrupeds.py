@@ -132,6 +132,26 @@ def test_the_trunk_is_parallel_to_the_slope_that_four_feet_stand_on():
     assert np.degrees(plan.knots[-1].base_rpy[1]) == pytest.approx(-11.0, abs=0.7)
 
 
+def test_a_room_is_crossed_by_a_door_aside_in_more_phases_than_the_way_is_long():
+    walls = []
+    for name, low, high in (("right", -3.0, -1.6), ("left", -0.4, 3.0)):
+        wall = mp.model.Surface()
+        wall.name, wall.thickness, wall.end_effectors = name, 2.0, ["right_hand"]
+        wall.vertices_W = [[1.0, low, 2.0], [1.1, low, 2.0], [1.1, high, 2.0], [1.0, high, 2.0]]
+        walls.append(wall)
+    floor = mp.model.Surface()
+    floor.name, floor.end_effectors = "floor", ["foot"]
+    floor.vertices_W = [[-2.0, -3.0, 0.0], [5.0, -3.0, 0.0], [5.0, 3.0, 0.0], [-2.0, 3.0, 0.0]]
+    room = scene("room", [floor, *walls], [2.0, 0.0, 0.0])
+    room.goal.contacts = {"foot": "floor"}
+    result = mp.plan(room, "anymal", time_limit=300.0)
+    assert str(result.report.status) == "solved", result.report.message
+    com = np.array([result.plan.at(t).com_W for t in np.linspace(0.0, result.plan.duration(), 500)])
+    through = com[(com[:, 0] > 1.0) & (com[:, 0] < 1.1)]
+    assert len(through) > 0
+    assert -1.6 < through[:, 1].min() and through[:, 1].max() < -0.4
+
+
 @pytest.mark.slow
 def test_margins_are_options():
     slope = [mp.plan("slope", "go2", friction_ratio=ratio) for ratio in (1.0, 0.6)]

@@ -286,8 +286,6 @@ Ending Attempts::vary(Ending ending, const ContactSequence& initial, Tuning tuni
   return ending;
 }
 
-/// Robots on four feet begin with a crawl and nothing else, once more with footholds further inside where a swing has
-/// caught an edge: a discovery over four feet takes several times as long, and mostly ends with no better walk.
 Ending Attempts::crawl() {
   std::vector<Guess> steps = stepping(first_);
   if (steps.empty()) return Ending::done;
@@ -300,20 +298,12 @@ Ending Attempts::crawl() {
     tuning.clear_swings = true;
     ending = attempt({Guess{last_, 0.0, true}}, tuning);
   }
-  return ending;
+  if (ending != Ending::interrupted) best_->look_back(search_, surfaces_);
+  return late(ending);
 }
 
 Ending Attempts::run(const Incumbent* warm) {
   Ending ending = Ending::done;
-  const bool unset = !warm && problem_.options.initial_sequence.empty();
-  if (unset && problem_.options.method == Method::standard && balances_on_points(problem_)) {
-    ending = crawl();
-    if (best_->solved() || (ending != Ending::done && ending != Ending::broke_down)) {
-      if (ending != Ending::interrupted) best_->look_back(search_, surfaces_);
-      return late(ending);
-    }
-    ending = Ending::done;
-  }
   const ContactSequence sequence = initial(ending);
   if (sequence.empty()) return ending;
   Incumbent start = first_guess({}, first_);

@@ -24,6 +24,9 @@ class Attempts {
   /// Attempt and restart; `warm` is an earlier plan to begin with, or null.
   Ending run(const Incumbent* warm);
 
+  /// End-effectors in turns and nothing else, once more with footholds further inside where a swing has caught an edge.
+  Ending crawl();
+
  private:
   struct Guess {
     Incumbent start;
@@ -41,7 +44,6 @@ class Attempts {
   Ending hold_limits(Ending ending, Tuning tuning);
   Ending vary(Ending ending, const ContactSequence& initial, Tuning tuning);
   bool asks_too_much_of_joints() const;
-  Ending crawl();
   double further_inside() const;
   Ending late(Ending ending) const;
   void keep(const Incumbent& now, const Tuning& tuning);

@@ -11,6 +11,7 @@
 #include "ddp/lanes.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
+#include "ddp/stepping_sequence.hpp"
 #include "model/text.hpp"
 
 namespace mcplan::ddp {
@@ -38,6 +39,14 @@ bool append(Report& report, Report&& other, int before, const Options& options) 
     report.history.push_back(std::move(row));
   }
   return true;
+}
+
+/// Rows from this one on have surfaces by the problem's indices, which become the scene's.
+void name_by_scene(Report& report, std::size_t first, const std::vector<int>& surfaces) {
+  for (std::size_t row = first; row < report.history.size(); ++row)
+    for (ContactState& state : report.history[row].sequence)
+      for (int& surface : state)
+        if (surface != kFree) surface = surfaces[surface];
 }
 
 }  // namespace
@@ -68,8 +77,10 @@ std::vector<int> WaysToGoal::surfaces_of(const Route& route, const Outlook& outl
   return surfaces_near_way(*scene_, from.end_effectors_W, to.end_effectors_W, near, needed);
 }
 
-/// The problem on these surfaces, in so many phases; 0: as many as the way asks for.
-Problem WaysToGoal::pose(const Way& way, int phases, const std::vector<int>& surfaces, const Beside* beside) const {
+/// The problem on as much of the scene as this outlook has, in so many phases; 0: as many as the way asks for.
+WaysToGoal::Posed WaysToGoal::pose(const Way& way, int phases, int level, const Beside* beside) const {
+  const Outlook look = outlook(options_->method == Method::paper ? kOutlooks - 1 : level);
+  const std::vector<int> surfaces = surfaces_of(way.route, look);
   Options with = *options_;
   with.phases = phases;
   with.allow_flight = way.flights;
@@ -86,42 +97,64 @@ Problem WaysToGoal::pose(const Way& way, int phases, const std::vector<int>& sur
       const auto here = std::lower_bound(surfaces.begin(), surfaces.end(), surface);
       if (here != surfaces.end() && *here == surface) surface = static_cast<int>(here - surfaces.begin());
     }
-  return {part_of(*scene_, surfaces), *robot_, with, way.route};
+  Problem problem(part_of(*scene_, surfaces), *robot_, with, way.route);
+  problem.look_near(look.nearest, look.within);
+  const bool all = surfaces.size() == scene_->surfaces.size() && problem.rules.looks_everywhere();
+  return {std::move(problem), surfaces, all};
 }
 
 /// With ever more of the scene, until there is a plan that the checker accepts.
 void WaysToGoal::search_in(int phases, const Way& way, Report& report, Found& found, const Beside* beside) const {
-  std::size_t rows = report.history.size();  // named by the scene's surfaces
   for (int level = 0; level < kOutlooks; ++level) {
-    const Outlook look = outlook(options_->method == Method::paper ? kOutlooks - 1 : level);
-    const std::vector<int> surfaces = surfaces_of(way.route, look);
-    Problem problem = pose(way, phases, surfaces, beside);
-    problem.look_near(look.nearest, look.within);
-    found.steps = problem.steps;
-    const bool all = surfaces.size() == scene_->surfaces.size() && problem.rules.looks_everywhere();
+    Posed posed = pose(way, phases, level, beside);
+    found.steps = posed.problem.steps;
     std::optional<Incumbent> warm;
     if (earlier_) {
-      warm = from_plan(problem, *earlier_, 0);
-      if (warm->sequence.empty() || !problem.rules.valid(warm->sequence)) warm.reset();
+      warm = from_plan(posed.problem, *earlier_, 0);
+      if (warm->sequence.empty() || !posed.problem.rules.valid(warm->sequence)) warm.reset();
     }
-    Attempts attempts(std::move(problem), surfaces, *deadline_, found.best, report);
+    const std::size_t before = report.history.size();
+    Attempts attempts(std::move(posed.problem), posed.surfaces, *deadline_, found.best, report);
     found.ending = attempts.run(warm ? &*warm : nullptr);
-    for (; rows < report.history.size(); ++rows)
-      for (ContactState& state : report.history[rows].sequence)
-        for (int& surface : state)
-          if (surface != kFree) surface = surfaces[surface];
-    if (found.best.solved() || !ended_by_itself(found.ending) || all) {
+    name_by_scene(report, before, posed.surfaces);
+    if (found.best.solved() || !ended_by_itself(found.ending) || posed.all) {
       found.best.settle(attempts.problem(), report);
       break;
     }
   }
 }
 
+/// A robot that is tracked on four point feet begins with a crawl and nothing else: a discovery over four feet takes
+/// several times as long, and mostly ends with no better walk. Where the base turns, its feet have further to go than
+/// the CoM, by which phases are counted: a crawl that fails is tried in more of them. Whether that was all.
+bool WaysToGoal::crawl_along(const Way& way, Report& report, Found& found, const Beside* beside) const {
+  if (earlier_ || !options_->initial_sequence.empty() || options_->method == Method::paper) return false;
+  int first = 0;
+  for (const double factor : kCrawlPhases) {
+    const int phases = first == 0 ? options_->phases : 2 * static_cast<int>(0.5 * factor * first);
+    if (phases > kPhasesMax) break;
+    Posed posed = pose(way, phases, 0, beside);
+    if (!balances_on_points(posed.problem)) return false;
+    found.steps = posed.problem.steps;
+    if (first == 0) first = found.steps;
+    const std::size_t before = report.history.size();
+    Attempts attempts(std::move(posed.problem), posed.surfaces, *deadline_, found.best, report);
+    found.ending = attempts.crawl();
+    name_by_scene(report, before, posed.surfaces);
+    if (found.best.solved() || !ended_by_itself(found.ending)) {
+      found.best.settle(attempts.problem(), report);
+      return true;
+    }
+    if (options_->phases > 0) break;
+  }
+  return false;
+}
+
 /// In as many phases as the way asks for.
 Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* beside) const {
   Found found{BestPlan(*scene_, *deadline_)};
   found.way = way;
-  search_in(options_->phases, way, report, found, beside);
+  if (!crawl_along(way, report, found, beside)) search_in(options_->phases, way, report, found, beside);
   return found;
 }
 

@@ -47,7 +47,13 @@ class WaysToGoal {
   struct Beside {
     StopRequest stop;
   };
-  Problem pose(const Way& way, int phases, const std::vector<int>& surfaces, const Beside* beside) const;
+  struct Posed {
+    Problem problem;
+    std::vector<int> surfaces;
+    bool all = true;  ///< of the scene's
+  };
+  Posed pose(const Way& way, int phases, int level, const Beside* beside) const;
+  bool crawl_along(const Way& way, Report& report, Found& found, const Beside* beside) const;
   void search_in(int phases, const Way& way, Report& report, Found& found, const Beside* beside = nullptr) const;
   Found search_along(const Way& way, Report& report, const Beside* beside = nullptr) const;
   void try_more_phases(Report& report, Found& found) const;
