@@ -85,6 +85,7 @@ WaysToGoal::Posed WaysToGoal::pose(const Way& way, int phases, int level, const 
   with.phases = phases;
   with.allow_flight = way.flights;
   with.min_contacts = way.min_contacts;
+  if (way.brief) with.restarts = 0;
   if (beside) {
     with.threads = 1;
     with.logger = nullptr;
@@ -141,7 +142,7 @@ bool WaysToGoal::crawl_along(const Way& way, Report& report, Found& found, const
     Attempts attempts(std::move(posed.problem), posed.surfaces, *deadline_, found.best, report);
     found.ending = attempts.crawl();
     name_by_scene(report, before, posed.surfaces);
-    if (found.best.solved() || !ended_by_itself(found.ending)) {
+    if (found.best.solved() || !ended_by_itself(found.ending) || way.brief) {
       found.best.settle(attempts.problem(), report);
       return true;
     }
@@ -225,9 +226,13 @@ Found WaysToGoal::search(Report& report) const {
   const int by_feet = !given && four_feet_stand() ? 2 : 0,
             least = options_->min_contacts < 0 ? by_feet : options_->min_contacts;
   bool stopped = false;  // by the caller or a limit: whatever was found before, nothing more is tried
-  const auto try_way = [&](const Way& way, Ahead* ahead = nullptr) {
+  const auto try_way = [&](Way way, Ahead* ahead = nullptr) {
     stopped = stopped || (best && (deadline_->passed() || (options_->stop && options_->stop())));
     if (stopped) return;
+    if (way.brief && !(best && best->best.ok())) {
+      way.brief = false;
+      ahead = nullptr;
+    }
     const bool told = ahead && ahead->found && append(report, std::move(ahead->report), ahead->before, *options_);
     Found found = told ? std::move(*ahead->found) : search_along(way, report);
     tell(way, found);
@@ -238,6 +243,7 @@ Found WaysToGoal::search(Report& report) const {
   std::vector<Way> sure;
   for (const Route& route : routes.detours) sure.push_back({route, false, least});
   if (!routes.obstructed) sure.push_back(straight);
+  for (std::size_t i = 1; i < sure.size(); ++i) sure[i].brief = true;
   std::vector<Ahead> ahead = search_ahead(sure, report);
   for (std::size_t i = 0; i < sure.size(); ++i) try_way(sure[i], &ahead[i]);
   if (routes.obstructed && (!best || !best->best.ok())) try_way(straight);

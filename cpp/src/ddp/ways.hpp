@@ -18,6 +18,7 @@ struct Way {
   Route route;
   bool flights = true;
   int min_contacts = 0;
+  bool brief = false;  ///< one attempt: there is a plan already, and this way is the answer only if it costs less
 };
 
 /// What it has found.
@@ -38,7 +39,7 @@ class WaysToGoal {
       : scene_(&scene), robot_(&robot), options_(&options), earlier_(earlier), deadline_(&deadline) {}
 
   /// Straight on; where steps do not lead along there, round what is in the way as well, and where they do, again
-  /// without flights if there were any. The best of what is found.
+  /// without flights if there were any. The best of what is found; once there is a plan, other ways are tried briefly.
   Found search(Report& report) const;
 
  private:
