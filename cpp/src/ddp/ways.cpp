@@ -160,6 +160,7 @@ Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* bes
 }
 
 /// Where a plan is nearly found, the same way in more phases: ground may ask for shorter steps than the robot can make.
+/// Round what is in the way before other ways are searched: they would cost what iterations there are.
 void WaysToGoal::try_more_phases(Report& report, Found& found) const {
   if (options_->phases > 0 || earlier_ || !options_->initial_sequence.empty() || options_->method == Method::paper)
     return;
@@ -236,6 +237,7 @@ Found WaysToGoal::search(Report& report) const {
     const bool told = ahead && ahead->found && append(report, std::move(ahead->report), ahead->before, *options_);
     Found found = told ? std::move(*ahead->found) : search_along(way, report);
     tell(way, found);
+    if (!way.route.empty()) try_more_phases(report, found);
     stopped = !ended_by_itself(found.ending);
     if (!best || better(found.best.best(), best->best.best())) best.emplace(std::move(found));
   };
@@ -258,7 +260,7 @@ Found WaysToGoal::search(Report& report) const {
   // Two feet are what a walk should have; a leap may have fewer.
   const auto hopeless = [&] { return !best->best.best() || violation_ratio(best->best.best()->worst) > kAcceptable; };
   if (options_->min_contacts < 0 && least > 0 && hopeless()) try_way({{}, options_->allow_flight, 0});
-  try_more_phases(report, *best);
+  if (best->way.route.empty()) try_more_phases(report, *best);
   best->barrier = routes.barrier;
   return std::move(*best);
 }
