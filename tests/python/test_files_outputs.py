@@ -154,6 +154,20 @@ def test_a_plan_is_not_saved_under_another_kinds_name(tmp_path, name):
     assert names(tmp_path) == []
 
 
+@pytest.mark.parametrize("name", ["it.npz", "it", "it.txt"])
+def test_scenes_robots_and_pages_are_not_saved_under_another_kinds_name(tmp_path, name):
+    plan = standing_plan()
+    page = mp.show(plan)
+    for save, ending in (
+        (page.save_html, r"\.html or \.htm"),
+        (lambda to: mp.files.scenes.save_scene(plan.scene, to), r"\.toml"),
+        (lambda to: mp.files.robots.save_robot(plan.robot, to), r"\.toml"),
+    ):
+        with pytest.raises(InvalidInput, match=f"path: must end in {ending}, got .*{name}"):
+            save(tmp_path / name)
+    assert names(tmp_path) == []
+
+
 @pytest.mark.parametrize("path", [3, None, b"x.toml", ["x.toml"]])
 def test_what_is_no_path_is_refused_by_name_wherever_something_is_saved(path):
     plan = standing_plan()

@@ -11,7 +11,7 @@ from mcplan._core import Robot
 from mcplan.errors import UnknownRobot
 from mcplan.files import builtin
 from mcplan.files.geometry import warn_of_geometry
-from mcplan.files.outputs import write_whole
+from mcplan.files.outputs import TOML, require_suffix, write_whole
 from mcplan.files.toml import toml_text
 
 #: How a robot names a URDF of the package example-robot-data.
@@ -56,12 +56,14 @@ def save_robot(robot: Robot, path: str | Path, header: str = "") -> None:
 
     Args:
         robot: A valid robot.
-        path: Where to.
+        path: Where to; it ends in .toml.
         header: Comment to put on top.
 
     Raises:
+        InvalidInput: The path has another ending.
         InvalidRobot: A field is out of range.
     """
+    require_suffix("path", path, TOML)
     robot.validate()
     write_whole(toml_text(robot_to_dict(robot), header), path)
 

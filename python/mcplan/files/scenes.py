@@ -11,7 +11,7 @@ from mcplan._core import Scene
 from mcplan.errors import InvalidOptions, UnknownScene
 from mcplan.files import builtin
 from mcplan.files.geometry import warn_of_geometry
-from mcplan.files.outputs import write_whole
+from mcplan.files.outputs import TOML, require_suffix, write_whole
 from mcplan.files.toml import toml_text
 
 #: Factors on a scene's lengths: between robots as small as a grain and as high as a mountain.
@@ -36,12 +36,14 @@ def save_scene(scene: Scene, path: str | Path, header: str = "") -> None:
 
     Args:
         scene: A valid scene.
-        path: Where to.
+        path: Where to; it ends in .toml.
         header: Comment to put on top.
 
     Raises:
+        InvalidInput: The path has another ending.
         InvalidScene: A field is out of range.
     """
+    require_suffix("path", path, TOML)
     scene.validate()
     write_whole(toml_text(scene_to_dict(scene), header), path)
 

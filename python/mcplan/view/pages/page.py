@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from mcplan.errors import printable
 from mcplan.extras import require
-from mcplan.files.outputs import write_whole
+from mcplan.files.outputs import PAGE, require_suffix, write_whole
 from mcplan.view.stage import decimals
 
 from .snapshot import screenshot
@@ -95,8 +95,10 @@ class Page:
         legend, "#menu" with meshcat's own menu.
 
         Raises:
+            InvalidInput: The path ends neither in .html nor in .htm.
             OSError: The file cannot be written.
         """
+        require_suffix("path", path, PAGE)
         return write_whole(self.html(), path)
 
     def save_png(self, path: str | Path, time_s: float | None = None, size: tuple[int, int] = (1280, 720)) -> Path:
