@@ -24,6 +24,9 @@ class Attempts {
   /// Attempt and restart; `warm` is an earlier plan to begin with, or null.
   Ending run(const Incumbent* warm);
 
+  /// Go on from a plan that the checker rejects by little until it accepts one, with the plan's sequence.
+  Ending mend(Incumbent near, Tuning tuning);
+
  private:
   struct Guess {
     Incumbent start;

@@ -40,6 +40,14 @@ bool append(Report& report, Report&& other, int before, const Options& options) 
   return true;
 }
 
+/// Call surfaces in rows from this one on as the scene does.
+void name_surfaces(Report& report, std::size_t first_row, const std::vector<int>& surfaces) {
+  for (std::size_t i = first_row; i < report.history.size(); ++i)
+    for (ContactState& state : report.history[i].sequence)
+      for (int& surface : state)
+        if (surface != kFree) surface = surfaces[surface];
+}
+
 }  // namespace
 
 /// Surfaces that the search looks at: those near the way, and those that are named.
@@ -98,6 +106,7 @@ void WaysToGoal::search_in(int phases, const Way& way, Report& report, Found& fo
     Problem problem = pose(way, phases, surfaces, beside);
     problem.look_near(look.nearest, look.within);
     found.steps = problem.steps;
+    found.surfaces = surfaces;
     const bool all = surfaces.size() == scene_->surfaces.size() && problem.rules.looks_everywhere();
     std::optional<Incumbent> warm;
     if (earlier_) {
@@ -106,10 +115,8 @@ void WaysToGoal::search_in(int phases, const Way& way, Report& report, Found& fo
     }
     Attempts attempts(std::move(problem), surfaces, *deadline_, found.best, report);
     found.ending = attempts.run(warm ? &*warm : nullptr);
-    for (; rows < report.history.size(); ++rows)
-      for (ContactState& state : report.history[rows].sequence)
-        for (int& surface : state)
-          if (surface != kFree) surface = surfaces[surface];
+    name_surfaces(report, rows, surfaces);
+    rows = report.history.size();
     if (found.best.solved() || !ended_by_itself(found.ending) || all) {
       found.best.settle(attempts.problem(), report);
       break;
@@ -125,19 +132,40 @@ Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* bes
   return found;
 }
 
-/// Where a plan is nearly found, the same way in more phases: ground may ask for shorter steps than the robot can make.
+/// Where a plan is nearly found, or a foot has caught the edge of what it can step on, the same way in more phases:
+/// ground may ask for shorter steps than the robot can make.
 void WaysToGoal::try_more_phases(Report& report, Found& found) const {
   if (options_->phases > 0 || earlier_ || !options_->initial_sequence.empty() || options_->method == Method::paper)
     return;
   for (const double factor : kMorePhases) {
     const auto& best = found.best.best();
-    if (found.best.ok() || !best || !ended_by_itself(found.ending) || violation_ratio(best->worst) > kAcceptable)
-      return;
+    if (found.best.ok() || !best || !ended_by_itself(found.ending)) return;
+    const bool caught = best->worst.name == "clearance" && !found.barrier;
+    if (!caught && violation_ratio(best->worst) > kAcceptable) return;
     const int phases = 2 * static_cast<int>(0.5 * factor * found.steps);
     if (phases > kPhasesMax) return;
     search_in(phases, found.way, report, found);
     tell(found.way, found);
   }
+}
+
+/// Where the checker rejects the best plan by little, what its own sequence makes of it.
+void WaysToGoal::mend(Report& report, Found& found) const {
+  const std::optional<BestPlan::Finished>& best = found.best.best();
+  if (options_->restarts == 0 || options_->method == Method::paper || !best || found.best.ok()) return;
+  if (!ended_by_itself(found.ending) && found.ending != Ending::iteration_limit) return;
+  if (violation_ratio(best->worst) > kAcceptable) return;
+  const int phases = static_cast<int>(best->plan.phases.size());
+  const std::size_t rows = report.history.size();
+  Problem problem = pose(found.way, phases, found.surfaces, nullptr);
+  Incumbent near = from_plan(problem, best->plan, 0);
+  const Tuning tuning = best->tuning;
+  Attempts attempts(std::move(problem), found.surfaces, *deadline_, found.best, report);
+  const Ending ending = attempts.mend(std::move(near), tuning);
+  name_surfaces(report, rows, found.surfaces);
+  if (ending == Ending::time_limit || ending == Ending::interrupted) found.ending = ending;
+  found.best.settle(attempts.problem(), report);
+  tell(found.way, found);
 }
 
 /// At the start and at the goal.
@@ -219,8 +247,9 @@ Found WaysToGoal::search(Report& report) const {
   // Two feet are what a walk should have; a leap may have fewer.
   const auto hopeless = [&] { return !best->best.best() || violation_ratio(best->best.best()->worst) > kAcceptable; };
   if (options_->min_contacts < 0 && least > 0 && hopeless()) try_way({{}, options_->allow_flight, 0});
-  try_more_phases(report, *best);
   best->barrier = routes.barrier;
+  try_more_phases(report, *best);
+  mend(report, *best);
   return std::move(*best);
 }
 

@@ -26,6 +26,7 @@ struct Found {
   Ending ending = Ending::no_sequence;
   int steps = 0;
   Way way = {};
+  std::vector<int> surfaces = {};       ///< that it has looked at
   std::optional<Barrier> barrier = {};  ///< why no ground leads to the goal
 };
 
@@ -51,6 +52,7 @@ class WaysToGoal {
   void search_in(int phases, const Way& way, Report& report, Found& found, const Beside* beside = nullptr) const;
   Found search_along(const Way& way, Report& report, const Beside* beside = nullptr) const;
   void try_more_phases(Report& report, Found& found) const;
+  void mend(Report& report, Found& found) const;
   bool four_feet_stand() const;
   void tell(const Way& way, const Found& found) const;
   /// What a thread has found on a way ahead of the others, if it came to its end.
