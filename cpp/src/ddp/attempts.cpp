@@ -11,6 +11,7 @@
 #include "ddp/constants.hpp"
 #include "ddp/initial_sequence.hpp"
 #include "ddp/lanes.hpp"
+#include "ddp/near_miss.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
 #include "ddp/stepping_sequence.hpp"
@@ -256,6 +257,26 @@ Ending Attempts::hold_limits(Ending ending, Tuning tuning) {
   tuning.exact = true;
   tuning.hold_joints = false;
   return attempt({{last_, 0.0, true}}, tuning);
+}
+
+/// From a plan that the checker rejects by little to the optimum of its sequence with the limits held, then further
+/// inside those that are still missed, as long as that leads to near misses.
+Ending Attempts::mend(Incumbent near, Tuning tuning) {
+  Problem inside = problem_;
+  Report& report = search_.report();
+  inside.options.max_iterations = report.iterations + static_cast<int>(kMendRatio * problem_.options.max_iterations);
+  tuning.exact = true;
+  for (int round = 0; round < kMendRounds && !best_->solved(); ++round) {
+    Search search(inside, *deadline_, report);
+    const double never = std::numeric_limits<double>::infinity();
+    const Ending ending = search.polish_guess(near, Search::Origin::plan, never, tuning);
+    if (ending != Ending::done) return ending;
+    const std::vector<Violation> missed = best_->finish(search_, surfaces_, near, tuning);
+    const auto by_far = [](const Violation& v) { return violation_ratio(v) > kAcceptable; };
+    if (std::any_of(missed.begin(), missed.end(), by_far)) break;
+    tighten(inside, tuning, missed);
+  }
+  return late(Ending::done);
 }
 
 /// In few phases the optimum of the sequence that was found, and from more discoveries, whatever the checker says of

@@ -27,6 +27,9 @@ class Attempts {
   /// End-effectors in turns and nothing else, once more with footholds further inside where a swing has caught an edge.
   Ending crawl();
 
+  /// Go on from a plan that the checker rejects by little until it accepts one, with the plan's sequence.
+  Ending mend(Incumbent near, Tuning tuning);
+
  private:
   struct Guess {
     Incumbent start;

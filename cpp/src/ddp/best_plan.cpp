@@ -28,6 +28,7 @@ BestPlan::Finished BestPlan::converted(Search& search, const std::vector<int>& s
   out.plan = to_plan(search.problem(), now, swing_heights);
   put_back(out.plan, *scene_, surfaces);
   out.evaluation = search.evaluate(now, tuning);
+  out.tuning = tuning;
   return out;
 }
 
@@ -48,6 +49,7 @@ bool BestPlan::judge(Finished& finished, const Problem& problem, Look look, cons
   finished.ok = result.ok() && look == Look::full;
   finished.sampled = look != Look::full;
   finished.worst = result.worst();
+  finished.violations = result.violations();
   finished.warnings = result.warnings;
   return result.ok();
 }
@@ -76,18 +78,21 @@ const std::optional<BestPlan::Finished>& BestPlan::best() const {
   return finished ? finished_ : looked_;
 }
 
-void BestPlan::finish(Search& search, const std::vector<int>& surfaces, Incumbent now, const Tuning& tuning) {
+std::vector<Violation> BestPlan::finish(Search& search, const std::vector<int>& surfaces, Incumbent now,
+                                        const Tuning& tuning) {
   // If the contacts cannot be met exactly, the plan is kept as it is, and the checker says what is wrong with it.
   const StopRequest late = when_passed();
   search.make_exact(now, tuning, late);
-  if (best() && late && late()) return;
+  if (best() && late && late()) return {};
   const Stopwatch watch(search.report().timing_s, "check");
   Finished finished = converted(search, surfaces, now, tuning, !(late && late()));
   finished.sampled = true;
   judge(finished, search.problem(), Look::full, late);
-  if (finished.sampled && best()) return;
+  if (finished.sampled && best()) return {};
   if (finished.sampled) judge(finished, search.problem(), Look::late);
+  std::vector<Violation> violations = finished.violations;
   take(finished_, std::move(finished));
+  return violations;
 }
 
 void BestPlan::keep(Search& search, const std::vector<int>& surfaces, const Incumbent& now, const Tuning& tuning) {

@@ -25,16 +25,18 @@ class BestPlan {
   struct Finished {
     Plan plan;
     Violation worst;
+    std::vector<Violation> violations;  ///< all that are beyond their tolerance
     std::vector<Violation> warnings;
     bool ok = false;
     bool sampled = false;   ///< checked at few instants only: never called ok
     double sample_s = 0.0;  ///< every so often, as Tolerances::sample_s
     Evaluation evaluation;
+    Tuning tuning;  ///< it was made with
   };
 
   /// End an attempt: make exact, convert, check in full. Where the time limit cuts it short, what was kept before
-  /// stays, and without any the iterate is looked at as it is.
-  void finish(Search& search, const std::vector<int>& surfaces, Incumbent now, const Tuning& tuning);
+  /// stays, and without any the iterate is looked at as it is. Returns what the checker objects to.
+  std::vector<Violation> finish(Search& search, const std::vector<int>& surfaces, Incumbent now, const Tuning& tuning);
 
   /// Remember an iterate if one is due; under a time limit look at it, at few instants, if there is time.
   void keep(Search& search, const std::vector<int>& surfaces, const Incumbent& now, const Tuning& tuning);

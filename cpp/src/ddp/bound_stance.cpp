@@ -95,4 +95,24 @@ std::optional<Impossible> stance_out_of_reach(const Scene& scene, const Robot& r
   return std::nullopt;
 }
 
+std::optional<Impossible> start_beyond_reach(const Scene& scene, const Robot& robot, double tolerances) {
+  const ResolvedStance at = resolve_stance(scene, robot, scene.start, "start");
+  const double allowed_m = tolerances * Tolerances().reach * similarity_of(robot, scene.gravity).length;
+  const Eigen::Matrix3d to_base = rotation_from_rpy(at.base_rpy).transpose();
+  std::optional<Impossible> farthest;
+  for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {
+    const EndEffector& end = robot.end_effectors[l];
+    if (at.contacts[l] < 0 || end.com_reach.given()) continue;
+    const Vector3d place_B = to_base * (at.end_effectors_W[l] - at.com_W);
+    const double beyond_m = (end.reach_min_B - place_B).cwiseMax(place_B - end.reach_max_B).maxCoeff();
+    if (!(beyond_m > allowed_m) || (farthest && !(beyond_m > farthest->violation.value))) continue;
+    const std::string& surface = scene.surfaces[at.contacts[l]].name;
+    farthest = Impossible{"start: " + end.name + " would stand on " + text(surface) + ", " +
+                              model::digits(1e3 * beyond_m, "%.3g") + " mm beyond its reach from the CoM at " +
+                              model::digits(at.com_W, "%.4g"),
+                          {"reach", -1, end.name, 0.0, beyond_m, allowed_m, "m", surface}};
+  }
+  return farthest;
+}
+
 }  // namespace mcplan::ddp

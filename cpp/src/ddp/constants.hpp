@@ -244,6 +244,10 @@ constexpr double kExtraMargin_m = 0.03;
 /// A violation within this factor of its tolerance is called acceptable, beyond it infeasible. Chosen.
 constexpr double kAcceptable = 10.0;
 
+/// A near miss is mended in so many rounds, with that ratio of the iteration limit on top. Chosen.
+constexpr int kMendRounds = 5;
+constexpr double kMendRatio = 0.1;
+
 // Method::paper.
 
 /// Without a proximal term the published algorithm diverges on every scene. Measured ("Paper mode").

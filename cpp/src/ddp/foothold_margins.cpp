@@ -21,6 +21,21 @@ double Problem::foothold_margin(int l, int surface, int edge, double extra_margi
   return std::max(margin, std::min(further, slack_[l][surface][edge]));
 }
 
+double Problem::margin_of_given(int l, int surface, int edge, const Vector3d& place, double margin,
+                                Vector3d* by_place) const {
+  const auto relax = [&](const ContactState& contacts, const VectorXd& x) {
+    if (contacts[l] != surface) return;
+    const Vector3d given = x.segment<3>(layout.end(l)), off = place - given;
+    const double inside = std::max(0.0, -polygons[surface].overshoot(edge, given)), distance = off.norm();
+    if (!(inside + distance < margin)) return;
+    margin = inside + distance;
+    if (by_place) *by_place = distance > 0.0 ? Vector3d(off / distance) : Vector3d::Zero();
+  };
+  relax(start_contacts, start);
+  relax(goal_contacts, reference.x.back());
+  return margin;
+}
+
 /// How far inside each edge the end-effectors have to stand at the start and at the goal: no margin may ask for more.
 void Problem::make_slack() {
   slack_.clear();

@@ -22,6 +22,10 @@ struct Impossible {
 /// Of a contact of the goal, or of the start: it is out of the end-effector's reach. bound_stance.cpp
 std::optional<Impossible> stance_out_of_reach(const Scene& scene, const Robot& robot, bool at_goal);
 
+/// Of a contact of the start: it is beyond the end-effector's reach box by more than so many tolerances of `reach`. No
+/// other plan is ruled out by that, but all of a search that begins exactly at the stance. bound_stance.cpp
+std::optional<Impossible> start_beyond_reach(const Scene& scene, const Robot& robot, double tolerances);
+
 /// Of the goal, or of the start: the trunk would be in a solid. bound_trunk.cpp
 std::optional<Impossible> trunk_in_solid(const Scene& scene, const Robot& robot, bool at_goal);
 

@@ -10,7 +10,7 @@ double torsion_arm(const Problem& problem, int l, int surface) {
   const double friction = problem.friction[surface];
   // Point contacts have no sole to judge by; their max_moment alone counts.
   if (std::isinf(friction) || problem.limits[l].half_width <= 0.0) return std::numeric_limits<double>::infinity();
-  return std::min(friction, 1.0) * problem.limits[l].half_width;
+  return problem.torsion_ratio * std::min(friction, 1.0) * problem.limits[l].half_width;
 }
 
 bool about_normal(const Problem& problem, const Layout::Moment& moment, int surface) {

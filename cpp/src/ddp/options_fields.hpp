@@ -157,7 +157,9 @@ struct Fields<ddp::Options> {
       field("one_switch_per_step", &Options::one_switch_per_step, "",
             "At most one contact is made or broken between two phases (Tazaki, eq. 32)."),
       field("restarts", &Options::restarts, "", "Further attempts while the checker rejects the plan.").at_least(0),
-      field("max_iterations", &Options::max_iterations, "", "Most iterations, over all attempts.").at_least(1),
+      field("max_iterations", &Options::max_iterations, "",
+            "Most iterations, over all attempts; to mend a near miss a tenth more.")
+          .at_least(1),
       field("time_limit_s", &Options::time_limit_s, "s", "Wall clock of the search.").positive().or_infinite(),
       field("threads", &Options::threads, "",
             "Threads that search ways, guesses and changes at once; the result does not depend on it.")

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "ddp/constants.hpp"
 #include "ddp/contact_sequence.hpp"
 #include "ddp/layout.hpp"
 #include "ddp/routes.hpp"
@@ -87,10 +88,12 @@ class Problem {
   double pyramid_ratio = 1.0;                         ///< of the cone's opening that lies inside every side
   double edge_margin = 0.0;                           ///< footholds are planned this much inside their polygon
   double pressure_margin = 0.0;                       ///< and centres of pressure
+  double torsion_ratio = 1.0;                         ///< of what friction under a sole can twist that is planned with
   double load_min = 0.0;                              ///< least stiffness of point feet in contact that are `balances`
   std::vector<double> keep_out_depth;  ///< by scene surface: a free end-effector below it is pushed up from here on
   std::vector<double> thickness;       ///< by scene surface, of the solid below it
   double swing_height = 0.0;           ///< by which an end-effector is lifted usually
+  double swing_room = kPathRoom;       ///< that soles keep from solids where swings are held out of them
   std::vector<Eigen::Vector3d> idle_hands;  ///< nominal places of hands that may touch nothing
   std::vector<int> standing_solids;         ///< surfaces whose solids come near the reference of the CoM
   std::vector<EndLimits> limits;            ///< by active end-effector
@@ -131,6 +134,12 @@ class Problem {
   /// feet `extra_margin` as well. Never past the middle of a surface that is too narrow, and with `extra_margin` no
   /// further than where the end-effector has to stand at the start or the goal.
   double foothold_margin(int l, int surface, int edge, double extra_margin = 0.0) const;
+
+  /// What is left of such a margin where the foothold is at `place`, and its derivative by the place, if asked for.
+  /// Where the scene puts the end-effector at the start or the goal nothing can move it: the margin is what that
+  /// leaves, and grows with the distance from there. So footholds that are given cost nothing, others what they do.
+  double margin_of_given(int l, int surface, int edge, const Eigen::Vector3d& place, double margin,
+                         Eigen::Vector3d* by_place = nullptr) const;
 
   /// Roll, pitch, yaw of a state.
   Eigen::Vector3d rpy(const Eigen::VectorXd& x) const;

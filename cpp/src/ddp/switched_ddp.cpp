@@ -58,6 +58,8 @@ struct SwitchedDdp::Impl {
       throw InvalidOptions("method", "must be standard to start from a plan: the published algorithm does not",
                            "paper");
   }
+  /// Whether the first state of a plan is the start's; with Model::lipm the CoM may begin a little elsewhere.
+  bool begins_at_stance() const { return options.method == Method::standard && options.model == Model::wrench; }
   PlanResult solve(const Plan* earlier);
   PlanResult conclude(const Found& found, Report&& report, double time_s) const;
   std::string message_of(Status status, const Found& found, const Report& report) const;
@@ -70,7 +72,9 @@ PlanResult SwitchedDdp::Impl::solve(const Plan* earlier) {
   report.seed = options.seed;
   report.threads = options.threads;
   report.version = MCPLAN_VERSION;
-  if (std::optional<Impossible> impossible = why_impossible(scene, robot, false, options.allow_flight)) {
+  std::optional<Impossible> impossible = why_impossible(scene, robot, false, options.allow_flight);
+  if (!impossible && begins_at_stance()) impossible = start_beyond_reach(scene, robot, kAcceptable);
+  if (impossible) {
     report.status = Status::infeasible;
     report.message = impossible->message;
     report.worst_violation = impossible->violation;
@@ -136,6 +140,8 @@ std::string SwitchedDdp::Impl::message_of(Status status, const Found& found, con
   if (best && status != Status::solved) {
     std::string why = flight_needed(scene, robot);
     if (why.empty() && found.barrier) why = text_of(*found.barrier, scene, robot.name);
+    if (begins_at_stance())
+      if (const std::optional<Impossible> start = start_beyond_reach(scene, robot, 1.0)) why = start->message;
     if (!why.empty()) message << "; " << why;
   }
   return message.str();

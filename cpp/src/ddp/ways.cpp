@@ -41,10 +41,10 @@ bool append(Report& report, Report&& other, int before, const Options& options) 
   return true;
 }
 
-/// Rows from this one on have surfaces by the problem's indices, which become the scene's.
-void name_by_scene(Report& report, std::size_t first, const std::vector<int>& surfaces) {
-  for (std::size_t row = first; row < report.history.size(); ++row)
-    for (ContactState& state : report.history[row].sequence)
+/// Call surfaces in rows from this one on as the scene does.
+void name_surfaces(Report& report, std::size_t first_row, const std::vector<int>& surfaces) {
+  for (std::size_t i = first_row; i < report.history.size(); ++i)
+    for (ContactState& state : report.history[i].sequence)
       for (int& surface : state)
         if (surface != kFree) surface = surfaces[surface];
 }
@@ -77,10 +77,8 @@ std::vector<int> WaysToGoal::surfaces_of(const Route& route, const Outlook& outl
   return surfaces_near_way(*scene_, from.end_effectors_W, to.end_effectors_W, near, needed);
 }
 
-/// The problem on as much of the scene as this outlook has, in so many phases; 0: as many as the way asks for.
-WaysToGoal::Posed WaysToGoal::pose(const Way& way, int phases, int level, const Beside* beside) const {
-  const Outlook look = outlook(options_->method == Method::paper ? kOutlooks - 1 : level);
-  const std::vector<int> surfaces = surfaces_of(way.route, look);
+/// The problem on these surfaces, in so many phases; 0: as many as the way asks for.
+Problem WaysToGoal::pose(const Way& way, int phases, const std::vector<int>& surfaces, const Beside* beside) const {
   Options with = *options_;
   with.phases = phases;
   with.allow_flight = way.flights;
@@ -98,7 +96,14 @@ WaysToGoal::Posed WaysToGoal::pose(const Way& way, int phases, int level, const 
       const auto here = std::lower_bound(surfaces.begin(), surfaces.end(), surface);
       if (here != surfaces.end() && *here == surface) surface = static_cast<int>(here - surfaces.begin());
     }
-  Problem problem(part_of(*scene_, surfaces), *robot_, with, way.route);
+  return {part_of(*scene_, surfaces), *robot_, with, way.route};
+}
+
+/// The problem on as much of the scene as an outlook of this level has.
+WaysToGoal::Posed WaysToGoal::pose_within(int level, const Way& way, int phases, const Beside* beside) const {
+  const Outlook look = outlook(options_->method == Method::paper ? kOutlooks - 1 : level);
+  const std::vector<int> surfaces = surfaces_of(way.route, look);
+  Problem problem = pose(way, phases, surfaces, beside);
   problem.look_near(look.nearest, look.within);
   const bool all = surfaces.size() == scene_->surfaces.size() && problem.rules.looks_everywhere();
   return {std::move(problem), surfaces, all};
@@ -107,8 +112,9 @@ WaysToGoal::Posed WaysToGoal::pose(const Way& way, int phases, int level, const 
 /// With ever more of the scene, until there is a plan that the checker accepts.
 void WaysToGoal::search_in(int phases, const Way& way, Report& report, Found& found, const Beside* beside) const {
   for (int level = 0; level < kOutlooks; ++level) {
-    Posed posed = pose(way, phases, level, beside);
+    Posed posed = pose_within(level, way, phases, beside);
     found.steps = posed.problem.steps;
+    found.surfaces = posed.surfaces;
     std::optional<Incumbent> warm;
     if (earlier_) {
       warm = from_plan(posed.problem, *earlier_, 0);
@@ -117,7 +123,7 @@ void WaysToGoal::search_in(int phases, const Way& way, Report& report, Found& fo
     const std::size_t before = report.history.size();
     Attempts attempts(std::move(posed.problem), posed.surfaces, *deadline_, found.best, report);
     found.ending = attempts.run(warm ? &*warm : nullptr);
-    name_by_scene(report, before, posed.surfaces);
+    name_surfaces(report, before, posed.surfaces);
     if (found.best.solved() || !ended_by_itself(found.ending) || posed.all) {
       found.best.settle(attempts.problem(), report);
       break;
@@ -134,14 +140,16 @@ bool WaysToGoal::crawl_along(const Way& way, Report& report, Found& found, const
   for (const double factor : kCrawlPhases) {
     const int phases = first == 0 ? options_->phases : 2 * static_cast<int>(0.5 * factor * first);
     if (phases > kPhasesMax) break;
-    Posed posed = pose(way, phases, 0, beside);
+    Posed posed = pose_within(0, way, phases, beside);
     if (!balances_on_points(posed.problem)) return false;
+    found.crawled = true;
     found.steps = posed.problem.steps;
+    found.surfaces = posed.surfaces;
     if (first == 0) first = found.steps;
     const std::size_t before = report.history.size();
     Attempts attempts(std::move(posed.problem), posed.surfaces, *deadline_, found.best, report);
     found.ending = attempts.crawl();
-    name_by_scene(report, before, posed.surfaces);
+    name_surfaces(report, before, posed.surfaces);
     if (found.best.solved() || !ended_by_itself(found.ending) || way.brief) {
       found.best.settle(attempts.problem(), report);
       return true;
@@ -159,20 +167,42 @@ Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* bes
   return found;
 }
 
-/// Where a plan is nearly found, the same way in more phases: ground may ask for shorter steps than the robot can make.
+/// Where a plan is nearly found, or a foot has caught the edge of what it can step on, the same way in more phases:
+/// ground may ask for shorter steps than the robot can make.
 /// Round what is in the way before other ways are searched: they would cost what iterations there are.
 void WaysToGoal::try_more_phases(Report& report, Found& found) const {
   if (options_->phases > 0 || earlier_ || !options_->initial_sequence.empty() || options_->method == Method::paper)
     return;
+  if (found.crawled) return;  // in as many
   for (const double factor : kMorePhases) {
     const auto& best = found.best.best();
-    if (found.best.ok() || !best || !ended_by_itself(found.ending) || violation_ratio(best->worst) > kAcceptable)
-      return;
+    if (found.best.ok() || !best || !ended_by_itself(found.ending)) return;
+    const bool caught = best->worst.name == "clearance" && !found.barrier;
+    if (!caught && violation_ratio(best->worst) > kAcceptable) return;
     const int phases = 2 * static_cast<int>(0.5 * factor * found.steps);
     if (phases > kPhasesMax) return;
     search_in(phases, found.way, report, found);
     tell(found.way, found);
   }
+}
+
+/// Where the checker rejects the best plan by little, what its own sequence makes of it.
+void WaysToGoal::mend(Report& report, Found& found) const {
+  const std::optional<BestPlan::Finished>& best = found.best.best();
+  if (options_->restarts == 0 || options_->method == Method::paper || !best || found.best.ok()) return;
+  if (!ended_by_itself(found.ending) && found.ending != Ending::iteration_limit) return;
+  if (violation_ratio(best->worst) > kAcceptable) return;
+  const int phases = static_cast<int>(best->plan.phases.size());
+  const std::size_t rows = report.history.size();
+  Problem problem = pose(found.way, phases, found.surfaces, nullptr);
+  Incumbent near = from_plan(problem, best->plan, 0);
+  const Tuning tuning = best->tuning;
+  Attempts attempts(std::move(problem), found.surfaces, *deadline_, found.best, report);
+  const Ending ending = attempts.mend(std::move(near), tuning);
+  name_surfaces(report, rows, found.surfaces);
+  if (ending == Ending::time_limit || ending == Ending::interrupted) found.ending = ending;
+  found.best.settle(attempts.problem(), report);
+  tell(found.way, found);
 }
 
 /// At the start and at the goal.
@@ -260,8 +290,9 @@ Found WaysToGoal::search(Report& report) const {
   // Two feet are what a walk should have; a leap may have fewer.
   const auto hopeless = [&] { return !best->best.best() || violation_ratio(best->best.best()->worst) > kAcceptable; };
   if (options_->min_contacts < 0 && least > 0 && hopeless()) try_way({{}, options_->allow_flight, 0});
-  if (best->way.route.empty()) try_more_phases(report, *best);
   best->barrier = routes.barrier;
+  if (best->way.route.empty()) try_more_phases(report, *best);
+  mend(report, *best);
   return std::move(*best);
 }
 

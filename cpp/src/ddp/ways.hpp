@@ -27,6 +27,8 @@ struct Found {
   Ending ending = Ending::no_sequence;
   int steps = 0;
   Way way = {};
+  bool crawled = false;                 ///< also in more phases than the way asks for
+  std::vector<int> surfaces = {};       ///< that it has looked at
   std::optional<Barrier> barrier = {};  ///< why no ground leads to the goal
 };
 
@@ -53,11 +55,13 @@ class WaysToGoal {
     std::vector<int> surfaces;
     bool all = true;  ///< of the scene's
   };
-  Posed pose(const Way& way, int phases, int level, const Beside* beside) const;
+  Problem pose(const Way& way, int phases, const std::vector<int>& surfaces, const Beside* beside) const;
+  Posed pose_within(int level, const Way& way, int phases, const Beside* beside) const;
   bool crawl_along(const Way& way, Report& report, Found& found, const Beside* beside) const;
   void search_in(int phases, const Way& way, Report& report, Found& found, const Beside* beside = nullptr) const;
   Found search_along(const Way& way, Report& report, const Beside* beside = nullptr) const;
   void try_more_phases(Report& report, Found& found) const;
+  void mend(Report& report, Found& found) const;
   bool four_feet_stand() const;
   void tell(const Way& way, const Found& found) const;
   /// What a thread has found on a way ahead of the others, if it came to its end.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "mcplan/base/error.hpp"
@@ -135,12 +136,38 @@ bool may_touch(const Surface& surface, const EndEffector& end_effector) {
 
 namespace {
 
+/// Room that feet keep to the sides of their reach box where the height of a stance is chosen by it, in CoM heights.
+/// Chosen: what searches keep inside of the box is 3 mm of a robot of human size.
+constexpr double kReachRoom = 0.005;
+
 /// A trunk that is as long as its legs does not stay level on a slope: on three feet and more it is parallel to it.
 Vector3d along_ground(const Robot& robot, const ResolvedStance& stance) {
   std::vector<Vector3d> feet_W;
   for (std::size_t l = 0; l < robot.end_effectors.size(); ++l)
     if (stance.contacts[l] >= 0 && robot.end_effectors[l].kind == "foot") feet_W.push_back(stance.end_effectors_W[l]);
   return rpy_along_ground(feet_W, stance.yaw);
+}
+
+/// By how much a level base is raised, or lowered where that is negative, so that all feet in contact are within their
+/// reach boxes: on ground that falls off sideways the lower leg does not reach down from the usual height. Feet keep
+/// kReachRoom inside where there is that much. No more than the ground differs in height below them, since no more is
+/// due to it, and nothing where no height will do.
+double height_within_reach(const Robot& robot, const ResolvedStance& stance) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double low = -kInfinity, high = kInfinity, ground_min = kInfinity, ground_max = -kInfinity;
+  for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {
+    const EndEffector& end = robot.end_effectors[l];
+    if (stance.contacts[l] < 0 || end.kind != "foot" || end.com_reach.given()) continue;
+    const double place = stance.end_effectors_W[l].z() - stance.com_W.z();
+    low = std::max(low, place - end.reach_max_B.z());
+    high = std::min(high, place - end.reach_min_B.z());
+    ground_min = std::min(ground_min, place - end.nominal_B.z());
+    ground_max = std::max(ground_max, place - end.nominal_B.z());
+  }
+  if (!(low <= high) || (low <= 0.0 && 0.0 <= high)) return 0.0;
+  const double room = std::min(kReachRoom * robot.com_height, 0.5 * (high - low));
+  const double raised = high < 0.0 ? high - room : low + room;
+  return std::abs(raised) <= ground_max - ground_min ? raised : 0.0;
 }
 
 }  // namespace
@@ -182,8 +209,13 @@ ResolvedStance resolve_stance(const Scene& scene, const Robot& robot, const Stan
     out.end_effectors_W.push_back(resolved.second);
   }
   out.base_rpy = along_ground(robot, out);
-  if (!out.base_rpy.head<2>().isZero(0.0))
+  if (!out.base_rpy.head<2>().isZero(0.0)) {
     for (std::size_t l = 0; l < end_effectors.size(); ++l) out.end_effectors_W[l] = resolve(end_effectors[l]).second;
+  } else if (const double raised = height_within_reach(robot, out); raised != 0.0) {
+    out.com_W.z() += raised;
+    for (std::size_t l = 0; l < end_effectors.size(); ++l)
+      if (out.contacts[l] < 0) out.end_effectors_W[l].z() += raised;
+  }
   return out;
 }
 

@@ -333,6 +333,34 @@ TEST_CASE("an impossible scene is infeasible before the first iteration, and has
   }
 }
 
+TEST_CASE("a start that is beyond reach is told before the search, with the foot and by how much") {
+  // One foot 27 mm higher and one 27 mm lower than the robot's, whose legs have 10 mm either way.
+  Robot robot = scenes::humanoid44();
+  for (mcplan::EndEffector& end : robot.end_effectors) {
+    if (end.kind != "foot") continue;
+    end.reach_min_B.z() = end.nominal_B.z() - 0.01;
+    end.reach_max_B.z() = end.nominal_B.z() + 0.01;
+  }
+  const double slope = std::tan(15.0 * M_PI / 180.0);
+  Scene scene = ground_with_goal({1.0, 0.0, 0.0});
+  for (Vector3d& vertex : scene.surfaces[0].vertices_W) vertex.z() = slope * vertex.y();
+  const mcplan::PlanResult result = SwitchedDdp(scene, robot).solve();
+  CHECK(result.report.status == Status::infeasible);
+  CHECK(result.report.iterations == 0);
+  CHECK(result.plan.phases.empty());
+  CHECK(result.report.message.rfind("start: ", 0) == 0);
+  CHECK(result.report.message.find("_foot would stand on \"ground\", ") != std::string::npos);
+  CHECK(result.report.message.find(" mm beyond its reach from the CoM at [0, 0, 0.7]") != std::string::npos);
+  // The nearest points of the ground are y cos^2 and y sin cos away from below the hips.
+  const double fall = 0.1 * std::sin(15.0 * M_PI / 180.0) * std::cos(15.0 * M_PI / 180.0);
+  CHECK(result.report.worst_violation.value == doctest::Approx(fall - 0.01).epsilon(1e-6));
+  CHECK(result.report.worst_violation.surface == "ground");
+  // What is no more than acceptable is searched, and what is within the tolerance is not named.
+  CHECK(!start_beyond_reach(scene, robot, 1e3 * (fall - 0.0099)));
+  CHECK(start_beyond_reach(scene, robot, 1.0));
+  CHECK(!start_beyond_reach(ground_with_goal({1.0, 0.0, 0.0}), robot, 1.0));
+}
+
 TEST_CASE("a search that fails says of the scene what is certain: the flight that it takes") {
   CHECK(flight_needed(two(0.6), scenes::humanoid44()).empty());
   CHECK(flight_needed(two(2.5), scenes::humanoid44()) ==

@@ -212,6 +212,38 @@ TEST_CASE("in a stance a name beats its kind, and who is not named is free at it
   CHECK(one.end_effectors_W[0].z() == doctest::Approx(0.0));
 }
 
+TEST_CASE("on ground that falls off sideways a stance is lowered until its lower foot reaches down, and no more") {
+  mcplan::Robot robot = hopper();
+  for (mcplan::EndEffector& end : robot.end_effectors) {
+    end.nominal_B = {0.0, end.nominal_B.y() < 0.0 ? -0.2 : 0.2, -0.5};
+    end.reach_min_B = {-0.3, end.nominal_B.y() - 0.1, -0.52};
+    end.reach_max_B = {0.3, end.nominal_B.y() + 0.1, -0.3};
+  }
+  Stance stance;
+  stance.contacts = {{"foot", "floor"}};
+  const auto standing = [&](double slope, double height = 0.0) {
+    mcplan::Scene scene = floor_and_wall();
+    for (Vector3d& vertex : scene.surfaces[0].vertices_W) vertex.z() = slope * vertex.y();
+    stance.position_W.z() = height;
+    return mcplan::resolve_stance(scene, robot, stance, "start");
+  };
+  CHECK(standing(0.0).com_W.z() == 0.5);
+  CHECK(standing(0.05).com_W.z() == 0.5);  // lower by 1 cm: within reach
+  const auto lowered = standing(0.2);      // by 4 cm, of which 2 are beyond it
+  CHECK(lowered.com_W.z() < 0.48);
+  CHECK(lowered.com_W.z() > 0.47);
+  for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {
+    const Vector3d place = lowered.end_effectors_W[l] - lowered.com_W;
+    CHECK(place.z() > robot.end_effectors[l].reach_min_B.z());
+    CHECK(place.z() < robot.end_effectors[l].reach_max_B.z());
+    CHECK(lowered.end_effectors_W[l].z() == doctest::Approx(0.2 * lowered.end_effectors_W[l].y()));
+  }
+  // A stance above its ground is no matter of the ground's slope, and where no height will do nothing changes.
+  CHECK(standing(0.0, 0.1).com_W.z() == 0.6);
+  for (mcplan::EndEffector& end : robot.end_effectors) end.reach_max_B.z() = -0.48;
+  CHECK(standing(0.2).com_W.z() == 0.5);
+}
+
 TEST_CASE("stances that the robot cannot take are named") {
   Stance stance;
   stance.contacts = {{"tail", "floor"}};

@@ -97,7 +97,7 @@ struct Options {
   bool one_switch_per_step = true;   ///< Tazaki's eq. (32)
   int restarts = 3;                  ///< further attempts from other settings while the checker rejects the plan
 
-  int max_iterations = 5000;                                      ///< over all attempts
+  int max_iterations = 5000;  ///< over all attempts; to mend a near miss a tenth more
   double time_limit_s = std::numeric_limits<double>::infinity();  ///< wall clock
   int threads = 1;         ///< for ways, first guesses, changed sequences, pricing; the result does not depend on it
   std::uint64_t seed = 0;  ///< of the order in which restarts vary the settings

@@ -29,9 +29,12 @@ class InContact final : public CostTerm {
     const double edge_weight = weight * (paper ? 1.0 : problem.options.weights.overshoot_factor);
     const double extra_margin = step.schedule.tuning.extra_margin;
     for (int i = 0; i < polygon.edge_count(); ++i) {
-      const double margin = paper ? 0.0 : problem.foothold_margin(l, step.surface, i, extra_margin);
-      const double beyond = polygon.overshoot(i, p) + margin;
-      if (beyond > 0.0) along(edge_weight, beyond, polygon.edge_outward_W(i));
+      const double outside = polygon.overshoot(i, p);
+      double margin = paper ? 0.0 : problem.foothold_margin(l, step.surface, i, extra_margin);
+      if (!(outside + margin > 0.0)) continue;
+      Eigen::Vector3d by_place = Eigen::Vector3d::Zero();
+      if (!paper) margin = problem.margin_of_given(l, step.surface, i, p, margin, &by_place);
+      if (outside + margin > 0.0) along(edge_weight, outside + margin, polygon.edge_outward_W(i) + by_place);
     }
     if (!step.u) return;
     for (int i = at.stride(l); i < at.stride(l) + 3; ++i) rows.add_single(weight, (*step.u)[i], at.nx() + i);

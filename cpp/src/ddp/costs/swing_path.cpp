@@ -45,7 +45,7 @@ class SwingPath final : public CostTerm {
     }
     // Between two knots of a swing the way bulges by what their velocities carry the foot on.
     const double bulge = 0.25 * (arc.stride_before.norm() + arc.stride_after.norm());
-    const double far = 0.5 * way.norm() + bulge + problem.limits[step.l].half_size.norm() + 2.0 * kPathRoom;
+    const double far = 0.5 * way.norm() + bulge + problem.limits[step.l].half_size.norm() + 2.0 * problem.swing_room;
     static thread_local std::vector<Sample> samples;  // nothing is allocated once it is long enough
     samples.clear();
     for (std::size_t i = 0; i < problem.polygons.size(); ++i) {
@@ -166,15 +166,16 @@ class SwingPath final : public CostTerm {
   }
 
   /// The corner of a sole that is deepest inside a solid, by the shorter way out of it: up or beside an edge.
-  static bool deepest_corner(const Polygon& polygon, double thickness, const Eigen::Vector2d& half,
-                             const Sample& sample, Vector3d& deepest) {
+  static bool deepest_corner(const Problem& problem, const Polygon& polygon, double thickness,
+                             const Eigen::Vector2d& half, const Sample& sample, Vector3d& deepest) {
+    const double room = problem.swing_room;
     double most = 0.0;
     for (double x : {-1.0, 1.0})
       for (double y : {-1.0, 1.0}) {
         const Vector3d corner = sample.place + x * half.x() * sample.sole.col(0) + y * half.y() * sample.sole.col(1);
         const double height = polygon.height(corner);
-        if (height < -thickness || height >= kPathRoom) continue;
-        const double depth = std::min(kPathRoom - height, kPathRoom - polygon.outside(corner));
+        if (height < -thickness || height >= room) continue;
+        const double depth = std::min(room - height, room - polygon.outside(corner));
         if (!(depth > most)) continue;
         most = depth;
         deepest = corner;
@@ -241,13 +242,14 @@ class SwingPath final : public CostTerm {
     const Problem& problem = step.problem;
     const Layout& at = problem.layout;
     Vector3d corner = Vector3d::Zero();
-    if (!deepest_corner(polygon, passing.thickness, problem.limits[step.l].half_size, sample, corner)) return;
-    const double up = polygon.height(corner) - kPathRoom;
+    const Eigen::Vector2d& half = problem.limits[step.l].half_size;
+    if (!deepest_corner(problem, polygon, passing.thickness, half, sample, corner)) return;
+    const double up = polygon.height(corner) - problem.swing_room;
     int side = nearest_edge(polygon, corner);
     // Over what it goes across a foot is lifted with the CoM, unless the way round is shorter.
     if (sample.held.low && passing.across) side = nearest_edge(polygon, corner, &passing);
     const double away =
-        side < 0 ? -std::numeric_limits<double>::infinity() : polygon.overshoot(side, corner) - kPathRoom;
+        side < 0 ? -std::numeric_limits<double>::infinity() : polygon.overshoot(side, corner) - problem.swing_room;
     const bool raise = (sample.held.low || passing.rises) && up > away;
     const double weight = (passing.across ? kAcrossWeight : 1.0) * step.schedule.interior_weight;
     const double value = raise ? up : away;

@@ -16,6 +16,11 @@ FixedSequence::FixedSequence(const Problem& problem, const ContactSequence& sequ
         touchdowns_.push_back({k, l, sequence[k][l]});
 }
 
+bool FixedSequence::last(const Touchdown& touchdown) const {
+  const auto stands = [&](const ContactState& state) { return state[touchdown.l] == touchdown.surface; };
+  return std::all_of(sequence_.begin() + touchdown.knot, sequence_.end(), stands);
+}
+
 Phase FixedSequence::make_phase(const ContactState& state) const {
   const Layout& at = problem_->layout;
   Phase phase;

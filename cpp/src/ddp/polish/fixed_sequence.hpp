@@ -49,6 +49,9 @@ class FixedSequence {
   const Phase& phase(int k) const { return phases_[k]; }
   const std::vector<Touchdown>& touchdowns() const { return touchdowns_; }
 
+  /// Whether the end-effector stands there up to the goal.
+  bool last(const Touchdown& touchdown) const;
+
   /// Number of variables of knot k: of [x, v], at the last one of x.
   int size(int k) const { return nx() + (k < steps() ? static_cast<int>(phases_[k].inputs.size()) : 0); }
 

@@ -19,6 +19,9 @@ int force_rows(const OfContact& c) {
   return (c.sides > 0 ? c.sides : c.sides == 0 ? 1 : 0) + (c.force_max > 0.0 ? 1 : 0) + 2 * c.moments;
 }
 
+/// Where the scene has an end-effector at the goal.
+Vector3d goal_of(const Problem& problem, int l) { return problem.reference.x.back().segment<3>(problem.layout.end(l)); }
+
 }  // namespace
 
 Limits::Limits(const FixedSequence& fixed, const Pendulum& pendulum, const Tuning& tuning)
@@ -75,8 +78,9 @@ void Limits::make_linear(int k) {
     const Polygon& polygon = problem.polygons[t.surface];
     for (int i = 0; i < polygon.edge_count(); ++i) {
       Linear& row = linear(k, edge_weight, false);
-      row.offset =
-          polygon.overshoot(i, Vector3d::Zero()) + problem.foothold_margin(t.l, t.surface, i, tuning_.extra_margin);
+      double margin = problem.foothold_margin(t.l, t.surface, i, tuning_.extra_margin);
+      if (fixed_->last(t)) margin = problem.margin_of_given(t.l, t.surface, i, goal_of(problem, t.l), margin);
+      row.offset = polygon.overshoot(i, Vector3d::Zero()) + margin;
       for (int j = 0; j < 3; ++j) row.touch(at.end(t.l) + j, polygon.edge_outward_W(i)[j]);
     }
   }

@@ -1,0 +1,60 @@
+#include "ddp/near_miss.hpp"
+
+#include <algorithm>
+
+#include "ddp/constants.hpp"
+
+namespace mcplan::ddp {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A box that is smaller on all sides; one that is thinner than that keeps its middle.
+void shrink(EndLimits& limit, double by) {
+  const Vector3d middle = 0.5 * (limit.reach_min + limit.reach_max);
+  limit.reach_min = (limit.reach_min.array() + by).matrix().cwiseMin(middle);
+  limit.reach_max = (limit.reach_max.array() - by).matrix().cwiseMax(middle);
+}
+
+/// The state at the goal weighs more. The base mostly turns there since moments about the normal were cut when contacts
+/// were made exact, so fewer of these are asked for.
+void aim_firmer(Problem& problem) {
+  Weights& weights = problem.options.weights;
+  problem.torsion_ratio *= kTorsionSpare;
+  for (double* weight : {&weights.com_end, &weights.velocity_end, &weights.rotation_end, &weights.end_effector_end})
+    *weight *= kEndFirmer;
+}
+
+void use_less_friction(Problem& problem, double by) {
+  for (double& friction : problem.friction) friction = std::max(friction - by, kFrictionRatioMin * friction);
+}
+
+void press_further_inside(Problem& problem, double by) {
+  problem.pressure_margin += by;
+  for (EndLimits& limit : problem.limits)
+    limit.pressure_half = (limit.pressure_half.array() - by).max(0.5 * limit.pressure_half.array()).matrix();
+}
+
+}  // namespace
+
+void tighten(Problem& problem, Tuning& tuning, const std::vector<Violation>& violations) {
+  for (const Violation& v : violations) {
+    const double length = v.value / problem.units.length;
+    if (v.name == "reach") {
+      for (EndLimits& limit : problem.limits) shrink(limit, length);
+    } else if (v.name == "clearance") {
+      tuning.clear_swings = true;
+      problem.swing_room += length;
+    } else if (v.name == "goal") {
+      aim_firmer(problem);
+    } else if (v.name == "friction") {
+      use_less_friction(problem, v.value);
+    } else if (v.name == "center_of_pressure") {
+      press_further_inside(problem, length);
+    } else if (v.name == "joint_torque" || v.name == "joint_speed") {
+      tuning.hold_joints = true;
+    }
+  }
+}
+
+}  // namespace mcplan::ddp

@@ -1,0 +1,70 @@
+#include "ddp/near_miss.hpp"
+
+#include <doctest/doctest.h>
+
+#include "ddp/moment_limits.hpp"
+#include "support.hpp"
+
+namespace {
+
+using namespace support;
+using Eigen::Vector3d;
+
+ddp::Problem walk() { return {scenes::flat(), scenes::humanoid44(), phases(6)}; }
+
+/// The problem after a plan that is beyond one limit by so much.
+ddp::Problem after(const std::string& name, double value, ddp::Tuning* tuning = nullptr) {
+  ddp::Problem problem = walk();
+  ddp::Tuning own = problem.tuning();
+  ddp::tighten(problem, tuning ? *tuning : own, {{name, 2, "left_foot", 0.5, value, 0.001, "m", ""}});
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE("a reach box that was left by 4 mm is planned 4 mm smaller on all sides, and one too thin keeps its middle") {
+  const ddp::Problem usual = walk(), tight = after("reach", 0.004), closed = after("reach", 1.0);
+  for (std::size_t l = 0; l < usual.limits.size(); ++l) {
+    const ddp::EndLimits &before = usual.limits[l], &now = tight.limits[l], &none = closed.limits[l];
+    CHECK(((now.reach_min - before.reach_min) * usual.units.length).isApprox(Vector3d::Constant(0.004), 1e-9));
+    CHECK(((before.reach_max - now.reach_max) * usual.units.length).isApprox(Vector3d::Constant(0.004), 1e-9));
+    CHECK(none.reach_min.isApprox(none.reach_max));
+    CHECK(none.reach_min.isApprox(0.5 * (before.reach_min + before.reach_max)));
+  }
+}
+
+TEST_CASE("swings that caught an edge by 6 mm are held out of solids, with 6 mm more room") {
+  const ddp::Problem usual = walk();
+  ddp::Tuning tuning = usual.tuning();
+  CHECK(!tuning.clear_swings);
+  const ddp::Problem tight = after("clearance", 0.006, &tuning);
+  CHECK(tuning.clear_swings);
+  CHECK((tight.swing_room - usual.swing_room) * usual.units.length == doctest::Approx(0.006));
+}
+
+TEST_CASE("a goal that was missed weighs more, and moments keep below what exact contacts cut them to") {
+  const ddp::Problem usual = walk(), tight = after("goal", 0.012);
+  CHECK(tight.options.weights.rotation_end > usual.options.weights.rotation_end);
+  CHECK(tight.options.weights.velocity_end > usual.options.weights.velocity_end);
+  CHECK(ddp::torsion_arm(tight, 0, 0) == doctest::Approx(ddp::kTorsionSpare * ddp::torsion_arm(usual, 0, 0)));
+}
+
+TEST_CASE("friction and pressure go further inside, friction never below its half") {
+  const ddp::Problem usual = walk();
+  CHECK(after("friction", 0.02).friction[0] == doctest::Approx(usual.friction[0] - 0.02));
+  CHECK(after("friction", 5.0).friction[0] == doctest::Approx(0.5 * usual.friction[0]));
+  const ddp::Problem tight = after("center_of_pressure", 0.003);
+  CHECK((tight.pressure_margin - usual.pressure_margin) * usual.units.length == doctest::Approx(0.003));
+  CHECK((usual.limits[0].pressure_half - tight.limits[0].pressure_half)
+            .isApprox(Eigen::Vector2d::Constant(0.003 / usual.units.length), 1e-9));
+}
+
+TEST_CASE("joints that were asked for too much are held, and what the search has no limit for stays") {
+  ddp::Tuning tuning = walk().tuning();
+  after("joint_torque", 0.05, &tuning);
+  CHECK(tuning.hold_joints);
+  const ddp::Problem usual = walk(), other = after("path_continuity", 0.005);
+  CHECK(other.limits[0].reach_min == usual.limits[0].reach_min);
+  CHECK(other.friction == usual.friction);
+  CHECK(other.swing_room == usual.swing_room);
+}
