@@ -130,7 +130,7 @@ class DdpOptions(TypedDict, total=False):
     restarts: int
     """Further attempts while the checker rejects the plan."""
     max_iterations: int
-    """Most iterations, over all attempts."""
+    """Most iterations, over all attempts; to mend a near miss a tenth more."""
     time_limit_s: float
     """[s] Wall clock of the search."""
     time_limit: float | None

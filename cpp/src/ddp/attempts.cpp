@@ -269,7 +269,8 @@ Ending Attempts::mend(Incumbent near, Tuning tuning) {
   for (int round = 0; round < kMendRounds && !best_->solved(); ++round) {
     Search search(inside, *deadline_, report);
     const double never = std::numeric_limits<double>::infinity();
-    const Ending ending = search.polish_guess(near, Search::Origin::plan, never, tuning);
+    Ending ending = search.polish_guess(near, Search::Origin::plan, never, tuning);
+    if (ending == Ending::done) ending = search.polish_last(near, tuning, kMendTolerance);
     if (ending != Ending::done) return ending;
     const std::vector<Violation> missed = best_->finish(search_, surfaces_, near, tuning);
     const auto by_far = [](const Violation& v) { return violation_ratio(v) > kAcceptable; };

@@ -244,9 +244,10 @@ constexpr double kExtraMargin_m = 0.03;
 /// A violation within this factor of its tolerance is called acceptable, beyond it infeasible. Chosen.
 constexpr double kAcceptable = 10.0;
 
-/// A near miss is mended in so many rounds, with that ratio of the iteration limit on top. Chosen.
+/// A near miss is mended in so many rounds, with that ratio of the iteration limit on top, and each is converged to
+/// that: a base that turns at the goal as fast as the checker allows costs 1e-4. Chosen.
 constexpr int kMendRounds = 5;
-constexpr double kMendRatio = 0.1;
+constexpr double kMendRatio = 0.1, kMendTolerance = 1e-6;
 
 // Method::paper.
 

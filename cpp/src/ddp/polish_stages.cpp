@@ -102,18 +102,18 @@ Ending Search::polish_trial(Incumbent& now, double give_up_above, const Tuning& 
   return optimise(now, settings, tuning);
 }
 
-Ending Search::polish_last(Incumbent& now, const Tuning& tuning) {
+Ending Search::polish_last(Incumbent& now, const Tuning& tuning, double tolerance) {
   if (!exact_contacts(tuning)) {
     // Limits are penalties: harder ones at the end bring what is left of a violation below the checker's tolerance.
     Tuning hard = tuning;
     hard.limit_weight *= kHardening;
     const double never = std::numeric_limits<double>::infinity();
-    return polish(now, kFinalIterations, kFinalTolerance, never, hard);
+    return polish(now, kFinalIterations, tolerance, never, hard);
   }
   polish::Settings settings;
   settings.barrier = kWarmBarrier;
   settings.max_iterations = kExactLastIterations;
-  settings.tolerance = kFinalTolerance;
+  settings.tolerance = tolerance;
   // The filter may lead to a worse optimum: what there was is kept then.
   const Incumbent before = now;
   const Ending ending = optimise(now, settings, tuning);

@@ -75,7 +75,7 @@ class Search {
 
   /// One guess of an attempt, its last polish, and a trial of refine(), by the polish that the options ask for.
   Ending polish_guess(Incumbent& now, Origin origin, double give_up_above, const Tuning& tuning);
-  Ending polish_last(Incumbent& now, const Tuning& tuning);
+  Ending polish_last(Incumbent& now, const Tuning& tuning, double tolerance = kFinalTolerance);
   Ending polish_trial(Incumbent& now, double give_up_above, const Tuning& tuning);
 
   /// Best-neighbour search on the true cost: neighbours and swing edits, cheapest by the local model first, each

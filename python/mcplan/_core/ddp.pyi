@@ -549,7 +549,7 @@ class Options:
     @property
     def max_iterations(self) -> int:
         """
-        Most iterations, over all attempts.
+        Most iterations, over all attempts; to mend a near miss a tenth more.
         """
     @max_iterations.setter
     def max_iterations(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
