@@ -193,6 +193,7 @@ class RhpOptions(TypedDict, total=False):
     """[s] Duration of a phase on two feet: min, max."""
     single_support_s: tuple[float, float]
     """[s] Duration of a phase on one foot: min, max."""
+    landing_s: float
     predicted_double_support_s: float
     """[s] Fixed duration of a phase on two feet in predicted steps of the reduced models."""
     predicted_single_support_s: float

@@ -149,7 +149,19 @@ class HorizonPlanner(Planner):
     def _followed(self, horizon: Plan, first: int) -> Plan:
         """What of a horizon may be followed: all where it ends at rest, else all but its last step."""
         steps = len(horizon.phases) // PHASES
-        return horizon if first + steps >= self.steps or steps == 1 else steps_of(horizon, 0, steps - 1)
+        whole = first + steps >= self.steps or steps == 1
+        return with_bases_of(horizon if whole else steps_of(horizon, 0, steps - 1), self.sequence, first)
+
+
+def with_bases_of(plan: Plan, sequence: Plan, first: int) -> Plan:
+    """The plan with its base turned at its knots as at those of the sequence from step `first` on."""
+    turned, knots = plan.__copy__(), []
+    for knot, known in zip(plan.knots, list(sequence.knots)[PHASES * first :], strict=False):
+        own = knot.__copy__()
+        own.base_rpy, own.base_rpy_rate = known.base_rpy, known.base_rpy_rate
+        knots.append(own)
+    turned.knots = knots
+    return turned
 
 
 def start_state(scene: Scene, robot: Robot, state: MeasuredState) -> rhp.State:
