@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .horizon_planner import HorizonPlanner
+from .horizon_planner import LEAST_S, HorizonPlanner
 from .loop import Loop, Pending
 from .pacing import TouchdownPace
 
@@ -20,8 +20,6 @@ Array = NDArray[np.float64]
 
 #: Wall clock of a horizon without a fixed latency [s]: less than any swing lasts.
 TIME_LIMIT_S = 0.25
-#: Of a horizon's first phase at least so much has to be left when it is taken over [s].
-LEAST_S = 0.05
 
 
 def _limit_s(online: OnlineOptions) -> float:
@@ -65,7 +63,7 @@ class HorizonLoop(Loop):
         self.touchdowns.asked(now_s)
         latency_s = self.online.latency_s if self.online.fixed_latency else update.took_s
         self.tally.computed(update.took_s, latency_s, update.status, reason)
-        self.pending = Pending(update, now_s + latency_s, False)
+        self.pending = Pending(update, max(now_s + latency_s, update.begins_s), False)
 
     def _take_over(self, now_s: float) -> None:
         """Follow the horizon that waits, if its computation is over, in its first phase and while both feet stand.

@@ -25,6 +25,8 @@ PHASES = 3
 ONLINE: Mapping[str, Any] = {"fidelity": "single", "lookahead": 3, "solver": "ipm"}
 #: Range of the duration on both feet, at least [s].
 DOUBLE_SUPPORT_S = 0.1
+#: A horizon begins at least so long before a foot is lifted [s].
+LEAST_S = 0.05
 #: By so much a measured start may be beyond a limit that the horizon then keeps: of the CoM's height as a ratio, of angular
 #: momentum as a factor.
 HEIGHT_SLACK, MOMENTUM_SLACK = 0.005, 1.05
@@ -96,7 +98,7 @@ class HorizonPlanner(Planner):
     def __init__(self, plan: Plan, begins_s: float = 0.0, *, computing_s: float = 0.0, **named: Any) -> None:
         require_steps(plan)
         self.sequence, self.first_step = plan, 0
-        self._options = online_options(computing_s, named)
+        self._options, self._computing_s = online_options(computing_s, named), computing_s
         self._first_steps: dict[int, int] = {}
         super().__init__(plan, begins_s)
 
@@ -123,6 +125,7 @@ class HorizonPlanner(Planner):
             if first >= self.steps:
                 raise InvalidInput("state", "must be measured before the last step is made", str(first))
             options = fill(self._options.__copy__(), named)
+            state = predicted(state, plan, begins_s, self._computing_s)
             start = start_state(scene, robot, state)
             planner = rhp.RecedingHorizon(
                 scene, robot, steps_of(self.sequence, first, self.steps), within_reach(options, robot, start)
@@ -164,6 +167,30 @@ def with_bases_of(plan: Plan, sequence: Plan, first: int) -> Plan:
     return turned
 
 
+def predicted(state: MeasuredState, plan: Plan, begins_s: float, ahead_s: float) -> MeasuredState:
+    """The state after a horizon's computation: as far from the plan under way as it is now.
+
+    No later than shortly before a foot leaves the ground, as a horizon begins on both feet.
+    """
+    t = min(max(state.time_s - begins_s, 0.0), float(plan.duration()))
+    until = min(t + ahead_s, max(t, _lifts_s(plan, t) - LEAST_S))
+    now, then = plan.at(t), plan.at(until)
+    knot = state.knot.__copy__()
+    knot.com_W = knot.com_W + then.com_W - now.com_W
+    knot.com_velocity_W = knot.com_velocity_W + then.com_velocity_W - now.com_velocity_W
+    knot.angular_momentum_W = knot.angular_momentum_W + then.angular_momentum_W - now.angular_momentum_W
+    return MeasuredState(state.time_s + until - t, knot, state.contacts)
+
+
+def _lifts_s(plan: Plan, t: float) -> float:
+    """When a foot leaves the ground next after a time of a plan at which both stand, or have landed early [s]."""
+    phase = int(plan.at(t).phase)
+    step, kind = divmod(phase, PHASES)
+    swings = PHASES * (step if kind == 0 else step + 1) + 1
+    times = plan.knot_times()
+    return float(times[min(swings, len(times) - 1)])
+
+
 def start_state(scene: Scene, robot: Robot, state: MeasuredState) -> rhp.State:
     """The measured state as rhp takes it; feet lie on the planes of their surfaces.
 
@@ -199,5 +226,6 @@ def within_reach(options: rhp.Options, robot: Robot, start: rhp.State) -> rhp.Op
     low, high = options.com_height
     chosen.com_height = (min(low, min(heights) - HEIGHT_SLACK), max(high, max(heights) + HEIGHT_SLACK))
     largest = float(np.abs(start.angular_momentum_W).max())
+    chosen.landing_s = max(options.landing_s, options.double_support_s[1])
     chosen.momentum_max = max(options.momentum_max, MOMENTUM_SLACK * largest)
     return chosen
