@@ -8,15 +8,19 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mcplan._core import Plan, Status, rhp
+from mcplan._core import Plan, Polytope, Status, rhp
 from mcplan.errors import InvalidInput, InvalidPlan
+from mcplan.kinematics.rotations import from_rpy
 from mcplan.options import fill
 
 from .planner import MeasuredState, Planner, Update
 
 if TYPE_CHECKING:
     from mcplan._core import Robot, Scene
+
+Array = NDArray[np.float64]
 
 #: Phases of a step: on both feet, on one, on both.
 PHASES = 3
@@ -30,6 +34,8 @@ LEAST_S = 0.05
 #: By so much a measured start may be beyond a limit that the horizon then keeps: of the CoM's height as a ratio, of angular
 #: momentum as a factor.
 HEIGHT_SLACK, MOMENTUM_SLACK = 0.005, 1.05
+#: And of the reach of the feet [m].
+REACH_SLACK_M = 0.005
 
 
 def online_options(computing_s: float, named: Mapping[str, Any]) -> rhp.Options:
@@ -127,6 +133,7 @@ class HorizonPlanner(Planner):
             options = fill(self._options.__copy__(), named)
             state = predicted(state, plan, begins_s, self._computing_s)
             start = start_state(scene, robot, state)
+            robot = reaching(robot, start, float(scene.start.yaw))
             planner = rhp.RecedingHorizon(
                 scene, robot, steps_of(self.sequence, first, self.steps), within_reach(options, robot, start)
             )
@@ -220,12 +227,43 @@ def start_state(scene: Scene, robot: Robot, state: MeasuredState) -> rhp.State:
 
 
 def within_reach(options: rhp.Options, robot: Robot, start: rhp.State) -> rhp.Options:
-    """Options with a CoM's height and an angular momentum that a measured start does not violate already."""
+    """Options with a CoM's height and an angular momentum that a measured start does not violate already.
+
+    The first phase may last as long as the landing and the next phase on both feet do in a horizon that is under way.
+    """
     chosen = options.__copy__()
     heights = [float(start.com_W[2] - foot[2]) / float(robot.com_height) for foot in start.feet_W]
     low, high = options.com_height
     chosen.com_height = (min(low, min(heights) - HEIGHT_SLACK), max(high, max(heights) + HEIGHT_SLACK))
     largest = float(np.abs(start.angular_momentum_W).max())
-    chosen.landing_s = max(options.landing_s, options.double_support_s[1])
     chosen.momentum_max = max(options.momentum_max, MOMENTUM_SLACK * largest)
+    chosen.landing_s = max(options.landing_s, options.double_support_s[1])
     return chosen
+
+
+def reaching(robot: Robot, start: rhp.State, yaw: float) -> Robot:
+    """The robot with reach that a measured start is within: sides of boxes and faces of polytopes give way by as much."""
+    feet = [i for i, end in enumerate(robot.end_effectors) if end.kind == "foot"]
+    level = from_rpy(np.array([0.0, 0.0, yaw]))
+    ends = [end.__copy__() for end in robot.end_effectors]
+    for foot, partner, place, other in zip(feet, feet[::-1], start.feet_W, list(start.feet_W)[::-1], strict=True):
+        end, from_com = ends[foot], level.T @ (np.asarray(place) - start.com_W)
+        if end.com_reach.given:
+            end.com_reach = _holding(end.com_reach, -from_com)
+        else:
+            low, high = np.asarray(end.reach_min_B, float), np.asarray(end.reach_max_B, float)
+            end.reach_min_B = np.where(from_com < low, from_com - REACH_SLACK_M, low)
+            end.reach_max_B = np.where(from_com > high, from_com + REACH_SLACK_M, high)
+        name = ends[partner].name
+        if name in end.partner_reach:
+            between = level.T @ (np.asarray(other) - np.asarray(place))
+            end.partner_reach = {**end.partner_reach, name: _holding(end.partner_reach[name], between)}
+    wide = robot.__copy__()
+    wide.end_effectors = ends
+    return wide
+
+
+def _holding(polytope: Polytope, point: Array) -> Polytope:
+    """The polytope with the faces moved outward that the point is beyond."""
+    A, b = np.asarray(polytope.A, float), np.asarray(polytope.b, float)
+    return Polytope(A=A, b=np.where(A @ point > b, A @ point + REACH_SLACK_M, b))
