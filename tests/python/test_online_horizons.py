@@ -1,7 +1,6 @@
 """Walking with rhp replanning at touchdowns: steps stay those that are given, time is honest, what cannot be is named."""
 
 import dataclasses
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -167,8 +166,44 @@ def test_plans_are_replanned_by_the_engine_that_can(plan):
     pytest.importorskip("mujoco")
     with pytest.raises(mp.InvalidInput, match="engine 'rhp'"):
         mp.run(plan)
+    other = plan.__copy__()
+    other.planner = "ddp"
     with pytest.raises(mp.errors.InvalidPlan, match="must be one of rhp"):
-        HorizonPlanner(SimpleNamespace(planner="ddp", phases=[0, 0, 0]))
+        HorizonPlanner(other)
+
+
+@pytest.mark.parametrize(
+    ("given", "named", "message"),
+    [
+        ("no plan", {}, "plan: must be a Plan"),
+        ("plan", {"computing_s": "soon"}, "computing_s: must be a number"),
+        ("plan", {"computing_s": -1.0}, "double_support_s: must be two positive numbers"),
+        ("plan", {"colour": 3}, "colour: no such option"),
+        ("nan", {}, "knots\\[3\\]: must be finite numbers"),
+    ],
+)
+def test_what_no_horizons_can_be_planned_with_is_refused_by_name(plan, given, named, message):
+    spoiled, knots = plan.__copy__(), list(plan.knots)
+    knots[3] = knots[3].__copy__()
+    knots[3].com_W = [float("nan")] * 3
+    spoiled.knots = knots
+    with pytest.raises(mp.InvalidInput, match=message):
+        HorizonPlanner({"no plan": None, "plan": plan, "nan": spoiled}[given], **named)
+
+
+def test_states_that_do_not_fit_are_named_and_the_plan_under_way_stays(plan):
+    landed = plan.knot_times()[2]
+    far = tuple(99 if surface >= 0 else -1 for surface in plan.final_contacts)
+    with HorizonPlanner(plan, computing_s=LATENCY) as planner:
+        for state, message in (
+            (MeasuredState(landed, mp.model.Knot(), (0, 0)), "state: must have a place and a contact for each"),
+            (measured_at(plan, landed, far), "state.contacts: must be indices of surfaces"),
+            (measured_at(plan, plan.duration(), plan.final_contacts), "must be measured before the last step"),
+        ):
+            planner.submit(state)
+            update = planner.wait()
+            assert update.status == "error" and not update.usable and message in update.message
+        assert planner.plan is plan and planner.first_step == 0
 
 
 def test_a_run_is_planned_anew_at_a_touchdown_and_repeats_to_the_byte(plan, tmp_path):
@@ -201,3 +236,25 @@ def test_where_no_horizon_comes_the_plan_under_way_goes_on(plan, monkeypatch):
     run = mp.run(plan, engine="rhp", latency=LATENCY, duration=2.0, self_contacts=False)
     assert not run.measures.fell and run.online.replans_used == 0 and len(run.plans) == 1
     assert run.online.statuses == {"error": run.online.replans} and run.online.reasons["again"] >= 1
+
+
+def test_slopes_are_walked_with_a_base_that_turns_as_for_whole_plans():
+    for name in ("mujoco", "pinocchio", "proxsuite", "example_robot_data"):
+        pytest.importorskip(name)
+    from mcplan.kinematics.rotations import from_rpy, rotation_vector, rotations_of
+    from mcplan.kinematics.urdf_model import load_model
+    from mcplan.online.horizon_bases import with_bases
+    from mcplan.tracking.postures import postures_along
+
+    options = online_options(LATENCY, {"cycles": 4})
+    steps = mp.walk("up_and_down", "talos", options).plan
+    walk = mp.walk("up_and_down", "talos", options, sequence=steps).plan
+    urdf_model, dt_s = load_model(walk.robot), 0.05
+    times = np.arange(int(walk.duration() / dt_s)) * dt_s
+    planned = from_rpy(with_bases(walk, urdf_model).sample(times).base_rpy)
+    tracked = rotations_of(postures_along(urdf_model, walk, len(times), dt_s)[:, 3:7])
+    off = [np.linalg.norm(rotation_vector(a @ b.T)) for a, b in zip(planned, tracked, strict=True)]
+    turned = [np.linalg.norm(rotation_vector(b)) for b in tracked]
+    assert max(turned) > 0.05 and max(off) < max(turned) and np.mean(off) < 0.25 * np.mean(turned)
+    run = mp.run(walk, engine="rhp", latency=LATENCY, self_contacts=False)
+    assert not run.measures.fell and run.online.replans_used == 3 and run.measures.com_max_m < 0.02

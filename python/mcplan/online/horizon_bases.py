@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mcplan.kinematics.inverse_kinematics import follow
+from mcplan.kinematics.rotations import rotation_vector, rotations_of
 from mcplan.kinematics.samples import sample_at
 from mcplan.kinematics.smooth_postures import running_means
 
@@ -21,7 +22,9 @@ RATE = 20.0
 
 
 def with_bases(plan: Plan, urdf_model: UrdfModel) -> Plan:
-    """The plan with the rotation of the base at its knots that postures by inverse kinematics have.
+    """The plan with a base that turns, at its knots, as that of postures by inverse kinematics.
+
+    On slopes, and where the CoM is low, legs reach what is planned for them with such a base alone.
 
     Args:
         plan: Of rhp.
@@ -33,18 +36,14 @@ def with_bases(plan: Plan, urdf_model: UrdfModel) -> Plan:
     times = np.linspace(0.0, duration, max(2, round(duration * RATE) + 1))
     samples = sample_at(plan, plan.scene, plan.robot, times)
     found = running_means(urdf_model, times, follow(urdf_model, samples).configurations)
+    bases_WB, step_s = rotations_of(found[:, 3:7]), times[1] - times[0]
     turned, knots = plan.__copy__(), []
-    for knot, at in zip(plan.knots, plan.knot_times(), strict=True):
-        k = min(int(at / (times[1] - times[0])), len(times) - 2)
-        step = times[k + 1] - times[k]
-        configuration = pin.interpolate(urdf_model.model, found[k], found[k + 1], (at - times[k]) / step)
-        base_WB = pin.Quaternion(configuration[3:7]).toRotationMatrix()
-        omega_W = pin.log3(
-            pin.Quaternion(found[k + 1][3:7]).toRotationMatrix() @ pin.Quaternion(found[k][3:7]).toRotationMatrix().T
-        )
+    for knot, at_s in zip(plan.knots, plan.knot_times(), strict=True):
+        k = min(int(at_s / step_s), len(times) - 2)
+        turn = rotation_vector(bases_WB[k + 1] @ bases_WB[k].T)
         own = knot.__copy__()
-        own.base_rpy = rpy_of(base_WB)
-        own.base_rpy_rate = rpy_rate(own.base_rpy, omega_W / step)
+        own.base_rpy = rpy_of(pin.exp3((at_s - times[k]) / step_s * turn) @ bases_WB[k])
+        own.base_rpy_rate = rpy_rate(own.base_rpy, turn / step_s)
         knots.append(own)
     turned.knots = knots
     return turned

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 #: Wall clock of a horizon without a fixed latency [s]: less than any swing lasts.
 TIME_LIMIT_S = 0.25
-#: Most iterations of a horizon with one: those that converge take 30 to 110, and another is asked for where one does not.
+#: Most iterations of a horizon with one: most that converge take 30 to 110, and another is asked for where one does not.
 ITERATIONS = 150
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mcplan._core import Plan, Polytope, Status, rhp
+from mcplan.arguments import require, require_number
 from mcplan.errors import InvalidInput, InvalidPlan
 from mcplan.kinematics.rotations import from_rpy
 from mcplan.options import fill
@@ -79,7 +80,9 @@ def steps_made(plan: Plan, t: float) -> int:
 
 
 def require_steps(plan: Plan) -> None:
-    """Raise InvalidPlan where a plan is not made of steps as rhp makes them."""
+    """Raise InvalidPlan where a plan is malformed, or not made of steps as rhp makes them."""
+    require("plan", plan, Plan)
+    plan.validate()
     if plan.planner != "rhp" or len(plan.phases) % PHASES:
         rule = "must be one of rhp: engine 'rhp' follows its steps; take mcplan.walk(scene, sequence=plan).plan"
         raise InvalidPlan("planner", rule, plan.planner or "none")
@@ -94,7 +97,8 @@ class HorizonPlanner(Planner):
     Args:
         plan: The plan under way, of rhp; its steps are those that are planned.
         begins_s: Time of the clock at which it began.
-        computing_s: Time that a horizon takes: phases on both feet are longer by as much, for all of its first one to come.
+        computing_s: Time that a horizon takes: it begins at the state that is predicted for then, as far off the plan under
+            way as the measured one, and phases on both feet are longer by as much.
         **named: Options of mcplan.walk by name, among them ``time_limit`` [s].
 
     Attributes:
@@ -103,6 +107,7 @@ class HorizonPlanner(Planner):
 
     def __init__(self, plan: Plan, begins_s: float = 0.0, *, computing_s: float = 0.0, **named: Any) -> None:
         require_steps(plan)
+        computing_s = require_number("computing_s", computing_s)
         self.sequence, self.first_step = plan, 0
         self._options, self._computing_s = online_options(computing_s, named), computing_s
         self._first_steps: dict[int, int] = {}
@@ -206,11 +211,15 @@ def start_state(scene: Scene, robot: Robot, state: MeasuredState) -> rhp.State:
     """
     feet = [i for i, end in enumerate(robot.end_effectors) if end.kind == "foot"]
     knot, places, surfaces = state.knot, [], []
+    if len(state.contacts) != len(robot.end_effectors) or len(knot.end_effectors_W) != len(robot.end_effectors):
+        raise InvalidInput("state", "must have a place and a contact for each end-effector", str(len(state.contacts)))
     for foot in feet:
         surface = int(state.contacts[foot])
         if surface < 0:
             name = robot.end_effectors[foot].name
             raise InvalidInput("state.contacts", "must have both feet on surfaces: horizons of rhp begin so", name)
+        if surface >= len(scene.surfaces):
+            raise InvalidInput("state.contacts", "must be indices of surfaces of the scene, or -1", str(surface))
         outline_W = np.asarray(scene.surfaces[surface].vertices_W, float)
         normal = np.cross(outline_W[1] - outline_W[0], outline_W[2] - outline_W[1])
         normal /= np.linalg.norm(normal)
