@@ -245,18 +245,6 @@ TEST_CASE("the start is fixed to the state, with positions counted from beneath 
     CHECK((first.horizon.position_W(first.guess(), foot) - first.state.feet_W[foot]).norm() < 1e-12);
 }
 
-TEST_CASE("the first phase alone may last longer by a landing") {
-  Options options = walkers::quick(Fidelity::single);
-  options.landing_s = 0.25;
-  const First first(options);
-  for (const Horizon::Phase& phase : first.horizon.phases) {
-    const Range range = phase.swing >= 0 ? options.single_support_s : options.double_support_s;
-    const double longer = phase.first_node == 0 ? options.landing_s : 0.0;
-    CHECK(first.horizon.problem.variable_lower()[phase.duration] == range.min);
-    CHECK(first.horizon.problem.variable_upper()[phase.duration] == range.max + longer);
-  }
-}
-
 TEST_CASE("at the end of the walk the robot stands still") {
   const First first(walkers::quick(Fidelity::single), walkers::uneven(), true);
   const nlp::Solution solution = nlp::solve(first.horizon.problem, first.guess());
