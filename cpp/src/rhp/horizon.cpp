@@ -26,7 +26,8 @@ using nlp::Stages;
 // goal pulls the CoM ahead, a guess says less.
 constexpr double kReachMargin_m = 0.1, kLastReachMargin_m = 0.5;
 constexpr double kRestWeight = 100.0;  // of the goal at the end of the walk, over goal_weight: rest where it is
-constexpr double kNearGoal_m = 0.5;    // from the last footholds as guessed: a walk that ends farther off does not reach it
+constexpr double kNearGoal_m =
+    0.5;  // from the last footholds as guessed: a walk that ends farther off does not reach it
 constexpr double kPaperLow[2] = {0.0, -1.0}, kPaperHigh[2] = {30.0, 1.0};  // CoM, world x and y [m]
 
 /// How far the CoM is inside each face of a foot's reach [m].
@@ -334,8 +335,7 @@ class Builder {
   /// goal would pull it there with all that the legs have.
   Vector3d rest_W() const {
     const std::array<int, 2>& feet = out_.phases.back().placements;
-    const Vector3d middle_W =
-        0.5 * (out_.position_W(out_.guess, feet[0]) + out_.position_W(out_.guess, feet[1]));
+    const Vector3d middle_W = 0.5 * (out_.position_W(out_.guess, feet[0]) + out_.position_W(out_.guess, feet[1]));
     const Vector3d& goal_W = walker_.goal_com_W;
     if ((goal_W - middle_W).head<2>().norm() <= kNearGoal_m) return goal_W;
     return middle_W + walker_.robot.com_height * Vector3d::UnitZ();
