@@ -193,6 +193,8 @@ class RhpOptions(TypedDict, total=False):
     """[s] Duration of a phase on two feet: min, max."""
     single_support_s: tuple[float, float]
     """[s] Duration of a phase on one foot: min, max."""
+    landing_s: float
+    """[s] Time by which the first phase of a horizon may last longer, for starts at a touch-down."""
     predicted_double_support_s: float
     """[s] Fixed duration of a phase on two feet in predicted steps of the reduced models."""
     predicted_single_support_s: float

@@ -71,6 +71,20 @@ def test_feet_that_stand_press_little_or_are_pressed_off_measure_none(scene):
     assert all(up.update(scene, [0], [force_W], [np.array([0.0, 0.0, 0.3])]) == {} for _ in range(50))
 
 
+def test_a_sole_that_rolls_onto_the_ground_does_not_slip_and_one_that_slides_is_measured_by_its_largest_force(scene):
+    force_W, corners_W = np.array([20.0, 0.0, 500.0]), np.array([[0.1, 0.06, 0], [-0.1, 0.06, 0], [-0.1, -0.06, 0]])
+    turn_W = np.array([0.0, 0.0, 2.0])  # about a corner that stands
+    rolling = np.cross(turn_W, corners_W - corners_W[0])
+    rolls = SlipSense(1, 20.0)
+    assert all(rolls.update(scene, [0], [force_W], [rolling]) == {} for _ in range(50))
+    slides = SlipSense(1, 20.0)
+    for along_N in (50.0, 100.0, 60.0):
+        found = slides.update(scene, [0], [np.array([along_N, 0.0, 500.0])], [rolling + [0.0, 1.0, 0.0]])
+        assert found == {}
+    found = slides.update(scene, [0], [force_W], [rolling + [0.0, 1.0, 0.0]])
+    assert SLIPPING_STEPS == 4 and found == {0: pytest.approx(100.0 / 500.0)}
+
+
 def test_what_is_not_to_be_felt_is_not(scene):
     ground = KnownGround(scene, None, OnlineOptions(felt_ground=False), 1, 20.0)
     for _ in range(50):

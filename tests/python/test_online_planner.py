@@ -13,6 +13,7 @@ from mcplan.online import MeasuredState, OnlineOptions, Planner
 from mcplan.online.pacing import Pace, distances, steps_left
 from mcplan.online.planner import with_feet_kept_up
 from mcplan.online.reach import widened
+from planned_states import state_at
 
 
 @pytest.fixture(scope="module")
@@ -22,18 +23,9 @@ def plan():
 
 def state(plan: mp.Plan, t: float, clock_s: float | None = None, push=(0.0, 0.0, 0.0)) -> MeasuredState:
     """The planned state, the CoM's velocity off by a push [m/s]."""
-    now = plan.at(t)
-    knot = mp.model.Knot(
-        com_W=now.com_W,
-        com_velocity_W=now.com_velocity_W + np.array(push),
-        base_rpy=now.base_rpy,
-        base_rpy_rate=now.base_rpy_rate,
-        angular_momentum_W=now.angular_momentum_W,
-        end_effectors_W=[e.position_W for e in now.end_effectors],
-        end_effector_velocities_W=[e.velocity_W for e in now.end_effectors],
-        end_effector_yaw=[e.yaw for e in now.end_effectors],
-    )
-    return MeasuredState(t if clock_s is None else clock_s, knot, tuple(e.surface for e in now.end_effectors))
+    knot, contacts = state_at(plan, t)
+    knot.com_velocity_W = knot.com_velocity_W + np.array(push)
+    return MeasuredState(t if clock_s is None else clock_s, knot, tuple(contacts))
 
 
 def test_planning_needs_neither_a_simulator_nor_a_urdf():

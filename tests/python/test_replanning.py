@@ -10,6 +10,7 @@ import pytest
 
 import mcplan as mp
 from mcplan import ddp
+from planned_states import state_at
 
 
 @pytest.fixture(scope="module")
@@ -20,22 +21,6 @@ def flat() -> mp.Plan:
 @pytest.fixture(scope="module")
 def stairs() -> mp.Plan:
     return mp.plan("stairs").plan
-
-
-def state_at(plan: mp.Plan, t: float) -> tuple[mp.model.Knot, list[int]]:
-    """The planned state, and the planned contacts."""
-    now = plan.at(t)
-    knot = mp.model.Knot(
-        com_W=now.com_W,
-        com_velocity_W=now.com_velocity_W,
-        base_rpy=now.base_rpy,
-        base_rpy_rate=now.base_rpy_rate,
-        angular_momentum_W=now.angular_momentum_W,
-        end_effectors_W=[end.position_W for end in now.end_effectors],
-        end_effector_velocities_W=[end.velocity_W for end in now.end_effectors],
-        end_effector_yaw=[end.yaw for end in now.end_effectors],
-    )
-    return knot, [end.surface for end in now.end_effectors]
 
 
 def time_of_phase(plan: mp.Plan, free: int, fraction: float = 0.5) -> float:

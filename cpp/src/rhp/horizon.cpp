@@ -26,6 +26,8 @@ using nlp::Stages;
 // goal pulls the CoM ahead, a guess says less.
 constexpr double kReachMargin_m = 0.1, kLastReachMargin_m = 0.5;
 constexpr double kRestWeight = 100.0;  // of the goal at the end of the walk, over goal_weight: rest where it is
+constexpr double kNearGoal_m =
+    0.5;  // from the last footholds as guessed: a walk that ends farther off does not reach it
 constexpr double kPaperLow[2] = {0.0, -1.0}, kPaperHigh[2] = {30.0, 1.0};  // CoM, world x and y [m]
 
 /// How far the CoM is inside each face of a foot's reach [m].
@@ -109,7 +111,8 @@ class Builder {
         phase.placements = stands;
         if (kind == 1) phase.placements[foot] = -1;
         phase.first_node = (3 * i + kind) * options_.intervals;
-        const Range range = kind == 1 ? options_.single_support_s : options_.double_support_s;
+        Range range = kind == 1 ? options_.single_support_s : options_.double_support_s;
+        if (i == 0 && kind == 0) range.max += options_.landing_s;
         const double fixed = kind == 1 ? options_.predicted_single_support_s : options_.predicted_double_support_s;
         phase.duration = problem().add_variables("duration", 1, phase.centroidal ? range.min : fixed,
                                                  phase.centroidal ? range.max : fixed,
@@ -321,10 +324,21 @@ class Builder {
   void add_end() {
     const Horizon::Node& end = out_.nodes.back();
     const double weight = options_.goal_weight * (request_.rest ? kRestWeight : 1.0);
-    problem().add_cost(std::make_unique<SquaredDistance>("goal", end.com, walker_.goal_com_W - out_.shift_W, weight));
+    const Vector3d aim_W = request_.rest ? rest_W() : walker_.goal_com_W;
+    problem().add_cost(std::make_unique<SquaredDistance>("goal", end.com, aim_W - out_.shift_W, weight));
     if (!request_.rest) return;
     fix(end.velocity, Vector3d::Zero());
     if (end.momentum >= 0) fix(end.momentum, Vector3d::Zero());
+  }
+
+  /// Where the CoM comes to rest: at the goal, or above the last two footholds of a sequence that ends far from it. The
+  /// goal would pull it there with all that the legs have.
+  Vector3d rest_W() const {
+    const std::array<int, 2>& feet = out_.phases.back().placements;
+    const Vector3d middle_W = 0.5 * (out_.position_W(out_.guess, feet[0]) + out_.position_W(out_.guess, feet[1]));
+    const Vector3d& goal_W = walker_.goal_com_W;
+    if ((goal_W - middle_W).head<2>().norm() <= kNearGoal_m) return goal_W;
+    return middle_W + walker_.robot.com_height * Vector3d::UnitZ();
   }
 
   const Walker& walker_;

@@ -30,6 +30,7 @@ Options scaled(const Options& options, const Similarity& by) {
   const auto scale = [&](double Options::*field, double factor) {
     out.*field = to_human(options.*field, unset.*field, factor);
   };
+  scale(&Options::landing_s, by.time);
   scale(&Options::predicted_double_support_s, by.time);
   scale(&Options::predicted_single_support_s, by.time);
   scale(&Options::com_velocity_max, by.velocity());

@@ -62,6 +62,9 @@ struct Fields<rhp::Options> {
       field("single_support_s", &Options::single_support_s, "s", "Duration of a phase on one foot: min, max.")
           .positive()
           .growing(),
+      field("landing_s", &Options::landing_s, "s",
+            "Time by which the first phase of a horizon may last longer, for starts at a touch-down.")
+          .not_negative(),
       field("predicted_double_support_s", &Options::predicted_double_support_s, "s",
             "Fixed duration of a phase on two feet in predicted steps of the reduced models.")
           .positive(),

@@ -130,6 +130,7 @@ class Options:
         intervals: typing.SupportsInt | typing.SupportsIndex = 7,
         double_support_s: tuple[float, float] = (0.1, 0.3),
         single_support_s: tuple[float, float] = (0.8, 1.2),
+        landing_s: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         predicted_double_support_s: typing.SupportsFloat | typing.SupportsIndex = 0.2,
         predicted_single_support_s: typing.SupportsFloat | typing.SupportsIndex = 0.6,
         com_velocity_max: typing.SupportsFloat | typing.SupportsIndex = 1.5,
@@ -254,6 +255,13 @@ class Options:
         """
     @intervals.setter
     def intervals(self, arg0: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def landing_s(self) -> float:
+        """
+        [s] Time by which the first phase of a horizon may last longer, for starts at a touch-down.
+        """
+    @landing_s.setter
+    def landing_s(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def lifted_psi(self) -> bool:
         """

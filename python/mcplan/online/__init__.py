@@ -30,6 +30,7 @@ __all__ = [
     "StateReader",
     "Update",
     "run",
+    "with_bases",
 ]
 
 
@@ -42,6 +43,10 @@ def __getattr__(name: str) -> object:
         from .result import RunResult
 
         return RunResult
+    if name == "with_bases":
+        from .horizon_bases import with_bases
+
+        return with_bases
     if name == "run":
         from .runner import run
 

@@ -74,7 +74,7 @@ class SlipSense:
 
     def __init__(self, count: int, force_min_N: float) -> None:
         self._force_min_N = force_min_N
-        self._steps = [0] * count
+        self._ratios: list[list[float]] = [[] for _ in range(count)]  # of the forces of each slip under way
 
     def update(
         self, scene: Scene, surfaces: Sequence[int], forces_W: Sequence[Array], velocities_W: Sequence[Array]
@@ -85,21 +85,26 @@ class SlipSense:
             scene: As it is known.
             surfaces: (e,) the surface with which each end-effector is in contact, -1: none.
             forces_W: (e,) contact forces on the robot [N].
-            velocities_W: (e,) of the contact points [m/s].
+            velocities_W: (e,) (p, 3) of the corners of soles, (3,) of points [m/s]. A sole slides where all of its corners
+                do: one that rolls down onto the ground stands on an edge, and its force says nothing of friction.
         """
         found: dict[int, float] = {}
         for end, (surface, force_W, velocity_W) in enumerate(zip(surfaces, forces_W, velocities_W, strict=True)):
-            self._steps[end] = self._steps[end] + 1 if surface >= 0 else 0
             if surface < 0:
+                self._ratios[end] = []
                 continue
             normal = polygon_normal(np.asarray(scene.surfaces[surface].vertices_W, float))
             pressing_N = float(normal @ force_W)
-            sliding = np.linalg.norm(velocity_W - (normal @ velocity_W) * normal) > STANDS_M_S
+            along_W = velocity_W - np.multiply.outer(velocity_W @ normal, normal)
+            sliding = np.linalg.norm(along_W, axis=-1).min() > STANDS_M_S
             if not sliding or pressing_N < self._force_min_N:
-                self._steps[end] = 0
-            if self._steps[end] < SLIPPING_STEPS:
+                self._ratios[end] = []
                 continue
-            friction = max(float(np.linalg.norm(force_W - pressing_N * normal)) / pressing_N, FRICTION_MIN)
+            along_N = float(np.linalg.norm(force_W - pressing_N * normal))
+            self._ratios[end] = [*self._ratios[end], along_N / pressing_N][-SLIPPING_STEPS:]
+            if len(self._ratios[end]) < SLIPPING_STEPS:
+                continue
+            friction = max(*self._ratios[end], FRICTION_MIN)
             known = found.get(surface, scene.surfaces[surface].friction)
             if friction < FRICTION_RATIO_MAX * known:
                 found[surface] = friction

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .horizon_planner import HorizonPlanner
+from .horizon_planner import LEAST_S, HorizonPlanner
 from .loop import Loop, Pending
 from .pacing import TouchdownPace
 
@@ -20,14 +20,20 @@ Array = NDArray[np.float64]
 
 #: Wall clock of a horizon without a fixed latency [s]: less than any swing lasts.
 TIME_LIMIT_S = 0.25
-#: Of a horizon's first phase at least so much has to be left when it is taken over [s].
-LEAST_S = 0.05
+#: Most iterations of a horizon with one: most that converge take 30 to 110, and another is asked for where one does not.
+ITERATIONS = 150
 
 
 def _limit_s(online: OnlineOptions) -> float:
     if np.isnan(online.time_limit_s) and not online.fixed_latency:
         return TIME_LIMIT_S
     return online.time_limit_s
+
+
+def limits(online: OnlineOptions) -> dict[str, float]:
+    """Of a horizon, by the names of options of rhp. With a fixed latency runs are the same on every machine."""
+    limit_s = _limit_s(online)
+    return {"max_iterations": ITERATIONS} if np.isnan(limit_s) else {"time_limit": limit_s}
 
 
 def computing_s(online: OnlineOptions) -> float:
@@ -39,9 +45,7 @@ class HorizonLoop(Loop):
     """One run with rhp. Between touchdowns the plan under way goes on: a horizon of rhp begins on both feet."""
 
     def _planning(self, plan: Plan, online: OnlineOptions) -> tuple[HorizonPlanner, TouchdownPace]:
-        limit_s = _limit_s(online)
-        named = {} if np.isnan(limit_s) else {"time_limit": limit_s}
-        self.horizons = HorizonPlanner(plan, 0.0, computing_s=computing_s(online), **named)
+        self.horizons = HorizonPlanner(plan, 0.0, computing_s=computing_s(online), **limits(online))
         self.touchdowns = TouchdownPace(online)
         self.feet = [i for i, end in enumerate(plan.robot.end_effectors) if end.kind == "foot"]
         return self.horizons, self.touchdowns
@@ -63,9 +67,10 @@ class HorizonLoop(Loop):
         update = self.horizons.wait()
         assert update is not None
         self.touchdowns.asked(now_s)
-        latency_s = self.online.latency_s if self.online.fixed_latency else update.took_s
-        self.tally.computed(update.took_s, latency_s, update.status, reason)
-        self.pending = Pending(update, now_s + latency_s, False)
+        ready_s = now_s + (self.online.latency_s if self.online.fixed_latency else update.took_s)
+        ready_s = max(ready_s, update.begins_s) if update.usable else ready_s
+        self.tally.computed(update.took_s, ready_s - now_s, update.status, reason)
+        self.pending = Pending(update, ready_s, False)
 
     def _take_over(self, now_s: float) -> None:
         """Follow the horizon that waits, if its computation is over, in its first phase and while both feet stand.

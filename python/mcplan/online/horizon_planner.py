@@ -8,15 +8,20 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mcplan._core import Plan, Status, rhp
+from mcplan._core import Plan, Polytope, Status, rhp
+from mcplan.arguments import require, require_number
 from mcplan.errors import InvalidInput, InvalidPlan
+from mcplan.kinematics.rotations import from_rpy
 from mcplan.options import fill
 
 from .planner import MeasuredState, Planner, Update
 
 if TYPE_CHECKING:
     from mcplan._core import Robot, Scene
+
+Array = NDArray[np.float64]
 
 #: Phases of a step: on both feet, on one, on both.
 PHASES = 3
@@ -25,9 +30,13 @@ PHASES = 3
 ONLINE: Mapping[str, Any] = {"fidelity": "single", "lookahead": 3, "solver": "ipm"}
 #: Range of the duration on both feet, at least [s].
 DOUBLE_SUPPORT_S = 0.1
+#: A horizon begins at least so long before a foot is lifted [s].
+LEAST_S = 0.05
 #: By so much a measured start may be beyond a limit that the horizon then keeps: of the CoM's height as a ratio, of angular
 #: momentum as a factor.
 HEIGHT_SLACK, MOMENTUM_SLACK = 0.005, 1.05
+#: And of the reach of the feet [m].
+REACH_SLACK_M = 0.005
 
 
 def online_options(computing_s: float, named: Mapping[str, Any]) -> rhp.Options:
@@ -71,7 +80,9 @@ def steps_made(plan: Plan, t: float) -> int:
 
 
 def require_steps(plan: Plan) -> None:
-    """Raise InvalidPlan where a plan is not made of steps as rhp makes them."""
+    """Raise InvalidPlan where a plan is malformed, or not made of steps as rhp makes them."""
+    require("plan", plan, Plan)
+    plan.validate()
     if plan.planner != "rhp" or len(plan.phases) % PHASES:
         rule = "must be one of rhp: engine 'rhp' follows its steps; take mcplan.walk(scene, sequence=plan).plan"
         raise InvalidPlan("planner", rule, plan.planner or "none")
@@ -86,7 +97,8 @@ class HorizonPlanner(Planner):
     Args:
         plan: The plan under way, of rhp; its steps are those that are planned.
         begins_s: Time of the clock at which it began.
-        computing_s: Time that a horizon takes: phases on both feet are longer by as much, for all of its first one to come.
+        computing_s: Time that a horizon takes: it begins at the state that is predicted for then, as far off the plan under
+            way as the measured one, and phases on both feet are longer by as much.
         **named: Options of mcplan.walk by name, among them ``time_limit`` [s].
 
     Attributes:
@@ -95,8 +107,9 @@ class HorizonPlanner(Planner):
 
     def __init__(self, plan: Plan, begins_s: float = 0.0, *, computing_s: float = 0.0, **named: Any) -> None:
         require_steps(plan)
+        computing_s = require_number("computing_s", computing_s)
         self.sequence, self.first_step = plan, 0
-        self._options = online_options(computing_s, named)
+        self._options, self._computing_s = online_options(computing_s, named), computing_s
         self._first_steps: dict[int, int] = {}
         super().__init__(plan, begins_s)
 
@@ -123,7 +136,9 @@ class HorizonPlanner(Planner):
             if first >= self.steps:
                 raise InvalidInput("state", "must be measured before the last step is made", str(first))
             options = fill(self._options.__copy__(), named)
+            state = predicted(state, plan, begins_s, self._computing_s)
             start = start_state(scene, robot, state)
+            robot = reaching(robot, start, float(scene.start.yaw))
             planner = rhp.RecedingHorizon(
                 scene, robot, steps_of(self.sequence, first, self.steps), within_reach(options, robot, start)
             )
@@ -149,7 +164,43 @@ class HorizonPlanner(Planner):
     def _followed(self, horizon: Plan, first: int) -> Plan:
         """What of a horizon may be followed: all where it ends at rest, else all but its last step."""
         steps = len(horizon.phases) // PHASES
-        return horizon if first + steps >= self.steps or steps == 1 else steps_of(horizon, 0, steps - 1)
+        whole = first + steps >= self.steps or steps == 1
+        return with_bases_of(horizon if whole else steps_of(horizon, 0, steps - 1), self.sequence, first)
+
+
+def with_bases_of(plan: Plan, sequence: Plan, first: int) -> Plan:
+    """The plan with its base turned at its knots as at those of the sequence from step `first` on."""
+    turned, knots = plan.__copy__(), []
+    for knot, known in zip(plan.knots, list(sequence.knots)[PHASES * first :], strict=False):
+        own = knot.__copy__()
+        own.base_rpy, own.base_rpy_rate = known.base_rpy, known.base_rpy_rate
+        knots.append(own)
+    turned.knots = knots
+    return turned
+
+
+def predicted(state: MeasuredState, plan: Plan, begins_s: float, ahead_s: float) -> MeasuredState:
+    """The state after a horizon's computation: as far from the plan under way as it is now.
+
+    No later than shortly before a foot leaves the ground, as a horizon begins on both feet.
+    """
+    t = min(max(state.time_s - begins_s, 0.0), float(plan.duration()))
+    until = min(t + ahead_s, max(t, _lifts_s(plan, t) - LEAST_S))
+    now, then = plan.at(t), plan.at(until)
+    knot = state.knot.__copy__()
+    knot.com_W = knot.com_W + then.com_W - now.com_W
+    knot.com_velocity_W = knot.com_velocity_W + then.com_velocity_W - now.com_velocity_W
+    knot.angular_momentum_W = knot.angular_momentum_W + then.angular_momentum_W - now.angular_momentum_W
+    return MeasuredState(state.time_s + until - t, knot, state.contacts)
+
+
+def _lifts_s(plan: Plan, t: float) -> float:
+    """When a foot leaves the ground next after a time of a plan at which both stand, or have landed early [s]."""
+    phase = int(plan.at(t).phase)
+    step, kind = divmod(phase, PHASES)
+    swings = PHASES * (step if kind == 0 else step + 1) + 1
+    times = plan.knot_times()
+    return float(times[min(swings, len(times) - 1)])
 
 
 def start_state(scene: Scene, robot: Robot, state: MeasuredState) -> rhp.State:
@@ -160,11 +211,15 @@ def start_state(scene: Scene, robot: Robot, state: MeasuredState) -> rhp.State:
     """
     feet = [i for i, end in enumerate(robot.end_effectors) if end.kind == "foot"]
     knot, places, surfaces = state.knot, [], []
+    if len(state.contacts) != len(robot.end_effectors) or len(knot.end_effectors_W) != len(robot.end_effectors):
+        raise InvalidInput("state", "must have a place and a contact for each end-effector", str(len(state.contacts)))
     for foot in feet:
         surface = int(state.contacts[foot])
         if surface < 0:
             name = robot.end_effectors[foot].name
             raise InvalidInput("state.contacts", "must have both feet on surfaces: horizons of rhp begin so", name)
+        if surface >= len(scene.surfaces):
+            raise InvalidInput("state.contacts", "must be indices of surfaces of the scene, or -1", str(surface))
         outline_W = np.asarray(scene.surfaces[surface].vertices_W, float)
         normal = np.cross(outline_W[1] - outline_W[0], outline_W[2] - outline_W[1])
         normal /= np.linalg.norm(normal)
@@ -181,11 +236,43 @@ def start_state(scene: Scene, robot: Robot, state: MeasuredState) -> rhp.State:
 
 
 def within_reach(options: rhp.Options, robot: Robot, start: rhp.State) -> rhp.Options:
-    """Options with a CoM's height and an angular momentum that a measured start does not violate already."""
+    """Options with a CoM's height and an angular momentum that a measured start does not violate already.
+
+    The first phase may last as long as the landing and the next phase on both feet do in a horizon that is under way.
+    """
     chosen = options.__copy__()
     heights = [float(start.com_W[2] - foot[2]) / float(robot.com_height) for foot in start.feet_W]
     low, high = options.com_height
     chosen.com_height = (min(low, min(heights) - HEIGHT_SLACK), max(high, max(heights) + HEIGHT_SLACK))
     largest = float(np.abs(start.angular_momentum_W).max())
     chosen.momentum_max = max(options.momentum_max, MOMENTUM_SLACK * largest)
+    chosen.landing_s = max(options.landing_s, options.double_support_s[1])
     return chosen
+
+
+def reaching(robot: Robot, start: rhp.State, yaw: float) -> Robot:
+    """The robot with reach that a measured start is within: sides of boxes and faces of polytopes give way by as much."""
+    feet = [i for i, end in enumerate(robot.end_effectors) if end.kind == "foot"]
+    level = from_rpy(np.array([0.0, 0.0, yaw]))
+    ends = [end.__copy__() for end in robot.end_effectors]
+    for foot, partner, place, other in zip(feet, feet[::-1], start.feet_W, list(start.feet_W)[::-1], strict=True):
+        end, from_com = ends[foot], level.T @ (np.asarray(place) - start.com_W)
+        if end.com_reach.given:
+            end.com_reach = _holding(end.com_reach, -from_com)
+        else:
+            low, high = np.asarray(end.reach_min_B, float), np.asarray(end.reach_max_B, float)
+            end.reach_min_B = np.where(from_com < low, from_com - REACH_SLACK_M, low)
+            end.reach_max_B = np.where(from_com > high, from_com + REACH_SLACK_M, high)
+        name = ends[partner].name
+        if name in end.partner_reach:
+            between = level.T @ (np.asarray(other) - np.asarray(place))
+            end.partner_reach = {**end.partner_reach, name: _holding(end.partner_reach[name], between)}
+    wide = robot.__copy__()
+    wide.end_effectors = ends
+    return wide
+
+
+def _holding(polytope: Polytope, point: Array) -> Polytope:
+    """The polytope with the faces moved outward that the point is beyond."""
+    A, b = np.asarray(polytope.A, float), np.asarray(polytope.b, float)
+    return Polytope(A=A, b=np.where(A @ point > b, A @ point + REACH_SLACK_M, b))

@@ -251,7 +251,7 @@ class Loop:
     def _feel_slips(self, forces_W: Array) -> None:
         """Plan and control with less friction where an end-effector slips."""
         controller = self.controller
-        slippery = self.ground.feel_slips(controller.surfaces_now(), list(forces_W), controller.velocities_W())
+        slippery = self.ground.feel_slips(controller.surfaces_now(), list(forces_W), controller.sole_velocities_W())
         for surface, friction in slippery.items():
             controller.set_friction(surface, friction)
         if slippery:

@@ -26,7 +26,7 @@ class FollowedPlan:
 
     Attributes:
         plan: The plan.
-        begins_s: Time of the run at which it begins: that of the state from which it was made.
+        begins_s: Time of the run at which it begins: that of the state from which it was made, measured or, for rhp, predicted.
         from_s: Time of the run from which on it was followed.
         took_s: Wall clock of its computation.
         message: What the planner said of it.

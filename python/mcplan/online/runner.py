@@ -17,6 +17,7 @@ from mcplan.tracking.interruption import Interruption
 from mcplan.tracking.options import Options, Watch
 from mcplan.tracking.runner import posture_at, robot_for
 
+from .horizon_bases import with_bases
 from .horizon_loop import HorizonLoop
 from .horizon_planner import require_steps
 from .loop import Loop, length_of
@@ -71,6 +72,8 @@ def run(
     from mcplan.tracking.simulation import Simulation
 
     model = mujoco_model.build(walker, true_scene or plan.scene, options)
+    if online.engine == "rhp":
+        plan = with_bases(plan, model.urdf_model)
     simulation = Simulation(model, options.torque_delay_s, options.torque_bandwidth_hz)
     start = posture_at(model.urdf_model, plan, 0.0)
     on_ground = start.copy()

@@ -18,6 +18,14 @@ SIDES = 8
 SOLE_RATIO, FRICTION_RATIO = 0.9, 0.98
 
 
+def corners(half_size: Array) -> Array:
+    """(4, 3) of a sole of this half length and half width in the contact frame [m]; zeros: (1, 3), a point."""
+    length, width = np.asarray(half_size, float)
+    if length <= 0.0 or width <= 0.0:
+        return np.zeros((1, 3))
+    return np.array([[length, width, 0.0], [-length, width, 0.0], [-length, -width, 0.0], [length, -width, 0.0]])
+
+
 @dataclass(frozen=True)
 class ForcePoints:
     """Force points of one end-effector: p points, 1 or 4.

@@ -21,7 +21,7 @@ from mcplan.kinematics.rotations import minimal_rotation, polygon_normal, rotati
 from mcplan.kinematics.urdf_model import UrdfModel, leg_velocities
 
 from .actuators import TorqueSpeed
-from .contact_forces import SIDES, ForcePoints, pyramid
+from .contact_forces import SIDES, ForcePoints, corners, pyramid
 from .contacts import Contact, LateLandings, Mode
 from .joint_references import JointReferences
 from .live_references import LiveReferences
@@ -107,6 +107,7 @@ class Controller:
         self.pyramids = [pyramid(n, s.friction) for n, s in zip(self.normals, scene.surfaces, strict=True)]
         self.points = [ForcePoints.of(end.half_size) for end in urdf_model.robot.end_effectors]
         self.flat = [p.count > 1 for p in self.points]
+        self.soles = [corners(end.half_size) for end in urdf_model.robot.end_effectors]
         self.feet = [end.kind == "foot" for end in urdf_model.robot.end_effectors]
         self.contacts, self._late = [Contact() for _ in self.points], LateLandings()
         self.qp = QuadraticProgram()
@@ -178,6 +179,15 @@ class Controller:
     def velocities_W(self) -> list[Array]:
         """(e,) velocities (3,) of the end-effectors at the last control step [m/s]."""
         return [self.dynamics.end_effector(end).velocity_W[:3] for end in range(len(self.contacts))]
+
+    def sole_velocities_W(self) -> list[Array]:
+        """(e,) velocities (p, 3) of the corners of soles, and of what has none itself, at the last control step [m/s]."""
+        found = []
+        for end, sides in enumerate(self.soles):
+            motion = self.dynamics.end_effector(end)
+            arms_W = sides @ motion.rotation_W.T
+            found.append(motion.velocity_W[:3] + np.cross(motion.velocity_W[3:], arms_W))
+        return found
 
     def speeds_m_s(self) -> list[float]:
         """(e,) of the end-effectors at the last control step."""

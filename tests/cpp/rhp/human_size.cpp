@@ -43,9 +43,11 @@ TEST_CASE("options at their default go with the size, others are meant as they s
   Options options = walkers::quick();
   options.single_support_s = {2.0, 6.0};
   options.foothold_margin_m = 0.32;
+  options.landing_s = 0.4;
   const Walker large = size_of(kLarger, options).walker();
   CHECK(large.options.single_support_s.max == 1.5);
   CHECK(large.options.foothold_margin_m == 0.02);
+  CHECK(large.options.landing_s == 0.1);
   CHECK(large.options.double_support_s.max == Options().double_support_s.max);
   CHECK(large.options.momentum_max == Options().momentum_max);
 }

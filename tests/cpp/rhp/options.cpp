@@ -32,6 +32,7 @@ TEST_CASE("options out of their range are refused by the name of their field") {
        [&](Options& o) {
          o.com_height = {nan, 1.0};
        }},
+      {"landing_s", [](Options& o) { o.landing_s = -0.1; }},
       {"predicted_double_support_s", [](Options& o) { o.predicted_double_support_s = 0.0; }},
       {"predicted_single_support_s", [&](Options& o) { o.predicted_single_support_s = nan; }},
       {"com_velocity_max", [](Options& o) { o.com_velocity_max = -1.0; }},

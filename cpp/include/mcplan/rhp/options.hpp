@@ -43,9 +43,10 @@ struct Options {
   bool friction_rows = false;  ///< forces along t1, t2, n and friction as rows, instead of along the pyramid's edges
   bool all_faces = false;      ///< keep faces of the reach polytopes that others imply
 
-  int intervals = 7;                        ///< per phase
-  Range double_support_s{0.1, 0.3};         ///< duration of a phase on two feet
-  Range single_support_s{0.8, 1.2};         ///< duration of a phase on one foot
+  int intervals = 7;                 ///< per phase
+  Range double_support_s{0.1, 0.3};  ///< duration of a phase on two feet
+  Range single_support_s{0.8, 1.2};  ///< duration of a phase on one foot
+  double landing_s = 0.0;            ///< by which a horizon's first phase may last longer: what is left of a landing
   double predicted_double_support_s = 0.2;  ///< fixed durations of predicted phases of the reduced models
   double predicted_single_support_s = 0.6;
   double com_velocity_max = 1.5;   ///< [m/s] each component
