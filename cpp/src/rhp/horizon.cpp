@@ -26,8 +26,7 @@ using nlp::Stages;
 // goal pulls the CoM ahead, a guess says less.
 constexpr double kReachMargin_m = 0.1, kLastReachMargin_m = 0.5;
 constexpr double kRestWeight = 100.0;  // of the goal at the end of the walk, over goal_weight: rest where it is
-constexpr double kNearGoal_m =
-    0.5;  // from the last footholds as guessed: a walk that ends farther off does not reach it
+constexpr double kNearGoal_m = 0.5;    // from the last footholds as guessed: from farther off it is not reached
 constexpr double kPaperLow[2] = {0.0, -1.0}, kPaperHigh[2] = {30.0, 1.0};  // CoM, world x and y [m]
 
 /// How far the CoM is inside each face of a foot's reach [m].

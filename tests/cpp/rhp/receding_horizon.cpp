@@ -288,6 +288,23 @@ TEST_CASE("in a world that is turned and shifted the walk is turned and shifted"
   compare(options, 2.1);
 }
 
+TEST_CASE("a sequence taken from a plan is walked to its end, where the robot rests") {
+  Options options = walkers::quick(Fidelity::single, 3);
+  const Plan sequence = planner(walkers::uneven(), options).walk().plan;
+  REQUIRE(sequence.phases.size() == 6);
+  options.cycles = 14;
+  options.constraint_tolerance = 1e-9;  // the state at the end is that of the forces, integrated
+  RecedingHorizon refined(walkers::uneven(), walkers::robot(), sequence, options);
+  const Walk walk = refined.walk();
+  CAPTURE(walk.report.message);
+  CHECK(walk.success);
+  REQUIRE(walk.cycles.size() == 2);
+  CHECK(walk.plan.knots.back().com_velocity_W.norm() < 1e-9);
+  CHECK(walk.plan.knots.back().angular_momentum_W.norm() < 1e-6);
+  CHECK(walk.plan.final_contacts == sequence.final_contacts);
+  CHECK(field_of<InvalidInput>([&] { refined.step(); }) == "cycles");
+}
+
 TEST_CASE("what a scene lacks is refused by name") {
   const Options options = walkers::quick();
   const auto field = [&](const std::function<void(Scene&)>& spoil) {
