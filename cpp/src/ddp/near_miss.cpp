@@ -16,8 +16,8 @@ void shrink(EndLimits& limit, double by) {
   limit.reach_max = (limit.reach_max.array() - by).matrix().cwiseMax(middle);
 }
 
-/// The state at the goal weighs more. Making contacts exact cuts moments about the normal, and a base that lacks them may
-/// go on turning there: fewer of these are asked for.
+/// The state at the goal weighs more. Making contacts exact cuts moments about the normal, and a base that lacks them
+/// may go on turning there: fewer of these are asked for.
 void aim_firmer(Problem& problem) {
   Weights& weights = problem.options.weights;
   problem.torsion_ratio *= kTorsionSpare;
