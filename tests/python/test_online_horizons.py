@@ -177,7 +177,8 @@ def test_plans_are_replanned_by_the_engine_that_can(plan):
     [
         ("no plan", {}, "plan: must be a Plan"),
         ("plan", {"computing_s": "soon"}, "computing_s: must be a number"),
-        ("plan", {"computing_s": -1.0}, "double_support_s: must be two positive numbers"),
+        ("plan", {"computing_s": -0.05}, "computing_s: must be finite and at least 0, got -0.05"),
+        ("plan", {"computing_s": float("nan")}, "computing_s: must be finite and at least 0, got nan"),
         ("plan", {"colour": 3}, "colour: no such option"),
         ("nan", {}, "knots\\[3\\]: must be finite numbers"),
     ],

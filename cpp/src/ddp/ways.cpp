@@ -136,6 +136,7 @@ void WaysToGoal::search_in(int phases, const Way& way, Report& report, Found& fo
 /// the CoM, by which phases are counted: a crawl that fails is tried in more of them. Whether that was all.
 bool WaysToGoal::crawl_along(const Way& way, Report& report, Found& found, const Beside* beside) const {
   if (earlier_ || !options_->initial_sequence.empty() || options_->method == Method::paper) return false;
+  if (!options_->stepping_guesses || way.crawl_known) return false;
   int first = 0;
   for (const double factor : kCrawlPhases) {
     const int phases = first == 0 ? options_->phases : 2 * static_cast<int>(0.5 * factor * first);
@@ -168,8 +169,8 @@ Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* bes
 }
 
 /// Where a plan is nearly found, or a foot has caught the edge of what it can step on, the same way in more phases:
-/// ground may ask for shorter steps than the robot can make.
-/// Round what is in the way before other ways are searched: they would cost what iterations there are.
+/// ground may ask for shorter steps than the robot can make. Detours are tried so before the other ways are searched,
+/// which would use up the iterations.
 void WaysToGoal::try_more_phases(Report& report, Found& found) const {
   if (options_->phases > 0 || earlier_ || !options_->initial_sequence.empty() || options_->method == Method::paper)
     return;
@@ -194,12 +195,19 @@ void WaysToGoal::mend(Report& report, Found& found) const {
   if (violation_ratio(best->worst) > kAcceptable) return;
   const int phases = static_cast<int>(best->plan.phases.size());
   const std::size_t rows = report.history.size();
-  Problem problem = pose(found.way, phases, found.surfaces, nullptr);
+  // The best plan may be of a search that has looked at more than the last one.
+  std::set<int> needed(found.surfaces.begin(), found.surfaces.end());
+  for (const auto& row : best->plan.contact_sequence())
+    for (int surface : row)
+      if (surface >= 0) needed.insert(surface);
+  const std::vector<int> surfaces(needed.begin(), needed.end());
+  Problem problem = pose(found.way, phases, surfaces, nullptr);
   Incumbent near = from_plan(problem, best->plan, 0);
+  if (near.sequence.empty() || !problem.rules.valid(near.sequence)) return;
   const Tuning tuning = best->tuning;
-  Attempts attempts(std::move(problem), found.surfaces, *deadline_, found.best, report);
+  Attempts attempts(std::move(problem), surfaces, *deadline_, found.best, report);
   const Ending ending = attempts.mend(std::move(near), tuning);
-  name_surfaces(report, rows, found.surfaces);
+  name_surfaces(report, rows, surfaces);
   if (ending == Ending::time_limit || ending == Ending::interrupted) found.ending = ending;
   found.best.settle(attempts.problem(), report);
   tell(found.way, found);
@@ -289,7 +297,11 @@ Found WaysToGoal::search(Report& report) const {
     try_way({{}, false, least});
   // Two feet are what a walk should have; a leap may have fewer.
   const auto hopeless = [&] { return !best->best.best() || violation_ratio(best->best.best()->worst) > kAcceptable; };
-  if (options_->min_contacts < 0 && least > 0 && hopeless()) try_way({{}, options_->allow_flight, 0});
+  if (options_->min_contacts < 0 && least > 0 && hopeless()) {
+    Way leaping{{}, options_->allow_flight, 0};
+    leaping.crawl_known = true;  // straight on was tried, and a crawl has more feet down than are asked for
+    try_way(leaping);
+  }
   best->barrier = routes.barrier;
   if (best->way.route.empty()) try_more_phases(report, *best);
   mend(report, *best);

@@ -18,7 +18,8 @@ struct Way {
   Route route;
   bool flights = true;
   int min_contacts = 0;
-  bool brief = false;  ///< one attempt: there is a plan already, and this way is the answer only if it costs less
+  bool brief = false;        ///< one attempt: there is a plan already, and this way is the answer only if it costs less
+  bool crawl_known = false;  ///< what a crawl comes to is known
 };
 
 /// What it has found.

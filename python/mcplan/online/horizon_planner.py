@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mcplan._core import Plan, Polytope, Status, rhp
 from mcplan.arguments import require, require_number
-from mcplan.errors import InvalidInput, InvalidPlan
+from mcplan.errors import InvalidArgument, InvalidInput, InvalidPlan
 from mcplan.kinematics.rotations import from_rpy
 from mcplan.options import fill
 
@@ -101,6 +101,11 @@ class HorizonPlanner(Planner):
             way as the measured one, and phases on both feet are longer by as much.
         **named: Options of mcplan.walk by name, among them ``time_limit`` [s].
 
+    Raises:
+        InvalidArgument: ``plan`` is no plan, or ``computing_s`` no time.
+        InvalidPlan: The plan is malformed, or not made of steps as rhp makes them.
+        InvalidOptions: An option of rhp is unknown or out of range.
+
     Attributes:
         first_step: Which step of the sequence the plan under way begins with.
     """
@@ -108,6 +113,8 @@ class HorizonPlanner(Planner):
     def __init__(self, plan: Plan, begins_s: float = 0.0, *, computing_s: float = 0.0, **named: Any) -> None:
         require_steps(plan)
         computing_s = require_number("computing_s", computing_s)
+        if not 0.0 <= computing_s < np.inf:
+            raise InvalidArgument("computing_s", "must be finite and at least 0", str(computing_s))
         self.sequence, self.first_step = plan, 0
         self._options, self._computing_s = online_options(computing_s, named), computing_s
         self._first_steps: dict[int, int] = {}
