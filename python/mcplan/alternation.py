@@ -13,8 +13,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from mcplan import _core
-from mcplan._core import Plan, PlanResult, Robot, Scene
+from mcplan._core import Plan, PlanResult, Polytope, Robot, Scene
 from mcplan.arguments import require
 from mcplan.errors import Interrupted, InvalidArgument, shown
 from mcplan.kinematics.urdf_model import load_model, own_joints
@@ -181,6 +183,9 @@ class _Asked:
             nominal = end.nominal_B
             end.reach_min_B = nominal + DRAWN_IN * (end.reach_min_B - nominal)
             end.reach_max_B = nominal + DRAWN_IN * (end.reach_max_B - nominal)
+            if end.reach_cut.given:
+                A, b = np.asarray(end.reach_cut.A), np.asarray(end.reach_cut.b)
+                end.reach_cut = Polytope(A=A, b=A @ nominal + DRAWN_IN * (b - A @ nominal))
         self.robot.end_effectors = ends
         self.last = f"reach times {DRAWN_IN:.2f}"
         return True

@@ -39,6 +39,18 @@ inline mcplan::Robot humanoid44() {
   return robot;
 }
 
+/// The same with a face that lets its feet come up less behind the body than ahead, and one that slants sideways.
+inline mcplan::Robot humanoid44_cut() {
+  mcplan::Robot robot = humanoid44();
+  for (int l : {0, 1}) {
+    mcplan::EndEffector& foot = robot.end_effectors[l];
+    foot.reach_cut.A.resize(2, 3);
+    foot.reach_cut.A << Eigen::RowVector3d(-0.4, 0.0, 1.0).normalized(), Eigen::RowVector3d(0.7, 0.2, 0.3).normalized();
+    foot.reach_cut.b = foot.reach_cut.A * foot.nominal_B + Eigen::Vector2d(0.08, 0.1);
+  }
+  return robot;
+}
+
 inline mcplan::Surface rectangle(const std::string& name, double x0, double x1, double y0, double y1, double z,
                                  const std::string& who = "foot") {
   mcplan::Surface surface;

@@ -53,7 +53,7 @@ def test_what_limits_allow_asks_no_joint_for_more_than_105_percent_of_its_own_li
     assert max(d.speed for d in draws) <= 1.05
     # They are not much tighter than the joints either: most forces are four fifths of the largest.
     assert np.median([d.force_ratio for d in draws]) > 0.75
-    assert np.median([d.speed for d in draws]) > 0.7
+    assert np.median([d.speed for d in draws]) > 0.6
 
 
 def test_the_virtual_leg_of_talos_is_its_leg():

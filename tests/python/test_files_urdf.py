@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 import pytest
 
 import mcplan as mp
 from mcplan.files.reach import HEADING_STEP, headings_reached, share_reached
+from mcplan.files.reach_cut import below_cut
 from mcplan.files.robots import robot_to_dict
 from mcplan.files.strength import sole_torsion
 from mcplan.files.urdf import contact_frame, limb_of, load_model, robot_from_urdf
@@ -52,7 +55,8 @@ def test_nine_in_ten_random_points_of_every_reach_box_are_reached(loaded):
     robot, setup, model, posture = loaded
     for number, end in enumerate(robot.end_effectors):
         limb = limb_of(model, posture, setup.ends[number], setup.ends)
-        share = share_reached(limb, end.reach_min_B, end.reach_max_B, count=60, seed=number)
+        holds = functools.partial(below_cut, end)
+        share = share_reached(limb, (end.reach_min_B, end.reach_max_B), count=60, seed=number, holds=holds)
         assert share >= 0.9, (robot.name, end.name, share)
 
 
@@ -61,7 +65,8 @@ def test_nine_in_ten_soles_turned_at_random_are_reached(loaded):
     for number, end in enumerate(robot.end_effectors):
         if end.half_size.any():
             limb = limb_of(model, posture, setup.ends[number], setup.ends)
-            share = share_reached(limb, end.reach_min_B, end.reach_max_B, 60, number, tuple(end.yaw_range))
+            box, holds = (end.reach_min_B, end.reach_max_B), functools.partial(below_cut, end)
+            share = share_reached(limb, box, 60, number, tuple(end.yaw_range), holds)
             assert share >= 0.9, (robot.name, end.name, share)
         else:
             assert not np.isfinite(end.yaw_range).any()
@@ -78,7 +83,15 @@ def test_soles_of_talos_turn_as_far_as_the_first_joint_of_its_hip():
         limb = limb_of(model, posture, setup.ends[number], setup.ends)
         end = robot.end_effectors[number]
         beyond = limits[np.argmin(np.abs(limits))] * 1.3
-        assert share_reached(limb, end.reach_min_B, end.reach_max_B, 5, 0, (beyond, beyond)) == 0.0
+        assert share_reached(limb, (end.reach_min_B, end.reach_max_B), 5, 0, (beyond, beyond)) == 0.0
+
+
+def top_of_cut(end: mp.EndEffector, x: float) -> float:
+    """Height up to which the sole is lifted there."""
+    if not end.reach_cut.given:
+        return float("inf")
+    (normal,), (b,) = end.reach_cut.A, end.reach_cut.b
+    return (b - normal[0] * x) / normal[2]
 
 
 def test_soles_turn_as_far_as_inverse_kinematics_follows(loaded):
@@ -87,10 +100,11 @@ def test_soles_turn_as_far_as_inverse_kinematics_follows(loaded):
     for number, end in enumerate(robot.end_effectors):
         if end.half_size.any():
             limb = limb_of(model, posture, setup.ends[number], setup.ends)
-            right, left = headings_reached(limb, end.nominal_B, end.reach_min_B, end.reach_max_B)
+            box, top = (end.nominal_B, end.reach_min_B, end.reach_max_B), functools.partial(top_of_cut, end)
+            right, left = headings_reached(limb, *box, top=top)
             np.testing.assert_allclose([right, left], end.yaw_range, atol=HEADING_STEP + 1e-9)
             assert right <= end.yaw_range[0] + 1e-9 and left >= end.yaw_range[1] - 1e-9
-            assert headings_reached(limb, end.nominal_B, end.reach_min_B, end.reach_max_B, 0.1) == (-0.1, 0.1)
+            assert headings_reached(limb, *box, 0.1, top) == (-0.1, 0.1)
 
 
 def test_left_and_right_soles_turn_and_bear_alike(loaded):
@@ -135,7 +149,7 @@ def test_points_a_leg_length_too_far_are_not_reached(loaded):
     robot, setup, model, posture = loaded
     limb = limb_of(model, posture, setup.ends[0], setup.ends)
     below = robot.end_effectors[0].nominal_B - [0, 0, robot.com_height]
-    assert share_reached(limb, below, below + 1e-6, count=3, seed=0) == 0.0
+    assert share_reached(limb, (below, below + 1e-6), count=3, seed=0) == 0.0
 
 
 def test_jacobian_of_a_limb_agrees_with_differences(loaded):

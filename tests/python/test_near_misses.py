@@ -94,7 +94,12 @@ def test_floors_that_fall_off_sideways_are_walked_along(robot: str) -> None:
 
 
 def test_starts_out_of_reach_are_named_before_the_search() -> None:
-    report = mp.plan(sideways_slope(25.0), "g1").report
+    robot = mp.load_robot("g1")
+    ends = robot.end_effectors
+    for foot in ends[:2]:
+        foot.reach_max_B, foot.reach_cut = [*foot.reach_max_B[:2], foot.nominal_B[2] + 0.06], mp.model.Polytope()
+    robot.end_effectors = ends
+    report = mp.plan(sideways_slope(25.0), robot).report
     assert report.status == mp.Status.infeasible
     assert report.iterations == 0
     assert report.message.startswith('start: left_foot would stand on "floor", ')

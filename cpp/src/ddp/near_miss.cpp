@@ -14,6 +14,8 @@ void shrink(EndLimits& limit, double by) {
   const Vector3d middle = 0.5 * (limit.reach_min + limit.reach_max);
   limit.reach_min = (limit.reach_min.array() + by).matrix().cwiseMin(middle);
   limit.reach_max = (limit.reach_max.array() - by).matrix().cwiseMax(middle);
+  for (int i = 0; i < limit.cuts; ++i)
+    limit.cut_b[i] = std::max(limit.cut_b[i] - by, std::min(limit.cut_b[i], limit.cut_A.row(i).dot(limit.nominal)));
 }
 
 /// The state at the goal weighs more. Making contacts exact cuts moments about the normal, and a base that lacks them

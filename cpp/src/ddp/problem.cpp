@@ -177,6 +177,13 @@ EndLimits Problem::limits_of(const EndEffector& end) const {
   const Vector3d middle = 0.5 * (end.reach_min_B + end.reach_max_B);
   l.reach_min = (end.reach_min_B + margin).cwiseMin(middle) / units.length;
   l.reach_max = (end.reach_max_B - margin).cwiseMax(middle) / units.length;
+  l.cuts = static_cast<int>(end.reach_cut.A.rows());
+  for (int i = 0; i < l.cuts; ++i) {
+    l.cut_A.row(i) = end.reach_cut.A.row(i);
+    // A nominal place that is closer to the face than the margin keeps the margin that it has.
+    const double spare = end.reach_cut.b[i] - end.reach_cut.A.row(i).dot(end.nominal_B);
+    l.cut_b[i] = (end.reach_cut.b[i] - std::clamp(spare, 0.0, margin.x())) / units.length;
+  }
   l.force_max = std::min(end.max_force / units.force(), kForceCapMax);
   l.half_size = end.half_size / units.length;
   l.half_width = l.half_size.minCoeff();

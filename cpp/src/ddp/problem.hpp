@@ -51,6 +51,9 @@ struct Tuning {
 /// Limits and nominal position of an end-effector, non-dimensional.
 struct EndLimits {
   Eigen::Vector3d nominal, reach_min, reach_max;
+  int cuts = 0;  ///< faces cut_A x <= cut_b of the reach box
+  Eigen::Matrix<double, kReachCuts, 3, Eigen::RowMajor> cut_A;
+  Eigen::Matrix<double, kReachCuts, 1> cut_b;
   double force_max = 0.0;
   Eigen::Vector2d half_size{0.0, 0.0};      ///< half length and half width of the sole
   Eigen::Vector2d pressure_half{0.0, 0.0};  ///< and of the part of it that holds the centre of pressure

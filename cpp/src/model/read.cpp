@@ -167,7 +167,8 @@ bool read_value(const Value& value, double& out, const Rules& rules, const Place
   const auto* const whole = value.get<std::int64_t>();
   const auto* const number = value.get<double>();
   const auto* const text = value.get<std::string>();
-  if (reading.exact && text && (*text == "inf" || *text == "-inf"))
+  // JSON has no infinite numbers: files have their names instead.
+  if ((reading.exact || rules.may_be_infinite) && text && (*text == "inf" || *text == "-inf"))
     return read_value((*text == "inf" ? 1.0 : -1.0) * unbounded, out, rules, at, reading);
   if (!whole && !number) {
     reading.found.add(at, "must be a number", shown(value));

@@ -16,6 +16,7 @@ namespace mcplan::model {
 struct Writing {
   NameLists lists;     ///< for fields that are indices into them
   bool exact = false;  ///< all members under their names, indices, and infinite numbers as text: JSON has none
+  bool json = false;   ///< infinite numbers as text, too
 };
 
 template <class T>
@@ -29,7 +30,7 @@ struct IsMatrix<V, std::enable_if_t<std::is_base_of_v<Eigen::MatrixBase<V>, V>>>
     : std::bool_constant<V::ColsAtCompileTime != 1> {};
 
 inline Value written_number(double value, const Writing& writing) {
-  if (writing.exact && std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
+  if ((writing.exact || writing.json) && std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
   return value;
 }
 

@@ -40,6 +40,11 @@ Eigen::AlignedBox3d reach_box(const Problem& problem, const FreeStretch* stretch
   return box;
 }
 
+/// Faces that cut the box: a place relative to the CoM in frame B.
+void check_cut(const EndEffector& limits, const Vector3d& relative_B, const Place& place, Findings& findings) {
+  if (limits.reach_cut.given()) findings.offer(StateLimit::reach, beyond_polytope(limits.reach_cut, relative_B), place);
+}
+
 /// A Rz(yaw)^T (p_m - p_l) <= b for every other end-effector in contact.
 void check_partners(const Problem& problem, const Sample& sample, int l, const Eigen::Matrix3d& level,
                     Findings& findings) {
@@ -67,7 +72,8 @@ PhaseView phase_view(const Problem& problem, int phase) {
   return view;
 }
 
-/// reach_min <= R_WB^T (p_l - p) <= reach_max, for end-effectors in contact and free ones alike. In contact, and where
+/// reach_min <= R_WB^T (p_l - p) <= reach_max and what cuts this box, for end-effectors in contact and free ones alike.
+/// In contact, and where
 /// the robot says it finer, A Rz(yaw)^T (p - p_l) <= b takes the box's place, and the other end-effectors are held to
 /// theirs.
 void check_reach(const Problem& problem, const Sample& sample, Findings& findings) {
@@ -86,6 +92,7 @@ void check_reach(const Problem& problem, const Sample& sample, Findings& finding
     }
     const Eigen::AlignedBox3d& box = sample.view->reach_boxes[l];
     const Vector3d relative = sample.r_WB.transpose() * offset;
+    check_cut(limits, relative, place, findings);
     const double kept = findings.kept(StateLimit::reach, place);
     if (((box.min() - relative).array() <= kept).all() && ((relative - box.max()).array() <= kept).all()) continue;
     findings.offer(StateLimit::reach, largest((box.min() - relative).cwiseMax(relative - box.max())), place);
@@ -104,6 +111,7 @@ void check_reach_at_knots(const Problem& problem, Findings& findings) {
         const Vector3d relative = rotation_from_rpy(knot.base_rpy).transpose() * (knot.end_effectors_W[l] - knot.com_W);
         findings.offer(StateLimit::reach, largest((box.min() - relative).cwiseMax(relative - box.max())),
                        problem.at_knot(k, l));
+        check_cut(problem.robot.end_effectors[l], relative, problem.at_knot(k, l), findings);
       }
     }
 }

@@ -13,7 +13,9 @@ std::string plan_to_json(const Plan& plan) {
   model::Findings found;
   model::check_struct(plan, model::Place(), found);
   found.raise<InvalidPlan>();
-  return model::plan_json(model::written(plan), model::plan_kind);
+  model::Writing in_json;
+  in_json.json = true;
+  return model::plan_json(model::written(plan, in_json), model::plan_kind);
 }
 
 Plan plan_from_json(const std::string& content) {

@@ -25,6 +25,7 @@ void scale(EndEffector& end, const Similarity& by) {
   end.half_size *= by.length;
   end.max_force *= by.force();
   end.max_moment *= by.moment();
+  end.reach_cut.b *= by.length;
   end.com_reach.b *= by.length;
   for (auto& partner : end.partner_reach) partner.second.b *= by.length;
   for (Vector3d* length : {&end.limb.hip_B, &end.limb.ankle}) *length *= by.length;

@@ -109,6 +109,29 @@ void hold_in_reach(const ActiveSwing& active, double since_start, const PlanStat
   end.velocity_W = state.com_velocity_W + spin.cross(r_WB * relative) + r_WB * rate;
 }
 
+/// The same at the faces that cut the box, after its sides: along the axis that a face cuts off most of.
+void hold_in_cuts(const ActiveSwing& active, double since_start, const PlanState& state, const RpyTrig& trig,
+                  const Eigen::Matrix3d& r_WB, EndEffectorState& end) {
+  for (int i = 0; i < active.cut_count; ++i) {
+    const ActiveSwing::Cut& cut = active.cuts[i];
+    const Vector3d offset = end.position_W - state.com_W;
+    Vector3d relative = r_WB.transpose() * offset;
+    const double beyond = cut.normal_B.dot(relative) - cut.max;
+    if (!(beyond > -cut.middle_band)) continue;
+    const Vector3d spin = trig.angular_velocity_W(state.base_rpy_rate);
+    Vector3d rate = r_WB.transpose() * (end.velocity_W - state.com_velocity_W - spin.cross(offset));
+    const Moving free{beyond, cut.normal_B.dot(rate)};
+    const Moving held =
+        bent(free, band_at(cut.lift_band, cut.middle_band, cut.land_band, swung(active, since_start), active.total_s));
+    int axis = 0;
+    cut.normal_B.cwiseAbs().maxCoeff(&axis);
+    relative[axis] += (held.value - free.value) / cut.normal_B[axis];
+    rate[axis] += (held.rate - free.rate) / cut.normal_B[axis];
+    end.position_W = state.com_W + r_WB * relative;
+    end.velocity_W = state.com_velocity_W + spin.cross(r_WB * relative) + r_WB * rate;
+  }
+}
+
 }  // namespace
 
 ActiveSwing active_swing(const Plan& plan, const Swing& swing, int phase) {
@@ -135,6 +158,17 @@ ActiveSwing active_swing(const Plan& plan, const Swing& swing, int phase) {
   out.lift_bands_B[1] = out.middle_band_B.cwiseMin(out.reach_max_B - lift);
   out.land_bands_B[0] = out.middle_band_B.cwiseMin(land - out.reach_min_B);
   out.land_bands_B[1] = out.middle_band_B.cwiseMin(out.reach_max_B - land);
+  // A plan may be asked for its motion before anyone has validated its robot.
+  const Polytope& cuts = limits.reach_cut;
+  out.cut_count = static_cast<int>(std::min<Eigen::Index>({cuts.A.rows(), cuts.b.size(), kReachCuts}));
+  for (int i = 0; i < out.cut_count; ++i) {
+    ActiveSwing::Cut& cut = out.cuts[i];
+    cut.normal_B = cuts.A.row(i).transpose();
+    cut.max = std::max({cuts.b[i], cut.normal_B.dot(lift), cut.normal_B.dot(land)});
+    cut.middle_band = cut.normal_B.cwiseAbs().dot(out.middle_band_B);
+    cut.lift_band = std::min(cut.middle_band, cut.max - cut.normal_B.dot(lift));
+    cut.land_band = std::min(cut.middle_band, cut.max - cut.normal_B.dot(land));
+  }
   return out;
 }
 
@@ -144,12 +178,14 @@ void straighten(ActiveSwing& active) {
     active.lift_bands_B[side].setZero();
     active.land_bands_B[side].setZero();
   }
+  for (ActiveSwing::Cut& cut : active.cuts) cut.lift_band = cut.land_band = cut.middle_band = 0.0;
 }
 
 void put_on_path(const ActiveSwing& active, double since_start, const PlanState& state, const RpyTrig& trig,
                  const Eigen::Matrix3d& r_WB, EndEffectorState& end) {
   add_clearance(active, since_start, end);
   hold_in_reach(active, since_start, state, trig, r_WB, end);
+  hold_in_cuts(active, since_start, state, trig, r_WB, end);
 }
 
 }  // namespace mcplan

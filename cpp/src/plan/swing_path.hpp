@@ -15,6 +15,13 @@ struct ActiveSwing {
   Eigen::Vector3d reach_min_B, reach_max_B;  ///< what the path is held in: the reach box and both ends of the swing
   /// Band [m] inside of the lower and upper sides in which the path bends, at lift-off, at touch-down and half way.
   Eigen::Vector3d lift_bands_B[2], land_bands_B[2], middle_band_B;
+  /// A face n' x <= max that cuts the box, and its bands.
+  struct Cut {
+    Eigen::Vector3d normal_B;
+    double max, lift_band, land_band, middle_band;
+  };
+  int cut_count = 0;
+  Cut cuts[kReachCuts];
 };
 
 /// The swing as a phase sees it.

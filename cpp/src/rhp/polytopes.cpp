@@ -63,7 +63,16 @@ Polytope without_implied_rows(const Polytope& polytope, const Vector3d& low, con
 }
 
 Polytope com_reach_of(const EndEffector& foot) {
-  return foot.com_reach.given() ? foot.com_reach : box_polytope(-foot.reach_max_B, -foot.reach_min_B);
+  if (foot.com_reach.given()) return foot.com_reach;
+  const Polytope box = box_polytope(-foot.reach_max_B, -foot.reach_min_B);
+  if (!foot.reach_cut.given()) return box;
+  // Of the CoM relative to the foot, where the cut is of the foot relative to the CoM.
+  Polytope out;
+  out.A.resize(box.A.rows() + foot.reach_cut.A.rows(), 3);
+  out.A << box.A, -foot.reach_cut.A;
+  out.b.resize(out.A.rows());
+  out.b << box.b, foot.reach_cut.b;
+  return out;
 }
 
 Polytope partner_reach_of(const EndEffector& foot, const EndEffector& other) {

@@ -58,12 +58,24 @@ void validate_polytope(const Polytope& set, const Vector3d& nominal, const std::
   }
 }
 
+/// Faces through the reach box: few, and none where polytopes say it finer.
+void validate_cut(const EndEffector& e, const std::string& field) {
+  if (e.reach_cut.A.rows() > kReachCuts)
+    throw InvalidRobot(field + ".A", "must have at most " + std::to_string(kReachCuts) + " rows",
+                       text(static_cast<int>(e.reach_cut.A.rows())));
+  if (e.reach_cut.given() && e.com_reach.given())
+    throw InvalidRobot(field, "must be left out beside com_reach, which says where the CoM may be",
+                       text(static_cast<int>(e.reach_cut.A.rows())) + " rows");
+  validate_polytope(e.reach_cut, e.nominal_B, field);
+}
+
 void require_durations(const Eigen::Vector2d& range) {
   if (!(range[1] >= range[0]))
     throw InvalidRobot("phase_duration", "must be two positive numbers, the shorter first", text(range));
 }
 
 void validate_reach(const Robot& robot, const EndEffector& e, const std::string& field) {
+  validate_cut(e, field + ".reach_cut");
   validate_polytope(e.com_reach, -e.nominal_B, field + ".com_reach");
   for (const auto& [partner, reach] : e.partner_reach) {
     const int other = robot.end_effector_index(partner);
@@ -154,6 +166,8 @@ Vector3d along_ground(const Robot& robot, const ResolvedStance& stance) {
 /// due to it, and nothing where no height will do.
 double height_within_reach(const Robot& robot, const ResolvedStance& stance) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kLeaning = 1e-3;  // faces that stand upright say nothing of the height
+  const Eigen::Matrix3d to_base = rotation_from_rpy(stance.base_rpy).transpose();
   double low = -kInfinity, high = kInfinity, ground_min = kInfinity, ground_max = -kInfinity;
   for (std::size_t l = 0; l < robot.end_effectors.size(); ++l) {
     const EndEffector& end = robot.end_effectors[l];
@@ -161,6 +175,12 @@ double height_within_reach(const Robot& robot, const ResolvedStance& stance) {
     const double place = stance.end_effectors_W[l].z() - stance.com_W.z();
     low = std::max(low, place - end.reach_max_B.z());
     high = std::min(high, place - end.reach_min_B.z());
+    const Vector3d relative_B = to_base * (stance.end_effectors_W[l] - stance.com_W);
+    for (int i = 0; i < end.reach_cut.A.rows(); ++i) {
+      const Vector3d normal = end.reach_cut.A.row(i);
+      if (normal.z() > kLeaning) low = std::max(low, (normal.dot(relative_B) - end.reach_cut.b[i]) / normal.z());
+      if (normal.z() < -kLeaning) high = std::min(high, (normal.dot(relative_B) - end.reach_cut.b[i]) / normal.z());
+    }
     ground_min = std::min(ground_min, place - end.nominal_B.z());
     ground_max = std::max(ground_max, place - end.nominal_B.z());
   }

@@ -97,6 +97,8 @@ struct Fields<EndEffector> {
       field("reach_max_B", &EndEffector::reach_max_B, "m", "Upper corner of the box of reachable positions.")
           .in_files("reach_max")
           .required(),
+      field("reach_cut", &EndEffector::reach_cut, "m",
+            "Faces that cut the box, four at most: a sole is lifted higher ahead than behind. Not beside com_reach."),
       field("max_force", &EndEffector::max_force, "N", "Largest norm of the contact force.").positive().or_infinite(),
       field("max_moment", &EndEffector::max_moment, "N m",
             "Largest contact moment about each world axis; under ForceLaw.wrench the third about the surface's normal.")

@@ -690,6 +690,7 @@ class EndEffector:
         nominal_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         reach_min_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         reach_max_B: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
+        reach_cut: Polytope = ...,
         max_force: typing.SupportsFloat | typing.SupportsIndex = ...,
         max_moment: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ...,
         yaw_range: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[2, 1]"] = ...,
@@ -776,6 +777,13 @@ class EndEffector:
         """
     @partner_reach.setter
     def partner_reach(self, arg1: collections.abc.Mapping[str, Polytope]) -> None: ...
+    @property
+    def reach_cut(self) -> Polytope:
+        """
+        [m] Faces that cut the box, four at most: a sole is lifted higher ahead than behind. Not beside com_reach.
+        """
+    @reach_cut.setter
+    def reach_cut(self, arg1: Polytope) -> None: ...
     @property
     def reach_max_B(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """

@@ -15,6 +15,8 @@ from mcplan.cli.given_options import at_least, named_as_typed
 from mcplan.cli.terminal import say
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from mcplan._core import Robot
     from mcplan.files.urdf_setups import End
 
@@ -268,9 +270,17 @@ def _print_robot(robot: Robot) -> None:
     ]
     print_table(rows, head)
     for e in robot.end_effectors:
+        for normal, b in zip(e.reach_cut.A, e.reach_cut.b, strict=True):
+            say(f"{e.name}: its reach is cut at {_face(normal, b)}")
         reaches = [("CoM", e.com_reach)] if e.com_reach.given else []
         for who, reach in [*reaches, *e.partner_reach.items()]:
             say(f"{e.name}: polytope of the {who}, {len(reach.b)} faces")
+
+
+def _face(normal: Iterable[float], b: float) -> str:
+    """A x <= b as an inequality: "-0.420 x +0.908 z <= -0.521 m"."""
+    text = " ".join(f"{value:+.3f} {axis}" for value, axis in zip(normal, "xyz", strict=True) if value)
+    return f"{text} <= {b:.3f} m"
 
 
 def _numbers(values: object) -> str:

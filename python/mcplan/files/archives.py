@@ -27,10 +27,21 @@ _MAX_NAME, _MAX_REASON = 60, 200  # characters of names and reasons in messages
 
 def archive_bytes(header: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> bytes:
     """The content of a file with this header and these arrays."""
-    content = {"header": np.frombuffer(json.dumps(header, allow_nan=False).encode(), dtype=np.uint8), **arrays}
+    content = {"header": np.frombuffer(json.dumps(as_json(header), allow_nan=False).encode(), dtype=np.uint8), **arrays}
     buffer = io.BytesIO()
     np.savez(buffer, **cast(Any, content))
     return buffer.getvalue()
+
+
+def as_json(value: Any) -> Any:
+    """Plain data with "inf" and "-inf" for infinite numbers, which JSON does not have."""
+    if isinstance(value, float) and math.isinf(value):
+        return "inf" if value > 0.0 else "-inf"
+    if isinstance(value, Mapping):
+        return {key: as_json(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [as_json(item) for item in value]
+    return value
 
 
 def read_arrays(data: bytes, most: int = MAX_PLAN_INFLATED) -> dict[str, np.ndarray]:

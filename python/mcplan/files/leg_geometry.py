@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from mcplan._core import EndEffector, LimbLimits, Robot
 from mcplan.files.reach import Limb
+from mcplan.files.reach_cut import below_cut
 from mcplan.files.urdf_setups import End
 
 Array = NDArray[np.float64]
@@ -175,6 +176,8 @@ def postures(urdf: LegModel, robot: Robot, count: int, seed: int) -> list[Postur
         for name, leg in legs.items():
             end = ends[name]
             target = rng.uniform(end.reach_min_B, end.reach_max_B)
+            while not below_cut(end, target):
+                target = rng.uniform(end.reach_min_B, end.reach_max_B)
             heading = float(rng.uniform(*end.yaw_range)) if np.isfinite(end.yaw_range).all() else 0.0
             joints = limbs[name].solve(target, limbs[name].nominal, heading)
             if joints is None:

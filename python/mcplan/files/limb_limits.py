@@ -31,7 +31,7 @@ from mcplan.files.urdf_setups import End
 Array = NDArray[np.float64]
 
 #: Random postures for the hip's place and for the limits.
-POSTURES = 600
+POSTURES = 1500
 #: Directions of forces are drawn in a cone of this friction coefficient about the vertical.
 FRICTION = 0.7
 #: Of residuals of the hip's place along the leg, the one that is the margin.

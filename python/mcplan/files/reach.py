@@ -6,6 +6,7 @@ The base stays upright and the other limbs stay in the nominal posture; the CoM 
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -189,7 +190,12 @@ def largest_box(grid: Grid) -> tuple[np.ndarray, np.ndarray]:
 
 
 def headings_reached(
-    limb: Limb, nominal: np.ndarray, low: np.ndarray, high: np.ndarray, most: float = HEADING_MAX
+    limb: Limb,
+    nominal: np.ndarray,
+    low: np.ndarray,
+    high: np.ndarray,
+    most: float = HEADING_MAX,
+    top: Callable[[float], float] | None = None,
 ) -> tuple[float, float]:
     """How far a sole may be turned about the vertical, to the right (<= 0) and to the left (>= 0) [rad].
 
@@ -202,8 +208,11 @@ def headings_reached(
         low: Corner of the reach box [m].
         high: The opposite one [m].
         most: Where to stop [rad].
+        top: Height [m] of the face that cuts the box at x [m].
     """
-    corners = [np.array(corner) for corner in itertools.product(*zip(low, high, strict=True))]
+    corners = [
+        np.array([x, y, min(z, top(x)) if top else z]) for x, y, z in itertools.product(*zip(low, high, strict=True))
+    ]
     points = [nominal, *(0.5 * (nominal + corner) for corner in corners)]
     right = min(_turned(limb, point, -HEADING_STEP, most) for point in points)
     left = min(_turned(limb, point, HEADING_STEP, most) for point in points)
@@ -221,22 +230,30 @@ def _turned(limb: Limb, point: np.ndarray, step: float, most: float) -> float:
 
 
 def share_reached(
-    limb: Limb, low: np.ndarray, high: np.ndarray, count: int, seed: int, headings: tuple[float, float] = (0.0, 0.0)
+    limb: Limb,
+    box: tuple[np.ndarray, np.ndarray],
+    count: int,
+    seed: int,
+    headings: tuple[float, float] = (0.0, 0.0),
+    holds: Callable[[np.ndarray], bool] = lambda point: True,
 ) -> float:
     """Share of random points of a box that the limb reaches from its nominal or a random posture.
 
     Args:
         limb: On its upright base.
-        low: Corner of the box, relative to the CoM [m].
-        high: The opposite one [m].
+        box: Two opposite corners, relative to the CoM [m].
         count: Of the points.
         seed: Of the points and postures.
         headings: Between which flat ends are turned at random [rad].
+        holds: Whether a point of the box counts.
     """
     rng = np.random.default_rng(seed)
     reached = 0
     for _ in range(count):
-        target, heading = rng.uniform(low, high), rng.uniform(*headings)
+        target = rng.uniform(*box)
+        while not holds(target):
+            target = rng.uniform(*box)
+        heading = rng.uniform(*headings)
         starts = [limb.nominal, *(rng.uniform(limb.lower, limb.upper) for _ in range(4))]
         reached += any(limb.solve(target, start, heading) is not None for start in starts)
     return reached / count

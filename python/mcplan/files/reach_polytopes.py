@@ -28,6 +28,7 @@ from mcplan._core import Polytope, Robot
 from mcplan.errors import InvalidInput
 from mcplan.extras import require
 from mcplan.files.reach import Limb
+from mcplan.files.reach_cut import uncut_top
 from mcplan.files.urdf import ends_of, limb_of, load_model
 from mcplan.files.urdf_setups import End
 
@@ -112,6 +113,8 @@ def add_reach_polytopes(
     for number, foot in enumerate(feet):
         own = made[foot.name]
         com = com_points(clouds[foot.name], own)
+        own.reach_max_B = [*own.reach_max_B[:2], max(uncut_top(own), own.nominal_B[2])]
+        own.reach_cut = Polytope()
         own.com_reach, line = _reduced(com, -own.nominal_B, faces)
         progress(f"{foot.name}: CoM, {line}")
         partners = {}

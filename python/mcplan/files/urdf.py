@@ -16,17 +16,18 @@ from typing import Any
 
 import numpy as np
 
-from mcplan._core import EndEffector, Robot
+from mcplan._core import EndEffector, Polytope, Robot
 from mcplan.errors import InvalidInput, did_you_mean, shown, written
 from mcplan.extras import require
 from mcplan.files.builtin import exists
 from mcplan.files.leg_geometry import legs_of
 from mcplan.files.limb_limits import add_limb_limits
 from mcplan.files.reach import HEADING_MAX, Limb, explore, headings_reached, largest_box
+from mcplan.files.reach_cut import LIFT, Cut, cut_of
 from mcplan.files.strength import POINTS, rounded_down, sole_torsion, strengths_in_box
 from mcplan.files.urdf_packages import packaged_robot
 from mcplan.files.urdf_reading import build_model, read_urdf, read_xml
-from mcplan.files.urdf_setups import HEADER, SETUPS, End, Setup
+from mcplan.files.urdf_setups import HEADER, SETUPS, End, Setup, search_box
 
 GRAVITY = 9.81
 MAX_COM_HEIGHT = 50.0  # [m] beyond, lengths are not in metres
@@ -60,6 +61,7 @@ class _Reach:
         high: The opposite one [m].
         force: Largest one [N].
         headings: How far the sole may be turned to the right (<= 0) and to the left [rad]; None: no sole.
+        cut: Face that cuts the box; None: none does.
     """
 
     nominal: np.ndarray
@@ -67,6 +69,7 @@ class _Reach:
     high: np.ndarray
     force: float = np.inf
     headings: tuple[float, float] | None = None
+    cut: Cut | None = None
 
 
 def robot_from_urdf(
@@ -105,9 +108,11 @@ def robot_from_urdf(
     for end in ends:
         limb = limbs[end.name]
         position = limb.position(limb.nominal)
-        low, high = _search_box(position, end, com_height, setup.lift if setup else Setup.lift)
+        low, high = search_box(position, end, com_height, setup.lift if setup else Setup.lift)
         boxes[end.name] = _Reach(position, *largest_box(explore(limb, low, high, step, seed)))
     shared = {end.name: _same_box(boxes, end, com_height) for end in ends}
+    for name, face in _faces(limbs, shared, ends, step, seed).items():
+        shared[name] = _with_face(shared[name], face)
     able = {end.name: _with_strength(limbs[end.name], shared[end.name], end.kind == "foot", seed) for end in ends}
     weight = mass * GRAVITY
     robot = Robot(
@@ -312,20 +317,6 @@ def _first_posture(model: Any, srdf: str) -> np.ndarray:
     return posture
 
 
-def _search_box(nominal: np.ndarray, end: End, com_height: float, lift: float) -> tuple[np.ndarray, np.ndarray]:
-    """Where to look for reachable positions [m]: feet stay on their side and below, hands on their side."""
-    side = np.sign(nominal[1])
-    if end.kind == "foot":
-        inner = min(max(end.half_size[1], 0.25 * abs(nominal[1])), abs(nominal[1]))
-        outer = abs(nominal[1]) + 0.15 * com_height
-        ahead = 0.5 * com_height
-        low, high = nominal[2] - 0.15 * com_height, nominal[2] + lift * com_height
-    else:
-        inner, outer, ahead, low, high = 0.15, 1.0, 0.6, -0.5, 0.9
-    y = sorted((side * inner, side * outer))
-    return np.array([nominal[0] - ahead, y[0], low]), np.array([nominal[0] + ahead, y[1], high])
-
-
 def _same_box(boxes: Mapping[str, _Reach], end: End, com_height: float) -> _Reach:
     """Nominal position and box shared with the twin: the mean position, the intersection of the boxes."""
     own = boxes[end.name]
@@ -343,6 +334,27 @@ def _same_box(boxes: Mapping[str, _Reach], end: End, com_height: float) -> _Reac
     return _Reach(np.clip(nominal, low + inset, high - inset).round(3) + 0.0, low, high)  # no -0.0
 
 
+def _faces(
+    limbs: Mapping[str, Limb], shared: Mapping[str, _Reach], ends: tuple[End, ...], step: float, seed: int
+) -> dict[str, Cut | None]:
+    """By end-effector on a sole the face up to which it is lifted, the same for both twins; None: there is none."""
+    faces: dict[str, Cut | None] = {}
+    for end in ends:
+        if end.twin in faces or not limbs[end.name].flat:
+            faces[end.name] = faces.get(end.twin)
+            continue
+        sides = [(limbs[name], shared[name].low, shared[name].high) for name in (end.name, end.twin) if name in limbs]
+        faces[end.name] = cut_of(sides, -LIFT * float(shared[end.name].nominal[2]), step, seed)
+    return faces
+
+
+def _with_face(reach: _Reach, face: Cut | None) -> _Reach:
+    if face is None:
+        return reach
+    top = np.floor(face.top(float(reach.high[0])) * 1e3) / 1e3
+    return replace(reach, high=np.array([*reach.high[:2], top]), cut=face)
+
+
 def _with_strength(limb: Limb, reach: _Reach, foot: bool, seed: int) -> _Reach:
     """With the median of the forces that the limb bears, and how far its sole can be turned.
 
@@ -353,7 +365,8 @@ def _with_strength(limb: Limb, reach: _Reach, foot: bool, seed: int) -> _Reach:
     if foot:
         low[2] = high[2] = reach.nominal[2]
     forces = strengths_in_box(limb, low, high, seed=seed, through_com=foot)
-    headings = headings_reached(limb, reach.nominal, reach.low, reach.high) if limb.flat else None
+    top = reach.cut.top if reach.cut else None
+    headings = headings_reached(limb, reach.nominal, reach.low, reach.high, top=top) if limb.flat else None
     return replace(reach, force=float(np.median(forces)) if len(forces) else 0.0, headings=headings)
 
 
@@ -378,6 +391,7 @@ def _end_effector(end: End, reach: _Reach, weight: float) -> EndEffector:
         nominal_B=reach.nominal,
         reach_min_B=reach.low,
         reach_max_B=reach.high,
+        reach_cut=reach.cut.polytope() if reach.cut else Polytope(),
         max_force=rounded_down(reach.force),
         max_moment=[0, 0, round(sole_torsion(end.half_size, 0.5 * weight, 0.5 * SOLE_FRICTION), 2)],
         yaw_range=EndEffector().yaw_range if reach.headings is None else reach.headings,

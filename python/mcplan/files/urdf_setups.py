@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+import numpy as np
+
 #: Comment on top of a file made from a URDF: where each number comes from.
 HEADER = (
     "Mass, inertia (its diagonal, about the CoM) and com_height are those of the URDF in {posture}. Reach "
     "boxes: the largest box around the nominal position whose every grid point ({step} m apart) is reached by inverse "
     "kinematics within the joint limits: base upright, other limbs nominal, soles level, feet on their own side of the "
-    "body. Left and right are given the same box, force and turn. max_force: the largest contact force that the "
+    "body. reach_cut: the face, as high as any in the middle of the box, below which it is lifted higher ahead than "
+    "behind, and up to which every grid point is reached as well. Left and right are given the same box, force and "
+    "turn. max_force: the largest contact force that the "
     "limb's torque limits bear beside its own weight (tau = g(q) - J^T f), the median over postures at {points} random "
     "points, rounded down: of hands, upward and all over the box; of feet, upward or towards the CoM, whichever is "
     "more, at the height of standing. yaw_range: how far inverse kinematics turns the sole about the vertical, at the "
@@ -125,3 +129,24 @@ SETUPS = {
     # of 0.10, with which the walk over stepping stones falls in simulation.
     "g1": Setup(_pairs(_g1_foot, _g1_hand), 0.08, "Unitree G1: two feet, two hands", _g1_posture(), lift=0.12),
 }
+
+
+def search_box(nominal: np.ndarray, end: End, com_height: float, lift: float) -> tuple[np.ndarray, np.ndarray]:
+    """Corners [m] of where to look for reachable positions: feet stay on their side and below, hands on their side.
+
+    Args:
+        nominal: (3,) position relative to the CoM [m].
+        end: The end-effector.
+        com_height: [m]
+        lift: Highest top above the ground, of feet, in CoM heights.
+    """
+    side = np.sign(nominal[1])
+    if end.kind == "foot":
+        inner = min(max(end.half_size[1], 0.25 * abs(nominal[1])), abs(nominal[1]))
+        outer = abs(nominal[1]) + 0.15 * com_height
+        ahead = 0.5 * com_height
+        low, high = nominal[2] - 0.15 * com_height, nominal[2] + lift * com_height
+    else:
+        inner, outer, ahead, low, high = 0.15, 1.0, 0.6, -0.5, 0.9
+    y = sorted((side * inner, side * outer))
+    return np.array([nominal[0] - ahead, y[0], low]), np.array([nominal[0] + ahead, y[1], high])

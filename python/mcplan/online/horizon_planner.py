@@ -270,6 +270,8 @@ def reaching(robot: Robot, start: rhp.State, yaw: float) -> Robot:
             low, high = np.asarray(end.reach_min_B, float), np.asarray(end.reach_max_B, float)
             end.reach_min_B = np.where(from_com < low, from_com - REACH_SLACK_M, low)
             end.reach_max_B = np.where(from_com > high, from_com + REACH_SLACK_M, high)
+            if end.reach_cut.given:
+                end.reach_cut = _holding(end.reach_cut, from_com)
         name = ends[partner].name
         if name in end.partner_reach:
             between = level.T @ (np.asarray(other) - np.asarray(place))

@@ -196,4 +196,6 @@ def plain(value: Any) -> Any:
     """With "nan" and "inf" for numbers that JSON cannot represent."""
     if isinstance(value, dict):
         return {key: plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
     return str(value) if isinstance(value, float) and not np.isfinite(value) else value

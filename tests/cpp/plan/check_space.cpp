@@ -27,6 +27,23 @@ TEST_CASE("checker rejects a swing that leaves the reach box between the knots")
   CHECK(broken([](Case& c) { c.robot.end_effectors[left_foot].reach_max_B.z() = -0.63; }) == Names{"reach"});
 }
 
+TEST_CASE("checker rejects a foot beyond a face that cuts the reach box, in contact and between the knots of a swing") {
+  const auto beyond = [](const Vector3d& normal, double spare) {
+    Case c;
+    mcplan::EndEffector& limits = c.robot.end_effectors[left_foot];
+    limits.reach_cut.A = normal.transpose();
+    limits.reach_cut.b = Eigen::VectorXd::Constant(1, normal.dot(limits.nominal_B) + spare);
+    const CheckResult result = c.check();
+    return result.ok() ? Names{} : names(result);
+  };
+  // Feet hang 0.70 m below the CoM at the knots and 0.62 m half way through a swing.
+  CHECK(beyond(Vector3d::UnitZ(), 0.09).empty());
+  CHECK(beyond(Vector3d::UnitZ(), 0.07) == Names{"reach"});
+  // The CoM passes over a foot that stands.
+  CHECK(beyond(-Vector3d::UnitX(), 0.3).empty());
+  CHECK(beyond(-Vector3d::UnitX(), 0.01) == Names{"reach"});
+}
+
 TEST_CASE("checker measures reach in the base's frame") {
   // A quarter turn puts the feet before and behind the base, where they may not be.
   CHECK(broken([](Case& c) {

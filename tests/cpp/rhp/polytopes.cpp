@@ -144,6 +144,24 @@ TEST_CASE("without polytopes a robot has the boxes of its reach") {
   CHECK(excess(partner, right.reach_max_B - left.reach_min_B + Vector3d(1e-6, 0.0, 0.0)) > 0.0);
 }
 
+TEST_CASE("faces that cut the box of a foot say where the CoM may be, too") {
+  EndEffector foot = walkers::robot().end_effectors[0];
+  foot.com_reach = {};
+  foot.reach_cut = walkers::polytope({{-0.6, 0.0, 0.8, -0.5}, {0.0, 1.0, 0.0, 0.3}});
+  const Polytope com = com_reach_of(foot);
+  Random random(10);
+  int cut = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const Vector3d place = Vector3d(0.05, 0.2, -0.8) + random.three(0.8);
+    const bool in_box =
+        (place.array() >= foot.reach_min_B.array()).all() && (place.array() <= foot.reach_max_B.array()).all();
+    const bool inside = in_box && excess(foot.reach_cut, place) <= 0.0;
+    CHECK((excess(com, -place) <= 0.0) == inside);
+    cut += in_box && !inside;
+  }
+  CHECK(cut > 10);
+}
+
 TEST_CASE("a turned polytope holds the turned points") {
   Random random(11);
   const Polytope polytope = random_polytope(random);

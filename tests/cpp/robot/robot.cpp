@@ -171,6 +171,24 @@ TEST_CASE("reach polytopes that cannot be meant are named") {
   CHECK(partner("tail", half_space(left, 0.1)) == "end_effectors[0].partner_reach.tail");
 }
 
+TEST_CASE("faces that cut a reach box are few, hold the nominal place and stand beside no polytope") {
+  const auto cut = [](int rows, const Vector3d& normal, double offset, bool com_reach = false) {
+    return field([&](Robot& r) {
+      mcplan::EndEffector& end = r.end_effectors[1];
+      end.reach_cut.A = normal.transpose().replicate(rows, 1);
+      end.reach_cut.b = Eigen::VectorXd::Constant(rows, offset);
+      if (com_reach) end.com_reach = {normal.transpose(), Eigen::VectorXd::Constant(1, 9.0)};
+    });
+  };
+  const Vector3d up = Vector3d::UnitZ();
+  CHECK(cut(4, up, -0.4) == "accepted");
+  CHECK(cut(5, up, -0.4) == "end_effectors[1].reach_cut.A");
+  CHECK(cut(1, up, -0.51) == "end_effectors[1].reach_cut");
+  CHECK(cut(1, 2.0 * up, -0.4) == "end_effectors[1].reach_cut.A[0]");
+  CHECK(cut(1, up, std::nan("")) == "end_effectors[1].reach_cut.b[0]");
+  CHECK(cut(1, up, -0.4, true) == "end_effectors[1].reach_cut");
+}
+
 TEST_CASE("end-effectors are addressed by name or kind") {
   const Robot robot = hopper();
   CHECK(robot.end_effector_index("right") == 1);

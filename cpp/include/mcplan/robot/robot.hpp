@@ -18,6 +18,9 @@ struct Polytope {
   bool given() const { return A.rows() > 0; }
 };
 
+/// Most faces that cut a reach box.
+constexpr int kReachCuts = 4;
+
 /// What the main joints of a leg can do, as functions of where its end-effector and hip are: a virtual leg of two links
 /// that bend in the plane of the hip, the ankle and the direction in which the sole heads (without a sole, in which the
 /// base does). Torques are those of the contact force alone, at rest. Theory: docs/theory/ddp.md, "Joint limits".
@@ -50,6 +53,9 @@ struct EndEffector {
   Eigen::Vector3d nominal_B = Eigen::Vector3d::Zero();    ///< [m] nominal position relative to the CoM
   Eigen::Vector3d reach_min_B = Eigen::Vector3d::Zero();  ///< [m] box of reachable positions relative to the CoM
   Eigen::Vector3d reach_max_B = Eigen::Vector3d::Zero();
+  /// Faces, kReachCuts at most, that cut the box where it says more than the limb can do: a sole is lifted higher ahead
+  /// of the body than behind it. Same axes; not beside com_reach.
+  Polytope reach_cut;
   double max_force = std::numeric_limits<double>::infinity();  ///< [N] largest norm of the contact force
   /// [N m] largest contact moment about each world axis; under laws::Wrench the third about the surface's normal,
   /// the others being what the centre of pressure does.

@@ -5,8 +5,8 @@
 
 namespace mcplan::ddp {
 
-/// Rows of p_min <= R(theta)' (p_l - p) <= p_max of one end-effector. The CoM and the base may depend on all of z
-/// (`inside` a phase) or be the state's own (null).
+/// Rows of p_min <= R(theta)' (p_l - p) <= p_max of one end-effector, and of the faces that cut this box. The CoM and
+/// the base may depend on all of z (`inside` a phase) or be the state's own (null).
 inline void write_reach(const StepView& step, int l, const Eigen::Vector3d& com, const Eigen::Vector3d& rpy,
                         const Instant* inside, Rows& rows) {
   const Layout& at = step.problem.layout;
@@ -15,28 +15,33 @@ inline void write_reach(const StepView& step, int l, const Eigen::Vector3d& com,
   const Eigen::Matrix3d r = rotation_from_rpy(rpy);
   const Eigen::Vector3d offset = step.x.segment<3>(at.end(l)) - com;
   const Eigen::Vector3d relative = r.transpose() * offset;
-  for (int i = 0; i < 3; ++i) {
-    double beyond = 0.0;
-    if (relative[i] < limit.reach_min[i])
-      beyond = relative[i] - limit.reach_min[i];
-    else if (relative[i] > limit.reach_max[i])
-      beyond = relative[i] - limit.reach_max[i];
-    else
-      continue;
+  // A row of n' R' (p_l - p) that is `beyond` its bound.
+  const auto write = [&](const Eigen::Vector3d& n, double beyond) {
     if (!rows.with_gradient()) {
       rows.add_value(weight, beyond);
-      continue;
+      return;
     }
     auto g = rows.add_dense(weight, beyond);
-    g.segment<3>(at.end(l)) += r.col(i);
+    const Eigen::Vector3d along = r * n;
+    g.segment<3>(at.end(l)) += along;
     Eigen::Vector3d turn = Eigen::Vector3d::Zero();
-    for (int axis : at.axes()) turn[axis] = rotation_derivative(rpy, axis).col(i).dot(offset);
+    for (int axis : at.axes()) turn[axis] = (rotation_derivative(rpy, axis) * n).dot(offset);
     if (inside) {
-      inside->add_along(-r.col(i), turn, g);
-      continue;
+      inside->add_along(-along, turn, g);
+      return;
     }
-    g.segment<3>(at.com()) -= r.col(i);
+    g.segment<3>(at.com()) -= along;
     for (int a = 0; a < at.axis_count(); ++a) g[at.angle(a)] += turn[at.axes()[a]];
+  };
+  for (int i = 0; i < 3; ++i) {
+    if (relative[i] < limit.reach_min[i])
+      write(Eigen::Vector3d::Unit(i), relative[i] - limit.reach_min[i]);
+    else if (relative[i] > limit.reach_max[i])
+      write(Eigen::Vector3d::Unit(i), relative[i] - limit.reach_max[i]);
+  }
+  for (int i = 0; i < limit.cuts; ++i) {
+    const double beyond = limit.cut_A.row(i).dot(relative) - limit.cut_b[i];
+    if (beyond > 0.0) write(limit.cut_A.row(i).transpose(), beyond);
   }
 }
 

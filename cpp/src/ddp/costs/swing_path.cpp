@@ -83,12 +83,22 @@ class SwingPath final : public CostTerm {
   ///
   ///     q - sum_i e_i r_i,   e_i = r_i . (q - p) - limit_i    over the sides that it is beyond.
   ///
-  /// The lower side holds no foot down.
+  /// The lower side holds no foot down. A face n . x <= max that cuts the box, in turn, holds it along the axis a of
+  /// which the face cuts off most,
+  ///
+  ///     q - e r_a / n_a,   e = n . R'(q - p) - max.
   struct Held {
+    struct AtCut {
+      int axis = 0;
+      Vector3d normal_B, offset;  ///< n, q - p
+      double moved = 0.0;         ///< e / n_a
+    };
     Vector3d offset = Vector3d::Zero(), beyond = Vector3d::Zero();  ///< q - p, e_i
     Eigen::Matrix3d r_WB = Eigen::Matrix3d::Identity();
     std::array<Vector3d, 3> turned_about;  ///< by roll, pitch and yaw
-    bool low = false;                      ///< at the upper side
+    std::array<AtCut, kReachCuts> cuts;
+    int cut_count = 0;
+    bool low = false;  ///< at the upper side
 
     void hold(const Between& at, const EndLimits& limit, Vector3d& place) {
       const RpyTrig trig(at.rpy());
@@ -102,10 +112,25 @@ class SwingPath final : public CostTerm {
       }
       low = beyond.z() > 0.0;
       place -= r_WB * beyond;
+      for (int i = 0; i < limit.cuts; ++i) hold_at(limit.cut_A.row(i).transpose(), limit.cut_b[i], at.com(), place);
+    }
+
+    void hold_at(const Vector3d& normal_B, double max, const Vector3d& com, Vector3d& place) {
+      AtCut cut;
+      cut.normal_B = normal_B;
+      cut.offset = place - com;
+      const double over = (r_WB * normal_B).dot(cut.offset) - max;
+      if (!(over > 0.0)) return;
+      normal_B.cwiseAbs().maxCoeff(&cut.axis);
+      cut.moved = over / normal_B[cut.axis];
+      place -= cut.moved * r_WB.col(cut.axis);
+      low = low || cut.axis == 2;
+      cuts[cut_count++] = cut;
     }
 
     /// What moves the held place along `along`: `along` itself becomes what moves q, the rest goes to CoM and base.
     void add_along(const Between& at, Vector3d& along, Eigen::Ref<Eigen::VectorXd> g) const {
+      for (int i = cut_count; i-- > 0;) add_along(cuts[i], at, along, g);
       const Vector3d given = along;
       Vector3d by_com = Vector3d::Zero(), by_rpy = Vector3d::Zero();
       for (int i = 0; i < 3; ++i) {
@@ -116,6 +141,16 @@ class SwingPath final : public CostTerm {
       }
       along -= by_com;
       at.add_along(by_com, by_rpy, g);
+    }
+
+    void add_along(const AtCut& cut, const Between& at, Vector3d& along, Eigen::Ref<Eigen::VectorXd> g) const {
+      const Vector3d axis = r_WB.col(cut.axis), normal = r_WB * cut.normal_B;
+      const double ratio = axis.dot(along) / cut.normal_B[cut.axis];
+      const Vector3d moment = ratio * cut.offset.cross(normal) - cut.moved * axis.cross(along);
+      Vector3d by_rpy;
+      for (int k = 0; k < 3; ++k) by_rpy[k] = turned_about[k].dot(moment);
+      along -= ratio * normal;
+      at.add_along(ratio * normal, by_rpy, g);
     }
   };
 

@@ -76,13 +76,18 @@ void visit_forces(const ForceView& v, const Eigen::Vector3d& com, int& row, Visi
   }
 }
 
-/// The three pairs of rows of a reach box: visit(first of the two rows, value, min, max, axis, offset), where the value
-/// is that of R' (p_l - p) along an axis of the base.
-template <class Visit>
-void visit_reach(const BodyPose& pose, const Eigen::Vector3d& end, const EndLimits& limit, int& row, Visit&& visit) {
-  const Eigen::Vector3d offset = end - pose.com;
-  for (int i = 0; i < 3; ++i, row += 2)
-    visit(row, pose.rotation.col(i).dot(offset), limit.reach_min[i], limit.reach_max[i], i, offset);
+/// Rows of the reach of an end-effector: both sides of its box by axis, then the faces that cut it.
+inline int reach_rows(const EndLimits& limit) { return 6 + limit.cuts; }
+
+/// Values of these rows from `row` on, which is left behind them.
+inline void reach_values(const BodyPose& pose, const Eigen::Vector3d& end, const EndLimits& limit, int& row,
+                         Eigen::ArrayXd& r) {
+  const Eigen::Vector3d place = pose.rotation.transpose() * (end - pose.com);
+  for (int i = 0; i < 3; ++i) {
+    r[row++] = place[i] - limit.reach_max[i];
+    r[row++] = limit.reach_min[i] - place[i];
+  }
+  for (int i = 0; i < limit.cuts; ++i) r[row++] = limit.cut_A.row(i).dot(place) - limit.cut_b[i];
 }
 
 }  // namespace mcplan::ddp::polish

@@ -27,11 +27,13 @@ Vector3d goal_of(const Problem& problem, int l) { return problem.reference.x.bac
 Limits::Limits(const FixedSequence& fixed, const Pendulum& pendulum, const Tuning& tuning)
     : fixed_(&fixed), pendulum_(&pendulum), tuning_(tuning), phases_(fixed.steps() + 1) {
   const Problem& problem = fixed.problem();
-  const int ends = problem.layout.end_effector_count(), instants = problem.options.interior_points + 2;
+  const int instants = problem.options.interior_points + 2;
+  int reaches = 0;
+  for (const EndLimits& limit : problem.limits) reaches += reach_rows(limit);
   for (int k = 0; k <= fixed.steps(); ++k) {
     make_linear(k);
     OfPhase& of = phases_[k];
-    if (k > 0) of.reach = push(6 * ends, tuning.limit_weight);
+    if (k > 0) of.reach = push(reaches, tuning.limit_weight);
     if (k == fixed.steps()) break;
     const Phase& phase = fixed.phase(k);
     of.lifted.setZero(6 * (instants - 1), static_cast<int>(phase.moving.size()));
@@ -47,7 +49,7 @@ Limits::Limits(const FixedSequence& fixed, const Pendulum& pendulum, const Tunin
       c.moments = std::isinf(c.torsion_arm) ? 0 : static_cast<int>(s.moments.size());
       c.yaw = std::isfinite(limit.yaw_min) && std::isfinite(limit.yaw_max);
       const int forces = force_rows(c);
-      c.first = push(instants * (forces + (c.yaw ? 2 : 0)) + 6 * (instants - 2), tuning.limit_weight);
+      c.first = push(instants * (forces + (c.yaw ? 2 : 0)) + reach_rows(limit) * (instants - 2), tuning.limit_weight);
       of.contacts.push_back(c);
     }
   }
@@ -143,7 +145,7 @@ void Limits::values(const Motion& motion, RowArray& r) const {
   const Layout& at = problem.layout;
   const Trajectory& t = motion.trajectory;
   r.resize(count());
-  const auto box = [&](int row, double value, double min, double max, auto&&...) {
+  const auto box = [&](int row, double value, double min, double max) {
     r[row] = value - max;
     r[row + 1] = min - value;
   };
@@ -157,7 +159,7 @@ void Limits::values(const Motion& motion, RowArray& r) const {
     }
     if (int row = of.reach; row >= 0)
       for (int l = 0; l < at.end_effector_count(); ++l)
-        visit_reach(motion.knot(k), t.x[k].segment<3>(at.end(l)), problem.limits[l], row, box);
+        reach_values(motion.knot(k), t.x[k].segment<3>(at.end(l)), problem.limits[l], row, r);
     if (k == fixed_->steps()) break;
     for (std::size_t c = 0; c < of.contacts.size(); ++c) {
       const Standing& s = fixed_->phase(k).standing[c];
@@ -171,7 +173,7 @@ void Limits::values(const Motion& motion, RowArray& r) const {
           box(row, t.sole_yaw[k][s.l] - pose.rpy[2], problem.limits[s.l].yaw_min, problem.limits[s.l].yaw_max);
           row += 2;
         }
-        if (i > 0 && i + 1 < motion.instants()) visit_reach(pose, end, problem.limits[s.l], row, box);
+        if (i > 0 && i + 1 < motion.instants()) reach_values(pose, end, problem.limits[s.l], row, r);
       }
     }
   }
@@ -190,10 +192,7 @@ void Limits::relax(const Motion& motion) {
   StartSlack& slack = start_slack_;
   slack.set_times(*fixed_, motion.trajectory);
   const auto relax_reach = [&](int l, double t, int& row) {
-    for (int i = 0; i < 3; ++i, row += 2) {
-      slack_[row] = slack.reach(l, i, true, t);
-      slack_[row + 1] = slack.reach(l, i, false, t);
-    }
+    for (int i = 0; i < reach_rows(fixed_->problem().limits[l]); ++i) slack_[row++] = slack.reach(l, i, t);
   };
   for (int k = 0; k <= fixed_->steps(); ++k) {
     const OfPhase& of = phases_[k];

@@ -76,8 +76,8 @@ class Limits {
   void lift(const Motion& motion, int k);
   void add_linear(int k, const RowArray& y, const RowArray& d, StageModel& model) const;
   void add_contact(const Motion& motion, int k, std::size_t c, const RowArray& y, const RowArray& d);
-  static void reach_along(const BodyPose& pose, const Eigen::Vector3d& offset, const Eigen::Vector3d& d_end,
-                          const Eigen::Matrix<double, 6, 1>& d_pose, int& row, RowArray& out);
+  void reach_along(const BodyPose& pose, int l, const Eigen::Vector3d& end, const Eigen::Vector3d& d_end,
+                   const Eigen::Matrix<double, 6, 1>& d_pose, int& row, RowArray& out) const;
   void contact_along(const Motion& motion, int k, std::size_t c, const Eigen::VectorXd& dz, RowArray& out) const;
   void add_knot_reach(const Motion& motion, int k, const RowArray& y, const RowArray& d, StageModel& model) const;
 

@@ -90,17 +90,24 @@ struct ReachSums {
   Matrix3d ee = Matrix3d::Zero(), er = Matrix3d::Zero(), rr = Matrix3d::Zero();
   Vector3d e = Vector3d::Zero(), r = Vector3d::Zero();
 
-  void add(const BodyPose& pose, const Vector3d& end, int row, const RowArray& y, const RowArray& w) {
-    Vector3d weight, multiplier;
+  void add(const BodyPose& pose, const Vector3d& end, const EndLimits& limit, int& row, const RowArray& y,
+           const RowArray& w) {
+    Matrix3d weight = Matrix3d::Zero();
+    Vector3d multiplier;
     for (int i = 0; i < 3; ++i, row += 2) {
-      weight[i] = w[row] + w[row + 1];
+      weight(i, i) = w[row] + w[row + 1];
       multiplier[i] = y[row] - y[row + 1];
     }
+    for (int i = 0; i < limit.cuts; ++i, ++row) {
+      const Vector3d n = limit.cut_A.row(i).transpose();
+      weight += w[row] * n * n.transpose();
+      multiplier += y[row] * n;
+    }
     const Matrix3d turned = pose.turned(end - pose.com);
-    const Matrix3d scaled = pose.rotation * weight.asDiagonal();
+    const Matrix3d scaled = pose.rotation * weight;
     ee += scaled * pose.rotation.transpose();
     er += scaled * turned;
-    rr += turned.transpose() * weight.asDiagonal() * turned;
+    rr += turned.transpose() * weight * turned;
     e += pose.rotation * multiplier;
     r += turned.transpose() * multiplier;
   }
@@ -148,10 +155,10 @@ void Limits::add_knot_reach(const Motion& motion, int k, const RowArray& y, cons
   if (row < 0) return;
   const BodyPose& pose = motion.knot(k);
   ReachSums all;
-  for (int l = 0; l < at.end_effector_count(); ++l, row += 6) {
+  for (int l = 0; l < at.end_effector_count(); ++l) {
     ReachSums of;
     const int end = at.end(l);
-    of.add(pose, motion.trajectory.x[k].segment<3>(end), row, y, d);
+    of.add(pose, motion.trajectory.x[k].segment<3>(end), fixed_->problem().limits[l], row, y, d);
     model.g.segment<3>(end) += of.e;
     model.h.block<3, 3>(end, end) += of.ee;
     model.h.block<3, 3>(end, Layout::com()) -= of.ee;
@@ -222,8 +229,7 @@ void Limits::add_contact(const Motion& motion, int k, std::size_t c, const RowAr
     }
     if (i == 0 || i + 1 == motion.instants()) continue;
     ReachSums r;
-    r.add(motion.pose(k, i), x.segment<3>(at.end(s.l)), row, y, d);
-    row += 6;
+    r.add(motion.pose(k, i), x.segment<3>(at.end(s.l)), problem.limits[s.l], row, y, d);
     r.add_to(poses_[i]);
     g.head<3>() -= r.e;
     g.tail<3>() += r.r;
@@ -270,15 +276,17 @@ void Limits::add(const Motion& motion, int k, const RowArray& y, const RowArray&
   }
 }
 
-/// The rows of a reach box, where CoM and angles move so.
-void Limits::reach_along(const BodyPose& pose, const Vector3d& offset, const Vector3d& d_end, const Vector6d& d_pose,
-                         int& row, RowArray& out) {
+/// The rows of an end-effector's reach, where CoM and angles move so.
+void Limits::reach_along(const BodyPose& pose, int l, const Vector3d& end, const Vector3d& d_end,
+                         const Vector6d& d_pose, int& row, RowArray& out) const {
+  const EndLimits& limit = fixed_->problem().limits[l];
   const Vector3d change =
-      pose.rotation.transpose() * (d_end - d_pose.head<3>()) + pose.turned(offset) * d_pose.tail<3>();
-  for (int i = 0; i < 3; ++i, row += 2) {
-    out[row] = change[i];
-    out[row + 1] = -change[i];
+      pose.rotation.transpose() * (d_end - d_pose.head<3>()) + pose.turned(end - pose.com) * d_pose.tail<3>();
+  for (int i = 0; i < 3; ++i) {
+    out[row++] = change[i];
+    out[row++] = -change[i];
   }
+  for (int i = 0; i < limit.cuts; ++i) out[row++] = limit.cut_A.row(i).dot(change);
 }
 
 void Limits::contact_along(const Motion& motion, int k, std::size_t c, const VectorXd& dz, RowArray& out) const {
@@ -307,7 +315,7 @@ void Limits::contact_along(const Motion& motion, int k, std::size_t c, const Vec
       row += 2;
     }
     if (i > 0 && i + 1 < motion.instants())
-      reach_along(pose, x.segment<3>(end) - pose.com, dz.segment<3>(end), moved, row, out);
+      reach_along(pose, s.l, x.segment<3>(end), dz.segment<3>(end), moved, row, out);
   }
 }
 
@@ -327,10 +335,9 @@ void Limits::along(const Motion& motion, const std::vector<VectorXd>& dz, RowArr
     moved.head<3>() = dz[k].segment<3>(Layout::com());
     for (int a = 0; a < at.axis_count(); ++a) moved[3 + at.axes()[a]] = dz[k][at.angle(a)];
     if (int row = of.reach; row >= 0)
-      for (int l = 0; l < at.end_effector_count(); ++l) {
-        const Vector3d offset = motion.trajectory.x[k].segment<3>(at.end(l)) - motion.knot(k).com;
-        reach_along(motion.knot(k), offset, dz[k].segment<3>(at.end(l)), moved, row, out);
-      }
+      for (int l = 0; l < at.end_effector_count(); ++l)
+        reach_along(motion.knot(k), l, motion.trajectory.x[k].segment<3>(at.end(l)), dz[k].segment<3>(at.end(l)), moved,
+                    row, out);
     if (k == fixed_->steps() || of.contacts.empty()) continue;
     const Phase& phase = fixed_->phase(k);
     step_.resize(static_cast<int>(phase.moving.size()));

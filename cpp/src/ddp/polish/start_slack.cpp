@@ -28,11 +28,13 @@ StartSlack::StartSlack(const FixedSequence& fixed, const Motion& motion) {
     const bool stands = fixed.contacts().front()[l] != kFree;
     const Vector3d rate =
         stands ? Vector3d(rotation.transpose() * (-velocity - spin.cross(offset))) : Vector3d(0.0, 0.0, 0.0);
-    auto& rows = reach_.emplace_back();
+    std::vector<Row>& rows = reach_.emplace_back();
     for (int i = 0; i < 3; ++i) {
-      rows[2 * i] = {place[i] - limit.reach_max[i], std::max(rate[i], 0.0)};
-      rows[2 * i + 1] = {limit.reach_min[i] - place[i], std::max(-rate[i], 0.0)};
+      rows.push_back({place[i] - limit.reach_max[i], std::max(rate[i], 0.0)});
+      rows.push_back({limit.reach_min[i] - place[i], std::max(-rate[i], 0.0)});
     }
+    for (int i = 0; i < limit.cuts; ++i)
+      rows.push_back({limit.cut_A.row(i).dot(place) - limit.cut_b[i], std::max(limit.cut_A.row(i).dot(rate), 0.0)});
     // In the air a sole may head anywhere: only contacts have a range.
     const double yaw = stands ? motion.trajectory.sole_yaw.front()[l] - problem.rpy(x).z() : 0.0;
     yaw_.push_back(

@@ -29,8 +29,8 @@ class StartSlack {
 
   bool any() const { return any_; }
 
-  /// Amount by which a side of an axis of an end-effector's reach box is relaxed at time t, and of its range of yaw.
-  double reach(int l, int axis, bool upper, double t) const { return amount(reach_[l][2 * axis + (upper ? 0 : 1)], t); }
+  /// Amount by which one of the reach_rows() of an end-effector is relaxed at time t, and a side of its range of yaw.
+  double reach(int l, int row, double t) const { return amount(reach_[l][row], t); }
   double yaw(int l, bool upper, double t) const { return amount(yaw_[l][upper ? 0 : 1], t); }
 
   double knot_time(int k) const { return times_[k]; }
@@ -43,7 +43,7 @@ class StartSlack {
 
   double horizon_ = 0.0;
   bool any_ = false;
-  std::vector<std::array<Row, 6>> reach_;
+  std::vector<std::vector<Row>> reach_;
   std::vector<std::array<Row, 2>> yaw_;
   std::vector<double> times_;
 };

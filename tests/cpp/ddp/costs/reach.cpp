@@ -18,6 +18,30 @@ TEST_CASE("reach: gradients at the knot") {
   }
 }
 
+TEST_CASE("reach: gradients at faces that cut the box") {
+  for (ddp::Model model : kModels) {
+    mcplan::Scene scene = scenes::gap_with_rail();
+    scene.start.yaw = 0.4;
+    const ddp::Problem problem(scene, scenes::humanoid44_cut(), phases(6, model));
+    check_rows(problem, reach_of(problem), 45, 0.5, 60);
+  }
+}
+
+TEST_CASE("a face that cuts the box adds a row by how far a foot is beyond it, less the margin") {
+  const ddp::Problem problem(scenes::flat(0.0), scenes::humanoid44_cut(), phases(6));
+  VectorXd x = nominal(problem), u;
+  const Eigen::Matrix3d r = mcplan::rotation_from_rpy(x.segment<3>(problem.layout.angle()));
+  const Vector3d normal = problem.robot.end_effectors[1].reach_cut.A.row(0);
+  const double margin = problem.options.reach_margin_m / 0.7, to_face = 0.08 / 0.7;
+  const auto cost_beyond = [&](double by) {
+    VectorXd moved = x;
+    moved.segment<3>(problem.layout.end(1)) += (to_face - margin + by) * (r * normal);
+    return cost(problem, reach_of(problem), moved, u);
+  };
+  CHECK(cost_beyond(-1e-6) == 0.0);
+  CHECK(cost_beyond(0.01) == doctest::Approx(0.5 * 100.0 * 100.0 * 1e-4));
+}
+
 TEST_CASE("reach is a box in the base's frame, planned smaller by its margin; nothing is written inside") {
   for (ddp::Model model : kModels) {
     const ddp::Problem problem = workshop(phases(6, model));

@@ -88,6 +88,23 @@ TEST_CASE("the rows of swings have the derivatives of their values") {
   check_rows(problem, term(problem, "swing_path", swinging()), 5, 0.4, 10);
 }
 
+TEST_CASE("the rows of swings have the derivatives of their values where faces cut the reach box") {
+  mcplan::Robot robot = scenes::humanoid44_cut();
+  for (int l : {0, 1}) robot.end_effectors[l].reach_cut.b = robot.end_effectors[l].reach_cut.b.array() - 0.05;
+  const ddp::Problem box = with_tread();
+  const ddp::Problem cut(box.scene, robot, phases(6));
+  check_rows(cut, term(cut, "swing_path", swinging()), 5, 0.4, 40);
+
+  // Faces hold feet lower than the box alone: the CoM has to rise farther.
+  const ddp::Layout& at = box.layout;
+  VectorXd x = VectorXd::Zero(at.nx()), u = VectorXd::Zero(at.nu());
+  x.segment<3>(at.com()) = Vector3d(0.5, 0.0, 0.75) / 0.7;
+  x.segment<3>(at.end(1)) = Vector3d(0.3, 0.1, 0.0) / 0.7;
+  u.segment<3>(at.stride(1)) = Vector3d(0.55, 0.0, 0.2) / 0.7;
+  u[at.duration()] = 1e-3;
+  CHECK(cost(cut, term(cut, "swing_path", swinging()), x, u) > cost(box, term(box, "swing_path", swinging()), x, u));
+}
+
 TEST_CASE("the rows of a swing of several phases have the derivatives of their values, and know the whole arc") {
   const ddp::Problem problem = with_tread();
   const ddp::Layout& at = problem.layout;

@@ -12,7 +12,7 @@ using namespace mcplan::ddp;
 /// A shaken motion with a random sequence, and its rows.
 struct Rowed {
   Rowed(const mcplan::Scene& scene, const Options& options, std::uint64_t seed)
-      : problem(scene, scenes::humanoid44(), options),
+      : problem(scene, seed % 2 ? scenes::humanoid44() : scenes::humanoid44_cut(), options),
         random(seed),
         fixed(problem, random_sequence(problem, random)),
         pendulum(problem.layout, problem.inertia, problem.options.stiffness_input, problem.model),
