@@ -17,6 +17,7 @@ CASES = (
     ("talos", "short_gap"),
     ("g1", "flat"),
     ("g1", "stairs"),
+    ("g1", "stairs_broad"),
     ("go2", "flat"),
     ("anymal", "flat"),
     ("romeo", "flat"),

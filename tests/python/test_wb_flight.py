@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,8 +14,18 @@ pytest.importorskip("scipy.optimize")
 
 import mcplan as mp  # noqa: E402
 from mcplan.wb import MotionResult  # noqa: E402
+from mcplan.wb.flights import (  # noqa: E402
+    FADE_S,
+    LEAST_LOAD,
+    MOST_LOAD,
+    NEAR_ACCELERATION,
+    NEAR_S,
+    NEAR_TORQUE,
+    RAMP_S,
+    Flights,
+)
 
-FLIGHT_S = 0.15
+FLIGHT_S = 0.22
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples/09_hop.py"
 
 
@@ -43,6 +53,32 @@ def test_a_push_off_is_what_newton_says(example: ModuleType):
         height = np.sum(np.diff(times) * (velocity[1:] + velocity[:-1]) / 2.0)
         assert example.GRAVITY * velocity[-1] == pytest.approx(speed, abs=1e-6)
         assert example.GRAVITY * height == pytest.approx(rise, abs=1e-6)
+
+
+def test_forces_come_and_go_on_ramps_beside_a_flight_and_nowhere_else(hop: MotionResult):
+    """A flight from 0.6 to 0.75 s: what is limited, by how much, and where factors of weights hold."""
+    contact = SimpleNamespace(start_s=0.0, end_s=0.6)
+    flights = Flights(np.array([0.6]), np.array([0.75]))
+    assert flights.load_max(contact, 0.6) == pytest.approx(LEAST_LOAD)
+    assert flights.load_max(contact, 0.6 - 0.5 * RAMP_S) == pytest.approx(0.5 * (LEAST_LOAD + MOST_LOAD))
+    assert flights.load_max(contact, 0.6 - 1.01 * RAMP_S) == np.inf
+    landed = SimpleNamespace(start_s=0.75, end_s=2.0)
+    assert flights.load_max(landed, 0.75) == pytest.approx(LEAST_LOAD)
+    assert flights.load_max(landed, 1.99) == np.inf
+    assert flights.load_max(SimpleNamespace(start_s=0.0, end_s=0.59), 0.59) == np.inf  # another foot is still down
+    assert flights.factors(0.7) == flights.factors(0.56) == (NEAR_ACCELERATION, NEAR_TORQUE)
+    assert flights.factors(0.4) == flights.factors(1.0) == (1.0, 1.0)
+    between = flights.factors(0.6 - NEAR_S - 0.5 * FADE_S)
+    assert between == pytest.approx((NEAR_ACCELERATION**0.5, NEAR_TORQUE**0.5))
+    never = Flights(np.zeros(0), np.zeros(0))
+    assert never.factors(0.3) == (1.0, 1.0) and never.load_max(contact, 0.6) == np.inf
+
+    # The motion keeps to them: four feet bear 4 x 0.4 weights in the last node before the flight at most.
+    weight = hop.motion.plan.robot.mass * hop.motion.plan.scene.gravity
+    away_s = np.array([1e-6, 0.02, 0.05])
+    loads = hop.motion.forces(0.6 - away_s).sum(axis=2)[:, :, 2] / weight
+    limits = LEAST_LOAD + (MOST_LOAD - LEAST_LOAD) * away_s / RAMP_S
+    assert (loads <= limits[:, None] + 0.01).all() and loads[2].sum() > 0.5
 
 
 def test_a_hop_is_certified_with_its_flight(hop: MotionResult):

@@ -70,19 +70,23 @@ void bind_weights(py::module_& m) {
 void bind_rows(py::class_<wb::Problem>& c) {
   c.def(
       "add_node",
-      [](wb::Problem& self, double time_s, const Vector3d& com_W, const Vector3d& base_zyx) {
-        self.nodes.push_back({time_s, com_W, base_zyx, {}, {}});
+      [](wb::Problem& self, double time_s, const Vector3d& com_W, const Vector3d& base_zyx, double acceleration,
+         double torque) {
+        self.nodes.push_back({time_s, com_W, base_zyx, {}, {}, acceleration, torque});
       },
-      py::arg("time_s"), py::arg("com_W"), py::arg("base_zyx"));
+      py::arg("time_s"), py::arg("com_W"), py::arg("base_zyx"), py::arg("acceleration") = 1.0, py::arg("torque") = 1.0,
+      "acceleration, torque: of their weights.");
   c.def(
       "add_contact",
       [](wb::Problem& self, int end_effector, bool carries, bool rests, double friction, const Vector3d& position_W,
-         const Matrix3d& rotation_W, const Eigen::Matrix<double, 6, 1>& wrench_S, const py::object& points) {
+         const Matrix3d& rotation_W, const Eigen::Matrix<double, 6, 1>& wrench_S, const py::object& points,
+         double load_max) {
         last_node(self).contacts.push_back(
-            {end_effector, carries, rests, friction, position_W, rotation_W, wrench_S, columns(points)});
+            {end_effector, carries, rests, friction, position_W, rotation_W, wrench_S, columns(points), load_max});
       },
       py::arg("end_effector"), py::arg("carries"), py::arg("rests"), py::arg("friction"), py::arg("position_W"),
-      py::arg("rotation_W"), py::arg("wrench_S"), py::arg("points_S"), "To the node that was added last.");
+      py::arg("rotation_W"), py::arg("wrench_S"), py::arg("points_S"),
+      py::arg("load_max") = std::numeric_limits<double>::infinity(), "To the node that was added last.");
   c.def(
       "add_swing",
       [](wb::Problem& self, int end_effector, const Vector3d& position_W, const Matrix3d& rotation_W, double weight,

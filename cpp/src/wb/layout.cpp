@@ -26,10 +26,13 @@ Layout::Layout(const Problem& problem)
     at.first_force = variables;
     at.first_equality = equalities;
     at.first_row = rows;
+    int carrying = 0;
     for (const Contact& contact : problem.nodes[k].contacts) {
       const EndEffector& end = problem.end_effectors[contact.end_effector];
       at.poses += pose_rows(end);
       if (contact.rests && !at.at_rest) at.still += pose_rows(end);
+      if (contact.limited()) at.loads.push_back(carrying);
+      carrying += contact.carries ? 1 : 0;
       if (contact.carries) at.forces += kEdges * static_cast<int>(end.points_S.cols());
     }
     for (const Swing& swing : problem.nodes[k].swings) {

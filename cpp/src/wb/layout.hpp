@@ -16,8 +16,10 @@ struct NodeLayout {
   /// Equalities: base (6), poses of contacts, velocities of contacts that rest, velocity of all where the robot rests.
   int first_equality = 0, poses = 0, still = 0;
   bool at_rest = false;
-  /// Inequalities: positions of joints, which are not elastic; their velocities; torques; tubes; pairs of capsules.
+  /// Inequalities: positions of joints, which are not elastic; their velocities; torques; tubes; pairs of capsules;
+  /// loads of contacts that have a limit, of which these are the numbers among the wrenches of contacts that carry.
   int first_row = 0, tubes = 0, pairs = 0;
+  std::vector<int> loads;
   int first_swing = 0;  ///< rows of cost: of end-effectors in the air
   int swings = 0;
 };
@@ -36,7 +38,9 @@ class Layout {
   /// The column of a node's first spline coefficient.
   int window(int k) const { return k * velocities; }
   int equality_count(int k) const { return 6 + node[k].poses + node[k].still + (node[k].at_rest ? velocities : 0); }
-  int row_count(int k) const { return 3 * joints + node[k].tubes + node[k].pairs; }
+  int row_count(int k) const { return limit_count(k) + static_cast<int>(node[k].loads.size()); }
+  /// Of a robot and its surroundings: all but loads.
+  int limit_count(int k) const { return 3 * joints + node[k].tubes + node[k].pairs; }
   int elastic_count(int k) const { return row_count(k) - joints; }
   /// Rows that depend on the configuration alone: poses, tubes, pairs, and of the cost swings and the CoM.
   int placed_count(int k) const { return node[k].poses + node[k].tubes + node[k].pairs + node[k].swings + 3; }

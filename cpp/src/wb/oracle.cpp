@@ -41,6 +41,9 @@ ipm::Unknowns unknowns_of(const Problem& problem, const Layout& layout) {
       }
     }
     lower.segment(row, at.pairs).setZero();
+    row += at.pairs;
+    for (const Contact& contact : problem.nodes[k].contacts)  // rows are off the plan's
+      if (contact.limited()) upper[row++] = (contact.load_max - contact.wrench_S[2]) / problem.weight_N;
   }
   return ipm::Unknowns(layout.variables, layout.equalities, std::move(lower), std::move(upper));
 }

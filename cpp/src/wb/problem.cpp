@@ -1,6 +1,7 @@
 #include "mcplan/wb/problem.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "mcplan/base/error.hpp"
 
@@ -40,6 +41,10 @@ void Problem::validate() const {
     const std::string name = "nodes[" + std::to_string(k) + "]";
     require(k == 0 || nodes[k].time_s > nodes[k - 1].time_s, name + ".time_s", "must ascend",
             std::to_string(nodes[k].time_s));
+    for (const auto& [field, factor] :
+         {std::pair{".acceleration", nodes[k].acceleration}, {".torque", nodes[k].torque}})
+      require(factor >= 0.0 && std::isfinite(factor), name + field, "must be finite and not negative",
+              std::to_string(factor));
     for (const Contact& contact : nodes[k].contacts) {
       require(contact.end_effector >= 0 && contact.end_effector < ends, name + ".contacts", "must be of end-effectors",
               std::to_string(contact.end_effector));
@@ -48,6 +53,8 @@ void Problem::validate() const {
       require(contact.points_S.cols() == end_effectors[contact.end_effector].points_S.cols(),
               name + ".contacts.points_S", "must be as many as those of the end-effector",
               std::to_string(contact.points_S.cols()));
+      require(contact.load_max > point_load_min * weight_N, name + ".contacts.load_max",
+              "must be above point_load_min of weight_N", std::to_string(contact.load_max));
     }
     for (const Swing& swing : nodes[k].swings)
       require(swing.end_effector >= 0 && swing.end_effector < ends, name + ".swings", "must be of end-effectors",

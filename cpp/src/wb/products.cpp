@@ -42,8 +42,8 @@ NodeVector Products::cost_weights_of(int k) const {
   out.q.segment<3>(3).setConstant(weight * w.base);
   out.q.tail(joints).setConstant(weight * w.posture);
   out.v.tail(joints).setConstant(weight * w.velocity);
-  out.a.setConstant(weight * w.acceleration);
-  out.moving.segment(6, joints).setConstant(weight * w.torque);
+  out.a.setConstant(weight * problem_.nodes[k].acceleration * w.acceleration);
+  out.moving.segment(6, joints).setConstant(weight * problem_.nodes[k].torque * w.torque);
   int row = at.poses + at.tubes + at.pairs;
   for (const Swing& swing : problem_.nodes[k].swings) {
     const int count = pose_rows(problem_.end_effectors[swing.end_effector]);
@@ -159,6 +159,8 @@ void Products::to_inequalities(int k, const NodeVector& from, VectorXd& out) con
   out.segment(at.first_row + joints, joints) = from.v.tail(joints).cwiseProduct(velocity_scale_);
   out.segment(at.first_row + 2 * joints, joints) = from.moving.segment(6, joints);
   out.segment(at.first_row + 3 * joints, at.tubes + at.pairs) = from.placed.segment(at.poses, at.tubes + at.pairs);
+  int row = at.first_row + layout_.limit_count(k);
+  for (const int load : at.loads) out[row++] = from.wrench[6 * load + 2];
 }
 
 void Products::add_inequalities(int k, const VectorXd& from, bool squared, NodeVector& out) const {
@@ -171,6 +173,8 @@ void Products::add_inequalities(int k, const VectorXd& from, bool squared, NodeV
   }
   out.moving.segment(6, joints) += from.segment(at.first_row + 2 * joints, joints);
   out.placed.segment(at.poses, at.tubes + at.pairs) += from.segment(at.first_row + 3 * joints, at.tubes + at.pairs);
+  int row = at.first_row + layout_.limit_count(k);
+  for (const int load : at.loads) out.wrench[6 * load + 2] += from[row++];
 }
 
 }  // namespace mcplan::wb

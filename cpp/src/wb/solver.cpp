@@ -181,11 +181,11 @@ Dynamics::Rows Solver::usage(const VectorXd& x) {
   bare.tail(2 * p.layout.elastic_rows).setZero();
   const VectorXd rows = values(bare).inequalities;
   int widest = 0;
-  for (int k = 0; k < p.layout.nodes; ++k) widest = std::max(widest, p.layout.row_count(k));
+  for (int k = 0; k < p.layout.nodes; ++k) widest = std::max(widest, p.layout.limit_count(k));
   Dynamics::Rows out = Dynamics::Rows::Constant(p.layout.nodes, widest, -nlp::kInfinity);
   const int n = p.layout.variables, joints = p.layout.joints;
   for (int k = 0; k < p.layout.nodes; ++k)
-    for (int i = 0; i < p.layout.row_count(k); ++i) {
+    for (int i = 0; i < p.layout.limit_count(k); ++i) {
       const int row = p.layout.node[k].first_row + i;
       const double beyond = std::max(p.unknowns.lower[n + row] - rows[row], rows[row] - p.unknowns.upper[n + row]);
       if (i < joints)

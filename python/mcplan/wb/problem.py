@@ -11,6 +11,7 @@ from mcplan._core import wb as _core
 
 from .contact_points import corners_S, points_S
 from .dynamics import SplineModel, add_links
+from .flights import Flights
 from .ground import Ground
 from .nodes import SAME_S
 
@@ -25,9 +26,6 @@ Array = NDArray[np.float64]
 RAMP_S = 0.06
 #: Of the friction that the scene has.
 FRICTION_RATIO = 0.95
-#: Of the weight of accelerations, where there are flights: legs that push off have to accelerate. With less, jumps do not
-#: converge (measured: docs/theory/wb.md, "Cost").
-FLIGHT_ACCELERATION = 0.3
 
 
 def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array) -> _core.Problem:
@@ -39,10 +37,8 @@ def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array)
     problem.posture = posture
     mass = sum(inertia.mass for inertia in spline.model.inertias)
     problem.weight_N = mass * plan.scene.gravity
-    if any(nodes.flies(k) for k in range(nodes.count)):
-        weights = problem.weights
-        weights.acceleration *= FLIGHT_ACCELERATION
-        problem.weights = weights
+    flights = Flights.of(nodes)
+    flights.set_weights(problem)
     wrenches = ramped(nodes, planned_wrenches_S(nodes) * (mass / plan.robot.mass))
     samples = nodes.samples
     touches = np.asarray((nodes.contacts >= 0).any(axis=0))
@@ -50,14 +46,15 @@ def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array)
     tubes = {end: ground.tubes_W(plan, nodes, end) for end in np.flatnonzero(touches).tolist()}
     points = {id(interval): points_S(plan, interval) for interval in samples.intervals}
     for k in range(nodes.count):
-        problem.add_node(float(samples.times_s[k]), samples.com_W[k], nodes.base_zyx[k])
+        time_s = float(samples.times_s[k])
+        problem.add_node(time_s, samples.com_W[k], nodes.base_zyx[k], *flights.factors(time_s))
         for end, interval in enumerate(nodes.intervals[k]):
             if interval is not None:
                 friction = FRICTION_RATIO * plan.scene.surfaces[interval.surface].friction
                 rests = bool(nodes.first[k, end] or nodes.last[k, end])
                 pose = (interval.position_W, interval.rotation_W)
-                own = points[id(interval)]
-                problem.add_contact(end, nodes.carries(k, end), rests, friction, *pose, wrenches[k, end], own)
+                own, load_max = points[id(interval)], problem.weight_N * flights.load_max(interval, time_s)
+                problem.add_contact(end, nodes.carries(k, end), rests, friction, *pose, wrenches[k, end], own, load_max)
             elif touches[end]:
                 foot = plan.robot.end_effectors[end].kind == "foot"
                 low, high = tubes[end][k]

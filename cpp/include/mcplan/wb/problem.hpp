@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ struct Contact {
   Eigen::Matrix3d rotation_W = Eigen::Matrix3d::Identity();
   Eigen::Matrix<double, 6, 1> wrench_S = Eigen::Matrix<double, 6, 1>::Zero();  ///< the plan's [N, N m]
   Eigen::Matrix3Xd points_S;  ///< where forces act, as many as the end-effector has points, on the surface [m]
+  double load_max = std::numeric_limits<double>::infinity();  ///< of the normal force of a contact that carries [N]
+  bool limited() const { return carries && load_max < std::numeric_limits<double>::infinity(); }
 };
 
 /// An end-effector in the air at a node.
@@ -60,6 +63,7 @@ struct Node {
   Eigen::Vector3d base_zyx = Eigen::Vector3d::Zero();  ///< the plan's angles about z, y, x [rad]
   std::vector<Contact> contacts;
   std::vector<Swing> swings;
+  double acceleration = 1.0, torque = 1.0;  ///< of the costs of accelerations and of torques, beside Weights
 };
 
 /// A link's hull: all points nearer than `radius` to a segment.
