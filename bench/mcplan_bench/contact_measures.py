@@ -239,13 +239,16 @@ def _slip(plan: Plan, given: Contacts, e: int) -> float:
 
 
 def _beyond_reach(plan: Plan, replayed: Replay, phases: list[int], e: int) -> float:
-    """Largest component of R^T (p_l - p) outside the reach box, at all samples of the phases."""
+    """Largest component of R^T (p_l - p) outside the reach box or a face that cuts it, at all samples of the phases."""
     if not phases:
         return 0.0
     end = plan.robot.end_effectors[e]
     places = np.array([plan.knots[k].end_effectors_W[e] for k in phases])
     relative = np.einsum("ksji,ksj->ksi", replayed.rotation_WB[phases], places[:, None] - replayed.com_W[phases])
     beyond = np.maximum(relative - np.asarray(end.reach_max_B), np.asarray(end.reach_min_B) - relative)
+    if end.reach_cut.given:
+        over = relative @ np.asarray(end.reach_cut.A).T - np.asarray(end.reach_cut.b)
+        return float(max(beyond.max(initial=0.0), over.max(initial=0.0)))
     return float(beyond.max(initial=0.0))
 
 

@@ -121,6 +121,9 @@ def with_feet(robot: Robot, feet: int) -> Robot:
         end.name = f"{end.name}_{row}"
         for field in ("nominal_B", "reach_min_B", "reach_max_B"):
             setattr(end, field, getattr(end, field) + shift)
+        if end.reach_cut.given:
+            A, b = np.asarray(end.reach_cut.A), np.asarray(end.reach_cut.b)
+            end.reach_cut = type(end.reach_cut)(A=A, b=b + A @ shift)
         end_effectors.append(end)
     out.end_effectors = end_effectors
     return out

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from mcplan._core import Plan, Robot, Scene, Status
 from mcplan.arguments import require_or_path
 from mcplan.errors import InvalidInput, InvalidOptions, did_you_mean, shown
+from mcplan.kinematics.urdf_model import require_urdf
 from mcplan.online.options import OnlineOptions, option_names
 from mcplan.solve import plan as solve
 from mcplan.tracking.choice import make_options
@@ -93,8 +94,10 @@ def first_plan(
 
     Raises:
         InvalidInput: No plan was found, or no robot was named.
+        InvalidRobot: It has no URDF.
     """
     begins = _plan_or_walk(scene, robot)
+    require_urdf(begins.robot if isinstance(begins, Plan) else begins[1])  # before a search, not after it
     if online is None or online.engine == "ddp":
         return begins if isinstance(begins, Plan) else _searched(*begins)
     from mcplan.online.horizon_walk import first_walk

@@ -64,6 +64,8 @@ def similar_robot(robot: mp.Robot, by: Factors, durations: bool = True) -> mp.Ro
             setattr(other, name, getattr(end, name) * by.length)
         other.max_force = end.max_force * by.force
         other.max_moment = end.max_moment * by.moment
+        if end.reach_cut.given:
+            other.reach_cut = similar_polytope(end.reach_cut, by)
         if end.com_reach.given:
             other.com_reach = similar_polytope(end.com_reach, by)
         if end.limb.given:

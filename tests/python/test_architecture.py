@@ -95,7 +95,7 @@ PYTHON_ROOMS = {
     "showing": _GROUND | _LOOKED_AT | {"online"},
     "notebooks": {"_core", "errors", "showing"},
     "following": _GROUND | _LOOKED_AT - {"view"},
-    "running": _GROUND | {"solve", "files", "tracking", "online"},
+    "running": _GROUND | {"solve", "files", "kinematics", "tracking", "online"},
     "sweep": _GROUND | _ENGINES | {"files", "wb", "checking", "view", "export"},
     "cli": _GROUND | _FRONT | {"starting", ""},
     "": _GROUND | _FRONT | {"starting", "moved"},

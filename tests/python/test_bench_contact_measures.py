@@ -164,6 +164,17 @@ def test_reach_is_that_of_the_turned_body():
         assert foot.reach_m == pytest.approx(beyond, abs=1e-9)
 
 
+def test_reach_is_that_of_faces_that_cut_the_box():
+    """The right foot stands 0.70 m below the CoM: a face that ends 0.72 m below it is missed by 2 cm."""
+    plan = standing_on_wrenches(phases=1)
+    ends = plan.robot.end_effectors
+    for spare, beyond in ((0.01, 0.0), (-0.02, 0.02)):
+        end = ends[RIGHT]
+        end.reach_cut = mp.model.Polytope(A=[[0.0, 0.0, 1.0]], b=[-0.70 + spare])
+        plan.robot.end_effectors = ends
+        assert measure_contacts(plan).end_effectors[RIGHT].reach_m == pytest.approx(beyond, abs=1e-9)
+
+
 def test_the_measures_become_json():
     content = json.loads(json.dumps(measure_contacts(hanging_plan()).to_dict()))
     assert content["end_effectors"][RIGHT_HAND]["surfaces"] == ["right_pad"]

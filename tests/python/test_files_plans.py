@@ -68,6 +68,21 @@ def test_a_plan_comes_back_exactly_from_json(make, tmp_path):
     assert header["knots"][1]["com_velocity_W"][1] == 1 / 3
 
 
+@pytest.mark.parametrize("name", ["plan.npz", "plan.json"])
+def test_a_limit_that_is_infinite_about_one_axis_comes_back(name, plan, tmp_path):
+    limb = mp.load_robot("g1").end_effectors[0].limb
+    limb.hip_torque = [81.0, np.inf]
+    ends = plan.robot.end_effectors
+    place = np.array([0.0, 0.0, plan.robot.com_height + ends[0].nominal_B[2]])
+    limb.hip_B, limb.ankle = ends[0].nominal_B + [0.0, 0.0, 0.5 * (limb.upper + limb.lower)] + place, np.zeros(3)
+    ends[0].limb = limb
+    plan.robot.end_effectors = ends
+    plan.robot.validate()
+    file = tmp_path / name
+    plan.save(file)
+    assert load(file).robot == plan.robot
+
+
 def test_how_long_a_swing_is_under_way_comes_back(tmp_path):
     plan = stepping_plan()
     assert "swing_elapsed_s" not in arrays_of(plan_to_bytes(plan))

@@ -65,6 +65,13 @@ def test_an_impossible_scene_is_infeasible_by_name_before_the_first_iteration(me
         assert not result.plan.phases
 
 
+@pytest.mark.parametrize("robot", ["talos", "g1", "anymal", "go2"])
+def test_gaps_that_no_jump_crosses_are_told_for_robots_of_urdfs_too(robot):
+    report = mp.plan(gap(5.0), robot).report
+    assert report.status == mp.Status.infeasible and report.iterations == 0
+    assert report.message.startswith(f'the gap of 5 m between "a" and "b" is wider than any jump of {robot}: at most ')
+
+
 def test_the_command_says_it_and_saves_nothing(tmp_path, capsys):
     file = tmp_path / "gap.toml"
     mp.files.scenes.save_scene(gap(5.0), file)

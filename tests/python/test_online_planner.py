@@ -117,6 +117,29 @@ def test_a_state_that_is_refused_leaves_the_plan_and_the_thread_alone(plan):
         assert planner.wait().usable and planner.plan is plan
 
 
+@pytest.mark.parametrize(
+    ("wrong", "field"),
+    [
+        (None, "state"),
+        (MeasuredState(0.0, None, (0, 0)), "state.knot"),
+        (MeasuredState(np.nan, mp.model.Knot(), (0, 0)), "state.time_s"),
+        (MeasuredState(0.0, mp.model.Knot(), "left"), "state.contacts"),
+        (MeasuredState(0.0, mp.model.Knot(), None), "state.contacts"),
+    ],
+)
+def test_what_is_no_state_is_refused_when_it_is_submitted(plan, wrong, field):
+    with Planner(plan) as planner:
+        with pytest.raises(mp.InvalidInput, match=f"^{field}: "):
+            planner.submit(wrong)
+        assert not planner.busy
+
+
+def test_robots_without_joints_are_refused_before_a_plan_is_searched(monkeypatch):
+    monkeypatch.setattr("mcplan.running.solve", lambda *_: pytest.fail("searched"))
+    with pytest.raises(mp.InvalidInput, match="^humanoid44: urdf: must name a URDF"):
+        mp.run("flat", "humanoid44")
+
+
 def test_closing_ends_the_thread(plan):
     before = threading.active_count()
     planner = Planner(plan)

@@ -25,7 +25,11 @@ pytest.importorskip("example_robot_data")
 @pytest.fixture(scope="module")
 def result() -> TrackingResult:
     options = Options(pushes=(Push(40.0, 0.2, 0.8),), seed=3, mass_scale=1.07, gains=Gains(com_kp=50.0))
-    recording = dataclasses.replace(recordings.walking(), robot=mp.load_robot("talos"), fell_at_s=2.5)
+    robot = mp.load_robot("talos")
+    ends = robot.end_effectors
+    ends[0].limb.hip_torque = [81.0, np.inf]  # no limit about one axis
+    robot.end_effectors = ends
+    recording = dataclasses.replace(recordings.walking(), robot=robot, fell_at_s=2.5)
     return TrackingResult(recording, recordings.measures(fell=True, com_rms_m=float("nan")), options, True)
 
 

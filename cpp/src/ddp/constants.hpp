@@ -215,6 +215,8 @@ constexpr double kFixed = 1e10;
 constexpr double kCostShare = 1e-3;
 /// Ratio of the least torsion of a phase that moments are cut to: the steps still change it. Chosen.
 constexpr double kTorsionSpare = 0.9;
+/// Most by which a near miss makes joints weaker or slower at once, as a ratio: that of ten tolerances.
+constexpr double kJointSpareMax = 0.2;
 /// Defects that count as closed, and Newton steps for it: quadratic from 1e-3 on, but every input that meets its bound
 /// costs a step. Chosen.
 constexpr double kExactDefect = 1e-13;

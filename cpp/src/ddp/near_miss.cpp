@@ -18,6 +18,18 @@ void shrink(EndLimits& limit, double by) {
     limit.cut_b[i] = std::max(limit.cut_b[i] - by, std::min(limit.cut_b[i], limit.cut_A.row(i).dot(limit.nominal)));
 }
 
+/// Joints of legs are held, and planned as if they were weaker by a ratio, or slower, than they are.
+void hold_joints(Problem& problem, Tuning& tuning, double torques_by, double speeds_by) {
+  tuning.hold_joints = true;
+  for (EndLimits& limit : problem.limits) {
+    LimbLimits& limb = limit.limb;
+    limb.knee_torque *= 1.0 - std::min(torques_by, kJointSpareMax);
+    limb.hip_torque *= 1.0 - std::min(torques_by, kJointSpareMax);
+    limb.ankle_torque *= 1.0 - std::min(torques_by, kJointSpareMax);
+    limb.knee_speed *= 1.0 - std::min(speeds_by, kJointSpareMax);
+  }
+}
+
 /// The state at the goal weighs more. Making contacts exact cuts moments about the normal, and a base that lacks them
 /// may go on turning there: fewer of these are asked for.
 void aim_firmer(Problem& problem) {
@@ -53,8 +65,10 @@ void tighten(Problem& problem, Tuning& tuning, const std::vector<Violation>& vio
       use_less_friction(problem, v.value);
     } else if (v.name == "center_of_pressure") {
       press_further_inside(problem, length);
-    } else if (v.name == "joint_torque" || v.name == "joint_speed") {
-      tuning.hold_joints = true;
+    } else if (v.name == "joint_torque") {
+      hold_joints(problem, tuning, v.value, 0.0);
+    } else if (v.name == "joint_speed") {
+      hold_joints(problem, tuning, 0.0, v.value);
     }
   }
 }

@@ -129,9 +129,20 @@ def below_cut(end: EndEffector, target: Array) -> bool:
 
 def uncut_top(end: EndEffector) -> float:
     """Height [m] relative to the CoM up to which no face cuts an end-effector's box."""
-    cut, top = end.reach_cut, float(end.reach_max_B[2])
-    for normal, b in zip(np.asarray(cut.A), np.asarray(cut.b), strict=True):
+    low, high = np.asarray(end.reach_min_B), np.asarray(end.reach_max_B)
+    return min(top_at(end, x, y) for x in (low[0], high[0]) for y in (low[1], high[1]))
+
+
+def top_at(end: EndEffector, x: float, y: float) -> float:
+    """Height [m] relative to the CoM up to which an end-effector comes at a place of its box.
+
+    Args:
+        end: The end-effector.
+        x: Relative to the CoM [m], axes of the base.
+        y: Likewise.
+    """
+    top = float(end.reach_max_B[2])
+    for normal, b in zip(np.asarray(end.reach_cut.A), np.asarray(end.reach_cut.b), strict=True):
         if normal[2] > 0.0:
-            farthest = float(np.maximum(normal[:2] * end.reach_min_B[:2], normal[:2] * end.reach_max_B[:2]).sum())
-            top = min(top, (float(b) - farthest) / float(normal[2]))
+            top = min(top, float((b - normal[0] * x - normal[1] * y) / normal[2]))
     return top

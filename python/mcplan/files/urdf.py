@@ -31,6 +31,8 @@ from mcplan.files.urdf_setups import HEADER, SETUPS, End, Setup, search_box
 
 GRAVITY = 9.81
 MAX_COM_HEIGHT = 50.0  # [m] beyond, lengths are not in metres
+#: Largest speed of the CoM in sqrt(gravity com_height). Chosen: 5 m/s for a robot as tall as TALOS.
+FAST_RUN = 1.7
 SWING_HEIGHT_M = 0.10  # of robots without a setup
 HAND_INSET_M = 0.03  # of a hand's nominal position in its box: an arm hanging down is at the edge of what it reaches
 SOLE_FRICTION = 0.7  # surfaces' default; half of it is left for forces along the ground
@@ -111,8 +113,7 @@ def robot_from_urdf(
         low, high = search_box(position, end, com_height, setup.lift if setup else Setup.lift)
         boxes[end.name] = _Reach(position, *largest_box(explore(limb, low, high, step, seed)))
     shared = {end.name: _same_box(boxes, end, com_height) for end in ends}
-    for name, face in _faces(limbs, shared, ends, step, seed).items():
-        shared[name] = _with_face(shared[name], face)
+    shared = _lifted(limbs, shared, ends, step, seed)
     able = {end.name: _with_strength(limbs[end.name], shared[end.name], end.kind == "foot", seed) for end in ends}
     weight = mass * GRAVITY
     robot = Robot(
@@ -121,6 +122,7 @@ def robot_from_urdf(
         mass=round(mass, 3),
         inertia=np.diag(inertia).round(3),
         com_height=round(com_height, 3),
+        max_com_speed=round(FAST_RUN * float(np.sqrt(GRAVITY * com_height)), 1),
         swing_height=setup.swing_height if setup else SWING_HEIGHT_M,
         end_effectors=[_end_effector(end, _same_strength(able, end), weight) for end in ends],
         urdf=urdf,
@@ -186,6 +188,7 @@ def header(command: str, step: float = 0.02, own_posture: bool = False) -> str:
     """
     text = HEADER.format(
         posture="the posture below" if own_posture else "the SRDF's posture",
+        fast=FAST_RUN,
         step=step,
         points=POINTS,
         heading=HEADING_MAX,
@@ -334,25 +337,24 @@ def _same_box(boxes: Mapping[str, _Reach], end: End, com_height: float) -> _Reac
     return _Reach(np.clip(nominal, low + inset, high - inset).round(3) + 0.0, low, high)  # no -0.0
 
 
-def _faces(
+def _lifted(
     limbs: Mapping[str, Limb], shared: Mapping[str, _Reach], ends: tuple[End, ...], step: float, seed: int
-) -> dict[str, Cut | None]:
-    """By end-effector on a sole the face up to which it is lifted, the same for both twins; None: there is none."""
+) -> dict[str, _Reach]:
+    """The boxes, of soles with the face up to which they are lifted, the same for both twins."""
     faces: dict[str, Cut | None] = {}
+    out = dict(shared)
     for end in ends:
+        reach = shared[end.name]
         if end.twin in faces or not limbs[end.name].flat:
-            faces[end.name] = faces.get(end.twin)
-            continue
-        sides = [(limbs[name], shared[name].low, shared[name].high) for name in (end.name, end.twin) if name in limbs]
-        faces[end.name] = cut_of(sides, -LIFT * float(shared[end.name].nominal[2]), step, seed)
-    return faces
-
-
-def _with_face(reach: _Reach, face: Cut | None) -> _Reach:
-    if face is None:
-        return reach
-    top = np.floor(face.top(float(reach.high[0])) * 1e3) / 1e3
-    return replace(reach, high=np.array([*reach.high[:2], top]), cut=face)
+            face = faces.get(end.twin)
+        else:
+            sides = [(limbs[n], shared[n].low, shared[n].high) for n in (end.name, end.twin) if n in limbs]
+            face = cut_of(sides, -LIFT * float(reach.nominal[2]), step, seed)
+        faces[end.name] = face
+        if face is not None:
+            top = np.floor(face.top(float(reach.high[0])) * 1e3) / 1e3
+            out[end.name] = replace(reach, high=np.array([*reach.high[:2], top]), cut=face)
+    return out
 
 
 def _with_strength(limb: Limb, reach: _Reach, foot: bool, seed: int) -> _Reach:

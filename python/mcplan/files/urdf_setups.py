@@ -9,19 +9,19 @@ import numpy as np
 
 #: Comment on top of a file made from a URDF: where each number comes from.
 HEADER = (
-    "Mass, inertia (its diagonal, about the CoM) and com_height are those of the URDF in {posture}. Reach "
-    "boxes: the largest box around the nominal position whose every grid point ({step} m apart) is reached by inverse "
-    "kinematics within the joint limits: base upright, other limbs nominal, soles level, feet on their own side of the "
-    "body. reach_cut: the face, as high as any in the middle of the box, below which it is lifted higher ahead than "
-    "behind, and up to which every grid point is reached as well. Left and right are given the same box, force and "
-    "turn. max_force: the largest contact force that the "
-    "limb's torque limits bear beside its own weight (tau = g(q) - J^T f), the median over postures at {points} random "
+    "Mass, inertia (its diagonal, about the CoM) and com_height are those of the URDF in {posture}. max_com_speed: a "
+    "fast run, {fast} sqrt(g com_height). Reach boxes: the largest box around the nominal position whose every grid "
+    "point ({step} m apart) is reached by inverse kinematics within the joint limits: base upright, other limbs "
+    "nominal, soles level, feet on their own side of the body. reach_cut: the face, as high as any in the middle of "
+    "the box, below which it is lifted higher ahead than behind, and up to which every grid point is reached as well."
+    " Left and right are given the same box, force and turn. max_force: the largest contact force that the limb's "
+    "torque limits bear beside its own weight (tau = g(q) - J^T f), the median over postures at {points} random "
     "points, rounded down: of hands, upward and all over the box; of feet, upward or towards the CoM, whichever is "
-    "more, at the height of standing. yaw_range: how far inverse kinematics turns the sole about the vertical, at the "
-    "nominal position and half way to every corner of the box, at most {heading}. A hand's nominal position is moved "
-    "{inset} m into its box. max_moment of soles: 2/3 x {friction} x half the weight x the shorter half side, the "
-    "torsion of a disc by half the friction of {full}. phase_duration, sole_support and pressure_ratio: what legs "
-    "can follow, whole soles on their surface, and room under them for what swinging limbs ask of a controller."
+    "more, at the height of standing. yaw_range: how far inverse kinematics turns the sole about the vertical, at the"
+    " nominal position and half way to every corner of the box, at most {heading}. A hand's nominal position is moved"
+    " {inset} m into its box. max_moment of soles: 2/3 x {friction} x half the weight x the shorter half side, the "
+    "torsion of a disc by half the friction of {full}. phase_duration, sole_support and pressure_ratio: what legs can"
+    " follow, whole soles on their surface, and room under them for what swinging limbs ask of a controller."
 )
 
 

@@ -64,6 +64,16 @@ def _others() -> str:
     return f"; plan for one that has, such as {', '.join(list_robots_with((), joints=True))}"
 
 
+def require_urdf(robot: Robot) -> None:
+    """Refuse a robot without joints.
+
+    Raises:
+        InvalidRobot: The robot names no URDF.
+    """
+    if not robot.urdf:
+        raise InvalidRobot("urdf", f"must name a URDF: this robot has no joints{_others()}", "", robot.name)
+
+
 def load_model(robot: Robot) -> UrdfModel:
     """Read the URDF of a robot.
 
@@ -71,8 +81,7 @@ def load_model(robot: Robot) -> UrdfModel:
         MissingExtra: Pinocchio, or example-robot-data that the robot asks for, is not installed.
         InvalidRobot: The robot names no URDF, it cannot be read, or it lacks a frame or joint that the robot names.
     """
-    if not robot.urdf:
-        raise InvalidRobot("urdf", f"must name a URDF: this robot has no joints{_others()}", "", robot.name)
+    require_urdf(robot)
     require(f"the joints of {robot.name}", "view", "pinocchio")
     import pinocchio as pin  # type: ignore[import-untyped]
 

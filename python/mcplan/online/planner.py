@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
-from mcplan._core import Plan, Status
+import numpy as np
+
+from mcplan._core import Knot, Plan, Status
 from mcplan._core.online import follows, with_feet_kept_up
-from mcplan.errors import InvalidInput
+from mcplan.errors import InvalidInput, shown
 from mcplan.solve import replan
 
 if TYPE_CHECKING:
-    from mcplan._core import Knot, PlanResult, Robot, Scene
+    from mcplan._core import PlanResult, Robot, Scene
 
 
 @dataclass(frozen=True)
@@ -31,6 +33,18 @@ class MeasuredState:
     time_s: float
     knot: Knot
     contacts: tuple[int, ...]
+
+
+def _require_state(state: MeasuredState) -> None:
+    """What the planner says of numbers in it is in the update: here is what is no state at all."""
+    if not isinstance(state, MeasuredState):
+        raise InvalidInput("state", "must be a MeasuredState", shown(state))
+    if not isinstance(state.knot, Knot):
+        raise InvalidInput("state.knot", "must be a Knot", shown(state.knot))
+    if not isinstance(state.time_s, (int, float, np.number)) or not np.isfinite(state.time_s):
+        raise InvalidInput("state.time_s", "must be a finite number", shown(state.time_s))
+    if isinstance(state.contacts, (str, bytes)) or not isinstance(state.contacts, Sequence | np.ndarray):
+        raise InvalidInput("state.contacts", "must be a surface, or -1, for each end-effector", shown(state.contacts))
 
 
 @dataclass(frozen=True)
@@ -121,8 +135,9 @@ class Planner:
             The number that the update will have, unless a later state replaces this one.
 
         Raises:
-            InvalidInput: The planner is closed.
+            InvalidInput: The planner is closed, or the state is none.
         """
+        _require_state(state)
         with self._lock:
             if self._closed:
                 raise InvalidInput("planner", "must be open: it was closed")

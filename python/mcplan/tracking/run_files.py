@@ -24,7 +24,7 @@ import numpy as np
 from mcplan._core import __version__
 from mcplan.errors import InvalidInput, shown, written
 from mcplan.files import whole_body_plans
-from mcplan.files.archives import kind_text, read_arrays, read_header
+from mcplan.files.archives import as_json, kind_text, read_arrays, read_header
 from mcplan.files.builtin import exists
 from mcplan.files.outputs import ARCHIVE, require_named, require_suffix, write_whole
 from mcplan.files.plan_files import is_json
@@ -90,7 +90,7 @@ def save_run(parts: RunParts, path: str | Path) -> None:
     }
     names = _array_names(type(parts.recording))
     content = {in_file: getattr(parts.recording, name) for name, in_file in names.items()}
-    content["header"] = np.frombuffer(json.dumps(header, allow_nan=False).encode(), dtype=np.uint8)
+    content["header"] = np.frombuffer(json.dumps(as_json(header), allow_nan=False).encode(), dtype=np.uint8)
     for name, data in {"plan": parts.plan, **parts.files}.items():
         content[name] = np.frombuffer(data, dtype=np.uint8)
     buffer = io.BytesIO()
@@ -196,6 +196,4 @@ def plain(value: Any) -> Any:
     """With "nan" and "inf" for numbers that JSON cannot represent."""
     if isinstance(value, dict):
         return {key: plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [plain(item) for item in value]
     return str(value) if isinstance(value, float) and not np.isfinite(value) else value

@@ -59,6 +59,49 @@ TEST_CASE("friction and pressure go further inside, friction never below its hal
             .isApprox(Eigen::Vector2d::Constant(0.003 / usual.units.length), 1e-9));
 }
 
+TEST_CASE("joints that were asked for too much are planned weaker or slower by as much, a fifth at most") {
+  mcplan::Robot robot = scenes::humanoid44();
+  for (int l : {0, 1}) {
+    mcplan::LimbLimits& limb = robot.end_effectors[l].limb;
+    limb.hip_B = robot.end_effectors[l].nominal_B + Vector3d(0.0, 0.0, 0.6);
+    limb.upper = limb.lower = 0.35;
+    limb.knee_torque = 200.0;
+    limb.knee_speed = 10.0;
+    limb.ankle_torque = {50.0, 60.0};
+  }
+  const ddp::Problem usual(scenes::flat(), robot, phases(6));
+  const auto limb_after = [&](const std::string& name, double value) {
+    ddp::Problem problem = usual;
+    ddp::Tuning tuning = usual.tuning();
+    ddp::tighten(problem, tuning, {{name, 2, "left_foot", 0.5, value, 0.02, "-", ""}});
+    CHECK(tuning.hold_joints);
+    return problem.limits[1].limb;
+  };
+  const mcplan::LimbLimits before = usual.limits[1].limb;
+  const mcplan::LimbLimits weaker = limb_after("joint_torque", 0.05), slower = limb_after("joint_speed", 0.03);
+  CHECK(weaker.knee_torque == doctest::Approx(0.95 * before.knee_torque));
+  CHECK(weaker.ankle_torque.isApprox(0.95 * before.ankle_torque));
+  CHECK(weaker.hip_torque == before.hip_torque);  // infinite
+  CHECK(weaker.knee_speed == before.knee_speed);
+  CHECK(slower.knee_speed == doctest::Approx(0.97 * before.knee_speed));
+  CHECK(slower.knee_torque == before.knee_torque);
+  CHECK(limb_after("joint_torque", 3.0).knee_torque == doctest::Approx(0.8 * before.knee_torque));
+}
+
+TEST_CASE("faces that cut a reach box give way with it, no further than to the nominal place") {
+  const ddp::Problem usual(scenes::flat(), scenes::humanoid44_cut(), phases(6));
+  for (const double by : {0.004, 1.0}) {
+    ddp::Problem tight = usual;
+    ddp::Tuning tuning = usual.tuning();
+    ddp::tighten(tight, tuning, {{"reach", 2, "left_foot", 0.5, by, 0.001, "m", ""}});
+    for (int i = 0; i < 2; ++i) {
+      const ddp::EndLimits &before = usual.limits[0], &now = tight.limits[0];
+      const double nominal = before.cut_A.row(i).dot(before.nominal);
+      CHECK(now.cut_b[i] == doctest::Approx(by < 1.0 ? before.cut_b[i] - by / usual.units.length : nominal));
+    }
+  }
+}
+
 TEST_CASE("joints that were asked for too much are held, and what the search has no limit for stays") {
   ddp::Tuning tuning = walk().tuning();
   after("joint_torque", 0.05, &tuning);
