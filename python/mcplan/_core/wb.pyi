@@ -89,6 +89,7 @@ class Problem:
         rotation_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"],
         wrench_S: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"],
         points_S: typing.Any,
+        load_max: typing.SupportsFloat | typing.SupportsIndex = ...,
     ) -> None:
         """
         To the node that was added last.
@@ -121,7 +122,12 @@ class Problem:
         time_s: typing.SupportsFloat | typing.SupportsIndex,
         com_W: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
         base_zyx: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
-    ) -> None: ...
+        acceleration: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        torque: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    ) -> None:
+        """
+        acceleration, torque: of their weights.
+        """
     def add_pair(
         self,
         first: typing.SupportsInt | typing.SupportsIndex,
