@@ -24,6 +24,7 @@ from mcplan.wb.flights import (  # noqa: E402
     RAMP_S,
     Flights,
 )
+from mcplan.wb.solve import _Search  # noqa: E402
 
 FLIGHT_S = 0.22
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples/09_hop.py"
@@ -79,6 +80,22 @@ def test_forces_come_and_go_on_ramps_beside_a_flight_and_nowhere_else(hop: Motio
     loads = hop.motion.forces(0.6 - away_s).sum(axis=2)[:, :, 2] / weight
     limits = LEAST_LOAD + (MOST_LOAD - LEAST_LOAD) * away_s / RAMP_S
     assert (loads <= limits[:, None] + 0.01).all() and loads[2].sum() > 0.5
+
+
+def test_derivatives_beside_flights_are_those_of_differences(example: ModuleType):
+    search = _Search.of(
+        example.hop(mp.load_robot("go2"), FLIGHT_S, push_s=0.3, rise_m=-0.02, lift_m=0.02), "default", 0.1
+    )
+    rng = np.random.default_rng(8)
+    x = search.start("follow")
+    x = x + 0.05 * rng.standard_normal(x.size)
+    for _ in range(3):
+        step, length = rng.standard_normal(x.size), 1e-5
+        slopes = search.solver.slopes(x, step)
+        after, before = (search.solver.values(x + sign * length * step) for sign in (1.0, -1.0))
+        differences = [(np.asarray(a) - np.asarray(b)) / (2.0 * length) for a, b in zip(after, before, strict=True)]
+        for slope, expected in zip(slopes, differences, strict=True):
+            assert np.abs(slope - expected).max() <= 1e-6 * np.abs(expected).max()
 
 
 def test_a_hop_is_certified_with_its_flight(hop: MotionResult):

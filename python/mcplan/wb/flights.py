@@ -26,7 +26,7 @@ NEAR_ACCELERATION, NEAR_TORQUE = 10.0, 50.0
 NEAR_S, FADE_S = 0.05, 0.05
 #: How long before a take-off and after a landing a contact's load is limited [s], and to what, over the robot's weight: at the
 #: take-off or landing, and that long away from it. Without, forces jump from several weights to none in a node
-#: (measured: docs/theory/wb.md, "Flights").
+#: (measured: docs/theory/wb.md, "Cost").
 RAMP_S, LEAST_LOAD, MOST_LOAD = 0.08, 0.4, 4.0
 
 

@@ -133,28 +133,6 @@ TEST_CASE("a load that is limited is a row: normal force off the plan's over wei
   CHECK(other.solver.usage(x).cols() == of_a_node);
 }
 
-TEST_CASE("derivatives of weighted costs and of rows with loads are those of differences") {
-  Problem problem = standing();
-  for (int k = 1; k < 6; ++k) {
-    problem.nodes[k].contacts[0].load_max = 15.0 + 10.0 * k;
-    problem.nodes[k].acceleration = 1.0 + k;
-    problem.nodes[k].torque = 7.0 - k;
-  }
-  Case one(problem);
-  const VectorXd x = somewhere(one.solver, 5);
-  std::mt19937 random(6);
-  std::normal_distribution<double> normal;
-  for (int trial = 0; trial < 5; ++trial) {
-    const VectorXd step = VectorXd::NullaryExpr(x.size(), [&] { return normal(random); });
-    const double h = 1e-6;
-    const Solver::Slopes slopes = one.solver.slopes(x, step);
-    const Solver::Values above = one.solver.values(x + h * step), below = one.solver.values(x - h * step);
-    const VectorXd rows = (above.inequalities - below.inequalities) / (2.0 * h);
-    CHECK((rows - slopes.inequalities).cwiseAbs().maxCoeff() < 1e-7);
-    CHECK((above.cost - below.cost) / (2.0 * h) == doctest::Approx(slopes.cost).epsilon(1e-7));
-  }
-}
-
 TEST_CASE("factors of weights and limits of loads that make no sense are refused by name") {
   const double infinite = std::numeric_limits<double>::infinity(), none = std::numeric_limits<double>::quiet_NaN();
   for (const double wrong : {-1.0, infinite, none}) {
