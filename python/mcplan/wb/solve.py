@@ -47,6 +47,9 @@ STARTS = ("follow", "stand")
 SMALL_PENALTY, DEARER = 1e-3, 30.0
 #: Beyond which the base's angles are too near to where they are singular [rad].
 MAX_PITCH = 1.3
+#: What the certificate finds where forces do not balance between nodes, and the ratio of the time between nodes with which a
+#: second search then tries again.
+BALANCE, FINER = ("corrected_force", "corrected_moment", "residual_force", "residual_moment"), 0.8
 #: Times at most that links are told to keep a distance, and solves are repeated.
 ROUNDS = 4
 #: Violation of scaled rows (1 N, 1 mm) with which a search that has not converged says by what a motion exceeds limits.
@@ -73,11 +76,31 @@ def motion(
     plan = _plan_of(plan)
     _require_options(joints, node_s, max_iterations, time_limit_s, start, tolerances)
     require("mcplan.motion", "view", "pinocchio", "scipy")
-    search = _Search.of(plan, joints, node_s)
+
+    def with_nodes(step_s: float) -> MotionResult:
+        search = _Search.of(plan, joints, step_s)
+        try:
+            return _searched(search, start, max_iterations, began, began + time_limit_s, tolerances)
+        finally:
+            search.dynamics.solver = None  # they hold each other
+
+    result = with_nodes(node_s)
+    if not _fails_between_nodes(result) or time.perf_counter() - began > time_limit_s:
+        return result
     try:
-        return _searched(search, start, max_iterations, began, began + time_limit_s, tolerances)
-    finally:
-        search.dynamics.solver = None  # they hold each other
+        finer = with_nodes(FINER * node_s)
+    except Interrupted:
+        raise Interrupted(_with_status(result, MotionStatus.INTERRUPTED)) from None
+    if finer.report.status != MotionStatus.SOLVED:
+        return result
+    return _with_status(finer, finer.report.status, iterations=result.iterations + finer.iterations)
+
+
+def _fails_between_nodes(result: MotionResult) -> bool:
+    """Whether the forces of what has converged do not balance between its nodes, and nothing else is wrong with it."""
+    if result.report.status != MotionStatus.NOT_CERTIFIED or result.certificate is None:
+        return False
+    return all(violation.name in BALANCE for violation in result.certificate.violations())
 
 
 def _searched(
