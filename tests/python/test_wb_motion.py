@@ -11,6 +11,9 @@ import pytest
 import mcplan as mp
 from mcplan.errors import InvalidInput, InvalidPlan
 from mcplan.wb import Motion, splines
+from standing import standing_plan
+
+BENCH = Path(__file__).resolve().parents[2] / "bench/mcplan_bench"
 
 pin = pytest.importorskip("pinocchio")
 interpolate = pytest.importorskip("scipy.interpolate")
@@ -23,10 +26,14 @@ def plan() -> mp.Plan:
 
 @pytest.fixture(scope="module")
 def motion(plan: mp.Plan) -> Motion:
+    return some_motion(plan)
+
+
+def some_motion(plan: mp.Plan) -> Motion:
     """Any motion: random coefficients and forces, of no use but to be evaluated."""
     from mcplan.kinematics.urdf_model import load_model
 
-    rng = np.random.default_rng(0)
+    rng, ends = np.random.default_rng(0), len(plan.robot.end_effectors)
     names = list(load_model(plan.robot).model.names)[2:]
     locked = {name: 0.1 for name in names if "gripper" in name or "head" in name}
     nodes, end = 40, plan.duration()
@@ -37,9 +44,9 @@ def motion(plan: mp.Plan) -> Motion:
         locked=locked,
         times_s=np.sort(np.r_[0.0, rng.uniform(0.0, end, nodes - 1), end]),
         coefficients=rng.normal(0.0, 0.3, (nodes + 3, 6 + len(names) - len(locked))),
-        corner_points_S=rng.normal(0.0, 0.1, (4, 4, 3)),
-        corner_forces_S=rng.normal(0.0, 100.0, (nodes + 1, 4, 4, 3)),
-        contacts=np.zeros((nodes, 4)),
+        corner_points_S=rng.normal(0.0, 0.1, (ends, 4, 3)),
+        corner_forces_S=rng.normal(0.0, 100.0, (nodes + 1, ends, 4, 3)),
+        contacts=np.zeros((nodes, ends)),
     )
 
 
@@ -71,8 +78,10 @@ def test_velocity_and_acceleration_are_derivatives(motion: Motion) -> None:
     np.testing.assert_allclose(a, (v1 - v0) / (2.0 * step), atol=1e-5)
 
 
-def test_wrenches_and_torques_balance_the_motion(motion: Motion) -> None:
+@pytest.mark.parametrize("robot", ["talos", "g1", "anymal", "go2", BENCH / "romeo.toml"])
+def test_wrenches_and_torques_balance_the_motion(robot: str | Path) -> None:
     """M a + b = S^T tau + sum_l J_l^T w_l + the residual, with Jacobians in the world's axes."""
+    motion = some_motion(standing_plan(robot=mp.load_robot(robot)))
     model, samples = motion.model.model, motion.sample(np.linspace(0.0, motion.duration(), 20))
     data = model.createData()
     for k in range(len(samples)):
