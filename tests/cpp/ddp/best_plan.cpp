@@ -157,7 +157,7 @@ TEST_CASE("wherever the limit falls, 50 ms of processor time do for what follows
       const int last = part < 4 ? part + 1 : part * (looks - 1) / 12;
       CAPTURE(scene.surfaces.size());
       CAPTURE(last);
-      // Processor time, too, is longer where caches are shared with others: one quick run of ten shows that it suffices.
+      // Processor time, too, grows where others share the caches: one quick run of ten shows that it suffices.
       double quickest_s = after_limit(scene, phases, last, 1e3).time_s;
       for (int again = 1; again < 10 && !(quickest_s < 0.05); ++again)
         quickest_s = std::min(quickest_s, after_limit(scene, phases, last, 1e3).time_s);
