@@ -57,7 +57,7 @@ void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) 
     stage.base.c = 0.0;
     stage.base.g.setZero(at.nz());
     stage.base.h.setZero(at.nz(), at.nz());
-    base_rows_.accumulate(stage.base.c, stage.base.g, stage.base.h, scratch_);
+    base_rows_.accumulate(stage.base.c, stage.base.g, stage.base.h);
     if (schedule.fixed_inputs) hold_inputs(*problem_, k, last ? nullptr : &(*schedule.fixed_inputs)[k], stage.base);
     stage.flight_made = false;
     if (last) {
@@ -116,7 +116,7 @@ void LocalModel::make_blocks(int k, const ContactState& state) {
   state_block(k, state);
 }
 
-void LocalModel::add_contacts(int k, const ContactState& state, Quadratic& q, Eigen::MatrixXd& scratch) {
+void LocalModel::add_contacts(int k, const ContactState& state, Quadratic& q) {
   if (schedule_.fixed_inputs) return;
   if (k == steps()) {
     // Rows at the last knot touch x alone but are stored over z.
@@ -133,9 +133,8 @@ void LocalModel::add_contacts(int k, const ContactState& state, Quadratic& q, Ei
     return;
   }
   q.c += state_cost(*problem_, state);
-  if (const Rows* rows = state_block(k, state)) rows->accumulate(q.c, q.g, q.h, scratch);
-  for (int l = 0; l < problem_->layout.end_effector_count(); ++l)
-    block(k, l, state[l]).accumulate(q.c, q.g, q.h, scratch);
+  if (const Rows* rows = state_block(k, state)) rows->accumulate(q.c, q.g, q.h);
+  for (int l = 0; l < problem_->layout.end_effector_count(); ++l) block(k, l, state[l]).accumulate(q.c, q.g, q.h);
 }
 
 Evaluator::Evaluator(const Problem& problem)

@@ -20,6 +20,9 @@ struct Quadratic {
   double c = 0.0;
   Eigen::VectorXd g;
   Eigen::MatrixXd h;
+
+  /// Make H's lower triangle the mirror image of the upper one, which is what stages are assembled in.
+  void mirror() { h.triangularView<Eigen::StrictlyLower>() = h.transpose(); }
 };
 
 /// The problem about a trajectory: dynamics to first order, costs to second order (Gauss-Newton), one stage a step.
@@ -40,7 +43,8 @@ class LocalModel {
   const PendulumStep& dynamics(int k) const { return stages_[k].dynamics; }
   const Eigen::VectorXd& defect(int k) const { return stages_[k].defect; }
 
-  /// Cost of step k that does not depend on the contact state, with the proximal term; over z, at k = N over x.
+  /// Cost of step k that does not depend on the contact state, with the proximal term; over z, at k = N over x. Of H
+  /// the upper triangle.
   const Quadratic& base(int k) const { return stages_[k].base; }
 
   /// Rows of end-effector l of step k with this contact (a surface or kFree). Computed at the first call: make those
@@ -50,11 +54,9 @@ class LocalModel {
   /// Rows that stand for the state as a whole: those of a flight, or none. Same caveat.
   const Rows* state_block(int k, const ContactState& state);
 
-  /// Add the rows of a contact state to a quadratic over z (over x at k = N).
-  void add_contacts(int k, const ContactState& state, Quadratic& q) { add_contacts(k, state, q, scratch_); }
-
-  /// The same from several threads, each with a scratch of its own. Blocks have to be made before: make_blocks().
-  void add_contacts(int k, const ContactState& state, Quadratic& q, Eigen::MatrixXd& scratch);
+  /// Add the rows of a contact state to a quadratic over z (over x at k = N), to H's upper triangle. Several threads
+  /// may do so at once where the blocks have been made before: make_blocks().
+  void add_contacts(int k, const ContactState& state, Quadratic& q);
 
   /// Make the blocks of a contact state of step k, before threads read them.
   void make_blocks(int k, const ContactState& state);
@@ -84,7 +86,6 @@ class LocalModel {
   std::vector<Stage> stages_;
   std::vector<std::vector<int>> choice_;  ///< [l][surface]
   long expansion_ = 0;
-  Eigen::MatrixXd scratch_;
   Rows base_rows_;
 };
 

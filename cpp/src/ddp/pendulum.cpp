@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include "base/base_rotation.hpp"
+#include "ddp/step_jacobian.hpp"
 
 namespace mcplan::ddp {
 
@@ -230,31 +231,6 @@ void Pendulum::previous(const VectorXd& x_next, const VectorXd& u, VectorXd& x) 
   }
 }
 
-void Pendulum::times_jacobian(const PendulumStep& s, const MatrixXd& m, MatrixXd& out) const {
-  const int nx = layout_.nx(), axes = layout_.axis_count();
-  out.resize(m.rows(), layout_.nz());
-  const auto mp = m.middleCols<3>(layout_.com());
-  const auto mv = m.middleCols<3>(layout_.velocity());
-  if (axes > 0)
-    out.noalias() = m.middleCols(layout_.angle(), 2 * axes).lazyProduct(s.turn);
-  else
-    out.setZero();
-  out.middleCols<3>(layout_.com()) += s.pp * mp + s.vp * mv;
-  out.middleCols<3>(layout_.velocity()) += s.pv * mp + s.pp * mv;
-  for (int l = 0; l < layout_.end_effector_count(); ++l) {
-    const auto end = m.middleCols<3>(layout_.end(l));
-    pushed_ = (s.p_end * s.mu[l]) * mp + (s.v_end * s.mu[l]) * mv;
-    out.middleCols<3>(layout_.end(l)) += end + pushed_;
-    out.middleCols<3>(nx + layout_.stride(l)) = end;
-    if (const int n = layout_.pressure_count(l); n > 0)
-      out.middleCols(nx + layout_.pressure(l), n).noalias() += pushed_.lazyProduct(layout_.offsets(l).pressure);
-    if (const int n = layout_.force_line_count(l); n > 0)
-      out.middleCols(nx + layout_.force_line(l), n).noalias() += pushed_.lazyProduct(layout_.offsets(l).force_line);
-    out.col(nx + layout_.stiffness(l)) += mp * s.p_mu.col(l) + mv * s.v_mu.col(l);
-  }
-  out.col(nx + layout_.duration()) += s.slope * (mp * s.velocity + mv * s.acceleration);
-}
-
 void Pendulum::apply(const PendulumStep& s, const VectorXd& dx, const VectorXd& du, VectorXd& out) const {
   const int nx = layout_.nx(), axes = layout_.axis_count();
   out.resize(nx);
@@ -378,9 +354,9 @@ void Pendulum::apply_inverse(const PendulumStep& s, const VectorXd& w, VectorXd&
 }
 
 MatrixXd Pendulum::dense_jacobian(const PendulumStep& s) const {
-  MatrixXd out;
-  times_jacobian(s, MatrixXd::Identity(layout_.nx(), layout_.nx()), out);
-  return out;
+  StepJacobian jacobian;
+  jacobian.make(layout_, s);
+  return jacobian.dense();
 }
 
 }  // namespace mcplan::ddp

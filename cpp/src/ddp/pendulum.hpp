@@ -89,8 +89,6 @@ class Pendulum {
 
   // Products with the Jacobian [A B] = [df/dx df/du] that never form it.
 
-  /// out (r x nz) = M [A B] for M (r x nx).
-  void times_jacobian(const PendulumStep& s, const Eigen::MatrixXd& m, Eigen::MatrixXd& out) const;
   /// out = A dx + B du.
   void apply(const PendulumStep& s, const Eigen::VectorXd& dx, const Eigen::VectorXd& du, Eigen::VectorXd& out) const;
   /// g (nz) += [A B]^T v.

@@ -43,7 +43,7 @@ bool StepPricing::prepare(LocalModel& model, const ValueFunctions& values, int k
   }
 
   const Quadratic& q = values.without_contacts(k);
-  w_ = q.h;
+  w_ = q.h.transpose();  // of which the factorisation reads the lower triangle
   w_.topLeftCorner(nx, nx) += values.U(k).h;
   factor_.compute(w_);
   if (factor_.info() != Eigen::Success) return false;

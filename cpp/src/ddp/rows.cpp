@@ -56,12 +56,11 @@ Eigen::Ref<Eigen::VectorXd> Rows::add_dense(double weight, double value) {
   return gradient_.col(count() - 1);
 }
 
-void Rows::accumulate(double& c, Eigen::VectorXd& g, Eigen::MatrixXd& h, Eigen::MatrixXd& scratch) const {
+void Rows::accumulate(double& c, Eigen::VectorXd& g, Eigen::MatrixXd& h) const {
   c += cost_;
   // Most rows touch a point and what shifts it, a few of z's numbers: a full update would be wasted on them.
   constexpr int kFew = 10;
   std::array<int, kFew> at;
-  int dense = 0;
   for (int r = 0; r < count(); ++r) {
     const double d = precision_[r];
     if (single_[r] >= 0) {
@@ -71,15 +70,14 @@ void Rows::accumulate(double& c, Eigen::VectorXd& g, Eigen::MatrixXd& h, Eigen::
       for (int i = 0; i < few; ++i) {
         const double di = d * gradient_(at[i], r);
         g[at[i]] += di * value_[r];
-        for (int j = 0; j < few; ++j) h(at[j], at[i]) += di * gradient_(at[j], r);
+        for (int j = 0; j <= i; ++j) h(at[j], at[i]) += di * gradient_(at[j], r);
       }
     } else {
       g += d * value_[r] * gradient_.col(r);
-      if (scratch.rows() != nz_ || scratch.cols() <= dense) scratch.conservativeResize(nz_, std::max(16, 2 * dense));
-      scratch.col(dense++) = std::sqrt(d) * gradient_.col(r);
+      for (int j = 0; j < nz_; ++j)
+        if (const double dj = d * gradient_(j, r); dj != 0.0) h.col(j).head(j + 1) += dj * gradient_.col(r).head(j + 1);
     }
   }
-  if (dense > 0) h.noalias() += scratch.leftCols(dense) * scratch.leftCols(dense).transpose();
 }
 
 }  // namespace mcplan::ddp

@@ -52,8 +52,8 @@ class Rows {
   int single(int r) const { return single_[r]; }           ///< its one variable, or -1
   auto gradient(int r) const { return gradient_.col(r); }  ///< zeros but for the one variable of a single row
 
-  /// Add the Gauss-Newton quadratic  c + g'z + 1/2 z'Hz  of these rows (H: both triangles). `scratch` keeps its memory.
-  void accumulate(double& c, Eigen::VectorXd& g, Eigen::MatrixXd& h, Eigen::MatrixXd& scratch) const;
+  /// Add the Gauss-Newton quadratic  c + g'z + 1/2 z'Hz  of these rows, of H the upper triangle.
+  void accumulate(double& c, Eigen::VectorXd& g, Eigen::MatrixXd& h) const;
 
  private:
   void push(double weight, double value, int single);

@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "ddp/elimination.hpp"
+
 namespace mcplan::ddp {
 
 using Eigen::MatrixXd;
@@ -19,29 +21,21 @@ ValueFunctions::ValueFunctions(LocalModel& model)
   U_[0] = {0.0, VectorXd::Zero(nx), MatrixXd::Zero(nx, nx)};
 }
 
-/// Minimise a quadratic over z = [x, u] in u: u = offset - gain x, value over x.
+/// Minimise a quadratic over z = [x, u] in u, of whose H the upper triangle is given: value over x. Undoes z.h.
 bool ValueFunctions::solve(Quadratic& z, Quadratic& value, Feedback* feedback) {
   const Layout& at = model_->problem().layout;
   const int nx = at.nx(), nu = at.nu();
-  factor_.compute(z.h.bottomRightCorner(nu, nu));
-  if (factor_.info() != Eigen::Success) return false;
-  // With Quu = L L', V = Qxx - Y'Y for Y = L^-1 Qux.
-  k_ = z.h.bottomLeftCorner(nu, nx);
-  factor_.matrixL().solveInPlace(k_);
+  if (!eliminate_last(z.h, nu)) return false;
+  const auto factor = z.h.bottomRightCorner(nu, nu).triangularView<Eigen::Upper>();
   o_ = z.g.tail(nu);
-  factor_.matrixL().solveInPlace(o_);
+  factor.solveInPlace(o_);
   value.c = z.c - 0.5 * o_.squaredNorm();
   value.g = z.g.head(nx);
-  value.g.noalias() -= k_.transpose() * o_;
-  value.h = z.h.topLeftCorner(nx, nx);
-  value.h.noalias() -= k_.transpose() * k_;
-  // The unstable pendulum amplifies an asymmetry of rounding size from step to step: mirror one half.
-  value.h.triangularView<Eigen::StrictlyUpper>() = value.h.transpose();
+  value.g.noalias() -= z.h.topRightCorner(nx, nu) * o_;
+  value.h = z.h.topLeftCorner(nx, nx).selfadjointView<Eigen::Upper>();
   if (feedback) {
-    feedback->gain = k_;
-    factor_.matrixU().solveInPlace(feedback->gain);
-    feedback->offset = -o_;
-    factor_.matrixU().solveInPlace(feedback->offset);
+    feedback->factor = z.h.rightCols(nu);
+    feedback->offset = o_;
   }
   return std::isfinite(value.c) && value.g.allFinite();
 }
@@ -50,18 +44,16 @@ bool ValueFunctions::backward_step(int k, const ContactState& state, const Quadr
                                    Feedback* feedback) {
   const PendulumStep& dynamics = model_->dynamics(k);
   const VectorXd& defect = model_->defect(k);
-  // V'(A dx + B du + defect), with J = [A B]: H = J'V'J by two one-sided products.
+  // V'(A dx + B du + defect), with J = [A B]: H = J'V'J.
   q_ = model_->base(k);
-  pendulum_.times_jacobian(dynamics, next.h, m_);
-  mt_ = m_.transpose();
-  pendulum_.times_jacobian(dynamics, mt_, pushed_);
-  q_.h += pushed_;
+  jacobian_.make(pendulum_.layout(), dynamics);
+  jacobian_.add_congruent(next.h, q_.h);
   w_ = next.g;
   w_.noalias() += next.h * defect;
   q_.c += next.c + 0.5 * defect.dot(next.g + w_);
   pendulum_.add_transposed(dynamics, w_, q_.g);
   if (feedback) feedback->without_contacts = q_;
-  model_->add_contacts(k, state, q_, contact_scratch_);
+  model_->add_contacts(k, state, q_);
   return solve(q_, value, feedback);
 }
 
@@ -70,6 +62,7 @@ bool ValueFunctions::backward(const ContactSequence& sequence, int last) {
   if (last == n) {
     V_[n] = model_->base(n);
     model_->add_contacts(n, sequence[n], V_[n]);
+    V_[n].mirror();
     --last;
   }
   for (int k = last; k >= 0; --k)
@@ -84,6 +77,7 @@ bool ValueFunctions::forward(const ContactSequence& sequence, int first) {
     const PendulumStep& dynamics = model_->dynamics(k);
     q_ = model_->base(k);
     model_->add_contacts(k, sequence[k], q_);
+    q_.mirror();
     q_.c += U_[k].c;
     q_.g.head(nx) += U_[k].g;
     q_.h.topLeftCorner(nx, nx) += U_[k].h;
@@ -134,8 +128,10 @@ void ValueFunctions::state_forward(std::vector<VectorXd>& dx, std::vector<Vector
   factor_.compute(V_[0].h);
   dx[0] = -factor_.solve(V_[0].g);
   for (int k = 0; k < n; ++k) {
-    du[k] = feedback_[k].offset;
-    du[k].noalias() -= feedback_[k].gain * dx[k];
+    const Feedback& feedback = feedback_[k];
+    du[k] = -feedback.offset;
+    du[k].noalias() -= feedback.factor.topRows(dx[k].size()).transpose() * dx[k];
+    feedback.factor.bottomRows(du[k].size()).triangularView<Eigen::Upper>().transpose().solveInPlace(du[k]);
     model_->pendulum().apply(model_->dynamics(k), dx[k], du[k], dx[k + 1]);
     dx[k + 1] += model_->defect(k);
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ddp/local_model.hpp"
+#include "ddp/step_jacobian.hpp"
 
 namespace mcplan::ddp {
 
@@ -22,10 +23,10 @@ class ValueFunctions {
   /// U_k for k = first+1..N; U_first must be up to date (U_0 = 0).
   bool forward(const ContactSequence& sequence, int first);
 
-  /// What a step of the backward recursion leaves besides V_k: the feedback du = offset - gain dx, and the stage cost
-  /// of k plus V_{k+1} over z, without the rows of the contact state at k.
+  /// What a step of the backward recursion leaves besides V_k: the feedback du = -R^-T (offset + Y' dx), and the stage
+  /// cost of k plus V_{k+1} over z, of H the upper triangle, without the rows of the contact state at k.
   struct Feedback {
-    Eigen::MatrixXd gain;
+    Eigen::MatrixXd factor;  ///< [Y; R], nz x nu: eliminate_last()
     Eigen::VectorXd offset;
     Quadratic without_contacts;
   };
@@ -38,7 +39,7 @@ class ValueFunctions {
   const Quadratic& V(int k) const { return V_[k]; }
   const Quadratic& U(int k) const { return U_[k]; }
 
-  /// Stage cost of k plus V_{k+1} over z, without the rows of the contact state at k.
+  /// Stage cost of k plus V_{k+1} over z, of H the upper triangle, without the rows of the contact state at k.
   const Quadratic& without_contacts(int k) const { return feedback_[k].without_contacts; }
 
   /// min over x of U_k + V_k (eq. 31).
@@ -61,7 +62,8 @@ class ValueFunctions {
   std::vector<Feedback> feedback_;
   // Scratch.
   Quadratic q_, from_, to_;
-  Eigen::MatrixXd m_, mt_, pushed_, k_, contact_scratch_;
+  StepJacobian jacobian_;
+  Eigen::MatrixXd m_, mt_;
   Eigen::VectorXd w_, o_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };

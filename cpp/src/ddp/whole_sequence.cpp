@@ -71,6 +71,7 @@ PricedSequence best_whole_sequence(const SequenceGraph& graph, LocalModel& model
   later[0].value = model.base(n);
   later[0].found = true;
   model.add_contacts(n, problem.goal_contacts, later[0].value);
+  later[0].value.mirror();
   std::vector<std::vector<int>> chosen(n);
 
   Quadratic candidate;

@@ -308,11 +308,6 @@ TEST_CASE("products that never form the Jacobian agree with the dense one") {
       const MatrixXd a = jacobian.leftCols(nx), b = jacobian.rightCols(nu);
       const VectorXd dx = noise(random, nx, 1.0), du = noise(random, nu, 1.0);
 
-      MatrixXd product;
-      const MatrixXd m = noise(random, 5, nx, 1.0);
-      c.pendulum.times_jacobian(step, m, product);
-      CHECK((product - m * jacobian).cwiseAbs().maxCoeff() <= 1e-13);
-
       VectorXd out;
       c.pendulum.apply(step, dx, du, out);
       CHECK((out - a * dx - b * du).cwiseAbs().maxCoeff() <= 1e-13);

@@ -31,6 +31,7 @@ struct Expanded {
   Quadratic stage(int k) {
     Quadratic q = model.base(k);
     model.add_contacts(k, sequence[k], q);
+    q.mirror();
     return q;
   }
 };
