@@ -178,7 +178,7 @@ def motion(
         joints: Those that move: "default" (all but grippers, fingers and head), "all", "legs", or names.
         node_s: Time between two nodes, at most [s].
         max_iterations: Of the interior-point method.
-        time_limit_s: Wall clock, without the certificate [s].
+        time_limit_s: Wall clock, without the certificate [s]; if it ends before the first iteration, the motion stands still.
         start: "follow": from postures along the plan by inverse kinematics; "stand": from the robot standing still.
         tolerances: Of the certificate; None: its own.
 
@@ -190,7 +190,7 @@ def motion(
         InvalidArgument: An argument is of another type.
         InvalidOptions: An option is out of its range.
         InvalidInput: No such joint.
-        InvalidPlan: The file is no plan.
+        InvalidPlan: The file is no plan, or one that is too long for a motion or out of all bounds.
         InvalidRobot: The robot has no URDF, or it cannot be read.
         MissingExtra: The packages of ``pip install 'mcplan[view]'`` are not installed.
     """
@@ -243,7 +243,7 @@ def track(
     Raises:
         InvalidArgument: An argument is of another type.
         InvalidOptions: No such option, or its value is out of range; a planar robot has no pushes, assistance or seed.
-        InvalidPlan: The file is no plan.
+        InvalidPlan: The file is no plan, or one that is too long for a motion or out of all bounds.
         InvalidRobot: The robot has no URDF, or it cannot be read, or it lacks an end-effector of the plan.
         InvalidInput: The robot cannot take up the plan's first or last posture; or a robot for a whole-body plan.
         UnknownRobot: No such name and no such file.

@@ -96,6 +96,34 @@ def test_a_solve_that_stops_early_says_so_and_saves_what_there_is(standing_plan,
     assert f"Saved {output}" in out
 
 
+def test_ctrl_c_during_the_certificate_saves_the_motion(standing_plan, capsys, tmp_path, monkeypatch):
+    """Also that of a motion that did not converge, which the command alone asks for."""
+
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    output = tmp_path / "motion.npz"
+    monkeypatch.setattr("mcplan.wb.certificate.certify", interrupted)
+    for words in ((), ("--max-iterations", "0")):
+        code, out, _ = run(capsys, "motion", standing_plan, "-o", output, "--joints", "legs", *words)
+        assert code == 130 and f"Saved {output}" in out
+        assert Motion.load(output).duration() == pytest.approx(0.5)
+        output.unlink()
+
+
+def test_plans_too_long_to_be_checked_are_refused_by_what_is_long(standing_plan, swaying, capsys, tmp_path):
+    plan = mp.Plan.load(standing_plan)
+    phases = plan.phases
+    phases[0].duration = 3000.0
+    plan.phases = phases
+    plan.save(tmp_path / "plan.npz")
+    message = one_line_error(run(capsys, "check", tmp_path / "plan.npz"))
+    assert "plan.npz: durations: must last at most 2000 s for a check of every millisecond, got 3000" in message
+    changed(swaying, plan=plan, times_s=swaying.times_s / swaying.duration() * plan.duration()).save(tmp_path / "m.npz")
+    message = one_line_error(run(capsys, "check", tmp_path / "m.npz"))
+    assert "m.npz: durations: must last at most 500 s" in message
+
+
 def test_a_robot_without_urdf_is_refused(capsys, tmp_path):
     mp.plan("flat", time_limit=2.0).plan.save(tmp_path / "plan.npz")
     message = one_line_error(run(capsys, "motion", tmp_path / "plan.npz"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import copy
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -122,11 +123,32 @@ def test_forces_that_are_corrected_balance(swaying: Motion) -> None:
 def test_one_joint_off_by_a_milliradian_is_seen(swaying: Motion, joint: str) -> None:
     found = violated(moved(swaying, joint, 1e-3))
     assert {"drift", "drift_angle"} & set(found)
+    found.pop("unbalanced", None)  # where what is missing on the base is no more than it may be
     assert all(violation.end_effector == f"{joint[4:].split('_')[0]}_foot" for violation in found.values())
 
 
+@pytest.mark.parametrize("joint", ["torso_1_joint", "torso_2_joint"])
+def test_one_joint_of_the_trunk_off_by_a_milliradian_is_seen(swaying: Motion, joint: str) -> None:
+    """No sole moves, and less than a newton is missing: but at no node do the forces balance any more."""
+    assert certify(swaying).of("unbalanced").value == 0.0
+    found = violated(moved(swaying, joint, 1e-3))
+    assert set(found) == {"unbalanced"}
+    assert found["unbalanced"].value == pytest.approx(swaying.duration())
+    assert found["unbalanced"].time_s == 0.0
+
+
+def test_nodes_that_do_not_balance_for_a_moment_are_no_violation(swaying: Motion) -> None:
+    forces = swaying.corner_forces_S.copy()
+    forces[10:14] *= 1.0001
+    seen = certify(changed(swaying, corner_forces_S=forces)).of("unbalanced")
+    assert seen.value == pytest.approx(swaying.times_s[13] - swaying.times_s[10]) and not seen.violated
+    assert seen.time_s == swaying.times_s[10]
+    forces[14:30] *= 1.0001
+    assert set(violated(changed(swaying, corner_forces_S=forces))) == {"unbalanced"}
+
+
 def test_a_foothold_off_by_two_millimetres_is_seen(standing: Motion) -> None:
-    plan = standing.plan
+    plan = copy.deepcopy(standing.plan)
     for knot in plan.knots:
         ends_W = knot.end_effectors_W.copy()
         ends_W[LEFT, 0] += 2e-3
@@ -134,6 +156,57 @@ def test_a_foothold_off_by_two_millimetres_is_seen(standing: Motion) -> None:
     found = violated(changed(standing, plan=plan))
     assert found["drift"].end_effector == "left_foot"
     assert found["drift"].value == pytest.approx(2e-3, rel=1e-6)
+
+
+def test_a_slip_at_a_later_knot_is_seen(standing: Motion, talos: Talos) -> None:
+    whole = standing.duration()
+    plan = plan_for(talos, [(0.4 * whole, [RIGHT, LEFT]), (0.6 * whole, [RIGHT, LEFT])])
+    again = changed(standing, plan=plan, times_s=standing.times_s * plan.duration() / whole)
+    assert "drift" not in violated(again)
+    knots = plan.knots
+    ends_W = knots[1].end_effectors_W.copy()
+    ends_W[LEFT, :2] += [2e-3, 1e-3]
+    knots[1].end_effectors_W = ends_W
+    plan.knots = knots
+    found = violated(changed(again, plan=plan))["drift"]
+    assert found.value == pytest.approx(np.hypot(2e-3, 1e-3)) and found.end_effector == "left_foot"
+    assert found.time_s == pytest.approx(0.4 * whole)
+
+
+@pytest.mark.parametrize("height", [2e-3, -0.02, 0.1])
+def test_a_surface_that_is_not_under_the_soles_is_seen(standing: Motion, height: float) -> None:
+    plan = copy.deepcopy(standing.plan)
+    scene = plan.scene
+    surfaces = scene.surfaces
+    surfaces[0].vertices_W = np.asarray(surfaces[0].vertices_W) + [0.0, 0.0, height]
+    scene.surfaces = surfaces
+    plan.scene = scene
+    found = violated(changed(standing, plan=plan))
+    assert found["contact_distance"].value == pytest.approx(abs(height), abs=1e-6)
+    assert found["contact_distance"].end_effector in ("left_foot", "right_foot")
+    plan.measured_start = True  # what stands where it was measured does not move
+    assert "contact_distance" not in violated(changed(standing, plan=plan))
+
+
+def test_a_surface_for_hands_under_feet_is_seen(standing: Motion) -> None:
+    plan = copy.deepcopy(standing.plan)
+    scene = plan.scene
+    surfaces = scene.surfaces
+    surfaces[0].end_effectors = ["hand"]
+    scene.surfaces = surfaces
+    plan.scene = scene
+    found = violated(changed(standing, plan=plan))
+    assert set(found) == {"contact_permission"}
+    assert found["contact_permission"].value == 1.0
+    assert found["contact_permission"].end_effector in ("left_foot", "right_foot")
+
+
+def test_a_locked_joint_beyond_its_limits_is_seen(standing: Motion, talos: Talos) -> None:
+    model, name = talos.model, "arm_left_4_joint"
+    low = float(model.lowerPositionLimit[model.idx_qs[model.getJointId(name)]])
+    found = violated(changed(standing, locked={**standing.locked, name: low - 0.02}))
+    assert found["position"].joint == name
+    assert found["position"].value == pytest.approx(0.02)
 
 
 def test_a_lower_torque_limit_is_seen(swaying: Motion) -> None:

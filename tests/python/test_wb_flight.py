@@ -24,6 +24,7 @@ from mcplan.wb.flights import (  # noqa: E402
     RAMP_S,
     Flights,
 )
+from mcplan.wb.moving_joints import MovingRobot  # noqa: E402
 from mcplan.wb.solve import _Search  # noqa: E402
 
 FLIGHT_S = 0.22
@@ -83,9 +84,8 @@ def test_forces_come_and_go_on_ramps_beside_a_flight_and_nowhere_else(hop: Motio
 
 
 def test_derivatives_beside_flights_are_those_of_differences(example: ModuleType):
-    search = _Search.of(
-        example.hop(mp.load_robot("go2"), FLIGHT_S, push_s=0.3, rise_m=-0.02, lift_m=0.02), "default", 0.1
-    )
+    plan = example.hop(mp.load_robot("go2"), FLIGHT_S, push_s=0.3, rise_m=-0.02, lift_m=0.02)
+    search = _Search.of(MovingRobot.of(plan, "default"), 0.1)
     rng = np.random.default_rng(8)
     x = search.start("follow")
     x = x + 0.05 * rng.standard_normal(x.size)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import pickle
 from pathlib import Path
 
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 
 import mcplan as mp
-from mcplan.errors import InvalidInput, InvalidPlan
+from mcplan.errors import InvalidInput, InvalidPlan, InvalidRobot
 from mcplan.wb import Motion, splines
 from standing import standing_plan
 
@@ -135,12 +136,43 @@ def test_files_hold_the_same_motion(motion: Motion, tmp_path: Path) -> None:
         ("coefficients", lambda a: a[1:], r"coefficients: must have shape \(43, 34\), got \(42, 34\)"),
         ("corner_forces_S", lambda a: a * np.nan, r"corner_forces_S\[0\]\[0\]\[0\]\[0\]: must be finite, got nan"),
         ("contacts", lambda a: a + 7, r"contacts\[0\]\[0\]: must lie in \[-1, 0\], got 7"),
+        (
+            "contacts",
+            lambda a: a.astype(np.int64) + 2**32,
+            r"contacts\[0\]\[0\]: must be the index of a surface, or -1, got",
+        ),
+        ("coefficients", lambda a: a * 1e308, r"coefficients\[0\]\[0\]: must (lie within|be finite)"),
+        ("corner_forces_S", lambda a: a + 1e10, r"corner_forces_S\[0\]\[0\]\[0\]\[0\]: must lie within 1e\+09 N, got"),
+        ("corner_points_S", lambda a: "points", "corner_points_S: must be an array of numbers, got"),
+        ("locked", lambda a: a | {"gripper_left_joint": 10**400}, "locked.gripper_left_joint: must be a number, got"),
+        (
+            "locked",
+            lambda a: a | {"gripper_left_joint": 1e9},
+            r"locked.gripper_left_joint: must lie within 1e\+06 rad or m",
+        ),
         ("joints", lambda a: a[:1] * 28, "joints: must be named once"),
     ],
 )
 def test_what_does_not_fit_is_named(motion: Motion, name: str, make: object, message: str) -> None:
     with pytest.raises(InvalidPlan, match=message):
         changed(motion, **{name: make(getattr(motion, name))})
+
+
+def test_bytes_of_a_plan_that_are_none_are_refused(motion: Motion) -> None:
+    """As int64 they would be cut to the bytes that they end with."""
+    arrays = dict(np.load(io.BytesIO(motion.to_bytes())))
+    arrays["plan"] = arrays["plan"].astype(np.int64) + 256
+    file = io.BytesIO()
+    np.savez(file, **arrays)
+    with pytest.raises(InvalidPlan, match=r"plan: must be bytes \(uint8\), got int64"):
+        Motion.from_bytes(file.getvalue())
+
+
+def test_a_urdf_of_a_name_that_no_file_has_is_refused(motion: Motion) -> None:
+    long = changed(motion, urdf="x" * 5000)
+    for use in (long.check, lambda: long.at(0.0)):
+        with pytest.raises(InvalidRobot, match="urdf: must be a readable URDF"):
+            use()
 
 
 def test_files_of_other_kinds_are_refused(motion: Motion, plan: mp.Plan, tmp_path: Path) -> None:

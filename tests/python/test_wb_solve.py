@@ -23,7 +23,7 @@ from mcplan.wb.capsules import keep_apart, link_capsules  # noqa: E402
 from mcplan.wb.certificate import MotionViolation  # noqa: E402
 from mcplan.wb.contact_points import corners_S, points_S, to_corners  # noqa: E402
 from mcplan.wb.knots import subdivided, with_knots  # noqa: E402
-from mcplan.wb.moving_joints import moving_joints  # noqa: E402
+from mcplan.wb.moving_joints import MovingRobot, moving_joints  # noqa: E402
 from mcplan.wb.nodes import nodes_of  # noqa: E402
 from mcplan.wb.solve import _Search  # noqa: E402
 from standing import standing_plan  # noqa: E402
@@ -65,7 +65,7 @@ def test_a_motion_is_the_same_bytes_each_time():
 def test_derivatives_are_those_of_differences(robot: str):
     make = standing_plan if robot == "go2" else lambda robot: stepping_plan(1, robot=robot)
     plan = make(robot=mp.load_robot(robot))
-    search = _Search.of(plan, "default", 0.1)
+    search = _Search.of(MovingRobot.of(plan, "default"), 0.1)
     capsules = list(link_capsules(search.model).values())
     numbers = [search.problem.add_capsule(own.joint + 4, own.start, own.end, own.radius) for own in capsules]
     for first, second in ((0, 5), (3, -1), (9, 12)):
@@ -160,12 +160,17 @@ def test_a_base_that_lies_on_its_front_is_refused():
     for knot in knots:
         knot.base_rpy = [0.0, 1.4, 0.0]
     plan.knots = knots
-    with pytest.raises(InvalidPlan, match=r"plan.*at most 74 degrees.*got 80\.2 degrees"):
+    with pytest.raises(InvalidPlan, match=r"plan.*at most 75 degrees.*got 80\.21 degrees"):
         mp.motion(plan)
 
 
 def test_an_end_of_time_and_of_iterations_are_said():
     assert mp.motion(talos_steps(), time_limit_s=1e-3).status is MotionStatus.TIME_LIMIT
+    plan = talos_steps()
+    stands = mp.motion(plan, node_s=1e-3, time_limit_s=1e-3)  # far more nodes than there is time for
+    assert stands.status is MotionStatus.TIME_LIMIT and stands.iterations == 0
+    assert "before the first iteration" in stands.report.message
+    assert stands.motion.duration() == plan.duration() and not stands.motion.corner_forces_S.any()
     few = mp.motion(talos_steps(), max_iterations=2)
     assert few.status is MotionStatus.NOT_CONVERGED and few.iterations == 2 and few.certificate is None
 
@@ -188,6 +193,51 @@ def test_ctrl_c_ends_a_solve_and_carries_what_there_is(ctrl_c: None, monkeypatch
     assert found.value.result.motion.duration() == talos_steps().duration()
 
 
+def test_ctrl_c_during_the_certificate_carries_the_motion(ctrl_c: None, monkeypatch: pytest.MonkeyPatch):
+    from mcplan.wb import certificate
+
+    monkeypatch.setattr(certificate, "certify", lambda *_: signal.raise_signal(signal.SIGINT))
+    with pytest.raises(Interrupted) as found:
+        mp.motion(standing_plan(robot=mp.load_robot("talos")))
+    monkeypatch.undo()
+    result = found.value.result
+    assert result.status is MotionStatus.INTERRUPTED and result.certificate is None
+    result.motion.check().raise_if_violated()
+
+
+def test_a_plan_of_ages_is_refused_before_there_are_nodes():
+    plan = standing_plan(robot=mp.load_robot("talos"))
+    phases = plan.phases
+    phases[0].duration = 1e6
+    plan.phases = phases
+    with pytest.raises(InvalidPlan, match=r"plan: must be short enough for a motion of 100000 nodes.*got 1e\+06"):
+        mp.motion(plan)
+
+
+def test_a_plan_beyond_all_bounds_is_refused():
+    plan = standing_plan(robot=mp.load_robot("talos"))
+    knots = plan.knots
+    for knot in knots:
+        knot.com_W = [1e300, 0.0, 1.0]
+    plan.knots = knots
+    with pytest.raises(InvalidPlan, match=r"plan: must keep within 1e\+06 m of the origin.*got .*e\+300 m at 1\.200 s"):
+        mp.motion(plan)
+
+
+def test_swings_begin_and_end_where_contacts_do():
+    plan = talos_steps()
+    nodes = nodes_of(plan, 0.05)
+    swings = 0
+    for k in range(nodes.count):
+        for end in range(2):
+            before = [i for i in range(k + 1) if nodes.intervals[i][end] is not None]
+            after = [i for i in range(k, nodes.count) if nodes.intervals[i][end] is not None]
+            expected = (nodes.times_s[before[-1]], nodes.times_s[after[0]]) if before and after else (0.0, 0.0)
+            assert nodes.swing(k, end) == expected
+            swings += expected[1] > expected[0]
+    assert swings > 10
+
+
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [
@@ -195,7 +245,11 @@ def test_ctrl_c_ends_a_solve_and_carries_what_there_is(ctrl_c: None, monkeypatch
         ({"max_iterations": -1}, InvalidOptions, "max_iterations"),
         ({"time_limit_s": 0.0}, InvalidOptions, "time_limit_s"),
         ({"start": "there"}, InvalidOptions, "start"),
-        ({"joints": "knee"}, InvalidInput, "joints"),
+        ({"joints": "knee"}, InvalidInput, "joints: must be all, default, legs"),
+        ({"joints": "leg_left_1_joint,"}, InvalidInput, 'joints: must be all, default, legs.*got ""'),
+        ({"joints": ["leg_left_1_joint", "knee"]}, InvalidInput, r"joints\[1\]: must be all, default, legs"),
+        ({"joints": []}, InvalidInput, "joints: must name a joint at least"),
+        ({"joints": ["leg_left_1_joint"] * 2}, InvalidInput, r"joints\[1\]: must name each joint once"),
     ],
 )
 def test_options_are_refused_by_name(options: dict, error: type, message: str):
@@ -268,7 +322,7 @@ def test_contact_points_lie_on_the_surface_under_the_sole():
 @pytest.mark.slow
 def test_links_that_are_too_near_are_moved_apart():
     """Arms are asked to stay 3 cm farther from the thighs than they are: a motion that does so is found and certified."""
-    search = _Search.of(talos_steps(), "default", 0.025)
+    search = _Search.of(MovingRobot.of(talos_steps(), "default"), 0.025)
     q = solved().motion.sample([1.5]).q[0]
     capsules = link_capsules(search.model)
     near = MotionViolation(
@@ -298,7 +352,7 @@ def test_capsules_contain_their_links():
 
     from mcplan.wb.capsules import _points
 
-    search = _Search.of(talos_steps(), "all", 0.1)
+    search = _Search.of(MovingRobot.of(talos_steps(), "all"), 0.1)
     capsules, path = link_capsules(search.model), search.model.complete.path
     from mcplan.files.urdf_reading import package_folders
 

@@ -18,6 +18,9 @@ constexpr double large_angle = 2.0 * M_PI;  // taken to be degrees
 constexpr double long_over_fall = 100.0;    // durations over sqrt(h / g), in which a pendulum falls: milliseconds
 constexpr double heavy_density = 16e3;      // [kg/m^3] of the cube of a robot's size, twice that of steel: grams
 
+/// Distance of a polytope's farthest face from the origin [m]: its normals have length 1.
+double farthest_face(const Polytope& polytope) { return polytope.given() ? polytope.b.cwiseAbs().maxCoeff() : 0.0; }
+
 void suspect_lengths(const Robot& robot, std::vector<Suspicion>& out) {
   const auto look = [&](const std::string& field, double longest) {
     if (longest > long_over_com * robot.com_height)
@@ -32,6 +35,8 @@ void suspect_lengths(const Robot& robot, std::vector<Suspicion>& out) {
     look(field + "nominal", end.nominal_B.cwiseAbs().maxCoeff());
     look(field + "reach_min", end.reach_min_B.cwiseAbs().maxCoeff());
     look(field + "reach_max", end.reach_max_B.cwiseAbs().maxCoeff());
+    look(field + "com_reach.b", farthest_face(end.com_reach));
+    look(field + "reach_cut.b", farthest_face(end.reach_cut));
     look(field + "frame_offset", end.frame_offset.cwiseAbs().maxCoeff());
   }
 }

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from mcplan.tracking.findings import Feasibility, Finding
     from mcplan.wb.motion import Motion
 
+#: The longest plan that is checked, and the longest motion [s].
+MAX_S, MAX_MOTION_S = 2000.0, 500.0
 #: Of one kind, beside the largest, in the table of --robot; --json has all.
 OTHERS = 3
 
@@ -60,6 +62,7 @@ def check(
     from mcplan.wb.motion import Motion
 
     saved = load_any(plan)
+    _require_short(plan, saved)
     if isinstance(saved, Motion):
         given = {"--certify": certify, "--self-collision": self_collision, "--robot": robot is not None}
         return _check_motion(plan, saved, given, json)
@@ -97,6 +100,17 @@ def check(
             _print_feasibility(feasibility)
     proved, followed = certificate is None or certificate.proved(), feasibility is None or feasibility.ok()
     return 0 if result.ok() and proved and followed else 1
+
+
+def _require_short(path: Path, saved: Plan | PlanarPlan | Motion) -> None:
+    """Raise InvalidPlan for one that lasts longer than what is looked at once a millisecond can."""
+    from mcplan.errors import InvalidPlan
+    from mcplan.wb.motion import Motion
+
+    most = MAX_MOTION_S if isinstance(saved, Motion) else MAX_S
+    if saved.duration() > most:
+        rule = f"must last at most {most:g} s for a check of every millisecond"
+        raise InvalidPlan("durations", rule, f"{saved.duration():.6g} s", str(path))
 
 
 def _check_motion(path: Path, motion: Motion, given: dict[str, bool], json: bool) -> int:

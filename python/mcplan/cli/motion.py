@@ -84,7 +84,7 @@ def motion(
     limit = float("inf") if time_limit is None else time_limit
     options: dict[str, Any] = {"joints": joints, "start": start, "node_s": node, "max_iterations": max_iterations}
     result, interrupted = as_far_as_it_came(lambda: solve(plan, time_limit_s=limit, **options))
-    certified = _certified(result, interrupted)
+    certified, interrupted = _certified(result, interrupted)
     if json:
         print(json_module.dumps(summary(certified), allow_nan=False), flush=True)
     else:
@@ -96,13 +96,16 @@ def motion(
     return CODE if interrupted else 0 if str(result.status) == "solved" else 1
 
 
-def _certified(result: MotionResult, interrupted: bool) -> MotionResult:
-    """The result with what the certificate says of a motion that did not converge, too."""
+def _certified(result: MotionResult, interrupted: bool) -> tuple[MotionResult, bool]:
+    """The result with what the certificate says of a motion that did not converge, too, and whether Ctrl-C came by then."""
     if result.certificate is not None or interrupted:
-        return result
+        return result, interrupted
     from dataclasses import replace
 
-    return replace(result, certificate=result.motion.check())
+    try:
+        return replace(result, certificate=result.motion.check()), False
+    except KeyboardInterrupt:
+        return result, True
 
 
 def _log_iterations() -> None:

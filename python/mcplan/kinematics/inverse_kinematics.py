@@ -6,6 +6,7 @@ this: docs/architecture.md, "Libraries that are not used".
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -76,13 +77,16 @@ class Postures:
         return Postures(configurations, float(counted.max()), where, com_misses, end_misses, tilts)
 
 
-def follow(urdf_model: UrdfModel, samples: Samples, near: Array | None = None) -> Postures:
+def follow(
+    urdf_model: UrdfModel, samples: Samples, near: Array | None = None, in_time: Callable[[], None] = lambda: None
+) -> Postures:
     """Find a posture for every sample, near to the robot's own or to given ones.
 
     Args:
         urdf_model: The robot's model.
         samples: The plan.
         near: (n, nq) configurations to stay near to in whatever the plan leaves open; None: the robot's posture.
+        in_time: Called before each sample; what it raises ends this.
     """
     import pinocchio as pin  # type: ignore[import-untyped]
 
@@ -97,6 +101,7 @@ def follow(urdf_model: UrdfModel, samples: Samples, near: Array | None = None) -
     shape = (samples.count, len(urdf_model.frames))
     end_misses, tilts = np.zeros(shape), np.zeros(shape)
     for n in range(samples.count):
+        in_time()
         if near is not None:
             q = solver.home = near[n]
         q = solver.solve(q, samples, n, iterations=80 if n == 0 else 12)

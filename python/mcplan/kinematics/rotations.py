@@ -35,7 +35,12 @@ def with_axis_z(z: Array, x_hint: Array) -> Array:
 def about_z(angles: Array) -> Array:
     """Rotations (..., 3, 3) by angles (...) [rad] about the world's vertical."""
     angles = np.asarray(angles, float)
-    return from_rpy(np.stack([np.zeros_like(angles), np.zeros_like(angles), angles], axis=-1))
+    found = np.zeros((*angles.shape, 3, 3))
+    found[..., 0, 0] = found[..., 1, 1] = np.cos(angles)
+    found[..., 1, 0] = np.sin(angles)
+    found[..., 0, 1] = -found[..., 1, 0]
+    found[..., 2, 2] = 1.0
+    return found
 
 
 def sole_frame(normal: Array, yaw: float) -> Array:

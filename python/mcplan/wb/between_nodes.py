@@ -18,6 +18,7 @@ from mcplan.kinematics.rotations import polygon_normal
 
 from .free_flyer import rotations
 from .knots import subdivided, with_knots
+from .nodes import FINEST_S
 
 if TYPE_CHECKING:
     from .motion import Motion
@@ -25,8 +26,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Steps between instants at which forces are corrected [s].
-STEP_S = 0.005
 #: Times that forces are changed.
 ROUNDS = 4
 #: Friction beyond which it makes no difference.
@@ -37,7 +36,7 @@ SMALL_N = 1e-6
 RANK = 1e-10
 
 
-def balanced(motion: Motion, step_s: float = STEP_S) -> Motion:
+def balanced(motion: Motion, step_s: float = FINEST_S) -> Motion:
     """The same motion with nodes at most step_s apart and forces that balance the base at all of them."""
     times = subdivided(motion.times_s, step_s)
     interval = np.searchsorted(motion.times_s, 0.5 * (times[1:] + times[:-1]), side="right") - 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -69,15 +70,19 @@ class Ground:
                 least = min(least, float(height[seen].min()))
         return least
 
-    def tubes_W(self, plan: Plan, nodes: Nodes, end: int) -> dict[int, tuple[Array, Array]]:
+    def tubes_W(
+        self, plan: Plan, nodes: Nodes, end: int, in_time: Callable[[], None] = lambda: None
+    ) -> dict[int, tuple[Array, Array]]:
         """How far the points of a sole in the air may be from where the plan has them, at least and at most [m], by node.
 
         Between two nodes a sole is over the ground that either of them is held over: it goes no farther sideways at any of
         them than the other one may.
         """
         free = [k for k in range(nodes.count) if nodes.intervals[k][end] is None]
-        rooms = {k: self._room(plan, nodes, k, end) for k in free}
-        out = {}
+        rooms, out = {}, {}
+        for k in free:
+            in_time()
+            rooms[k] = self._room(plan, nodes, k, end)
         for k, (own, down) in rooms.items():
             aside = min(rooms[near][0] if near in rooms else own for near in (k - 1, k, k + 1))
             if nodes.flies(k):  # where the whole robot goes is for its CoM to say

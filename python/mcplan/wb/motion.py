@@ -32,6 +32,8 @@ UNITS = "SI: m, kg, s, N, N m, rad; _W: world frame, z up; _S: frame of a sole, 
 CORNERS = 4
 #: Of a motion in a file.
 MAX_NODES, MAX_JOINTS = 100_000, 500
+#: Of coordinates [m, rad] and forces [N] in it: beyond, sums of squares are no numbers any more.
+MAX_COORDINATE, MAX_FORCE_N = 1e6, 1e9
 #: How far the last node may be from the end of the plan, and a position of the sole's points from it [s, m].
 SAME_TIME_S, MAX_POINT_M = 1e-9, 10.0
 
@@ -123,11 +125,11 @@ class Motion:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "joints", tuple(str(name) for name in self.joints))
-        object.__setattr__(self, "locked", {str(name): float(at) for name, at in dict(self.locked).items()})
+        object.__setattr__(
+            self, "locked", {str(name): _number(f"locked.{name}", at) for name, at in self.locked.items()}
+        )
         for name in _ARRAYS:
-            kind = np.int32 if name == "contacts" else np.float64
-            array = np.array(getattr(self, name), dtype=kind, order="C")
-            object.__setattr__(self, name, array)
+            object.__setattr__(self, name, _array(name, getattr(self, name)))
         _validate(self)
         self.times_s[-1] = self.plan.duration()  # which sums of durations may miss by a rounding
         for name in _ARRAYS:
@@ -276,8 +278,10 @@ class Motion:
         for name in _ARRAYS:
             require_kind(arrays, name, integers=name == "contacts")
         require_kind(arrays, "plan", integers=True)
+        if arrays["plan"].dtype != np.uint8:
+            raise InvalidPlan("plan", "must be bytes (uint8)", str(arrays["plan"].dtype))
         try:
-            plan = plan_from_bytes(arrays["plan"].astype(np.uint8).tobytes())
+            plan = plan_from_bytes(arrays["plan"].tobytes())
         except InvalidInput as found:
             raise found.moved(InvalidPlan, prefix="plan") from None
         named = {key: header[key] for key in ("urdf", "joints", "locked")}
@@ -302,6 +306,27 @@ class Motion:
 _ARRAYS = ("times_s", "coefficients", "corner_points_S", "corner_forces_S", "contacts")
 
 
+def _number(name: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise InvalidPlan(name, "must be a number", shown(value)) from None
+
+
+def _array(name: str, values: Any) -> NDArray[Any]:
+    """A copy of an array in the type that a motion has it in; what does not fit there stays, and is refused by its range."""
+    try:
+        array = np.array(values, order="C")
+        if name != "contacts":
+            return array.astype(np.float64)
+        whole = array.astype(np.int64)
+    except (TypeError, ValueError, OverflowError):
+        raise InvalidPlan(name, "must be an array of numbers", shown(values)) from None
+    fits = np.clip(whole, np.iinfo(np.int32).min, np.iinfo(np.int32).max) == whole
+    _require_all(name, whole, fits, "must be the index of a surface, or -1")
+    return whole.astype(np.int32)
+
+
 def _require_header(header: Mapping[str, Any]) -> None:
     """Raise InvalidPlan for a member of the header of another type."""
     if not isinstance(header.get("urdf"), str):
@@ -322,7 +347,7 @@ def _validate(motion: Motion) -> None:
     nodes, joints, ends = motion.times_s.size, len(motion.joints), len(motion.plan.robot.end_effectors)
     for name, count, least, most in (
         ("times_s", nodes, splines.MIN_INTERVALS + 1, MAX_NODES),
-        ("joints", joints, 0, MAX_JOINTS),
+        ("joints", joints, 1, MAX_JOINTS),
     ):
         if not least <= count <= most:
             raise InvalidPlan(name, f"must have {least} to {most} entries", str(count))
@@ -339,8 +364,8 @@ def _validate(motion: Motion) -> None:
             raise InvalidPlan(name, f"must have shape {shape}", str(array.shape))
         _require_all(name, array, np.isfinite(array), "must be finite")
     for name, at in motion.locked.items():
-        if not np.isfinite(at):
-            raise InvalidPlan(f"locked.{name}", "must be finite", shown(at))
+        if not abs(at) <= MAX_COORDINATE:
+            raise InvalidPlan(f"locked.{name}", f"must lie within {MAX_COORDINATE:g} rad or m", shown(at))
     times, end, surfaces = motion.times_s, motion.plan.duration(), len(motion.plan.scene.surfaces)
     _require_all("times_s", times, np.diff(times, prepend=-1.0) > 0.0, "must ascend")
     if times[0] != 0.0 or abs(times[-1] - end) > SAME_TIME_S:
@@ -352,6 +377,9 @@ def _validate(motion: Motion) -> None:
         (motion.contacts >= -1) & (motion.contacts < surfaces),
         f"must lie in [-1, {surfaces - 1}]",
     )
+    for name, bound, unit in (("coefficients", MAX_COORDINATE, "m or rad"), ("corner_forces_S", MAX_FORCE_N, "N")):
+        array = getattr(motion, name)
+        _require_all(name, array, np.abs(array) <= bound, f"must lie within {bound:g} {unit}")
     points = motion.corner_points_S
     _require_all("corner_points_S", points, np.abs(points) <= MAX_POINT_M, f"must lie within {MAX_POINT_M:g} m")
 

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.errors import InvalidPlan
 from mcplan.kinematics.samples import Interval, Samples, sample_at
+
+from .motion import MAX_NODES
 
 if TYPE_CHECKING:
     from mcplan._core import Plan
@@ -17,6 +22,8 @@ Array = NDArray[np.float64]
 
 #: Steps in flights and in the phases beside them [s].
 FLIGHT_S = 0.01
+#: Between two nodes of a motion that is found, at most [s].
+FINEST_S = 0.005
 #: Parts of a swing at its begin and end in which feet go up and down alone.
 UPRIGHT = 0.06
 #: Where the middle of a swing begins.
@@ -73,11 +80,19 @@ class Nodes:
 
         One that is under way where the plan starts has begun before, at a negative time.
         """
-        before = next((i for i in range(k, -1, -1) if self.intervals[i][end] is not None), None)
-        after = next((i for i in range(k, self.count) if self.intervals[i][end] is not None), None)
-        if after is None or (before is None and self.begun_s[end] == 0.0):
+        before, after = (int(at[k, end]) for at in self._contacts_beside)
+        if after == self.count or (before < 0 and self.begun_s[end] == 0.0):
             return 0.0, 0.0
-        return -float(self.begun_s[end]) if before is None else float(self.times_s[before]), float(self.times_s[after])
+        return -float(self.begun_s[end]) if before < 0 else float(self.times_s[before]), float(self.times_s[after])
+
+    @cached_property
+    def _contacts_beside(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """(n + 1, e) the last node up to each that an end-effector is in contact at, -1: none, and the first from it on."""
+        standing = np.array([[interval is not None for interval in own] for own in self.intervals])
+        at = np.arange(self.count)[:, None]
+        before = np.maximum.accumulate(np.where(standing, at, -1), axis=0)
+        after = np.minimum.accumulate(np.where(standing, at, self.count)[::-1], axis=0)[::-1]
+        return before, after
 
     def middle(self, k: int, end: int) -> float:
         """1 in the middle of a swing, and nothing at its ends, where plans accelerate as no joint can follow."""
@@ -89,8 +104,23 @@ class Nodes:
         return all(interval is None for interval in self.intervals[k])
 
 
-def nodes_of(plan: Plan, step_s: float) -> Nodes:
-    """Nodes at all knots of a plan and in equal steps of at most step_s between them, in and beside flights of FLIGHT_S."""
+def require_few(plan: Plan, step_s: float) -> None:
+    """Raise InvalidPlan for a plan so long that its motion would have too many nodes, before there are any."""
+    durations = np.diff(np.array(plan.knot_times(), float))
+    count = float(np.ceil(durations / min(step_s, FINEST_S)).sum()) + 1.0
+    if not count <= MAX_NODES:
+        rule = f"must be short enough for a motion of {MAX_NODES} nodes, which are {min(step_s, FINEST_S):g} s apart"
+        raise InvalidPlan("plan", rule, f"{plan.duration():.6g} s")
+
+
+def nodes_of(plan: Plan, step_s: float, in_time: Callable[[], None] = lambda: None) -> Nodes:
+    """Nodes at all knots of a plan and in equal steps of at most step_s between them, in and beside flights of FLIGHT_S.
+
+    Args:
+        plan: The plan.
+        step_s: Largest time between two nodes [s].
+        in_time: Called now and then; what it raises ends this.
+    """
     times = _times(plan, step_s)
     times = times[np.concatenate([[True], np.diff(times) > SAME_S])]
     times[-1] = plan.duration()
@@ -113,7 +143,7 @@ def nodes_of(plan: Plan, step_s: float) -> Nodes:
         if swing.first_phase == 0:
             begun[swing.end_effector] = swing.elapsed_s
     nodes = Nodes(samples, zyx, contacts, intervals, first, last, begun, samples.positions_W.copy())
-    _go_upright(plan, nodes)
+    _go_upright(plan, nodes, in_time)
     return nodes
 
 
@@ -130,9 +160,10 @@ def _times(plan: Plan, step_s: float) -> Array:
     return np.concatenate(parts)
 
 
-def _go_upright(plan: Plan, nodes: Nodes) -> None:
+def _go_upright(plan: Plan, nodes: Nodes, in_time: Callable[[], None]) -> None:
     """Let feet move sideways only between the parts UPRIGHT and 1 - UPRIGHT of their swings."""
     for k in range(nodes.count):
+        in_time()
         for end, interval in enumerate(nodes.intervals[k]):
             start, stop = (0.0, 0.0) if interval is not None else nodes.swing(k, end)
             if stop > start and plan.robot.end_effectors[end].kind == "foot":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,8 +29,10 @@ RAMP_S = 0.06
 FRICTION_RATIO = 0.95
 
 
-def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array) -> _core.Problem:
-    """The problem of a motion along a plan: rows, limits and costs at all nodes."""
+def build_problem(
+    plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array, in_time: Callable[[], None] = lambda: None
+) -> _core.Problem:
+    """The problem of a motion along a plan: rows, limits and costs at all nodes. What `in_time` raises ends this."""
     problem = _core.Problem()
     add_links(problem, spline)
     for end, joint, placement in zip(plan.robot.end_effectors, spline.joints, spline.placements, strict=True):
@@ -43,9 +46,10 @@ def build_problem(plan: Plan, spline: SplineModel, nodes: Nodes, posture: Array)
     samples = nodes.samples
     touches = np.asarray((nodes.contacts >= 0).any(axis=0))
     ground = Ground(plan)
-    tubes = {end: ground.tubes_W(plan, nodes, end) for end in np.flatnonzero(touches).tolist()}
+    tubes = {end: ground.tubes_W(plan, nodes, end, in_time) for end in np.flatnonzero(touches).tolist()}
     points = {id(interval): points_S(plan, interval) for interval in samples.intervals}
     for k in range(nodes.count):
+        in_time()
         time_s = float(samples.times_s[k])
         problem.add_node(time_s, samples.com_W[k], nodes.base_zyx[k], *flights.factors(time_s))
         for end, interval in enumerate(nodes.intervals[k]):

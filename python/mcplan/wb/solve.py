@@ -19,24 +19,23 @@ from mcplan.arguments import require_names, require_number, require_or_path
 from mcplan.errors import Interrupted, InvalidOptions, InvalidPlan, shown
 from mcplan.extras import require
 from mcplan.files.plans import load_plan
-from mcplan.files.robots import PACKAGE
-from mcplan.files.urdf_setups import SETUPS
 
 from . import start as starts
 from .between_nodes import balanced, with_forces, with_model
 from .capsules import LinkCapsule, keep_apart, link_capsules
 from .contact_points import corners_S, points_S, to_corners
-from .motion import CORNERS, Motion
-from .motion_model import MotionModel, motion_model
-from .moving_joints import moving_joints
-from .nodes import Nodes, nodes_of
+from .motion import CORNERS, MAX_COORDINATE, Motion
+from .moving_joints import MovingRobot
+from .nodes import Nodes, nodes_of, require_few
 from .problem import build_problem
 from .result import MotionReport, MotionResult, MotionStatus
 from .shortfalls import shortfall_of
+from .too_late import TooLate, deadline, standing
 
 if TYPE_CHECKING:
     from .certificate.tolerances import MotionTolerances
     from .dynamics import Dynamics
+    from .motion_model import MotionModel
 
 Array = NDArray[np.float64]
 
@@ -45,8 +44,8 @@ STARTS = ("follow", "stand")
 #: Scaled rows within which a motion keeps its constraints: 0.03 N, 0.03 mm.
 #: Of a motion's cost what exceeded limits may cost, and by how much they are made dearer where they cost more.
 SMALL_PENALTY, DEARER = 1e-3, 30.0
-#: Beyond which the base's angles are too near to where they are singular [rad].
-MAX_PITCH = 1.3
+#: Beyond which the base's angles Z-Y-X are too near to where they are singular [degrees].
+MAX_PITCH_DEG = 75.0
 #: What the certificate finds where forces do not balance between nodes, and the ratio of the time between nodes with which a
 #: second search then tries again.
 BALANCE, FINER = ("corrected_force", "corrected_moment", "residual_force", "residual_moment"), 0.8
@@ -77,23 +76,40 @@ def motion(
     _require_options(joints, node_s, max_iterations, time_limit_s, start, tolerances)
     require("mcplan.motion", "view", "pinocchio", "scipy")
 
+    robot = MovingRobot.of(plan, joints)
+    require_few(plan, node_s)
+    until = began + time_limit_s
+
     def with_nodes(step_s: float) -> MotionResult:
-        search = _Search.of(plan, joints, step_s)
+        search = _Search.of(robot, step_s, deadline(until))
         try:
-            return _searched(search, start, max_iterations, began, began + time_limit_s, tolerances)
+            return _searched(search, start, max_iterations, began, until, tolerances)
         finally:
             search.dynamics.solver = None  # they hold each other
 
-    result = with_nodes(node_s)
-    if not _fails_between_nodes(result) or time.perf_counter() - began > time_limit_s:
+    try:
+        result = with_nodes(node_s)
+    except TooLate:
+        return _too_late(robot, began)
+    if not _fails_between_nodes(result) or time.perf_counter() > until:
         return result
     try:
         finer = with_nodes(FINER * node_s)
-    except Interrupted:
+    except KeyboardInterrupt:
         raise Interrupted(_with_status(result, MotionStatus.INTERRUPTED)) from None
+    except TooLate:
+        return result
     if finer.report.status != MotionStatus.SOLVED:
         return result
     return _with_status(finer, finer.report.status, iterations=result.iterations + finer.iterations)
+
+
+def _too_late(robot: MovingRobot, began: float) -> MotionResult:
+    """The result of a search that had no time to begin."""
+    stands = standing(robot)
+    took = time.perf_counter() - began
+    why = "the time limit was reached before the first iteration: the motion stands still"
+    return MotionResult(stands, MotionReport(MotionStatus.TIME_LIMIT, why, 0, took, took, 0.0, 0.0, 0.0, float("nan")))
 
 
 def _fails_between_nodes(result: MotionResult) -> bool:
@@ -106,19 +122,19 @@ def _fails_between_nodes(result: MotionResult) -> bool:
 def _searched(
     search: _Search, start: str, max_iterations: int, began: float, until: float, tolerances: MotionTolerances | None
 ) -> MotionResult:
-    x = search.start(start)
+    x = search.start(start, deadline(until))
     started = time.perf_counter()
     found, certified_s, result = _Found(), 0.0, None
     while True:
         try:
             search.solve(found, x, max_iterations, until)
-        except Interrupted:
+            before, certified_before, result = result, certified_s, search.result(found, began, started, certified_s)
+            result = _judged(search, found, result, tolerances)
+        except KeyboardInterrupt:
             if not found.solves:
                 raise
             stopped = search.result(found, began, started, certified_s)
             raise Interrupted(_with_status(stopped, MotionStatus.INTERRUPTED)) from None
-        before, certified_before, result = result, certified_s, search.result(found, began, started, certified_s)
-        result = _judged(search, found, result, tolerances)
         certified_s = result.report.certificate_s
         if result.certificate is None and before is not None:
             return _with_status(before, before.status, iterations=result.iterations, certificate_s=certified_s)
@@ -159,14 +175,17 @@ def _require_options(
         raise InvalidOptions("start", f"must be one of {', '.join(STARTS)}", shown(start))
 
 
-def _require_upright(nodes: Nodes) -> None:
-    pitch = np.abs(nodes.base_zyx[:, 1])
-    if pitch.max() > MAX_PITCH:
-        k = int(np.argmax(pitch))
-        rule = (
-            f"must pitch the base by at most {np.degrees(MAX_PITCH):.0f} degrees for a motion, whose angles are Z-Y-X"
-        )
-        raise InvalidPlan("plan", rule, f"{np.degrees(pitch[k]):.1f} degrees at {nodes.times_s[k]:.3f} s")
+def _require_within(nodes: Nodes) -> None:
+    """Raise InvalidPlan for a plan that is nowhere near the ground, or whose base is pitched too far."""
+    far = np.maximum(np.abs(nodes.samples.com_W).max(axis=1), np.abs(nodes.samples.positions_W).max(axis=(1, 2)))
+    pitch = np.degrees(np.abs(nodes.base_zyx[:, 1]))
+    for values, most, rule, unit in (
+        (far, MAX_COORDINATE, f"must keep within {MAX_COORDINATE:g} m of the origin for a motion", "m"),
+        (pitch, MAX_PITCH_DEG, f"must pitch the base by at most {MAX_PITCH_DEG:g} degrees for a motion", "degrees"),
+    ):
+        k = int(np.argmax(np.where(np.isnan(values), np.inf, values)))
+        if not values[k] <= most:
+            raise InvalidPlan("plan", rule, f"{values[k]:.4g} {unit} at {nodes.times_s[k]:.3f} s")
 
 
 @dataclass
@@ -190,11 +209,7 @@ class _Found:
 class _Search:
     """A plan and a robot, and the solver's problem made of them."""
 
-    plan: Plan
-    urdf: str
-    joints: tuple[str, ...]
-    locked: dict[str, float]
-    model: MotionModel
+    robot: MovingRobot
     nodes: Nodes
     problem: _core.Problem
     dynamics: Dynamics
@@ -203,30 +218,32 @@ class _Search:
     rounds: int = 0
 
     @staticmethod
-    def of(plan: Plan, which: str | Sequence[str], node_s: float) -> _Search:
-        from mcplan.kinematics.urdf_model import load_model
-
+    def of(robot: MovingRobot, node_s: float, in_time: Callable[[], None] = lambda: None) -> _Search:
         from .dynamics import Dynamics, spline_model
 
-        urdf = plan.robot.urdf.removeprefix(PACKAGE)
-        urdf = urdf if urdf in SETUPS else plan.robot.urdf
-        complete = load_model(plan.robot)
-        joints, locked = moving_joints(complete, which)
-        model = motion_model(plan, urdf, joints, locked, complete)
+        plan, model = robot.plan, robot.model
         spline = spline_model(model, plan.scene.gravity)
-        nodes = nodes_of(plan, node_s)
-        _require_upright(nodes)
-        problem = build_problem(plan, spline, nodes, starts.posture(model))
+        nodes = nodes_of(plan, node_s, in_time)
+        _require_within(nodes)
+        problem = build_problem(plan, spline, nodes, starts.posture(model), in_time)
         dynamics = Dynamics(spline)
-        search = _Search(plan, urdf, joints, locked, model, nodes, problem, dynamics, _core.Solver(problem, dynamics))
+        search = _Search(robot, nodes, problem, dynamics, _core.Solver(problem, dynamics))
         dynamics.solver = search.solver
         return search
 
-    def start(self, kind: str) -> Array:
+    @property
+    def plan(self) -> Plan:
+        return self.robot.plan
+
+    @property
+    def model(self) -> MotionModel:
+        return self.robot.model
+
+    def start(self, kind: str, in_time: Callable[[], None] = lambda: None) -> Array:
         """Unknowns at which the search begins."""
         make = starts.follow_plan if kind == "follow" else starts.stand_still
         forces = starts.planned_forces_S(self.plan, self.nodes, self.problem.weight_N)
-        return self.solver.unknowns(make(self.plan, self.model, self.nodes), forces)
+        return self.solver.unknowns(make(self.plan, self.model, self.nodes, in_time), forces)
 
     def solve(self, found: _Found, x: Array, max_iterations: int, until: float) -> None:
         """Solve, until a time of the performance counter. Limits that are exceeded are made dearer, from there on."""
@@ -313,9 +330,9 @@ class _Search:
                 forces[inside, end, : len(own)] = np.einsum("cp,ij,kpj->kci", to, interval.rotation_W, parts[inside])
         found = Motion(
             plan=self.plan,
-            urdf=self.urdf,
-            joints=self.joints,
-            locked=self.locked,
+            urdf=self.robot.urdf,
+            joints=self.robot.joints,
+            locked=self.robot.locked,
             times_s=self.nodes.times_s,
             coefficients=np.asarray(self.solver.coefficients(x)),
             corner_points_S=np.array([np.resize(own, (CORNERS, 3)) for own in points]),

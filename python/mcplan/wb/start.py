@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,18 +27,23 @@ Array = NDArray[np.float64]
 POSTURE_S = 0.1
 
 
-def follow_plan(plan: Plan, motion_model: MotionModel, nodes: Nodes) -> Array:
+def follow_plan(
+    plan: Plan, motion_model: MotionModel, nodes: Nodes, in_time: Callable[[], None] = lambda: None
+) -> Array:
     """(n + 3, nv) coefficients of splines through postures that follow the plan, not at all nodes."""
     coarse = coarse_times(nodes)
-    found = follow(motion_model.complete, sample_at(plan, plan.scene, plan.robot, coarse))
+    found = follow(motion_model.complete, sample_at(plan, plan.scene, plan.robot, coarse), in_time=in_time)
     values = coordinates(motion_model, found.configurations)
     return with_knots(coarse, splines.interpolating(coarse, values), nodes.times_s)
 
 
-def stand_still(plan: Plan, motion_model: MotionModel, nodes: Nodes) -> Array:
+def stand_still(
+    plan: Plan, motion_model: MotionModel, nodes: Nodes, in_time: Callable[[], None] = lambda: None
+) -> Array:
     """(n + 3, nv) coefficients of splines through the robot's posture, at the plan's first CoM throughout."""
     import pinocchio as pin  # type: ignore[import-untyped]
 
+    in_time()
     complete = motion_model.complete
     q = complete.neutral.copy()
     q[:3] += nodes.samples.com_W[0] - pin.centerOfMass(complete.model, complete.model.createData(), q)

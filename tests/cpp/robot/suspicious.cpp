@@ -28,6 +28,11 @@ TEST_CASE("numbers of a robot in other units, and an inertia that no body has, a
        [](Robot& robot) {
          robot.end_effectors[1].half_size = {100.0, 50.0};
        }},
+      {"end_effectors[0].reach_cut.b",
+       [](Robot& robot) {
+         robot.end_effectors[0].reach_cut.A = Eigen::RowVector3d(0.0, 0.0, 1.0);
+         robot.end_effectors[0].reach_cut.b = Eigen::VectorXd::Constant(1, 449.0);
+       }},
       {"end_effectors[0].yaw_range",
        [](Robot& robot) {
          robot.end_effectors[0].yaw_range = {-45.0, 45.0};

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mcplan.extras import require
 
-from . import balance, contacts, flight, limits, terrain
+from . import balance, contacts, flight, limits, nodes, surfaces, terrain
 from .correction import Correction, corrected
 from .distances import counted, self_distance
 from .footholds import footholds_of
@@ -63,6 +63,8 @@ def certify(motion: CertifiedMotion, tolerances: MotionTolerances | None = None)
         *contacts.forces(motion, states, tolerances),
         *contacts.pressure(motion, states, tolerances),
         *contacts.drift(motion, states, footholds, tolerances),
+        *surfaces.on_surfaces(motion, states, footholds, tolerances),
+        nodes.balance_at_nodes(motion, robot, tolerances),
         *balance.balance(states, correction, tolerances),
         *rotations_at_ends(motion, robot, on_lines, flight.landings(motion, robot, tolerances)),
         *terrain.clearance(motion, states, footholds, tolerances),

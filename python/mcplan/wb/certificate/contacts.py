@@ -41,7 +41,12 @@ def contact_times(motion: CertifiedMotion, tolerances: MotionTolerances) -> Moti
 def drift(
     motion: CertifiedMotion, states: States, footholds: list[Foothold], tolerances: MotionTolerances
 ) -> list[MotionViolation]:
-    """How far end-effectors in contact are from their footholds, how soles are turned, how fast their points move."""
+    """How far end-effectors in contact are from their footholds, how soles are turned, how fast their points move.
+
+    Footholds are where the plan's contacts are made; where its later knots have them elsewhere, that counts as well.
+    """
+    knots = np.array(motion.plan.knot_times())
+    planned_W = np.array([knot.end_effectors_W for knot in motion.plan.knots], float)
     ends = motion.plan.robot.end_effectors
     distance = MotionViolation("drift", 0.0, tolerances.drift_m, "m")
     angle = MotionViolation("drift_angle", 0.0, tolerances.drift_deg, "deg")
@@ -52,6 +57,9 @@ def drift(
         times, name = states.times[inside], ends[e].name
         off = np.linalg.norm(states.positions_W[inside, e] - foothold.position_W, axis=1)
         distance = worse(distance, largest(replace(distance, value=0.0, end_effector=name), off, times))
+        lasting = standing(knots, foothold)
+        slips = np.linalg.norm(planned_W[lasting, e] - foothold.position_W, axis=1)
+        distance = worse(distance, largest(replace(distance, value=0.0, end_effector=name), slips, knots[lasting]))
         levers = states.corners_W[inside, e] - states.positions_W[inside, None, e]
         moving = states.twists_W[inside, e, None, :3] + np.cross(states.twists_W[inside, e, None, 3:], levers)
         fastest = np.linalg.norm(moving, axis=2).max(axis=1)

@@ -113,7 +113,7 @@ def _cones(motion: CertifiedMotion, states: States) -> _Cones:
 def _least(states: States, cones: _Cones, missing_W: Array) -> tuple[Array, Array]:
     """Changes (N, L, 4, 3) of least weighted norm, and what they leave (N, 6), NaN without contacts."""
     count = len(states.times)
-    grasp = _grasp(states.corners_W - states.base_W[:, None, None]).reshape(count, -1, 6, 3)
+    grasp = grasp_of(states.corners_W - states.base_W[:, None, None]).reshape(count, -1, 6, 3)
     pushes = np.maximum(np.einsum("kecj,kej->kec", states.corner_forces_W, cones.normals), 0.0)
     scale = np.maximum(pushes.max(axis=(1, 2)), 1e-9)[:, None, None]
     weights = np.where(cones.in_contact, (pushes / scale) ** 2, 0.0).reshape(count, -1)
@@ -126,7 +126,7 @@ def _least(states: States, cones: _Cones, missing_W: Array) -> tuple[Array, Arra
     return changes.reshape(states.corner_forces_W.shape), left
 
 
-def _grasp(levers: Array) -> Array:
+def grasp_of(levers: Array) -> Array:
     """(..., 6, 3) which take forces at levers (..., 3) to the wrenches that they give."""
     x, y, z = np.moveaxis(levers, -1, 0)
     zero, one = np.zeros_like(x), np.ones_like(x)
@@ -151,7 +151,7 @@ class _Instants:
 
     def grasp(self, k: int) -> Array:
         """(C, 6, 3) of all corners."""
-        return _grasp(self._states.corners_W[k] - self._states.base_W[k]).reshape(-1, 6, 3)
+        return grasp_of(self._states.corners_W[k] - self._states.base_W[k]).reshape(-1, 6, 3)
 
     def wrenches(self, at: Any, forces_W: Array) -> Array:
         """(k, L, 6) in the frames of soles, of forces (k, L, 4, 3) at some instants."""
@@ -183,7 +183,7 @@ class _Instants:
         for e in np.flatnonzero(self._cones.in_contact[k].any(axis=1)):
             frame = self._robot.urdf_model.frames[e]
             jacobian = pin.getFrameJacobian(model, self._data, frame, pin.ReferenceFrame.LOCAL)[:, self._robot.moving]
-            wrenches = _grasp(self._motion.corner_points_S[e]) @ states.rotations_W[k, e].T
+            wrenches = grasp_of(self._motion.corner_points_S[e]) @ states.rotations_W[k, e].T
             found[:, e] = -np.einsum("ij,cik->jck", jacobian, wrenches)
         return found.reshape(len(found), -1)
 

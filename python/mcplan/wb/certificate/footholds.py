@@ -79,6 +79,12 @@ def normal_of(scene: Scene, surface: int) -> Array:
     return np.asarray(area / np.linalg.norm(area))
 
 
+def height_over(scene: Scene, surface: int, points_W: Array) -> Array:
+    """(...) heights of points over the plane of a surface [m], through the middle of its corners."""
+    corners = np.asarray(scene.surfaces[surface].vertices_W, float)
+    return np.asarray((points_W - corners.mean(axis=0)) @ normal_of(scene, surface))
+
+
 def beyond_polygon(scene: Scene, surface: int, points_W: Array) -> Array:
     """(...) how far points lie outside of the sides of a surface's polygon [m]; negative inside."""
     corners = np.asarray(scene.surfaces[surface].vertices_W, float)

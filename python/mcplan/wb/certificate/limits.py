@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from .result import RATIO, MotionViolation, largest
+from .result import RATIO, MotionViolation, largest, worse
 from .robot import CertifiedRobot
 from .states import States
 from .tolerances import MotionTolerances
@@ -14,7 +16,7 @@ STEP_S = 1e-3
 
 
 def joint_limits(robot: CertifiedRobot, states: States, tolerances: MotionTolerances) -> list[MotionViolation]:
-    """Worst position, speed, torque and change of torque of the moving joints."""
+    """Worst position, speed, torque and change of torque of the moving joints; positions of the locked ones, too."""
     angles, rates = states.coordinates[:, 6:], states.rates[:, 6:]
     beyond = np.maximum(angles - robot.high, robot.low - angles)
     step = states.times[1] - states.times[0]
@@ -25,10 +27,21 @@ def joint_limits(robot: CertifiedRobot, states: States, tolerances: MotionTolera
         ("torque", np.abs(states.tau) / robot.effort, tolerances.torque_use, RATIO, states.times),
         ("torque_step", changes, tolerances.torque_step, RATIO, states.times[1:]),
     )
-    return [
+    position, *others = (
         largest(MotionViolation(name, 0.0, limit, unit), values, times, robot.names)
         for name, values, limit, unit, times in columns
-    ]
+    )
+    return [worse(position, _locked(robot, position)), *others]
+
+
+def _locked(robot: CertifiedRobot, about: MotionViolation) -> MotionViolation:
+    """The locked joint that is farthest beyond its limits, or nearest to them."""
+    worst = about
+    for name, angle in robot.locked.items():
+        low, high = robot.bounds(name)
+        beyond = replace(about, value=max(angle - high, low - angle), time_s=0.0, joint=name)
+        worst = worse(worst, beyond)
+    return worst
 
 
 def at_rest(states: States, start: bool, end: bool, tolerances: MotionTolerances) -> MotionViolation:

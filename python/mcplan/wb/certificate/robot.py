@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -49,6 +49,10 @@ class CertifiedRobot:
         """Pinocchio's model."""
         return self.urdf_model.model
 
+    def bounds(self, joint: str) -> tuple[float, float]:
+        """Lowest and highest position of a joint by its name, moving or locked; infinite where it has no end."""
+        return _bounds(self.model, joint)
+
 
 def certified_robot(motion: CertifiedMotion) -> CertifiedRobot:
     """The robot of a motion.
@@ -74,11 +78,10 @@ class _Source:
     @staticmethod
     def of(motion: CertifiedMotion) -> _Source:
         urdf = PACKAGE + motion.urdf if motion.urdf in SETUPS else motion.urdf
-        path = Path(urdf)
         return _Source(
             robot=json.dumps(robot_to_dict(motion.plan.robot)),
             urdf=urdf,
-            changed_ns=path.stat().st_mtime_ns if path.is_file() else 0,
+            changed_ns=os.stat(urdf).st_mtime_ns if os.path.isfile(urdf) else 0,
             gravity=float(motion.plan.scene.gravity),
             joints=tuple(motion.joints),
             locked=tuple(motion.locked.items()),
@@ -101,14 +104,20 @@ def _robot_of(source: _Source) -> CertifiedRobot:
         missing = min(known - {*joints, *locked})
         raise InvalidPlan("joints", "must be, with the locked ones, all of the URDF", f"none named {shown(missing)}")
     for name in joints:
-        joint = model.joints[model.getJointId(name)]
-        moving.append(joint.idx_v)
-        bounded = joint.nq == 1
-        low.append(model.lowerPositionLimit[joint.idx_q] if bounded else -np.inf)
-        high.append(model.upperPositionLimit[joint.idx_q] if bounded else np.inf)
+        moving.append(model.joints[model.getJointId(name)].idx_v)
+        least, most = _bounds(model, name)
+        low.append(least)
+        high.append(most)
     at = np.array(moving, dtype=np.int64)
     speed, effort = (np.where(limit[at] > 0.0, limit[at], np.inf) for limit in (model.velocityLimit, model.effortLimit))
     return CertifiedRobot(urdf_model, at, joints, locked, np.array(low), np.array(high), speed, effort)
+
+
+def _bounds(model: Any, name: str) -> tuple[float, float]:
+    joint = model.joints[model.getJointId(name)]
+    if joint.nq != 1:
+        return -np.inf, np.inf
+    return float(model.lowerPositionLimit[joint.idx_q]), float(model.upperPositionLimit[joint.idx_q])
 
 
 def configurations(robot: CertifiedRobot, base: Array, angles: Array) -> Array:

@@ -8,11 +8,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan.errors import InvalidOptions
+
 from .inputs import CertifiedMotion
 from .robot import CertifiedRobot, configurations
 from .spline import spline_at
 
 Array = NDArray[np.float64]
+
+#: Instants at most: each takes about 6 kB.
+MAX_SAMPLES = 500_000
 
 
 @dataclass(frozen=True)
@@ -48,8 +53,17 @@ class States:
 
 
 def equally_spaced(motion: CertifiedMotion, sample_s: float) -> Array:
-    """Instants from 0 to the end, at most `sample_s` apart."""
-    count = max(1, int(np.ceil(motion.duration() / sample_s - 1e-9)))
+    """Instants from 0 to the end, at most `sample_s` apart.
+
+    Raises:
+        InvalidOptions: There would be too many.
+    """
+    count = max(1.0, np.ceil(motion.duration() / sample_s - 1e-9))
+    if count > MAX_SAMPLES:
+        raise InvalidOptions(
+            "sample_s", f"must cut the motion into at most {MAX_SAMPLES} samples", f"{count:.6g} samples"
+        )
+    count = int(count)
     return np.linspace(0.0, motion.duration(), count + 1)
 
 

@@ -28,6 +28,9 @@ class MotionTolerances:
         drift_m: Of an end-effector in contact from the plan's foothold [m].
         drift_deg: Of a sole in contact from it [degrees].
         drift_speed: Of the points of an end-effector in contact [m/s].
+        contact_distance_m: Of an end-effector in contact from the plane of its surface [m]: what the check of plans accepts.
+        node_N, node_Nm: Wrench on the base with which a node is balanced, of what contacts can balance.
+        unbalanced_s: Time in which no node is [s].
         residual_N, residual_Nm: Wrench on the base that the shipped contact forces leave, at the base's origin.
         corrected_N, corrected_Nm: What is left when they are changed as little as needed at each instant, within cones, soles
             and torque limits.
@@ -54,6 +57,10 @@ class MotionTolerances:
     drift_m: float = 1e-4
     drift_deg: float = 0.05
     drift_speed: float = 0.02
+    contact_distance_m: float = 1e-3
+    node_N: float = 1e-6
+    node_Nm: float = 1e-6
+    unbalanced_s: float = 0.1
     residual_N: float = 1.0
     residual_Nm: float = 1.0
     corrected_N: float = 1e-3
