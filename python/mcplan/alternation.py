@@ -7,6 +7,7 @@ which they are exceeded, reach boxes drawn in, longer phases where a robot has n
 from __future__ import annotations
 
 import copy
+import inspect
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -51,6 +52,8 @@ def plan_with_motion(
     """See mcplan.plan; `motion` has options of mcplan.motion by name."""
     if not isinstance(motion, bool | Mapping):
         raise InvalidArgument("motion", "must be True, or options of mcplan.motion by name", shown(motion))
+    if isinstance(motion, Mapping):
+        _require_options(motion)
     from mcplan.extras import require as require_extra
 
     require_extra("mcplan.plan with a motion", "view", "pinocchio", "scipy")
@@ -78,6 +81,17 @@ def plan_with_motion(
             break
         warm_start = None
     return rounds.result()
+
+
+def _require_options(motion: Mapping[str, Any]) -> None:
+    """Raise InvalidArgument for what is no option of mcplan.motion."""
+    from mcplan.wb.solve import motion as find
+
+    legal = [name for name in inspect.signature(find).parameters if name != "plan"]
+    for name in motion:
+        if name not in legal:
+            rule = f"must have options of mcplan.motion: {', '.join(legal)}"
+            raise InvalidArgument("motion", rule, shown(name))
 
 
 @dataclass

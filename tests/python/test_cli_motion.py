@@ -124,6 +124,17 @@ def test_plans_too_long_to_be_checked_are_refused_by_what_is_long(standing_plan,
     assert "m.npz: durations: must last at most 500 s" in message
 
 
+def test_a_motion_that_had_no_time_is_not_certified(standing_plan, capsys, tmp_path):
+    output = tmp_path / "motion.npz"
+    code, out, _ = run(
+        capsys, "motion", standing_plan, "-o", output, "--time-limit", "0.001", "--node", "0.001", "--json"
+    )
+    found = json.loads(out)
+    assert code == 1 and found["status"] == "time_limit" and found["iterations"] == 0
+    assert found["certified"] is False and found["drift_m"] is None and found["cost"] is None
+    assert Motion.load(output).duration() == pytest.approx(0.5)
+
+
 def test_a_robot_without_urdf_is_refused(capsys, tmp_path):
     mp.plan("flat", time_limit=2.0).plan.save(tmp_path / "plan.npz")
     message = one_line_error(run(capsys, "motion", tmp_path / "plan.npz"))

@@ -15,7 +15,7 @@ pytest.importorskip("pinocchio")
 pytest.importorskip("scipy.optimize")
 
 import mcplan.wb.certificate  # noqa: E402
-from mcplan.errors import InvalidOptions, PlanViolated  # noqa: E402
+from mcplan.errors import InvalidArgument, InvalidOptions, PlanViolated  # noqa: E402
 from mcplan.wb import Motion  # noqa: E402
 from mcplan.wb.certificate import MotionTolerances, MotionViolation, certify  # noqa: E402
 from mcplan.wb.nodes import nodes_of as solver_nodes  # noqa: E402
@@ -138,12 +138,12 @@ def test_one_joint_of_the_trunk_off_by_a_milliradian_is_seen(swaying: Motion, jo
 
 
 def test_nodes_that_do_not_balance_for_a_moment_are_no_violation(swaying: Motion) -> None:
-    forces = swaying.corner_forces_S.copy()
+    forces, step = swaying.corner_forces_S.copy(), swaying.times_s[1] - swaying.times_s[0]
     forces[10:14] *= 1.0001
     seen = certify(changed(swaying, corner_forces_S=forces)).of("unbalanced")
-    assert seen.value == pytest.approx(swaying.times_s[13] - swaying.times_s[10]) and not seen.violated
+    assert seen.value == pytest.approx(4.0 * step) and not seen.violated
     assert seen.time_s == swaying.times_s[10]
-    forces[14:30] *= 1.0001
+    forces[20::2] *= 1.0001  # with nodes between them that balance
     assert set(violated(changed(swaying, corner_forces_S=forces))) == {"unbalanced"}
 
 
@@ -227,6 +227,35 @@ def test_a_lower_limit_in_the_urdf_is_seen(tmp_path: Path, standing: Motion, tal
     found = violated(changed(standing, urdf=str(tmp_path / "weak.urdf")))
     assert found["torque"].joint == "leg_left_4_joint"
     assert found["torque"].value > 1.0
+
+
+def test_a_force_beyond_what_the_foot_may_take_is_seen(standing: Motion) -> None:
+    plan = copy.deepcopy(standing.plan)
+    robot = plan.robot
+    ends = robot.end_effectors
+    largest = float(np.linalg.norm(standing.corner_forces_S.sum(axis=2), axis=2)[:, RIGHT].max())
+    ends[RIGHT].max_force = 0.9 * largest
+    robot.end_effectors = ends
+    plan.robot = robot
+    found = violated(changed(standing, plan=plan))
+    assert set(found) == {"force_cap"}
+    assert found["force_cap"].value == pytest.approx(1.0 / 0.9) and found["force_cap"].end_effector == "right_foot"
+
+
+def test_a_larger_distance_of_links_is_asked_of_the_same_links(standing: Motion) -> None:
+    least = certify(standing).of("self_distance")
+    found = violated(standing, replace(AWAY, self_distance_m=least.value + 0.01))["self_distance"]
+    assert found.value == pytest.approx(least.value, abs=1e-3) and set(found.links) == set(least.links)
+
+
+def test_a_plan_that_its_own_check_rejects_is_noted(standing: Motion) -> None:
+    (note,) = certify(standing).notes  # the contact model of its plan asks for moments that no foot gives
+    assert note.startswith("the plan that the motion carries out does not keep all of its own constraints: moment at ")
+    plan = copy.deepcopy(standing.plan)
+    scene = plan.scene
+    scene.start.contacts = {"right_foot": "nowhere"}
+    plan.scene = scene
+    assert "cannot be checked: " in certify(changed(standing, plan=plan)).notes[0]
 
 
 def test_a_corner_force_outside_its_cone_is_seen(standing: Motion) -> None:
@@ -314,6 +343,15 @@ def test_violations_are_errors_that_say_where_and_how_much(swaying: Motion) -> N
     assert result.as_dict()["violations"][0]["name"] == "residual_force"
     with pytest.raises(InvalidOptions, match="drift_m: must be at least 0, got -1.0"):
         certify(swaying, MotionTolerances(drift_m=-1.0))
+    for wrong in (10**400, True, "a", float("inf")):
+        with pytest.raises(InvalidOptions, match="drift_m: must be a number, got"):
+            certify(swaying, MotionTolerances(drift_m=wrong))
+    with pytest.raises(InvalidOptions, match=r"sample_s: must lie in \[1e-05, 0.01\] s, got 100"):
+        certify(swaying, MotionTolerances(sample_s=100.0))
+    certify(swaying, MotionTolerances(drift_m=np.float32(1e-3), sample_s=0.01))
+    for other in (5, {}, False):
+        with pytest.raises(InvalidArgument, match="tolerances: must be a MotionTolerances or None, got"):
+            certify(swaying, other)
 
 
 def test_the_certificate_sees_no_solver() -> None:

@@ -163,7 +163,7 @@ def test_convex_hulls_are_nearer_than_their_meshes(talos: Talos, standing: Motio
     motion = crossing(talos, standing, 0.02)
     robot = certified_robot(motion)
     states = states_of(motion, robot, np.array([0.0, 0.25]))
-    shapes, pairs = counted(robot, 0.005)
+    shapes, pairs = counted(robot)
     assert sum(shape.hull is not shape.geometry for shape in shapes) > 10
     some = np.random.default_rng(0).choice(len(pairs), 60, replace=False)
     for index in some:

@@ -11,7 +11,7 @@ pytest.importorskip("pyarrow")
 
 import mcplan as mp  # noqa: E402
 from mcplan.files.sweep_terrains import make_scene  # noqa: E402
-from mcplan.wb.ground import Ground  # noqa: E402
+from mcplan.wb.ground import KEPT, LATE, Ground  # noqa: E402
 from mcplan.wb.nodes import Nodes, nodes_of  # noqa: E402
 
 #: Soles are looked at in some points, on some of the way; an edge may come up between by so much [m].
@@ -70,3 +70,15 @@ def test_soles_are_free_where_they_are_lifted_and_high_in_the_middle(climb):
         if 0.4 < ratio < 0.6:
             assert over >= 0.01
         assert over >= -1e-9
+
+
+def test_soles_do_not_skim_the_ground_before_they_land(climb):
+    plan, nodes = climb
+    ground, late = Ground(plan), 0
+    for foot in range(2):
+        for k, (low, _) in ground.tubes_W(plan, nodes, foot).items():
+            if LATE[1] <= nodes.swung(k, foot) <= LATE[2]:
+                planned = ground.clearance(nodes.swings_W[k, foot][None], 0.0)
+                assert planned + low[2] >= KEPT * planned - 1e-9
+                late += 1
+    assert late > 4

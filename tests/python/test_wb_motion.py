@@ -143,7 +143,14 @@ def test_files_hold_the_same_motion(motion: Motion, tmp_path: Path) -> None:
         ),
         ("coefficients", lambda a: a * 1e308, r"coefficients\[0\]\[0\]: must (lie within|be finite)"),
         ("corner_forces_S", lambda a: a + 1e10, r"corner_forces_S\[0\]\[0\]\[0\]\[0\]: must lie within 1e\+09 N, got"),
-        ("corner_points_S", lambda a: "points", "corner_points_S: must be an array of numbers, got"),
+        ("corner_points_S", lambda a: "points", "corner_points_S: must be an array of real numbers, got"),
+        ("coefficients", lambda a: a * 1j, "coefficients: must be an array of real numbers, got"),
+        ("contacts", lambda a: a + 0.5, r"contacts\[0\]\[0\]: must be the index of a surface, or -1, got 0.5"),
+        ("contacts", lambda a: a * np.nan, r"contacts\[0\]\[0\]: must be the index of a surface, or -1, got nan"),
+        ("urdf", lambda a: None, "urdf: must be a string, got None"),
+        ("joints", lambda a: None, "joints: must be a sequence of names, got None"),
+        ("locked", lambda a: list(a), "locked: must be a mapping of names to positions, got"),
+        ("plan", lambda a: a.robot, 'plan: must be a Plan, got "Robot"'),
         ("locked", lambda a: a | {"gripper_left_joint": 10**400}, "locked.gripper_left_joint: must be a number, got"),
         (
             "locked",
@@ -166,6 +173,16 @@ def test_bytes_of_a_plan_that_are_none_are_refused(motion: Motion) -> None:
     np.savez(file, **arrays)
     with pytest.raises(InvalidPlan, match=r"plan: must be bytes \(uint8\), got int64"):
         Motion.from_bytes(file.getvalue())
+
+
+def test_what_is_no_file_and_no_time_is_refused(motion: Motion) -> None:
+    for content in ("x", None):
+        with pytest.raises(InvalidPlan, match="must be the bytes of a motion's file"):
+            Motion.from_bytes(content)
+    with pytest.raises(InvalidInput, match="times: must be an array of numbers"):
+        motion.sample([10**400])
+    with pytest.raises(InvalidInput, match="t: must lie in"):
+        motion.at(True)
 
 
 def test_a_urdf_of_a_name_that_no_file_has_is_refused(motion: Motion) -> None:

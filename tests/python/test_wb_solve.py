@@ -205,6 +205,21 @@ def test_ctrl_c_during_the_certificate_carries_the_motion(ctrl_c: None, monkeypa
     result.motion.check().raise_if_violated()
 
 
+def test_feet_take_no_more_than_they_may():
+    plan = talos_steps()
+    free = mp.motion(plan).motion
+    largest = np.linalg.norm(free.corner_forces_S.sum(axis=2), axis=2).max(axis=0)
+    robot = plan.robot
+    ends = robot.end_effectors
+    for end, force in zip(ends[:2], largest, strict=False):
+        end.max_force = 0.98 * force
+    robot.end_effectors = ends
+    plan.robot = robot
+    capped = mp.motion(plan)
+    assert capped.status is MotionStatus.SOLVED, capped.report
+    assert 0.9 < capped.certificate.of("force_cap").value <= 1.0
+
+
 def test_a_plan_of_ages_is_refused_before_there_are_nodes():
     plan = standing_plan(robot=mp.load_robot("talos"))
     phases = plan.phases

@@ -33,7 +33,7 @@ MaxIterationsOption = Annotated[
 ]
 TimeLimitOption = Annotated[
     float | None,
-    typer.Option("--time-limit", metavar="S", help="Time [s] after which the best motion so far is returned."),
+    typer.Option("--time-limit", metavar="S", help="Time [s] after which the best motion so far is certified."),
 ]
 OutputOption = Annotated[
     Path | None, typer.Option("-o", "--output", metavar="FILE", help="File for the motion (.npz).")
@@ -97,8 +97,11 @@ def motion(
 
 
 def _certified(result: MotionResult, interrupted: bool) -> tuple[MotionResult, bool]:
-    """The result with what the certificate says of a motion that did not converge, too, and whether Ctrl-C came by then."""
-    if result.certificate is not None or interrupted:
+    """The result with what the certificate says of a motion that did not converge, too, and whether Ctrl-C came by then.
+
+    What only stands still, since there was no time for an iteration, is not worth one.
+    """
+    if result.certificate is not None or interrupted or (str(result.status) == "time_limit" and not result.iterations):
         return result, interrupted
     from dataclasses import replace
 

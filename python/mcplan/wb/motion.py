@@ -18,6 +18,7 @@ from mcplan.files.plan_files import read_plan_file
 from mcplan.files.plans import plan_from_bytes, plan_to_bytes
 
 from . import free_flyer, splines
+from .motion_fields import ARRAYS, as_array, number, require_header, require_kinds, require_valid
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -28,14 +29,6 @@ if TYPE_CHECKING:
 #: What a motion's file says that it is, and the version of its format.
 KIND, FORMAT = "motion", 1
 UNITS = "SI: m, kg, s, N, N m, rad; _W: world frame, z up; _S: frame of a sole, z its normal"
-#: Points of each end-effector at which forces act.
-CORNERS = 4
-#: Of a motion in a file.
-MAX_NODES, MAX_JOINTS = 100_000, 500
-#: Of coordinates [m, rad] and forces [N] in it: beyond, sums of squares are no numbers any more.
-MAX_COORDINATE, MAX_FORCE_N = 1e6, 1e9
-#: How far the last node may be from the end of the plan, and a position of the sole's points from it [s, m].
-SAME_TIME_S, MAX_POINT_M = 1e-9, 10.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,15 +117,16 @@ class Motion:
     contacts: NDArray[np.int32]
 
     def __post_init__(self) -> None:
+        require_kinds(self)
         object.__setattr__(self, "joints", tuple(str(name) for name in self.joints))
         object.__setattr__(
-            self, "locked", {str(name): _number(f"locked.{name}", at) for name, at in self.locked.items()}
+            self, "locked", {str(name): number(f"locked.{name}", at) for name, at in self.locked.items()}
         )
-        for name in _ARRAYS:
-            object.__setattr__(self, name, _array(name, getattr(self, name)))
-        _validate(self)
+        for name in ARRAYS:
+            object.__setattr__(self, name, as_array(name, getattr(self, name)))
+        require_valid(self)
         self.times_s[-1] = self.plan.duration()  # which sums of durations may miss by a rounding
-        for name in _ARRAYS:
+        for name in ARRAYS:
             getattr(self, name).setflags(write=False)
 
     def __eq__(self, other: object) -> bool:
@@ -172,7 +166,11 @@ class Motion:
         Raises:
             InvalidInput: The time lies outside.
         """
-        if not isinstance(t, int | float | np.floating | np.integer) or not 0.0 <= t <= self.duration():
+        if (
+            isinstance(t, bool)
+            or not isinstance(t, int | float | np.floating | np.integer)
+            or not 0.0 <= t <= self.duration()
+        ):
             raise InvalidInput("t", f"must lie in [0, {self.duration():.6g}] s", shown(t))
         return self.sample([float(t)]).state(0)
 
@@ -257,7 +255,7 @@ class Motion:
             "joints": list(self.joints),
             "locked": self.locked,
         }
-        arrays = {name: getattr(self, name) for name in _ARRAYS}
+        arrays = {name: getattr(self, name) for name in ARRAYS}
         return archive_bytes(header, {**arrays, "plan": np.frombuffer(plan_to_bytes(self.plan), dtype=np.uint8)})
 
     @staticmethod
@@ -267,15 +265,17 @@ class Motion:
         Raises:
             InvalidPlan: Not such a file, or its content does not fit together.
         """
-        arrays = read_arrays(data)
+        if not isinstance(data, bytes | bytearray | memoryview):
+            raise InvalidPlan("", "must be the bytes of a motion's file", shown(data))
+        arrays = read_arrays(bytes(data))
         header = read_header(arrays)
         if header.get("kind") != KIND:
             raise InvalidPlan("header.kind", f"must be {written(KIND)}", kind_text(header))
         if header.get("format") != FORMAT:
             rule = f"must be {FORMAT} for this version of mcplan"
             raise InvalidPlan("header.format", rule, written(header.get("format")))
-        _require_header(header)
-        for name in _ARRAYS:
+        require_header(header)
+        for name in ARRAYS:
             require_kind(arrays, name, integers=name == "contacts")
         require_kind(arrays, "plan", integers=True)
         if arrays["plan"].dtype != np.uint8:
@@ -285,13 +285,13 @@ class Motion:
         except InvalidInput as found:
             raise found.moved(InvalidPlan, prefix="plan") from None
         named = {key: header[key] for key in ("urdf", "joints", "locked")}
-        content: dict[str, Any] = {name: arrays[name] for name in _ARRAYS}
+        content: dict[str, Any] = {name: arrays[name] for name in ARRAYS}
         return Motion(plan=plan, **named, **content)
 
     def _times(self, times: ArrayLike) -> NDArray[np.float64]:
         try:
             asked = np.array(times, dtype=float)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise InvalidInput("times", "must be an array of numbers", shown(times)) from None
         if asked.ndim != 1:
             raise InvalidInput("times", "must have one dimension", f"{asked.ndim}")
@@ -301,90 +301,3 @@ class Motion:
 
     def _intervals(self, times: NDArray[np.float64]) -> NDArray[np.int64]:
         return splines.interval_of(self.times_s, times)
-
-
-_ARRAYS = ("times_s", "coefficients", "corner_points_S", "corner_forces_S", "contacts")
-
-
-def _number(name: str, value: Any) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError, OverflowError):
-        raise InvalidPlan(name, "must be a number", shown(value)) from None
-
-
-def _array(name: str, values: Any) -> NDArray[Any]:
-    """A copy of an array in the type that a motion has it in; what does not fit there stays, and is refused by its range."""
-    try:
-        array = np.array(values, order="C")
-        if name != "contacts":
-            return array.astype(np.float64)
-        whole = array.astype(np.int64)
-    except (TypeError, ValueError, OverflowError):
-        raise InvalidPlan(name, "must be an array of numbers", shown(values)) from None
-    fits = np.clip(whole, np.iinfo(np.int32).min, np.iinfo(np.int32).max) == whole
-    _require_all(name, whole, fits, "must be the index of a surface, or -1")
-    return whole.astype(np.int32)
-
-
-def _require_header(header: Mapping[str, Any]) -> None:
-    """Raise InvalidPlan for a member of the header of another type."""
-    if not isinstance(header.get("urdf"), str):
-        raise InvalidPlan("header.urdf", "must be a string", written(header.get("urdf")))
-    joints, locked = header.get("joints"), header.get("locked")
-    if not isinstance(joints, list) or not all(isinstance(name, str) for name in joints):
-        raise InvalidPlan("header.joints", "must be a list of strings", written(joints))
-    if not isinstance(locked, dict) or not all(type(at) in (int, float) for at in locked.values()):
-        raise InvalidPlan("header.locked", "must be an object of numbers", written(locked))
-
-
-def _validate(motion: Motion) -> None:
-    """Raise InvalidPlan for sizes that do not fit together and values that no motion has."""
-    if not isinstance(motion.plan, Plan):
-        raise InvalidPlan("plan", "must be a Plan", shown(type(motion.plan).__name__))
-    if len(set(motion.joints)) != len(motion.joints) or set(motion.joints) & set(motion.locked):
-        raise InvalidPlan("joints", "must be named once, and not among the locked ones", shown(list(motion.joints)))
-    nodes, joints, ends = motion.times_s.size, len(motion.joints), len(motion.plan.robot.end_effectors)
-    for name, count, least, most in (
-        ("times_s", nodes, splines.MIN_INTERVALS + 1, MAX_NODES),
-        ("joints", joints, 1, MAX_JOINTS),
-    ):
-        if not least <= count <= most:
-            raise InvalidPlan(name, f"must have {least} to {most} entries", str(count))
-    expected = {
-        "times_s": (nodes,),
-        "coefficients": (nodes + 2, 6 + joints),
-        "corner_points_S": (ends, CORNERS, 3),
-        "corner_forces_S": (nodes, ends, CORNERS, 3),
-        "contacts": (nodes - 1, ends),
-    }
-    for name, shape in expected.items():
-        array = getattr(motion, name)
-        if array.shape != shape:
-            raise InvalidPlan(name, f"must have shape {shape}", str(array.shape))
-        _require_all(name, array, np.isfinite(array), "must be finite")
-    for name, at in motion.locked.items():
-        if not abs(at) <= MAX_COORDINATE:
-            raise InvalidPlan(f"locked.{name}", f"must lie within {MAX_COORDINATE:g} rad or m", shown(at))
-    times, end, surfaces = motion.times_s, motion.plan.duration(), len(motion.plan.scene.surfaces)
-    _require_all("times_s", times, np.diff(times, prepend=-1.0) > 0.0, "must ascend")
-    if times[0] != 0.0 or abs(times[-1] - end) > SAME_TIME_S:
-        wrong = 0 if times[0] != 0.0 else nodes - 1
-        raise InvalidPlan(f"times_s[{wrong}]", f"must be {0.0 if wrong == 0 else end:.9g} s", f"{times[wrong]:.9g}")
-    _require_all(
-        "contacts",
-        motion.contacts,
-        (motion.contacts >= -1) & (motion.contacts < surfaces),
-        f"must lie in [-1, {surfaces - 1}]",
-    )
-    for name, bound, unit in (("coefficients", MAX_COORDINATE, "m or rad"), ("corner_forces_S", MAX_FORCE_N, "N")):
-        array = getattr(motion, name)
-        _require_all(name, array, np.abs(array) <= bound, f"must lie within {bound:g} {unit}")
-    points = motion.corner_points_S
-    _require_all("corner_points_S", points, np.abs(points) <= MAX_POINT_M, f"must lie within {MAX_POINT_M:g} m")
-
-
-def _require_all(name: str, array: Any, holds: Any, rule: str) -> None:
-    for at in np.argwhere(~holds)[:1]:
-        index = "".join(f"[{i}]" for i in at)
-        raise InvalidPlan(f"{name}{index}", rule, shown(array[tuple(at)].item()))

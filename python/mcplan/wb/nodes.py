@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from mcplan.errors import InvalidPlan
 from mcplan.kinematics.samples import Interval, Samples, sample_at
 
-from .motion import MAX_NODES
+from .motion_fields import MAX_NODES
 
 if TYPE_CHECKING:
     from mcplan._core import Plan

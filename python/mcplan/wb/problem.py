@@ -27,6 +27,20 @@ Array = NDArray[np.float64]
 RAMP_S = 0.06
 #: Of the friction that the scene has.
 FRICTION_RATIO = 0.95
+#: More of the normal force than in the plan that tangential forces may be where forces have a limit.
+SLIDING = 0.1
+#: Of the weight that a contact may always carry: the solver asks for half of it where one carries at all.
+MIN_CAP = 0.02
+
+
+def load_cap(max_force: float, friction: float, planned_S: Array) -> float:
+    """The largest normal force [N] with which an end-effector's force is at most its max_force.
+
+    Tangential forces are taken to be at most SLIDING of the normal one more than in the planned wrench (6,), in the sole's frame.
+    """
+    tangential, normal = float(np.hypot(*planned_S[:2])), float(planned_S[2])
+    ratio = min(friction, tangential / normal + SLIDING) if normal > 0.0 else friction
+    return max_force / float(np.hypot(1.0, ratio))
 
 
 def build_problem(
@@ -47,6 +61,7 @@ def build_problem(
     touches = np.asarray((nodes.contacts >= 0).any(axis=0))
     ground = Ground(plan)
     tubes = {end: ground.tubes_W(plan, nodes, end, in_time) for end in np.flatnonzero(touches).tolist()}
+    caps = [float(end.max_force) for end in plan.robot.end_effectors]
     points = {id(interval): points_S(plan, interval) for interval in samples.intervals}
     for k in range(nodes.count):
         in_time()
@@ -57,7 +72,9 @@ def build_problem(
                 friction = FRICTION_RATIO * plan.scene.surfaces[interval.surface].friction
                 rests = bool(nodes.first[k, end] or nodes.last[k, end])
                 pose = (interval.position_W, interval.rotation_W)
-                own, load_max = points[id(interval)], problem.weight_N * flights.load_max(interval, time_s)
+                own = points[id(interval)]
+                cap = max(load_cap(caps[end], friction, wrenches[k, end]), MIN_CAP * problem.weight_N)
+                load_max = min(problem.weight_N * flights.load_max(interval, time_s), cap)
                 problem.add_contact(end, nodes.carries(k, end), rests, friction, *pose, wrenches[k, end], own, load_max)
             elif touches[end]:
                 foot = plan.robot.end_effectors[end].kind == "foot"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import numbers
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
@@ -24,12 +25,13 @@ from . import start as starts
 from .between_nodes import balanced, with_forces, with_model
 from .capsules import LinkCapsule, keep_apart, link_capsules
 from .contact_points import corners_S, points_S, to_corners
-from .motion import CORNERS, MAX_COORDINATE, Motion
+from .motion import Motion
+from .motion_fields import CORNERS, MAX_COORDINATE
 from .moving_joints import MovingRobot
 from .nodes import Nodes, nodes_of, require_few
 from .problem import build_problem
 from .result import MotionReport, MotionResult, MotionStatus
-from .shortfalls import shortfall_of
+from .shortfalls import not_reached, shortfall_of
 from .too_late import TooLate, deadline, standing
 
 if TYPE_CHECKING:
@@ -49,6 +51,8 @@ MAX_PITCH_DEG = 75.0
 #: What the certificate finds where forces do not balance between nodes, and the ratio of the time between nodes with which a
 #: second search then tries again.
 BALANCE, FINER = ("corrected_force", "corrected_moment", "residual_force", "residual_moment"), 0.8
+#: What the certificate finds where a plan is beyond reach, and its motion stays behind.
+OFF_THE_PLAN = {"com_rms", "com_max"}
 #: Times at most that links are told to keep a distance, and solves are repeated.
 ROUNDS = 4
 #: Violation of scaled rows (1 N, 1 mm) with which a search that has not converged says by what a motion exceeds limits.
@@ -96,7 +100,7 @@ def motion(
     try:
         finer = with_nodes(FINER * node_s)
     except KeyboardInterrupt:
-        raise Interrupted(_with_status(result, MotionStatus.INTERRUPTED)) from None
+        raise _interrupted(result) from None
     except TooLate:
         return result
     if finer.report.status != MotionStatus.SOLVED:
@@ -134,7 +138,7 @@ def _searched(
             if not found.solves:
                 raise
             stopped = search.result(found, began, started, certified_s)
-            raise Interrupted(_with_status(stopped, MotionStatus.INTERRUPTED)) from None
+            raise _interrupted(stopped) from None
         certified_s = result.report.certificate_s
         if result.certificate is None and before is not None:
             return _with_status(before, before.status, iterations=result.iterations, certificate_s=certified_s)
@@ -169,7 +173,7 @@ def _require_options(
         raise InvalidOptions("node_s", "must lie in [0.001, 0.2] s", shown(node_s))
     if not require_number("time_limit_s", time_limit_s) > 0.0:
         raise InvalidOptions("time_limit_s", "must be positive", shown(time_limit_s))
-    if isinstance(max_iterations, bool) or not isinstance(max_iterations, int) or max_iterations < 0:
+    if isinstance(max_iterations, bool) or not isinstance(max_iterations, numbers.Integral) or max_iterations < 0:
         raise InvalidOptions("max_iterations", "must be a whole number of at least 0", shown(max_iterations))
     if not isinstance(start, str) or start not in STARTS:
         raise InvalidOptions("start", f"must be one of {', '.join(STARTS)}", shown(start))
@@ -342,6 +346,11 @@ class _Search:
         return with_forces(found, forces, with_model(found, self.model).sample(nodes.times_s).rotations_W)
 
 
+def _interrupted(result: MotionResult) -> Interrupted:
+    """Ctrl-C, with what there is: its search may have been done, but not what comes after."""
+    return Interrupted(_with_status(result, MotionStatus.INTERRUPTED, message="before the motion was certified"))
+
+
 def _with_status(result: MotionResult, status: MotionStatus, **changes: Any) -> MotionResult:
     return replace(result, report=replace(result.report, status=status, **changes))
 
@@ -364,8 +373,13 @@ def _judged(search: _Search, found: _Found, result: MotionResult, tolerances: Mo
     if ended != "solved":
         return result
     certificate = certify(result.motion, tolerances)
+    astray = {violation.name for violation in certificate.violations()}
+    if astray and astray <= OFF_THE_PLAN:
+        shortfall = not_reached(search.model, search.plan, search.nodes)
     status = MotionStatus.SOLVED if certificate.ok() else MotionStatus.NOT_CERTIFIED
     message = "the certificate holds" if certificate.ok() else str(certificate.violations()[0])
+    if shortfall is not None:
+        status = MotionStatus.REACH_INFEASIBLE
     spent = result.report.certificate_s + certificate.time_s
-    judged = _with_status(result, status, message=message, certificate_s=spent)
+    judged = _with_status(result, status, message=message, certificate_s=spent, shortfall=shortfall)
     return replace(judged, certificate=certificate)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .contact_points import corners_S
-from .motion import CORNERS, Motion
+from .motion import Motion
+from .motion_fields import CORNERS
 from .nodes import nodes_of
 from .start import stand_still
 

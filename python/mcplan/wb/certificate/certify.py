@@ -8,6 +8,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from mcplan._core import Plan, check
+from mcplan.errors import InvalidArgument, InvalidInput, shown
 from mcplan.extras import require
 
 from . import balance, contacts, flight, limits, nodes, surfaces, terrain
@@ -38,12 +40,15 @@ def certify(motion: CertifiedMotion, tolerances: MotionTolerances | None = None)
         tolerances: What is accepted; None: as MotionTolerances has them.
 
     Raises:
+        InvalidArgument: The tolerances are no MotionTolerances.
         MissingExtra: Pinocchio or SciPy is not installed.
         InvalidRobot: The URDF cannot be read.
         InvalidPlan: The joints are not those of the URDF.
         InvalidOptions: A tolerance is no number.
     """
-    tolerances = tolerances or MotionTolerances()
+    tolerances = MotionTolerances() if tolerances is None else tolerances
+    if not isinstance(tolerances, MotionTolerances):
+        raise InvalidArgument("tolerances", "must be a MotionTolerances or None", shown(tolerances))
     tolerances.validate()
     require("the check of a motion", "view", "pinocchio", "scipy")
     start = time.perf_counter()
@@ -52,7 +57,8 @@ def certify(motion: CertifiedMotion, tolerances: MotionTolerances | None = None)
     footholds = footholds_of(motion.plan)
     on_lines = stances(motion, robot)
     about_W = about_lines(motion, states, on_lines)
-    correction = corrected(motion, robot, states, states.residual_W - about_W)
+    accepted = max(tolerances.corrected_N, tolerances.corrected_Nm)
+    correction = corrected(motion, robot, states, states.residual_W - about_W, accepted)
     com_W = np.asarray(motion.plan.sample(states.times).com_W)
     plan = motion.plan
     constraints = [
@@ -71,9 +77,21 @@ def certify(motion: CertifiedMotion, tolerances: MotionTolerances | None = None)
         self_distance(robot, states, tolerances),
         *balance.off_the_plan(states, com_W, tolerances),
     ]
-    notes = () if counted(robot, tolerances.self_distance_m)[0] else (NO_SHAPES,)
-    found = MotionCheckResult(tuple(constraints), {}, len(states.times), time.perf_counter() - start, notes)
+    notes = [*([] if counted(robot)[0] else [NO_SHAPES]), *_of_the_plan(plan)]
+    found = MotionCheckResult(tuple(constraints), {}, len(states.times), time.perf_counter() - start, tuple(notes))
     return replace(found, measures=_measures(found, states, correction, about_W))
+
+
+def _of_the_plan(plan: Plan) -> list[str]:
+    """A note on what the check of plans says of the plan, if it does not accept it: a motion may be better than its plan."""
+    try:
+        violations = check(plan).violations()
+    except InvalidInput as found:
+        return [f"the plan that the motion carries out cannot be checked: {str(found).splitlines()[0]}"]
+    if not violations:
+        return []
+    more = f", and {len(violations) - 1} more" * (len(violations) > 1)
+    return [f"the plan that the motion carries out does not keep all of its own constraints: {violations[0]}{more}"]
 
 
 def consistency(

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from .footholds import Foothold, beyond_polygon, normal_of, standing
 from .inputs import CertifiedMotion
-from .result import MotionViolation, largest, worse
+from .result import RATIO, MotionViolation, largest, worse
 from .states import States
 from .tolerances import MotionTolerances
 
@@ -77,12 +77,15 @@ def angles_between(rotation: Array, others: Array) -> Array:
 
 
 def forces(motion: CertifiedMotion, states: States, tolerances: MotionTolerances) -> list[MotionViolation]:
-    """Friction and pull at every corner, and forces of end-effectors that are free."""
+    """Friction and pull at every corner, forces of end-effectors that are free, and those beyond what one may take."""
     scene, ends = motion.plan.scene, motion.plan.robot.end_effectors
     friction = MotionViolation("friction", 0.0, tolerances.friction_N, "N")
     pull = MotionViolation("pull", 0.0, tolerances.pull_N, "N")
     free = MotionViolation("free_force", 0.0, tolerances.pull_N, "N")
+    cap = MotionViolation("force_cap", 0.0, tolerances.force_use, RATIO)
     for e, end in enumerate(ends):
+        uses = np.linalg.norm(states.corner_forces_W[:, e].sum(axis=1), axis=1) / float(end.max_force)
+        cap = worse(cap, largest(replace(cap, value=0.0, end_effector=end.name), uses, states.times))
         for surface in np.unique(states.contacts[:, e]):
             here = states.contacts[:, e] == surface
             corner_forces, times = states.corner_forces_W[here, e], states.times[here]
@@ -95,7 +98,7 @@ def forces(motion: CertifiedMotion, states: States, tolerances: MotionTolerances
                 pulls = -normal.min(axis=1)
                 friction = worse(friction, largest(replace(friction, value=0.0, end_effector=end.name), slips, times))
                 pull = worse(pull, largest(replace(pull, value=0.0, end_effector=end.name), pulls, times))
-    return [friction, pull, free]
+    return [friction, pull, free, cap]
 
 
 def split(forces_W: Array, normal: Array) -> tuple[Array, Array]:

@@ -31,6 +31,8 @@ EDGES, BALANCE, TORQUE, CHANGE = 12, 1e4, 1e4, 1e-2
 RANK = 1e-9
 #: Instants, the worst first, whose problem with inequalities is solved: of a motion with more of them much else is wrong.
 MAX_SOLVED = 4000
+#: Of which so many may leave more than is accepted before no more are.
+MAX_FAILED = 100
 #: Slack of a cone [N] and of a torque limit (ratio) within which the linear correction counts as admissible.
 SLACK_N, SLACK_RATIO = 1e-6, 1e-9
 #: What a linear correction may leave of a force or moment [N, N m].
@@ -54,8 +56,14 @@ class Correction:
     solved: int
 
 
-def corrected(motion: CertifiedMotion, robot: CertifiedRobot, states: States, missing_W: Array) -> Correction:
-    """Correct the shipped forces of each instant with contacts, where they leave (N, 6) on the base."""
+def corrected(
+    motion: CertifiedMotion, robot: CertifiedRobot, states: States, missing_W: Array, accepted: float
+) -> Correction:
+    """Correct the shipped forces of each instant with contacts, where they leave (N, 6) on the base.
+
+    What is left is `accepted` up to that force or moment [N, N m]. Once a hundred instants are beyond it, others that would
+    have to be solved are left out, as if nothing was left there.
+    """
     cones = _cones(motion, states)
     changes, left = _least(states, cones, missing_W)
     instants, forces_W = _Instants(motion, robot, states, cones, missing_W), states.corner_forces_W + changes
@@ -68,11 +76,16 @@ def corrected(motion: CertifiedMotion, robot: CertifiedRobot, states: States, mi
     admissible = balanced & cones.hold(forces_W) & ~(uses > np.maximum(1.0, shipped) + SLACK_RATIO)
     inadmissible = supported[~admissible[supported]].tolist()
     inadmissible.sort(key=lambda k: -float(np.abs(missing_W[k]).max()))
+    failed = 0
     for k in inadmissible[:MAX_SOLVED]:
+        if failed == MAX_FAILED:
+            left[k] = 0.0
+            continue
         found = instants.solve(k)
         changes[k] = found - states.corner_forces_W[k]
         left[k] = missing_W[k] - _sum(instants.grasp(k), changes[k])
         uses[k] = instants.use(k, instants.wrenches([k], found[None])[0])
+        failed += bool(np.abs(left[k]).max() > accepted)
     return Correction(left, np.linalg.norm(changes, axis=3).max(axis=(1, 2)), uses, len(inadmissible))
 
 

@@ -24,6 +24,8 @@ from .tolerances import MotionTolerances
 
 Array = NDArray[np.float64]
 
+#: Links that are nearer in the robot's own posture do not count [m].
+NEAR_M = 0.005
 #: How exactly the least distance is told where it keeps its limit [m].
 RESOLUTION_M = 5e-4
 #: By so much the distance of convex shapes, which is found by iterations, may be too large [m].
@@ -65,7 +67,7 @@ class Posture:
 def self_distance(robot: CertifiedRobot, states: States, tolerances: MotionTolerances) -> MotionViolation:
     """The least distance of two links that count; infinite where the URDF has no collision shapes."""
     least = MotionViolation("self_distance", np.inf, tolerances.self_distance_m, "m", at_least=True)
-    shapes, pairs = counted(robot, least.limit)
+    shapes, pairs = counted(robot)
     centers = [_centers(states, shape) for shape in shapes]
     gaps = [np.linalg.norm(centers[a] - centers[b], axis=1) - shapes[a].radius - shapes[b].radius for a, b in pairs]
     for index in np.argsort([gap.min() for gap in gaps], kind="stable"):
@@ -80,7 +82,7 @@ def distance_curve(robot: CertifiedRobot, states: States, at: NDArray[np.int64])
     Of each pair a lower bound is known: its last distance less what it has moved since, or that of its balls. Pairs are
     worked out in the order of their bounds until none is below the least.
     """
-    shapes, pairs = counted(robot, MotionTolerances().self_distance_m)
+    shapes, pairs = counted(robot)
     if not pairs:
         return np.full(len(at), np.inf), [""] * len(at)
     centers = np.array([_centers(states, shape) for shape in shapes])[:, at]
@@ -184,11 +186,11 @@ def _travel(states: States, pair: tuple[Shape, Shape]) -> Array:
 
 
 @lru_cache(maxsize=8)
-def counted(robot: CertifiedRobot, limit_m: float) -> tuple[list[Shape], list[tuple[int, int]]]:
+def counted(robot: CertifiedRobot) -> tuple[list[Shape], list[tuple[int, int]]]:
     """The collision shapes of a robot, and the pairs of them whose distance counts.
 
     Left out are shapes of one link or of links rigid with each other, of links that share a joint, and those that are
-    nearer than the limit in the robot's posture.
+    nearer than NEAR_M in the robot's posture.
     """
     shapes = shapes_of(robot)
     neutral = _neutral(robot)
@@ -199,7 +201,7 @@ def counted(robot: CertifiedRobot, limit_m: float) -> tuple[list[Shape], list[tu
             second = shapes[j]
             if first.body == second.body or first.body == parents[second.body] or second.body == parents[first.body]:
                 continue
-            if _ball_gaps(neutral, first, second)[0] < limit_m and distance(neutral, (first, second), 0) < limit_m:
+            if _ball_gaps(neutral, first, second)[0] < NEAR_M and distance(neutral, (first, second), 0) < NEAR_M:
                 continue
             found.append((i, j))
     return shapes, found

@@ -5,20 +5,18 @@ rounding: a joint off by a milliradian shows here, be it of an arm. With the wre
 press can give, r_c = G G^+ r is the part of the missing wrench r that they could have balanced. What lies outside of the
 range of G (a moment about the line of two point feet) is looked at where stances end.
 
-For a moment the edge of a cone or of a surface may be in the way: what counts is how long r_c is there, node after node. What
-is more than the base's residual may be is found there, and does not count once more.
+For a moment the edge of a cone or of a surface may be in the way: what counts is in how much time r_c is there, a node for half
+of the way to those beside it. What is more than the base's residual may be is found there, and does not count once more.
 """
 
 from __future__ import annotations
-
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .correction import grasp_of
 from .inputs import CertifiedMotion
-from .result import MotionViolation, worse
+from .result import MotionViolation
 from .robot import CertifiedRobot
 from .states import States, states_of
 from .tolerances import MotionTolerances
@@ -32,18 +30,15 @@ RANK = 1e-4
 
 
 def balance_at_nodes(motion: CertifiedMotion, robot: CertifiedRobot, tolerances: MotionTolerances) -> MotionViolation:
-    """Longest time in which all nodes leave a force or a moment on the base that contacts could have balanced."""
+    """Time in which nodes leave a force or a moment on the base that contacts could have balanced, since when."""
     states = states_of(motion, robot, motion.times_s)
     could_W = _within(_pressing(states), states.residual_W)
     forces, moments = (np.linalg.norm(could_W[:, part], axis=1) for part in (slice(0, 3), slice(3, 6)))
     balanced = (forces <= tolerances.node_N) & (moments <= tolerances.node_Nm)
     balanced |= (forces > tolerances.residual_N) | (moments > tolerances.residual_Nm)
-    worst = MotionViolation("unbalanced", 0.0, tolerances.unbalanced_s, "s")
-    edges = np.flatnonzero(np.diff(np.concatenate([[True], balanced, [True]]).astype(int)))
-    for first, after in zip(edges[::2], edges[1::2], strict=True):
-        lasts = float(states.times[after - 1] - states.times[first])
-        worst = worse(worst, replace(worst, value=lasts, time_s=float(states.times[first])))
-    return worst
+    lasts = 0.5 * (np.diff(states.times, prepend=states.times[0]) + np.diff(states.times, append=states.times[-1]))
+    first = float(states.times[np.argmin(balanced)])  # 0 where all are
+    return MotionViolation("unbalanced", float(lasts[~balanced].sum()), tolerances.unbalanced_s, "s", first)
 
 
 def _pressing(states: States) -> Array:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+import numbers
 from dataclasses import dataclass, fields
 
-import numpy as np
-
 from mcplan.errors import InvalidOptions, shown
+
+#: Between two instants, at least and at most: farther apart, little of a motion would be looked at [s].
+SAMPLE_S = (1e-5, 0.01)
 
 
 @dataclass(frozen=True)
@@ -23,6 +26,7 @@ class MotionTolerances:
         torque_step: Largest change of a torque within a millisecond, over its limit.
         friction_N: Tangential force of a corner beyond what friction holds [N].
         pull_N: Pull of a corner, or force of an end-effector that is free [N].
+        force_use: Largest force of an end-effector over its max_force; a thousandth more is what the check of plans accepts.
         center_of_pressure_m: Outside of the sole, and of a corner outside of it [m].
         polygon_m: Centre of pressure outside of the surface's polygon [m]: what the check of plans accepts.
         drift_m: Of an end-effector in contact from the plan's foothold [m].
@@ -30,7 +34,7 @@ class MotionTolerances:
         drift_speed: Of the points of an end-effector in contact [m/s].
         contact_distance_m: Of an end-effector in contact from the plane of its surface [m]: what the check of plans accepts.
         node_N, node_Nm: Wrench on the base with which a node is balanced, of what contacts can balance.
-        unbalanced_s: Time in which no node is [s].
+        unbalanced_s: Time in which nodes are not [s].
         residual_N, residual_Nm: Wrench on the base that the shipped contact forces leave, at the base's origin.
         corrected_N, corrected_Nm: What is left when they are changed as little as needed at each instant, within cones, soles
             and torque limits.
@@ -52,6 +56,7 @@ class MotionTolerances:
     torque_step: float = 0.05
     friction_N: float = 1e-3
     pull_N: float = 1e-3
+    force_use: float = 1.001
     center_of_pressure_m: float = 1e-6
     polygon_m: float = 1e-3
     drift_m: float = 1e-4
@@ -79,8 +84,17 @@ class MotionTolerances:
         """Raise InvalidOptions for a tolerance that is no number, or not above zero."""
         for item in fields(self):
             value = getattr(self, item.name)
-            if isinstance(value, bool) or not isinstance(value, int | float) or not np.isfinite(value):
+            if isinstance(value, bool) or not isinstance(value, numbers.Real) or not finite(value):
                 raise InvalidOptions(item.name, "must be a number", shown(value))
-            if value < 0.0 or (item.name == "sample_s" and value < 1e-5):
-                low = 1e-5 if item.name == "sample_s" else 0
-                raise InvalidOptions(item.name, f"must be at least {low:g}", shown(value))
+            if item.name == "sample_s" and not SAMPLE_S[0] <= float(value) <= SAMPLE_S[1]:
+                raise InvalidOptions(item.name, f"must lie in [{SAMPLE_S[0]:g}, {SAMPLE_S[1]:g}] s", shown(value))
+            if float(value) < 0.0:
+                raise InvalidOptions(item.name, "must be at least 0", shown(value))
+
+
+def finite(value: numbers.Real) -> bool:
+    """Whether a number is one as a float, too."""
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # a whole number that is larger than any float
+        return False
