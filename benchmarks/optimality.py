@@ -4,8 +4,8 @@ python benchmarks/optimality.py [--searches 30] [--phases 8 --phases 10] [--jobs
 
 Every other search has a proximal weight and a first guess of the durations of its own, drawn from its seed; what it finds is
 where a search with the default settings then begins, since the reference that a plan is drawn to, and with it its cost, depends
-on that guess (how fast the CoM is to be). The ratio is the default's cost over that of the cheapest plan that any has solved. Exit code 1 unless the median is at most
-1.03 and the largest at most 1.08, and the default solves whatever any of them solves.
+on that guess (how fast the CoM is to be). The ratio is the default's cost over that of the cheapest plan that any has solved.
+Exit code 1 unless the median is at most 1.03 and the largest at most 1.08, and the default solves whatever any of them solves.
 """
 
 from __future__ import annotations
