@@ -243,7 +243,7 @@ def track(
     Raises:
         InvalidArgument: An argument is of another type.
         InvalidOptions: No such option, or its value is out of range; a planar robot has no pushes, assistance or seed.
-        InvalidPlan: The file is no plan, or one that is too long for a motion or out of all bounds.
+        InvalidPlan: The file is no plan.
         InvalidRobot: The robot has no URDF, or it cannot be read, or it lacks an end-effector of the plan.
         InvalidInput: The robot cannot take up the plan's first or last posture; or a robot for a whole-body plan.
         UnknownRobot: No such name and no such file.

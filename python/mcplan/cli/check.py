@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from mcplan.tracking.findings import Feasibility, Finding
     from mcplan.wb.motion import Motion
 
-#: The longest plan that is checked, and the longest motion [s].
-MAX_S, MAX_MOTION_S = 2000.0, 500.0
+#: Instants of a plan that are looked at, at most: as many as the checker takes.
+MAX_SAMPLES = 2_000_000
 #: Of one kind, beside the largest, in the table of --robot; --json has all.
 OTHERS = 3
 
@@ -104,10 +104,17 @@ def check(
 
 def _require_short(path: Path, saved: Plan | PlanarPlan | Motion) -> None:
     """Raise InvalidPlan for one that lasts longer than what is looked at once a millisecond can."""
+    from mcplan._core import Tolerances
     from mcplan.errors import InvalidPlan
+    from mcplan.wb.certificate import MotionTolerances
+    from mcplan.wb.certificate.states import MAX_SAMPLES as MAX_MOTION_SAMPLES
     from mcplan.wb.motion import Motion
 
-    most = MAX_MOTION_S if isinstance(saved, Motion) else MAX_S
+    certified = isinstance(saved, Motion)
+    samples, step = (
+        (MAX_MOTION_SAMPLES, MotionTolerances().sample_s) if certified else (MAX_SAMPLES, Tolerances().sample_s)
+    )
+    most = samples * step
     if saved.duration() > most:
         rule = f"must last at most {most:g} s for a check of every millisecond"
         raise InvalidPlan("durations", rule, f"{saved.duration():.6g} s", str(path))
