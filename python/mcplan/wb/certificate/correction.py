@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from .footholds import normal_of
 from .inputs import CertifiedMotion
 from .robot import CertifiedRobot
-from .states import States, joint_wrenches
+from .states import JointForces, States
 
 Array = NDArray[np.float64]
 
@@ -69,8 +69,9 @@ def corrected(
     instants, forces_W = _Instants(motion, robot, states, cones, missing_W), states.corner_forces_W + changes
     uses, wrenches_S = np.full(len(states.times), np.nan), instants.wrenches(np.arange(len(states.times)), forces_W)
     supported = np.flatnonzero(cones.in_contact.any(axis=(1, 2)))
-    for k in supported.tolist():
-        uses[k] = instants.use(k, wrenches_S[k])
+    if supported.size:
+        efforts = np.array([instants.efforts(k, wrenches_S[k]) for k in supported.tolist()])
+        uses[supported] = (np.abs(efforts) / robot.effort).max(axis=1, initial=0.0)
     shipped = (np.abs(states.tau) / robot.effort).max(axis=1, initial=0.0)
     balanced = np.abs(left).max(axis=1) <= LEFT
     admissible = balanced & cones.hold(forces_W) & ~(uses > np.maximum(1.0, shipped) + SLACK_RATIO)
@@ -160,7 +161,7 @@ class _Instants:
     ) -> None:
         self._motion, self._robot, self._states, self._cones = motion, robot, states, cones
         self._missing_W = missing_W
-        self._data = robot.model.createData()
+        self._data, self._joint_forces = robot.model.createData(), JointForces(robot)
 
     def grasp(self, k: int) -> Array:
         """(C, 6, 3) of all corners."""
@@ -177,7 +178,7 @@ class _Instants:
         import pinocchio as pin  # type: ignore[import-untyped]
 
         states, robot = self._states, self._robot
-        external = joint_wrenches(robot, wrenches_S)
+        external = self._joint_forces(wrenches_S)
         found = pin.rnea(robot.model, self._data, states.q[k], states.v[k], states.a[k], external)
         return np.asarray(found[robot.moving])
 

@@ -28,6 +28,8 @@ Array = NDArray[np.float64]
 NEAR_M = 0.005
 #: How exactly the least distance is told where it keeps its limit [m].
 RESOLUTION_M = 5e-4
+#: Every so many instants hulls are compared before meshes are.
+COARSE = 40
 #: By so much the distance of convex shapes, which is found by iterations, may be too large [m].
 HULL_M = 1e-5
 
@@ -112,10 +114,12 @@ def distance_curve(robot: CertifiedRobot, states: States, at: NDArray[np.int64])
 
 def _least_of(states: States, pair: tuple[Shape, Shape], gaps: Array, least: MotionViolation) -> MotionViolation:
     """The least distance so far, or that of a pair at some instant."""
-    target = _target(least)
-    if gaps.min() >= target:
+    if gaps.min() >= _target(least):
         return least
     travel, k, count = _travel(states, pair), 0, len(gaps)
+    for guess in _nearest_by_hulls(states, pair, gaps, _target(least)):
+        least = _nearer(states, pair, guess, distance(states, pair, guess), least)
+    target = _target(least)
     while k < count:
         if gaps[k] >= target:
             near = np.flatnonzero(gaps[k:] < target)
@@ -125,12 +129,27 @@ def _least_of(states: States, pair: tuple[Shape, Shape], gaps: Array, least: Mot
         value = distance(states, pair, k, hulls=True)
         if value < target:
             value = distance(states, pair, k)
-            if value < least.value:
-                links, time_s = (pair[0].link, pair[1].link), float(states.times[k])
-                least = replace(least, value=value, time_s=time_s, links=links)
-                target = _target(least)
+            least = _nearer(states, pair, k, value, least)
+            target = _target(least)
         k = max(k + 1, int(np.searchsorted(travel, travel[k] + value - target, side="right")))
     return least
+
+
+def _nearest_by_hulls(states: States, pair: tuple[Shape, Shape], gaps: Array, target: float) -> list[int]:
+    """The instant, of every fortieth, at which the hulls are nearest: what is known to be near need not be sought below it."""
+    at = np.arange(0, len(gaps), COARSE)
+    at = at[gaps[at] < target]
+    if not at.size:
+        return []
+    values = [distance(states, pair, int(k), hulls=True) for k in at]
+    return [int(at[np.argmin(values)])]
+
+
+def _nearer(states: States, pair: tuple[Shape, Shape], k: int, value: float, least: MotionViolation) -> MotionViolation:
+    """The least distance so far, or this one at an instant."""
+    if value >= least.value:
+        return least
+    return replace(least, value=value, time_s=float(states.times[k]), links=(pair[0].link, pair[1].link))
 
 
 def _target(least: MotionViolation) -> float:

@@ -121,17 +121,29 @@ def _between_nodes(motion: CertifiedMotion, times: Array, interval: NDArray[np.i
     return motion.corner_forces_S[interval] * (1.0 - ahead) + motion.corner_forces_S[interval + 1] * ahead
 
 
-def joint_wrenches(robot: CertifiedRobot, wrenches_S: Array) -> Any:
-    """Contact wrenches (L, 6) in the frames of soles, as the forces on joints that Pinocchio takes."""
-    import pinocchio as pin
+class JointForces:
+    """Contact wrenches as the forces on joints that Pinocchio takes, in a vector that is made once."""
 
-    model, forces = robot.model, pin.StdVec_Force()
-    forces.extend([pin.Force.Zero()] * model.njoints)
-    for wrench, number in zip(wrenches_S, robot.urdf_model.frames, strict=True):
-        if wrench.any():
-            frame = model.frames[number]
-            forces[frame.parentJoint] += frame.placement.act(pin.Force(wrench))
-    return forces
+    def __init__(self, robot: CertifiedRobot) -> None:
+        import pinocchio as pin
+
+        model = robot.model
+        frames = [model.frames[number] for number in robot.urdf_model.frames]
+        self._carriers = [(int(frame.parentJoint), frame.placement) for frame in frames]
+        self._zero, self._forces = pin.Force.Zero(), pin.StdVec_Force()
+        self._forces.extend([self._zero] * model.njoints)
+
+    def __call__(self, wrenches_S: Array) -> Any:
+        """Of wrenches (L, 6) in the frames of soles; until the next call."""
+        import pinocchio as pin
+
+        forces = self._forces
+        for joint, _ in self._carriers:
+            forces[joint] = self._zero
+        for end in np.flatnonzero(wrenches_S.any(axis=1)):
+            joint, placement = self._carriers[end]
+            forces[joint] += placement.act(pin.Force(wrenches_S[end]))
+        return forces
 
 
 def _dynamics(robot: CertifiedRobot, trajectory: tuple[Array, Array, Array], wrenches_S: Array) -> dict[str, Array]:
@@ -143,20 +155,21 @@ def _dynamics(robot: CertifiedRobot, trajectory: tuple[Array, Array, Array], wre
     positions, rotations = np.zeros((count, ends, 3)), np.zeros((count, ends, 3, 3))
     twists = np.zeros((count, ends, 6))
     joint_rotations, joint_positions = np.zeros((count, joints, 3, 3)), np.zeros((count, joints, 3))
-    aligned = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+    aligned, joint_forces = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED, JointForces(robot)
+    # Views of what Pinocchio's data hold: taken once, they are those of each posture in turn.
+    of_joints = [place.rotation for place in data.oMi], [place.translation for place in data.oMi]
+    of_ends = [data.oMf[frame].rotation for frame in frames], [data.oMf[frame].translation for frame in frames]
     for k, (q, v, a) in enumerate(zip(*trajectory, strict=True)):
-        efforts = pin.rnea(model, data, q, v, a, joint_wrenches(robot, wrenches_S[k]))
+        efforts = pin.rnea(model, data, q, v, a, joint_forces(wrenches_S[k]))
         pin.forwardKinematics(model, data, q, v)
         pin.updateFramePlacements(model, data)
         com[k] = pin.centerOfMass(model, data, q, False)
         tau[k] = efforts[robot.moving]
-        rotation = data.oMi[1].rotation
-        residual[k, :3], residual[k, 3:] = rotation @ efforts[:3], rotation @ efforts[3:6]
+        joint_rotations[k], joint_positions[k] = of_joints
+        rotations[k], positions[k] = of_ends
+        residual[k, :3], residual[k, 3:] = joint_rotations[k, 1] @ efforts[:3], joint_rotations[k, 1] @ efforts[3:6]
         for end, frame in enumerate(frames):
-            positions[k, end], rotations[k, end] = data.oMf[frame].translation, data.oMf[frame].rotation
             twists[k, end] = pin.getFrameVelocity(model, data, frame, aligned).vector
-        places = np.array([place.homogeneous for place in data.oMi])[1:]
-        joint_rotations[k, 1:], joint_positions[k, 1:] = places[:, :3, :3], places[:, :3, 3]
     return {
         "tau": tau,
         "residual_W": residual,
