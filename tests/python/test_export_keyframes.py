@@ -59,6 +59,18 @@ def test_without_a_rate_there_is_a_keyframe_at_each_knot_with_the_feet_on_the_gr
         assert height == pytest.approx(0.0, abs=1e-4)
 
 
+def test_velocities_at_knots_are_those_of_the_plan(tmp_path):
+    """The CoM that MuJoCo moves by qvel is as fast as planned, at instants that are half a second apart."""
+    model = loaded(mp.export(plan(), "mujoco", tmp_path / "keys.xml"), tmp_path)
+    data, body = mujoco.MjData(simulation()), 1
+    for key, time_s in enumerate(plan().knot_times()):
+        data.qpos[:], data.qvel[:] = model.key_qpos[key], model.key_qvel[key]
+        mujoco.mj_forward(simulation(), data)
+        mujoco.mj_subtreeVel(simulation(), data)
+        planned = plan().at(float(time_s)).com_velocity_W
+        assert np.linalg.norm(data.subtree_linvel[body] - planned) < 0.05
+
+
 def test_velocities_are_those_of_mujoco(tmp_path):
     """Going on by qvel for a moment leads to the next instant of the recording."""
     model = loaded(mp.export(run(), "mujoco", tmp_path / "keys.xml", rate_hz=100), tmp_path)

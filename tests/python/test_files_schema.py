@@ -27,6 +27,19 @@ def test_schemas_are_current(name):
     assert current == text_of(name), "run: python -m mcplan.files.schema"
 
 
+def test_the_schema_of_sweeps_takes_weights_in_a_table_of_their_own():
+    pytest.importorskip("pydantic")
+    from mcplan.files.sweep_specs import sweep_spec
+
+    schema = json.loads(text_of("sweep"))
+    for weight in (0.1, {"grid": [0.1, 0.2]}):
+        data = {"name": "s", "options": {"weights": {"flight": weight}}, "scenes": [{"scene": "flat"}]}
+        jsonschema.validate(data, schema)
+        assert "weights.flight" in sweep_spec(data).options
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate({**data, "options": {"weights": {"flight": {"grids": [1.0]}}}}, schema)
+
+
 @pytest.mark.parametrize(
     ("name", "data"),
     [

@@ -35,6 +35,7 @@ def spec(tmp_path_factory) -> tuple[dict, Path]:
 
 def test_solved_plans_are_exported_and_what_has_no_joints_is_refused_by_name(spec, tmp_path):
     data, folder = spec
+    data = {**data, "exports": [*EXPORTS, "ocs2"]}
     run(sweep_spec(data, folder=folder), tmp_path / "one", folder)
     sweep = load_sweep(tmp_path / "one")
     assert sweep.verify() == []
@@ -43,6 +44,7 @@ def test_solved_plans_are_exported_and_what_has_no_joints_is_refused_by_name(spe
     assert pandas.isna(table.loc["humanoid44", "export_mjlab"])
     assert table.loc["humanoid44", "export_message"].startswith("mjlab: ")
     assert "urdf" in table.loc["humanoid44", "export_message"]
+    assert "; ocs2: " in table.loc["humanoid44", "export_message"]
     for task in (0, 1):
         mp.export(sweep.plans[task], "contacts", tmp_path / "alone.npz")
         assert (tmp_path / f"one/exports/0000/{task:07d}.contacts.npz").read_bytes() == (

@@ -139,6 +139,10 @@ def test_a_folder_of_another_sweep_is_refused(done):
         ({"name": "a\n"}, 'name: must have no control characters, got "a\\n"'),
         ({"exports": ["mjlba"]}, "exports[0]: no such format. Did you mean 'mjlab'? Formats: mjlab, "),
         ({"options": {"seed": 3}}, "options.seed: is said by seeds"),
+        ({"options": {"time_limit": float("inf")}}, "options.time_limit: must be finite, got inf"),
+        ({"options": {"phases": {"grid": [8, 8]}}}, "options.phases: must have values that differ, got [8, 8]"),
+        ({"options": {"proximal_weight": {"linspace": [1.0, 1.0, 3]}}}, "options.proximal_weight: must have values"),
+        ({"options": {"weights": {"flight": 1.0}, "weights.flight": 2.0}}, "options: must have weights.flight once"),
         ({"scenes": []}, "scenes: must not be empty"),
         ({"scenes": [{"generator": "gap", "samples": 0}]}, "scenes[0].samples: must be at least 1, got 0"),
         ({"scenes": [{"generator": "gaps"}]}, "scenes[0].generator: must be one of gap, random"),
@@ -188,6 +192,7 @@ def test_what_is_refused_leaves_no_folder(tmp_path, capsys):
         (["--out", "file"], "--out: must be a folder, or a name for a new one"),
         (["--out", "."], "--out: must be a new or an empty folder, or one of this sweep"),
         (["--out", "o", "--scheduler", "nobody"], "--scheduler: must be the address of a Dask scheduler"),
+        (["--out", "o", "--scheduler", "http://x"], "--scheduler: must be the address of a Dask scheduler"),
     ):
         words[1] = str(tmp_path / words[1])
         code = main(["sweep", str(tmp_path / "s.toml"), *words])

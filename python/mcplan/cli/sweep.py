@@ -98,7 +98,7 @@ def _print(outcome: Outcome) -> None:
     from mcplan.cli.terminal import say
     from mcplan.sweep.store import INDEX, SUMMARY
 
-    statuses = ", ".join(f"{count} {status}" for status, count in outcome.statuses.items())
+    statuses = ", ".join(f"{count} {status}" for status, count in outcome.statuses.items()) or "this share is empty"
     say(f"{sum(outcome.statuses.values())} of {outcome.share} tasks: {statuses}")
     for name, message in outcome.failed[:20]:
         say(f"  {name}: {message}")

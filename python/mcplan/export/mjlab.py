@@ -31,6 +31,7 @@ Array = NDArray[np.float64]
 
 def write(source: Source, path: Path) -> None:
     """Write the motion of a source, breadth first if IsaacLab is to read it."""
+    require_whole_rate(source.rate_hz)
     isaac = source.order == "isaaclab"
     order = order_of(source.motion.urdf_model, breadth_first=isaac)
     buffer = io.BytesIO()
@@ -42,10 +43,9 @@ def arrays(motion: Motion, order: Order, rate_hz: float, at_com: bool) -> dict[s
     """The file's arrays.
 
     Raises:
-        InvalidInput: The rate is no whole number, which the loaders take fps to be.
+        InvalidInput: The rate is no whole number.
     """
-    if rate_hz != round(rate_hz):
-        raise InvalidInput("rate_hz", "must be a whole number in this format", shown(rate_hz))
+    require_whole_rate(rate_hz)
     joint_pos, joint_vel = motion.in_order(order.joints)
     positions, quats, linear, angular = body_states(motion, order, at_com)
     return {
@@ -59,6 +59,12 @@ def arrays(motion: Motion, order: Order, rate_hz: float, at_com: bool) -> dict[s
         "joint_names": np.array(order.joints),
         "body_names": np.array(order.bodies),
     }
+
+
+def require_whole_rate(rate_hz: float) -> None:
+    """Raise InvalidInput for a rate that is no whole number, which the loaders take fps to be."""
+    if rate_hz != round(rate_hz):
+        raise InvalidInput("rate_hz", "must be a whole number in this format", shown(rate_hz))
 
 
 def body_states(motion: Motion, order: Order, at_com: bool) -> tuple[Array, Array, Array, Array]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from mcplan.errors import InvalidInput, shown
 from mcplan.kinematics.inverse_kinematics import follow, has_sole
-from mcplan.kinematics.samples import Samples
+from mcplan.kinematics.samples import Samples, sample_at
 from mcplan.kinematics.smooth_postures import smoothed
 from mcplan.kinematics.urdf_model import UrdfModel, load_model
 
 if TYPE_CHECKING:
     from mcplan import wb
-    from mcplan._core import Robot
+    from mcplan._core import Plan, Robot
     from mcplan.tracking import Recording
 
 Array = NDArray[np.float64]
@@ -25,6 +25,8 @@ Array = NDArray[np.float64]
 MAX_MISS_M = 0.01
 #: Newton steps that put end-effectors in contact where the plan has them, and the error [m, rad] at which they end.
 PLACING_STEPS, PLACED = 8, 1e-7
+#: Postures that lead from knot to knot lie so far apart, and two so near to each knot [s].
+BETWEEN_KNOTS_S, BESIDE_KNOTS_S = 0.02, 0.01
 #: Damping of these steps: a stretched leg does not make them infinite.
 DAMPING = 1e-9
 
@@ -69,6 +71,27 @@ def planned_motion(robot: Robot, samples: Samples) -> Motion:
     configurations = postures(urdf_model, samples)
     velocities = _differences(urdf_model.model, configurations, samples.times_s)
     return Motion(urdf_model, joints, samples.times_s, _without_jumps(configurations), velocities)
+
+
+def at_knots(robot: Robot, plan: Plan) -> Motion:
+    """Postures at the knots of a plan, with velocities from postures just before and just after each.
+
+    Raises:
+        InvalidInput: As planned_motion.
+    """
+    knots, end = np.round(plan.knot_times(), 9), float(plan.duration())
+    between = np.arange(0.0, end, BETWEEN_KNOTS_S)
+    between = between[np.abs(between[:, None] - knots).min(axis=1) > 2.0 * BESIDE_KNOTS_S]
+    beside = np.concatenate([knots - BESIDE_KNOTS_S, knots + BESIDE_KNOTS_S])
+    times_s = np.unique(np.round(np.concatenate([between, knots, beside[(beside > 0.0) & (beside < end)]]), 9))
+    motion = planned_motion(robot, sample_at(plan, plan.scene, plan.robot, np.minimum(times_s, end)))
+    rows = np.searchsorted(times_s, knots)
+    return replace(
+        motion,
+        times_s=motion.times_s[rows],
+        configurations=motion.configurations[rows],
+        velocities=motion.velocities[rows],
+    )
 
 
 def motion_along(motion: wb.Motion, times_s: Array) -> Motion:

@@ -92,12 +92,14 @@ class Source:
     @cached_property
     def motion(self) -> Motion:
         """Joints at these instants."""
-        from .motion import motion_along, planned_motion, recorded_motion
+        from .motion import at_knots, motion_along, planned_motion, recorded_motion
 
         if self.along is not None:
             return motion_along(self.along, self.times_s)
         if self.recording is not None:
             return recorded_motion(self.recording, self.times_s, self.rows)
+        if self.rate_hz == 0.0:
+            return at_knots(self.robot, self.plan)
         return planned_motion(self.robot, self.samples)
 
     @cached_property

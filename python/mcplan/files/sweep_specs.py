@@ -92,7 +92,10 @@ class SweepSpec(Strict):
         """`weights.flight` as TOML has it, a table in a table, under one name."""
         if isinstance(given, dict) and isinstance(given.get("weights"), dict):
             rest = {name: value for name, value in given.items() if name != "weights"}
-            return rest | {f"weights.{name}": value for name, value in given["weights"].items()}
+            weights = {f"weights.{name}": value for name, value in given["weights"].items()}
+            if twice := sorted(rest.keys() & weights.keys()):
+                raise PydanticCustomError("rule", "must have {name} once", {"name": twice[0]})
+            return rest | weights
         return given
 
 
@@ -143,6 +146,9 @@ def number_of_tasks(spec: SweepSpec) -> int:
 def schema_text() -> str:
     """The JSON schema of files of sweeps."""
     schema = {"$schema": "https://json-schema.org/draft/2020-12/schema", **SweepSpec.model_json_schema()}
+    options = schema["properties"]["options"]
+    weights = {"type": "object", "additionalProperties": options["additionalProperties"]}
+    options["properties"] = {"weights": {"description": "Weights of costs and constraints by name.", **weights}}
     return json.dumps(schema, indent=2) + "\n"
 
 
@@ -239,11 +245,30 @@ def _of_repeats(spec: SweepSpec) -> list[InvalidInput]:
         for k, value in enumerate(values)
         if value in values[:k]
     ]
+    values = [(f"options.{name}", value) for name, value in spec.options.items()]
+    values += [
+        (f"scenes[{i}].parameters.{name}", value)
+        for i, entry in enumerate(spec.scenes)
+        for name, value in entry.parameters.items()
+    ]
+    out += [
+        InvalidInput(field, "must have values that differ", shown(value.grid or list(value.linspace or ())))
+        for field, value in values
+        if isinstance(value, Several) and _repeats(value)
+    ]
     for i, entry in enumerate(spec.scenes):
         if entry.samples > 1 and not _draws(entry, spec):
             rule = "must be 1 where nothing is drawn: all of them would be the same"
             out.append(InvalidInput(f"scenes[{i}].samples", rule, str(entry.samples)))
     return out
+
+
+def _repeats(value: Several) -> bool:
+    """Whether values that stand in turn are the same twice."""
+    if value.linspace is not None:
+        return value.linspace[2] > 1 and value.linspace[0] == value.linspace[1]
+    texts = [json.dumps(each) for each in value.grid or []]
+    return len(set(texts)) < len(texts)
 
 
 def _draws(entry: SceneEntry, spec: SweepSpec) -> bool:

@@ -153,6 +153,8 @@ def _require_plain(value: Any) -> Any:
     items = value if isinstance(value, list) else [value]
     if not items or not all(isinstance(item, _PLAIN) for item in items):
         raise PydanticCustomError("rule", "must be a number, a text, true or false, or a list of them")
+    if not all(math.isfinite(item) for item in items if isinstance(item, float)):
+        raise PydanticCustomError("rule", "must be finite")
     return value
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -12,6 +13,8 @@ from mcplan.sweep.pool import Crash
 
 Task = TypeVar("Task")
 Outcome = TypeVar("Outcome")
+#: Addresses that Dask knows: a host and a port, or a scheduler in this process.
+_ADDRESS = re.compile(r"((tcp|tls|ws|wss|ucx|ucxx)://)?(\[[0-9a-fA-F:.%]+\]|[^\s/:]+):[0-9]{1,5}|inproc://\S+")
 #: Longest wait for the scheduler to answer [s].
 _PATIENCE_S = 30
 
@@ -28,6 +31,10 @@ def connected(scheduler: str) -> Iterator[Any]:
     """
     from distributed import Client
 
+    if not _ADDRESS.fullmatch(scheduler):  # Dask asks a client that it could not make for a minute
+        raise InvalidArgument(
+            "scheduler", 'must be the address of a Dask scheduler, such as "tcp://host:8786"', shown(scheduler)
+        )
     try:
         client = Client(scheduler, timeout=_PATIENCE_S, set_as_default=False)
     except Exception as error:  # also an AssertionError, of a scheme that it does not know

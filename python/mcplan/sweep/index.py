@@ -10,54 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 from mcplan.files.outputs import write_whole
 from mcplan.sweep import store
+from mcplan.sweep.columns import HEAD, MOTION_RESULTS, RESULTS, TIMES
 from mcplan.sweep.tasks import Task
-from mcplan.sweep.work import MEASURES, files_of
+from mcplan.sweep.work import files_of
 
 if TYPE_CHECKING:
     import pyarrow
-
-#: Columns of the index between parameters and options, and their types in Arrow.
-RESULTS = {
-    "scene": "string",
-    "status": "string",
-    "message": "string",
-    "cost": "double",
-    "iterations": "int64",
-    "switches": "int64",
-    "phases": "int64",
-    "duration_s": "double",
-    "worst_violation": "string",
-    "worst_value": "double",
-    "worst_tolerance": "double",
-    "worst_unit": "string",
-    "worst_time_s": "double",
-    "contact_sequence": "list<string>",
-    "durations_s": "list<double>",
-    "plan": "string",
-    "plan_sha256": "string",
-}
-#: Those of whole-body motions, in the index of sweeps that have them.
-MOTION_RESULTS = {
-    "motion_status": "string",
-    "motion_message": "string",
-    "motion_iterations": "int64",
-    **{f"motion_{name}": "double" for name in MEASURES},
-    "motion": "string",
-    "motion_sha256": "string",
-}
-#: Columns of the table of times.
-TIMES = {
-    "task": "int64",
-    "wall_s": "double",
-    "cpu_s": "double",
-    "plan_wall_s": "double",
-    "plan_cpu_s": "double",
-    "motion_cpu_s": "double",
-    "export_cpu_s": "double",
-    "began": "double",
-    "host": "string",
-    "crash": "string",
-}
 
 
 def write_tables(out: Path, tasks: Sequence[Task], records: Sequence[Mapping[str, Any]]) -> None:
@@ -83,13 +41,7 @@ def index_table(records: Sequence[Mapping[str, Any]]) -> pyarrow.Table:
     import pyarrow as pa
 
     columns: dict[str, pa.Array] = {}
-    for name, kind in (
-        ("task", "int64"),
-        ("entry", "string"),
-        ("robot", "string"),
-        ("engine", "string"),
-        ("seed", "int64"),
-    ):
+    for name, kind in HEAD.items():
         columns[name] = pa.array([record[name] for record in records], type_of(kind))
     for group, prefix in (("parameters", "scene."), ("options", "options.")):
         names = dict.fromkeys(name for record in records for name in record[group])

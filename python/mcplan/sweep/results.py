@@ -12,6 +12,7 @@ from mcplan._core import Plan
 from mcplan.errors import InvalidArgument, InvalidSweep, shown
 from mcplan.extras import require
 from mcplan.sweep import store
+from mcplan.sweep.columns import HEAD, RESULTS
 
 if TYPE_CHECKING:
     import pandas
@@ -108,12 +109,16 @@ class Sweep:
         """Files whose content is not that of their checksum, or that are missing: none, if all is well.
 
         Raises:
-            InvalidSweep: The sweep is not complete: there are no checksums yet.
+            InvalidSweep: The sweep is not complete: there are no checksums yet, or their file is damaged.
         """
         try:
             lines = (self.out / store.CHECKSUMS).read_text(encoding="utf-8").splitlines()
         except OSError:
             raise InvalidSweep("", f"must be complete: there is no {store.CHECKSUMS}", str(self.out)) from None
+        except UnicodeDecodeError:
+            lines = []
+        if not lines:
+            raise _damaged(self.out, store.CHECKSUMS)
         wrong = []
         for line in lines:
             digest, _, name = line.partition("  ")
@@ -125,9 +130,16 @@ class Sweep:
     def _read(self) -> pyarrow.Table:
         """The index; of a sweep that is not complete what its records make."""
         if (self.out / store.INDEX).exists():
+            import pyarrow as pa
             import pyarrow.parquet as pq
 
-            return pq.read_table(self.out / store.INDEX)
+            try:
+                found = pq.read_table(self.out / store.INDEX)
+            except (pa.ArrowInvalid, OSError):
+                raise _damaged(self.out, store.INDEX) from None
+            if not {*HEAD, *RESULTS} <= set(found.column_names):
+                raise _damaged(self.out, store.INDEX)
+            return found
         from mcplan.sweep.index import index_table
 
         return index_table(_rows(self.out, store.records))
@@ -151,7 +163,7 @@ def load_sweep(path: str | Path) -> Sweep:
         ``motions``), ``manifest``, and ``verify()``, which compares files with their checksums.
 
     Raises:
-        InvalidSweep: The folder is none of a sweep.
+        InvalidSweep: The folder is none of a sweep, or its index is damaged.
         InvalidArgument: It is no path.
         MissingExtra: The packages of ``pip install 'mcplan[sweep]'`` are not installed.
     """
@@ -160,6 +172,11 @@ def load_sweep(path: str | Path) -> Sweep:
     store.read_manifest(Path(path))
     require("mcplan.load_sweep", "sweep", "pyarrow")
     return Sweep(Path(path))
+
+
+def _damaged(out: Path, name: str) -> InvalidSweep:
+    rule = f"must be that of a sweep: {name} is damaged, and the same `mcplan sweep` makes it again"
+    return InvalidSweep("", rule, str(out))
 
 
 def _rows(out: Path, read: Any) -> list[dict[str, Any]]:

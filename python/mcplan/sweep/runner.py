@@ -132,7 +132,7 @@ def run(
     tasks = tasks_of(spec, Path(folder))
     share = share_of(tasks, how.shard)
     with _workers(how) as each:
-        store.begin(out, store.manifest_of(spec, tasks))
+        store.begin(out, store.manifest_of(spec, tasks, Path(folder)))
         left = store.pending(out, share, how.retry_crashed)
         store.sweep_away(out, left)
         done = len(share) - len(left)

@@ -15,7 +15,8 @@ import numpy
 from mcplan import _core
 from mcplan.errors import InvalidSweep, shown, shown_path
 from mcplan.files.outputs import made_folder, write_whole
-from mcplan.sweep.tasks import Task
+from mcplan.sweep.columns import is_record, is_times
+from mcplan.sweep.tasks import Task, located
 from mcplan.sweep.work import CRASHED, EXPORTS, MOTIONS, PLANS, RECORDS, TIMES, files_of, path_of
 
 if TYPE_CHECKING:
@@ -24,13 +25,13 @@ if TYPE_CHECKING:
 MANIFEST, INDEX, TIMES_TABLE = "manifest.json", "index.parquet", "times.parquet"
 CHECKSUMS, SUMMARY = "checksums.sha256", "summary.html"
 _KIND, _FORMAT = "mcplan sweep", 1
+#: How the name of a manifest begins that is being written.
+_BEGINNING = ".manifest."
 
 
-def manifest_of(spec: SweepSpec, tasks: Sequence[Task]) -> dict[str, Any]:
-    """What a sweep is: versions, seeds, the whole spec, and digests of the files that it names."""
+def manifest_of(spec: SweepSpec, tasks: Sequence[Task], folder: Path = Path(".")) -> dict[str, Any]:
+    """What a sweep is: versions, seeds, the whole spec, and digests of the files that it names, seen from a folder."""
     text = spec.model_dump_json(exclude_defaults=True)
-    named = {task.source for task in tasks} | {task.robot_source for task in tasks}
-    files = sorted(Path(source) for source in named if source.endswith(".toml"))
     return {
         "kind": _KIND,
         "format": _FORMAT,
@@ -41,9 +42,26 @@ def manifest_of(spec: SweepSpec, tasks: Sequence[Task]) -> dict[str, Any]:
         "repeatable": not {"time_limit", "time_limit_s"} & set(spec.options),
         "versions": {"mcplan": _core.__version__, "numpy": numpy.__version__, "python": platform.python_version()},
         "spec_sha256": hashlib.sha256(text.encode()).hexdigest(),
-        "files_sha256": {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in files if path.is_file()},
+        "files_sha256": {
+            name: hashlib.sha256(path.read_bytes()).hexdigest() for name, path in named_files(spec, folder)
+        },
         "spec": json.loads(text),
     }
+
+
+def named_files(spec: SweepSpec, folder: Path) -> list[tuple[str, Path]]:
+    """Files of scenes and robots as the spec names them, and where they are; of a robot's file its URDF, too."""
+    from mcplan.files.robots import load_robot
+
+    scenes = {entry.scene for entry in spec.scenes if entry.scene is not None}
+    robots = {*spec.robots, *(robot for entry in spec.scenes for robot in entry.robots or [])}
+    found = {name: Path(located(name, folder)) for name in scenes | robots}
+    files = {name: path for name, path in found.items() if path.is_absolute()}
+    for name in robots & files.keys():
+        urdf = Path(load_robot(files[name]).urdf)
+        if urdf.is_file():
+            files[f"{name}: {urdf.name}"] = urdf
+    return sorted(files.items())
 
 
 def begin(out: Path, manifest: dict[str, Any]) -> None:
@@ -52,22 +70,24 @@ def begin(out: Path, manifest: dict[str, Any]) -> None:
     Raises:
         InvalidSweep: It holds another sweep, the same by another version, or other things.
     """
-    if (out / MANIFEST).exists():
-        found = read_manifest(out)
-        for key, what in (
-            ("spec_sha256", "what its file says"),
-            ("files_sha256", "scene or robot files"),
-            ("versions", "versions"),
-        ):
-            if found.get(key) != manifest[key]:
-                rule = f"must be a new folder, or one of the same sweep: {what} differ"
-                value = f"{shown_path(out)} with {shown(found.get(key))} instead of {shown(manifest[key])}"
-                raise InvalidSweep("out", rule, shown_path(out) if key == "spec_sha256" else value)
-    elif out.is_dir() and any(out.iterdir()):
-        raise InvalidSweep("out", "must be a new or an empty folder, or one of this sweep", shown_path(out))
-    else:
+    if not (out / MANIFEST).exists():
+        # Shards may begin at once: a manifest that another is about to rename is no stranger, and all write the same.
+        strangers = out.is_dir() and any(not path.name.startswith(_BEGINNING) for path in out.iterdir())
+        if strangers and not (out / MANIFEST).exists():
+            raise InvalidSweep("out", "must be a new or an empty folder, or one of this sweep", shown_path(out))
         made_folder(out)
-        write_whole(json.dumps(manifest, indent=1) + "\n", out / MANIFEST)
+        if not strangers:
+            write_whole(json.dumps(manifest, indent=1) + "\n", out / MANIFEST)
+    found = read_manifest(out)
+    for key, what in (
+        ("spec_sha256", "what its file says"),
+        ("files_sha256", "scene or robot files"),
+        ("versions", "versions"),
+    ):
+        if found.get(key) != manifest[key]:
+            rule = f"must be a new folder, or one of the same sweep: {what} differ"
+            value = f"{shown_path(out)} with {shown(found.get(key))} instead of {shown(manifest[key])}"
+            raise InvalidSweep("out", rule, shown_path(out) if key == "spec_sha256" else value)
 
 
 def read_manifest(out: Path) -> dict[str, Any]:
@@ -84,27 +104,45 @@ def read_manifest(out: Path) -> dict[str, Any]:
         raise InvalidSweep("", f"must be the folder of a sweep, with {MANIFEST}", shown_path(out))
     if found.get("format") != _FORMAT:
         raise InvalidSweep("format", f"must be {_FORMAT}", shown(found.get("format")), str(out / MANIFEST))
+    for key, kind in (("tasks", int), ("name", str)):
+        if not isinstance(found.get(key), kind):
+            raise InvalidSweep(key, "must be there", shown(found.get(key)), str(out / MANIFEST))
     return found
 
 
-def read_record(out: Path, task_stem: str) -> dict[str, Any] | None:
-    """What is known of a task that is done: its record, if its plan is there, too."""
+def read_record(out: Path, task_stem: str, whole: bool = False) -> dict[str, Any] | None:
+    """What is known of a task that is done: its record, if its plan and its other files are there, too.
+
+    Args:
+        out: Folder of the sweep.
+        task_stem: Of the task's files.
+        whole: Whether files whose content is not that of their checksum count as missing.
+    """
     try:
         record = json.loads((out / RECORDS / f"{task_stem}.json").read_bytes())
     except (OSError, ValueError):
         return None
-    if not isinstance(record, dict):
+    if not is_record(record, _task_of(task_stem)):
         return None
-    if not all((out / record[kind]).is_file() for kind in files_of(record)):
+    if not all(_is_there(out / record[kind], record[f"{kind}_sha256"] if whole else "") for kind in files_of(record)):
         return None
-    return record
+    return dict(record)
+
+
+def _task_of(stem: str) -> int:
+    return int(stem.rpartition("/")[2])
+
+
+def _is_there(path: Path, digest: str) -> bool:
+    """Whether a file is there, and has a digest if one is given."""
+    return path.is_file() and (not digest or hashlib.sha256(path.read_bytes()).hexdigest() == digest)
 
 
 def pending(out: Path, tasks: Iterable[Task], retry_crashed: bool = False) -> list[Task]:
-    """Tasks without a record; and those that crashed, if they are to be tried again."""
+    """Tasks without a record or with damaged files; and those that crashed, if they are to be tried again."""
     left = []
     for task in tasks:
-        record = read_record(out, task.stem)
+        record = read_record(out, task.stem, whole=True)
         if record is None or (retry_crashed and record.get("status") == CRASHED):
             left.append(task)
     return left
@@ -132,13 +170,15 @@ def times(out: Path) -> Iterator[dict[str, Any]]:
     """Times of all tasks that have some, in any order."""
     for path in (out / TIMES).glob("*/[0-9]*.json"):
         with suppress(OSError, ValueError):
-            yield json.loads(path.read_bytes())
+            found = json.loads(path.read_bytes())
+            if is_times(found, int(path.stem)):
+                yield found
 
 
 def times_of(out: Path, task: Task) -> dict[str, Any]:
     """Times of a task; without them its number alone."""
     with suppress(OSError, ValueError):
         found = json.loads(path_of(out, task, TIMES, ".json").read_bytes())
-        if isinstance(found, dict):
-            return found
+        if is_times(found, task.index):
+            return dict(found)
     return {"task": task.index}

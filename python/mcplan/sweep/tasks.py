@@ -79,15 +79,15 @@ def tasks_of(spec: SweepSpec, folder: Path = Path(".")) -> list[Task]:
     Raises:
         InvalidSweep: There are more than MAX_TASKS.
     """
-    from mcplan.files.sweep_specs import MAX_TASKS, number_of_tasks, place
+    from mcplan.files.sweep_specs import MAX_TASKS, number_of_tasks
 
     if (number := number_of_tasks(spec)) > MAX_TASKS:
         raise InvalidSweep("scenes", f"must give at most {MAX_TASKS} tasks", str(number))
     out: list[Task] = []
     for entry in spec.scenes:
-        source = place(entry.scene, folder) if entry.scene is not None else ""
+        source = located(entry.scene, folder) if entry.scene is not None else ""
         for robot, parameters, options, seed in _combinations(spec, entry):
-            robot_source = place(robot, folder)
+            robot_source = located(robot, folder)
             out.append(
                 Task(
                     len(out), entry.title, entry.generator, source, parameters, robot, robot_source, spec.engine,
@@ -95,6 +95,16 @@ def tasks_of(spec: SweepSpec, folder: Path = Path(".")) -> list[Task]:
                 )
             )  # fmt: skip
     return out
+
+
+def located(source: str, folder: Path) -> str:
+    """What a scene or robot is loaded by, wherever a worker has been started: a built-in name or an absolute path."""
+    from mcplan.files.robots import list_robots
+    from mcplan.files.scenes import list_scenes
+    from mcplan.files.sweep_specs import place
+
+    found = place(source, folder)
+    return found if found in (*list_scenes(), *list_robots()) else str(Path(found).absolute())
 
 
 def share_of(tasks: Sequence[Task], shard: tuple[int, int] | None) -> list[Task]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
+import os
 import platform
 import time
 import warnings
@@ -39,10 +41,14 @@ def work(job: Job) -> str:
 
     Returns:
         The status.
+
+    Raises:
+        FileNotFoundError: This worker does not see a file that the task is made from, which is no property of the task.
     """
     out, task = Path(job.out), job.task
     begin, begin_cpu = time.time(), time.process_time()
     clock = time.perf_counter()
+    _require_seen(task)
     try:
         with warnings.catch_warnings():
             for told in (SuspiciousGeometry, SuspiciousName):  # once for the sweep, not for each task
@@ -59,6 +65,12 @@ def work(job: Job) -> str:
     write(out, task, TIMES, {"task": task.index, **times})
     write(out, task, RECORDS, head(task) | record)
     return str(record["status"])
+
+
+def _require_seen(task: Task) -> None:
+    for source in (task.source, task.robot_source):
+        if os.path.isabs(source) and not os.path.isfile(source):
+            raise FileNotFoundError(errno.ENOENT, f"{os.strerror(errno.ENOENT)} on {platform.node()}", source)
 
 
 def head(task: Task) -> dict[str, Any]:
@@ -178,17 +190,18 @@ def _exported(source: Path, formats: tuple[str, ...], stem: Path, out: Path) -> 
     from mcplan.export import FORMATS, export
 
     stem.parent.mkdir(parents=True, exist_ok=True)
-    found: dict[str, Any] = {"export_message": None}
+    found: dict[str, Any] = {}
+    refused = []
     for name in formats:
         path = stem.with_name(f"{stem.name}.{name}{FORMATS[name].suffix[0]}")
         try:
             export(source, name, path)
         except InvalidInput as refusal:
-            found |= {"export_message": f"{name}: {str(refusal).splitlines()[0]}"}
+            refused.append(f"{name}: {str(refusal).splitlines()[0]}")
             continue
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
         found |= {f"export_{name}": path.relative_to(out).as_posix(), f"export_{name}_sha256": digest}
-    return found
+    return {"export_message": "; ".join(refused) or None} | found
 
 
 def _engine(task: Task, scene: Any, robot: Robot) -> Any:
