@@ -1,6 +1,6 @@
 """Costs of small plans beside the best of many searches with other settings.
 
-python benchmarks/optimality.py [--searches 30] [--phases 8 --phases 10] [--jobs N] [SCENE[/ROBOT] ...]
+python benchmarks/optimality.py [--searches 30] [--phases 8 --phases 10] [--polish penalty] [--jobs N] [SCENE[/ROBOT] ...]
 
 Every other search has a proximal weight and a first guess of the durations of its own, drawn from its seed; what it finds is
 where a search with the default settings then begins, since the reference that a plan is drawn to, and with it its cost, depends
@@ -52,6 +52,7 @@ class Task:
     robot: str
     phases: int
     seed: int
+    polish: str
 
 
 @dataclass(frozen=True)
@@ -80,9 +81,10 @@ def solve(task: Task) -> Outcome:
     """Plan once."""
     robot = mp.load_robot(task.robot)
     begin = time.process_time()
-    result = mp.plan(task.scene, robot, phases=task.phases, seed=max(task.seed, 0), **settings(task.seed, robot))
+    same = {"phases": task.phases, "polish": task.polish}
+    result = mp.plan(task.scene, robot, seed=max(task.seed, 0), **same, **settings(task.seed, robot))
     if task.seed >= 0:
-        result = mp.plan(task.scene, robot, phases=task.phases, warm_start=result.plan)
+        result = mp.plan(task.scene, robot, warm_start=result.plan, **same)
     report = result.report
     return Outcome(str(report.status) == "solved", str(report.status), report.cost, time.process_time() - begin)
 
@@ -122,6 +124,9 @@ def main() -> int:
     parser.add_argument("scenes", nargs="*", default=SCENES, metavar="SCENE[/ROBOT]")
     parser.add_argument("--phases", type=int, action="append", metavar="N", help="Number of phases; several.")
     parser.add_argument("--searches", type=int, default=30, metavar="N", help="Number of other searches a plan.")
+    parser.add_argument(
+        "--polish", choices=("penalty", "interior_point"), default="penalty", help="What polishes plans."
+    )
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="Number of processes.")
     parser.add_argument("--out", type=Path, default=Path("out/optimality"), metavar="DIR", help="Folder for the CSV.")
     given = parser.parse_args()
@@ -130,7 +135,7 @@ def main() -> int:
     tasks = []
     for name, phases in pairs:
         scene, _, robot = name.partition("/")
-        tasks += [Task(scene, robot or "humanoid44", phases, seed) for seed in searches]
+        tasks += [Task(scene, robot or "humanoid44", phases, seed, given.polish) for seed in searches]
     print(f"{'plan':28} {'N':>3}  {'status':12} {'cost':>9} {'best':>9} {'ratio':>6}  {'solved':8}  {'CPU':>8}")
     outcomes: dict[int, Outcome] = {}
     rows: list[records.Row] = []
