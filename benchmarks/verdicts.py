@@ -24,7 +24,7 @@ import numpy as np
 
 import mcplan as mp
 from mcplan.files.scenes import scaled
-from mcplan.kinematics.urdf_model import load_model
+from mcplan.kinematics.urdf_model import leg_velocities, load_model
 from mcplan.tracking.feasibility import assess
 from mcplan.tracking.measures import at_torque_limit
 from mcplan.tracking.recording import Recording
@@ -74,13 +74,8 @@ class Outcome:
 
 def longest_saturation_s(run: Recording, robot: mp.Robot) -> float:
     """The longest time for which one joint of a leg stays at its limit of torque [s]; arms balance with what they have."""
-    urdf = load_model(robot)
-    feet = [f for f, end in zip(urdf.frames, robot.end_effectors, strict=True) if end.kind == "foot"]
-    ways = [urdf.model.supports[urdf.model.frames[frame].parentJoint] for frame in feet]
-    legs = {urdf.model.names[j] for way in ways for j in way if sum(j in other for other in ways) == 1}
-    at_limit = at_torque_limit(run)[:, [name in legs for name in run.joints]]
     longest = 0
-    for joint in at_limit.T.astype(int):
+    for joint in at_torque_limit(run)[:, leg_velocities(load_model(robot))].T.astype(int):
         changes = np.flatnonzero(np.diff(joint, prepend=0, append=0))
         longest = max(longest, int((changes[1::2] - changes[::2]).max(initial=0)))
     return longest * float(np.median(np.diff(run.times_s)))

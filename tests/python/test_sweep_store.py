@@ -136,7 +136,7 @@ def test_a_manifest_without_its_fields_is_told(copied):
     manifest = json.loads((copied / "manifest.json").read_text())
     del manifest["tasks"]
     (copied / "manifest.json").write_text(json.dumps(manifest))
-    with pytest.raises(InvalidSweep, match="tasks: must be there"):
+    with pytest.raises(InvalidSweep, match="tasks: must be a whole number"):
         load_sweep(copied)
 
 

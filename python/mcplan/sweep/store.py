@@ -104,9 +104,9 @@ def read_manifest(out: Path) -> dict[str, Any]:
         raise InvalidSweep("", f"must be the folder of a sweep, with {MANIFEST}", shown_path(out))
     if found.get("format") != _FORMAT:
         raise InvalidSweep("format", f"must be {_FORMAT}", shown(found.get("format")), str(out / MANIFEST))
-    for key, kind in (("tasks", int), ("name", str)):
+    for key, kind, rule in (("tasks", int, "must be a whole number"), ("name", str, "must be a text")):
         if not isinstance(found.get(key), kind):
-            raise InvalidSweep(key, "must be there", shown(found.get(key)), str(out / MANIFEST))
+            raise InvalidSweep(key, rule, shown(found.get(key)), str(out / MANIFEST))
     return found
 
 

@@ -117,7 +117,8 @@ def _least_of(states: States, pair: tuple[Shape, Shape], gaps: Array, least: Mot
     if gaps.min() >= _target(least):
         return least
     travel, k, count = _travel(states, pair), 0, len(gaps)
-    for guess in _nearest_by_hulls(states, pair, gaps, _target(least)):
+    guess = _nearest_by_hulls(states, pair, gaps, _target(least))
+    if guess is not None:
         least = _nearer(states, pair, guess, distance(states, pair, guess), least)
     target = _target(least)
     while k < count:
@@ -135,19 +136,20 @@ def _least_of(states: States, pair: tuple[Shape, Shape], gaps: Array, least: Mot
     return least
 
 
-def _nearest_by_hulls(states: States, pair: tuple[Shape, Shape], gaps: Array, target: float) -> list[int]:
-    """The instant, of every fortieth, at which the hulls are nearest: what is known to be near need not be sought below it."""
+def _nearest_by_hulls(states: States, pair: tuple[Shape, Shape], gaps: Array, target: float) -> int | None:
+    """The instant, of every COARSE-th, at which hulls are nearest; None: nowhere below the target.
+
+    Begun there, the least distance is known early, and little is left that has to be known better.
+    """
     at = np.arange(0, len(gaps), COARSE)
     at = at[gaps[at] < target]
-    if not at.size:
-        return []
-    values = [distance(states, pair, int(k), hulls=True) for k in at]
-    return [int(at[np.argmin(values)])]
+    values = np.array([distance(states, pair, k, hulls=True) for k in at.tolist()])
+    return int(at[values.argmin()]) if (values < target).any() else None
 
 
 def _nearer(states: States, pair: tuple[Shape, Shape], k: int, value: float, least: MotionViolation) -> MotionViolation:
     """The least distance so far, or this one at an instant."""
-    if value >= least.value:
+    if not value < least.value:
         return least
     return replace(least, value=value, time_s=float(states.times[k]), links=(pair[0].link, pair[1].link))
 
