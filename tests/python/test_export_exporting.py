@@ -92,6 +92,13 @@ def test_a_malformed_plan_and_a_robot_of_another_type_are_named(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.parametrize("to", ["contacts", "centroidal", "contact-sequence"])
+def test_a_robot_for_a_format_without_joints_is_refused(tmp_path, to):
+    with pytest.raises(mp.InvalidInput, match=f"robot: must not be given for {to}, which has no joints"):
+        mp.export(plan(), to, tmp_path / "a.json" if to != "contacts" else tmp_path / "a.npz", robot="talos")
+    assert not list(tmp_path.iterdir())
+
+
 def test_what_fails_leaves_the_file_of_before(tmp_path):
     path = tmp_path / "a.npz"
     path.write_bytes(b"before")

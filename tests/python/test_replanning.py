@@ -142,7 +142,7 @@ def touchdown_times(plan: mp.Plan) -> list[float]:
 def test_a_start_out_of_reach_is_named_and_made_good(flat):
     t = time_of_phase(flat, 1)
     knot, contacts = state_at(flat, t)
-    knot.com_W = np.array(knot.com_W) + [0.0, 0.06 if contacts[0] >= 0 else -0.06, 0.0]
+    knot.com_W = np.array(knot.com_W) + [0.0, 0.05 if contacts[0] >= 0 else -0.05, 0.0]
     result = mp.replan(flat, t, knot, contacts=contacts)
     assert result.report.status == mp.Status.solved
     assert result.report.start_violations[0].name == "reach"
@@ -203,7 +203,7 @@ def test_what_is_committed_is_kept_under_a_push(flat):
     touchdown = touchdown_times(flat)[2]
     t = touchdown - 0.06
     knot, contacts = state_at(flat, t)
-    knot.com_velocity_W = np.array(knot.com_velocity_W) + [0.1, 0.1, 0.0]
+    knot.com_velocity_W = np.array(knot.com_velocity_W) + [0.2, 0.2, 0.0]
     result = mp.replan(flat, t, knot, contacts=contacts)
     first = footholds(result.plan)[0]
     planned = next(f for f, time in zip(footholds(flat), touchdown_times(flat), strict=False) if time == touchdown)
@@ -355,7 +355,7 @@ def test_out_of_time_there_is_a_plan_whose_next_two_steps_can_be_followed(flat):
 def test_without_work_for_them_no_other_sequences_are_tried(flat):
     t = time_of_phase(flat, 0)
     knot, contacts = state_at(flat, t)
-    knot.com_velocity_W = np.array(knot.com_velocity_W) + [0.0, 0.4, 0.0]
+    knot.com_velocity_W = np.array(knot.com_velocity_W) + [0.0, 0.5, 0.0]
 
     def tried(**options: Any) -> int:
         lines: list[str] = []

@@ -64,3 +64,10 @@ def test_a_plan_that_does_not_fit_together_is_refused(plan):
     broken = mp.Plan(knots=list(plan.knots)[:-1], phases=plan.phases, scene=plan.scene, robot=plan.robot)
     with pytest.raises(mp.errors.InvalidPlan):
         broken.sample([0.0])
+
+
+def test_the_end_may_be_missed_by_rounding(plan):
+    """Sums of steps end a bit after it; ``at`` takes them, too."""
+    end_s = plan.duration()
+    samples = plan.sample([-1e-12, end_s + 1e-12])
+    assert (samples.com_W == plan.sample([0.0, end_s]).com_W).all()

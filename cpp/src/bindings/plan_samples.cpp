@@ -41,8 +41,9 @@ py::dict plan_samples(const Plan& plan, const std::vector<double>& times) {
       yaw("end_effector_yaw", {n, count});
   int *next_phase = phase.mutable_data(), *next_surface = surfaces.mutable_data();
   const double end_s = plan.duration();
+  constexpr double kRounding = 1e-9;  // as Plan::at
   for (std::size_t i = 0; i < times.size(); ++i) {
-    if (!(times[i] >= 0.0 && times[i] <= end_s))
+    if (!(times[i] >= -kRounding && times[i] <= end_s + kRounding))
       throw InvalidInput("times[" + std::to_string(i) + "]", "must lie in [0, " + text(end_s) + "] s", text(times[i]));
     const PlanState now = plan.at(times[i]);
     *next_phase++ = now.phase;

@@ -11,10 +11,10 @@
 #include "ddp/constants.hpp"
 #include "ddp/initial_sequence.hpp"
 #include "ddp/lanes.hpp"
-#include "ddp/near_miss.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
 #include "ddp/stepping_sequence.hpp"
+#include "model/text.hpp"
 
 namespace mcplan::ddp {
 
@@ -129,6 +129,22 @@ Ending Attempts::attempt(std::vector<Guess> guesses, const Tuning& tuning) {
   return late(ending);
 }
 
+/// End an attempt. Returns what the checker objects to.
+std::vector<Violation> Attempts::finish(Incumbent now, const Tuning& tuning) {
+  const double cost = now.evaluation.cost;
+  std::vector<Violation> violations = best_->finish(search_, surfaces_, std::move(now), tuning);
+  if (!problem_.options.logger) return violations;
+  std::string verdict = deadline_->passed() ? "not checked in full" : "accepted";
+  if (!violations.empty()) {
+    const Violation& worst = *std::max_element(violations.begin(), violations.end(), [](const auto& a, const auto& b) {
+      return violation_ratio(a) < violation_ratio(b);
+    });
+    verdict = "violates " + worst.name + ", " + model::digits(violation_ratio(worst), "%.3g") + " times its tolerance";
+  }
+  problem_.options.logger(LogLevel::info, "plan of cost " + model::digits(cost, "%.4g") + ": " + verdict);
+  return violations;
+}
+
 /// What an attempt that has come to its end is called when the time limit has cut its last check short.
 Ending Attempts::late(Ending ending) const {
   return ending == Ending::done && !best_->ok() && deadline_->passed() ? Ending::time_limit : ending;
@@ -221,7 +237,14 @@ bool Attempts::asks_too_much_of_joints() const {
   return plan && !plan->ok && (plan->worst.name == "joint_torque" || plan->worst.name == "joint_speed");
 }
 
-/// Other settings of what the outcome depends on most, in an order drawn from the seed, until a plan is accepted.
+/// Whether there is no plan that is accepted, or it flies more than once.
+bool Attempts::falls_short() const {
+  const auto& plan = best_->finished();
+  return !plan || !plan->ok || flights(plan->plan) > 1;
+}
+
+/// Other settings of what the outcome depends on most, in an order drawn from the seed, until a plan is accepted; after
+/// the first of them with the penalty, which ends elsewhere.
 Ending Attempts::restart(Ending ending, const ContactSequence& initial, Tuning tuning) {
   const Problem& p = problem_;
   std::vector<RestartSetting> settings(std::begin(kRestarts), std::end(kRestarts));
@@ -235,49 +258,16 @@ Ending Attempts::restart(Ending ending, const ContactSequence& initial, Tuning t
     again.sequence = initial;
     std::vector<Guess> others{{again, proximal}};
     tuning.hold_joints = tuning.hold_joints || asks_too_much_of_joints();
+    tuning.penalty = tuning.penalty || i > 0;
     // A foot too close to the next step catches it with its toe: the same motion with footholds further inside.
     if (best_->finished() && best_->finished()->worst.name == "clearance" && !last_.sequence.empty()) {
       tuning.extra_margin += further_inside();
       tuning.clear_swings = true;
       others.insert(others.begin(), Guess{last_, 0.0, true});
     }
-    ending = attempt(std::move(others), tuning);
+    ending = attempt_and_mend(std::move(others), tuning, kMendDearerLater);
   }
   return ending;
-}
-
-/// A plan that misses limits by little does so since penalties settle slightly outside: the interior point goes on from
-/// there, which holds them. Swings that catch edges and joints are no matter of that.
-Ending Attempts::hold_limits(Ending ending, Tuning tuning) {
-  const auto& plan = best_->finished();
-  if (ending != Ending::done || !plan || plan->ok || last_.sequence.empty()) return ending;
-  const std::string& name = plan->worst.name;
-  const bool elsewhere = name == "clearance" || name == "limb" || name == "trunk" || name.rfind("joint_", 0) == 0;
-  if (elsewhere || violation_ratio(plan->worst) > kAcceptable) return ending;
-  tuning.exact = true;
-  tuning.hold_joints = false;
-  return attempt({{last_, 0.0, true}}, tuning);
-}
-
-/// From a plan that the checker rejects by little to the optimum of its sequence with the limits held, then further
-/// inside those that are still missed, as long as that leads to near misses.
-Ending Attempts::mend(Incumbent near, Tuning tuning) {
-  Problem inside = problem_;
-  Report& report = search_.report();
-  inside.options.max_iterations = report.iterations + static_cast<int>(kMendRatio * problem_.options.max_iterations);
-  tuning.exact = true;
-  for (int round = 0; round < kMendRounds && !best_->solved(); ++round) {
-    Search search(inside, *deadline_, report);
-    const double never = std::numeric_limits<double>::infinity();
-    Ending ending = search.polish_guess(near, Search::Origin::plan, never, tuning);
-    if (ending == Ending::done) ending = search.polish_last(near, tuning, kMendTolerance);
-    if (ending != Ending::done) return ending;
-    const std::vector<Violation> missed = best_->finish(search_, surfaces_, near, tuning);
-    const auto by_far = [](const Violation& v) { return violation_ratio(v) > kAcceptable; };
-    if (std::any_of(missed.begin(), missed.end(), by_far)) break;
-    tighten(inside, tuning, missed);
-  }
-  return late(Ending::done);
 }
 
 /// In few phases the optimum of the sequence that was found, and from more discoveries, whatever the checker says of
@@ -308,12 +298,14 @@ Ending Attempts::vary(Ending ending, const ContactSequence& initial, Tuning tuni
   return ending;
 }
 
+// The interior point is no faster over four feet, and has ended with no crawl where the penalty had one.
 Ending Attempts::crawl() {
-  std::vector<Guess> steps = stepping(first_);
-  if (steps.empty()) return Ending::done;
-  keep(steps.front().start, first_);
-  Ending ending = attempt(std::move(steps), first_);
   Tuning tuning = first_;
+  tuning.penalty = true;
+  std::vector<Guess> steps = stepping(tuning);
+  if (steps.empty()) return Ending::done;
+  keep(steps.front().start, tuning);
+  Ending ending = attempt(std::move(steps), tuning);
   for (int i = 0; i < problem_.options.restarts && ending == Ending::done && !best_->solved(); ++i) {
     if (!best_->finished() || best_->finished()->worst.name != "clearance" || last_.sequence.empty()) break;
     tuning.extra_margin += further_inside();
@@ -343,10 +335,16 @@ Ending Attempts::run(const Incumbent* warm) {
   }
   if (best_->best() && deadline_->passed()) return Ending::time_limit;
   Tuning tuning = first_;
-  ending = attempt(guesses(start, warm), tuning);
+  ending = attempt_and_mend(guesses(start, warm), tuning);
   // Most plans ask no more of the joints than there is, and are found sooner where nothing looks at that.
   if (ending == Ending::done && asks_too_much_of_joints()) {
     tuning.hold_joints = true;
+    search_.begin_anew();
+    ending = attempt(guesses(start, warm), tuning);
+  }
+  // The filter may have led to where no motion is: the penalty goes another way.
+  if (ending == Ending::done && options.restarts > 0 && search_.exact_contacts(tuning) && falls_short()) {
+    tuning.penalty = true;
     search_.begin_anew();
     ending = attempt(guesses(start, warm), tuning);
   }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "ddp/best_plan.hpp"
+#include "ddp/constants.hpp"
 #include "ddp/ending.hpp"
 #include "ddp/problem.hpp"
 #include "ddp/search.hpp"
@@ -27,8 +29,10 @@ class Attempts {
   /// End-effectors in turns and nothing else, once more with footholds further inside where a swing has caught an edge.
   Ending crawl();
 
-  /// Go on from a plan that the checker rejects by little until it accepts one, with the plan's sequence.
-  Ending mend(Incumbent near, Tuning tuning);
+  /// Go on from a plan that the checker rejects by little, for what it has `missed`, until it accepts one, with the
+  /// plan's sequence, or the motion costs more than the dearest that is wanted.
+  Ending mend(Incumbent near, Tuning tuning, std::vector<Violation> missed = {},
+              double dearest = std::numeric_limits<double>::infinity());
 
  private:
   struct Guess {
@@ -42,15 +46,17 @@ class Attempts {
   std::vector<Guess> stepping(const Tuning& tuning) const;
   std::vector<Guess> guesses(const Incumbent& start, const Incumbent* warm) const;
   Ending attempt(std::vector<Guess> guesses, const Tuning& tuning);
+  Ending attempt_and_mend(std::vector<Guess> guesses, const Tuning& tuning, double dearer = kMendDearer);
   Incumbent cheapest(const std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending);
   Ending restart(Ending ending, const ContactSequence& initial, Tuning tuning);
   Ending hold_limits(Ending ending, Tuning tuning);
   Ending vary(Ending ending, const ContactSequence& initial, Tuning tuning);
   bool asks_too_much_of_joints() const;
+  bool falls_short() const;
   double further_inside() const;
   Ending late(Ending ending) const;
   void keep(const Incumbent& now, const Tuning& tuning);
-  void finish(Incumbent now, const Tuning& tuning) { best_->finish(search_, surfaces_, std::move(now), tuning); }
+  std::vector<Violation> finish(Incumbent now, const Tuning& tuning);
 
   const Problem problem_;
   const std::vector<int> surfaces_;

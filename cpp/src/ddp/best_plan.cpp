@@ -69,6 +69,12 @@ void take(std::optional<BestPlan::Finished>& best, BestPlan::Finished&& now) {
 
 }  // namespace
 
+int flights(const Plan& plan) {
+  return static_cast<int>(std::count_if(plan.phases.begin(), plan.phases.end(), [](const Phase& phase) {
+    return std::all_of(phase.contacts.begin(), phase.contacts.end(), [](const Contact& c) { return c.surface < 0; });
+  }));
+}
+
 bool better(const std::optional<BestPlan::Finished>& one, const std::optional<BestPlan::Finished>& other) {
   return one && (!other || better(*one, *other));
 }

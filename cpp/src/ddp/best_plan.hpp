@@ -93,4 +93,7 @@ bool better(const std::optional<BestPlan::Finished>& one, const std::optional<Be
 /// Value in tolerances; what admits none is beyond every other violation.
 double violation_ratio(const Violation& violation);
 
+/// Number of phases without any contact.
+int flights(const Plan& plan);
+
 }  // namespace mcplan::ddp

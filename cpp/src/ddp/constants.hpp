@@ -40,6 +40,9 @@ constexpr double kStrideFrictionMax = 10.0;
 /// So many times as many phases are tried, each over the one before, where the best plan is acceptable. Measured on 150
 /// random scenes: 7 of 10 failures were too few phases for short steps, the others jumps.
 constexpr double kMorePhases[] = {1.3};
+/// And where a walk costs more than this a phase. Measured on 115 random scenes (27 November 2026): walks cost 0.004 to
+/// 0.02; four cost more, 0.09 to 0.2, of which more phases made 0.006.
+constexpr double kDearPhase = 0.03;
 /// A crawl on four point feet is tried in so many times as many phases as the way asks for, until one succeeds.
 /// Measured on rooms with a door aside: 58 phases fail, 70 are enough.
 constexpr double kCrawlPhases[] = {1.0, 1.2, 1.45};
@@ -84,6 +87,9 @@ constexpr double kTurnAside = 0.05;
 constexpr double kTrunkRadius = 0.15;
 /// Room beside a sole that swings past such a solid, in heights of the CoM. Chosen.
 constexpr double kSwingRoom = 0.02;
+/// Room between soles that stand beside each other, in heights of the CoM, or this ratio of what they have in the
+/// nominal stance. Chosen: links of feet are wider than soles.
+constexpr double kSoleRoom = 0.03, kNominalRoom = 0.9;
 /// Room that swings keep above solids and beside them, in heights of the CoM; the most that a foot is lifted, in usual
 /// swing heights: the largest that a plan's swings are chosen from. Chosen.
 constexpr double kPathRoom = 0.01, kLiftMax = 4.0;
@@ -250,6 +256,9 @@ constexpr double kAcceptable = 10.0;
 /// that: a base that turns at the goal as fast as the checker allows costs 1e-4. Chosen.
 constexpr int kMendRounds = 5;
 constexpr double kMendRatio = 0.1, kMendTolerance = 1e-6;
+/// At once after an attempt, as long as that makes the motion dearer by no more than this ratio; after one that was a
+/// restart, the second. Chosen.
+constexpr double kMendDearer = 1.25, kMendDearerLater = 2.0;
 
 // Method::paper.
 

@@ -28,7 +28,6 @@ void require_of_paper(const Options& options, model::Findings& found) {
   const auto number = [&](const char* name, auto value, auto unset, auto off) {
     require(name, value == unset || value == off, text(value));
   };
-  require("polish", options.polish == usual.polish, "interior_point");
   number("restarts", options.restarts, usual.restarts, 0);
   number("interior_points", options.interior_points, usual.interior_points, 0);
   number("friction_sides", options.friction_sides, usual.friction_sides, 0);

@@ -46,6 +46,7 @@ struct Tuning {
   bool clear_swings = false;              ///< hold swings out of solids, where one has caught an edge
   bool hold_joints = false;               ///< hold the limb limits, where a plan has exceeded them
   bool exact = false;                     ///< polish by interior point whatever the options say, in few phases
+  bool penalty = false;                   ///< polish by the penalty, where the interior point has found no plan
 };
 
 /// Limits and nominal position of an end-effector, non-dimensional.

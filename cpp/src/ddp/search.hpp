@@ -113,7 +113,8 @@ class Search {
 
   /// Whether the interior point polishes. It has no rows for limb limits.
   bool exact_contacts(const Tuning& tuning) const {
-    return (tuning.exact || problem_->options.polish == Polish::interior_point) && !tuning.hold_joints;
+    const bool chosen = problem_->options.polish == Polish::interior_point && !tuning.penalty;
+    return (tuning.exact || chosen) && !tuning.hold_joints;
   }
 
   /// Forget what earlier attempts have left behind.

@@ -49,6 +49,12 @@ void name_surfaces(Report& report, std::size_t first_row, const std::vector<int>
         if (surface != kFree) surface = surfaces[surface];
 }
 
+/// Whether an accepted plan costs so much that steps as long as that strain the robot. A flight costs more by itself.
+bool strains(const BestPlan::Finished& found) {
+  return found.ok && found.evaluation.cost > kDearPhase * static_cast<double>(found.plan.phases.size()) &&
+         flights(found.plan) == 0;
+}
+
 }  // namespace
 
 /// Surfaces that the search looks at: those near the way, and those that are named.
@@ -168,23 +174,34 @@ Found WaysToGoal::search_along(const Way& way, Report& report, const Beside* bes
   return found;
 }
 
-/// Where a plan is nearly found, or a foot has caught the edge of what it can step on, the same way in more phases:
-/// ground may ask for shorter steps than the robot can make. Detours are tried so before the other ways are searched,
-/// which would use up the iterations.
+/// Where a plan is nearly found, or strains the robot, or a foot has caught the edge of what it can step on, the same
+/// way in more phases: ground may ask for shorter steps than the robot can make. Detours are tried so before the other
+/// ways are searched, which would use up the iterations.
 void WaysToGoal::try_more_phases(Report& report, Found& found) const {
   if (options_->phases > 0 || earlier_ || !options_->initial_sequence.empty() || options_->method == Method::paper)
     return;
   if (found.crawled) return;  // in as many
   for (const double factor : kMorePhases) {
     const auto& best = found.best.best();
-    if (found.best.ok() || !best || !ended_by_itself(found.ending)) return;
+    if (!best || !ended_by_itself(found.ending) || (best->ok && !strains(*best))) return;
     const bool caught = best->worst.name == "clearance" && !found.barrier;
-    if (!caught && violation_ratio(best->worst) > kAcceptable) return;
+    if (!best->ok && !caught && violation_ratio(best->worst) > kAcceptable) return;
     const int phases = 2 * static_cast<int>(0.5 * factor * found.steps);
     if (phases > kPhasesMax) return;
+    if (best->ok) return take_if_cheaper(phases, report, found);
     search_in(phases, found.way, report, found);
     tell(found.way, found);
   }
+}
+
+/// The same way in so many phases, as if nothing had been found: the cheaper plan counts.
+void WaysToGoal::take_if_cheaper(int phases, Report& report, Found& found) const {
+  Found more{BestPlan(*scene_, *deadline_)};
+  more.way = found.way;
+  search_in(phases, more.way, report, more);
+  tell(more.way, more);
+  if (!ended_by_itself(more.ending)) found.ending = more.ending;
+  if (better(more.best.best(), found.best.best())) found = std::move(more);
 }
 
 /// Where the checker rejects the best plan by little, what its own sequence makes of it.
@@ -287,12 +304,7 @@ Found WaysToGoal::search(Report& report) const {
   std::vector<Ahead> ahead = search_ahead(sure, report);
   for (std::size_t i = 0; i < sure.size(); ++i) try_way(sure[i], &ahead[i]);
   if (routes.obstructed && (!best || !best->best.ok())) try_way(straight);
-  const auto flies = [](const Plan& plan) {
-    return std::any_of(plan.phases.begin(), plan.phases.end(), [](const Phase& phase) {
-      return std::all_of(phase.contacts.begin(), phase.contacts.end(), [](const Contact& c) { return c.surface < 0; });
-    });
-  };
-  if (!given && options_->allow_flight && best->best.ok() && flies(best->best.best()->plan) &&
+  if (!given && options_->allow_flight && best->best.ok() && flights(best->best.best()->plan) > 0 &&
       flight_needed(*scene_, *robot_).empty())
     try_way({{}, false, least});
   // Two feet are what a walk should have; a leap may have fewer.

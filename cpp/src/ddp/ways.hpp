@@ -62,6 +62,7 @@ class WaysToGoal {
   void search_in(int phases, const Way& way, Report& report, Found& found, const Beside* beside = nullptr) const;
   Found search_along(const Way& way, Report& report, const Beside* beside = nullptr) const;
   void try_more_phases(Report& report, Found& found) const;
+  void take_if_cheaper(int phases, Report& report, Found& found) const;
   void mend(Report& report, Found& found) const;
   bool four_feet_stand() const;
   void tell(const Way& way, const Found& found) const;

@@ -19,7 +19,8 @@ ToOption = Annotated[
 ]
 OutputOption = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="File to write.")]
 RobotOption = Annotated[
-    str | None, typer.Option("--robot", metavar="R", help="Robot with a URDF; default: the plan's own.")
+    str | None,
+    typer.Option("--robot", metavar="R", help="Robot with a URDF, of formats with joints; default: the plan's own."),
 ]
 RateOption = Annotated[
     float | None,

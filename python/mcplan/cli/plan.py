@@ -55,7 +55,7 @@ PolishOption = Annotated[
     typer.Option(
         "--polish",
         metavar="P",
-        help="What finds the motion of a given contact sequence: penalty (default) or interior_point.",
+        help="What finds the motion of a given contact sequence: interior_point (default) or penalty.",
     ),
 ]
 TimeLimitOption = Annotated[

@@ -40,7 +40,7 @@ def export(
         to: Name of the format; ``mcplan export --list`` prints them.
         path: The file, which is complete or not there at all.
         robot: Robot with a URDF and the plan's end-effectors by name; None: the plan's own. Runs and motions have
-            their own.
+            their own, and formats without joints take none.
         rate_hz: Samples per second; None: what is usual for the format.
 
     Returns:

@@ -62,6 +62,9 @@ class Source:
             if not what.phases:
                 raise InvalidInput("what", "must be a plan that has phases", "none")
             what.validate()
+            if robot is not None and not entry.joints:
+                rule = f"must not be given for {entry.name}, which has no joints: it holds the plan, of its own robot"
+                raise InvalidInput("robot", rule, shown(robot.name if isinstance(robot, Robot) else str(robot)))
             from mcplan.tracking.runner import robot_for
 
             return Source(what, None, robot_for(what, robot), rate, entry.name)

@@ -65,7 +65,9 @@ TEST_CASE("while the checker rejects what comes out, as many restarts follow as 
   }
 }
 
-TEST_CASE("in few phases a plan costs no more than that of a single attempt from any first guess of the durations") {
+// Durations that are guessed first set the speed of the reference, and with it costs: what compares is where the
+// default ends from the plan of another guess.
+TEST_CASE("in few phases a plan costs no more than that from any first guess of the durations") {
   for (const mcplan::Scene& scene : {scenes::flat(), scenes::stairs()}) {
     CAPTURE(scene.name);
     const PlanResult result = solve(scene, phases(10));
@@ -76,7 +78,9 @@ TEST_CASE("in few phases a plan costs no more than that of a single attempt from
       single.restarts = 0;
       single.duration_initial_s = duration_s;
       const PlanResult other = solve(scene, single);
-      if (other.report.status == Status::solved) CHECK(result.report.cost <= 1.001 * other.report.cost);
+      if (other.report.status != Status::solved) continue;
+      const PlanResult from_other = SwitchedDdp(scene, scenes::humanoid44(), phases(10)).solve(other.plan);
+      CHECK(result.report.cost <= 1.001 * from_other.report.cost);
     }
   }
 }

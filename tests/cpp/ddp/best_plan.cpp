@@ -99,11 +99,10 @@ TEST_CASE("a longer time limit never gives a worse plan by the checker's measure
 }
 
 TEST_CASE("a limit that does not strike changes nothing, however fast the clock: solved or not") {
-  for (const int phases : {8, 18}) {
+  for (const int phases : {4, 18}) {  // no steps lead up three stairs in four
     CAPTURE(phases);
     Options options;
     options.phases = phases;
-    options.restarts = phases == 8 ? 0 : 3;  // with which there is a plan in 8 phases as well
     const PlanResult without = SwitchedDdp(scenes::stairs(), scenes::humanoid44(), options).solve();
     CHECK((without.report.status == Status::solved) == (phases == 18));
     options.time_limit_s = 1e6;

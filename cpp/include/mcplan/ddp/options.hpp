@@ -74,7 +74,7 @@ struct Options {
   Method method = Method::standard;
   Model model = Model::wrench;  ///< Method::paper always takes Model::lipm
   StiffnessInput stiffness_input = StiffnessInput::mu;
-  Polish polish = Polish::penalty;  ///< Method::paper has none
+  Polish polish = Polish::interior_point;  ///< Method::paper has none
   Weights weights;
 
   double duration_min_s = 0.0, duration_max_s = 0.0;  ///< soft box of the phase durations; 0: the robot's

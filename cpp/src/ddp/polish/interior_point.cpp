@@ -186,14 +186,15 @@ void InteriorPoint::take() {
   mu_ = next;
 }
 
-/// Whether the objective, extrapolated, stays above what it is compared with. Defects are closed faster, and do not
-/// count.
+/// Whether the objective, extrapolated, stays above what it is compared with: the lowest of the last ones, since a step
+/// may raise it for a moment. Defects are closed faster, and do not count.
 bool InteriorPoint::stays_above(const Settings& settings) {
   if (iterations_ < settings.patience || objectives_.size() <= kWindow) return false;
   const double fixed = costs_.constant();
   const double bar = fixed + settings.allowance * (settings.give_up_above - fixed);
   const double now = objectives_.back(), fall = objectives_[objectives_.size() - 1 - kWindow] - now;
-  return now - kWindowsAhead * std::max(fall, 0.0) > bar;
+  const double low = *std::min_element(objectives_.end() - 1 - kWindow, objectives_.end());
+  return low - kWindowsAhead * std::max(fall, 0.0) > bar;
 }
 
 /// Whether the objective has hardly changed for a while, at the last barrier parameter.

@@ -86,6 +86,7 @@ void Limits::make_linear(int k) {
       for (int j = 0; j < 3; ++j) row.touch(at.end(t.l) + j, polygon.edge_outward_W(i)[j]);
     }
   }
+  make_sole_pairs(k);
   if (k == fixed_->steps()) return;
   const Phase& phase = fixed_->phase(k);
   const auto box = [&](int column, double min, double max) {
@@ -133,6 +134,7 @@ void Limits::head(const Trajectory& trajectory) {
       for (int j = 0; j < row.count; ++j) row.factor[j] = frame.col(i).dot(basis.col(j));
     }
   }
+  part_soles(trajectory);
 }
 
 double Limits::variable(const Motion& motion, int k, int column) const {

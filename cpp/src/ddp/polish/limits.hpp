@@ -17,6 +17,7 @@ using RowArray = Eigen::ArrayXd;
 /// order, whether they are close to their bounds or not. They are those of the cost terms "bounds", "duration",
 /// "flight_duration", "pressure", "reach", "interior_reach", "friction", "force_cap", "torsion", "yaw_range", and of
 /// "contact" the edges, where a foothold is chosen. A cone's row is |d_t| - mu n.d with a root that has no kink.
+/// Besides them, soles of feet that stand beside each other keep apart (sole_pairs.cpp), which no cost term asks for.
 class Limits {
  public:
   Limits(const FixedSequence& fixed, const Pendulum& pendulum, const Tuning& tuning);
@@ -62,6 +63,11 @@ class Limits {
   struct Sole {
     int k, linear, l, surface;
   };
+  /// Two feet that stand from a knot on, one of which touches down there: a linear row that follows their headings.
+  struct SolePair {
+    int k, linear, l, other;
+    double room;
+  };
   struct OfPhase {
     std::vector<Linear> linear;
     int reach = -1;  ///< first row of the knot's reach boxes
@@ -73,6 +79,8 @@ class Limits {
   int push(int rows, double weight);
   double variable(const Motion& motion, int k, int column) const;
   void make_linear(int k);
+  void make_sole_pairs(int k);
+  void part_soles(const Trajectory& trajectory);
   void lift(const Motion& motion, int k);
   void add_linear(int k, const RowArray& y, const RowArray& d, StageModel& model) const;
   void add_contact(const Motion& motion, int k, std::size_t c, const RowArray& y, const RowArray& d);
@@ -90,6 +98,7 @@ class Limits {
   RowArray slack_;  ///< taken off r; empty: none
   std::vector<OfPhase> phases_;
   std::vector<Sole> soles_;
+  std::vector<SolePair> pairs_;
   // Scratch.
   Eigen::MatrixXd acting_, half_;
   Eigen::VectorXd gradient_, beside_, step_, carried_;

@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "ddp/attempts.hpp"
+#include "ddp/near_miss.hpp"
+
+// Plans that the checker rejects by little, brought within the limits: docs/theory/ddp.md, "Near misses".
+namespace mcplan::ddp {
+
+/// An attempt, and where the interior point has ended with a near miss, the same motion further inside at once: that
+/// takes a few of its iterations, where another attempt takes hundreds and may end with a dearer plan.
+Ending Attempts::attempt_and_mend(std::vector<Guess> guesses, const Tuning& tuning, double dearer) {
+  const Ending ending = attempt(std::move(guesses), tuning);
+  const auto& plan = best_->finished();
+  if (ending != Ending::done || !search_.exact_contacts(tuning) || last_.sequence.empty()) return ending;
+  if (!plan || plan->ok || violation_ratio(plan->worst) > kAcceptable) return ending;
+  const Ending mended = mend(last_, tuning, plan->violations, dearer * last_.evaluation.cost);
+  const bool its_own =
+      mended == Ending::iteration_limit && search_.report().iterations < problem_.options.max_iterations;
+  return its_own ? Ending::done : mended;
+}
+
+/// A plan that misses limits by little does so since penalties settle slightly outside: the interior point goes on from
+/// there, which holds them. Swings that catch edges and joints are no matter of that.
+Ending Attempts::hold_limits(Ending ending, Tuning tuning) {
+  const auto& plan = best_->finished();
+  if (ending != Ending::done || !plan || plan->ok || last_.sequence.empty()) return ending;
+  const std::string& name = plan->worst.name;
+  const bool elsewhere = name == "clearance" || name == "limb" || name == "trunk" || name.rfind("joint_", 0) == 0;
+  if (elsewhere || violation_ratio(plan->worst) > kAcceptable) return ending;
+  tuning.exact = true;
+  tuning.hold_joints = false;
+  return attempt({{last_, 0.0, true}}, tuning);
+}
+
+/// From a plan that the checker rejects by little to the optimum of its sequence with the limits held, then further
+/// inside those that are still missed, as long as that leads to near misses that cost no more than the dearest.
+Ending Attempts::mend(Incumbent near, Tuning tuning, std::vector<Violation> missed, double dearest) {
+  Problem inside = problem_;
+  Report& report = search_.report();
+  inside.options.max_iterations = report.iterations + static_cast<int>(kMendRatio * problem_.options.max_iterations);
+  tuning.exact = true;
+  for (int round = 0; round < kMendRounds && !best_->solved(); ++round) {
+    tighten(inside, tuning, missed);
+    Search search(inside, *deadline_, report);
+    const double never = std::numeric_limits<double>::infinity();
+    Ending ending = search.polish_guess(near, Search::Origin::plan, never, tuning);
+    if (ending == Ending::done) ending = search.polish_last(near, tuning, kMendTolerance);
+    if (ending != Ending::done) return ending;
+    near.evaluation = search_.evaluate(near, tuning);
+    if (near.evaluation.cost > dearest) break;
+    missed = finish(near, tuning);
+    const auto by_far = [](const Violation& v) { return violation_ratio(v) > kAcceptable; };
+    if (std::any_of(missed.begin(), missed.end(), by_far)) break;
+  }
+  return late(Ending::done);
+}
+
+}  // namespace mcplan::ddp
