@@ -125,7 +125,7 @@ def main() -> int:
     parser.add_argument("--phases", type=int, action="append", metavar="N", help="Number of phases; several.")
     parser.add_argument("--searches", type=int, default=30, metavar="N", help="Number of other searches a plan.")
     parser.add_argument(
-        "--polish", choices=("penalty", "interior_point"), default="penalty", help="What polishes plans."
+        "--polish", choices=("penalty", "interior_point"), default="interior_point", help="What polishes plans."
     )
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="Number of processes.")
     parser.add_argument("--out", type=Path, default=Path("out/optimality"), metavar="DIR", help="Folder for the CSV.")
