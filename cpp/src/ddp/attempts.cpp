@@ -243,8 +243,8 @@ bool Attempts::falls_short() const {
   return !plan || !plan->ok || flights(plan->plan) > 1;
 }
 
-/// Other settings of what the outcome depends on most, in an order drawn from the seed, until a plan is accepted; after
-/// the first of them with the penalty, which ends elsewhere.
+/// Other settings of what the outcome depends on most, in an order drawn from the seed, until a plan is accepted,
+/// with the penalty.
 Ending Attempts::restart(Ending ending, const ContactSequence& initial, Tuning tuning) {
   const Problem& p = problem_;
   std::vector<RestartSetting> settings(std::begin(kRestarts), std::end(kRestarts));
@@ -258,14 +258,14 @@ Ending Attempts::restart(Ending ending, const ContactSequence& initial, Tuning t
     again.sequence = initial;
     std::vector<Guess> others{{again, proximal}};
     tuning.hold_joints = tuning.hold_joints || asks_too_much_of_joints();
-    tuning.penalty = tuning.penalty || i > 0;
+    tuning.penalty = true;
     // A foot too close to the next step catches it with its toe: the same motion with footholds further inside.
     if (best_->finished() && best_->finished()->worst.name == "clearance" && !last_.sequence.empty()) {
       tuning.extra_margin += further_inside();
       tuning.clear_swings = true;
       others.insert(others.begin(), Guess{last_, 0.0, true});
     }
-    ending = attempt_and_mend(std::move(others), tuning, kMendDearerLater);
+    ending = attempt(std::move(others), tuning);
   }
   return ending;
 }

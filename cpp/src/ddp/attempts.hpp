@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "ddp/best_plan.hpp"
-#include "ddp/constants.hpp"
 #include "ddp/ending.hpp"
 #include "ddp/problem.hpp"
 #include "ddp/search.hpp"
@@ -46,7 +45,7 @@ class Attempts {
   std::vector<Guess> stepping(const Tuning& tuning) const;
   std::vector<Guess> guesses(const Incumbent& start, const Incumbent* warm) const;
   Ending attempt(std::vector<Guess> guesses, const Tuning& tuning);
-  Ending attempt_and_mend(std::vector<Guess> guesses, const Tuning& tuning, double dearer = kMendDearer);
+  Ending attempt_and_mend(std::vector<Guess> guesses, const Tuning& tuning);
   Incumbent cheapest(const std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending);
   Ending restart(Ending ending, const ContactSequence& initial, Tuning tuning);
   Ending hold_limits(Ending ending, Tuning tuning);

@@ -256,9 +256,8 @@ constexpr double kAcceptable = 10.0;
 /// that: a base that turns at the goal as fast as the checker allows costs 1e-4. Chosen.
 constexpr int kMendRounds = 5;
 constexpr double kMendRatio = 0.1, kMendTolerance = 1e-6;
-/// At once after an attempt, as long as that makes the motion dearer by no more than this ratio; after one that was a
-/// restart, the second. Chosen.
-constexpr double kMendDearer = 1.25, kMendDearerLater = 2.0;
+/// At once after an attempt, as long as that makes the motion dearer by no more than this ratio. Chosen.
+constexpr double kMendDearer = 1.25;
 
 // Method::paper.
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "ddp/attempts.hpp"
+#include "ddp/constants.hpp"
 #include "ddp/near_miss.hpp"
 
 // Plans that the checker rejects by little, brought within the limits: docs/theory/ddp.md, "Near misses".
@@ -10,12 +11,12 @@ namespace mcplan::ddp {
 
 /// An attempt, and where the interior point has ended with a near miss, the same motion further inside at once: that
 /// takes a few of its iterations, where another attempt takes hundreds and may end with a dearer plan.
-Ending Attempts::attempt_and_mend(std::vector<Guess> guesses, const Tuning& tuning, double dearer) {
+Ending Attempts::attempt_and_mend(std::vector<Guess> guesses, const Tuning& tuning) {
   const Ending ending = attempt(std::move(guesses), tuning);
   const auto& plan = best_->finished();
   if (ending != Ending::done || !search_.exact_contacts(tuning) || last_.sequence.empty()) return ending;
   if (!plan || plan->ok || violation_ratio(plan->worst) > kAcceptable) return ending;
-  const Ending mended = mend(last_, tuning, plan->violations, dearer * last_.evaluation.cost);
+  const Ending mended = mend(last_, tuning, plan->violations, kMendDearer * last_.evaluation.cost);
   const bool its_own =
       mended == Ending::iteration_limit && search_.report().iterations < problem_.options.max_iterations;
   return its_own ? Ending::done : mended;
