@@ -125,7 +125,8 @@ Ending Attempts::attempt(std::vector<Guess> guesses, const Tuning& tuning) {
   if (ending == Ending::done) ending = search_.polish_last(chosen, tuning);
   last_ = chosen;
   // Out of time there is a plan already, and none for another one.
-  if (ending != Ending::time_limit || !best_->best()) finish(std::move(chosen), tuning);
+  missed_.clear();
+  if (ending != Ending::time_limit || !best_->best()) missed_ = finish(std::move(chosen), tuning);
   return late(ending);
 }
 
@@ -280,7 +281,9 @@ Ending Attempts::vary(Ending ending, const ContactSequence& initial, Tuning tuni
   const auto more = [&](std::vector<Guess> guesses) {
     const bool left = best_->solved() || 2 * search_.report().iterations < p.options.max_iterations;
     if (guesses.empty() || !left || (ending != Ending::done && ending != Ending::broke_down)) return;
-    ending = attempt(std::move(guesses), tuning);
+    ending = attempt_and_mend(std::move(guesses), tuning);
+    const auto at_edges = [](const Violation& v) { return v.name == "clearance"; };
+    tuning.clear_swings = tuning.clear_swings || std::any_of(missed_.begin(), missed_.end(), at_edges);
     if (ending != Ending::done || !(last_.evaluation.merit() < merit)) return;
     merit = last_.evaluation.merit();
     lowest = last_;
@@ -289,7 +292,7 @@ Ending Attempts::vary(Ending ending, const ContactSequence& initial, Tuning tuni
   if (!last_.sequence.empty()) more({{last_, 0.0, true}});
   for (const double share : kFewPhasesDurations) {
     tuning.duration_initial = p.duration_min + share * (p.duration_max - p.duration_min);
-    more(stepping(tuning));
+    for (const Guess& steps : stepping(tuning)) more({steps});
     Incumbent again = first_guess({}, tuning);
     again.sequence = initial;
     for (const double proximal : kFewPhasesProximal) more({{again, proximal}});

@@ -63,7 +63,9 @@ class Attempts {
   const Deadline* deadline_;
   BestPlan* best_;
   Search search_;
-  Incumbent last_;  ///< of the last attempt, before its contacts were made exact
+  Incumbent last_;                 ///< of the last attempt, before its contacts were made exact
+  std::vector<Violation> missed_;  ///< by it
+  std::vector<double> mended_;     ///< costs of the near misses that were mended at once
 };
 
 }  // namespace mcplan::ddp

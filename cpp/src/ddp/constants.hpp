@@ -241,7 +241,7 @@ constexpr RestartSetting kRestarts[] = {{10.0, 0.30}, {100.0, 0.40}, {30.0, 0.35
 /// and so are those of more discoveries, with other proximal weights and first guesses of the durations, as ratios of
 /// their box. Chosen; measured by benchmarks/optimality.py.
 constexpr int kFewPhases = 12;
-constexpr double kFewPhasesDurations[] = {0.4, 1.0, 0.1, 0.2};
+constexpr double kFewPhasesDurations[] = {0.4, 1.0, 0.1, 0.2, 0.7, 0.3};
 constexpr double kFewPhasesProximal[] = {10.0, 300.0};
 /// How much further inside footholds go, each time a swing has caught an edge: a ratio of the longest half sole, so
 /// that the second time the whole sole stands clear of the next riser, and at least so much [m]. Measured
@@ -258,6 +258,8 @@ constexpr int kMendRounds = 5;
 constexpr double kMendRatio = 0.1, kMendTolerance = 1e-6;
 /// At once after an attempt, as long as that makes the motion dearer by no more than this ratio. Chosen.
 constexpr double kMendDearer = 1.25;
+/// Plans whose costs differ by less, as a ratio, are the same one: it is mended once. Chosen.
+constexpr double kSameOptimum = 1e-3;
 
 // Method::paper.
 

@@ -21,18 +21,20 @@ struct StepView {
   const Schedule& schedule;
   int k;
   const Eigen::VectorXd& x;
-  const Eigen::VectorXd* u;              ///< null at the last knot
-  const std::vector<Instant>& instants;  ///< of the phase; meaningful while between_knots()
-  int l = -1;                            ///< end-effector
-  int surface = kFree;                   ///< that it touches
-  double sole_yaw = 0.0;                 ///< [rad] heading of its sole
-  const SwingArc* arc = nullptr;         ///< of its swing, where that is known
+  const Eigen::VectorXd* u;                        ///< null at the last knot
+  const std::vector<Instant>& instants;            ///< of the phase; meaningful while between_knots()
+  int l = -1;                                      ///< end-effector
+  int surface = kFree;                             ///< that it touches
+  double sole_yaw = 0.0;                           ///< [rad] heading of its sole
+  const SwingArc* arc = nullptr;                   ///< of its swing, where that is known
+  const std::vector<double>* sole_yaws = nullptr;  ///< [rad] headings of all soles
 
   /// Take from a trajectory what is given of the end-effector.
   void look_at(int end_effector, int contact, const Trajectory& t) {
     l = end_effector;
     surface = contact;
     sole_yaw = t.sole_yaw[k][l];
+    sole_yaws = &t.sole_yaw[k];
     arc = t.swing_arcs.empty() ? nullptr : &t.swing_arcs[k][l];
   }
 

@@ -99,6 +99,15 @@ class Layout {
     g.segment(nx() + force_line(l), force_line_count(l)) += end_effectors_[l].force_line.transpose() * along;
   }
 
+  /// Size of a difference between states, the same in a turned world: norms of vectors, sum of angles.
+  double distance(const Eigen::VectorXd& difference) const {
+    double sum = difference.segment<3>(com()).norm() + difference.segment<3>(velocity()).norm() +
+                 difference.segment(angle(), axis_count()).lpNorm<1>() +
+                 difference.segment(momentum(), axis_count()).norm();
+    for (int l = 0; l < end_effector_count(); ++l) sum += difference.segment<3>(end(l)).norm();
+    return sum;
+  }
+
  private:
   std::vector<Offsets> end_effectors_;
   std::vector<int> axes_;

@@ -162,11 +162,7 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
     write_state_cost(*problem_, sequence[k], rows_);
     pendulum_.next(x, *u, next_);
     next_ -= trajectory.x[k + 1];
-    const Layout& at = problem_->layout;
-    out.defect_sum += next_.segment<3>(at.com()).norm() + next_.segment<3>(at.velocity()).norm() +
-                      next_.segment(at.angle(), at.axis_count()).lpNorm<1>() +
-                      next_.segment(at.momentum(), at.axis_count()).norm();
-    for (int l = 0; l < at.end_effector_count(); ++l) out.defect_sum += next_.segment<3>(at.end(l)).norm();
+    out.defect_sum += problem_->layout.distance(next_);
     out.defect_max = std::max(out.defect_max, next_.lpNorm<Eigen::Infinity>());
   }
   if (schedule.interior_weight > 0.0) write_change_cost(*problem_, sequence, rows_);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -8,15 +9,25 @@
 
 // Plans that the checker rejects by little, brought within the limits: docs/theory/ddp.md, "Near misses".
 namespace mcplan::ddp {
+namespace {
+
+bool missed_by_far(const std::vector<Violation>& missed) {
+  return std::any_of(missed.begin(), missed.end(), [](const Violation& v) { return violation_ratio(v) > kAcceptable; });
+}
+
+}  // namespace
 
 /// An attempt, and where the interior point has ended with a near miss, the same motion further inside at once: that
 /// takes a few of its iterations, where another attempt takes hundreds and may end with a dearer plan.
 Ending Attempts::attempt_and_mend(std::vector<Guess> guesses, const Tuning& tuning) {
   const Ending ending = attempt(std::move(guesses), tuning);
-  const auto& plan = best_->finished();
   if (ending != Ending::done || !search_.exact_contacts(tuning) || last_.sequence.empty()) return ending;
-  if (!plan || plan->ok || violation_ratio(plan->worst) > kAcceptable) return ending;
-  const Ending mended = mend(last_, tuning, plan->violations, kMendDearer * last_.evaluation.cost);
+  if (missed_.empty() || missed_by_far(missed_)) return ending;
+  const double cost = last_.evaluation.cost;
+  const auto same = [&](double other) { return std::abs(cost - other) <= kSameOptimum * cost; };
+  if (std::any_of(mended_.begin(), mended_.end(), same)) return ending;
+  mended_.push_back(cost);
+  const Ending mended = mend(last_, tuning, missed_, kMendDearer * cost);
   const bool its_own =
       mended == Ending::iteration_limit && search_.report().iterations < problem_.options.max_iterations;
   return its_own ? Ending::done : mended;
@@ -42,7 +53,7 @@ Ending Attempts::mend(Incumbent near, Tuning tuning, std::vector<Violation> miss
   Report& report = search_.report();
   inside.options.max_iterations = report.iterations + static_cast<int>(kMendRatio * problem_.options.max_iterations);
   tuning.exact = true;
-  for (int round = 0; round < kMendRounds && !best_->solved(); ++round) {
+  for (int round = 0; round < kMendRounds; ++round) {
     tighten(inside, tuning, missed);
     Search search(inside, *deadline_, report);
     const double never = std::numeric_limits<double>::infinity();
@@ -52,8 +63,7 @@ Ending Attempts::mend(Incumbent near, Tuning tuning, std::vector<Violation> miss
     near.evaluation = search_.evaluate(near, tuning);
     if (near.evaluation.cost > dearest) break;
     missed = finish(near, tuning);
-    const auto by_far = [](const Violation& v) { return violation_ratio(v) > kAcceptable; };
-    if (std::any_of(missed.begin(), missed.end(), by_far)) break;
+    if (missed.empty() || missed_by_far(missed)) break;
   }
   return late(Ending::done);
 }

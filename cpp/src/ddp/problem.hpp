@@ -98,6 +98,7 @@ class Problem {
   std::vector<double> thickness;       ///< by scene surface, of the solid below it
   double swing_height = 0.0;           ///< by which an end-effector is lifted usually
   double swing_room = kPathRoom;       ///< that soles keep from solids where swings are held out of them
+  bool watch_swings = false;           ///< swings are held out of solids from the first attempt on
   std::vector<Eigen::Vector3d> idle_hands;  ///< nominal places of hands that may touch nothing
   std::vector<int> standing_solids;         ///< surfaces whose solids come near the reference of the CoM
   std::vector<EndLimits> limits;            ///< by active end-effector
@@ -131,7 +132,7 @@ class Problem {
   Eigen::VectorXd start;          ///< x_0 as demanded
 
   /// The tuning of the first attempt.
-  Tuning tuning() const { return {options.weights.limit, duration_initial}; }
+  Tuning tuning() const { return {options.weights.limit, duration_initial, 0.0, watch_swings}; }
 
   /// How far inside edge i of a surface an end-effector's footholds are planned: edge_margin, and the share
   /// Options::sole_inside of how far its sole, headed anywhere from start to goal, extends towards that edge; of

@@ -9,6 +9,7 @@
 #include "ddp/constants.hpp"
 #include "ddp/impossible.hpp"
 #include "ddp/lanes.hpp"
+#include "ddp/over_bars.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
 #include "ddp/stepping_sequence.hpp"
@@ -83,13 +84,14 @@ std::vector<int> WaysToGoal::surfaces_of(const Route& route, const Outlook& outl
   return surfaces_near_way(*scene_, from.end_effectors_W, to.end_effectors_W, near, needed);
 }
 
-/// The problem on these surfaces, in so many phases; 0: as many as the way asks for.
-Problem WaysToGoal::pose(const Way& way, int phases, const std::vector<int>& surfaces, const Beside* beside) const {
+/// The problem on these surfaces, in so many phases; 0: as many as the way asks for. Cut surfaces are named by piece.
+Problem WaysToGoal::pose(const Way& way, int phases, std::vector<int>& surfaces, const Beside* beside) const {
   Options with = *options_;
   with.phases = phases;
   with.allow_flight = way.flights;
   with.min_contacts = way.min_contacts;
   if (way.brief) with.restarts = 0;
+  if (way.iterations > 0) with.max_iterations = way.iterations;
   if (beside) {
     with.threads = 1;
     with.logger = nullptr;
@@ -102,16 +104,21 @@ Problem WaysToGoal::pose(const Way& way, int phases, const std::vector<int>& sur
       const auto here = std::lower_bound(surfaces.begin(), surfaces.end(), surface);
       if (here != surfaces.end() && *here == surface) surface = static_cast<int>(here - surfaces.begin());
     }
-  return {part_of(*scene_, surfaces), *robot_, with, way.route};
+  Scene part = part_of(*scene_, surfaces);
+  if (way.over_bars) cut_at(bars_across(*scene_, *robot_, options_->sole_inside), *robot_, part, surfaces);
+  Problem problem(part, *robot_, with, way.route);
+  problem.watch_swings = way.over_bars;
+  return problem;
 }
 
 /// The problem on as much of the scene as an outlook of this level has.
 WaysToGoal::Posed WaysToGoal::pose_within(int level, const Way& way, int phases, const Beside* beside) const {
   const Outlook look = outlook(options_->method == Method::paper ? kOutlooks - 1 : level);
-  const std::vector<int> surfaces = surfaces_of(way.route, look);
+  std::vector<int> surfaces = surfaces_of(way.route, look);
+  const bool every = surfaces.size() == scene_->surfaces.size();
   Problem problem = pose(way, phases, surfaces, beside);
   problem.look_near(look.nearest, look.within);
-  const bool all = surfaces.size() == scene_->surfaces.size() && problem.rules.looks_everywhere();
+  const bool all = every && problem.rules.looks_everywhere();
   return {std::move(problem), surfaces, all};
 }
 
@@ -217,9 +224,10 @@ void WaysToGoal::mend(Report& report, Found& found) const {
   for (const auto& row : best->plan.contact_sequence())
     for (int surface : row)
       if (surface >= 0) needed.insert(surface);
-  const std::vector<int> surfaces(needed.begin(), needed.end());
+  std::vector<int> surfaces(needed.begin(), needed.end());
   Problem problem = pose(found.way, phases, surfaces, nullptr);
   Incumbent near = from_plan(problem, best->plan, 0);
+  if (found.way.over_bars) name_pieces(problem, surfaces, near);
   if (near.sequence.empty() || !problem.rules.valid(near.sequence)) return;
   const Tuning tuning = best->tuning;
   Attempts attempts(std::move(problem), surfaces, *deadline_, found.best, report);
@@ -243,7 +251,10 @@ bool WaysToGoal::four_feet_stand() const {
 void WaysToGoal::tell(const Way& way, const Found& found) const {
   if (!options_->logger) return;
   std::ostringstream line;
-  line << (way.flights ? "" : "without flights, ") << (way.route.empty() ? "straight on" : "by way of");
+  line << (way.flights ? "" : "without flights, ")
+       << (way.over_bars       ? "over what stands across"
+           : way.route.empty() ? "straight on"
+                               : "by way of");
   for (std::size_t i = 1; i + 1 < way.route.size(); ++i)
     line << " (" << model::digits(way.route[i].x(), "%.2f") << ", " << model::digits(way.route[i].y(), "%.2f") << ", "
          << model::digits(way.route[i].z(), "%.2f") << ")";
@@ -293,10 +304,14 @@ Found WaysToGoal::search(Report& report) const {
     Found found = told ? std::move(*ahead->found) : search_along(way, report);
     tell(way, found);
     if (!way.route.empty()) try_more_phases(report, found);
-    stopped = !ended_by_itself(found.ending);
+    if (way.over_bars) mend(report, found);
+    const bool its_own = found.ending == Ending::iteration_limit && report.iterations < options_->max_iterations;
+    stopped = !ended_by_itself(found.ending) && !its_own;
     if (!best || better(found.best.best(), best->best.best())) best.emplace(std::move(found));
   };
-  const Way straight{{}, options_->allow_flight, least};
+  const bool bars = !given && !bars_across(*scene_, *robot_, options_->sole_inside).empty();
+  Way straight{{}, options_->allow_flight, least};
+  if (bars) straight.iterations = options_->max_iterations / 2;
   std::vector<Way> sure;
   for (const Route& route : routes.detours) sure.push_back({route, false, least});
   if (!routes.obstructed) sure.push_back(straight);
@@ -304,6 +319,11 @@ Found WaysToGoal::search(Report& report) const {
   std::vector<Ahead> ahead = search_ahead(sure, report);
   for (std::size_t i = 0; i < sure.size(); ++i) try_way(sure[i], &ahead[i]);
   if (routes.obstructed && (!best || !best->best.ok())) try_way(straight);
+  if (bars && !best->best.ok()) {
+    Way over{{}, false, least};
+    over.over_bars = true;
+    try_way(over);
+  }
   if (!given && options_->allow_flight && best->best.ok() && flights(best->best.best()->plan) > 0 &&
       flight_needed(*scene_, *robot_).empty())
     try_way({{}, false, least});

@@ -20,6 +20,8 @@ struct Way {
   int min_contacts = 0;
   bool brief = false;        ///< one attempt: there is a plan already, and this way is the answer only if it costs less
   bool crawl_known = false;  ///< what a crawl comes to is known
+  int iterations = 0;        ///< of the report, after which it ends; 0: the limit of the options
+  bool over_bars = false;    ///< the ground is cut at what stands low across the way
 };
 
 /// What it has found.
@@ -56,7 +58,7 @@ class WaysToGoal {
     std::vector<int> surfaces;
     bool all = true;  ///< of the scene's
   };
-  Problem pose(const Way& way, int phases, const std::vector<int>& surfaces, const Beside* beside) const;
+  Problem pose(const Way& way, int phases, std::vector<int>& surfaces, const Beside* beside) const;
   Posed pose_within(int level, const Way& way, int phases, const Beside* beside) const;
   bool crawl_along(const Way& way, Report& report, Found& found, const Beside* beside) const;
   void search_in(int phases, const Way& way, Report& report, Found& found, const Beside* beside = nullptr) const;

@@ -15,9 +15,9 @@ using RowArray = Eigen::ArrayXd;
 
 /// Every inequality of the problem with its sequence given, as signed rows r(z) <= 0: all of them, always, in one
 /// order, whether they are close to their bounds or not. They are those of the cost terms "bounds", "duration",
-/// "flight_duration", "pressure", "reach", "interior_reach", "friction", "force_cap", "torsion", "yaw_range", and of
-/// "contact" the edges, where a foothold is chosen. A cone's row is |d_t| - mu n.d with a root that has no kink.
-/// Besides them, soles of feet that stand beside each other keep apart (sole_pairs.cpp), which no cost term asks for.
+/// "flight_duration", "pressure", "reach", "interior_reach", "friction", "force_cap", "torsion", "yaw_range",
+/// "soles", and of "contact" the edges, where a foothold is chosen. A cone's row is |d_t| - mu n.d with a root that has
+/// no kink.
 class Limits {
  public:
   Limits(const FixedSequence& fixed, const Pendulum& pendulum, const Tuning& tuning);

@@ -73,7 +73,7 @@ bool Motion::evaluate(const Pendulum& pendulum) {
     for (int l = 0; l < at.end_effector_count(); ++l)
       d.segment<3>(at.end(l)) = x.segment<3>(at.end(l)) + u.segment<3>(at.stride(l));
     d -= next;
-    defect_sum_ += d.lpNorm<1>();
+    defect_sum_ += at.distance(d);
     defect_max_ = std::max(defect_max_, d.lpNorm<Eigen::Infinity>());
   }
   return std::isfinite(defect_sum_);

@@ -24,6 +24,7 @@ struct About {
   double contact_weight = 3.0, interior_weight = 0.0, sole_yaw = 0.0;
   bool discovering = false, clear_swings = false, hold_joints = true;
   const ddp::SwingArc* arc = nullptr;
+  std::vector<double> sole_yaws = {};
 };
 
 /// Writes the rows of the term of this name, where it applies. Keeps a reference to the problem. Without u it is asked
@@ -42,8 +43,9 @@ inline Writer term(const ddp::Problem& problem, const std::string& name, const A
     schedule.tuning.hold_joints = about.hold_joints;
     std::vector<ddp::Instant> instants;
     const bool last = u.size() == 0 || about.k == problem.steps;
-    const ddp::StepView step{problem,  pendulum, schedule,      about.k,        x,        last ? nullptr : &u,
-                             instants, about.l,  about.surface, about.sole_yaw, about.arc};
+    ddp::StepView step{problem,  pendulum, schedule,      about.k,        x,        last ? nullptr : &u,
+                       instants, about.l,  about.surface, about.sole_yaw, about.arc};
+    if (!about.sole_yaws.empty()) step.sole_yaws = &about.sole_yaws;
     if (step.between_knots()) make_instants(problem, pendulum, x, u, instants);
     const ddp::CostTerm& term = *ddp::cost_terms()[static_cast<std::size_t>(index)];
     rows.begin(index);

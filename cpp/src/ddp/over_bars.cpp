@@ -1,0 +1,168 @@
+#include "ddp/over_bars.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "ddp/ground.hpp"
+#include "mcplan/scene/polygon.hpp"
+#include "plan/solid_box.hpp"
+
+namespace mcplan::ddp {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// A piece of ground is at least so wide [m]. Chosen.
+constexpr double kPieceMin = 0.02;
+
+bool holds_feet(const Surface& surface, const Robot& robot) {
+  return std::any_of(robot.end_effectors.begin(), robot.end_effectors.end(),
+                     [&](const EndEffector& end) { return end.kind == "foot" && may_touch(surface, end); });
+}
+
+/// Height of a plane above or below a point.
+double height_at(const Polygon& polygon, const Vector2d& at) {
+  const Vector3d &n = polygon.normal_W(), &v = polygon.vertices_W().front();
+  return v.z() - n.head<2>().dot(at - v.head<2>()) / n.z();
+}
+
+bool is_below(const Polygon& polygon, const Vector2d& at) {
+  return polygon.normal_W().z() > 0.5 && polygon.outside({at.x(), at.y(), height_at(polygon, at)}) <= 0.0;
+}
+
+/// Where the line from `from` to `to` passes a level polygon, seen from above.
+std::optional<Bar> passage(const Polygon& polygon, const Vector2d& from, const Vector2d& to) {
+  const Vector2d way = to - from;
+  double in = 0.0, out = 1.0;
+  Bar bar;
+  for (int e = 0; e < polygon.edge_count(); ++e) {
+    const Vector2d outward = polygon.edge_outward_W(e).head<2>(), vertex = polygon.vertices_W()[e].head<2>();
+    const double beyond = outward.dot(from - vertex), grows = outward.dot(way);
+    if (grows == 0.0) {
+      if (beyond > 0.0) return std::nullopt;
+      continue;
+    }
+    const double share = -beyond / grows;
+    if (grows < 0.0 && share > in) {
+      in = share;
+      bar.near_outward = outward;
+      bar.near_point = vertex;
+    }
+    if (grows > 0.0 && share < out) {
+      out = share;
+      bar.far_outward = outward;
+      bar.far_point = vertex;
+    }
+  }
+  if (!(in > 0.0) || !(out < 1.0) || !(in < out)) return std::nullopt;
+  bar.near = in * way.norm();
+  bar.far = out * way.norm();
+  return bar;
+}
+
+/// Feet of a stance that are on the ground lie outside of an edge.
+bool feet_outside(const ResolvedStance& stance, const Robot& robot, const Vector2d& outward, const Vector2d& point) {
+  for (std::size_t e = 0; e < robot.end_effectors.size(); ++e)
+    if (robot.end_effectors[e].kind == "foot" && stance.contacts[e] >= 0 &&
+        outward.dot(stance.end_effectors_W[e].head<2>() - point) < robot.end_effectors[e].half_size.x())
+      return false;
+  return true;
+}
+
+/// What of a polygon lies outside of an edge.
+std::vector<Vector3d> outside_of(const std::vector<Vector3d>& polygon, const Vector2d& outward, const Vector2d& point) {
+  std::vector<Vector3d> out;
+  const auto beyond = [&](const Vector3d& p) { return outward.dot(p.head<2>() - point); };
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector3d &here = polygon[i], &next = polygon[(i + 1) % polygon.size()];
+    const double a = beyond(here), b = beyond(next);
+    if (a >= 0.0) out.push_back(here);
+    if ((a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0)) out.push_back(here + a / (a - b) * (next - here));
+  }
+  return out;
+}
+
+bool wide(const std::vector<Vector3d>& polygon, const Vector2d& outward, const Vector2d& point) {
+  return std::any_of(polygon.begin(), polygon.end(),
+                     [&](const Vector3d& p) { return outward.dot(p.head<2>() - point) > kPieceMin; });
+}
+
+}  // namespace
+
+std::vector<Bar> bars_across(const Scene& scene, const Robot& robot, double sole_inside) {
+  const ResolvedStance from = resolve_stance(scene, robot, scene.start, "start");
+  const ResolvedStance to = resolve_stance(scene, robot, scene.goal, "goal");
+  const Ground ground(scene, robot, from, to, sole_inside);
+  std::vector<Bar> bars;
+  if (!ground.has_feet()) return bars;
+  const Vector2d begin = from.com_W.head<2>(), end = to.com_W.head<2>(), way = end - begin;
+  double sole = 0.0;
+  for (const EndEffector& foot : robot.end_effectors)
+    if (foot.kind == "foot") sole = std::max(sole, 2.0 * foot.half_size.x());
+  for (int i = 0; i < static_cast<int>(scene.surfaces.size()); ++i) {
+    const Surface& surface = scene.surfaces[i];
+    const Polygon polygon(surface.vertices_W);
+    constexpr double kLevel = 0.999;
+    if (holds_feet(surface, robot) || polygon.normal_W().z() < kLevel) continue;
+    std::optional<Bar> bar = passage(polygon, begin, end);
+    if (!bar || bar->far - bar->near + sole > ground.stride()) continue;
+    bar->solid = i;
+    const Vector2d middle = begin + 0.5 * (bar->near + bar->far) * way.normalized();
+    const double top = height_at(polygon, middle);
+    const auto stands_low = [&](const Surface& below) {
+      const Polygon floor(below.vertices_W);
+      if (!holds_feet(below, robot) || !is_below(floor, middle)) return false;
+      const double rise = top - height_at(floor, middle);
+      return rise > 0.0 && rise <= ground.rise();
+    };
+    if (std::none_of(scene.surfaces.begin(), scene.surfaces.end(), stands_low)) continue;
+    if (!feet_outside(from, robot, bar->near_outward, bar->near_point) ||
+        !feet_outside(to, robot, bar->far_outward, bar->far_point))
+      return {};
+    bars.push_back(*bar);
+  }
+  std::sort(bars.begin(), bars.end(), [](const Bar& a, const Bar& b) { return a.near < b.near; });
+  return bars;
+}
+
+void cut_at(const std::vector<Bar>& bars, const Robot& robot, Scene& scene, std::vector<int>& surfaces) {
+  const Vector2d begin = scene.start.position_W.head<2>(), end = scene.goal.position_W.head<2>();
+  for (const Bar& bar : bars) {
+    const Vector2d middle = begin + 0.5 * (bar.near + bar.far) * (end - begin).normalized();
+    for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+      const Surface whole = scene.surfaces[i];
+      if (!holds_feet(whole, robot) || !is_below(Polygon(whole.vertices_W), middle)) continue;
+      Surface before = whole, behind = whole;
+      before.vertices_W = outside_of(whole.vertices_W, bar.near_outward, bar.near_point);
+      behind.vertices_W = outside_of(whole.vertices_W, bar.far_outward, bar.far_point);
+      if (!wide(before.vertices_W, bar.near_outward, bar.near_point) ||
+          !wide(behind.vertices_W, bar.far_outward, bar.far_point))
+        continue;
+      behind.name = whole.name + ", behind " + std::to_string(bar.solid);
+      for (auto& [who, surface] : scene.goal.contacts)
+        if (surface == whole.name) surface = behind.name;
+      scene.surfaces[i] = before;
+      const auto at = static_cast<std::ptrdiff_t>(i) + 1;
+      scene.surfaces.insert(scene.surfaces.begin() + at, behind);
+      surfaces.insert(surfaces.begin() + at, surfaces[i]);
+      ++i;
+    }
+  }
+}
+
+void name_pieces(const Problem& problem, const std::vector<int>& surfaces, Incumbent& motion) {
+  for (std::size_t k = 0; k < motion.sequence.size(); ++k)
+    for (std::size_t l = 0; l < motion.sequence[k].size(); ++l) {
+      int& named = motion.sequence[k][l];
+      if (named == kFree) continue;
+      const Vector3d place = motion.trajectory.x[k].segment<3>(problem.layout.end(static_cast<int>(l)));
+      for (int i = 0; i < static_cast<int>(surfaces.size()); ++i)
+        if (surfaces[i] == surfaces[named] &&
+            problem.polygons[i].outside(place) < problem.polygons[named].outside(place))
+          named = i;
+    }
+}
+
+}  // namespace mcplan::ddp
