@@ -5,41 +5,16 @@
 #include <iterator>
 #include <limits>
 #include <random>
-#include <set>
 #include <utility>
 
 #include "ddp/constants.hpp"
 #include "ddp/initial_sequence.hpp"
-#include "ddp/lanes.hpp"
 #include "ddp/plan_conversion.hpp"
 #include "ddp/reachable_surfaces.hpp"
 #include "ddp/stepping_sequence.hpp"
 #include "model/text.hpp"
 
 namespace mcplan::ddp {
-
-namespace {
-
-/// What came of a guess.
-struct Polished {
-  Incumbent now;
-  Ending ending = Ending::done;
-  int discovered = 0;  ///< rows of the report before its polish
-};
-
-/// Of a guess that another thread has polished whatever it costs: after how many rows it would have been given up for
-/// the lowest one before it, where it stands then; negative: it would not have been.
-int given_up(const Search::Trace& trace, double lowest, Polished& guess) {
-  for (const auto& [rows, foreseen] : trace.foreseen) {
-    if (!(foreseen > lowest)) continue;
-    guess.now = trace.iterates[rows - 1].first;
-    guess.ending = Ending::done;
-    return rows;
-  }
-  return -1;
-}
-
-}  // namespace
 
 Attempts::Attempts(Problem&& problem, std::vector<int> surfaces, const Deadline& deadline, BestPlan& best,
                    Report& report)
@@ -60,60 +35,6 @@ void Attempts::keep(const Incumbent& now, const Tuning& tuning) {
     problem_.options.watch(plan);
   }
   best_->keep(search_, surfaces_, now, tuning);
-}
-
-/// Polish every guess, those without a sequence of their own after a discovery. The cheapest, empty when all of them
-/// broke down.
-Incumbent Attempts::cheapest(const std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending) {
-  Incumbent chosen;
-  double lowest = std::numeric_limits<double>::infinity();
-  bool stepping_ahead = false;
-  std::set<ContactSequence> seen;
-  // From another discovery of the same sequence the interior point ends at the same optimum, and how soon it gives up
-  // hangs on the guesses before: other threads leave it out.
-  const bool exact = search_.exact_contacts(tuning);
-  std::vector<Polished> polished(guesses.size());
-  const auto discovers = [&](std::size_t i) { return guesses[i].discover_with > 0.0; };
-  const auto polish = [&](int i, Search& search) {
-    const Search::Origin origin = discovers(i)         ? Search::Origin::discovered
-                                  : guesses[i].planned ? Search::Origin::plan
-                                                       : Search::Origin::sequence;
-    Polished& guess = polished[i];
-    if (guess.ending == Ending::done) guess.ending = search.polish_guess(guess.now, origin, lowest, tuning);
-  };
-  const Lanes::Run work = [&](int i, Search& search) {
-    Polished& guess = polished[i];
-    guess = {guesses[i].start};
-    if (discovers(i)) guess.ending = search.discover(guess.now, guesses[i].discover_with, tuning);
-    guess.discovered = static_cast<int>(search.report().history.size());
-    if (!exact) polish(i, search);
-    return guess.ending != Ending::done && guess.ending != Ending::broke_down;
-  };
-  search_.lanes().run(static_cast<int>(guesses.size()), work);
-  for (std::size_t i = 0; i < guesses.size() && ending == Ending::done; ++i) {
-    // The stepping sequences differ in who begins: when the first of them is ahead, the other is no better.
-    if (!discovers(i) && stepping_ahead) break;
-    const int task = static_cast<int>(i);
-    int rows = -1;
-    if (const Search::Trace* trace = search_.lanes().trace(task)) rows = given_up(*trace, lowest, polished[i]);
-    if (!search_.lanes().tell(task, rows)) work(task, search_);
-    if (exact && discovers(i) && polished[i].ending == Ending::done && !seen.insert(polished[i].now.sequence).second)
-      continue;
-    if (exact) polish(task, search_);
-    Incumbent& now = polished[i].now;
-    ending = polished[i].ending;
-    // A guess that breaks down numerically is dropped, the others may still do.
-    if (ending == Ending::broke_down) {
-      ending = Ending::done;
-      continue;
-    }
-    const double merit = search_.evaluate(now, tuning).merit();
-    if (!std::isfinite(merit) || merit >= lowest) continue;
-    lowest = merit;
-    stepping_ahead = !discovers(i);
-    chosen = std::move(now);
-  }
-  return chosen;
 }
 
 /// Refine the cheapest of the guesses and finish it.

@@ -46,6 +46,8 @@ class Attempts {
   std::vector<Guess> guesses(const Incumbent& start, const Incumbent* warm) const;
   Ending attempt(std::vector<Guess> guesses, const Tuning& tuning);
   Ending attempt_and_mend(std::vector<Guess> guesses, const Tuning& tuning);
+  class Guesses;
+  bool take_over(Guesses& guesses, int i, double lowest);
   Incumbent cheapest(const std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending);
   Ending restart(Ending ending, const ContactSequence& initial, Tuning tuning);
   Ending hold_limits(Ending ending, Tuning tuning);

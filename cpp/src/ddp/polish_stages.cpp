@@ -27,6 +27,7 @@ Ending Search::optimise(Incumbent& now, const polish::Settings& settings, const 
   {
     const Stopwatch watch(report_->timing_s, "interior_point");
     polish::InteriorPoint solver(*problem_, now.sequence, tuning);
+    if (trace_) trace_->foreseen.emplace_back(static_cast<int>(report_->history.size()), solver.constant());
     outcome = solver.solve(now.trajectory, settings, [&](const Trajectory& at, const polish::Progress& progress) {
       now.trajectory = at;
       now.evaluation = Evaluation();
@@ -37,6 +38,7 @@ Ending Search::optimise(Incumbent& now, const polish::Settings& settings, const 
       row.step = progress.step;
       record(std::move(row), now, schedule);
       show(now, tuning);
+      if (trace_) trace_->foreseen.emplace_back(static_cast<int>(report_->history.size()), progress.foreseen);
       return !should_stop(ending);
     });
   }

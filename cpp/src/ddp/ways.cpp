@@ -201,10 +201,11 @@ void WaysToGoal::try_more_phases(Report& report, Found& found) const {
   }
 }
 
-/// The same way in so many phases, as if nothing had been found: the cheaper plan counts.
+/// The same way in so many phases, as if nothing had been found, without restarts: the cheaper plan counts.
 void WaysToGoal::take_if_cheaper(int phases, Report& report, Found& found) const {
   Found more{BestPlan(*scene_, *deadline_)};
   more.way = found.way;
+  more.way.brief = true;
   search_in(phases, more.way, report, more);
   tell(more.way, more);
   if (!ended_by_itself(more.ending)) found.ending = more.ending;

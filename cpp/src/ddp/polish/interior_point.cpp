@@ -188,13 +188,12 @@ void InteriorPoint::take() {
 
 /// Whether the objective, extrapolated, stays above what it is compared with: the lowest of the last ones, since a step
 /// may raise it for a moment. Defects are closed faster, and do not count.
-bool InteriorPoint::stays_above(const Settings& settings) {
-  if (iterations_ < settings.patience || objectives_.size() <= kWindow) return false;
+double InteriorPoint::foreseen(const Settings& settings) const {
+  if (iterations_ < settings.patience || objectives_.size() <= kWindow) return -std::numeric_limits<double>::infinity();
   const double fixed = costs_.constant();
-  const double bar = fixed + settings.allowance * (settings.give_up_above - fixed);
   const double now = objectives_.back(), fall = objectives_[objectives_.size() - 1 - kWindow] - now;
   const double low = *std::min_element(objectives_.end() - 1 - kWindow, objectives_.end());
-  return low - kWindowsAhead * std::max(fall, 0.0) > bar;
+  return fixed + (low - kWindowsAhead * std::max(fall, 0.0) - fixed) / settings.allowance;
 }
 
 /// Whether the objective has hardly changed for a while, at the last barrier parameter.
@@ -231,10 +230,12 @@ Outcome InteriorPoint::solve(Trajectory& trajectory, const Settings& settings,
       break;
     }
     take();
-    if (go_on && !go_on(motion_.trajectory, {iterations_, objective_, motion_.defect_max(), mu_, proximal_, step_}))
-      break;
     objectives_.push_back(objective_);
-    if (stays_above(settings)) {
+    const double ahead = foreseen(settings);
+    if (go_on &&
+        !go_on(motion_.trajectory, {iterations_, objective_, motion_.defect_max(), mu_, proximal_, step_, ahead}))
+      break;
+    if (ahead > settings.give_up_above) {
       outcome = Outcome::gave_up;
       break;
     }

@@ -36,6 +36,7 @@ enum class Outcome {
 struct Progress {
   int iteration;
   double objective, defect, barrier, proximal, step;
+  double foreseen;  ///< given up if that is above Settings::give_up_above
 };
 
 /// The optimum of the motion with the contact sequence given: Gauss-Newton steps of an elastic interior point, accepted
@@ -49,7 +50,8 @@ class InteriorPoint {
                 const std::function<bool(const Trajectory&, const Progress&)>& go_on = nullptr);
 
   int iterations() const { return iterations_; }
-  double objective() const { return objective_; }  ///< cost and penalties of what is violated
+  double constant() const { return costs_.constant(); }  ///< cost of the sequence itself, whatever the motion
+  double objective() const { return objective_; }        ///< cost and penalties of what is violated
   double defect() const { return motion_.defect_max(); }
   double gain() const { return gain_; }  ///< decrease of the objective that the last Newton step foresaw
 
@@ -61,7 +63,7 @@ class InteriorPoint {
   bool accepts(double slope, double value, double defect, double value_there, double defect_there);
   bool search(double slope);
   void take();
-  bool stays_above(const Settings& settings);
+  double foreseen(const Settings& settings) const;
   bool lingers(const Settings& settings) const;
 
   FixedSequence fixed_;
