@@ -20,6 +20,7 @@ struct Polished {
   bool discovered = false;  ///< the discovery came to its end
   int rows = 0;             ///< of the report before the polish
   double bound = kNever;    ///< that it was given up above
+  bool left = false;        ///< to the main search, which most often does without it
 };
 
 /// Of a guess that another thread has polished: after how many rows it would have been given up for the lowest one
@@ -71,6 +72,10 @@ class Attempts::Guesses {
   /// In a thread: given up above the cheapest of those before it that are known by then, which is most often no lower
   /// than the one that it will be held against.
   bool go_ahead(int i, Search& search) {
+    if (!discovers(i) && stepping_ahead(i)) {
+      out_[i].left = true;
+      return false;
+    }
     discover(i, search);
     double bound = kNever;
     for (int j = 0; j < i; ++j) bound = std::min(bound, merits_[j].load());
@@ -92,6 +97,16 @@ class Attempts::Guesses {
   }
 
  private:
+  /// Whether a stepping sequence before this one is the cheapest of those that are known by now.
+  bool stepping_ahead(int i) const {
+    double discovered = kNever, stepping = kNever;
+    for (int j = 0; j < i; ++j) {
+      double& lowest = discovers(j) ? discovered : stepping;
+      lowest = std::min(lowest, merits_[j].load());
+    }
+    return stepping < discovered;
+  }
+
   const std::vector<Guess>* guesses_;
   const Tuning* tuning_;
   bool exact_;
@@ -103,7 +118,7 @@ class Attempts::Guesses {
 /// What a thread has made of a guess, as if it had come after those before it. False: it has to be made here.
 bool Attempts::take_over(Guesses& guesses, int i, double lowest) {
   const Search::Trace* trace = search_.lanes().trace(i);
-  if (!trace) return false;
+  if (!trace || guesses[i].left) return false;
   const bool early = too_soon(*trace, guesses[i]);
   const int rows = guesses.known(i) ? guesses[i].rows : given_up(*trace, lowest, guesses[i]);
   return (rows >= 0 || !early) && search_.lanes().tell(i, rows);
