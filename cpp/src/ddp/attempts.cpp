@@ -199,23 +199,9 @@ Ending Attempts::vary(Ending ending, const ContactSequence& initial, Tuning tuni
   const Problem& p = problem_;
   Incumbent lowest;
   double merit = std::numeric_limits<double>::infinity();
-  std::vector<std::pair<ContactSequence, double>> optima;
   const auto more = [&](std::vector<Guess> guesses) {
     const bool left = best_->solved() || 2 * search_.report().iterations < p.options.max_iterations;
     if (guesses.empty() || !left || (ending != Ending::done && ending != Ending::broke_down)) return;
-    // Most of them end at an optimum that is known, from where refining leads to what it has led to.
-    if (!guesses.front().planned) {
-      ending = Ending::done;
-      Incumbent chosen = cheapest(guesses, tuning, ending);
-      if (ending != Ending::done || chosen.sequence.empty()) return;
-      const double at = search_.evaluate(chosen, tuning).merit();
-      const auto same = [&](const auto& known) {
-        return known.first == chosen.sequence && std::abs(known.second - at) <= kSameOptimum * at;
-      };
-      if (std::any_of(optima.begin(), optima.end(), same)) return;
-      optima.emplace_back(chosen.sequence, at);
-      guesses = {{std::move(chosen), 0.0, true}};
-    }
     ending = attempt_and_mend(std::move(guesses), tuning);
     const auto at_edges = [](const Violation& v) { return v.name == "clearance"; };
     tuning.clear_swings = tuning.clear_swings || std::any_of(missed_.begin(), missed_.end(), at_edges);
