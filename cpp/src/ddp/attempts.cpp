@@ -45,8 +45,8 @@ Ending Attempts::attempt(std::vector<Guess> guesses, const Tuning& tuning) {
   if (ending == Ending::done) ending = search_.refine(chosen, tuning);
   if (ending == Ending::done) ending = search_.polish_last(chosen, tuning);
   last_ = chosen;
-  // Out of time there is a plan already, and none for another one.
   missed_.clear();
+  // Out of time there is a plan already, and none for another one.
   if (ending != Ending::time_limit || !best_->best()) missed_ = finish(std::move(chosen), tuning);
   return late(ending);
 }

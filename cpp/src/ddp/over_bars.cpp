@@ -6,16 +6,12 @@
 
 #include "ddp/ground.hpp"
 #include "mcplan/scene/polygon.hpp"
-#include "plan/solid_box.hpp"
 
 namespace mcplan::ddp {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-/// A piece of ground is at least so wide [m]. Chosen.
-constexpr double kPieceMin = 0.02;
 
 bool holds_feet(const Surface& surface, const Robot& robot) {
   return std::any_of(robot.end_effectors.begin(), robot.end_effectors.end(),
@@ -59,6 +55,7 @@ std::optional<Bar> passage(const Polygon& polygon, const Vector2d& from, const V
   if (!(in > 0.0) || !(out < 1.0) || !(in < out)) return std::nullopt;
   bar.near = in * way.norm();
   bar.far = out * way.norm();
+  bar.middle = from + 0.5 * (in + out) * way;
   return bar;
 }
 
@@ -84,9 +81,25 @@ std::vector<Vector3d> outside_of(const std::vector<Vector3d>& polygon, const Vec
   return out;
 }
 
-bool wide(const std::vector<Vector3d>& polygon, const Vector2d& outward, const Vector2d& point) {
-  return std::any_of(polygon.begin(), polygon.end(),
-                     [&](const Vector3d& p) { return outward.dot(p.head<2>() - point) > kPieceMin; });
+/// Length of the longest sole.
+double sole_length(const Robot& robot) {
+  double length = 0.0;
+  for (const EndEffector& end : robot.end_effectors)
+    if (end.kind == "foot") length = std::max(length, 2.0 * end.half_size.x());
+  return length;
+}
+
+/// A piece has room for a sole beside the edge that it was cut at.
+bool has_room(const std::vector<Vector3d>& piece, const Vector2d& outward, const Vector2d& point, double sole) {
+  return std::any_of(piece.begin(), piece.end(),
+                     [&](const Vector3d& p) { return outward.dot(p.head<2>() - point) > sole; });
+}
+
+/// A name that no surface has.
+std::string name_behind(const Scene& scene, const std::string& name) {
+  std::string out = name + ", behind";
+  while (scene.surface_index(out) >= 0) out += "'";
+  return out;
 }
 
 }  // namespace
@@ -97,24 +110,19 @@ std::vector<Bar> bars_across(const Scene& scene, const Robot& robot, double sole
   const Ground ground(scene, robot, from, to, sole_inside);
   std::vector<Bar> bars;
   if (!ground.has_feet()) return bars;
-  const Vector2d begin = from.com_W.head<2>(), end = to.com_W.head<2>(), way = end - begin;
-  double sole = 0.0;
-  for (const EndEffector& foot : robot.end_effectors)
-    if (foot.kind == "foot") sole = std::max(sole, 2.0 * foot.half_size.x());
   for (int i = 0; i < static_cast<int>(scene.surfaces.size()); ++i) {
     const Surface& surface = scene.surfaces[i];
     const Polygon polygon(surface.vertices_W);
     constexpr double kLevel = 0.999;
     if (holds_feet(surface, robot) || polygon.normal_W().z() < kLevel) continue;
-    std::optional<Bar> bar = passage(polygon, begin, end);
-    if (!bar || bar->far - bar->near + sole > ground.stride()) continue;
+    std::optional<Bar> bar = passage(polygon, from.com_W.head<2>(), to.com_W.head<2>());
+    if (!bar || bar->far - bar->near + sole_length(robot) > ground.stride()) continue;
     bar->solid = i;
-    const Vector2d middle = begin + 0.5 * (bar->near + bar->far) * way.normalized();
-    const double top = height_at(polygon, middle);
+    const double top = height_at(polygon, bar->middle);
     const auto stands_low = [&](const Surface& below) {
       const Polygon floor(below.vertices_W);
-      if (!holds_feet(below, robot) || !is_below(floor, middle)) return false;
-      const double rise = top - height_at(floor, middle);
+      if (!holds_feet(below, robot) || !is_below(floor, bar->middle)) return false;
+      const double rise = top - height_at(floor, bar->middle);
       return rise > 0.0 && rise <= ground.rise();
     };
     if (std::none_of(scene.surfaces.begin(), scene.surfaces.end(), stands_low)) continue;
@@ -128,19 +136,18 @@ std::vector<Bar> bars_across(const Scene& scene, const Robot& robot, double sole
 }
 
 void cut_at(const std::vector<Bar>& bars, const Robot& robot, Scene& scene, std::vector<int>& surfaces) {
-  const Vector2d begin = scene.start.position_W.head<2>(), end = scene.goal.position_W.head<2>();
+  const double sole = sole_length(robot);
   for (const Bar& bar : bars) {
-    const Vector2d middle = begin + 0.5 * (bar.near + bar.far) * (end - begin).normalized();
     for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
       const Surface whole = scene.surfaces[i];
-      if (!holds_feet(whole, robot) || !is_below(Polygon(whole.vertices_W), middle)) continue;
+      if (!holds_feet(whole, robot) || !is_below(Polygon(whole.vertices_W), bar.middle)) continue;
       Surface before = whole, behind = whole;
       before.vertices_W = outside_of(whole.vertices_W, bar.near_outward, bar.near_point);
       behind.vertices_W = outside_of(whole.vertices_W, bar.far_outward, bar.far_point);
-      if (!wide(before.vertices_W, bar.near_outward, bar.near_point) ||
-          !wide(behind.vertices_W, bar.far_outward, bar.far_point))
+      if (!has_room(before.vertices_W, bar.near_outward, bar.near_point, sole) ||
+          !has_room(behind.vertices_W, bar.far_outward, bar.far_point, sole))
         continue;
-      behind.name = whole.name + ", behind " + std::to_string(bar.solid);
+      behind.name = name_behind(scene, whole.name);
       for (auto& [who, surface] : scene.goal.contacts)
         if (surface == whole.name) surface = behind.name;
       scene.surfaces[i] = before;

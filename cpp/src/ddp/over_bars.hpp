@@ -15,10 +15,10 @@ namespace mcplan::ddp {
 
 /// A solid across the way, seen from above: between the edges where the straight line comes in and goes out.
 struct Bar {
-  int solid = -1;                ///< surface of the scene
-  double near = 0.0, far = 0.0;  ///< [m] from the start, along the way
-  Eigen::Vector2d near_outward = Eigen::Vector2d::Zero(), near_point = near_outward;
-  Eigen::Vector2d far_outward = near_outward, far_point = near_outward;
+  int solid = -1;                                    ///< surface of the scene
+  double near = 0.0, far = 0.0;                      ///< [m] from the start, along the way
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();  ///< [m] of the line there
+  Eigen::Vector2d near_outward = middle, near_point = middle, far_outward = middle, far_point = middle;
 };
 
 /// Those that feet may not touch, from the start on: no higher above the ground than the feet of the robot can be

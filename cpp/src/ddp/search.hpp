@@ -100,7 +100,7 @@ class Search {
     Report report;  ///< its rows, and what it has taken; iterations are counted from the other's on
     int first = 0;  ///< the other's at its beginning
     std::vector<std::pair<Incumbent, Tuning>> iterates;  ///< one a row
-    /// Merits that polish() foresaw, after so many rows: it would have given up for a lower one.
+    /// Merits that a polish foresaw, after so many rows: it would have given up for a lower one.
     std::vector<std::pair<int, double>> foreseen;
   };
 

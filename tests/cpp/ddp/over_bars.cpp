@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "ddp/ground.hpp"
-#include "mcplan/scene/polygon.hpp"
 #include "support.hpp"
 
 namespace {
@@ -45,6 +43,7 @@ TEST_CASE("a bar is what stands low across the way, and where the straight line 
   CHECK(bars[0].solid == 1);
   CHECK(bars[0].near == doctest::Approx(0.9));
   CHECK(bars[0].far == doctest::Approx(1.0));
+  CHECK(bars[0].middle.x() == doctest::Approx(0.95));
   CHECK(bars[0].near_outward.x() == doctest::Approx(-1.0));
   CHECK(bars[0].far_outward.x() == doctest::Approx(1.0));
 }
@@ -80,6 +79,24 @@ TEST_CASE("ground is cut into what is before a bar and what is behind, each call
   CHECK(area_of(cut.surfaces[2]) == doctest::Approx(2.5 * 2.0));
   CHECK(cut.start.contacts.at("foot") == "floor");
   CHECK(cut.goal.contacts.at("foot") == cut.surfaces[2].name);
+}
+
+TEST_CASE("a piece has a name of its own, whatever surfaces are called, and room for a sole") {
+  Scene scene = with_bar(0.9, 1.0, 0.1);
+  scene.surfaces[1].name = "floor, behind";
+  std::vector<int> surfaces{0, 1};
+  Scene cut = scene;
+  cut_at(bars_of(scene), scenes::humanoid44(), cut, surfaces);
+  cut.validate();
+  CHECK(cut.surfaces.size() == 3);
+  // Behind the bar the floor ends before a sole does.
+  scene.surfaces[0].vertices_W[1].x() = scene.surfaces[0].vertices_W[2].x() = 1.1;
+  scene.surfaces.push_back(scenes::rectangle("next", 1.1, 4, -1, 1, 0, "foot"));
+  scene.goal.contacts["foot"] = "next";
+  surfaces = {0, 1, 2};
+  cut = scene;
+  cut_at(bars_of(scene), scenes::humanoid44(), cut, surfaces);
+  CHECK(surfaces == std::vector<int>{0, 1, 2});
 }
 
 TEST_CASE("a motion over the whole ground comes to name the pieces that its feet are on") {

@@ -186,8 +186,8 @@ void InteriorPoint::take() {
   mu_ = next;
 }
 
-/// Whether the objective, extrapolated, stays above what it is compared with: the lowest of the last ones, since a step
-/// may raise it for a moment. Defects are closed faster, and do not count.
+/// The objective extrapolated, from the lowest of the last ones, since a step may raise it for a moment; what the
+/// motion can change of it is divided by the allowance. Defects are closed faster, and do not count.
 double InteriorPoint::foreseen(const Settings& settings) const {
   if (iterations_ < settings.patience || objectives_.size() <= kWindow) return -std::numeric_limits<double>::infinity();
   const double fixed = costs_.constant();
