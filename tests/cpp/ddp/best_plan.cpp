@@ -31,6 +31,7 @@ double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 struct AfterLimit {
   double time_s = 0.0;
   int looks = 0;
+  mcplan::Plan plan;
 };
 AfterLimit after_limit(const mcplan::Scene& scene, int phases, int last, double until_s) {
   AfterLimit out;
@@ -52,7 +53,19 @@ AfterLimit after_limit(const mcplan::Scene& scene, int phases, int last, double 
   out.time_s = processor_s() - begin_s - before_s;
   CHECK(static_cast<int>(result.plan.phases.size()) == phases);
   CHECK((result.report.status == Status::time_limit || result.report.status == Status::solved));
+  out.plan = result.plan;
   return out;
+}
+
+/// Processor time [s] of a check of the plan: the quickest of five.
+double check_s(const mcplan::Plan& plan) {
+  double quickest_s = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 5; ++i) {
+    const double begin_s = processor_s();
+    mcplan::check(plan, plan.scene, plan.robot);
+    quickest_s = std::min(quickest_s, processor_s() - begin_s);
+  }
+  return quickest_s;
 }
 
 /// A floor of tiles beside each other, over a ground that is one.
@@ -144,23 +157,31 @@ TEST_CASE("however short the limit, the plan stands on its surfaces and is no fi
   }
 }
 
-TEST_CASE("wherever the limit falls, 50 ms of processor time do for what follows: long ways, large scenes") {
+TEST_CASE("wherever the limit falls, what follows takes some checks of the plan at most: long ways, large scenes") {
   if (kSlowBuild) return;
-  const std::pair<mcplan::Scene, int> cases[] = {
-      {tiled(40.0, 0, 0), 288}, {tiled(4000.0, 0, 0), 288}, {tiled(3.0, 20, 50), 18}};
-  for (const auto& entry : cases) {  // by names that a lambda may capture in C++17, which those of a binding are not
-    const mcplan::Scene& scene = entry.first;
-    const int phases = entry.second;
-    const int looks = after_limit(scene, phases, -1, 0.3).looks;
+  // In processor time of one check of the plan, of the same machine under the same load: 0.2, 0.2 and 1.9 were measured
+  // (25 to 45 ms in all three).
+  struct Case {
+    mcplan::Scene scene;
+    int phases;
+    double checks;
+  };
+  const Case cases[] = {{tiled(40.0, 0, 0), 288, 0.5}, {tiled(4000.0, 0, 0), 288, 0.5}, {tiled(3.0, 20, 50), 18, 5.0}};
+  for (const Case& entry : cases) {
+    const mcplan::Scene& scene = entry.scene;
+    const int phases = entry.phases;
+    const AfterLimit whole = after_limit(scene, phases, -1, 0.3);
+    const int looks = whole.looks;
+    const double allowed_s = entry.checks * check_s(whole.plan);
     for (int part = 0; part < 12; ++part) {
       const int last = part < 4 ? part + 1 : part * (looks - 1) / 12;
       CAPTURE(scene.surfaces.size());
       CAPTURE(last);
       // Processor time, too, grows where others share the caches: one quick run of ten shows that it suffices.
       double quickest_s = after_limit(scene, phases, last, 1e3).time_s;
-      for (int again = 1; again < 10 && !(quickest_s < 0.05); ++again)
+      for (int again = 1; again < 10 && !(quickest_s < allowed_s); ++again)
         quickest_s = std::min(quickest_s, after_limit(scene, phases, last, 1e3).time_s);
-      CHECK(quickest_s < 0.05);
+      CHECK(quickest_s < allowed_s);
     }
   }
 }
