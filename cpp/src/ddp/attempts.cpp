@@ -97,24 +97,25 @@ Incumbent Attempts::at_once(const ContactSequence& sequence) {
   return best_guess;
 }
 
-/// The contact sequence that the search begins with; where finding it takes too long, end-effectors in turns.
-ContactSequence Attempts::initial(Ending& ending) {
-  const Options& options = problem_.options;
-  if (!options.initial_sequence.empty()) return problem_.to_active(options.initial_sequence);
-  const Trajectory guess = problem_.initial_guess({}, first_);
+/// The contact sequence that a search begins with; where finding it takes too long, end-effectors in turns.
+ContactSequence Attempts::initial(Search& search, const Tuning& tuning, Ending& ending) const {
+  const Problem& problem = search.problem();
+  const Options& options = problem.options;
+  if (!options.initial_sequence.empty()) return problem.to_active(options.initial_sequence);
+  const Trajectory guess = problem.initial_guess({}, tuning);
   Schedule schedule;
-  schedule.tuning = first_;
+  schedule.tuning = tuning;
   schedule.contact_weight = options.weights.contact_min;
-  search_.model().expand(guess, schedule);
+  search.model().expand(guess, schedule);
   bool stopped = false;
   int looks = 0;
   const double until_s = deadline_->elapsed_s() + kInitialShare * std::max(deadline_->remaining_s(), 0.0);
-  ContactSequence found = initial_sequence(search_.model(), kBeam, [&] {
+  ContactSequence found = initial_sequence(search.model(), kBeam, [&] {
     if (++looks % kPollsPerRequest == 0 && options.stop && options.stop()) ending = Ending::interrupted;
     return stopped = ending == Ending::interrupted || deadline_->elapsed_s() >= until_s;
   });
   for (int mover : {0, 1})
-    if (stopped && found.empty()) found = stepping_sequence(problem_, mover);
+    if (stopped && found.empty()) found = stepping_sequence(problem, mover);
   if (!found.empty()) return found;
   if (ending != Ending::interrupted) ending = stopped ? Ending::time_limit : Ending::no_sequence;
   return {};
@@ -192,36 +193,6 @@ Ending Attempts::restart(Ending ending, const ContactSequence& initial, Tuning t
   return ending;
 }
 
-/// In few phases the optimum of the sequence that was found, and from more discoveries, whatever the checker says of
-/// the plans before; then once more from the cheapest. The best of all counts. Without a plan half of the iterations
-/// are left to restarts.
-Ending Attempts::vary(Ending ending, const ContactSequence& initial, Tuning tuning) {
-  const Problem& p = problem_;
-  Incumbent lowest;
-  double merit = std::numeric_limits<double>::infinity();
-  const auto more = [&](std::vector<Guess> guesses) {
-    const bool left = best_->solved() || 2 * search_.report().iterations < p.options.max_iterations;
-    if (guesses.empty() || !left || (ending != Ending::done && ending != Ending::broke_down)) return;
-    ending = attempt_and_mend(std::move(guesses), tuning);
-    const auto at_edges = [](const Violation& v) { return v.name == "clearance"; };
-    tuning.clear_swings = tuning.clear_swings || std::any_of(missed_.begin(), missed_.end(), at_edges);
-    if (ending != Ending::done || !(last_.evaluation.merit() < merit)) return;
-    merit = last_.evaluation.merit();
-    lowest = last_;
-  };
-  tuning.exact = true;
-  if (!last_.sequence.empty()) more({{last_, 0.0, true}});
-  for (const double share : kFewPhasesDurations) {
-    tuning.duration_initial = p.duration_min + share * (p.duration_max - p.duration_min);
-    for (const Guess& steps : stepping(tuning)) more({steps});
-    Incumbent again = first_guess({}, tuning);
-    again.sequence = initial;
-    for (const double proximal : kFewPhasesProximal) more({{again, proximal}});
-  }
-  if (!lowest.sequence.empty()) more({{lowest, 0.0, true}});
-  return ending;
-}
-
 // The interior point is no faster over four feet, and has ended with no crawl where the penalty had one.
 Ending Attempts::crawl() {
   Tuning tuning = first_;
@@ -242,7 +213,7 @@ Ending Attempts::crawl() {
 
 Ending Attempts::run(const Incumbent* warm) {
   Ending ending = Ending::done;
-  const ContactSequence sequence = initial(ending);
+  const ContactSequence sequence = initial(search_, first_, ending);
   if (sequence.empty()) return ending;
   Incumbent start = first_guess({}, first_);
   start.sequence = sequence;
@@ -273,7 +244,7 @@ Ending Attempts::run(const Incumbent* warm) {
     ending = attempt(guesses(start, warm), tuning);
   }
   if (!warm && options.initial_sequence.empty() && options.restarts > 0 && problem_.steps <= kFewPhases)
-    ending = vary(ending, sequence, tuning);
+    ending = vary(ending, tuning);
   if (options.restarts > 0) ending = hold_limits(ending, tuning);
   ending = restart(ending, sequence, tuning);
   if (ending != Ending::interrupted) best_->look_back(search_, surfaces_);

@@ -41,7 +41,7 @@ class Attempts {
   };
   Incumbent first_guess(const ContactSequence& sequence, const Tuning& tuning) const;
   Incumbent at_once(const ContactSequence& sequence);
-  ContactSequence initial(Ending& ending);
+  ContactSequence initial(Search& search, const Tuning& tuning, Ending& ending) const;
   std::vector<Guess> stepping(const Tuning& tuning) const;
   std::vector<Guess> guesses(const Incumbent& start, const Incumbent* warm) const;
   Ending attempt(std::vector<Guess> guesses, const Tuning& tuning);
@@ -51,7 +51,8 @@ class Attempts {
   Incumbent cheapest(const std::vector<Guess>& guesses, const Tuning& tuning, Ending& ending);
   Ending restart(Ending ending, const ContactSequence& initial, Tuning tuning);
   Ending hold_limits(Ending ending, Tuning tuning);
-  Ending vary(Ending ending, const ContactSequence& initial, Tuning tuning);
+  class FewPhases;
+  Ending vary(Ending ending, const Tuning& tuning);
   bool asks_too_much_of_joints() const;
   bool falls_short() const;
   double further_inside() const;

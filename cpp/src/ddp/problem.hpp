@@ -157,6 +157,9 @@ class Problem {
   /// instead of being variables: so the dynamics do not depend on the contact state, which pricing needs.
   void set_sole_yaw(const ContactSequence& sequence, Trajectory& trajectory) const;
 
+  /// All phases are first guessed to last so long, and the reference goes as fast as that asks for.
+  void set_pace(double duration);
+
   /// First guess: the reference at constant duration. Without a sequence the weight is spread over all end-effectors,
   /// which lets the search see what every one of them could do (measured: with the weight on the feet alone it never
   /// finds the hands of gap_with_rail); with one it rests on those in contact.

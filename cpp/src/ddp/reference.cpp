@@ -108,6 +108,14 @@ void Problem::make_reference(const VectorXd& goal) {
   find_standing_solids();
 }
 
+void Problem::set_pace(double duration) {
+  for (int k = 1; k < steps; ++k) {
+    reference.x[k].segment<3>(layout.velocity()) *= duration_initial / duration;
+    for (int a = 0; a < layout.axis_count(); ++a) reference.x[k][layout.momentum(a)] *= duration_initial / duration;
+  }
+  duration_initial = duration;
+}
+
 /// The trunk of a robot that balances on three point feet or more follows the ground below them: its angles, and the
 /// height of its CoM, are those of the feet's nearest ground, on the mean over a stride of every foot.
 void Problem::follow_ground() {

@@ -10,6 +10,7 @@
 #include "ddp/edits.hpp"
 #include "ddp/lanes.hpp"
 #include "ddp/stepping_sequence.hpp"
+#include "ddp/tail_edits.hpp"
 
 namespace mcplan::ddp {
 namespace {
@@ -308,6 +309,44 @@ std::vector<ContactSequence> Search::ranked_changes(const Incumbent& now, const 
   return out;
 }
 
+bool Search::known_no_lower(const ContactSequence& sequence, double merit) const {
+  if (!known_) return false;
+  const auto found = known_->find(sequence);
+  return found != known_->end() && found->second >= merit * (1.0 - kTrialGain);
+}
+
+/// Polish one start after the other until the merit falls: `now` is then what came of that one.
+Search::Tried Search::try_until_better(Incumbent& now, const std::vector<Incumbent>& starts, const Polisher& polish) {
+  const int count = static_cast<int>(starts.size());
+  std::vector<Trial> made(starts.size());
+  const double merit = now.evaluation.merit();
+  const Lanes::Run attempt = [&](int i, Search& search) {
+    Trial& trial = made[i];
+    trial.incumbent = starts[i];
+    trial.ending = polish(search, trial.incumbent, merit);
+    trial.improved = trial.incumbent.evaluation.merit() < merit * (1.0 - kTrialGain);
+    return trial.improved || (trial.ending != Ending::done && trial.ending != Ending::broke_down);
+  };
+  lanes().run(count, attempt);
+  Tried out;
+  while (out.count < count && !out.improved && (out.ending == Ending::done || out.ending == Ending::broke_down)) {
+    const int i = out.count++;
+    if (!lanes().tell(i)) attempt(i, *this);
+    Trial& trial = made[i];
+    out.ending = trial.ending;
+    out.improved = trial.improved;
+    if (known_ && trial.ending == Ending::done)
+      (*known_)[starts[i].sequence] = trial.improved ? trial.incumbent.evaluation.merit() : merit;
+    if (!trial.improved) continue;
+    const int switches = differences(starts[i].sequence, now.sequence);
+    report_->switches += switches;
+    report_->history.back().switches += switches;
+    now = std::move(trial.incumbent);
+  }
+  if (out.ending == Ending::broke_down) out.ending = Ending::done;
+  return out;
+}
+
 Ending Search::refine(Incumbent& now, const Tuning& tuning) {
   polish_proximal_ = kTrialProximal;
   const std::size_t trials = exact_contacts(tuning)          ? kExactTrials
@@ -316,41 +355,37 @@ Ending Search::refine(Incumbent& now, const Tuning& tuning) {
   // The interior point ends at the optimum of a sequence from wherever it begins: no sequence is tried twice.
   std::set<ContactSequence> tried{now.sequence};
   for (int round = 0; round < kRefineRounds; ++round) {
-    std::vector<ContactSequence> changes;
+    std::vector<Incumbent> starts;
     std::set<ContactSequence> fresh;
     for (ContactSequence& change : ranked_changes(now, tuning)) {
-      if (changes.size() == trials) break;
+      if (starts.size() == trials) break;
+      if (known_no_lower(change, now.evaluation.merit())) continue;
       if (!exact_contacts(tuning) || (tried.count(change) == 0 && fresh.insert(change).second))
-        changes.push_back(std::move(change));
+        starts.push_back({now.trajectory, std::move(change), now.evaluation});
     }
-    std::vector<Trial> made(changes.size());
-    const double merit = now.evaluation.merit();
-    const Lanes::Run attempt = [&](int i, Search& search) {
-      Trial& trial = made[i];
-      trial.incumbent = now;
-      trial.incumbent.sequence = changes[i];
-      trial.ending = search.polish_trial(trial.incumbent, merit, tuning);
-      trial.improved = trial.incumbent.evaluation.merit() < merit * (1.0 - kTrialGain);
-      return trial.improved || (trial.ending != Ending::done && trial.ending != Ending::broke_down);
-    };
-    lanes().run(static_cast<int>(changes.size()), attempt);
-    bool improved = false;
-    for (int i = 0; i < static_cast<int>(changes.size()) && !improved; ++i) {
-      if (!lanes().tell(i)) attempt(i, *this);
-      if (exact_contacts(tuning)) tried.insert(changes[i]);
-      Trial& trial = made[i];
-      improved = trial.improved;
-      if (improved) {
-        const int switches = differences(changes[i], now.sequence);
-        report_->switches += switches;
-        report_->history.back().switches += switches;
-        now = std::move(trial.incumbent);
-      }
-      if (trial.ending != Ending::done && trial.ending != Ending::broke_down) return trial.ending;
-    }
-    if (!improved) break;
+    const Tried outcome = try_until_better(now, starts, [&](Search& search, Incumbent& trial, double merit) {
+      return search.polish_trial(trial, merit, tuning);
+    });
+    for (int i = 0; i < outcome.count && exact_contacts(tuning); ++i) tried.insert(starts[i].sequence);
+    if (outcome.ending != Ending::done) return outcome.ending;
+    if (!outcome.improved) break;
   }
   return Ending::done;
+}
+
+Ending Search::change_tail(Incumbent& now, const Tuning& tuning, bool& improved) {
+  polish_proximal_ = kTrialProximal;
+  std::vector<Incumbent> starts;
+  for (ContactSequence& edited : tail_edits(problem_->rules, now.sequence)) {
+    if (known_no_lower(edited, now.evaluation.merit())) continue;
+    Trajectory guess = problem_->initial_guess(edited, tuning);
+    starts.push_back({std::move(guess), std::move(edited), {}});
+  }
+  const Tried outcome = try_until_better(now, starts, [&](Search& search, Incumbent& trial, double merit) {
+    return search.polish_guess(trial, Origin::sequence, merit, tuning);
+  });
+  improved = outcome.improved;
+  return outcome.ending;
 }
 
 }  // namespace mcplan::ddp

@@ -82,6 +82,9 @@ class Search {
   /// polished for a few iterations and kept if the merit falls.
   Ending refine(Incumbent& now, const Tuning& tuning);
 
+  /// Try every tail_edits() of the sequence, in order, from the first guess of each, until one lowers the merit.
+  Ending change_tail(Incumbent& now, const Tuning& tuning, bool& improved);
+
   /// Tazaki's Algorithms 1 and 2 as published, for `iterations`: full defect steps of fixed length, switches accepted
   /// on the quadratic model, J* from infinity, every neighbour priced by MINCOST.
   Ending run_paper(Incumbent& now, int iterations, const Tuning& tuning);
@@ -117,6 +120,10 @@ class Search {
     return (tuning.exact || chosen) && !tuning.hold_joints;
   }
 
+  /// From now on refine() tries no sequence again where an earlier one has shown that the interior point ends no lower
+  /// from it: attempts that come to the same optimum go on to changes that have not been tried. False: as before.
+  void keep_known(bool yes) { known_ = yes ? std::make_unique<std::map<ContactSequence, double>>() : nullptr; }
+
   /// Forget what earlier attempts have left behind.
   void begin_anew() { polish_proximal_ = kPolishProximal; }
 
@@ -129,6 +136,7 @@ class Search {
   const Problem& problem() const { return *problem_; }
   LocalModel& model() { return model_; }
   Report& report() { return *report_; }
+  int iterations() const { return report_->iterations; }
   Evaluation evaluate(const Incumbent& at, const Tuning& tuning);  ///< at the full weights
 
  private:
@@ -138,6 +146,14 @@ class Search {
     double step = 0.0;
   };
 
+  struct Tried {
+    Ending ending = Ending::done;
+    int count = 0;
+    bool improved = false;
+  };
+  using Polisher = std::function<Ending(Search& search, Incumbent& now, double merit)>;
+  Tried try_until_better(Incumbent& now, const std::vector<Incumbent>& starts, const Polisher& polish);
+
   Schedule full_schedule(const Tuning& tuning) const;
   Ending iterate(Incumbent& now, Schedule& schedule, bool free_sequence);
   bool line_search(const Incumbent& now, const ContactSequence& sequence, const Schedule& schedule, double merit,
@@ -145,6 +161,7 @@ class Search {
   int switch_contacts(ContactSequence& sequence, Iteration& row);
   bool paper_switches(Incumbent& now, Iteration& row);
   std::vector<ContactSequence> ranked_changes(const Incumbent& now, const Tuning& tuning);
+  bool known_no_lower(const ContactSequence& sequence, double merit) const;
   Ending polish_plan(Incumbent& now, const Tuning& tuning);
   bool should_stop(Ending& ending) const;
   void record(Iteration&& row, const Incumbent& now, const Schedule& schedule);
@@ -165,6 +182,7 @@ class Search {
   Trace* trace_ = nullptr;
   StopRequest stop_;
   bool interrupted_ = false;
+  std::unique_ptr<std::map<ContactSequence, double>> known_;  ///< merits below which no motion was found, by refine()
   std::unique_ptr<Lanes> lanes_;
   std::unique_ptr<SequenceGraph> graph_;  ///< of the problem, made when it is needed
 };

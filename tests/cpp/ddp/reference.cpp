@@ -53,6 +53,20 @@ TEST_CASE("the reference runs from start to goal and rests at both") {
   }
 }
 
+TEST_CASE("at another pace the reference is that of a problem whose phases are first guessed to last as long") {
+  for (Model model : kModels) {
+    mcplan::Scene scene = scenes::stairs();
+    scene.goal.yaw = 0.5;
+    mcplan::ddp::Options options = phases(16, model);
+    Problem problem(scene, scenes::humanoid44(), options);
+    options.duration_initial_s = 0.25;
+    const Problem other(scene, scenes::humanoid44(), options);
+    problem.set_pace(other.duration_initial);
+    CHECK(problem.duration_initial == other.duration_initial);
+    for (int k = 0; k <= 16; ++k) CHECK((problem.reference.x[k] - other.reference.x[k]).norm() < 1e-12);
+  }
+}
+
 TEST_CASE("where the goal is turned, the reference's feet turn with the base") {
   mcplan::Scene scene = scenes::flat(0.0);
   scene.start.yaw = -0.3;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "ddp/initial_sequence.hpp"
+#include "ddp/tail_edits.hpp"
 #include "mcplan/ddp/switched_ddp.hpp"
 #include "support.hpp"
 
@@ -126,6 +128,58 @@ TEST_CASE("refining changes the sequence only for a lower true merit, and settle
   }
   CAPTURE(rounds);
   CHECK(switches == bench.report.switches);
+}
+
+TEST_CASE("where it is known what was tried, refining the same motion again tries other sequences") {
+  Options options = phases(8);
+  options.max_iterations = 1000000;
+  Bench bench(scenes::flat(1.0), options);
+  Tuning tuning = bench.problem.tuning();
+  tuning.exact = true;
+  Incumbent now = bench.discovered();
+  CHECK(bench.search.polish_guess(now, Search::Origin::discovered, kForever, tuning) == Ending::done);
+  bench.search.keep_known(true);
+  for (int switches = -1; switches != bench.report.switches;) {
+    switches = bench.report.switches;
+    CHECK(bench.search.refine(now, tuning) == Ending::done);
+  }
+  const ContactSequence optimum = now.sequence;
+  bench.search.keep_known(true);  // nothing is known any more
+  std::set<ContactSequence> seen[2];
+  for (std::set<ContactSequence>& tried : seen) {
+    bench.search.watch([&](const Incumbent& at, const Tuning&) { tried.insert(at.sequence); });
+    Incumbent again = now;
+    CHECK(bench.search.refine(again, tuning) == Ending::done);
+    tried.erase(optimum);
+    CHECK(!tried.empty());
+  }
+  for (const ContactSequence& sequence : seen[1]) CHECK(seen[0].count(sequence) == 0);
+}
+
+TEST_CASE("an end is changed for a lower true merit alone") {
+  Options options = phases(8);
+  options.max_iterations = 1000000;
+  Bench bench(scenes::flat(1.0), options);
+  Tuning tuning = bench.problem.tuning();
+  tuning.exact = true;
+  Incumbent now = bench.discovered();
+  CHECK(bench.search.polish_guess(now, Search::Origin::discovered, kForever, tuning) == Ending::done);
+  bool improved = true;
+  int rounds = 0;
+  for (; improved && rounds < 10; ++rounds) {
+    const Incumbent before = now;
+    CHECK(bench.search.change_tail(now, tuning, improved) == Ending::done);
+    if (!improved) {
+      CHECK(now.sequence == before.sequence);
+      CHECK(now.evaluation.merit() == before.evaluation.merit());
+      break;
+    }
+    const std::vector<ContactSequence> edits = tail_edits(bench.problem.rules, before.sequence);
+    CHECK(std::find(edits.begin(), edits.end(), now.sequence) != edits.end());
+    CHECK(now.evaluation.merit() < before.evaluation.merit());
+    CHECK(bench.search.evaluate(now, tuning).merit() == doctest::Approx(now.evaluation.merit()));
+  }
+  CHECK(rounds < 10);
 }
 
 TEST_CASE("what is recorded is what was done") {
