@@ -6,7 +6,7 @@
 #include "ddp/attempts.hpp"
 #include "ddp/constants.hpp"
 
-// Short ways, whose local optima differ more than those of longer ones: docs/theory/ddp.md, "5. Check, restarts, statuses".
+// Short ways have more local optima, for their length: docs/theory/ddp.md, "5. Check, restarts, statuses".
 namespace mcplan::ddp {
 
 /// In few phases the optimum of the sequence that was found, and from more discoveries, whatever the checker says of
