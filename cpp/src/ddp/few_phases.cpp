@@ -10,7 +10,8 @@
 namespace mcplan::ddp {
 
 /// In few phases the optimum of the sequence that was found, and from more discoveries, whatever the checker says of
-/// the plans before. The best of all counts. Without a plan half of the iterations are left to restarts.
+/// the plans before, until that leads no further. The best of all counts. Without a plan half of the iterations are
+/// left to restarts.
 class Attempts::FewPhases {
  public:
   FewPhases(Attempts& attempts, const Tuning& tuning, Ending ending)
@@ -30,6 +31,7 @@ class Attempts::FewPhases {
         for (const Guess& steps : attempts_->stepping(tuning_)) go_on_from({steps});
       if (left()) go_on_from(at_pace(tuning_.duration_initial, proximal_weight));
     }
+    in_vain_ = 0;
     if (!lowest_.sequence.empty()) go_on_from({{lowest_, 0.0, true}});
     search.keep_known(false);
     return ending_;
@@ -40,7 +42,7 @@ class Attempts::FewPhases {
     const Search& search = attempts_->search_;
     const bool iterations =
         attempts_->best_->solved() || 2 * search.iterations() < attempts_->problem_.options.max_iterations;
-    return iterations && (ending_ == Ending::done || ending_ == Ending::broke_down);
+    return iterations && in_vain_ <= kFewPhasesPatience && (ending_ == Ending::done || ending_ == Ending::broke_down);
   }
 
   /// What is discovered where all phases are first guessed to last `duration`, and the reference goes as fast as that
@@ -66,6 +68,7 @@ class Attempts::FewPhases {
 
   /// An attempt, and others from what changing the end of its sequence leads to, while that lowers the merit.
   void go_on_from(std::vector<Guess> guesses) {
+    ++in_vain_;
     while (!guesses.empty() && left()) {
       ending_ = attempts_->attempt_and_mend(std::move(guesses), tuning_);
       guesses.clear();
@@ -73,6 +76,7 @@ class Attempts::FewPhases {
       const Incumbent& last = attempts_->last_;
       if (ending_ != Ending::done || last.sequence.empty()) return;
       const double merit = last.evaluation.merit();
+      if (lowest_.sequence.empty() || merit < lowest_.evaluation.merit() * (1.0 - kTrialGain)) in_vain_ = 0;
       if (lowest_.sequence.empty() || merit < lowest_.evaluation.merit()) lowest_ = last;
       if (merit > kTailsWithin * lowest_.evaluation.merit() || !left() || !seen_.insert(last.sequence).second) return;
       Incumbent changed = last;
@@ -95,6 +99,7 @@ class Attempts::FewPhases {
   Tuning tuning_;
   Ending ending_;
   Incumbent lowest_;
+  int in_vain_ = 0;                 ///< attempts since there was a lower one
   std::set<ContactSequence> seen_;  ///< whose ends were changed
 };
 
