@@ -96,3 +96,10 @@ def test_a_gap_says_nothing_of_robots_without_a_speed_limit():
 def test_random_scenes_that_can_be_crossed_by_construction_are_searched(seed):
     result = mp.plan(random_scene(seed), model="lipm", max_iterations=3, restarts=0)
     assert result.plan.phases, result.report.message
+
+
+def test_too_few_phases_are_infeasible_whatever_the_last_attempt_has_come_to() -> None:
+    report = mp.plan("flat", "go2", phases=2).report
+    assert report.status == mp.Status.infeasible
+    assert report.message.startswith("the best plan violates ")
+    assert report.worst_violation.value > report.worst_violation.tolerance

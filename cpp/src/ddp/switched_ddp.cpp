@@ -29,6 +29,9 @@ namespace {
 Status status_of(Ending ending, const std::optional<BestPlan::Finished>& best) {
   if (best && best->ok) return Status::solved;
   switch (ending) {
+    case Ending::broke_down:  // the last attempt; others may have come to their end
+      if (!best || best->sampled) return Status::numerical_failure;
+      [[fallthrough]];
     case Ending::done:
       if (!best) return Status::numerical_failure;
       return violation_ratio(best->worst) <= kAcceptable ? Status::acceptable : Status::infeasible;
@@ -40,8 +43,6 @@ Status status_of(Ending ending, const std::optional<BestPlan::Finished>& best) {
       return Status::time_limit;
     case Ending::interrupted:
       return Status::interrupted;
-    case Ending::broke_down:
-      break;
   }
   return Status::numerical_failure;
 }
