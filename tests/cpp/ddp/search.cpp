@@ -130,14 +130,29 @@ TEST_CASE("refining changes the sequence only for a lower true merit, and settle
   CHECK(switches == bench.report.switches);
 }
 
-TEST_CASE("where it is known what was tried, refining the same motion again tries other sequences") {
-  Options options = phases(8);
+namespace {
+
+Options without_end(int phase_count) {
+  Options options = phases(phase_count);
   options.max_iterations = 1000000;
-  Bench bench(scenes::flat(1.0), options);
-  Tuning tuning = bench.problem.tuning();
+  return options;
+}
+
+/// What is discovered, at the optimum of its sequence; `tuning` becomes that of the interior point.
+Incumbent polished(Bench& bench, Tuning& tuning) {
+  tuning = bench.problem.tuning();
   tuning.exact = true;
   Incumbent now = bench.discovered();
   CHECK(bench.search.polish_guess(now, Search::Origin::discovered, kForever, tuning) == Ending::done);
+  return now;
+}
+
+}  // namespace
+
+TEST_CASE("where it is known what was tried, refining the same motion again tries other sequences") {
+  Tuning tuning;
+  Bench bench(scenes::flat(1.0), without_end(8));
+  Incumbent now = polished(bench, tuning);
   bench.search.keep_known(true);
   for (int switches = -1; switches != bench.report.switches;) {
     switches = bench.report.switches;
@@ -157,13 +172,9 @@ TEST_CASE("where it is known what was tried, refining the same motion again trie
 }
 
 TEST_CASE("an end is changed for a lower true merit alone") {
-  Options options = phases(8);
-  options.max_iterations = 1000000;
-  Bench bench(scenes::flat(1.0), options);
-  Tuning tuning = bench.problem.tuning();
-  tuning.exact = true;
-  Incumbent now = bench.discovered();
-  CHECK(bench.search.polish_guess(now, Search::Origin::discovered, kForever, tuning) == Ending::done);
+  Tuning tuning;
+  Bench bench(scenes::flat(1.0), without_end(8));
+  Incumbent now = polished(bench, tuning);
   bool improved = true;
   int rounds = 0;
   for (; improved && rounds < 10; ++rounds) {

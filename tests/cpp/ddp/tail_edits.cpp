@@ -3,26 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <set>
 
-#include "support.hpp"
+#include "edit_cases.hpp"
 
 namespace {
 
+using namespace support;
 using namespace mcplan::ddp;
-
-/// Two feet on one surface: '.' both stand, 'a' the first swings, 'b' the second, 'f' both.
-ContactSequence walk(const std::string& swings) {
-  ContactSequence out;
-  for (char c : swings) out.push_back({c == 'a' || c == 'f' ? kFree : 0, c == 'b' || c == 'f' ? kFree : 0});
-  return out;
-}
-
-const ContactRules kTwoFeet({{0}, {0}}, {});
-
-bool contains(const std::vector<ContactSequence>& list, const ContactSequence& sequence) {
-  return std::find(list.begin(), list.end(), sequence) != list.end();
-}
 
 /// Which of the phases of `from` come one after the other in `to`, at most one of them twice and one not at all.
 bool retimed(const ContactSequence& from, const ContactSequence& to) {
@@ -51,30 +38,11 @@ bool exchanged(ContactSequence from, const ContactSequence& to) {
 }  // namespace
 
 TEST_CASE("changed ends are valid, new, different, and keep start and goal") {
-  support::Random random(22);
-  int found = 0;
-  for (const mcplan::Scene& scene : scenes::all_four()) {
-    const Problem problem(scene, scenes::humanoid44(), support::phases(10));
-    for (int i = 0; i < 20; ++i) {
-      const ContactSequence sequence = support::random_sequence(problem, random);
-      const std::vector<ContactSequence> edits = tail_edits(problem.rules, sequence);
-      found += static_cast<int>(edits.size());
-      CHECK(std::set<ContactSequence>(edits.begin(), edits.end()).size() == edits.size());
-      for (const ContactSequence& edited : edits) {
-        CHECK(edited.size() == sequence.size());
-        CHECK(problem.rules.valid(edited));
-        CHECK(edited != sequence);
-        CHECK(edited.front() == sequence.front());
-        CHECK(edited.back() == sequence.back());
-      }
-      CHECK(tail_edits(problem.rules, sequence) == edits);
-    }
-  }
-  CHECK(found > 200);
+  CHECK(check_edits(tail_edits, 10, 22) > 200);
 }
 
 TEST_CASE("all that follows a phase comes earlier or later, or with the feet exchanged") {
-  const std::vector<ContactSequence> edits = tail_edits(kTwoFeet, walk(".a.b.a.b."));
+  const std::vector<ContactSequence> edits = tail_edits(two_feet(), walk(".a.b.a.b."));
   for (const char* expected : {".a.bb.a..",  // the last step left out, the second one in two phases
                                "..a.b.a..",  // the last step left out, the walk a phase later
                                ".a.b.b.a.",  // the feet exchanged after the second step
@@ -94,11 +62,11 @@ TEST_CASE("every valid sequence of the kind is found, and no other: all walks in
     all = std::move(longer);
   }
   all.erase(std::remove_if(all.begin(), all.end(),
-                           [](const ContactSequence& s) { return s.back() != s.front() || !kTwoFeet.valid(s); }),
+                           [](const ContactSequence& s) { return s.back() != s.front() || !two_feet().valid(s); }),
             all.end());
   REQUIRE(all.size() > 50);
   for (const ContactSequence& from : all) {
-    const std::vector<ContactSequence> edits = tail_edits(kTwoFeet, from);
+    const std::vector<ContactSequence> edits = tail_edits(two_feet(), from);
     for (const ContactSequence& to : all)
       CHECK(contains(edits, to) == (to != from && (retimed(from, to) || exchanged(from, to))));
   }
