@@ -39,9 +39,9 @@ class Attempts::FewPhases {
 
  private:
   bool left() const {
-    const Search& search = attempts_->search_;
+    Search& search = attempts_->search_;
     const bool iterations =
-        attempts_->best_->solved() || 2 * search.iterations() < attempts_->problem_.options.max_iterations;
+        attempts_->best_->solved() || 2 * search.report().iterations < attempts_->problem_.options.max_iterations;
     return iterations && in_vain_ <= kFewPhasesPatience && (ending_ == Ending::done || ending_ == Ending::broke_down);
   }
 

@@ -109,9 +109,11 @@ void Problem::make_reference(const VectorXd& goal) {
 }
 
 void Problem::set_pace(double duration) {
+  // Rates go with 1 / duration, see make_reference(); the ends are at rest, or as measured.
+  const double faster = duration_initial / duration;
   for (int k = 1; k < steps; ++k) {
-    reference.x[k].segment<3>(layout.velocity()) *= duration_initial / duration;
-    for (int a = 0; a < layout.axis_count(); ++a) reference.x[k][layout.momentum(a)] *= duration_initial / duration;
+    reference.x[k].segment<3>(layout.velocity()) *= faster;
+    reference.x[k].segment(layout.momentum(), layout.axis_count()) *= faster;
   }
   duration_initial = duration;
 }

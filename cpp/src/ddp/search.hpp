@@ -120,8 +120,9 @@ class Search {
     return (tuning.exact || chosen) && !tuning.hold_joints;
   }
 
-  /// From now on refine() tries no sequence again where an earlier one has shown that the interior point ends no lower
-  /// from it: attempts that come to the same optimum go on to changes that have not been tried. False: as before.
+  /// From now on refine() and change_tail() try no sequence again where an earlier trial has shown that the interior
+  /// point ends no lower: attempts that come to the same optimum go on to others. Forgets what was known; false: as
+  /// before.
   void keep_known(bool yes) { known_ = yes ? std::make_unique<std::map<ContactSequence, double>>() : nullptr; }
 
   /// Forget what earlier attempts have left behind.
@@ -136,7 +137,6 @@ class Search {
   const Problem& problem() const { return *problem_; }
   LocalModel& model() { return model_; }
   Report& report() { return *report_; }
-  int iterations() const { return report_->iterations; }
   Evaluation evaluate(const Incumbent& at, const Tuning& tuning);  ///< at the full weights
 
  private:
@@ -182,7 +182,7 @@ class Search {
   Trace* trace_ = nullptr;
   StopRequest stop_;
   bool interrupted_ = false;
-  std::unique_ptr<std::map<ContactSequence, double>> known_;  ///< merits below which no motion was found, by refine()
+  std::unique_ptr<std::map<ContactSequence, double>> known_;  ///< merits below which trials found no motion
   std::unique_ptr<Lanes> lanes_;
   std::unique_ptr<SequenceGraph> graph_;  ///< of the problem, made when it is needed
 };

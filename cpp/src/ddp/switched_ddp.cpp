@@ -30,7 +30,7 @@ Status status_of(Ending ending, const std::optional<BestPlan::Finished>& best) {
   if (best && best->ok) return Status::solved;
   switch (ending) {
     case Ending::broke_down:  // the last attempt; others may have come to their end
-      if (!best || best->sampled) return Status::numerical_failure;
+      if (best && best->sampled) return Status::numerical_failure;
       [[fallthrough]];
     case Ending::done:
       if (!best) return Status::numerical_failure;
