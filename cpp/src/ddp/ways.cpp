@@ -21,6 +21,9 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// A plan that costs less than this ratio of another one is far cheaper.
+constexpr double kFarCheaper = 0.5;
+
 /// Whether a search that ended so may have missed what it did not look at.
 bool ended_by_itself(Ending ending) {
   return ending == Ending::done || ending == Ending::broke_down || ending == Ending::no_sequence;
@@ -201,13 +204,21 @@ void WaysToGoal::try_more_phases(Report& report, Found& found) const {
   }
 }
 
-/// The same way in so many phases, as if nothing had been found, without restarts: the cheaper plan counts.
+/// The same way in so many phases, as if nothing had been found: the cheaper plan counts. There are restarts only where
+/// they may lead to a far cheaper one.
 void WaysToGoal::take_if_cheaper(int phases, Report& report, Found& found) const {
   Found more{BestPlan(*scene_, *deadline_)};
   more.way = found.way;
-  more.way.brief = true;
-  search_in(phases, more.way, report, more);
-  tell(more.way, more);
+  const auto look = [&](bool brief) {
+    more.way.brief = brief;
+    search_in(phases, more.way, report, more);
+    tell(more.way, more);
+  };
+  look(true);
+  const std::optional<BestPlan::Finished>& near = more.best.best();
+  if (near && !near->ok && ended_by_itself(more.ending) && violation_ratio(near->worst) <= kAcceptable &&
+      near->evaluation.cost < kFarCheaper * found.best.best()->evaluation.cost)
+    look(false);
   if (!ended_by_itself(more.ending)) found.ending = more.ending;
   if (better(more.best.best(), found.best.best())) found = std::move(more);
 }
