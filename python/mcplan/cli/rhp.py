@@ -74,7 +74,7 @@ def rhp(
     scale: ScaleOption = 1.0,
     cycles: CyclesOption = 14,
     transcription: TranscriptionOption = "trapezoidal",
-    solver: SolverOption = "ipopt",
+    solver: SolverOption = "auto",
     paper: PaperOption = False,
     lifted_psi: LiftedPsiOption = False,
     sequence: SequenceOption = None,

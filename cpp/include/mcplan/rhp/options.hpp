@@ -63,7 +63,7 @@ struct Options {
   double tolerance = 1e-5, constraint_tolerance = 1e-6;           ///< of the solver
   int max_iterations = 400;                                       ///< of a cycle
   double time_limit_s = std::numeric_limits<double>::infinity();  ///< of a cycle, wall clock
-  nlp::Solver solver = nlp::Solver::ipopt;
+  nlp::Solver solver = nlp::Solver::automatic;
   bool automatic_ordering = false;  ///< Ipopt's linear solver's own choice of pivot order, slower here than AMD
 
   Logger logger;     ///< a line a cycle; null: silent
