@@ -22,7 +22,7 @@ struct StepView {
   int k;
   const Eigen::VectorXd& x;
   const Eigen::VectorXd* u;                        ///< null at the last knot
-  const std::vector<Instant>& instants;            ///< of the phase; meaningful while between_knots()
+  const Instants& instants;                        ///< of the phase; meaningful where u is given
   int l = -1;                                      ///< end-effector
   int surface = kFree;                             ///< that it touches
   double sole_yaw = 0.0;                           ///< [rad] heading of its sole

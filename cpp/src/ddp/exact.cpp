@@ -39,8 +39,8 @@ void snap_pressure(const Problem& problem, int l, int surface, double sole_yaw, 
 double min_torsion(const Problem& problem, const Pendulum& pendulum, const Trajectory& t, int k, int l, int surface) {
   const Vector3d& n = problem.polygons[surface].normal_W();
   const Vector3d s = problem.layout.line_point(t.x[k], t.u[k], l);
-  std::vector<Instant> instants;
-  make_instants(problem, pendulum, t.x[k], t.u[k], instants);
+  Instants instants;
+  instants.of(problem, pendulum, t.x[k], t.u[k]);
   double normal = std::numeric_limits<double>::infinity();
   for (const Instant& instant : instants) normal = std::min(normal, n.dot(instant.com - s));
   const double arm = torsion_arm(problem, l, surface);

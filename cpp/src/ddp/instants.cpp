@@ -5,23 +5,32 @@ namespace mcplan::ddp {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-void make_instants(const Problem& problem, const Pendulum& pendulum, const VectorXd& x, const VectorXd& u,
-                   std::vector<Instant>& out) {
-  const Layout& at = problem.layout;
-  const int count = problem.options.interior_points + 2;
-  const Pendulum::Course course(pendulum, pendulum.drive(x, u));
-  out.resize(count);
+void Instants::of(const Problem& problem, const Pendulum& pendulum, const VectorXd& x, const VectorXd& u) {
+  problem_ = &problem;
+  pendulum_ = &pendulum;
+  x_ = &x;
+  u_ = &u;
+  stale_ = true;
+}
+
+void Instants::make() const {
+  stale_ = false;
+  const Layout& at = problem_->layout;
+  const int count = problem_->options.interior_points + 2;
+  const Pendulum::Course course(*pendulum_, pendulum_->drive(*x_, *u_));
+  made_.resize(count);
   for (int i = 0; i < count; ++i) {
-    Instant& instant = out[i];
+    Instant& instant = made_[i];
     instant.fraction = static_cast<double>(i) / (count - 1);
+    const double t = instant.fraction * (*u_)[at.duration()];
     Vector3d angle;
-    course.at(instant.fraction * u[at.duration()], instant.com, angle);
-    instant.rpy = problem.base_rpy;
+    course.at(t, instant.com, angle);
+    instant.rpy = problem_->base_rpy;
     for (int axis : at.axes()) instant.rpy[axis] = angle[axis];
-    if (!problem.jointed.ends.empty()) instant.velocity = course.velocity(instant.fraction * u[at.duration()]);
-    instant.pendulum = &pendulum;
-    instant.x = &x;
-    instant.u = &u;
+    if (!problem_->jointed.ends.empty()) instant.velocity = course.velocity(t);
+    instant.pendulum = pendulum_;
+    instant.x = x_;
+    instant.u = u_;
     instant.stepped = false;
   }
 }

@@ -15,7 +15,7 @@ struct Instant {
   Eigen::Vector3d com, rpy;
   Eigen::Vector3d velocity;  ///< of the CoM; set where the robot has joint limits
 
-  /// g += (d com/dz)' along_com + (d rpy/dz)' along_rpy. The state and input given to make_instants() must still be
+  /// g += (d com/dz)' along_com + (d rpy/dz)' along_rpy. The state and input given to Instants::of() must still be
   /// there.
   void add_along(const Eigen::Vector3d& along_com, const Eigen::Vector3d& along_rpy,
                  Eigen::Ref<Eigen::VectorXd> g) const;
@@ -32,8 +32,30 @@ struct Instant {
   void make_step() const;
 };
 
-/// Fill `out` with 0, 1/(n+1), ..., 1 of the phase (n interior points). Keeps references to pendulum, x and u.
-void make_instants(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x, const Eigen::VectorXd& u,
-                   std::vector<Instant>& out);
+/// The instants 0, 1/(n+1), ..., 1 of a phase (n interior points), worked out when the first term asks for one: many
+/// phases have none that does. One object serves one thread.
+class Instants {
+ public:
+  /// Be those of this phase from now on. Keeps references to all it is given.
+  void of(const Problem& problem, const Pendulum& pendulum, const Eigen::VectorXd& x, const Eigen::VectorXd& u);
+
+  std::size_t size() const { return made().size(); }
+  const Instant& operator[](std::size_t i) const { return made()[i]; }
+  std::vector<Instant>::const_iterator begin() const { return made().begin(); }
+  std::vector<Instant>::const_iterator end() const { return made().end(); }
+
+ private:
+  const std::vector<Instant>& made() const {
+    if (stale_) make();
+    return made_;
+  }
+  void make() const;
+
+  const Problem* problem_ = nullptr;
+  const Pendulum* pendulum_ = nullptr;
+  const Eigen::VectorXd *x_ = nullptr, *u_ = nullptr;
+  mutable std::vector<Instant> made_;
+  mutable bool stale_ = false;
+};
 
 }  // namespace mcplan::ddp

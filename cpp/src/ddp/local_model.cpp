@@ -53,6 +53,7 @@ void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) 
     const VectorXd& x = trajectory.x[k];
     const VectorXd* u = last ? nullptr : &trajectory.u[k];
     base_rows_.clear();
+    if (!last) stage.instants.of(*problem_, pendulum_, x, *u);
     write_terms(Scope::step, view(k), base_rows_);
     stage.base.c = 0.0;
     stage.base.g.setZero(at.nz());
@@ -75,7 +76,6 @@ void LocalModel::expand(const Trajectory& trajectory, const Schedule& schedule) 
     for (int l = 0; l < at.end_effector_count(); ++l)
       stage.defect.segment<3>(at.end(l)) = x.segment<3>(at.end(l)) + u->segment<3>(at.stride(l));
     stage.defect -= trajectory.x[k + 1];
-    if (schedule.interior_weight > 0.0) make_instants(*problem_, pendulum_, x, *u, stage.instants);
   }
 }
 
@@ -150,9 +150,9 @@ Evaluation Evaluator::operator()(const Trajectory& trajectory, const ContactSequ
     const bool last = k == problem_->steps;
     const VectorXd& x = trajectory.x[k];
     const VectorXd* u = last ? nullptr : &trajectory.u[k];
+    if (!last) instants_.of(*problem_, pendulum_, x, *u);
     StepView about{*problem_, pendulum_, schedule, k, x, u, instants_};
     write_terms(Scope::step, about, rows_);
-    if (about.between_knots()) make_instants(*problem_, pendulum_, x, *u, instants_);
     for (int l = 0; l < problem_->layout.end_effector_count(); ++l) {
       about.look_at(l, sequence[k][l], trajectory);
       write_terms(about.surface == kFree ? Scope::free : Scope::contact, about, rows_);

@@ -72,7 +72,7 @@ class LocalModel {
     PendulumStep dynamics;
     Eigen::VectorXd defect;
     Quadratic base;
-    std::vector<Instant> instants;
+    Instants instants;
     /// [l][choice], choice 0: free, i + 1: surfaces(l)[i]; made when asked for, since most never are.
     std::vector<std::vector<std::unique_ptr<Block>>> blocks;
     Rows flight;
@@ -110,7 +110,7 @@ class Evaluator {
   const Problem* problem_;
   Pendulum pendulum_;
   Rows rows_;
-  std::vector<Instant> instants_;
+  Instants instants_;
   Eigen::VectorXd next_;
 };
 

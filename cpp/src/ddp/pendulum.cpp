@@ -161,7 +161,18 @@ void Pendulum::turn_rows(const Drive& d, const VectorXd& x, const VectorXd& u, c
   angle.col(nx + layout_.duration()) += s.slope * turned.d_duration;
 }
 
+RpyRate Pendulum::base_rate(const Vector3d& angle, const Vector3d& momentum) const {
+  if (model_ == Model::wrench) return rpy_rate_derivatives(angle, momentum, inertia_);
+  return {momentum.cwiseQuotient(inertia_), Matrix3d::Zero(), inertia_.cwiseInverse().asDiagonal()};
+}
+
 void Pendulum::step(const VectorXd& x, const VectorXd& u, double fraction, PendulumStep& s) const {
+  const Drive d = drive(x, u);
+  turn_rows(d, x, u, sway(d, x, u, fraction, s), s);
+}
+
+EntireFunctions Pendulum::sway(const Drive& d, const VectorXd& x, const VectorXd& u, double fraction,
+                               PendulumStep& s) const {
   const int end_effectors = layout_.end_effector_count();
   s.mu.resize(end_effectors);
   s.p_mu.resize(3, end_effectors);
@@ -169,7 +180,6 @@ void Pendulum::step(const VectorXd& x, const VectorXd& u, double fraction, Pendu
   s.slope = fraction;
   s.duration = fraction * u[layout_.duration()];
   const double t = s.duration, t2 = t * t;
-  const Drive d = drive(x, u);
   const EntireFunctions f(d.total * t2);
 
   s.pp = f(0);
@@ -188,7 +198,7 @@ void Pendulum::step(const VectorXd& x, const VectorXd& u, double fraction, Pendu
     s.p_mu.col(l) = chain * (t * d1 * d.v + t2 * d2 * d.acceleration + t2 * f(2) * lever);
     s.v_mu.col(l) = chain * (d0 * d.v + t * d1 * d.acceleration + t * f(1) * lever);
   }
-  turn_rows(d, x, u, f, s);
+  return f;
 }
 
 void Pendulum::next(const VectorXd& x, const VectorXd& u, VectorXd& x_next) const {

@@ -66,6 +66,14 @@ class Pendulum {
   };
   Drive drive(const Eigen::VectorXd& x, const Eigen::VectorXd& u) const;
 
+  /// The part of step() that is the CoM's: all but the angles, the momenta and their derivatives. Returns the entire
+  /// functions of Lambda t^2.
+  EntireFunctions sway(const Drive& drive, const Eigen::VectorXd& x, const Eigen::VectorXd& u, double fraction,
+                       PendulumStep& out) const;
+
+  /// theta' under a momentum, by all three axes.
+  RpyRate base_rate(const Eigen::Vector3d& angle, const Eigen::Vector3d& momentum) const;
+
   /// p(t) and theta(t) at several instants of a phase, for cost evaluations. Angles by axis: those not in the layout
   /// are 0.
   class Course {

@@ -42,8 +42,8 @@ TEST_CASE("terms that depend on the contact state are asked about the states tha
   const Pendulum pendulum(at, problem.inertia, problem.options.stiffness_input, problem.model);
   Random random(71);
   const VectorXd x = problem.reference.x[2] + noise(random, at.nx(), 0.5), u = noise(random, at.nu(), 5.0);
-  std::vector<Instant> instants;
-  make_instants(problem, pendulum, x, u, instants);
+  Instants instants;
+  instants.of(problem, pendulum, x, u);
   const auto written = [&](Scope scope, const VectorXd* input, double interior) {
     Schedule weights = schedule(3.0, interior, 0.0);
     StepView step{problem, pendulum, weights, 2, x, input, instants};

@@ -18,8 +18,8 @@ TEST_CASE("instants lie on the motion of the phase, evenly, from its start to it
       const ddp::Layout& at = problem.layout;
       const ddp::Pendulum pendulum(at, problem.inertia, options.stiffness_input, model);
       const VectorXd z = random_z(problem, random, 0.1), x = z.head(at.nx()), u = z.tail(at.nu());
-      std::vector<ddp::Instant> instants;
-      make_instants(problem, pendulum, x, u, instants);
+      ddp::Instants instants;
+      instants.of(problem, pendulum, x, u);
       REQUIRE(instants.size() == static_cast<std::size_t>(interior + 2));
       for (int i = 0; i < interior + 2; ++i) {
         const ddp::Instant& instant = instants[i];
@@ -53,15 +53,15 @@ TEST_CASE("instants that are made anew forget what they were") {
   const ddp::Problem problem = workshop();
   const ddp::Layout& at = problem.layout;
   const ddp::Pendulum pendulum(at, problem.inertia, problem.options.stiffness_input, problem.model);
-  std::vector<ddp::Instant> used, fresh;
+  ddp::Instants used, fresh;
   VectorXd z = random_z(problem, random, 0.1), x = z.head(at.nx()), u = z.tail(at.nu());
   VectorXd there = VectorXd::Zero(at.nz()), expected = there;
   const Vector3d com(0.3, -0.4, 0.5), rpy(-0.1, 0.2, 0.7);
-  make_instants(problem, pendulum, x, u, used);
+  used.of(problem, pendulum, x, u);
   for (const ddp::Instant& instant : used) instant.add_along(com, rpy, there);
   z = random_z(problem, random, 0.1), x = z.head(at.nx()), u = z.tail(at.nu());
-  make_instants(problem, pendulum, x, u, used);
-  make_instants(problem, pendulum, x, u, fresh);
+  used.of(problem, pendulum, x, u);
+  fresh.of(problem, pendulum, x, u);
   there.setZero();
   for (const ddp::Instant& instant : used) instant.add_along(com, rpy, there);
   for (const ddp::Instant& instant : fresh) instant.add_along(com, rpy, expected);
@@ -78,7 +78,7 @@ TEST_CASE("in the paper's model, base axes that nothing drives keep their angle 
   REQUIRE(problem.layout.axis_count() == 0);
   Random random(51);
   const VectorXd z = random_z(problem, random, 0.3), x = z.head(problem.layout.nx()), u = z.tail(problem.layout.nu());
-  std::vector<ddp::Instant> instants;
-  make_instants(problem, pendulum, x, u, instants);
+  ddp::Instants instants;
+  instants.of(problem, pendulum, x, u);
   for (const ddp::Instant& instant : instants) CHECK((instant.rpy - Vector3d(0, 0, 0.6)).norm() == 0.0);
 }

@@ -22,10 +22,7 @@ class IdleLimb final : public CostTerm {
   void write(const StepView& step, Rows& rows) const override {
     const Problem& problem = step.problem;
     const double weight = step.schedule.interior_weight;
-    // Terms of a step come before the instants of the others.
-    std::vector<Instant> instants;
-    make_instants(problem, step.pendulum, step.x, *step.u, instants);
-    for (const Instant& instant : instants) {
+    for (const Instant& instant : step.instants) {
       const Eigen::Matrix3d level = rotation_from_rpy({0.0, 0.0, instant.rpy.z()});
       for (const Vector3d& nominal : problem.idle_hands)
         for (int i : problem.standing_solids) {

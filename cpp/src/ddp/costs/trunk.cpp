@@ -20,12 +20,9 @@ class Trunk final : public CostTerm {
     write_at(step, step.x.segment<3>(at.com()), rows,
              [&](const Vector3d& outward, Eigen::Ref<Eigen::VectorXd> g) { g.segment<3>(at.com()) = outward; });
     if (!step.u) return;
-    // Terms of a step come before the instants of the others; few scenes have solids that stand.
-    std::vector<Instant> instants;
-    make_instants(step.problem, step.pendulum, step.x, *step.u, instants);
-    for (std::size_t i = 1; i + 1 < instants.size(); ++i)
-      write_at(step, instants[i].com, rows, [&](const Vector3d& outward, Eigen::Ref<Eigen::VectorXd> g) {
-        instants[i].add_along(outward, Vector3d::Zero(), g);
+    for (std::size_t i = 1; i + 1 < step.instants.size(); ++i)
+      write_at(step, step.instants[i].com, rows, [&](const Vector3d& outward, Eigen::Ref<Eigen::VectorXd> g) {
+        step.instants[i].add_along(outward, Vector3d::Zero(), g);
       });
   }
 

@@ -214,7 +214,7 @@ Outcome InteriorPoint::solve(Trajectory& trajectory, const Settings& settings,
       break;
     }
     limits_.along(motion_, dz_, dr_);
-    const double slope = costs_.slope(motion_, dz_) + barrier_.slope(r_, dr_, mu_);
+    const double slope = costs_.slope(dz_) + barrier_.slope(r_, dr_, mu_);
     gain_ = -slope;
     if (mu_ <= kBarrierMin && motion_.defect_sum() < kClosed && std::abs(gain_) < settings.tolerance * objective_) {
       outcome = Outcome::converged;

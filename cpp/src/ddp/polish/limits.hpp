@@ -100,7 +100,7 @@ class Limits {
   std::vector<Sole> soles_;
   std::vector<SolePair> pairs_;
   // Scratch.
-  Eigen::MatrixXd acting_, half_;
+  Eigen::MatrixXd acting_, half_, end_turn_;
   Eigen::VectorXd gradient_, beside_, step_, carried_;
   std::vector<Eigen::Matrix<double, 6, 6>> poses_;
 };

@@ -127,6 +127,13 @@ void Limits::lift(const Motion& motion, int k) {
   const Layout& at = fixed_->problem().layout;
   const Phase& phase = fixed_->phase(k);
   MatrixXd& out = phases_[k].lifted;
+  // Angles and momenta at the end of the phase, by axis.
+  end_turn_.setZero(6, static_cast<int>(phase.moving.size()));
+  for (std::size_t j = 0; j < phase.full.size(); ++j)
+    for (int a = 0; a < at.axis_count(); ++a) {
+      end_turn_(at.axes()[a], static_cast<int>(j)) = motion.end(k).turn(a, phase.full[j]);
+      end_turn_(3 + at.axes()[a], static_cast<int>(j)) = motion.end(k).turn(at.axis_count() + a, phase.full[j]);
+    }
   for (int i = 1; i < motion.instants(); ++i) {
     const PendulumStep& step = i + 1 < motion.instants() ? motion.inside(k, i) : motion.end(k);
     auto block = out.middleRows<6>(6 * (i - 1));
@@ -142,9 +149,18 @@ void Limits::lift(const Motion& motion, int k) {
       block.col(s.stiffness).head<3>() = step.p_mu.col(s.l);
     }
     block.col(phase.duration).head<3>() = step.slope * step.velocity;
-    for (int a = 0; a < at.axis_count(); ++a)
-      for (std::size_t j = 0; j < phase.full.size(); ++j)
-        block(3 + at.axes()[a], static_cast<int>(j)) = step.turn(a, phase.full[j]);
+    auto turn = block.bottomRows<3>();
+    if (i + 1 == motion.instants()) {
+      turn = end_turn_.topRows<3>();
+      continue;
+    }
+    const BaseCourse::Derivatives by = motion.base(k).derivatives(step.slope);
+    turn.noalias() = by.end.lazyProduct(end_turn_);
+    for (int a = 0; a < at.axis_count(); ++a) {
+      turn.col(at.angle(a)) += by.begin_angle.col(at.axes()[a]);
+      turn.col(at.momentum(a)) += by.begin_momentum.col(at.axes()[a]);
+    }
+    turn.col(phase.duration) += by.duration;
   }
 }
 

@@ -53,18 +53,21 @@ bool Motion::evaluate(const Pendulum& pendulum) {
   for (int k = 0; k < fixed_->steps(); ++k) {
     OfPhase& phase = phases_[k];
     const VectorXd &x = trajectory.x[k], &u = trajectory.u[k], &next = trajectory.x[k + 1];
-    const auto pose_of = [&](const PendulumStep& step, BodyPose& pose) {
+    const auto set_pose = [&](int i, const PendulumStep& step) {
+      const Vector3d angle = phase.base.at(step.slope);
       Vector3d rpy = problem.base_rpy;
-      for (int a = 0; a < axes; ++a) rpy[at.axes()[a]] = step.angle[a];
-      pose.set(step.com, rpy);
+      for (int axis : at.axes()) rpy[axis] = angle[axis];
+      phase.poses[i].set(step.com, rpy);
     };
+    pendulum.step(x, u, 1.0, phase.end);
+    const Pendulum::Drive drive = pendulum.drive(x, u);
+    phase.base.set(pendulum, drive, phase.end);
     phase.poses[0] = knots_[k];
     for (int i = 1; i + 1 < instants_; ++i) {
-      pendulum.step(x, u, static_cast<double>(i) / (instants_ - 1), phase.inside[i - 1]);
-      pose_of(phase.inside[i - 1], phase.poses[i]);
+      pendulum.sway(drive, x, u, static_cast<double>(i) / (instants_ - 1), phase.inside[i - 1]);
+      set_pose(i, phase.inside[i - 1]);
     }
-    pendulum.step(x, u, 1.0, phase.end);
-    pose_of(phase.end, phase.poses[instants_ - 1]);
+    set_pose(instants_ - 1, phase.end);
     VectorXd& d = phase.defect;
     d.segment<3>(at.com()) = phase.end.com;
     d.segment<3>(at.velocity()) = phase.end.velocity;

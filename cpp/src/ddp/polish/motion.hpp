@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "ddp/pendulum.hpp"
+#include "ddp/polish/base_course.hpp"
 #include "ddp/polish/fixed_sequence.hpp"
 
 namespace mcplan::ddp::polish {
@@ -21,7 +22,7 @@ struct BodyPose {
 };
 
 /// A motion and all that the solver asks of it, worked out once: the dynamics to first order at the end of every phase
-/// and at the instants inside, where the body is then, and what is missing between the phases.
+/// and, of the CoM, at the instants inside, where the body is then, and what is missing between the phases.
 class Motion {
  public:
   explicit Motion(const FixedSequence& fixed);
@@ -33,7 +34,9 @@ class Motion {
 
   int instants() const { return instants_; }  ///< of a phase, with its two ends
   const PendulumStep& end(int k) const { return phases_[k].end; }
-  const PendulumStep& inside(int k, int i) const { return phases_[k].inside[i - 1]; }  ///< i = 1..instants() - 2
+  /// The CoM's part alone, i = 1..instants() - 2.
+  const PendulumStep& inside(int k, int i) const { return phases_[k].inside[i - 1]; }
+  const BaseCourse& base(int k) const { return phases_[k].base; }
   const BodyPose& pose(int k, int i) const { return phases_[k].poses[i]; }
   const BodyPose& knot(int k) const { return knots_[k]; }
   const Eigen::VectorXd& defect(int k) const { return phases_[k].defect; }  ///< f(x_k, u_k) - x_{k+1}
@@ -44,6 +47,7 @@ class Motion {
   struct OfPhase {
     PendulumStep end;
     std::vector<PendulumStep> inside;
+    BaseCourse base;
     std::vector<BodyPose> poses;
     Eigen::VectorXd defect;
   };

@@ -1,5 +1,7 @@
 #include "ddp/polish/riccati.hpp"
 
+#include "ddp/elimination.hpp"
+
 namespace mcplan::ddp::polish {
 
 using Eigen::MatrixXd;
@@ -73,17 +75,12 @@ bool Riccati::backward(const Motion& motion, int k, double proximal) {
     here.g.segment<3>(s.stride) += stage.w.segment<3>(fixed_->problem().layout.end(s.l));
   // Minimise over the inputs.
   here.h.diagonal().tail(nv).array() += proximal;
-  stage.factor.compute(here.h.bottomRightCorner(nv, nv));
-  if (stage.factor.info() != Eigen::Success) return false;
-  stage.gain = here.h.bottomLeftCorner(nv, nx);
-  stage.offset = here.g.tail(nv);
-  stage.factor.matrixL().solveInPlace(stage.gain);
-  stage.factor.matrixL().solveInPlace(stage.offset);
+  if (!eliminate_last(here.h, nv)) return false;
   auto left = here.h.topLeftCorner(nx, nx);
-  left.noalias() -= stage.gain.transpose() * stage.gain;
-  // What rounding leaves of asymmetry would grow eightfold a step.
-  left.triangularView<Eigen::StrictlyUpper>() = left.transpose();
-  here.g.head(nx).noalias() -= stage.gain.transpose() * stage.offset;
+  left.triangularView<Eigen::StrictlyLower>() = left.transpose();
+  auto offset = here.g.tail(nv);
+  here.h.bottomRightCorner(nv, nv).triangularView<Eigen::Upper>().solveInPlace(offset);
+  here.g.head(nx).noalias() -= here.h.topRightCorner(nx, nv) * offset;
   return true;
 }
 
@@ -102,10 +99,12 @@ bool Riccati::solve(const Motion& motion, double proximal, std::vector<VectorXd>
   for (int k = 0; k < n; ++k) {
     Stage& stage = stages_[k];
     const Phase& phase = fixed_->phase(k);
-    auto dv = dz[k].tail(fixed_->size(k) - nx);
-    dv = -stage.offset;
-    dv.noalias() -= stage.gain * dz[k].head(nx);
-    stage.factor.matrixU().solveInPlace(dv);
+    const StageModel& here = models_[k];
+    const int nv = fixed_->size(k) - nx;
+    auto dv = dz[k].tail(nv);
+    dv = -here.g.tail(nv);
+    dv.noalias() -= here.h.topRightCorner(nx, nv).transpose() * dz[k].head(nx);
+    here.h.bottomRightCorner(nv, nv).triangularView<Eigen::Upper>().transpose().solveInPlace(dv);
     stage.w.resize(static_cast<int>(phase.moving.size()));
     for (std::size_t j = 0; j < phase.moving.size(); ++j) stage.w[static_cast<int>(j)] = dz[k][phase.moving[j]];
     auto next = dz[k + 1].head(nx);

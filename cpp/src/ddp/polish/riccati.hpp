@@ -30,8 +30,7 @@ class Riccati {
   std::vector<StageModel> models_;
   struct Stage {
     Eigen::MatrixXd jacobian;  ///< of CoM, velocity, base and momentum at the end of the phase, by Phase::moving
-    Eigen::LLT<Eigen::MatrixXd> factor;
-    Eigen::MatrixXd gain, pushed, scattered, pulled, quadratic;
+    Eigen::MatrixXd pushed, scattered, pulled;
     Eigen::VectorXd offset, w;
   };
   std::vector<Stage> stages_;

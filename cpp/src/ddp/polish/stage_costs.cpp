@@ -52,6 +52,7 @@ StageCosts::StageCosts(const FixedSequence& fixed, const Pendulum& pendulum, con
   for (int k = 0; k <= n; ++k) {
     Diagonal& q = diagonal_.emplace_back();
     q.weight.setZero(fixed.size(k));
+    gradient_.emplace_back(fixed.size(k));
     q.target.setZero(fixed.size(k));
     std::vector<int>& columns = columns_.emplace_back(at.nz(), -1);
     for (int i = 0; i < nx; ++i) columns[i] = i;
@@ -102,11 +103,8 @@ Rows& StageCosts::other_rows(const Motion& motion, int k, bool with_gradient) {
   Rows& rows = with_gradient ? gradients_ : values_;
   rows.clear();
   const ContactState& state = fixed_->contacts()[k];
+  if (!last) instants_.of(problem, *pendulum_, t.x[k], t.u[k]);
   StepView view{problem, *pendulum_, schedule_, k, t.x[k], last ? nullptr : &t.u[k], instants_};
-  // No term of these asks for the instants; one that does would find them here, but for those of a step, which come
-  // before them everywhere.
-  if (!last && !(of_contact_.empty() && of_flight_.empty()))
-    make_instants(problem, *pendulum_, t.x[k], t.u[k], instants_);
   const auto write = [&](const std::vector<const CostTerm*>& terms) {
     for (const CostTerm* term : terms)
       if (term->applies(view)) term->write(view, rows);
@@ -139,13 +137,14 @@ double StageCosts::value(const Motion& motion) {
 
 void StageCosts::add(const Motion& motion, int k, StageModel& model) {
   const Diagonal& q = diagonal_[k];
+  VectorXd& g = gradient_[k];
   model.h.diagonal() += q.weight;
   for (int i = 0; i < static_cast<int>(q.weight.size()); ++i)
-    model.g[i] += q.weight[i] * (variable(motion, k, i) - q.target[i]);
+    g[i] = q.weight[i] * (variable(motion, k, i) - q.target[i]);
   for (const Plane& plane : planes_[k]) {
     const double off = distance(motion, k, plane);
     for (int i = 0; i < plane.count; ++i) {
-      model.g[plane.first + i] += plane.weight * off * plane.along[i];
+      g[plane.first + i] += plane.weight * off * plane.along[i];
       for (int j = 0; j < plane.count; ++j)
         model.h(plane.first + i, plane.first + j) += plane.weight * plane.along[i] * plane.along[j];
     }
@@ -157,29 +156,17 @@ void StageCosts::add(const Motion& motion, int k, StageModel& model) {
     for (int i = 0; i < static_cast<int>(gradient.size()); ++i) {
       if (gradient[i] == 0.0 || columns[i] < 0) continue;
       const double along = rows.precision(r) * gradient[i];
-      model.g[columns[i]] += along * rows.value(r);
+      g[columns[i]] += along * rows.value(r);
       for (int j = 0; j < static_cast<int>(gradient.size()); ++j)
         if (gradient[j] != 0.0 && columns[j] >= 0) model.h(columns[i], columns[j]) += along * gradient[j];
     }
   }
+  model.g += g;
 }
 
-double StageCosts::slope(const Motion& motion, const std::vector<VectorXd>& dz) {
+double StageCosts::slope(const std::vector<VectorXd>& dz) const {
   double out = 0.0;
-  for (int k = 0; k <= fixed_->steps(); ++k) {
-    const Diagonal& q = diagonal_[k];
-    for (int i = 0; i < static_cast<int>(q.weight.size()); ++i)
-      out += q.weight[i] * (variable(motion, k, i) - q.target[i]) * dz[k][i];
-    for (const Plane& plane : planes_[k])
-      for (int i = 0; i < plane.count; ++i)
-        out += plane.weight * distance(motion, k, plane) * plane.along[i] * dz[k][plane.first + i];
-    const Rows& rows = other_rows(motion, k, true);
-    for (int r = 0; r < rows.count(); ++r) {
-      const auto gradient = rows.gradient(r);
-      for (int i = 0; i < static_cast<int>(gradient.size()); ++i)
-        if (columns_[k][i] >= 0) out += rows.precision(r) * rows.value(r) * gradient[i] * dz[k][columns_[k][i]];
-    }
-  }
+  for (int k = 0; k <= fixed_->steps(); ++k) out += gradient_[k].dot(dz[k]);
   return out;
 }
 

@@ -31,8 +31,8 @@ class StageCosts {
   /// Add those of knot k, to second order (Gauss-Newton).
   void add(const Motion& motion, int k, StageModel& model);
 
-  /// Slope of value() along a step of the variables.
-  double slope(const Motion& motion, const std::vector<Eigen::VectorXd>& dz);
+  /// Slope of value() along a step of the variables, where add() has been asked for every knot last.
+  double slope(const std::vector<Eigen::VectorXd>& dz) const;
 
  private:
   struct Diagonal {
@@ -53,10 +53,11 @@ class StageCosts {
   double constant_ = 0.0;
   std::vector<Diagonal> diagonal_;
   std::vector<std::vector<Plane>> planes_;
+  std::vector<Eigen::VectorXd> gradient_;  ///< by knot, of add()
   std::vector<std::vector<int>> columns_;  ///< by knot and entry of [x, u]: its column of z, or -1
   std::vector<const CostTerm*> of_step_, of_free_, of_contact_, of_flight_;
   Rows values_, gradients_;
-  std::vector<Instant> instants_;
+  Instants instants_;
 };
 
 }  // namespace mcplan::ddp::polish

@@ -41,12 +41,12 @@ inline Writer term(const ddp::Problem& problem, const std::string& name, const A
     schedule.discovering = about.discovering;
     schedule.tuning.clear_swings = about.clear_swings;
     schedule.tuning.hold_joints = about.hold_joints;
-    std::vector<ddp::Instant> instants;
+    ddp::Instants instants;
     const bool last = u.size() == 0 || about.k == problem.steps;
     ddp::StepView step{problem,  pendulum, schedule,      about.k,        x,        last ? nullptr : &u,
                        instants, about.l,  about.surface, about.sole_yaw, about.arc};
     if (!about.sole_yaws.empty()) step.sole_yaws = &about.sole_yaws;
-    if (step.between_knots()) make_instants(problem, pendulum, x, u, instants);
+    if (step.u) instants.of(problem, pendulum, x, u);
     const ddp::CostTerm& term = *ddp::cost_terms()[static_cast<std::size_t>(index)];
     rows.begin(index);
     if (term.applies(step)) term.write(step, rows);

@@ -90,7 +90,7 @@ TEST_CASE("contact: after a caught edge the soles of feet, not the points of han
   const ddp::Layout& at = problem.layout;
   const ddp::Pendulum pendulum(at, problem.inertia, problem.options.stiffness_input, problem.model);
   const int index = ddp::cost_term_index("contact");
-  const std::vector<ddp::Instant> none;
+  const ddp::Instants none;
   const auto overstepped = [&](int l, int surface, double extra_margin) {
     ddp::Schedule schedule;
     schedule.tuning.extra_margin = extra_margin;
