@@ -360,6 +360,10 @@ constexpr double kStandsOff_m = 0.1;
 /// A phase that ends within the committed time keeps its duration up to this ratio. Chosen.
 constexpr double kCommittedRatio = 0.02;
 
+/// A phase that is under way is drawn to what is left of it by so many times the weight of other durations. Measured:
+/// with 1 what asks for longer phases, as a turn does, puts the end off in replan after replan.
+constexpr double kUnderWay = 10.0;
+
 /// Durations have a soft bound only: an iterate that is stopped early may have one below zero, which no plan can have
 /// [s]. Chosen.
 constexpr double kPhaseMin_s = 1e-3;

@@ -30,6 +30,11 @@ inline DurationLimits duration_limits(const Problem& problem, int k) {
           begun ? problem.first_duration : 0.5 * (problem.duration_min + problem.duration_max), problem.duration_max};
 }
 
+/// Weight of the pull towards the middle.
+inline double duration_weight(const Problem& problem, int k) {
+  return (under_way(problem, k) ? kUnderWay : 1.0) * problem.options.weights.duration;
+}
+
 /// Largest stiffness input of an end-effector: the one at which the force cap is met in the nominal stance, at least
 /// one CoM height away.
 inline double max_stiffness_input(const Problem& problem, int l) {

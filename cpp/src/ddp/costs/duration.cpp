@@ -18,7 +18,7 @@ class Duration final : public CostTerm {
     const int i = problem.layout.duration(), iz = problem.layout.nx() + i;
     const double h = (*step.u)[i];
     const DurationLimits of = duration_limits(problem, step.k);
-    rows.add_single(problem.options.weights.duration, h - of.middle, iz);
+    rows.add_single(duration_weight(problem, step.k), h - of.middle, iz);
     if (h < of.min) rows.add_single(limit, h - of.min, iz);
     if (h > of.max) rows.add_single(limit, h - of.max, iz);
   }

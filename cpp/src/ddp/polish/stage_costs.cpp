@@ -67,7 +67,7 @@ StageCosts::StageCosts(const FixedSequence& fixed, const Pendulum& pendulum, con
         q.target[column] = -gradients_.value(r);
       }
     if (k == n) break;
-    const double w = problem.options.weights.duration;
+    const double w = duration_weight(problem, k);
     q.weight[fixed.size(k) - 1] = w * w;
     q.target[fixed.size(k) - 1] = duration_limits(problem, k).middle;
     // Centres of pressure stay in the plane where the inputs alone do not see to it.

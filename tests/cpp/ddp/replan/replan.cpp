@@ -80,6 +80,32 @@ TEST_CASE("feet in the air go on as they were planned, whichever replan of a swi
   CHECK(in_air > 50);
 }
 
+TEST_CASE("a phase under way ends when it was to, replan after replan, though a turn asks for longer ones") {
+  ReplanOptions options;
+  options.command = VelocityCommand{{0.1, 0.0}, 0.39};
+  Plan plan = walk();
+  double t = 1.0, walked_s = 0.0;
+  int looked_at = 0;
+  for (int i = 0; i < 30; ++i) {
+    Measured measured;
+    measured.state = rest_of(plan, t).plan.knots.front();
+    const double left_s = plan.knot_times()[plan.at(t).phase + 1] - t;
+    const PlanResult result = ddp::replan(plan, t, measured, options);
+    CAPTURE(i);
+    CHECK(result.report.status == Status::solved);
+    if (left_s > options.committed_s) {  // what is nearer is held by a bound
+      CHECK(result.plan.phases.front().duration < left_s + 0.01);
+      ++looked_at;
+    }
+    plan = result.plan;
+    t = 0.1;
+    walked_s += t;
+  }
+  CHECK(looked_at > 10);
+  // It begins to turn with the next step, within a stride.
+  CHECK(plan.at(t).base_rpy.z() > 0.39 * (walked_s - 1.0));
+}
+
 TEST_CASE("whenever the time is up there is a plan whose next two steps keep all limits, or is said to be none") {
   int from_previous = 0, cut_short = 0;
   for (const double tick_s : {1e-6, 3e-5, 1e-4, 2e-4, 4e-4, 1e-3, 1e-2}) {
