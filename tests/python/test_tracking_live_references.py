@@ -110,6 +110,44 @@ def test_a_swing_goes_on_where_another_plan_begins_in_it(robot):
     assert whole.lifted_at(0) == {}
 
 
+def knot_of(state, yaws) -> mp.model.Knot:
+    return mp.model.Knot(
+        com_W=state.com_W,
+        com_velocity_W=state.com_velocity_W,
+        base_rpy=state.base_rpy,
+        base_rpy_rate=state.base_rpy_rate,
+        angular_momentum_W=state.angular_momentum_W,
+        end_effectors_W=[end.position_W for end in state.end_effectors],
+        end_effector_velocities_W=[end.velocity_W for end in state.end_effectors],
+        end_effector_yaw=yaws,
+    )
+
+
+def test_a_sole_that_turns_lands_as_planned_though_plans_are_made_anew_all_the_time(robot):
+    """A plan knows no rate of a sole in the air, so each turns it from rest."""
+    plan, command = mp.plan("flat", "talos").plan, (0.0, 0.0, 0.35)
+    live, t0, lands, end = LiveReferences(plan, robot, DT, 0.0), 0.0, None, None
+    for n in range(round(0.9 / DT), round(4.0 / DT), round(0.1 / DT)):
+        (window, k), state = live.window(n), plan.at(n * DT - t0)
+        swinging = [e for e in (0, 1) if state.end_effectors[e].surface < 0]
+        if end is not None and end not in swinging:
+            break
+        yaws = [float(np.arctan2(sole[1, 0], sole[0, 0])) for sole in window.soles_W[k]]
+        contacts = [e.surface for e in state.end_effectors]
+        knot = knot_of(state, yaws)  # a robot that does as the references say
+        plan = mp.replan(plan, n * DT - t0, knot, contacts=contacts, command=command, committed_s=1.0).plan
+        t0 = n * DT
+        live = LiveReferences.after(live, n, plan, robot, t0, Gains())
+        if swinging:
+            landing = next(i for i, phase in enumerate(plan.phases) if phase.contacts[swinging[0]].surface >= 0)
+            goal = plan.knots[landing].end_effector_yaw[swinging[0]]
+            if end is not None or goal - yaws[swinging[0]] > 0.2:
+                end, lands = swinging[0], (t0 + plan.knot_times()[landing], goal)
+    assert lands is not None, "no sole turned"
+    sole_W = rows(live, "soles_W", [int(lands[0] / DT) - 1])[0, end]
+    assert np.arctan2(sole_W[1, 0], sole_W[0, 0]) == pytest.approx(lands[1], abs=0.015)
+
+
 def test_the_controller_keeps_contacts_and_torques(robot):
     pytest.importorskip("proxsuite")
     from mcplan.tracking.controller import Controller

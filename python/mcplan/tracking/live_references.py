@@ -205,7 +205,9 @@ class LiveReferences:
                 following[free, end] = after.surface if after else -1
                 start = before[-1][1] if before else base_WB[free][0]
                 goal = after.rotation_W if after else base_WB[free][-1]
-                yaws = found.end_effector_yaw[free, end] if self._yaws else None
+                # A plan turns what is in the air from rest; made anew all the time, that would land ahead of its goal.
+                goes_on = lifted is not None and not n_gap
+                yaws = found.end_effector_yaw[free, end] if self._yaws and not goes_on else None
                 soles_W[free, end] = _turning(start, goal, share * share * (3.0 - 2.0 * share), yaws)
         return soles_W, fraction, returns, following
 
