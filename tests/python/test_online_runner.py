@@ -76,6 +76,17 @@ def test_the_command_prints_what_track_prints_and_how_planning_went(plan, tmp_pa
     assert mp.track is not None and len(run.read_bytes()) > 1000
 
 
+@pytest.mark.slow
+def test_a_goal_that_is_turned_is_reached_with_straight_knees(plan):
+    goal = (0.4, 0.2, np.pi / 2)
+    run = mp.run(plan, goal=(*goal, 0.5), latency=LATENCY, self_contacts=False)
+    assert not run.measures.fell
+    x, y, z, w = run.recording.configurations[-1, 3:7]
+    assert run.recording.com_W[-1, :2] == pytest.approx(goal[:2], abs=0.03)
+    assert np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)) == pytest.approx(goal[2], abs=0.05)
+    assert run.recording.com_W[:, 2].min() > 0.92 * plan.robot.com_height
+
+
 def test_a_goal_that_changes_while_walking_is_planned_to_from_its_time_on(plan):
     run = mp.run(plan, goal=(1.2, 0.3, 0.0, 0.5), latency=LATENCY, self_contacts=False, duration=1.2)
     assert not run.measures.fell and run.online.reasons["goal"] >= 1 and run.online.stops == 0

@@ -24,7 +24,7 @@ from mcplan.tracking.separation import Separation
 
 from .contacts import ContactFilter
 from .followed import FollowedReferences
-from .goals import phases_to, with_goal
+from .goals import STEERED_PHASES, is_elsewhere, phases_to, turn_to, velocity_to, with_goal
 from .known_ground import KnownGround
 from .measures import Tally
 from .options import OnlineOptions
@@ -131,8 +131,12 @@ class Loop:
             np.inf,
             False,
         )  # since when no plan could be followed; whether to come to a stand
-        self.goal: tuple[float, float, float] | None = None  # what is walked to instead of the scene's goal
+        self.asked: tuple[float, float, float] | None = None  # the goal that holds instead of the scene's
+        self.goal: tuple[float, float, float] | None = (
+            None  # the same, its heading counted as the robot's is once it is near
+        )
         self.goal_open = False  # whether no plan leads there yet
+        self.steering = False  # whether it is walked towards at a velocity first
         self.late_s = np.inf  # since when an end-effector is late
         self.plans = [FollowedPlan(plan, 0.0, 0.0)]
         count = int(np.ceil(self.length_s / self.dt_s)) + 1
@@ -230,15 +234,18 @@ class Loop:
         reason = self.pace.due(now_s, touchdown, under_way.plan, t, com_W, velocity_W)
         if reason is None:
             return
-        self.planner.command = self._command(now_s)
         state = self.reader.read(now_s, *read, self._for_planner(standing), under_way.plan, t)
+        heading = float(state.knot.base_rpy[2])
+        self.planner.command = self._command(now_s, com_W, heading)
         if self.ground.told(now_s) | self.ground.feel_heights(state, self.controller.speeds_m_s()):
             self._plan_on(self.ground.scene)
         # Near the goal the phases that are left are enough, unless the robot has to catch itself.
         few = reason in ("period", "touchdown") and self.planner.command is None and not self.goal_open
         named = {"phases_min": 1} if few else {}
         if self.goal_open and self.goal is not None:
-            named = {"phases_min": phases_to(self.goal, com_W, float(state.knot.base_rpy[2]), self.robot)}
+            named = {"phases_min": phases_to(self.goal, com_W, heading, self.robot)}
+        if self.steering:
+            named = {"horizon": STEERED_PHASES}
         self.planner.submit(state, **named)
         update = self.planner.wait()
         assert update is not None
@@ -261,20 +268,31 @@ class Loop:
     def _set_goal(self, now_s: float) -> None:
         """Plan to another goal if one holds by now and no command does."""
         goal = self.online.goal_at(now_s)
-        if goal is not None and goal != self.goal and self.online.command_at(now_s) is None:
-            self.goal, self.goal_open = goal, True
+        if goal is not None and goal != self.asked and self.online.command_at(now_s) is None:
+            self.asked, self.goal, self.goal_open = goal, goal, True
+            dynamics = self.controller.dynamics
+            heading = float(np.arctan2(dynamics.base_WB[1, 0], dynamics.base_WB[0, 0]))
+            self.steering = is_elsewhere(goal, dynamics.com_W, heading, self.robot)
             self._plan_on(self.ground.scene)
 
     def _plan_on(self, scene: Scene) -> None:
         """Plan on this ground from now on."""
         self.planner.scene = scene if self.goal is None else with_goal(scene, self.goal)
 
-    def _command(self, now_s: float) -> tuple[float, float, float] | None:
-        """The velocity that is asked for, or a stand where no plan has come for long."""
+    def _command(self, now_s: float, com_W: Array, heading: float) -> tuple[float, float, float] | None:
+        """The velocity that is asked for or leads towards a goal, or a stand where no plan has come for long."""
         if now_s - self.failing_s > self.online.stop_after_s:
             self.tally.stops += not self.stopping
             self.stopping = True
-        return STAND if self.stopping else self.online.command_at(now_s)
+        command = self.online.command_at(now_s)
+        self.steering &= command is None
+        if self.steering and self.goal is not None:
+            command = velocity_to(self.goal, com_W, heading, self.robot)
+            self.steering = command is not None
+            if not self.steering:
+                self.goal = (*self.goal[:2], heading + turn_to(self.goal, heading))
+                self._plan_on(self.ground.scene)
+        return STAND if self.stopping else command
 
     def _for_planner(self, standing: NDArray[np.bool_]) -> list[bool]:
         """Contacts that the planner is told, sooner than forces say for certain.

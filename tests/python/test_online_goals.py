@@ -1,0 +1,67 @@
+"""Goals that are turned, or lie behind, are walked towards at velocities that lead there."""
+
+import numpy as np
+import pytest
+
+import mcplan as mp
+from mcplan.online.goals import NEAR_RAD, NEAR_RATIO, is_elsewhere, turn_to, velocity_to
+
+GOALS = [
+    (1.0, 0.6, np.pi / 2),
+    (1.0, 0.6, -np.pi / 2),
+    (-0.6, 0.0, np.pi),
+    (-0.6, 0.0, 0.0),
+    (0.0, 0.0, -2.5),
+    (1.0, -1.0, 3.0),
+]
+STEP_S = 0.1
+
+
+@pytest.fixture(scope="module", params=["talos", "g1"])
+def robot(request):
+    return mp.load_robot(request.param)
+
+
+def followed(goal, robot, delay_s: float = 1.0) -> tuple[np.ndarray, float, float]:
+    """Place, heading and time at the end of a point that moves as it was told some time ago, integrated by itself."""
+    place, heading, now_s, told = np.zeros(2), 0.0, 0.0, [(0.0, 0.0, 0.0)] * round(delay_s / STEP_S)
+    while (velocity := velocity_to(goal, place, heading, robot)) is not None:
+        assert now_s < 60.0, f"{goal}: at {place}, {heading:.2f} rad"
+        told.append(velocity)
+        ahead, left, rate = told.pop(0)
+        place = place + STEP_S * np.array(
+            [ahead * np.cos(heading) - left * np.sin(heading), ahead * np.sin(heading) + left * np.cos(heading)]
+        )
+        heading, now_s = heading + STEP_S * rate, now_s + STEP_S
+    return place, heading, now_s
+
+
+@pytest.mark.parametrize("goal", GOALS)
+def test_who_moves_at_these_velocities_comes_near_the_goal_though_late(goal, robot):
+    assert is_elsewhere(goal, np.zeros(2), 0.0, robot)
+    place, heading, now_s = followed(goal, robot)
+    assert np.hypot(*(place - goal[:2])) <= NEAR_RATIO * robot.com_height + 1e-9
+    assert abs(np.exp(1j * (heading - goal[2])) - 1.0) <= NEAR_RAD
+    assert now_s < 30.0
+
+
+@pytest.mark.parametrize("goal", GOALS)
+def test_velocities_are_those_of_the_mirrored_goal_mirrored(goal, robot):
+    heading = 0.3
+    velocity = velocity_to(goal, np.array([0.2, 0.1]), heading, robot)
+    mirrored = velocity_to((goal[0], -goal[1], -goal[2]), np.array([0.2, -0.1]), -heading, robot)
+    assert velocity is not None and mirrored is not None
+    np.testing.assert_allclose(mirrored, np.array(velocity) * [1.0, -1.0, -1.0], atol=1e-12)
+
+
+def test_goals_that_a_walk_leads_to_are_planned_to_at_once(robot):
+    assert not is_elsewhere((1.2, 0.3, 0.0), np.zeros(2), 0.0, robot)
+    assert not is_elsewhere((-0.1, 0.0, 0.1), np.zeros(2), 0.0, robot)
+    assert velocity_to((0.1, 0.05, -0.2), np.zeros(2), 0.0, robot) is None
+
+
+@pytest.mark.parametrize(
+    ("heading", "goal", "turn"), [(3.0, -3.0, 2.0 * np.pi - 6.0), (0.1, 0.4, 0.3), (7.0, 0.7, -0.0168)]
+)
+def test_turns_go_the_shorter_way_round(heading, goal, turn):
+    assert turn_to((0.0, 0.0, goal), heading) == pytest.approx(turn, abs=1e-4)
