@@ -101,9 +101,15 @@ constexpr int kPatience = 30;   // of them, from afar: near such a point they ar
 constexpr int kLongPatience = 100;
 constexpr double kFarLess = 0.25;
 
-/// gives_up: where violations hardly fall any more, that counts as infeasible, though it is no proof.
+/// What the kernel found. gave_up: it is infeasible since violations hardly fall any more, which is no proof.
+struct ByKernel {
+  nlp::Solution solution;
+  bool gave_up = false;
+};
+
 void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOptions& options, const Deadline& deadline,
-         bool gives_up, nlp::Solution& out) {
+         ByKernel& found) {
+  nlp::Solution& out = found.solution;
   const Unknowns unknowns(problem, options.kernel.distant_start);
   Functions functions(problem, unknowns, options, deadline);
   Kkt kkt(problem, unknowns);
@@ -129,16 +135,17 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
       PhaseOne proof{1.0, steps, 10.0 * options.constraint_tolerance, 0.0, !from_afar};
       if (from_afar) {
         proof.patience = kPatience;
-      } else if (gives_up) {
+      } else {
         proof.patience = kLongPatience;
         proof.hardly = kFarLess;
       }
       if (proof.run(unknowns, functions, kkt, point)) {
         out.outcome = Outcome::infeasible;
+        found.gave_up = proof.patience > 0 && !from_afar;
         out.message = proof.patience > 0
                           ? "found no point within all constraints: least squares of the violations hardly fall"
                           : "converged to a point at which the violation is locally least";
-      } else if (gives_up && !from_afar && functions.iterations() >= options.max_iterations) {
+      } else if (!from_afar && functions.iterations() >= options.max_iterations) {
         out.outcome = Outcome::iteration_limit;
         out.message = "reached max_iterations before it was known whether there is a point within all constraints";
       }
@@ -157,47 +164,51 @@ void run(const nlp::Problem& problem, const VectorXd& x, const nlp::SolverOption
   out.linear_solver_s = barrier.linear_solver_s();
 }
 
-nlp::Solution solve_by_kernel(const nlp::Problem& problem, const VectorXd& x0, const nlp::SolverOptions& options,
-                              bool gives_up) {
+ByKernel solve_by_kernel(const nlp::Problem& problem, const VectorXd& x0, const nlp::SolverOptions& options) {
   const Deadline deadline(options.time_limit_s, options.clock);
   options.validate();
   require_size("start.multipliers", options.start.multipliers, problem.row_count());
   require_size("start.bound_multipliers", options.start.bound_multipliers, problem.variable_count());
   const VectorXd x = nlp::start_of(problem, x0);
-  nlp::Solution out;
+  ByKernel found;
+  nlp::Solution& out = found.solution;
   out.solver = nlp::Solver::ipm;
-  if (!decided(problem, x, options.constraint_tolerance, out)) run(problem, x, options, deadline, gives_up, out);
+  if (!decided(problem, x, options.constraint_tolerance, out)) run(problem, x, options, deadline, found);
   out.cost = problem.cost(out.x);
   out.worst = problem.worst_violation(out.x);
   out.time_s = deadline.elapsed_s();
-  return out;
+  return found;
 }
 
 }  // namespace
 
 nlp::Solution solve(const nlp::Problem& problem, const VectorXd& x0, const nlp::SolverOptions& options) {
-  return solve_by_kernel(problem, x0, options, true);
+  return solve_by_kernel(problem, x0, options).solution;
 }
 
 nlp::Solution solve(nlp::Solver solver, const nlp::Problem& problem, const VectorXd& x0,
                     const nlp::SolverOptions& options) {
   if (solver == nlp::Solver::ipopt) return nlp::solve(problem, x0, options);
-  nlp::Solution first = solve_by_kernel(problem, x0, options, solver == nlp::Solver::ipm);
+  ByKernel by_kernel = solve_by_kernel(problem, x0, options);
+  nlp::Solution& first = by_kernel.solution;
   const double left_s = options.time_limit_s - first.time_s;
   const int iterations = options.max_iterations - first.iterations;
-  const bool ended = first.outcome != Outcome::numerical_failure && first.outcome != Outcome::nearly_converged &&
-                     first.outcome != Outcome::iteration_limit;
+  const bool ended = !by_kernel.gave_up && first.outcome != Outcome::numerical_failure &&
+                     first.outcome != Outcome::nearly_converged && first.outcome != Outcome::iteration_limit;
   if (solver == nlp::Solver::ipm || !nlp::has_ipopt() || ended || !(left_s > 0.0) || iterations <= 0) return first;
   nlp::SolverOptions rest = options;
   rest.time_limit_s = left_s;
   rest.max_iterations = iterations;
   nlp::Solution second = nlp::solve(problem, x0, rest);
-  const bool better = second.outcome == Outcome::converged || second.outcome == Outcome::nearly_converged ||
-                      second.worst.value <= first.worst.value;
+  const bool solved = second.outcome == Outcome::converged || second.outcome == Outcome::nearly_converged;
+  const bool better = solved || second.worst.value <= first.worst.value;
   nlp::Solution& kept = better ? second : first;
   nlp::Solution& other = better ? first : second;
-  kept.outcome = second.outcome;  // the reference has the last word
-  kept.message = second.message;
+  // The reference has the last word, but where it cannot tell either.
+  const bool told = solved || !by_kernel.gave_up || second.outcome == Outcome::interrupted;
+  const nlp::Solution last = told ? second : first;
+  kept.outcome = last.outcome;
+  kept.message = last.message;
   kept.iterations += other.iterations;
   kept.time_s += other.time_s;
   kept.evaluation_s += other.evaluation_s;

@@ -200,6 +200,7 @@ TEST_CASE("after a failed cycle the walk goes on from a state that is possible")
 
 TEST_CASE("a cycle ends at its time limit") {
   Options options = walkers::quick(Fidelity::single, 6);
+  options.solver = nlp::Solver::ipopt;
   options.intervals = 7;
   // After the limit: the solver's own limit begins a look after the cycle's was read (1); it was not over at a look
   // before an evaluation, which is clocked (2), and is over at the next one (1); the solver says how long it took (1);
