@@ -318,6 +318,7 @@ void check_momentum(const Problem& problem, const Sample& sample, Findings& find
 /// check_space.cpp
 void check_reach(const Problem& problem, const Sample& sample, Findings& findings);
 void check_reach_at_knots(const Problem& problem, Findings& findings);
+void check_soles(const Problem& problem, Findings& findings);
 void check_com_speed(const Problem& problem, const Sample& sample, Findings& findings);
 void check_yaw_range(const Problem& problem, const Sample& sample, Findings& findings);
 

@@ -5,6 +5,7 @@
 
 #include "check_internal.hpp"
 #include "mcplan/base/rotation.hpp"
+#include "plan/sole_depth.hpp"
 #include "solid_box.hpp"
 
 namespace mcplan::checks {
@@ -114,6 +115,23 @@ void check_reach_at_knots(const Problem& problem, Findings& findings) {
         check_cut(problem.robot.end_effectors[l], relative, problem.at_knot(k, l), findings);
       }
     }
+}
+
+/// A sole in contact is no deeper than kSoleDepth in a solid but its own, as it is put down: it stays there.
+void check_soles(const Problem& problem, Findings& findings) {
+  const double length = problem.similarity.length;
+  for (int k = 0; k <= problem.last_knot; ++k) {
+    const Knot& knot = problem.plan.knots[k];
+    for (int l = 0; l < problem.end_effector_count(); ++l) {
+      const int surface = problem.surface(k, l);
+      if (surface < 0 || (k > 0 && surface == problem.surface(k - 1, l))) continue;
+      const double yaw = knot.end_effector_yaw.empty() ? knot.base_rpy.z() : knot.end_effector_yaw[l];
+      const Eigen::Matrix3d sole_W = sole_frame(problem.solids[surface].polygon.normal_W(), yaw);
+      const double depth = sole_depth(problem.solids, surface, problem.robot.end_effectors[l], kFootHeight * length,
+                                      knot.end_effectors_W[l], sole_W);
+      findings.offer(StateLimit::clearance, depth - kSoleDepth * length, problem.at_knot(k, l));
+    }
+  }
 }
 
 /// |p'| <= max_com_speed.

@@ -171,6 +171,7 @@ void check_sequence_and_knots(const Problem& problem, Findings& findings) {
   check_sequence_switch(problem, findings);
   check_sequence_rule(problem, findings);
   check_reach_at_knots(problem, findings);
+  check_soles(problem, findings);
   check_start(problem, findings);
   check_goal(problem, findings);
 }

@@ -32,8 +32,7 @@ struct Fields<Tolerances> {
           .or_infinite(),
       field("reach", &Tolerances::reach, "m", "Outside the reach box.").or_infinite(),
       field("yaw", &Tolerances::yaw, "rad", "Heading of a sole outside its range.").or_infinite(),
-      field("clearance", &Tolerances::clearance, "m", "Swinging end-effector, limb or trunk inside a solid.")
-          .or_infinite(),
+      field("clearance", &Tolerances::clearance, "m", "End-effector, limb or trunk inside a solid.").or_infinite(),
       field("boundary", &Tolerances::boundary, "m, m/s, rad, rad/s", "Start and goal against the scene's.")
           .or_infinite(),
       field("stance", &Tolerances::stance, "m", "End-effectors in contact at the start off the nominal stance.")

@@ -44,6 +44,21 @@ TEST_CASE("checker rejects a foot beyond a face that cuts the reach box, in cont
   CHECK(beyond(-Vector3d::UnitX(), 0.01) == Names{"reach"});
 }
 
+TEST_CASE("checker rejects a sole that stands with a bar through it, where neither its middle nor its corners are") {
+  // The left foot starts with a sole from y = 0.05 to 0.15; to a side it is out of the bar by 0.15 - y.
+  const auto beside_the_middle = [](double from_y, double top) {
+    Case c;
+    c.scene.surfaces[block] = rectangle("block", -0.06, -0.02, from_y, 0.145, top);
+    c.scene.surfaces[block].thickness = top;
+    const CheckResult result = c.check();
+    return result.ok() ? 0.0 : result.worst().name == "clearance" ? result.worst().value : -1.0;
+  };
+  CHECK(beside_the_middle(0.105, 0.1) == doctest::Approx(0.045 - 0.03));
+  CHECK(beside_the_middle(0.105, 0.04) == doctest::Approx(0.04 - 0.03));
+  CHECK(beside_the_middle(0.105, 0.03) == 0.0);  // a bump
+  CHECK(beside_the_middle(0.125, 0.1) == 0.0);   // beside
+}
+
 TEST_CASE("checker measures reach in the base's frame") {
   // A quarter turn puts the feet before and behind the base, where they may not be.
   CHECK(broken([](Case& c) {

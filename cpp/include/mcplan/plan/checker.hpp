@@ -26,7 +26,7 @@ struct Tolerances {
   double moment = 1e-6;                       ///< [N m] excess over max_moment or the torsion the contact can give
   double reach = 1e-3;                        ///< [m] outside the reach box
   double yaw = 1e-2;                          ///< [rad] heading of a sole outside its range
-  double clearance = 5e-3;                    ///< [m] swinging end-effector, limb or trunk inside a solid
+  double clearance = 5e-3;                    ///< [m] end-effector, limb or trunk inside a solid
   double boundary = 1e-2;                     ///< [m], [m/s], [rad], [rad/s] start and goal against the scene's
   double stance = 2e-2;                       ///< [m] end-effectors in contact at the start off the nominal stance
   int switches = 1;        ///< [-] contacts made or broken in one step; surface to surface counts two
