@@ -1971,7 +1971,7 @@ class Tolerances:
     @property
     def clearance(self) -> float:
         """
-        [m] Swinging end-effector, limb or trunk inside a solid.
+        [m] End-effector, limb or trunk inside a solid.
         """
     @clearance.setter
     def clearance(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
