@@ -33,6 +33,7 @@ Ground::Ground(const Scene& scene, const Robot& robot, const ResolvedStance& fro
     const Vector3d place = rotation_from_rpy({0.0, 0.0, from.yaw}) * end.nominal_B;
     nominal_.push_back(turns ? Vector2d::Zero() : Vector2d(place.head<2>()));
   }
+  rise_ *= 1.0 + 1e-9;  // steps just as high are no higher by rounding
   for (int i = 0; i < static_cast<int>(scene.surfaces.size()); ++i) {
     const Surface& surface = scene.surfaces[i];
     const Solid solid{Polygon(surface.vertices_W), surface.thickness};

@@ -140,7 +140,9 @@ std::string SwitchedDdp::Impl::message_of(Status status, const Found& found, con
     message << "the best plan violates " << report.worst_violation.to_string();
   if (best && status != Status::solved) {
     std::string why = flight_needed(scene, robot);
-    if (why.empty() && found.barrier) why = text_of(*found.barrier, scene, robot.name);
+    // Whoever stopped the search knows why there is no plan.
+    const bool stopped = status == Status::time_limit || status == Status::interrupted;
+    if (why.empty() && found.barrier && !stopped) why = text_of(*found.barrier, scene, robot.name);
     if (begins_at_stance())
       if (const std::optional<Impossible> start = start_beyond_reach(scene, robot, 1.0)) why = start->message;
     if (!why.empty()) message << "; " << why;

@@ -54,6 +54,12 @@ TEST_CASE("what is too low to pass below is named, what hangs above is not") {
 
 TEST_CASE("steps up and down that are too high are named") {
   CHECK(what_bars(with_step(0.15), scenes::humanoid44()).empty());
+  // As high as the robot steps: 0.8 - 0.6 is more than 0.2 by rounding.
+  Scene level = with_step(0.8);
+  level.surfaces[1].thickness = 0.2;
+  for (auto& v : level.surfaces[0].vertices_W) v.z() = 0.6;
+  level.start.position_W.z() = 0.6;
+  CHECK(what_bars(level, scenes::humanoid44()).empty());
   CHECK(what_bars(with_step(0.3), scenes::humanoid44()).find("\"high\" stands 0.3 m above \"low\"") == 0);
   Scene down = with_step(0.0);
   for (auto& v : down.surfaces[0].vertices_W) v.z() = 0.4;
