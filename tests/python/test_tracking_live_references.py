@@ -11,6 +11,7 @@ import wrenches
 from mcplan.tracking.live_references import LiveReferences
 from mcplan.tracking.options import Gains
 from mcplan.tracking.references import references
+from planned_states import state_at
 from stepping import stepping_plan
 
 DT, HOLD = 0.002, 0.3
@@ -110,19 +111,6 @@ def test_a_swing_goes_on_where_another_plan_begins_in_it(robot):
     assert whole.lifted_at(0) == {}
 
 
-def knot_of(state, yaws) -> mp.model.Knot:
-    return mp.model.Knot(
-        com_W=state.com_W,
-        com_velocity_W=state.com_velocity_W,
-        base_rpy=state.base_rpy,
-        base_rpy_rate=state.base_rpy_rate,
-        angular_momentum_W=state.angular_momentum_W,
-        end_effectors_W=[end.position_W for end in state.end_effectors],
-        end_effector_velocities_W=[end.velocity_W for end in state.end_effectors],
-        end_effector_yaw=yaws,
-    )
-
-
 def test_a_sole_that_turns_lands_as_planned_though_plans_are_made_anew_all_the_time(robot):
     """A plan knows no rate of a sole in the air, so each turns it from rest."""
     plan, command = mp.plan("flat", "talos").plan, (0.0, 0.0, 0.35)
@@ -133,8 +121,8 @@ def test_a_sole_that_turns_lands_as_planned_though_plans_are_made_anew_all_the_t
         if end is not None and end not in swinging:
             break
         yaws = [float(np.arctan2(sole[1, 0], sole[0, 0])) for sole in window.soles_W[k]]
-        contacts = [e.surface for e in state.end_effectors]
-        knot = knot_of(state, yaws)  # a robot that does as the references say
+        knot, contacts = state_at(plan, n * DT - t0)
+        knot.end_effector_yaw = yaws  # a robot that does as the references say
         plan = mp.replan(plan, n * DT - t0, knot, contacts=contacts, command=command, committed_s=1.0).plan
         t0 = n * DT
         live = LiveReferences.after(live, n, plan, robot, t0, Gains())

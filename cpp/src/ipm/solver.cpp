@@ -206,7 +206,7 @@ nlp::Solution solve(nlp::Solver solver, const nlp::Problem& problem, const Vecto
   nlp::Solution& other = better ? first : second;
   // The reference has the last word, but where it cannot tell either.
   const bool told = solved || !by_kernel.gave_up || second.outcome == Outcome::interrupted;
-  const nlp::Solution last = told ? second : first;
+  const nlp::Solution& last = told ? second : first;
   kept.outcome = last.outcome;
   kept.message = last.message;
   kept.iterations += other.iterations;

@@ -132,9 +132,8 @@ class Loop:
             False,
         )  # since when no plan could be followed; whether to come to a stand
         self.asked: tuple[float, float, float] | None = None  # the goal that holds instead of the scene's
-        self.goal: tuple[float, float, float] | None = (
-            None  # the same, its heading counted as the robot's is once it is near
-        )
+        # The same, its heading counted as the robot's is once it is near.
+        self.goal: tuple[float, float, float] | None = None
         self.goal_open = False  # whether no plan leads there yet
         self.steering = False  # whether it is walked towards at a velocity first
         self.late_s = np.inf  # since when an end-effector is late
